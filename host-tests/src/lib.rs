@@ -1,0 +1,1 @@
+//! The full solver, the link to QEMU, the report.
