@@ -1,2 +1,5 @@
 #![no_std]
-//! Scenes and boards.
+#![warn(missing_docs)]
+//! Scenes as a portable library, and the boards they are flashed onto.
+
+pub mod scene;
