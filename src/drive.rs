@@ -11,18 +11,18 @@
 //! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque that was last commanded |
 //! | set point NaN, infinite, beyond its limit | [`Faults::REFERENCE`] | keeps the last good one |
 //! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
-//! | angle unchanged while the motor should have turned | [`Faults::ANGLE_FROZEN`] | coasts |
-//! | either for longer than the limit | [`Faults::ANGLE_LOST`] as well | takes the next angle that moves as it comes |
+//! | angle unchanged though the motor should have turned by more than the standstill limit | [`Faults::ANGLE_FROZEN`] | coasts |
+//! | either for more ticks than the limit | [`Faults::ANGLE_LOST`] as well | takes the next angle that moves as it comes |
 //!
-//! A frozen encoder is told from a stalled machine by how far the motor ought to have turned: within that allowance
-//! the two look alike, and the estimate of the load torque says so.
+//! Below the speed at which the motor turns by the standstill limit in a tick, a frozen encoder and a machine that something holds
+//! look alike from the motor's side; the estimate of the load torque then shows what it would take to hold it.
 
 use crate::balance::Balancer;
 use crate::fault::Faults;
 use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;
 use crate::number::Number;
-use crate::observer::Observer;
+use crate::observer::{Observer, Predicted};
 use crate::sample::{Command, Sample};
 
 /// Limits of what a sample can be.
@@ -33,8 +33,10 @@ pub struct Limits<N: Number> {
     pub torque: N,
     /// Largest set point that is believed [rad/s].
     pub reference: N,
-    /// Turn per motor speed and tick, as a fraction of the turn after which an angle that has not changed counts as frozen.
-    pub unturned: N::Coefficient,
+    /// Largest innovation that is believed [2^-32 turn].
+    pub innovation: N,
+    /// Largest predicted turn in a tick that an unchanged angle is believed with [2^-32 turn].
+    pub standstill: N,
     /// Ticks in a row without a usable angle after which it counts as lost.
     pub missed: u16,
 }
@@ -65,7 +67,7 @@ pub type ConfigOf<N, O, F = (), G = (), B = ()> = Config<
 >;
 
 /// The state of a drive.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Drive<N, O, F = (), G = (), B = ()> {
     observer: O,
@@ -74,23 +76,7 @@ pub struct Drive<N, O, F = (), G = (), B = ()> {
     balancer: B,
     commanded: N,
     reference: N,
-    motor_speed: N,
-    unturned: N,
     missed: u16,
-    phase: Phase,
-}
-
-/// How far the drive has come.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-enum Phase {
-    /// No sample yet.
-    #[default]
-    Fresh,
-    /// The governor starts with the next released tick.
-    Held,
-    /// The governor is at work.
-    Released,
 }
 
 impl<N, O, F, G, B> Drive<N, O, F, G, B>
@@ -101,19 +87,18 @@ where
     G: Governor<N>,
     B: Balancer<N>,
 {
-    /// A drive at rest that has seen nothing yet.
-    pub fn new() -> Self {
+    /// A drive whose machine stands still at `angle` [2^-32 turn].
+    pub fn new(angle: u32) -> Self {
+        let mut observer = O::default();
+        observer.synchronise(angle);
         Drive {
-            observer: O::default(),
+            observer,
             fluctuation: F::default(),
             governor: G::default(),
             balancer: B::default(),
             commanded: N::ZERO,
             reference: N::ZERO,
-            motor_speed: N::ZERO,
-            unturned: N::ZERO,
             missed: 0,
-            phase: Phase::Fresh,
         }
     }
 
@@ -121,10 +106,6 @@ where
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let mut command = self.observe(config, sample);
-        if self.phase != Phase::Released {
-            self.governor.start(&config.governor, &command.estimate);
-            self.phase = Phase::Released;
-        }
         command.torque = self
             .governor
             .command(&config.governor, self.reference, &command.estimate);
@@ -133,11 +114,11 @@ where
     }
 
     /// One tick with the governor held: the estimates go on, the torque command is zero, and the next [`Drive::tick`] starts from
-    /// what the machine does then.
+    /// what the machine does now.
     #[inline(always)]
     pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let command = self.observe(config, sample);
-        self.phase = Phase::Held;
+        self.governor.start(&config.governor, &command.estimate);
         self.commanded = N::ZERO;
         command
     }
@@ -173,10 +154,6 @@ where
     fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let limits = &config.limits;
         let mut faults = Faults::NONE;
-        if self.phase == Phase::Fresh {
-            self.observer.synchronise(sample.angle);
-            self.phase = Phase::Held;
-        }
         let mut torque = sample.torque;
         if torque.exceeds(limits.torque) {
             torque = self.commanded;
@@ -187,12 +164,11 @@ where
         } else {
             self.reference = sample.reference;
         }
-        faults |= self.estimate(config, sample.angle, torque);
-        let estimate = self.observer.estimate(&config.observer);
-        self.motor_speed = estimate.motor_speed;
-        if self.observer.is_saturated() {
-            faults |= Faults::SATURATED;
+        faults |= self.advance(config, sample.angle, torque);
+        if self.observer.is_beyond_base() {
+            faults |= Faults::RANGE;
         }
+        let estimate = self.observer.estimate(&config.observer);
         self.fluctuation
             .measure(&config.fluctuation, self.observer.angle(), &estimate);
         Command {
@@ -204,43 +180,27 @@ where
 
     /// Advances the observer by the angle where it can be true, without it where not.
     #[inline(always)]
-    fn estimate(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Faults {
+    fn advance(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Faults {
+        let limits = &config.limits;
+        let predicted = self.observer.predict(&config.observer, angle, torque);
         let unchanged = angle == self.observer.angle();
-        if unchanged {
-            let speed = self.motor_speed.widened();
-            self.unturned = self
-                .unturned
-                .accumulate(&mut { N::CARRY }, config.limits.unturned, speed)
-                .saturated();
-        } else {
-            self.unturned = N::ZERO;
-        }
-        if self.unturned.exceeds(N::ONE) || self.unturned.is_at_rail() {
-            self.observer.coast(&config.observer, torque);
-            return self.missed(config.limits.missed, Faults::ANGLE_FROZEN);
-        }
-        if self.observer.update(&config.observer, angle, torque) {
+        let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
+        if !frozen && !predicted.innovation().exceeds(limits.innovation) {
+            self.observer.correct(&config.observer, predicted, angle);
             self.missed = 0;
             return Faults::NONE;
         }
-        if unchanged {
-            return self.missed(config.limits.missed, Faults::ANGLE_FROZEN);
-        }
-        let faults = self.missed(config.limits.missed, Faults::ANGLE_JUMP);
-        if faults.contains(Faults::ANGLE_LOST) {
-            self.observer.synchronise(angle);
-        }
-        faults
-    }
-
-    /// Counts a tick without a usable angle.
-    #[inline(always)]
-    fn missed(&mut self, limit: u16, fault: Faults) -> Faults {
+        self.observer.coast(predicted);
         self.missed = self.missed.saturating_add(1);
-        if self.missed > limit {
-            fault | Faults::ANGLE_LOST
-        } else {
-            fault
+        let lost = self.missed > limits.missed;
+        match (lost, unchanged) {
+            (false, false) => Faults::ANGLE_JUMP,
+            (false, true) => Faults::ANGLE_FROZEN,
+            (true, true) => Faults::ANGLE_FROZEN | Faults::ANGLE_LOST,
+            (true, false) => {
+                self.observer.synchronise(angle);
+                Faults::ANGLE_JUMP | Faults::ANGLE_LOST
+            }
         }
     }
 }

@@ -22,8 +22,8 @@ impl Faults {
     pub const ANGLE_FROZEN: Faults = Faults(1 << 3);
     /// The angle has been unusable for longer than the estimates stay good without it; the observer takes the next angle as it comes.
     pub const ANGLE_LOST: Faults = Faults(1 << 4);
-    /// An estimate has reached the end of its fixed-point range and is held there.
-    pub const SATURATED: Faults = Faults(1 << 5);
+    /// A state of the observer is beyond its fixed-point base, which is beyond the machine's limits; at twice the base it is held.
+    pub const RANGE: Faults = Faults(1 << 5);
 
     /// Every flag with its name, in the order of the bits.
     pub const NAMES: [(Faults, &'static str); 6] = [
@@ -32,7 +32,7 @@ impl Faults {
         (Faults::ANGLE_JUMP, "angle jump"),
         (Faults::ANGLE_FROZEN, "angle frozen"),
         (Faults::ANGLE_LOST, "angle lost"),
-        (Faults::SATURATED, "saturated"),
+        (Faults::RANGE, "range"),
     ];
 
     /// Whether there is none.

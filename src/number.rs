@@ -40,13 +40,17 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     fn accumulate2(self, carry: &mut Self::Carry, c: [Self::Coefficient; 2], y: [Self; 2]) -> Self;
     /// `self + (c[0] y[0] + c[1] y[1] + c[2] y[2])`.
     fn accumulate3(self, carry: &mut Self::Carry, c: [Self::Coefficient; 3], y: [Self; 3]) -> Self;
+    /// `c y`.
+    fn product(carry: &mut Self::Carry, c: Self::Coefficient, y: Self) -> Self;
+    /// `c[0] y[0] + c[1] y[1]`.
+    fn sum2(carry: &mut Self::Carry, c: [Self::Coefficient; 2], y: [Self; 2]) -> Self;
     /// The operand of a coefficient that may reach 2 in magnitude: four times the number in fixed point, whose
     /// coefficients end at 1/2, and the number itself in floating point.
     fn widened(self) -> Self;
-    /// Held within the base in fixed point; floats are left alone.
+    /// Held within twice the base in fixed point; floats are left alone.
     fn saturated(self) -> Self;
-    /// Whether [`Number::saturated`] has taken hold.
-    fn is_at_rail(self) -> bool;
+    /// Whether any of four states is beyond its base, in fixed point.
+    fn any_beyond_base(states: [Self; 4]) -> bool;
     /// `limit` where the number is above it, `-limit` where it is below that.
     fn limited(self, limit: Self) -> Self;
     /// Whether the magnitude is beyond `limit`, or not a number at all.

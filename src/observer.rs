@@ -24,27 +24,31 @@ mod rigid;
 mod semi_implicit;
 mod two_mass;
 
-pub use rigid::{Rigid, RigidConfig};
-pub use semi_implicit::{SemiImplicit, SemiImplicitConfig};
-pub use two_mass::{TwoMass, TwoMassConfig};
+pub use rigid::{Rigid, RigidConfig, RigidPrediction};
+pub use semi_implicit::{SemiImplicit, SemiImplicitConfig, SemiImplicitPrediction};
+pub use two_mass::{TwoMass, TwoMassConfig, TwoMassPrediction};
 
 use crate::number::Number;
 use crate::sample::Estimate;
 
-/// An estimator of the drivetrain's state, advanced once a tick.
+/// An estimator of the drivetrain's state, advanced once a tick: predict, then correct or coast.
 pub trait Observer<N: Number>: Default {
     /// Its constants, shared and immutable.
     type Config;
+    /// The state at the end of a tick as the torque alone would have it.
+    type Prediction: Predicted<N>;
 
-    /// Takes the angle as it comes, believing neither speed nor torque: the first tick, and the first after the angle was lost.
+    /// Takes the angle as it comes, whatever was predicted: the first tick, and the first after the angle was lost.
     fn synchronise(&mut self, angle: u32);
 
-    /// Advances over the tick that has just ended, in which `torque` was applied, and corrects by `angle`. Returns whether
-    /// the angle was believed; one that was not has been left out, as in [`Observer::coast`].
-    fn update(&mut self, config: &Self::Config, angle: u32, torque: N) -> bool;
+    /// Predicts the tick that has just ended, in which `torque` was applied and at the end of which `angle` was measured.
+    fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Self::Prediction;
 
-    /// Advances by prediction alone.
-    fn coast(&mut self, config: &Self::Config, torque: N);
+    /// Takes the prediction, corrected by its innovation, for the state.
+    fn correct(&mut self, config: &Self::Config, predicted: Self::Prediction, angle: u32);
+
+    /// Takes the prediction for the state as it is: the angle cannot be used.
+    fn coast(&mut self, predicted: Self::Prediction);
 
     /// What is known now.
     fn estimate(&self, config: &Self::Config) -> Estimate<N>;
@@ -52,6 +56,21 @@ pub trait Observer<N: Number>: Default {
     /// The angle that was last believed, 2^32 per turn.
     fn angle(&self) -> u32;
 
-    /// Whether a state is held at the end of its fixed-point range.
-    fn is_saturated(&self) -> bool;
+    /// Whether a state is beyond its base, in fixed point.
+    fn is_beyond_base(&self) -> bool;
+
+    /// One tick with an angle that is known to be good.
+    #[inline(always)]
+    fn step(&mut self, config: &Self::Config, angle: u32, torque: N) {
+        let predicted = self.predict(config, angle, torque);
+        self.correct(config, predicted, angle);
+    }
+}
+
+/// What a prediction says of the angle.
+pub trait Predicted<N> {
+    /// Measured less predicted angle [2^-32 turn].
+    fn innovation(&self) -> N;
+    /// How far the motor should have turned [2^-32 turn].
+    fn turn(&self) -> N;
 }

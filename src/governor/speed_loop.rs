@@ -4,8 +4,9 @@
 //! tau = k_p (omega* - omega_m) + I - k_d (omega_m - omega_l),   I' = I + k_i (omega* - omega_m)
 //! ```
 //!
-//! limited to the drive's torque; the integral advances only where that does not push further into the limit. The set point
-//! moves by at most the ramp's step a tick.
+//! limited to the drive's torque. What the limit cuts off is taken from the integral at the rate at which it would
+//! otherwise have grown (back-calculation with the integral's own time constant), so that it does not wind up. The set point moves by at
+//! most the ramp's step a tick.
 
 use super::Governor;
 use crate::number::Number;
@@ -21,6 +22,8 @@ pub struct SpeedLoopConfig<N: Number> {
     pub integral: N::Coefficient,
     /// Active damping -k_d [N m s/rad], on the twist rate.
     pub damping: N::Coefficient,
+    /// The share of what the limit cuts off that is taken from the integral in a tick, k_i T/k_p.
+    pub unwinding: N::Coefficient,
     /// Largest torque, either way [N m].
     pub torque_limit: N,
     /// Largest change of the set point in a tick [rad/s].
@@ -55,20 +58,16 @@ impl<N: Number> Governor<N> for SpeedLoop<N> {
             .motor_speed
             .minus(estimate.load_speed)
             .gain_operand();
-        let integral = self
-            .integral
-            .accumulate(&mut carry, config.integral, error)
-            .limited(config.torque_limit);
+        let integral = self.integral.accumulate(&mut carry, config.integral, error);
         let wanted = integral.accumulate2(
             &mut carry,
             [config.proportional, config.damping],
             [error, twist_rate],
         );
         let torque = wanted.limited(config.torque_limit);
-        let winds_up = (wanted > torque && error > N::ZERO) || (wanted < torque && error < N::ZERO);
-        if !winds_up {
-            self.integral = integral;
-        }
+        self.integral = integral
+            .accumulate(&mut carry, config.unwinding, torque.minus(wanted))
+            .saturated();
         torque
     }
 

@@ -4,7 +4,8 @@ use super::{ANGLE_SHIFT, GAIN_SHIFT, Number};
 
 /// A number per unit of its base: 2^28 is the base, the resolution 3.7e-9 of it, the representable range +-8.
 ///
-/// States are held within +-1 ([`Number::saturated`]); the three bits above are headroom for the sums of a tick.
+/// A state beyond +-1 is reported, and held within +-2 ([`Number::saturated`]); the bits above are headroom for the sums
+/// of a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Fixed(i32);
@@ -126,6 +127,16 @@ impl Number for Fixed {
     }
 
     #[inline(always)]
+    fn product(carry: &mut u32, c: Coefficient, y: Self) -> Self {
+        Fixed(0).accumulate(carry, c, y)
+    }
+
+    #[inline(always)]
+    fn sum2(carry: &mut u32, c: [Coefficient; 2], y: [Self; 2]) -> Self {
+        Fixed(0).accumulate2(carry, c, y)
+    }
+
+    #[inline(always)]
     fn widened(self) -> Self {
         Fixed(self.0 << 2)
     }
@@ -133,13 +144,15 @@ impl Number for Fixed {
     // Bounds that are powers of two: one SSAT instruction.
     #[inline(always)]
     fn saturated(self) -> Self {
-        Fixed(self.0.clamp(-(1 << 28), (1 << 28) - 1))
+        Fixed(self.0.clamp(-(1 << 29), (1 << 29) - 1))
     }
 
+    // The bits of a magnitude from 2^28 upwards are set in the union where they are set in any.
     #[inline(always)]
-    fn is_at_rail(self) -> bool {
-        let magnitude = self.0 ^ (self.0 >> 31);
-        magnitude >= (1 << 28) - 1
+    fn any_beyond_base(states: [Self; 4]) -> bool {
+        let magnitude = |x: Fixed| x.0 ^ (x.0 >> 31);
+        let [a, b, c, d] = states;
+        (magnitude(a) | magnitude(b) | magnitude(c) | magnitude(d)) >= 1 << 28
     }
 
     #[inline(always)]

@@ -38,6 +38,16 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn product(_carry: &mut (), c: Self, y: Self) -> Self {
+                c * y
+            }
+
+            #[inline(always)]
+            fn sum2(_carry: &mut (), c: [Self; 2], y: [Self; 2]) -> Self {
+                c[0] * y[0] + c[1] * y[1]
+            }
+
+            #[inline(always)]
             fn widened(self) -> Self {
                 self
             }
@@ -48,7 +58,7 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn is_at_rail(self) -> bool {
+            fn any_beyond_base(_states: [Self; 4]) -> bool {
                 false
             }
 

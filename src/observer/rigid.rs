@@ -6,7 +6,7 @@
 //!
 //! The shaft torque is then the load torque plus what accelerates the load's share of the inertia.
 
-use super::Observer;
+use super::{Observer, Predicted};
 use crate::number::Number;
 use crate::sample::Estimate;
 
@@ -22,8 +22,6 @@ pub struct RigidConfig<N: Number> {
     pub correction: [N::Coefficient; 2],
     /// The share of an innovation that is taken off the residual.
     pub angle_correction: N::Coefficient,
-    /// Largest innovation that is believed [2^-32 turn].
-    pub innovation_limit: N,
     /// The load's share of the inertia, which is the share of the accelerating torque that passes through the shaft.
     pub load_share: N::Coefficient,
 }
@@ -34,28 +32,36 @@ pub struct RigidConfig<N: Number> {
 pub struct Rigid<N> {
     speed: N,
     load_torque: N,
+    accelerating: N,
     residual: N,
     angle: u32,
-    accelerating: N,
 }
 
-impl<N: Number> Rigid<N> {
-    /// The predicted speed and turn.
+/// The state of [`Rigid`] at the end of a tick as the torque alone would have it.
+#[derive(Clone, Copy, Debug)]
+pub struct RigidPrediction<N: Number> {
+    speed: N,
+    accelerating: N,
+    turn: N,
+    innovation: N,
+    carry: N::Carry,
+}
+
+impl<N: Number> Predicted<N> for RigidPrediction<N> {
     #[inline(always)]
-    fn predict(&self, config: &RigidConfig<N>, carry: &mut N::Carry, torque: N) -> (N, N) {
-        let accelerating = torque.minus(self.load_torque);
-        let speed = self
-            .speed
-            .accumulate(carry, config.acceleration, accelerating);
-        let turn = N::ZERO
-            .accumulate(carry, config.turn, self.speed.plus(speed))
-            .to_angle();
-        (speed, turn)
+    fn innovation(&self) -> N {
+        self.innovation
+    }
+
+    #[inline(always)]
+    fn turn(&self) -> N {
+        self.turn
     }
 }
 
 impl<N: Number> Observer<N> for Rigid<N> {
     type Config = RigidConfig<N>;
+    type Prediction = RigidPrediction<N>;
 
     fn synchronise(&mut self, angle: u32) {
         self.angle = angle;
@@ -63,36 +69,47 @@ impl<N: Number> Observer<N> for Rigid<N> {
     }
 
     #[inline(always)]
-    fn update(&mut self, config: &RigidConfig<N>, angle: u32, torque: N) -> bool {
-        let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
+    fn predict(&self, config: &RigidConfig<N>, angle: u32, torque: N) -> RigidPrediction<N> {
         let mut carry = N::CARRY;
-        let (speed, turn) = self.predict(config, &mut carry, torque);
-        let innovation = turned.minus(turn);
-        if innovation.exceeds(config.innovation_limit) {
-            self.speed = speed.saturated();
-            self.residual = self.residual.minus(turn);
-            self.accelerating = torque.minus(self.load_torque);
-            return false;
+        let accelerating = torque.minus(self.load_torque);
+        let speed = self
+            .speed
+            .accumulate(&mut carry, config.acceleration, accelerating);
+        let turn = N::product(&mut carry, config.turn, self.speed.plus(speed)).to_angle();
+        let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
+        RigidPrediction {
+            speed,
+            accelerating,
+            turn,
+            innovation: turned.minus(turn),
+            carry,
         }
+    }
+
+    #[inline(always)]
+    fn correct(&mut self, config: &RigidConfig<N>, predicted: RigidPrediction<N>, angle: u32) {
+        let mut carry = predicted.carry;
+        let innovation = predicted.innovation;
         let operand = innovation.angle_operand();
         self.angle = angle;
-        self.speed = speed
+        self.speed = predicted
+            .speed
             .accumulate(&mut carry, config.correction[0], operand)
             .saturated();
         self.load_torque = self
             .load_torque
             .accumulate(&mut carry, config.correction[1], operand)
             .saturated();
+        self.accelerating = predicted.accelerating;
         self.residual = innovation.accumulate(&mut carry, config.angle_correction, operand);
-        self.accelerating = torque.minus(self.load_torque);
-        true
     }
 
-    fn coast(&mut self, config: &RigidConfig<N>, torque: N) {
-        let (speed, turn) = self.predict(config, &mut { N::CARRY }, torque);
-        self.speed = speed.saturated();
-        self.residual = self.residual.minus(turn);
-        self.accelerating = torque.minus(self.load_torque);
+    /// The angle stays where it was last believed, and the residual runs on.
+    #[inline(always)]
+    fn coast(&mut self, predicted: RigidPrediction<N>) {
+        self.speed = predicted.speed.saturated();
+        self.accelerating = predicted.accelerating;
+        self.residual = self.residual.minus(predicted.turn);
     }
 
     #[inline(always)]
@@ -109,12 +126,13 @@ impl<N: Number> Observer<N> for Rigid<N> {
         }
     }
 
+    #[inline(always)]
     fn angle(&self) -> u32 {
         self.angle
     }
 
     #[inline(always)]
-    fn is_saturated(&self) -> bool {
-        self.speed.is_at_rail() || self.load_torque.is_at_rail()
+    fn is_beyond_base(&self) -> bool {
+        N::any_beyond_base([self.speed, self.load_torque, N::ZERO, N::ZERO])
     }
 }

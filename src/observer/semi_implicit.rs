@@ -11,7 +11,7 @@
 //! Symplectic Euler: the undamped pair turns on an ellipse that closes, whatever the rounding, as long as omega T < 2; its
 //! frequency is high by (omega T)^2/24. `design` states the error of both and chooses between this step and the exact one.
 
-use super::Observer;
+use super::{Observer, Predicted};
 use crate::number::Number;
 use crate::sample::Estimate;
 
@@ -31,8 +31,6 @@ pub struct SemiImplicitConfig<N: Number> {
     pub correction: [N::Coefficient; 4],
     /// The share of an innovation that is taken off the residual.
     pub angle_correction: N::Coefficient,
-    /// Largest innovation that is believed [2^-32 turn].
-    pub innovation_limit: N,
 }
 
 /// State of the semi-implicit two-mass observer.
@@ -47,56 +45,32 @@ pub struct SemiImplicit<N> {
     angle: u32,
 }
 
-struct Prediction<N: Number> {
+/// The state of [`SemiImplicit`] at the end of a tick as the torque alone would have it.
+#[derive(Clone, Copy, Debug)]
+pub struct SemiImplicitPrediction<N: Number> {
     motor_speed: N,
     load_speed: N,
     shaft_torque: N,
     turn: N,
+    innovation: N,
     carry: N::Carry,
 }
 
-impl<N: Number> SemiImplicit<N> {
+impl<N: Number> Predicted<N> for SemiImplicitPrediction<N> {
     #[inline(always)]
-    fn predict(&self, config: &SemiImplicitConfig<N>, torque: N) -> Prediction<N> {
-        let mut carry = N::CARRY;
-        let motor_speed =
-            self.motor_speed
-                .accumulate(&mut carry, config.motor, torque.minus(self.shaft_torque));
-        let load_speed = self.load_speed.accumulate(
-            &mut carry,
-            config.load,
-            self.shaft_torque.minus(self.load_torque),
-        );
-        let rates = [
-            motor_speed.minus(load_speed),
-            self.motor_speed.minus(self.load_speed),
-        ];
-        let shaft_torque = self
-            .shaft_torque
-            .accumulate2(&mut carry, config.shaft, rates);
-        let turn = N::ZERO
-            .accumulate(&mut carry, config.turn, motor_speed)
-            .to_angle();
-        Prediction {
-            motor_speed,
-            load_speed,
-            shaft_torque,
-            turn,
-            carry,
-        }
+    fn innovation(&self) -> N {
+        self.innovation
     }
 
     #[inline(always)]
-    fn accept(&mut self, predicted: Prediction<N>) {
-        self.motor_speed = predicted.motor_speed.saturated();
-        self.load_speed = predicted.load_speed.saturated();
-        self.shaft_torque = predicted.shaft_torque.saturated();
-        self.residual = self.residual.minus(predicted.turn);
+    fn turn(&self) -> N {
+        self.turn
     }
 }
 
 impl<N: Number> Observer<N> for SemiImplicit<N> {
     type Config = SemiImplicitConfig<N>;
+    type Prediction = SemiImplicitPrediction<N>;
 
     fn synchronise(&mut self, angle: u32) {
         self.angle = angle;
@@ -104,15 +78,49 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
     }
 
     #[inline(always)]
-    fn update(&mut self, config: &SemiImplicitConfig<N>, angle: u32, torque: N) -> bool {
+    fn predict(
+        &self,
+        config: &SemiImplicitConfig<N>,
+        angle: u32,
+        torque: N,
+    ) -> SemiImplicitPrediction<N> {
+        let mut carry = N::CARRY;
+        let accelerating = torque.minus(self.shaft_torque);
+        let motor_speed = self
+            .motor_speed
+            .accumulate(&mut carry, config.motor, accelerating);
+        let accelerating = self.shaft_torque.minus(self.load_torque);
+        let load_speed = self
+            .load_speed
+            .accumulate(&mut carry, config.load, accelerating);
+        let twist_rates = [
+            motor_speed.minus(load_speed),
+            self.motor_speed.minus(self.load_speed),
+        ];
+        let shaft_torque = self
+            .shaft_torque
+            .accumulate2(&mut carry, config.shaft, twist_rates);
+        let turn = N::product(&mut carry, config.turn, motor_speed).to_angle();
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        let predicted = self.predict(config, torque);
-        let innovation = turned.minus(predicted.turn);
-        if innovation.exceeds(config.innovation_limit) {
-            self.accept(predicted);
-            return false;
+        SemiImplicitPrediction {
+            motor_speed,
+            load_speed,
+            shaft_torque,
+            turn,
+            innovation: turned.minus(turn),
+            carry,
         }
+    }
+
+    #[inline(always)]
+    fn correct(
+        &mut self,
+        config: &SemiImplicitConfig<N>,
+        predicted: SemiImplicitPrediction<N>,
+        angle: u32,
+    ) {
         let mut carry = predicted.carry;
+        let innovation = predicted.innovation;
         let operand = innovation.angle_operand();
         let [motor_speed, load_speed, shaft_torque, load_torque] = config.correction;
         self.angle = angle;
@@ -133,12 +141,15 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
             .accumulate(&mut carry, load_torque, operand)
             .saturated();
         self.residual = innovation.accumulate(&mut carry, config.angle_correction, operand);
-        true
     }
 
-    fn coast(&mut self, config: &SemiImplicitConfig<N>, torque: N) {
-        let predicted = self.predict(config, torque);
-        self.accept(predicted);
+    /// The angle stays where it was last believed, and the residual runs on.
+    #[inline(always)]
+    fn coast(&mut self, predicted: SemiImplicitPrediction<N>) {
+        self.motor_speed = predicted.motor_speed.saturated();
+        self.load_speed = predicted.load_speed.saturated();
+        self.shaft_torque = predicted.shaft_torque.saturated();
+        self.residual = self.residual.minus(predicted.turn);
     }
 
     #[inline(always)]
@@ -151,15 +162,18 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
         }
     }
 
+    #[inline(always)]
     fn angle(&self) -> u32 {
         self.angle
     }
 
     #[inline(always)]
-    fn is_saturated(&self) -> bool {
-        self.motor_speed.is_at_rail()
-            || self.load_speed.is_at_rail()
-            || self.shaft_torque.is_at_rail()
-            || self.load_torque.is_at_rail()
+    fn is_beyond_base(&self) -> bool {
+        N::any_beyond_base([
+            self.motor_speed,
+            self.load_speed,
+            self.shaft_torque,
+            self.load_torque,
+        ])
     }
 }

@@ -15,7 +15,7 @@
 //! cos(omega T) has lost a fast-sampled mode's frequency where 1 - cos(omega T) has not). Angular momentum is a state, so it is kept
 //! whatever the stiffness. The motor turns by the mean speed's trapezium plus its share of the twist's increment, again exactly.
 
-use super::Observer;
+use super::{Observer, Predicted};
 use crate::number::Number;
 use crate::sample::Estimate;
 
@@ -37,8 +37,6 @@ pub struct TwoMassConfig<N: Number> {
     pub correction: [N::Coefficient; 4],
     /// The share of an innovation that is taken off the residual.
     pub angle_correction: N::Coefficient,
-    /// Largest innovation that is believed [2^-32 turn].
-    pub innovation_limit: N,
     /// Motor speed above the mean, load speed below it, both per v.
     pub share: [N::Coefficient; 2],
     /// Shaft torque from twist and v: stiffness and damping.
@@ -57,20 +55,42 @@ pub struct TwoMass<N> {
     angle: u32,
 }
 
-/// What a tick predicts before it looks at the angle.
-struct Prediction<N: Number> {
+/// The state of [`TwoMass`] at the end of a tick as the torque alone would have it.
+#[derive(Clone, Copy, Debug)]
+pub struct TwoMassPrediction<N: Number> {
     twist: N,
     twist_rate: N,
     speed: N,
     turn: N,
+    innovation: N,
     carry: N::Carry,
 }
 
-impl<N: Number> TwoMass<N> {
+impl<N: Number> Predicted<N> for TwoMassPrediction<N> {
     #[inline(always)]
-    fn predict(&self, config: &TwoMassConfig<N>, torque: N) -> Prediction<N> {
+    fn innovation(&self) -> N {
+        self.innovation
+    }
+
+    #[inline(always)]
+    fn turn(&self) -> N {
+        self.turn
+    }
+}
+
+impl<N: Number> Observer<N> for TwoMass<N> {
+    type Config = TwoMassConfig<N>;
+    type Prediction = TwoMassPrediction<N>;
+
+    fn synchronise(&mut self, angle: u32) {
+        self.angle = angle;
+        self.residual = N::ZERO;
+    }
+
+    #[inline(always)]
+    fn predict(&self, config: &TwoMassConfig<N>, angle: u32, torque: N) -> TwoMassPrediction<N> {
         let mut carry = N::CARRY;
-        let forcing = N::ZERO.accumulate2(&mut carry, config.forcing, [torque, self.load_torque]);
+        let forcing = N::sum2(&mut carry, config.forcing, [torque, self.load_torque]);
         let pair = [self.twist.widened(), self.twist_rate.widened(), forcing];
         let twist = self.twist.accumulate3(&mut carry, config.twist, pair);
         let twist_rate = self
@@ -81,37 +101,22 @@ impl<N: Number> TwoMass<N> {
             .speed
             .accumulate(&mut carry, config.acceleration, accelerating);
         let path = [self.speed.plus(speed), twist.minus(self.twist)];
-        let turn = N::ZERO
-            .accumulate2(&mut carry, config.turn, path)
-            .to_angle();
-        Prediction {
+        let turn = N::sum2(&mut carry, config.turn, path).to_angle();
+        let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
+        TwoMassPrediction {
             twist,
             twist_rate,
             speed,
             turn,
+            innovation: turned.minus(turn),
             carry,
         }
     }
-}
-
-impl<N: Number> Observer<N> for TwoMass<N> {
-    type Config = TwoMassConfig<N>;
-
-    fn synchronise(&mut self, angle: u32) {
-        self.angle = angle;
-        self.residual = N::ZERO;
-    }
 
     #[inline(always)]
-    fn update(&mut self, config: &TwoMassConfig<N>, angle: u32, torque: N) -> bool {
-        let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        let predicted = self.predict(config, torque);
-        let innovation = turned.minus(predicted.turn);
-        if innovation.exceeds(config.innovation_limit) {
-            self.accept(predicted);
-            return false;
-        }
+    fn correct(&mut self, config: &TwoMassConfig<N>, predicted: TwoMassPrediction<N>, angle: u32) {
         let mut carry = predicted.carry;
+        let innovation = predicted.innovation;
         let operand = innovation.angle_operand();
         let [speed, twist_rate, twist, load_torque] = config.correction;
         self.angle = angle;
@@ -132,12 +137,15 @@ impl<N: Number> Observer<N> for TwoMass<N> {
             .accumulate(&mut carry, load_torque, operand)
             .saturated();
         self.residual = innovation.accumulate(&mut carry, config.angle_correction, operand);
-        true
     }
 
-    fn coast(&mut self, config: &TwoMassConfig<N>, torque: N) {
-        let predicted = self.predict(config, torque);
-        self.accept(predicted);
+    /// The angle stays where it was last believed, and the residual runs on.
+    #[inline(always)]
+    fn coast(&mut self, predicted: TwoMassPrediction<N>) {
+        self.speed = predicted.speed.saturated();
+        self.twist_rate = predicted.twist_rate.saturated();
+        self.twist = predicted.twist.saturated();
+        self.residual = self.residual.minus(predicted.turn);
     }
 
     #[inline(always)]
@@ -146,29 +154,19 @@ impl<N: Number> Observer<N> for TwoMass<N> {
         let pair = [self.twist.widened(), self.twist_rate.widened()];
         Estimate {
             motor_speed: self.speed.accumulate(&mut carry, config.share[0], pair[1]),
-            shaft_torque: N::ZERO.accumulate2(&mut carry, config.shaft, pair),
+            shaft_torque: N::sum2(&mut carry, config.shaft, pair),
             load_speed: self.speed.accumulate(&mut carry, config.share[1], pair[1]),
             load_torque: self.load_torque,
         }
     }
 
+    #[inline(always)]
     fn angle(&self) -> u32 {
         self.angle
     }
 
     #[inline(always)]
-    fn is_saturated(&self) -> bool {
-        self.twist.is_at_rail() || self.speed.is_at_rail() || self.load_torque.is_at_rail()
-    }
-}
-
-impl<N: Number> TwoMass<N> {
-    /// Takes a prediction for the state; the angle stays where it was last believed, and the residual runs on.
-    #[inline(always)]
-    fn accept(&mut self, predicted: Prediction<N>) {
-        self.speed = predicted.speed.saturated();
-        self.twist_rate = predicted.twist_rate.saturated();
-        self.twist = predicted.twist.saturated();
-        self.residual = self.residual.minus(predicted.turn);
+    fn is_beyond_base(&self) -> bool {
+        N::any_beyond_base([self.twist, self.twist_rate, self.speed, self.load_torque])
     }
 }
