@@ -4,6 +4,7 @@
 //! Controllers for machine drives: shaft torque, load speed and load torque estimated from the motor's side alone.
 
 pub mod balance;
+pub mod constants;
 pub mod drive;
 pub mod fault;
 pub mod fluctuation;

@@ -58,10 +58,10 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
 
     /// An angle difference, from 2^-32 turns.
     fn from_angle(turned: i32) -> Self;
-    /// A sum of [`Number::ANGLE_SHIFT`]ed coefficients as an angle difference.
-    fn to_angle(self) -> Self;
+    /// A sum of speeds and twists as an angle difference.
+    fn to_turn(self) -> Self;
     /// An angle difference as the operand of the correction gains.
-    fn angle_operand(self) -> Self;
+    fn innovation_operand(self) -> Self;
     /// A difference of speeds or torques as the operand of a governor's gain: held within what a gain may
     /// amplify without overflow.
     fn gain_operand(self) -> Self;
@@ -72,12 +72,16 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     fn from_word(word: u32) -> Self;
 }
 
-/// Binary places by which an angle in fixed point is coarser than its coefficients: an angle sum has a resolution of
-/// 2^5 of 2^-32 turns (45 nrad), and coefficients of angles range over +-16.
-pub const ANGLE_SHIFT: u32 = 5;
+/// Binary places by which a turn in fixed point is coarser than 2^-32 turns: it has a resolution of 2^7 of them (0.19 urad), which the
+/// carry refines over the ticks.
+pub const TURN_SHIFT: u32 = 7;
 
-/// Binary places by which a governor's gain exceeds other coefficients: gains range over +-16 per unit.
-pub const GAIN_SHIFT: u32 = 5;
+/// Binary places by which an innovation is shifted up before its gains, which then range over +-16 units in the last place per 2^-32
+/// turn.
+pub const INNOVATION_SHIFT: u32 = 5;
 
 /// Largest innovation in 2^-32 turns that fixed point can correct by: 2^26, 5.6 degrees of the motor.
 pub const INNOVATION_RANGE: f64 = 67_108_863.0;
+
+/// Binary places by which a governor's gain exceeds other coefficients: gains range over +-16 per unit.
+pub const GAIN_SHIFT: u32 = 5;

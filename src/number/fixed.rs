@@ -1,6 +1,6 @@
 //! Fixed point: `i32` values, 2^28 to the base, and `i64` accumulators.
 
-use super::{ANGLE_SHIFT, GAIN_SHIFT, Number};
+use super::{GAIN_SHIFT, INNOVATION_SHIFT, Number, TURN_SHIFT};
 
 /// A number per unit of its base: 2^28 is the base, the resolution 3.7e-9 of it, the representable range +-8.
 ///
@@ -42,6 +42,9 @@ impl Fixed {
 }
 
 impl Coefficient {
+    /// Zero.
+    pub const ZERO: Coefficient = Coefficient(0);
+
     /// The coefficient nearest to `value`, or `None` where that is not within -1/2 to 1/2.
     pub const fn from_f64(value: f64) -> Option<Coefficient> {
         let scaled = round(value * 4_294_967_296.0);
@@ -177,13 +180,13 @@ impl Number for Fixed {
     }
 
     #[inline(always)]
-    fn to_angle(self) -> Self {
-        Fixed(self.0 << ANGLE_SHIFT)
+    fn to_turn(self) -> Self {
+        Fixed(self.0 << TURN_SHIFT)
     }
 
     #[inline(always)]
-    fn angle_operand(self) -> Self {
-        Fixed(self.0 << ANGLE_SHIFT)
+    fn innovation_operand(self) -> Self {
+        Fixed(self.0 << INNOVATION_SHIFT)
     }
 
     #[inline(always)]

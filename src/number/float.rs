@@ -86,12 +86,12 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn to_angle(self) -> Self {
+            fn to_turn(self) -> Self {
                 self
             }
 
             #[inline(always)]
-            fn angle_operand(self) -> Self {
+            fn innovation_operand(self) -> Self {
                 self
             }
 

@@ -75,7 +75,7 @@ impl<N: Number> Observer<N> for Rigid<N> {
         let speed = self
             .speed
             .accumulate(&mut carry, config.acceleration, accelerating);
-        let turn = N::product(&mut carry, config.turn, self.speed.plus(speed)).to_angle();
+        let turn = N::product(&mut carry, config.turn, self.speed.plus(speed)).to_turn();
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
         RigidPrediction {
             speed,
@@ -90,7 +90,7 @@ impl<N: Number> Observer<N> for Rigid<N> {
     fn correct(&mut self, config: &RigidConfig<N>, predicted: RigidPrediction<N>, angle: u32) {
         let mut carry = predicted.carry;
         let innovation = predicted.innovation;
-        let operand = innovation.angle_operand();
+        let operand = innovation.innovation_operand();
         self.angle = angle;
         self.speed = predicted
             .speed

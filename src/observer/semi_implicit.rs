@@ -100,7 +100,7 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
         let shaft_torque = self
             .shaft_torque
             .accumulate2(&mut carry, config.shaft, twist_rates);
-        let turn = N::product(&mut carry, config.turn, motor_speed).to_angle();
+        let turn = N::product(&mut carry, config.turn, motor_speed).to_turn();
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
         SemiImplicitPrediction {
             motor_speed,
@@ -121,7 +121,7 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
     ) {
         let mut carry = predicted.carry;
         let innovation = predicted.innovation;
-        let operand = innovation.angle_operand();
+        let operand = innovation.innovation_operand();
         let [motor_speed, load_speed, shaft_torque, load_torque] = config.correction;
         self.angle = angle;
         self.motor_speed = predicted

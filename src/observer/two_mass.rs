@@ -91,7 +91,11 @@ impl<N: Number> Observer<N> for TwoMass<N> {
     fn predict(&self, config: &TwoMassConfig<N>, angle: u32, torque: N) -> TwoMassPrediction<N> {
         let mut carry = N::CARRY;
         let forcing = N::sum2(&mut carry, config.forcing, [torque, self.load_torque]);
-        let pair = [self.twist.widened(), self.twist_rate.widened(), forcing];
+        let pair = [
+            self.twist.widened(),
+            self.twist_rate.widened(),
+            forcing.widened(),
+        ];
         let twist = self.twist.accumulate3(&mut carry, config.twist, pair);
         let twist_rate = self
             .twist_rate
@@ -100,8 +104,8 @@ impl<N: Number> Observer<N> for TwoMass<N> {
         let speed = self
             .speed
             .accumulate(&mut carry, config.acceleration, accelerating);
-        let path = [self.speed.plus(speed), twist.minus(self.twist)];
-        let turn = N::sum2(&mut carry, config.turn, path).to_angle();
+        let path = [self.speed.plus(speed), twist.minus(self.twist).widened()];
+        let turn = N::sum2(&mut carry, config.turn, path).to_turn();
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
         TwoMassPrediction {
             twist,
@@ -117,7 +121,7 @@ impl<N: Number> Observer<N> for TwoMass<N> {
     fn correct(&mut self, config: &TwoMassConfig<N>, predicted: TwoMassPrediction<N>, angle: u32) {
         let mut carry = predicted.carry;
         let innovation = predicted.innovation;
-        let operand = innovation.angle_operand();
+        let operand = innovation.innovation_operand();
         let [speed, twist_rate, twist, load_torque] = config.correction;
         self.angle = angle;
         self.speed = predicted
