@@ -2,3 +2,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 //! Controllers for machine drives.
+
+pub mod design;
+pub mod machine;
+pub mod scalar;
