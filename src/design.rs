@@ -13,18 +13,30 @@
 //! | filter gain K | correction of each state per radian of innovation, applied at the tick of the measurement | state/rad |
 //! | prior, posterior | covariance before and after the measurement of a tick | state squared |
 
+mod approximate;
 mod error;
 mod exponential;
 mod kalman;
+mod margins;
 mod matrix;
+mod observer;
 mod poles;
 mod riccati;
+mod rigid;
+mod speed_loop;
 mod step;
+mod tuning;
 
+pub use approximate::{ApproximateStep, Fidelity, SemiImplicitStep, StepChoice};
 pub use error::Error;
 pub use exponential::{discretise, exponential};
 pub use kalman::Kalman;
+pub use margins::Margins;
 pub use matrix::Matrix;
+pub use observer::{StandardDeviation, TwoMassDesign};
 pub use poles::{eigenvalues, spectral_radius};
 pub use riccati::{Doubling, doubling};
+pub use rigid::RigidDesign;
+pub use speed_loop::{SpeedLoopDesign, SpeedLoopTuning};
 pub use step::ExactStep;
+pub use tuning::{Disturbance, Encoder, Rate};

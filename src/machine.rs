@@ -37,6 +37,7 @@ mod planetary;
 mod quantity;
 mod reduce;
 mod refer;
+mod rigid;
 mod two_mass;
 mod worth;
 
@@ -51,5 +52,6 @@ pub use quantity::{
 };
 pub use reduce::{Match, ReductionError};
 pub use refer::{Flow, Side, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};
+pub use rigid::Rigid;
 pub use two_mass::TwoMass;
 pub use worth::{Element, Part, Worth};
