@@ -106,9 +106,7 @@ where
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let mut command = self.observe(config, sample);
-        command.torque = self
-            .governor
-            .command(&config.governor, self.reference, &command.estimate);
+        command.torque = self.governor.command(&config.governor, self.reference, &command.estimate);
         self.commanded = command.torque;
         command
     }
@@ -141,8 +139,7 @@ where
     /// Gives the balancer a sample of the vibration, taken with the last angle.
     #[inline(always)]
     pub fn vibration(&mut self, config: &ConfigOf<N, O, F, G, B>, vibration: N) {
-        self.balancer
-            .measure(&config.balancer, self.observer.angle(), vibration);
+        self.balancer.measure(&config.balancer, self.observer.angle(), vibration);
     }
 
     /// The angle that was last believed, 2^32 per turn.
@@ -169,13 +166,8 @@ where
             faults |= Faults::RANGE;
         }
         let estimate = self.observer.estimate(&config.observer);
-        self.fluctuation
-            .measure(&config.fluctuation, self.observer.angle(), &estimate);
-        Command {
-            torque: N::ZERO,
-            estimate,
-            faults,
-        }
+        self.fluctuation.measure(&config.fluctuation, self.observer.angle(), &estimate);
+        Command { torque: N::ZERO, estimate, faults }
     }
 
     /// Advances the observer by the angle where it can be true, without it where not.

@@ -5,10 +5,13 @@
 
 pub mod balance;
 pub mod constants;
+pub mod design;
 pub mod drive;
 pub mod fault;
 pub mod fluctuation;
 pub mod governor;
+pub mod machine;
 pub mod number;
 pub mod observer;
 pub mod sample;
+pub mod scalar;

@@ -23,13 +23,7 @@ pub struct Bases {
 
 impl Bases {
     /// All one: SI units, as floats have them.
-    pub const SI: Bases = Bases {
-        torque: 1.0,
-        speed: 1.0,
-        twist: 1.0,
-        twist_rate: 1.0,
-        forcing: 1.0,
-    };
+    pub const SI: Bases = Bases { torque: 1.0, speed: 1.0, twist: 1.0, twist_rate: 1.0, forcing: 1.0 };
 
     /// Bases for a machine whose torques, in motor and shaft, stay within `torque` [N m] and whose speeds stay within `speed`
     /// [rad/s].
@@ -45,11 +39,8 @@ impl Bases {
         if twist_rate > 2.0 * speed {
             twist_rate = 2.0 * speed;
         }
-        let lighter = if machine.motor_inertia < machine.load_inertia {
-            machine.motor_inertia
-        } else {
-            machine.load_inertia
-        };
+        let lighter =
+            if machine.motor_inertia < machine.load_inertia { machine.motor_inertia } else { machine.load_inertia };
         Bases {
             torque,
             speed,
@@ -67,10 +58,6 @@ impl Bases {
 
     /// Bases for a rigid machine, which has no twist.
     pub const fn rigid(torque: f64, speed: f64) -> Bases {
-        Bases {
-            torque,
-            speed,
-            ..Bases::SI
-        }
+        Bases { torque, speed, ..Bases::SI }
     }
 }

@@ -37,10 +37,7 @@ impl fmt::Display for Error {
 impl core::error::Error for Error {}
 
 /// Coefficients in fixed point; the error names what they are of.
-pub(super) const fn fixed<const K: usize>(
-    values: [f64; K],
-    sentence: &'static str,
-) -> Result<[Coefficient; K], Error> {
+pub(super) const fn fixed<const K: usize>(values: [f64; K], sentence: &'static str) -> Result<[Coefficient; K], Error> {
     let mut out = [Coefficient::ZERO; K];
     let mut k = 0;
     while k < K {
@@ -66,11 +63,7 @@ pub(super) const fn single<const K: usize>(values: [f64; K]) -> [f32; K] {
 
 /// A value per unit of its base; the error names it.
 pub(super) const fn per_unit(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
-    if value.abs() <= 2.0 {
-        Ok(Fixed::from_f64(value))
-    } else {
-        Err(Error::Value(sentence))
-    }
+    if value.abs() <= 2.0 { Ok(Fixed::from_f64(value)) } else { Err(Error::Value(sentence)) }
 }
 
 /// Unwraps a result in a `const fn` that returns one.

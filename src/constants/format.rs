@@ -21,14 +21,8 @@ pub(crate) struct Format {
 
 impl Format {
     /// SI units, nothing shifted.
-    pub(crate) const FLOAT: Format = Format {
-        bases: Bases::SI,
-        unit: 1.0,
-        widened: 1.0,
-        turn: 1.0,
-        innovation: 1.0,
-        gain: 1.0,
-    };
+    pub(crate) const FLOAT: Format =
+        Format { bases: Bases::SI, unit: 1.0, widened: 1.0, turn: 1.0, innovation: 1.0, gain: 1.0 };
 
     /// Fixed point per unit of these bases.
     pub(crate) const fn fixed(bases: Bases) -> Format {

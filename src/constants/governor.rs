@@ -6,7 +6,8 @@ use crate::design::SpeedLoopDesign;
 use crate::governor::SpeedLoopConfig;
 use crate::number::Fixed;
 
-const GAIN: &str = "a gain of the speed loop is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
+const GAIN: &str =
+    "a gain of the speed loop is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
 const TORQUE: &str = "the torque limit of the speed loop is beyond twice the base of the torque";
 const RAMP: &str = "the ramp of the speed loop crosses twice the base of the speed within a tick";
 
@@ -19,11 +20,7 @@ pub struct SpeedLoopSettings {
     pub ramp: f64,
 }
 
-const fn speed_loop(
-    design: &SpeedLoopDesign,
-    settings: &SpeedLoopSettings,
-    format: &Format,
-) -> SpeedLoopConfig<f64> {
+const fn speed_loop(design: &SpeedLoopDesign, settings: &SpeedLoopSettings, format: &Format) -> SpeedLoopConfig<f64> {
     let Bases { torque, speed, .. } = format.bases;
     let scale = speed / (torque * format.gain);
     SpeedLoopConfig {
@@ -47,22 +44,9 @@ impl SpeedLoopConfig<f32> {
     /// The constants of a design in `f32`.
     pub const fn new(design: &SpeedLoopDesign, settings: SpeedLoopSettings) -> Self {
         let c = speed_loop(design, &settings, &Format::FLOAT);
-        let [proportional, integral, damping, unwinding, torque_limit, ramp] = single([
-            c.proportional,
-            c.integral,
-            c.damping,
-            c.unwinding,
-            c.torque_limit,
-            c.ramp,
-        ]);
-        SpeedLoopConfig {
-            proportional,
-            integral,
-            damping,
-            unwinding,
-            torque_limit,
-            ramp,
-        }
+        let [proportional, integral, damping, unwinding, torque_limit, ramp] =
+            single([c.proportional, c.integral, c.damping, c.unwinding, c.torque_limit, c.ramp]);
+        SpeedLoopConfig { proportional, integral, damping, unwinding, torque_limit, ramp }
     }
 }
 
@@ -79,16 +63,10 @@ impl SpeedLoopConfig<Fixed> {
     ///
     /// # Errors
     /// [`Error::Coefficient`] for a gain beyond the range of fixed point, [`Error::Value`] for a limit beyond its base.
-    pub const fn try_new(
-        design: &SpeedLoopDesign,
-        settings: SpeedLoopSettings,
-        bases: Bases,
-    ) -> Result<Self, Error> {
+    pub const fn try_new(design: &SpeedLoopDesign, settings: SpeedLoopSettings, bases: Bases) -> Result<Self, Error> {
         let c = speed_loop(design, &settings, &Format::fixed(bases));
-        let [proportional, integral, damping, unwinding] = get!(fixed(
-            [c.proportional, c.integral, c.damping, c.unwinding],
-            GAIN
-        ));
+        let [proportional, integral, damping, unwinding] =
+            get!(fixed([c.proportional, c.integral, c.damping, c.unwinding], GAIN));
         Ok(SpeedLoopConfig {
             proportional,
             integral,

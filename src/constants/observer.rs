@@ -16,13 +16,7 @@ const fn two_mass(design: &TwoMassDesign, format: &Format) -> TwoMassConfig<f64>
     let (motor, load) = (machine.motor_inertia, machine.load_inertia);
     let total = motor + load;
     let (motor_share, load_share) = (motor / total, load / total);
-    let Bases {
-        torque,
-        speed,
-        twist,
-        twist_rate,
-        forcing,
-    } = format.bases;
+    let Bases { torque, speed, twist, twist_rate, forcing } = format.bases;
     let step = &design.step;
     let wide = format.widened;
     let turn = ANGLE_PER_RADIAN / (format.turn * format.unit);
@@ -30,21 +24,10 @@ const fn two_mass(design: &TwoMassDesign, format: &Format) -> TwoMassConfig<f64>
     let [angle, motor_gain, twist_gain, load_gain, torque_gain] = design.gains;
     TwoMassConfig {
         forcing: [torque / (motor * forcing), torque / (load * forcing)],
-        twist: [
-            step.n11 / wide,
-            step.n12 * (twist_rate / twist) / wide,
-            step.g1 * (forcing / twist) / wide,
-        ],
-        twist_rate: [
-            step.n21 * (twist / twist_rate) / wide,
-            step.n22 / wide,
-            step.g2 * (forcing / twist_rate) / wide,
-        ],
+        twist: [step.n11 / wide, step.n12 * (twist_rate / twist) / wide, step.g1 * (forcing / twist) / wide],
+        twist_rate: [step.n21 * (twist / twist_rate) / wide, step.n22 / wide, step.g2 * (forcing / twist_rate) / wide],
         acceleration: design.period / total * (torque / speed),
-        turn: [
-            0.5 * design.period * speed * turn,
-            load_share * twist * turn / wide,
-        ],
+        turn: [0.5 * design.period * speed * turn, load_share * twist * turn / wide],
         correction: [
             (motor_share * motor_gain + load_share * load_gain) / speed * per_angle,
             (motor_gain - load_gain) / twist_rate * per_angle,
@@ -52,14 +35,8 @@ const fn two_mass(design: &TwoMassDesign, format: &Format) -> TwoMassConfig<f64>
             torque_gain / torque * per_angle,
         ],
         angle_correction: -angle / format.innovation,
-        share: [
-            load_share * (twist_rate / speed) / wide,
-            -motor_share * (twist_rate / speed) / wide,
-        ],
-        shaft: [
-            machine.stiffness * (twist / torque) / wide,
-            machine.damping * (twist_rate / torque) / wide,
-        ],
+        share: [load_share * (twist_rate / speed) / wide, -motor_share * (twist_rate / speed) / wide],
+        shaft: [machine.stiffness * (twist / torque) / wide, machine.damping * (twist_rate / torque) / wide],
     }
 }
 
@@ -75,10 +52,7 @@ const fn semi_implicit(design: &TwoMassDesign, format: &Format) -> SemiImplicitC
     SemiImplicitConfig {
         motor: design.period / machine.motor_inertia * (torque / speed),
         load: design.period / machine.load_inertia * (torque / speed),
-        shaft: [
-            (stiffness * design.period + damping) * (speed / torque),
-            -damping * (speed / torque),
-        ],
+        shaft: [(stiffness * design.period + damping) * (speed / torque), -damping * (speed / torque)],
         turn: design.period * speed * turn,
         correction: [
             motor_gain / speed * per_angle,
@@ -99,10 +73,7 @@ const fn rigid(design: &RigidDesign, load_share: f64, format: &Format) -> RigidC
     RigidConfig {
         acceleration: design.period / design.machine.inertia * (torque / speed),
         turn: 0.5 * design.period * speed * turn,
-        correction: [
-            speed_gain / speed * per_angle,
-            torque_gain / torque * per_angle,
-        ],
+        correction: [speed_gain / speed * per_angle, torque_gain / torque * per_angle],
         angle_correction: -angle / format.innovation,
         load_share: load_share / format.widened,
     }
@@ -248,14 +219,9 @@ impl RigidConfig<Fixed> {
     ///
     /// # Errors
     /// [`Error::Coefficient`] where one is beyond the range of fixed point.
-    pub const fn try_new(
-        design: &RigidDesign,
-        load_share: f64,
-        bases: Bases,
-    ) -> Result<Self, Error> {
+    pub const fn try_new(design: &RigidDesign, load_share: f64, bases: Bases) -> Result<Self, Error> {
         let c = rigid(design, load_share, &Format::fixed(bases));
-        let [acceleration, turn, load_share] =
-            get!(fixed([c.acceleration, c.turn, c.load_share], STEP));
+        let [acceleration, turn, load_share] = get!(fixed([c.acceleration, c.turn, c.load_share], STEP));
         let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
         Ok(RigidConfig {
             acceleration,

@@ -48,11 +48,7 @@ impl Coefficient {
     /// The coefficient nearest to `value`, or `None` where that is not within -1/2 to 1/2.
     pub const fn from_f64(value: f64) -> Option<Coefficient> {
         let scaled = round(value * 4_294_967_296.0);
-        if scaled >= -2_147_483_648.0 && scaled <= 2_147_483_647.0 {
-            Some(Coefficient(scaled as i32))
-        } else {
-            None
-        }
+        if scaled >= -2_147_483_648.0 && scaled <= 2_147_483_647.0 { Some(Coefficient(scaled as i32)) } else { None }
     }
 
     /// The value.
@@ -114,9 +110,7 @@ impl Number for Fixed {
 
     #[inline(always)]
     fn accumulate2(self, carry: &mut u32, c: [Coefficient; 2], y: [Self; 2]) -> Self {
-        let sum = open(self, *carry)
-            .wrapping_add(product(c[0], y[0]))
-            .wrapping_add(product(c[1], y[1]));
+        let sum = open(self, *carry).wrapping_add(product(c[0], y[0])).wrapping_add(product(c[1], y[1]));
         close(sum, carry)
     }
 

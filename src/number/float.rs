@@ -75,7 +75,6 @@ macro_rules! float {
 
             // Written so that a NaN, which compares with nothing, exceeds every limit.
             #[inline(always)]
-            #[allow(clippy::neg_cmp_op_on_partial_ord)]
             fn exceeds(self, limit: Self) -> bool {
                 !(self.abs() <= limit)
             }

@@ -72,18 +72,10 @@ impl<N: Number> Observer<N> for Rigid<N> {
     fn predict(&self, config: &RigidConfig<N>, angle: u32, torque: N) -> RigidPrediction<N> {
         let mut carry = N::CARRY;
         let accelerating = torque.minus(self.load_torque);
-        let speed = self
-            .speed
-            .accumulate(&mut carry, config.acceleration, accelerating);
+        let speed = self.speed.accumulate(&mut carry, config.acceleration, accelerating);
         let turn = N::product(&mut carry, config.turn, self.speed.plus(speed)).to_turn();
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        RigidPrediction {
-            speed,
-            accelerating,
-            turn,
-            innovation: turned.minus(turn),
-            carry,
-        }
+        RigidPrediction { speed, accelerating, turn, innovation: turned.minus(turn), carry }
     }
 
     #[inline(always)]
@@ -92,14 +84,8 @@ impl<N: Number> Observer<N> for Rigid<N> {
         let innovation = predicted.innovation;
         let operand = innovation.innovation_operand();
         self.angle = angle;
-        self.speed = predicted
-            .speed
-            .accumulate(&mut carry, config.correction[0], operand)
-            .saturated();
-        self.load_torque = self
-            .load_torque
-            .accumulate(&mut carry, config.correction[1], operand)
-            .saturated();
+        self.speed = predicted.speed.accumulate(&mut carry, config.correction[0], operand).saturated();
+        self.load_torque = self.load_torque.accumulate(&mut carry, config.correction[1], operand).saturated();
         self.accelerating = predicted.accelerating;
         self.residual = innovation.accumulate(&mut carry, config.angle_correction, operand);
     }

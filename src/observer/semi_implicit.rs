@@ -78,68 +78,30 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
     }
 
     #[inline(always)]
-    fn predict(
-        &self,
-        config: &SemiImplicitConfig<N>,
-        angle: u32,
-        torque: N,
-    ) -> SemiImplicitPrediction<N> {
+    fn predict(&self, config: &SemiImplicitConfig<N>, angle: u32, torque: N) -> SemiImplicitPrediction<N> {
         let mut carry = N::CARRY;
         let accelerating = torque.minus(self.shaft_torque);
-        let motor_speed = self
-            .motor_speed
-            .accumulate(&mut carry, config.motor, accelerating);
+        let motor_speed = self.motor_speed.accumulate(&mut carry, config.motor, accelerating);
         let accelerating = self.shaft_torque.minus(self.load_torque);
-        let load_speed = self
-            .load_speed
-            .accumulate(&mut carry, config.load, accelerating);
-        let twist_rates = [
-            motor_speed.minus(load_speed),
-            self.motor_speed.minus(self.load_speed),
-        ];
-        let shaft_torque = self
-            .shaft_torque
-            .accumulate2(&mut carry, config.shaft, twist_rates);
+        let load_speed = self.load_speed.accumulate(&mut carry, config.load, accelerating);
+        let twist_rates = [motor_speed.minus(load_speed), self.motor_speed.minus(self.load_speed)];
+        let shaft_torque = self.shaft_torque.accumulate2(&mut carry, config.shaft, twist_rates);
         let turn = N::product(&mut carry, config.turn, motor_speed).to_turn();
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        SemiImplicitPrediction {
-            motor_speed,
-            load_speed,
-            shaft_torque,
-            turn,
-            innovation: turned.minus(turn),
-            carry,
-        }
+        SemiImplicitPrediction { motor_speed, load_speed, shaft_torque, turn, innovation: turned.minus(turn), carry }
     }
 
     #[inline(always)]
-    fn correct(
-        &mut self,
-        config: &SemiImplicitConfig<N>,
-        predicted: SemiImplicitPrediction<N>,
-        angle: u32,
-    ) {
+    fn correct(&mut self, config: &SemiImplicitConfig<N>, predicted: SemiImplicitPrediction<N>, angle: u32) {
         let mut carry = predicted.carry;
         let innovation = predicted.innovation;
         let operand = innovation.innovation_operand();
         let [motor_speed, load_speed, shaft_torque, load_torque] = config.correction;
         self.angle = angle;
-        self.motor_speed = predicted
-            .motor_speed
-            .accumulate(&mut carry, motor_speed, operand)
-            .saturated();
-        self.load_speed = predicted
-            .load_speed
-            .accumulate(&mut carry, load_speed, operand)
-            .saturated();
-        self.shaft_torque = predicted
-            .shaft_torque
-            .accumulate(&mut carry, shaft_torque, operand)
-            .saturated();
-        self.load_torque = self
-            .load_torque
-            .accumulate(&mut carry, load_torque, operand)
-            .saturated();
+        self.motor_speed = predicted.motor_speed.accumulate(&mut carry, motor_speed, operand).saturated();
+        self.load_speed = predicted.load_speed.accumulate(&mut carry, load_speed, operand).saturated();
+        self.shaft_torque = predicted.shaft_torque.accumulate(&mut carry, shaft_torque, operand).saturated();
+        self.load_torque = self.load_torque.accumulate(&mut carry, load_torque, operand).saturated();
         self.residual = innovation.accumulate(&mut carry, config.angle_correction, operand);
     }
 
@@ -169,11 +131,6 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
 
     #[inline(always)]
     fn is_beyond_base(&self) -> bool {
-        N::any_beyond_base([
-            self.motor_speed,
-            self.load_speed,
-            self.shaft_torque,
-            self.load_torque,
-        ])
+        N::any_beyond_base([self.motor_speed, self.load_speed, self.shaft_torque, self.load_torque])
     }
 }

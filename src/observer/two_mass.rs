@@ -91,30 +91,15 @@ impl<N: Number> Observer<N> for TwoMass<N> {
     fn predict(&self, config: &TwoMassConfig<N>, angle: u32, torque: N) -> TwoMassPrediction<N> {
         let mut carry = N::CARRY;
         let forcing = N::sum2(&mut carry, config.forcing, [torque, self.load_torque]);
-        let pair = [
-            self.twist.widened(),
-            self.twist_rate.widened(),
-            forcing.widened(),
-        ];
+        let pair = [self.twist.widened(), self.twist_rate.widened(), forcing.widened()];
         let twist = self.twist.accumulate3(&mut carry, config.twist, pair);
-        let twist_rate = self
-            .twist_rate
-            .accumulate3(&mut carry, config.twist_rate, pair);
+        let twist_rate = self.twist_rate.accumulate3(&mut carry, config.twist_rate, pair);
         let accelerating = torque.minus(self.load_torque);
-        let speed = self
-            .speed
-            .accumulate(&mut carry, config.acceleration, accelerating);
+        let speed = self.speed.accumulate(&mut carry, config.acceleration, accelerating);
         let path = [self.speed.plus(speed), twist.minus(self.twist).widened()];
         let turn = N::sum2(&mut carry, config.turn, path).to_turn();
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        TwoMassPrediction {
-            twist,
-            twist_rate,
-            speed,
-            turn,
-            innovation: turned.minus(turn),
-            carry,
-        }
+        TwoMassPrediction { twist, twist_rate, speed, turn, innovation: turned.minus(turn), carry }
     }
 
     #[inline(always)]
@@ -124,22 +109,10 @@ impl<N: Number> Observer<N> for TwoMass<N> {
         let operand = innovation.innovation_operand();
         let [speed, twist_rate, twist, load_torque] = config.correction;
         self.angle = angle;
-        self.speed = predicted
-            .speed
-            .accumulate(&mut carry, speed, operand)
-            .saturated();
-        self.twist_rate = predicted
-            .twist_rate
-            .accumulate(&mut carry, twist_rate, operand)
-            .saturated();
-        self.twist = predicted
-            .twist
-            .accumulate(&mut carry, twist, operand)
-            .saturated();
-        self.load_torque = self
-            .load_torque
-            .accumulate(&mut carry, load_torque, operand)
-            .saturated();
+        self.speed = predicted.speed.accumulate(&mut carry, speed, operand).saturated();
+        self.twist_rate = predicted.twist_rate.accumulate(&mut carry, twist_rate, operand).saturated();
+        self.twist = predicted.twist.accumulate(&mut carry, twist, operand).saturated();
+        self.load_torque = self.load_torque.accumulate(&mut carry, load_torque, operand).saturated();
         self.residual = innovation.accumulate(&mut carry, config.angle_correction, operand);
     }
 

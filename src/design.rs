@@ -1,0 +1,42 @@
+//! How a machine will be controlled: from its description to the final coefficients.
+//!
+//! Every function is a `const fn` in `f64`. In a constant the compiler evaluates it, and the firmware holds nothing but
+//! the coefficients; at run time (a machine read from a file, or commissioned in the field) it gives the same bits. A design
+//! that cannot work is a compile error in a constant, and an [`Error`] with the same sentence from the `try_` form.
+//!
+//! | term | meaning | unit |
+//! |---|---|---|
+//! | period T | time between two ticks of the controller | s |
+//! | twist delta | motor angle less load angle, referred to the motor | rad |
+//! | slip v | rate of the twist, motor speed less load speed | rad/s |
+//! | drive s | `tau_m/J_m + tau_L/J_l`: what accelerates the slip | rad/s2 |
+//! | filter gain K | correction of each state per radian of innovation, applied at the tick of the measurement | state/rad |
+//! | prior, posterior | covariance before and after the measurement of a tick | state squared |
+
+mod approximate;
+mod error;
+mod exponential;
+mod kalman;
+mod margins;
+mod matrix;
+mod observer;
+mod poles;
+mod riccati;
+mod rigid;
+mod speed_loop;
+mod step;
+mod tuning;
+
+pub use approximate::{ApproximateStep, Fidelity, SemiImplicitStep, StepChoice};
+pub use error::Error;
+pub use exponential::{discretise, exponential};
+pub use kalman::Kalman;
+pub use margins::Margins;
+pub use matrix::Matrix;
+pub use observer::{StandardDeviation, TwoMassDesign};
+pub use poles::{eigenvalues, spectral_radius};
+pub use riccati::{Doubling, doubling};
+pub use rigid::RigidDesign;
+pub use speed_loop::{SpeedLoopDesign, SpeedLoopTuning};
+pub use step::ExactStep;
+pub use tuning::{Disturbance, Encoder, Rate};

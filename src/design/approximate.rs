@@ -1,0 +1,192 @@
+//! Cheaper steps of the same twist and slip, and how far each is from the exact one.
+
+use super::ExactStep;
+use crate::machine::TwoMass;
+use crate::scalar::{atan2, hypot, ln, sqrt};
+
+/// Ticks over which the state error is followed, at the most.
+const LONGEST_HORIZON: u32 = 4096;
+
+/// How far an approximate step is from the exact one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fidelity {
+    /// Largest error of twist and slip over [`horizon`](Self::horizon) ticks of free motion, relative to the start, in the
+    /// energy norm (twist times w, slip); infinite where the step is unstable.
+    pub error_bound: f64,
+    /// Ticks that the bound covers: one period of the resonance, at least 1 and at most 4096.
+    pub horizon: u32,
+    /// Relative error of the natural frequency, signed: of the size of the slow pole where the shaft is overdamped.
+    pub frequency_error: f64,
+    /// Error of the damping ratio, signed.
+    pub damping_error: f64,
+    /// Size of the larger pole.
+    pub spectral_radius: f64,
+    /// Whether no pole lies outside the unit circle (an undamped shaft's lie on it).
+    pub stable: bool,
+}
+
+/// A step in increments: `delta += n11 delta + n12 v + g1 s`, `v += n21 delta + n22 v + g2 s`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ApproximateStep {
+    /// Twist from twist \[1\], less one.
+    pub n11: f64,
+    /// Twist from slip \[s\].
+    pub n12: f64,
+    /// Twist from drive \[s2\].
+    pub g1: f64,
+    /// Slip from twist \[1/s\].
+    pub n21: f64,
+    /// Slip from slip \[1\], less one.
+    pub n22: f64,
+    /// Slip from drive \[s\].
+    pub g2: f64,
+    /// How far it is from the exact step.
+    pub fidelity: Fidelity,
+}
+
+impl ApproximateStep {
+    /// Forward Euler: unstable for an undamped shaft at any rate.
+    #[must_use]
+    pub const fn forward_euler(machine: &TwoMass, period: f64) -> Self {
+        let (w2, two_a) = rates(machine);
+        Self::judged([0.0, period, 0.0, -w2 * period, -two_a * period, period], machine, period)
+    }
+
+    /// Trapezoidal rule (Tustin): stable at any rate, its frequency too low.
+    #[must_use]
+    pub const fn tustin(machine: &TwoMass, period: f64) -> Self {
+        let (w2, two_a) = rates(machine);
+        let half = 0.5 * period;
+        let over = period / (1.0 + half * two_a + half * half * w2);
+        let n = [-over * w2 * half, over, over * half, -over * w2, -over * (w2 * half + two_a), over];
+        Self::judged(n, machine, period)
+    }
+
+    const fn judged(n: [f64; 6], machine: &TwoMass, period: f64) -> Self {
+        let [n11, n12, g1, n21, n22, g2] = n;
+        Self { n11, n12, g1, n21, n22, g2, fidelity: Fidelity::of([n11, n12, n21, n22], machine, period) }
+    }
+}
+
+/// Semi-implicit Euler: `v += dt s - stiffness_dt delta - damping_dt v`, then `delta += dt v` with the new slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SemiImplicitStep {
+    /// Period \[s\].
+    pub dt: f64,
+    /// `T k/J_r` \[1/s\].
+    pub stiffness_dt: f64,
+    /// `T d/J_r` \[1\].
+    pub damping_dt: f64,
+    /// How far it is from the exact step.
+    pub fidelity: Fidelity,
+}
+
+impl SemiImplicitStep {
+    /// The step of a machine over a period \[s\].
+    #[must_use]
+    pub const fn new(machine: &TwoMass, period: f64) -> Self {
+        let (w2, two_a) = rates(machine);
+        let (stiffness_dt, damping_dt) = (period * w2, period * two_a);
+        let n = [-period * stiffness_dt, period * (1.0 - damping_dt), -stiffness_dt, -damping_dt];
+        Self { dt: period, stiffness_dt, damping_dt, fidelity: Fidelity::of(n, machine, period) }
+    }
+}
+
+/// Which step an observer should take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StepChoice {
+    /// [`ExactStep`]: twelve multiply-adds.
+    Exact,
+    /// [`SemiImplicitStep`]: seven.
+    SemiImplicit,
+}
+
+impl StepChoice {
+    /// Error over a period of the resonance below which the cheap step does: 1 %, less than a stiffness is ever known to.
+    pub const THRESHOLD: f64 = 0.01;
+
+    /// The semi-implicit step where it is stable and its [`Fidelity::error_bound`] is at most `threshold`.
+    #[must_use]
+    pub const fn choose(step: &SemiImplicitStep, threshold: f64) -> Self {
+        if step.fidelity.stable && step.fidelity.error_bound <= threshold { Self::SemiImplicit } else { Self::Exact }
+    }
+}
+
+/// `k/J_r` \[1/s2\] and `d/J_r` \[1/s\].
+const fn rates(machine: &TwoMass) -> (f64, f64) {
+    let reduced = machine.reduced_inertia();
+    (machine.stiffness / reduced, machine.damping / reduced)
+}
+
+/// The logarithm of the slow pole and the size of the larger pole, from trace and determinant of the increments.
+const fn slow_pole(n: [f64; 4]) -> ((f64, f64), f64) {
+    let [n11, n12, n21, n22] = n;
+    let trace = n11 + n22;
+    let determinant = n11 * n22 - n12 * n21;
+    let turning = determinant - 0.25 * trace * trace;
+    if turning > 0.0 {
+        let (re, im) = (1.0 + 0.5 * trace, sqrt(turning));
+        let radius = hypot(re, im);
+        ((ln(radius), atan2(im, re)), radius)
+    } else {
+        // The pole less one that is smaller in size, without cancellation.
+        let root = sqrt(-turning);
+        let far = if trace < 0.0 { 0.5 * trace - root } else { 0.5 * trace + root };
+        let near = if far == 0.0 { 0.0 } else { determinant / far };
+        let (slow, fast) = ((1.0 + near).abs(), (1.0 + far).abs());
+        ((ln(slow), if near < -1.0 { core::f64::consts::PI } else { 0.0 }), slow.max(fast))
+    }
+}
+
+impl Fidelity {
+    /// Of the increments `[n11, n12, n21, n22]` over a period.
+    const fn of(n: [f64; 4], machine: &TwoMass, period: f64) -> Self {
+        let (w2, two_a) = rates(machine);
+        let w = sqrt(w2);
+        let (log, spectral_radius) = slow_pole(n);
+        // An undamped step's determinant is 1 but for rounding.
+        let stable = spectral_radius <= 1.0 + 4.0 * f64::EPSILON;
+
+        let a = 0.5 * two_a;
+        let slow = if w > a { w } else { w2 / (a + sqrt((a - w) * (a + w))) };
+        let ratio = if w > a { a / w } else { 1.0 };
+        let size = hypot(log.0, log.1);
+        let (frequency_error, damping_error) =
+            if slow > 0.0 && size > 0.0 { (size / (slow * period) - 1.0, -log.0 / size - ratio) } else { (0.0, 0.0) };
+
+        let ticks = core::f64::consts::TAU / (w * period);
+        let horizon = if ticks < LONGEST_HORIZON as f64 { ticks as u32 + 1 } else { LONGEST_HORIZON };
+        let error_bound = if stable { state_error(n, machine, period, horizon) } else { f64::INFINITY };
+        Self { error_bound, horizon, frequency_error, damping_error, spectral_radius, stable }
+    }
+}
+
+/// Largest difference of the powers of the two steps, as a Frobenius norm in energy units.
+const fn state_error(n: [f64; 4], machine: &TwoMass, period: f64, horizon: u32) -> f64 {
+    let exact = ExactStep::new(machine, period);
+    let w = machine.resonance();
+    // Twist in units of 1/w, or of T where there is no spring.
+    let unit = if w > 0.0 { w } else { 1.0 / period };
+    let step = (1.0 + n[0], n[1] * unit, n[2] / unit, 1.0 + n[3]);
+    let truth = (1.0 + exact.n11, exact.n12 * unit, exact.n21 / unit, 1.0 + exact.n22);
+    let (mut p, mut q) = ((1.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 1.0));
+    let mut largest = 0.0;
+    let mut tick = 0;
+    while tick < horizon {
+        p = product(p, step);
+        q = product(q, truth);
+        let (a, b, c, d) = (p.0 - q.0, p.1 - q.1, p.2 - q.2, p.3 - q.3);
+        let square = a * a + b * b + c * c + d * d;
+        if square > largest {
+            largest = square;
+        }
+        tick += 1;
+    }
+    sqrt(largest)
+}
+
+type Square = (f64, f64, f64, f64);
+
+const fn product(a: Square, b: Square) -> Square {
+    (a.0 * b.0 + a.1 * b.2, a.0 * b.1 + a.1 * b.3, a.2 * b.0 + a.3 * b.2, a.2 * b.1 + a.3 * b.3)
+}

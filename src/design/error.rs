@@ -1,0 +1,67 @@
+//! Why a design cannot work.
+
+use core::fmt;
+
+macro_rules! sentences {
+    ($($name:ident => $sentence:literal),* $(,)?) => {
+        /// A parameter of a design that is out of its range, or a machine that cannot be observed or governed so.
+        ///
+        /// [`Display`](fmt::Display) gives a sentence that names the parameter; the `const` forms stop the
+        /// compilation with the same sentence.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum Error {
+            /// The machine itself is out of range.
+            Machine(crate::machine::Error),
+            $(#[doc = $sentence] $name),*
+        }
+
+        impl Error {
+            /// The sentence that names the parameter and the reason.
+            #[must_use]
+            pub const fn message(self) -> &'static str {
+                match self {
+                    Self::Machine(error) => error.message(),
+                    $(Self::$name => $sentence),*
+                }
+            }
+        }
+    };
+}
+
+sentences! {
+    Period => "the sample rate must be positive and finite (Hz)",
+    EncoderLines => "the encoder must have at least one line",
+    TorqueAccuracy => "torque_accuracy of the disturbance must be positive and finite (N m)",
+    LoadTorqueStep => "load_torque_step of the disturbance must be positive and finite (N m)",
+    Within => "within of the disturbance must be positive and finite (s)",
+    Unobservable => "the load is unobservable from the motor's angle: the stiffness between the two masses is zero",
+    SampleRate => "the sample rate cannot follow the shaft: its resonance lies above half the rate and is hardly damped",
+    NotConverged => "the observer's gain was not found: the Riccati equation has no stabilising solution for these disturbances",
+    NotStabilising => "the observer's gain does not stabilise the estimate: the disturbances are too small for this machine",
+    Noise => "the measurement noise must have a positive definite covariance",
+    Bandwidth => "the bandwidth of the speed loop must be above zero and below the antiresonance of the machine",
+    DampingRatio => "the damping ratios of the speed loop must be above zero and finite",
+    SpeedLoopUnstable => "the speed loop is unstable at this sample rate: lower its bandwidth or raise the rate",
+}
+
+impl Error {
+    /// Stops with the sentence: a compile error in a constant.
+    pub(crate) const fn stop(self) -> ! {
+        panic!("{}", self.message())
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.message())
+    }
+}
+
+impl core::error::Error for Error {}
+
+impl From<crate::machine::Error> for Error {
+    fn from(error: crate::machine::Error) -> Self {
+        Self::Machine(error)
+    }
+}

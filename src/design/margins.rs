@@ -1,0 +1,149 @@
+//! Stability margins of the sampled speed loop, by a sweep of its frequency response.
+
+use super::ExactStep;
+use crate::machine::TwoMass;
+use crate::scalar::{atan2, exp, hypot, ln, sin_cos};
+
+/// How far a loop is from instability.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margins {
+    /// Factor by which the gain may grow; infinite where no growth destabilises.
+    pub gain_up: f64,
+    /// Factor by which the gain may shrink, below 1; 0 where no loss destabilises.
+    pub gain_down: f64,
+    /// Smallest phase margin over all crossings of gain 1 \[rad\].
+    pub phase: f64,
+    /// Highest frequency at which the gain crosses 1 \[rad/s\].
+    pub crossover: f64,
+    /// Smallest distance of the response from -1; over 0.5 is sound.
+    pub modulus: f64,
+}
+
+/// The loop cut at the torque, which acts one tick after its sample.
+pub(super) struct Loop {
+    pub step: ExactStep,
+    pub machine: TwoMass,
+    pub period: f64,
+    pub proportional: f64,
+    pub integral: f64,
+    pub slip: f64,
+}
+
+type Complex = (f64, f64);
+
+const fn times(a: Complex, b: Complex) -> Complex {
+    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
+}
+const fn over(a: Complex, b: Complex) -> Complex {
+    let square = b.0 * b.0 + b.1 * b.1;
+    ((a.0 * b.0 + a.1 * b.1) / square, (a.1 * b.0 - a.0 * b.1) / square)
+}
+
+impl Loop {
+    /// Response at a frequency \[rad/s\], positive where the feedback opposes.
+    const fn response(&self, frequency: f64) -> Complex {
+        let angle = frequency * self.period;
+        let (half, _) = sin_cos(0.5 * angle);
+        let (sine, cosine) = sin_cos(angle);
+        let z = (cosine, sine);
+        // z - 1 without cancellation.
+        let d = (-2.0 * half * half, sine);
+        let n = &self.step;
+        let (a, b) = ((d.0 - n.n11, d.1), (d.0 - n.n22, d.1));
+        let determinant = times(a, b);
+        let determinant = (determinant.0 - n.n12 * n.n21, determinant.1);
+        let numerator = (n.n21 * n.g1 + a.0 * n.g2, a.1 * n.g2);
+        let slip = over(numerator, determinant);
+        let slip = (slip.0 / self.machine.motor_inertia, slip.1 / self.machine.motor_inertia);
+        let total = self.machine.total_inertia();
+        let mean = over((self.period / total, 0.0), d);
+        let load = self.machine.load_inertia / total;
+        let motor = (mean.0 + load * slip.0, mean.1 + load * slip.1);
+        let integral = over(z, d);
+        let controller =
+            (self.proportional + self.integral * self.period * integral.0, self.integral * self.period * integral.1);
+        let speed = times(controller, motor);
+        over((speed.0 + self.slip * slip.0, speed.1 + self.slip * slip.1), z)
+    }
+
+    /// The margins, from a sweep of the whole range and a finer one about the resonance.
+    pub(super) const fn margins(&self, bandwidth: f64) -> Margins {
+        let nyquist = core::f64::consts::PI / self.period;
+        let mut found = Margins {
+            gain_up: f64::INFINITY,
+            gain_down: 0.0,
+            phase: f64::INFINITY,
+            crossover: 0.0,
+            modulus: f64::INFINITY,
+        };
+        self.sweep(&mut found, 1e-2 * bandwidth, nyquist, 300);
+        let (from, to) = (0.8 * self.machine.antiresonance(), 1.25 * self.machine.resonance());
+        if to < nyquist {
+            self.sweep(&mut found, from, to, 300);
+        }
+        found
+    }
+
+    const fn sweep(&self, found: &mut Margins, from: f64, to: f64, points: u32) {
+        let factor = exp(ln(to / from) / points as f64);
+        let mut low = from;
+        let mut before = self.response(low);
+        let mut point = 0;
+        while point < points {
+            let high = if point + 1 == points { to } else { low * factor };
+            let after = self.response(high);
+            let distance = hypot(1.0 + after.0, after.1);
+            if distance < found.modulus {
+                found.modulus = distance;
+            }
+            if (before.1 < 0.0) != (after.1 < 0.0) {
+                let crossing = self.response(self.bisect(low, high, true));
+                let size = -crossing.0;
+                // A sign change through a pole or through the positive axis is no crossing of -180 degrees.
+                if size > 0.0 && crossing.1.abs() < 1e-3 * size {
+                    if size < 1.0 && 1.0 / size < found.gain_up {
+                        found.gain_up = 1.0 / size;
+                    }
+                    if size > 1.0 && 1.0 / size > found.gain_down {
+                        found.gain_down = 1.0 / size;
+                    }
+                }
+            }
+            if (hypot(before.0, before.1) < 1.0) != (hypot(after.0, after.1) < 1.0) {
+                let frequency = self.bisect(low, high, false);
+                let crossing = self.response(frequency);
+                let phase = atan2(-crossing.1, -crossing.0).abs();
+                if phase < found.phase {
+                    found.phase = phase;
+                }
+                if frequency > found.crossover {
+                    found.crossover = frequency;
+                }
+            }
+            low = high;
+            before = after;
+            point += 1;
+        }
+    }
+
+    /// Frequency between two at which the imaginary part changes sign, or the gain passes 1.
+    const fn bisect(&self, mut low: f64, mut high: f64, imaginary: bool) -> f64 {
+        let below = self.is_low(low, imaginary);
+        let mut halving = 0;
+        while halving < 40 {
+            let middle = 0.5 * (low + high);
+            if self.is_low(middle, imaginary) == below {
+                low = middle;
+            } else {
+                high = middle;
+            }
+            halving += 1;
+        }
+        0.5 * (low + high)
+    }
+
+    const fn is_low(&self, frequency: f64, imaginary: bool) -> bool {
+        let response = self.response(frequency);
+        if imaginary { response.1 < 0.0 } else { hypot(response.0, response.1) < 1.0 }
+    }
+}

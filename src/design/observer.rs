@@ -1,0 +1,179 @@
+//! Observer of two masses from the motor's angle alone.
+//!
+//! The state is `[theta_m, omega_m, delta, omega_l, tau_L]` \[rad, rad/s, rad, rad/s, N m\], the input the motor's torque. The
+//! transition is exact: momentum moves as one rigid machine, and the twist by [`ExactStep`].
+
+use super::tuning::{Disturbance, Encoder, Rate};
+use super::{Error, ExactStep, Kalman, Matrix, SemiImplicitStep, StepChoice};
+use crate::machine::TwoMass;
+use crate::scalar::{exp, sqrt};
+
+/// Share of a swing that may survive one tick where the resonance lies above half the sample rate.
+const SURVIVING_SWING: f64 = 0.1;
+
+/// Predicted standard deviations of what the observer estimates, after the measurement of a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StandardDeviation {
+    /// Motor angle \[rad\].
+    pub motor_angle: f64,
+    /// Motor speed \[rad/s\].
+    pub motor_speed: f64,
+    /// Twist \[rad\].
+    pub twist: f64,
+    /// Shaft torque \[N m\].
+    pub shaft_torque: f64,
+    /// Load speed \[rad/s\].
+    pub load_speed: f64,
+    /// Load torque \[N m\].
+    pub load_torque: f64,
+}
+
+/// A finished observer of two masses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoMassDesign {
+    /// Time between two ticks \[s\].
+    pub period: f64,
+    /// The machine that it observes.
+    pub machine: TwoMass,
+    /// The exact step of twist and slip.
+    pub step: ExactStep,
+    /// The cheap step, with its error.
+    pub semi_implicit: SemiImplicitStep,
+    /// Which of the two to take, at [`StepChoice::THRESHOLD`].
+    pub chosen: StepChoice,
+    /// Transition of the state over a tick.
+    pub transition: Matrix<5, 5>,
+    /// The motor torque's effect on the state over a tick \[state/(N m)\].
+    pub input: [f64; 5],
+    /// Filter gain K, correction of each state per radian of innovation.
+    pub gains: [f64; 5],
+    /// Poles of the estimate's error, real and imaginary part.
+    pub poles: [(f64, f64); 5],
+    /// Largest size of a pole.
+    pub spectral_radius: f64,
+    /// Predicted standard deviations.
+    pub standard_deviation: StandardDeviation,
+    /// Predicted standard deviation of the innovation \[rad\].
+    pub innovation: f64,
+    /// Covariance after the measurement.
+    pub posterior: Matrix<5, 5>,
+}
+
+impl TwoMass {
+    /// Designs the observer.
+    ///
+    /// A backlash counts as closed, a weight as part of the load torque.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer) returns.
+    #[must_use]
+    pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> TwoMassDesign {
+        match self.try_observer(rate, encoder, disturbance) {
+            Ok(design) => design,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`observer`](Self::observer), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// A value out of range; [`Error::Unobservable`] without stiffness; [`Error::SampleRate`] where the resonance lies above
+    /// half the rate and more than a tenth of a swing survives a tick (a faster decay leaves nothing to follow);
+    /// [`Error::NotConverged`] or [`Error::NotStabilising`].
+    pub const fn try_observer(
+        &self,
+        rate: Rate,
+        encoder: Encoder,
+        disturbance: Disturbance,
+    ) -> Result<TwoMassDesign, Error> {
+        if let Err(error) = self.check() {
+            return Err(Error::Machine(error));
+        }
+        let period = match rate.period() {
+            Ok(period) => period,
+            Err(error) => return Err(error),
+        };
+        let measurement = match encoder.variance() {
+            Ok(variance) => variance,
+            Err(error) => return Err(error),
+        };
+        let (torque, load) = match (disturbance.torque_variance(), disturbance.load_torque_variance(period)) {
+            (Ok(torque), Ok(load)) => (torque, load),
+            (Err(error), _) | (_, Err(error)) => return Err(error),
+        };
+        if self.stiffness == 0.0 {
+            return Err(Error::Unobservable);
+        }
+        let (w, zeta) = (self.resonance(), self.damping_ratio());
+        if zeta < 1.0 {
+            let turned = w * sqrt((1.0 - zeta) * (1.0 + zeta)) * period;
+            if turned >= core::f64::consts::PI && exp(-zeta * w * period) > SURVIVING_SWING {
+                return Err(Error::SampleRate);
+            }
+        }
+
+        let step = ExactStep::new(self, period);
+        let (transition, input) = transition(self, &step, period);
+        let mut noise = Matrix::ZERO;
+        let mut i = 0;
+        while i < 5 {
+            let mut j = 0;
+            while j < 5 {
+                noise.0[i][j] = input[i] * input[j] * torque;
+                j += 1;
+            }
+            i += 1;
+        }
+        noise.0[4][4] += load;
+        let seen = Matrix([[1.0, 0.0, 0.0, 0.0, 0.0]]);
+        let filter = match Kalman::<5, 1>::design(&transition, &seen, &noise, &Matrix([[measurement]])) {
+            Ok(filter) => filter,
+            Err(error) => return Err(error),
+        };
+
+        let semi_implicit = SemiImplicitStep::new(self, period);
+        let p = &filter.posterior;
+        let torque_row = Matrix([[0.0, self.damping, self.stiffness, -self.damping, 0.0]]);
+        let shaft_torque = torque_row.times(p).times(&torque_row.transpose()).0[0][0];
+        Ok(TwoMassDesign {
+            period,
+            machine: *self,
+            step,
+            semi_implicit,
+            chosen: StepChoice::choose(&semi_implicit, StepChoice::THRESHOLD),
+            transition,
+            input,
+            gains: filter.gain.transpose().0[0],
+            poles: filter.poles,
+            spectral_radius: filter.spectral_radius,
+            standard_deviation: StandardDeviation {
+                motor_angle: sqrt(p.0[0][0]),
+                motor_speed: sqrt(p.0[1][1]),
+                twist: sqrt(p.0[2][2]),
+                shaft_torque: sqrt(shaft_torque),
+                load_speed: sqrt(p.0[3][3]),
+                load_torque: sqrt(p.0[4][4]),
+            },
+            innovation: sqrt(filter.innovation.0[0][0]),
+            posterior: *p,
+        })
+    }
+}
+
+/// Exact transition and input of the five states over a tick.
+const fn transition(machine: &TwoMass, step: &ExactStep, t: f64) -> (Matrix<5, 5>, [f64; 5]) {
+    let (jm, jl, total) = (machine.motor_inertia, machine.load_inertia, machine.total_inertia());
+    let (motor, load) = (jm / total, jl / total);
+    // theta_m = mean angle + (J_l/J) delta; the mean angle moves as one rigid machine.
+    let glide = 0.5 * t * t / total;
+    // The slip's change splits in inverse proportion to the inertias, on top of the mean speed's T (tau_m - tau_L)/J.
+    let transition = Matrix([
+        [1.0, t * motor + load * step.n12, load * step.n11, t * load - load * step.n12, load * step.g1 / jl - glide],
+        [0.0, 1.0 + load * step.n22, load * step.n21, -load * step.n22, -step.lag / total],
+        [0.0, step.n12, 1.0 + step.n11, -step.n12, step.g1 / jl],
+        [0.0, -motor * step.n22, -motor * step.n21, 1.0 + motor * step.n22, -(t + jm / jl * step.g2) / total],
+        [0.0, 0.0, 0.0, 0.0, 1.0],
+    ]);
+    let input = [glide + load * step.g1 / jm, (t + jl / jm * step.g2) / total, step.g1 / jm, step.lag / total, 0.0];
+    (transition, input)
+}

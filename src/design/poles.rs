@@ -1,0 +1,220 @@
+//! Eigenvalues of a small matrix.
+//!
+//! The matrix less one is brought to Hessenberg form and then to triangular form by complex QR steps with Wilkinson's
+//! shift [Golub and Van Loan, Matrix Computations, §7]. Taking one off keeps the digits of slow poles close to 1.
+
+use super::Matrix;
+use crate::scalar::{hypot, sqrt};
+
+/// A complex number: real and imaginary part.
+type Complex = (f64, f64);
+
+const fn plus(a: Complex, b: Complex) -> Complex {
+    (a.0 + b.0, a.1 + b.1)
+}
+const fn minus(a: Complex, b: Complex) -> Complex {
+    (a.0 - b.0, a.1 - b.1)
+}
+const fn times(a: Complex, b: Complex) -> Complex {
+    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
+}
+const fn conjugate(a: Complex) -> Complex {
+    (a.0, -a.1)
+}
+const fn size(a: Complex) -> f64 {
+    hypot(a.0, a.1)
+}
+/// The square root with a real part that is not negative.
+const fn root(a: Complex) -> Complex {
+    let r = size(a);
+    if r == 0.0 {
+        return (0.0, 0.0);
+    }
+    if a.0 >= 0.0 {
+        let re = sqrt(0.5 * (r + a.0));
+        (re, 0.5 * a.1 / re)
+    } else {
+        let im = sqrt(0.5 * (r - a.0));
+        (0.5 * a.1.abs() / im, if a.1 < 0.0 { -im } else { im })
+    }
+}
+
+/// Eigenvalues as pairs of real and imaginary part, in the order of falling real part; conjugates beside each other,
+/// the negative imaginary part first. Not a number where the matrix is not finite.
+#[must_use]
+pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
+    let mut h = hessenberg(&a.plus(-1.0, &Matrix::IDENTITY));
+    let mut values = [(f64::NAN, f64::NAN); N];
+    let mut last = N;
+    let mut tries = 0;
+    while last > 0 {
+        let n = last - 1;
+        // The block that is still joined to its last row.
+        let mut low = n;
+        while low > 0 {
+            let around = size(h[low][low]) + size(h[low - 1][low - 1]);
+            if size(h[low][low - 1]) <= f64::EPSILON * 0.1 * around || size(h[low][low - 1]) < 1e-290 {
+                h[low][low - 1] = (0.0, 0.0);
+                break;
+            }
+            low -= 1;
+        }
+        if low == n {
+            values[n] = h[n][n];
+            last -= 1;
+            tries = 0;
+            continue;
+        }
+        if tries > 200 {
+            return values;
+        }
+        let shift = if tries % 11 == 10 { (size(h[n][n - 1]), size(h[n][n - 1])) } else { wilkinson(&h, n) };
+        qr_step(&mut h, low, n, shift);
+        tries += 1;
+    }
+    // A real matrix has real eigenvalues and conjugate pairs: clear what rounding left.
+    let mut i = 0;
+    while i < N {
+        if values[i].1.abs() <= 1e-14 * size(values[i]) {
+            values[i].1 = 0.0;
+        }
+        values[i].0 += 1.0;
+        let mut j = i;
+        while j > 0 && after(values[j - 1], values[j]) {
+            values.swap(j - 1, j);
+            j -= 1;
+        }
+        i += 1;
+    }
+    values
+}
+
+/// Whether `a` comes after `b`.
+const fn after(a: Complex, b: Complex) -> bool {
+    if (a.0 - b.0).abs() > 1e-12 { a.0 < b.0 } else { a.1 > b.1 }
+}
+
+/// Largest size of a set of poles; not a number where one is not.
+#[must_use]
+pub const fn spectral_radius(poles: &[Complex]) -> f64 {
+    let mut largest = 0.0;
+    let mut i = 0;
+    while i < poles.len() {
+        let size = size(poles[i]);
+        if !(size <= largest) {
+            largest = size;
+        }
+        if size.is_nan() {
+            return size;
+        }
+        i += 1;
+    }
+    largest
+}
+
+/// Hessenberg form by elimination with exchanges, as complex numbers.
+const fn hessenberg<const N: usize>(a: &Matrix<N, N>) -> [[Complex; N]; N] {
+    let mut a = *a;
+    let mut column = 0;
+    while column + 2 < N {
+        let pivot = column + 1;
+        let mut best = pivot;
+        let mut i = pivot + 1;
+        while i < N {
+            if a.0[i][column].abs() > a.0[best][column].abs() {
+                best = i;
+            }
+            i += 1;
+        }
+        a.0.swap(pivot, best);
+        let mut r = 0;
+        while r < N {
+            a.0[r].swap(pivot, best);
+            r += 1;
+        }
+        let mut i = pivot + 1;
+        while i < N && a.0[pivot][column] != 0.0 {
+            let factor = a.0[i][column] / a.0[pivot][column];
+            let mut j = 0;
+            while j < N {
+                a.0[i][j] -= factor * a.0[pivot][j];
+                j += 1;
+            }
+            let mut r = 0;
+            while r < N {
+                a.0[r][pivot] += factor * a.0[r][i];
+                r += 1;
+            }
+            i += 1;
+        }
+        column += 1;
+    }
+    let mut h = [[(0.0, 0.0); N]; N];
+    let mut i = 0;
+    while i < N {
+        let mut j = 0;
+        while j < N {
+            if j + 1 >= i {
+                h[i][j].0 = a.0[i][j];
+            }
+            j += 1;
+        }
+        i += 1;
+    }
+    h
+}
+
+/// The eigenvalue of the last two rows' block that is nearer to its last element.
+const fn wilkinson<const N: usize>(h: &[[Complex; N]; N], n: usize) -> Complex {
+    let (a, b, c, d) = (h[n - 1][n - 1], h[n - 1][n], h[n][n - 1], h[n][n]);
+    let half = minus(a, d);
+    let half = (0.5 * half.0, 0.5 * half.1);
+    let r = root(plus(times(half, half), times(b, c)));
+    let one = plus(plus(d, half), r);
+    let two = minus(plus(d, half), r);
+    if size(minus(one, d)) < size(minus(two, d)) { one } else { two }
+}
+
+/// One QR step with Givens rotations on the rows and columns `low..=n`.
+const fn qr_step<const N: usize>(h: &mut [[Complex; N]; N], low: usize, n: usize, shift: Complex) {
+    let mut turns = [((1.0, 0.0), (0.0, 0.0)); N];
+    let mut i = low;
+    while i <= n {
+        h[i][i] = minus(h[i][i], shift);
+        i += 1;
+    }
+    let mut i = low;
+    while i < n {
+        let (x, y) = (h[i][i], h[i + 1][i]);
+        let length = hypot(size(x), size(y));
+        if length > 0.0 {
+            turns[i] = ((x.0 / length, x.1 / length), (y.0 / length, y.1 / length));
+        }
+        let (c, s) = turns[i];
+        let mut j = i;
+        while j <= n {
+            let (p, q) = (h[i][j], h[i + 1][j]);
+            h[i][j] = plus(times(conjugate(c), p), times(conjugate(s), q));
+            h[i + 1][j] = minus(times(c, q), times(s, p));
+            j += 1;
+        }
+        i += 1;
+    }
+    let mut i = low;
+    while i < n {
+        let (c, s) = turns[i];
+        let mut r = low;
+        while r <= n && r <= i + 1 {
+            let (p, q) = (h[r][i], h[r][i + 1]);
+            h[r][i] = plus(times(p, c), times(q, s));
+            h[r][i + 1] = minus(times(q, conjugate(c)), times(p, conjugate(s)));
+            r += 1;
+        }
+        i += 1;
+    }
+    let mut i = low;
+    while i <= n {
+        h[i][i] = plus(h[i][i], shift);
+        i += 1;
+    }
+}

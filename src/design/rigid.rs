@@ -1,0 +1,97 @@
+//! Observer of a rigid machine from the motor's angle alone.
+//!
+//! The state is `[theta, omega, tau_L]` \[rad, rad/s, N m\], the input the motor's torque.
+
+use super::tuning::{Disturbance, Encoder, Rate};
+use super::{Error, Kalman, Matrix};
+use crate::machine::Rigid;
+use crate::scalar::sqrt;
+
+/// A finished observer of a rigid machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidDesign {
+    /// Time between two ticks \[s\].
+    pub period: f64,
+    /// The machine that it observes.
+    pub machine: Rigid,
+    /// Transition of the state over a tick.
+    pub transition: Matrix<3, 3>,
+    /// The motor torque's effect on the state over a tick \[state/(N m)\].
+    pub input: [f64; 3],
+    /// Filter gain K, correction of each state per radian of innovation.
+    pub gains: [f64; 3],
+    /// Poles of the estimate's error, real and imaginary part.
+    pub poles: [(f64, f64); 3],
+    /// Largest size of a pole.
+    pub spectral_radius: f64,
+    /// Predicted standard deviations of angle \[rad\], speed \[rad/s\] and load torque \[N m\] after the measurement.
+    pub standard_deviation: [f64; 3],
+    /// Predicted standard deviation of the innovation \[rad\].
+    pub innovation: f64,
+}
+
+impl Rigid {
+    /// Designs the observer.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer) returns.
+    #[must_use]
+    pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> RigidDesign {
+        match self.try_observer(rate, encoder, disturbance) {
+            Ok(design) => design,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`observer`](Self::observer), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// A value out of range; [`Error::NotConverged`] or [`Error::NotStabilising`].
+    pub const fn try_observer(
+        &self,
+        rate: Rate,
+        encoder: Encoder,
+        disturbance: Disturbance,
+    ) -> Result<RigidDesign, Error> {
+        if !(self.inertia > 0.0 && self.inertia.is_finite()) {
+            return Err(Error::Machine(crate::machine::Error::MotorInertia));
+        }
+        let t = match rate.period() {
+            Ok(period) => period,
+            Err(error) => return Err(error),
+        };
+        let measurement = match encoder.variance() {
+            Ok(variance) => variance,
+            Err(error) => return Err(error),
+        };
+        let (torque, load) = match (disturbance.torque_variance(), disturbance.load_torque_variance(t)) {
+            (Ok(torque), Ok(load)) => (torque, load),
+            (Err(error), _) | (_, Err(error)) => return Err(error),
+        };
+        let (jump, glide) = (t / self.inertia, 0.5 * t * t / self.inertia);
+        let transition = Matrix([[1.0, t, -glide], [0.0, 1.0, -jump], [0.0, 0.0, 1.0]]);
+        let noise = Matrix([
+            [glide * glide * torque, glide * jump * torque, 0.0],
+            [glide * jump * torque, jump * jump * torque, 0.0],
+            [0.0, 0.0, load],
+        ]);
+        let seen = Matrix([[1.0, 0.0, 0.0]]);
+        match Kalman::<3, 1>::design(&transition, &seen, &noise, &Matrix([[measurement]])) {
+            Ok(filter) => {
+                let p = &filter.posterior.0;
+                Ok(RigidDesign {
+                    period: t,
+                    machine: *self,
+                    transition,
+                    input: [glide, jump, 0.0],
+                    gains: filter.gain.transpose().0[0],
+                    poles: filter.poles,
+                    spectral_radius: filter.spectral_radius,
+                    standard_deviation: [sqrt(p[0][0]), sqrt(p[1][1]), sqrt(p[2][2])],
+                    innovation: sqrt(filter.innovation.0[0][0]),
+                })
+            }
+            Err(error) => Err(error),
+        }
+    }
+}

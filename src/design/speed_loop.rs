@@ -1,0 +1,139 @@
+//! Gains of the speed loop: proportional, integral, and active damping of the shaft by the estimated slip.
+//!
+//! With `tau_m = K_p e + K_i int e - K_v v`, e the error of the motor's speed and v the slip, the closed loop of the undamped
+//! machine is `s^4 + (k_p + k_v) s^3 + (k_i + w_r^2) s^2 + k_p w_a^2 s + k_i w_a^2` with gains per motor
+//! inertia, resonance w_r and antiresonance w_a. Setting it equal to
+//! `(s^2 + 2 z1 w1 s + w1^2)(s^2 + 2 z2 w2 s + w2^2)` fixes all gains and w2 once w1, z1, z2 are chosen:
+//!
+//! - `(1 - b^2) w2^2 + 4 z1 z2 w1 w2 + w1^2 - w_r^2 = 0` with `b = w1/w_a`: one positive root for every b below 1;
+//! - `k_i = b^2 w2^2`, `k_p = 2 w1 w2 (z1 w2 + z2 w1)/w_a^2`, `k_v = 2 z1 w1 + 2 z2 w2 - k_p`.
+//!
+//! Pole placement by the coefficients, after [Zhang and Furusho 2000, IEEE Trans. Ind. Electron. 47(3)], with the slip added.
+
+use super::margins::{Loop, Margins};
+use super::tuning::Rate;
+use super::{Error, ExactStep, Matrix, eigenvalues, spectral_radius};
+use crate::machine::TwoMass;
+use crate::scalar::sqrt;
+
+/// How the speed loop is to behave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpeedLoopTuning {
+    /// Natural frequency of the speed over the antiresonance, above 0 and below 1; from 0.3 to 0.6 in practice.
+    pub bandwidth: f64,
+    /// Damping ratio of the speed.
+    pub damping: f64,
+    /// Damping ratio of the shaft's vibration.
+    pub shaft_damping: f64,
+}
+
+impl SpeedLoopTuning {
+    /// Brisk and well damped: 0.4 of the antiresonance, damping ratios 1 and 0.4.
+    pub const USUAL: Self = Self { bandwidth: 0.4, damping: 1.0, shaft_damping: 0.4 };
+}
+
+/// A finished speed loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpeedLoopDesign {
+    /// Time between two ticks \[s\].
+    pub period: f64,
+    /// Proportional gain \[N m s/rad\] on the error of the motor's speed.
+    pub proportional: f64,
+    /// Integral gain \[N m/rad\].
+    pub integral: f64,
+    /// Gain on the slip (motor speed less load speed) \[N m s/rad\], taken off the torque.
+    pub slip: f64,
+    /// Natural frequency of the speed \[rad/s\].
+    pub bandwidth: f64,
+    /// Natural frequency of the damped shaft \[rad/s\].
+    pub shaft_frequency: f64,
+    /// Margins of the discrete loop, cut at the torque.
+    pub margins: Margins,
+    /// Largest size of a pole of the discrete closed loop.
+    pub spectral_radius: f64,
+}
+
+impl TwoMass {
+    /// Designs the speed loop.
+    ///
+    /// The gains come from the undamped machine in continuous time; margins and poles from the damped machine, sampled, the
+    /// torque acting one tick after its sample, with estimates taken as exact: the observer's own lag comes on top.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_speed_loop`](Self::try_speed_loop) returns.
+    #[must_use]
+    pub const fn speed_loop(&self, rate: Rate, tuning: SpeedLoopTuning) -> SpeedLoopDesign {
+        match self.try_speed_loop(rate, tuning) {
+            Ok(design) => design,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`speed_loop`](Self::speed_loop), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// A value out of range, or [`Error::SpeedLoopUnstable`].
+    pub const fn try_speed_loop(&self, rate: Rate, tuning: SpeedLoopTuning) -> Result<SpeedLoopDesign, Error> {
+        if let Err(error) = self.check() {
+            return Err(Error::Machine(error));
+        }
+        let period = match rate.period() {
+            Ok(period) => period,
+            Err(error) => return Err(error),
+        };
+        let b = tuning.bandwidth;
+        if !(b > 0.0 && b < 1.0 && self.stiffness > 0.0) {
+            return Err(Error::Bandwidth);
+        }
+        let (z1, z2) = (tuning.damping, tuning.shaft_damping);
+        if !(z1 > 0.0 && z1.is_finite() && z2 > 0.0 && z2.is_finite()) {
+            return Err(Error::DampingRatio);
+        }
+        let (wa, wr) = (self.antiresonance(), self.resonance());
+        let w1 = b * wa;
+        // The positive root, without cancellation: c/(half + sqrt(half^2 + a c)).
+        let half = 2.0 * z1 * z2 * w1;
+        let c = (wr - w1) * (wr + w1);
+        let w2 = c / (half + sqrt(half * half + (1.0 - b) * (1.0 + b) * c));
+        let kp = 2.0 * b * (w2 / wa) * (z1 * w2 + z2 * w1);
+        let kv = 2.0 * (z1 * w1 + z2 * w2) - kp;
+        let jm = self.motor_inertia;
+        let (proportional, integral, slip) = (jm * kp, jm * (b * w2) * (b * w2), jm * kv);
+
+        let step = ExactStep::new(self, period);
+        let spectral_radius =
+            spectral_radius(&eigenvalues(&closed_loop(self, &step, period, proportional, integral, slip)));
+        if !(spectral_radius < 1.0) {
+            return Err(Error::SpeedLoopUnstable);
+        }
+        let open = Loop { step, machine: *self, period, proportional, integral, slip };
+        Ok(SpeedLoopDesign {
+            period,
+            proportional,
+            integral,
+            slip,
+            bandwidth: w1,
+            shaft_frequency: w2,
+            margins: open.margins(w1),
+            spectral_radius,
+        })
+    }
+}
+
+/// Closed loop of `[delta w_r, v, mean speed, integral part, torque]`, the last two over the motor's inertia and w_r.
+const fn closed_loop(machine: &TwoMass, step: &ExactStep, t: f64, kp: f64, ki: f64, kv: f64) -> Matrix<5, 5> {
+    let total = machine.total_inertia();
+    let load = machine.load_inertia / total;
+    let w = machine.resonance();
+    let unit = machine.motor_inertia * w;
+    // Motor speed = mean speed + load v; the integral includes the present sample.
+    let (p, i, v) = (kp / unit, ki * t / unit, kv / unit);
+    let whole = p + i;
+    Matrix([
+        [1.0 + step.n11, step.n12 * w, 0.0, 0.0, step.g1 * w * w],
+        [step.n21 / w, 1.0 + step.n22, 0.0, 0.0, step.g2 * w],
+        [0.0, 0.0, 1.0, 0.0, t * unit / total],
+        [0.0, i * load, i, 1.0, 0.0],
+        [0.0, -(whole * load + v), -whole, -1.0, 0.0],
+    ])
+}

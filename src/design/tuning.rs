@@ -1,0 +1,115 @@
+//! What the observer is tuned by: the rate, the encoder, and how hard the machine is disturbed.
+
+use super::Error;
+
+/// Sample rate of the controller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rate(f64);
+
+impl Rate {
+    /// A rate of so many ticks a second.
+    #[must_use]
+    pub const fn hz(rate: u32) -> Self {
+        Self(rate as f64)
+    }
+
+    /// A rate from the time between two ticks \[s\].
+    #[must_use]
+    pub const fn every(period: f64) -> Self {
+        Self(1.0 / period)
+    }
+
+    /// Time between two ticks \[s\].
+    ///
+    /// # Errors
+    /// [`Error::Period`] for a rate that is not positive and finite.
+    pub const fn period(self) -> Result<f64, Error> {
+        if self.0 > 0.0 && self.0.is_finite() && (1.0 / self.0).is_finite() {
+            Ok(1.0 / self.0)
+        } else {
+            Err(Error::Period)
+        }
+    }
+}
+
+/// An incremental encoder on the motor's shaft.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Encoder {
+    counts: u64,
+}
+
+impl Encoder {
+    /// An encoder of so many lines, each read as four counts.
+    #[must_use]
+    pub const fn lines(lines: u32) -> Self {
+        Self { counts: 4 * lines as u64 }
+    }
+
+    /// An encoder or resolver of so many counts a turn.
+    #[must_use]
+    pub const fn counts(counts: u32) -> Self {
+        Self { counts: counts as u64 }
+    }
+
+    /// Angle of one count \[rad\].
+    ///
+    /// # Errors
+    /// [`Error::EncoderLines`] for an encoder of none.
+    pub const fn resolution(self) -> Result<f64, Error> {
+        if self.counts == 0 { Err(Error::EncoderLines) } else { Ok(core::f64::consts::TAU / self.counts as f64) }
+    }
+
+    /// Variance of the measured angle \[rad2\]: that of rounding to a count, `resolution^2/12`.
+    ///
+    /// # Errors
+    /// As [`resolution`](Self::resolution).
+    pub const fn variance(self) -> Result<f64, Error> {
+        match self.resolution() {
+            Ok(angle) => Ok(angle * angle / 12.0),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+/// How the machine is disturbed, in figures that a commissioning engineer has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disturbance {
+    /// Root mean square of the error of the motor's torque in one tick \[N m\], taken as independent from tick to tick.
+    pub torque_accuracy: f64,
+    /// A step of the load torque \[N m\] that the observer is to have followed ...
+    pub load_torque_step: f64,
+    /// ... within this time \[s\].
+    pub within: f64,
+}
+
+impl Disturbance {
+    /// Variance of the motor's torque in a tick \[N2 m2\].
+    ///
+    /// # Errors
+    /// [`Error::TorqueAccuracy`].
+    pub const fn torque_variance(&self) -> Result<f64, Error> {
+        let square = self.torque_accuracy * self.torque_accuracy;
+        if self.torque_accuracy > 0.0 && square.is_finite() { Ok(square) } else { Err(Error::TorqueAccuracy) }
+    }
+
+    /// Variance that the load torque gains in a tick \[N2 m2\]: `step^2 T / within`.
+    ///
+    /// The load torque is modelled as a random walk. Its variance grows in proportion to time, so one that has wandered
+    /// by a root mean square of `load_torque_step` after the time `within` has an intensity of `step^2/within`; a real step
+    /// of that size is then as likely as not, and the filter follows it in about that time.
+    ///
+    /// # Errors
+    /// [`Error::LoadTorqueStep`], [`Error::Within`].
+    pub const fn load_torque_variance(&self, period: f64) -> Result<f64, Error> {
+        let square = self.load_torque_step * self.load_torque_step;
+        if !(self.load_torque_step > 0.0 && square.is_finite()) {
+            return Err(Error::LoadTorqueStep);
+        }
+        let variance = square * period / self.within;
+        if self.within > 0.0 && self.within.is_finite() && variance.is_finite() {
+            Ok(variance)
+        } else {
+            Err(Error::Within)
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! What the machine is: a chain of elements from the motor to the load, described once, as a constant.
+//!
+//! ```
+//! use driveline::machine::{Chain, Damping, Diameter, Efficiency, Falls, Inertia, Mass, Match, Ratio, Stiffness, TwoMass};
+//!
+//! const HOIST: Chain = Chain::motor(Inertia(0.62))
+//!     .shaft(Stiffness(5.0e4), Damping(2.0))
+//!     .rotor(Inertia(0.08))
+//!     .gear(Ratio(31.5), Efficiency(0.94))
+//!     .drum(Diameter(0.8))
+//!     .rope(Falls(2), Stiffness(9.0e5))
+//!     .lifted(Mass(12_000.0));
+//! const TWO: TwoMass = HOIST.reduce(Match::ResonanceAntiresonance);
+//! assert!(TWO.resonance() > TWO.antiresonance());
+//! ```
+//!
+//! Everything is referred to the motor's shaft, keeping the power, the kinetic energy and the strain energy
+//! [Wang 1989 §1-3, Huang 1987 ch. 1, Pfützner 1980 §1.2]. Every function is a `const fn` in `f64`: evaluated by the
+//! compiler or at run time it gives the same bits. A wrong machine is a compile error where the chain is a constant, and
+//! an [`Error`] with the same sentence from the `try_` form of each method.
+//!
+//! | term | meaning | unit |
+//! |---|---|---|
+//! | inertia | moment of inertia, referred to the motor | kg m2 |
+//! | stiffness, damping | of a shaft, referred to the motor | N m/rad, N m s/rad |
+//! | gap | whole free travel of a backlash, at the motor | rad |
+//! | ratio | motor-side speed over load-side speed of a gear | 1 |
+//! | resonance | natural frequency of the free chain | rad/s |
+//! | antiresonance | natural frequency of the chain with the motor held | rad/s |
+//! | residue | square of a mass-normalised mode shape at the motor | 1/(kg m2) |
+
+mod chain;
+mod error;
+mod linear;
+mod modes;
+mod planetary;
+mod quantity;
+mod reduce;
+mod refer;
+mod rigid;
+mod two_mass;
+mod worth;
+
+pub use chain::{CAPACITY, Chain, Shaft};
+pub use error::Error;
+pub use linear::STANDARD_GRAVITY;
+pub use modes::{Mode, Modes};
+pub use planetary::Planetary;
+pub use quantity::{
+    Damping, Diameter, Efficiency, Falls, Gap, Inertia, Length, LinearDamping, Mass, Ratio, Speed, Stiffness, Torque,
+};
+pub use reduce::{Match, ReductionError};
+pub use refer::{Flow, Side, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};
+pub use rigid::Rigid;
+pub use two_mass::TwoMass;
+pub use worth::{Element, Part, Worth};

@@ -1,0 +1,323 @@
+//! A chain of elements, from the motor on, referred to the motor's shaft as it is built.
+
+use super::error::{not_negative, positive};
+use super::refer::{Flow, Side, refer_gap, refer_inertia, refer_stiffness};
+use super::{Damping, Efficiency, Error, Gap, Inertia, Ratio, Stiffness};
+
+/// The most masses that a chain can hold, the motor included.
+pub const CAPACITY: usize = 16;
+
+/// A shaft or rope of a chain, referred to the motor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shaft {
+    /// Stiffness \[N m/rad\].
+    pub stiffness: f64,
+    /// Viscous damping \[N m s/rad\].
+    pub damping: f64,
+    /// Whole free travel of the backlash in series with it \[rad\]; 0 without one.
+    pub gap: f64,
+}
+
+impl Shaft {
+    pub(crate) const NONE: Self = Self { stiffness: 0.0, damping: 0.0, gap: 0.0 };
+}
+
+/// A machine as an ordered chain from the motor, referred to the motor's shaft.
+///
+/// Each element follows the one before it. A [`shaft`](Self::shaft) or [`rope`](Self::rope) opens a new mass, which
+/// stays empty until a rotor, a planetary set or a mass is put on it; two shafts with nothing between them become
+/// one (stiffnesses in series, gaps added, damping by equal loss). A backlash belongs to the shaft before it when nothing lies
+/// between, or else to the next one.
+///
+/// The chain is referred without losses, which is what the observer needs: it keeps energy, and the friction that the
+/// efficiency stands for is constant or slow and ends up in the estimated load torque. Only
+/// [`gravity_torque_hoisting`](Self::gravity_torque_hoisting) and
+/// [`gravity_torque_lowering`](Self::gravity_torque_lowering) use the efficiency, unless the chain begins with
+/// [`starting`](Self::starting) or [`braking`](Self::braking).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chain {
+    pub(super) inertia: [f64; CAPACITY],
+    pub(super) shaft: [Shaft; CAPACITY - 1],
+    pub(super) count: usize,
+    /// Motor turns per turn of the present shaft.
+    pub(super) ratio: f64,
+    /// Travel per motor angle \[m/rad\] once a drum has been passed, 0 before.
+    pub(super) travel: f64,
+    pub(super) efficiency: f64,
+    pub(super) flow: Flow,
+    /// A gap that waits for the next shaft \[rad\].
+    pub(super) gap: f64,
+    /// Weight torque without losses, hoisting and lowering \[N m\].
+    pub(super) gravity: [f64; 3],
+}
+
+impl Chain {
+    /// Begins a chain with the motor's own inertia \[kg m2\].
+    ///
+    /// # Panics
+    /// At compile time in a constant, where the inertia is not positive and finite; so do all methods that have a
+    /// `try_` form, which returns the [`Error`] instead.
+    #[must_use]
+    pub const fn motor(inertia: Inertia) -> Self {
+        match Self::try_motor(inertia) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`motor`](Self::motor), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::MotorInertia`].
+    pub const fn try_motor(inertia: Inertia) -> Result<Self, Error> {
+        if !positive(inertia.0) {
+            return Err(Error::MotorInertia);
+        }
+        let mut masses = [0.0; CAPACITY];
+        masses[0] = inertia.0;
+        Ok(Self {
+            inertia: masses,
+            shaft: [Shaft::NONE; CAPACITY - 1],
+            count: 1,
+            ratio: 1.0,
+            travel: 0.0,
+            efficiency: 1.0,
+            flow: Flow::Lossless,
+            gap: 0.0,
+            gravity: [0.0; 3],
+        })
+    }
+
+    /// Refers what follows with the losses of starting: inertias and stiffnesses over the efficiency [Huang 1987 ch. 1].
+    #[must_use]
+    pub const fn starting(mut self) -> Self {
+        self.flow = Flow::Starting;
+        self
+    }
+
+    /// Refers what follows with the losses of braking: inertias and stiffnesses times the efficiency [Huang 1987 ch. 1].
+    #[must_use]
+    pub const fn braking(mut self) -> Self {
+        self.flow = Flow::Braking;
+        self
+    }
+
+    /// A shaft to the next mass: stiffness \[N m/rad\] and damping \[N m s/rad\] on its own speed.
+    #[must_use]
+    pub const fn shaft(self, stiffness: Stiffness, damping: Damping) -> Self {
+        match self.try_shaft(stiffness, damping) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`shaft`](Self::shaft), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::ShaftStiffness`], [`Error::ShaftDamping`], [`Error::RotaryAfterDrum`], [`Error::TooManyMasses`].
+    pub const fn try_shaft(self, stiffness: Stiffness, damping: Damping) -> Result<Self, Error> {
+        if self.travel != 0.0 {
+            return Err(Error::RotaryAfterDrum);
+        }
+        let referred = refer_stiffness(stiffness.0, self.ratio, self.efficiency, Side::Load, self.flow);
+        if !positive(stiffness.0) || !positive(referred) {
+            return Err(Error::ShaftStiffness);
+        }
+        if !not_negative(damping.0) {
+            return Err(Error::ShaftDamping);
+        }
+        self.link(referred, refer_stiffness(damping.0, self.ratio, self.efficiency, Side::Load, self.flow))
+    }
+
+    /// A rotor on the present mass: inertia \[kg m2\] on its own speed.
+    #[must_use]
+    pub const fn rotor(self, inertia: Inertia) -> Self {
+        match self.try_rotor(inertia) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`rotor`](Self::rotor), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::RotorInertia`], [`Error::RotaryAfterDrum`].
+    pub const fn try_rotor(mut self, inertia: Inertia) -> Result<Self, Error> {
+        if self.travel != 0.0 {
+            return Err(Error::RotaryAfterDrum);
+        }
+        let referred = refer_inertia(inertia.0, self.ratio, self.efficiency, Side::Load, self.flow);
+        if !positive(inertia.0) || !positive(referred) {
+            return Err(Error::RotorInertia);
+        }
+        self.inertia[self.count - 1] += referred;
+        Ok(self)
+    }
+
+    /// A gear: what follows turns `ratio` times slower. Its wheels are rotors before and after it.
+    #[must_use]
+    pub const fn gear(self, ratio: Ratio, efficiency: Efficiency) -> Self {
+        match self.try_gear(ratio, efficiency) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`gear`](Self::gear), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::GearRatio`], [`Error::GearEfficiency`], [`Error::RotaryAfterDrum`].
+    pub const fn try_gear(mut self, ratio: Ratio, efficiency: Efficiency) -> Result<Self, Error> {
+        if self.travel != 0.0 {
+            return Err(Error::RotaryAfterDrum);
+        }
+        if !positive(ratio.0) || !positive(self.ratio * ratio.0) {
+            return Err(Error::GearRatio);
+        }
+        if !(efficiency.0 > 0.0 && efficiency.0 <= 1.0) {
+            return Err(Error::GearEfficiency);
+        }
+        self.ratio *= ratio.0;
+        self.efficiency *= efficiency.0;
+        Ok(self)
+    }
+
+    /// A backlash: the whole free travel \[rad\] on its own speed. Referred to the motor it is `ratio` times as wide.
+    #[must_use]
+    pub const fn backlash(self, gap: Gap) -> Self {
+        match self.try_backlash(gap) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`backlash`](Self::backlash), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::BacklashGap`], [`Error::RotaryAfterDrum`].
+    pub const fn try_backlash(self, gap: Gap) -> Result<Self, Error> {
+        if self.travel != 0.0 {
+            return Err(Error::RotaryAfterDrum);
+        }
+        if !not_negative(gap.0) {
+            return Err(Error::BacklashGap);
+        }
+        Ok(self.slacken(refer_gap(gap.0, self.ratio, Side::Load)))
+    }
+
+    /// Puts a gap \[rad at the motor\] in series with the shaft before it, or keeps it for the next one.
+    pub(super) const fn slacken(mut self, gap: f64) -> Self {
+        if self.count > 1 && self.inertia[self.count - 1] == 0.0 {
+            self.shaft[self.count - 2].gap += gap;
+        } else {
+            self.gap += gap;
+        }
+        self
+    }
+
+    /// Adds a referred shaft: a new mass, or a spring in series where the present mass is empty.
+    pub(super) const fn link(mut self, stiffness: f64, damping: f64) -> Result<Self, Error> {
+        if self.inertia[self.count - 1] == 0.0 {
+            let last = &mut self.shaft[self.count - 2];
+            let joined = super::refer::series(last.stiffness, stiffness);
+            // Both carry one torque: the losses d (tau/k)^2 of each add up.
+            let (a, b) = (joined / last.stiffness, joined / stiffness);
+            last.damping = last.damping * a * a + damping * b * b;
+            last.stiffness = joined;
+            last.gap += self.gap;
+        } else if self.count == CAPACITY {
+            return Err(Error::TooManyMasses);
+        } else {
+            self.shaft[self.count - 1] = Shaft { stiffness, damping, gap: self.gap };
+            self.count += 1;
+        }
+        self.gap = 0.0;
+        Ok(self)
+    }
+
+    /// Referred inertias \[kg m2\], the motor first.
+    #[must_use]
+    pub const fn masses(&self) -> &[f64] {
+        self.inertia.split_at(self.count).0
+    }
+
+    /// Referred shafts and ropes; the one of index `j` joins the masses `j` and `j + 1`.
+    #[must_use]
+    pub const fn shafts(&self) -> &[Shaft] {
+        self.shaft.split_at(self.count - 1).0
+    }
+
+    /// Sum of the referred inertias \[kg m2\].
+    #[must_use]
+    pub const fn total_inertia(&self) -> f64 {
+        let mut sum = 0.0;
+        let mut j = 0;
+        while j < self.count {
+            sum += self.inertia[j];
+            j += 1;
+        }
+        sum
+    }
+
+    /// Sum of the gaps \[rad\], at the motor.
+    #[must_use]
+    pub const fn total_gap(&self) -> f64 {
+        let mut sum = 0.0;
+        let mut j = 0;
+        while j + 1 < self.count {
+            sum += self.shaft[j].gap;
+            j += 1;
+        }
+        sum
+    }
+
+    /// Torque of the lifted weights at the motor \[N m\], without losses; positive where it decelerates hoisting.
+    #[must_use]
+    pub const fn gravity_torque(&self) -> f64 {
+        self.gravity[0]
+    }
+
+    /// Torque of the lifted weights at the motor while it drives them up \[N m\]: over the efficiency.
+    #[must_use]
+    pub const fn gravity_torque_hoisting(&self) -> f64 {
+        self.gravity[1]
+    }
+
+    /// Torque of the lifted weights at the motor while they drive it \[N m\]: times the efficiency.
+    #[must_use]
+    pub const fn gravity_torque_lowering(&self) -> f64 {
+        self.gravity[2]
+    }
+
+    /// Motor turns per turn of the last shaft.
+    #[must_use]
+    pub const fn ratio(&self) -> f64 {
+        self.ratio
+    }
+
+    /// Travel of the load per motor angle \[m/rad\]; 0 without a drum.
+    #[must_use]
+    pub const fn travel_per_angle(&self) -> f64 {
+        self.travel
+    }
+
+    /// Product of the efficiencies.
+    #[must_use]
+    pub const fn efficiency(&self) -> f64 {
+        self.efficiency
+    }
+
+    /// Whether the chain is complete: it ends in a mass, and every backlash has its shaft.
+    ///
+    /// # Errors
+    /// [`Error::OpenEnd`], [`Error::BacklashAlone`].
+    pub const fn check(&self) -> Result<(), Error> {
+        if self.inertia[self.count - 1] == 0.0 {
+            return Err(Error::OpenEnd);
+        }
+        if self.gap != 0.0 {
+            return Err(Error::BacklashAlone);
+        }
+        Ok(())
+    }
+}

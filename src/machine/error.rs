@@ -1,0 +1,75 @@
+//! What can be wrong with the description of a machine.
+
+use core::fmt;
+
+macro_rules! sentences {
+    ($($(#[$doc:meta])* $name:ident => $sentence:literal),* $(,)?) => {
+        /// A parameter of a machine that is out of its range, or elements in an impossible order.
+        ///
+        /// [`Display`](fmt::Display) gives a sentence that names the parameter; the `const` builders stop the
+        /// compilation with the same sentence.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum Error { $(#[doc = $sentence] $name),* }
+
+        impl Error {
+            /// The sentence that names the parameter and the reason.
+            #[must_use]
+            pub const fn message(self) -> &'static str {
+                match self { $(Self::$name => $sentence),* }
+            }
+        }
+    };
+}
+
+sentences! {
+    MotorInertia => "inertia of the motor must be positive and finite (kg m2)",
+    RotorInertia => "inertia of the rotor must be positive and finite (kg m2)",
+    LoadInertia => "inertia of the load must be positive and finite (kg m2)",
+    ShaftStiffness => "stiffness of the shaft must be positive and finite (N m/rad)",
+    ShaftDamping => "damping of the shaft must be zero or positive and finite (N m s/rad)",
+    GearRatio => "ratio of the gear must be positive and finite (speed of the motor's side over the load's)",
+    GearEfficiency => "efficiency of the gear must be above 0 and at most 1",
+    PlanetaryTeeth => "teeth of the planetary set must be above zero, with more on the ring than on the sun",
+    PlanetaryInertia => "inertias and masses of the planetary set must be zero or positive and finite, its module positive",
+    DrumDiameter => "diameter of the drum must be positive and finite (m)",
+    RopeFalls => "falls of the rope must be at least 1",
+    RopeStiffness => "stiffness of the rope must be positive and finite (N/m at the load)",
+    RopeDamping => "damping of the rope must be zero or positive and finite (N s/m at the load)",
+    LoadMass => "mass of the load must be positive and finite (kg)",
+    BacklashGap => "gap of the backlash must be zero or positive and finite (rad on its own shaft, m after a drum)",
+    DrumMissing => "a rope or a mass needs a drum before it",
+    RotaryAfterDrum => "a shaft, rotor, gear, angular backlash or second drum cannot follow a drum",
+    TooManyMasses => "a chain holds at most 16 masses",
+    OpenEnd => "a chain must end in a rotor or a mass, not in a shaft or a rope",
+    BacklashAlone => "a backlash needs a shaft or a rope beside it",
+    Rigid => "a chain without a shaft has no two masses: it is a rigid machine",
+    CutOutOfRange => "the shaft of the textbook cut must be one of the chain's shafts, counted from 0 at the motor",
+    ShaftStiffnessNegative => "stiffness between the two masses must be zero or positive and finite (N m/rad)",
+    GravityTorque => "gravity torque of the load must be finite (N m at the motor)",
+}
+
+impl Error {
+    /// Stops with the sentence: a compile error in a constant.
+    pub(crate) const fn stop(self) -> ! {
+        panic!("{}", self.message())
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.message())
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// `value` is a number above zero.
+pub(crate) const fn positive(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
+}
+
+/// `value` is a number, zero or above.
+pub(crate) const fn not_negative(value: f64) -> bool {
+    value >= 0.0 && value.is_finite()
+}

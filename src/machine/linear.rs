@@ -1,0 +1,172 @@
+//! From the turning drum to the travelling load: drums, ropes, masses.
+//!
+//! With a drum of diameter D behind the gear ratio i and n falls of rope, the load travels `r = D/(2 i n)` per motor
+//! angle. Its inertia is `m r^2`, the rope's stiffness `k r^2`, the weight's torque `m g r` [Huang 1987 ch. 1].
+
+use super::error::{not_negative, positive};
+use super::refer::Flow;
+use super::{Chain, Diameter, Error, Falls, Length, LinearDamping, Mass, Stiffness};
+
+/// Standard acceleration of gravity \[m/s2\].
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+impl Chain {
+    /// A drum (or a pinion on a rack): turning becomes travel. Its own inertia is a rotor before it.
+    #[must_use]
+    pub const fn drum(self, diameter: Diameter) -> Self {
+        match self.try_drum(diameter) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`drum`](Self::drum), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::DrumDiameter`], [`Error::RotaryAfterDrum`].
+    pub const fn try_drum(mut self, diameter: Diameter) -> Result<Self, Error> {
+        if self.travel != 0.0 {
+            return Err(Error::RotaryAfterDrum);
+        }
+        if !positive(diameter.0) || !positive(diameter.0 / (2.0 * self.ratio)) {
+            return Err(Error::DrumDiameter);
+        }
+        self.travel = diameter.0 / (2.0 * self.ratio);
+        Ok(self)
+    }
+
+    /// A rope without damping: falls, and stiffness \[N/m\] at the load.
+    #[must_use]
+    pub const fn rope(self, falls: Falls, stiffness: Stiffness) -> Self {
+        self.damped_rope(falls, stiffness, LinearDamping(0.0))
+    }
+
+    /// [`rope`](Self::rope), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// As [`try_damped_rope`](Self::try_damped_rope).
+    pub const fn try_rope(self, falls: Falls, stiffness: Stiffness) -> Result<Self, Error> {
+        self.try_damped_rope(falls, stiffness, LinearDamping(0.0))
+    }
+
+    /// A rope: falls, stiffness \[N/m\] and damping \[N s/m\] at the load.
+    #[must_use]
+    pub const fn damped_rope(self, falls: Falls, stiffness: Stiffness, damping: LinearDamping) -> Self {
+        match self.try_damped_rope(falls, stiffness, damping) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`damped_rope`](Self::damped_rope), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::DrumMissing`], [`Error::RopeFalls`], [`Error::RopeStiffness`], [`Error::RopeDamping`],
+    /// [`Error::TooManyMasses`].
+    pub const fn try_damped_rope(
+        mut self,
+        falls: Falls,
+        stiffness: Stiffness,
+        damping: LinearDamping,
+    ) -> Result<Self, Error> {
+        if self.travel == 0.0 {
+            return Err(Error::DrumMissing);
+        }
+        if falls.0 == 0 {
+            return Err(Error::RopeFalls);
+        }
+        self.travel /= falls.0 as f64;
+        let referred = self.at_motor(stiffness.0);
+        if !positive(stiffness.0) || !positive(referred) {
+            return Err(Error::RopeStiffness);
+        }
+        if !not_negative(damping.0) {
+            return Err(Error::RopeDamping);
+        }
+        self.link(referred, self.at_motor(damping.0))
+    }
+
+    /// A mass \[kg\] that the drive lifts: its inertia, and its weight as a load torque.
+    #[must_use]
+    pub const fn lifted(self, mass: Mass) -> Self {
+        match self.try_lifted(mass) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`lifted`](Self::lifted), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::LoadMass`], [`Error::DrumMissing`].
+    pub const fn try_lifted(self, mass: Mass) -> Result<Self, Error> {
+        match self.try_driven(mass) {
+            Ok(mut chain) => {
+                let weight = mass.0 * STANDARD_GRAVITY * chain.travel;
+                chain.gravity[0] += weight;
+                chain.gravity[1] += weight / chain.efficiency;
+                chain.gravity[2] += weight * chain.efficiency;
+                Ok(chain)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// A mass \[kg\] that the drive moves on the level: inertia only.
+    #[must_use]
+    pub const fn driven(self, mass: Mass) -> Self {
+        match self.try_driven(mass) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`driven`](Self::driven), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::LoadMass`], [`Error::DrumMissing`].
+    pub const fn try_driven(mut self, mass: Mass) -> Result<Self, Error> {
+        if self.travel == 0.0 {
+            return Err(Error::DrumMissing);
+        }
+        let referred = self.at_motor(mass.0);
+        if !positive(mass.0) || !positive(referred) {
+            return Err(Error::LoadMass);
+        }
+        self.inertia[self.count - 1] += referred;
+        Ok(self)
+    }
+
+    /// Free travel along the load's path \[m\], such as a slack rope: `2 i n x / D` at the motor.
+    #[must_use]
+    pub const fn slack(self, travel: Length) -> Self {
+        match self.try_slack(travel) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`slack`](Self::slack), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::BacklashGap`], [`Error::DrumMissing`].
+    pub const fn try_slack(self, travel: Length) -> Result<Self, Error> {
+        if self.travel == 0.0 {
+            return Err(Error::DrumMissing);
+        }
+        if !not_negative(travel.0) {
+            return Err(Error::BacklashGap);
+        }
+        Ok(self.slacken(travel.0 / self.travel))
+    }
+
+    /// A mass \[kg\], stiffness \[N/m\] or damping \[N s/m\] along the travel, at the motor's shaft.
+    const fn at_motor(&self, linear: f64) -> f64 {
+        let kept = linear * self.travel * self.travel;
+        match self.flow {
+            Flow::Lossless => kept,
+            Flow::Starting => kept / self.efficiency,
+            Flow::Braking => kept * self.efficiency,
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Natural frequencies and mode shapes of a chain, with the motor free and with the motor held.
+//!
+//! With B the incidence matrix (a shaft's twist from the angles), the frequencies are the singular values of
+//! `sqrt(k) B / sqrt(J)`, and the left singular vectors of its transpose over `sqrt(J)` are the mass-normalised mode
+//! shapes. One-sided Jacobi rotations find them without ever forming `inv(J) K`, which loses a third of the lowest
+//! frequency at stiffness ratios of 1e15 [Demmel and Veselić 1992, SIAM J. Matrix Anal. Appl. 13(4)].
+
+use super::chain::{CAPACITY, Chain};
+use crate::scalar::sqrt;
+
+const SHAFTS: usize = CAPACITY - 1;
+
+/// One column for each shaft, one row for each mass.
+type Columns = [[f64; CAPACITY]; SHAFTS];
+
+/// A natural vibration of the free chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode {
+    /// Natural frequency \[rad/s\], undamped.
+    pub frequency: f64,
+    /// Mass-normalised shape, the motor first \[1/sqrt(kg m2)\]; zero beyond the chain's masses.
+    pub shape: [f64; CAPACITY],
+    /// Square of the shape at the motor \[1/(kg m2)\]: what a torque at the motor excites and its angle shows.
+    pub residue: f64,
+    /// Modal damping \[1/s\]: twice the decay rate of the vibration while it is small against the frequency.
+    pub damping: f64,
+}
+
+/// The natural vibrations of a chain in rising order, without the rigid turning at zero frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Modes {
+    mode: [Mode; SHAFTS],
+    antiresonance: [f64; SHAFTS],
+    count: usize,
+}
+
+impl Modes {
+    /// The vibrations, one for each shaft, lowest first.
+    #[must_use]
+    pub const fn resonances(&self) -> &[Mode] {
+        self.mode.split_at(self.count).0
+    }
+
+    /// Natural frequencies with the motor held \[rad/s\], one for each shaft, lowest first.
+    #[must_use]
+    pub const fn antiresonances(&self) -> &[f64] {
+        self.antiresonance.split_at(self.count).0
+    }
+}
+
+impl Chain {
+    /// Natural frequencies and shapes of the free chain, and its antiresonances with the motor held.
+    ///
+    /// Gaps count as closed. Relative error of every frequency below 1e-14 for stiffness and inertia ratios up to 1e15.
+    #[must_use]
+    pub const fn modes(&self) -> Modes {
+        let shafts = self.count - 1;
+        let mut stiffness = [0.0; SHAFTS];
+        let mut j = 0;
+        while j < shafts {
+            stiffness[j] = self.shaft[j].stiffness;
+            j += 1;
+        }
+        let free = singular(scaled_incidence(&self.inertia, &stiffness, shafts, false), shafts);
+        let held = singular(scaled_incidence(&self.inertia, &stiffness, shafts, true), shafts);
+
+        let mut modes = Modes {
+            mode: [Mode { frequency: 0.0, shape: [0.0; CAPACITY], residue: 0.0, damping: 0.0 }; SHAFTS],
+            antiresonance: held.0,
+            count: shafts,
+        };
+        let mut i = 0;
+        while i < shafts {
+            let mode = &mut modes.mode[i];
+            mode.frequency = free.0[i];
+            let mut j = 0;
+            while j <= shafts {
+                mode.shape[j] = free.1[i][j] / (mode.frequency * sqrt(self.inertia[j]));
+                j += 1;
+            }
+            mode.residue = mode.shape[0] * mode.shape[0];
+            let mut j = 0;
+            while j < shafts {
+                let twist = mode.shape[j] - mode.shape[j + 1];
+                mode.damping += self.shaft[j].damping * twist * twist;
+                j += 1;
+            }
+            i += 1;
+        }
+        modes
+    }
+}
+
+/// First resonance and first antiresonance \[rad/s\] of a chain with `shafts` shafts.
+pub(super) const fn lowest(inertia: &[f64; CAPACITY], stiffness: &[f64; SHAFTS], shafts: usize) -> (f64, f64) {
+    let free = singular(scaled_incidence(inertia, stiffness, shafts, false), shafts);
+    let held = singular(scaled_incidence(inertia, stiffness, shafts, true), shafts);
+    (free.0[0], held.0[0])
+}
+
+/// The transpose of `sqrt(k) B / sqrt(J)`, by columns; without the motor's row where it is held.
+const fn scaled_incidence(inertia: &[f64; CAPACITY], stiffness: &[f64; SHAFTS], shafts: usize, held: bool) -> Columns {
+    let mut columns = [[0.0; CAPACITY]; SHAFTS];
+    let mut j = 0;
+    while j < shafts {
+        if !(held && j == 0) {
+            columns[j][j] = sqrt(stiffness[j] / inertia[j]);
+        }
+        columns[j][j + 1] = -sqrt(stiffness[j] / inertia[j + 1]);
+        j += 1;
+    }
+    columns
+}
+
+const fn dot(a: &[f64; CAPACITY], b: &[f64; CAPACITY], rows: usize) -> f64 {
+    let mut sum = 0.0;
+    let mut r = 0;
+    while r < rows {
+        sum += a[r] * b[r];
+        r += 1;
+    }
+    sum
+}
+
+/// Singular values in rising order, and the columns turned orthogonal: each a singular vector times its value.
+const fn singular(mut columns: Columns, shafts: usize) -> ([f64; SHAFTS], Columns) {
+    let rows = shafts + 1;
+    let mut sweep = 0;
+    let mut turned = true;
+    while turned && sweep < 60 {
+        turned = false;
+        let mut p = 0;
+        while p + 1 < shafts {
+            let mut q = p + 1;
+            while q < shafts {
+                if rotate(&mut columns, p, q, rows) {
+                    turned = true;
+                }
+                q += 1;
+            }
+            p += 1;
+        }
+        sweep += 1;
+    }
+    let mut values = [0.0; SHAFTS];
+    let mut i = 0;
+    while i < shafts {
+        values[i] = sqrt(dot(&columns[i], &columns[i], rows));
+        // Insert in order.
+        let mut j = i;
+        while j > 0 && values[j - 1] > values[j] {
+            values.swap(j - 1, j);
+            columns.swap(j - 1, j);
+            j -= 1;
+        }
+        i += 1;
+    }
+    (values, columns)
+}
+
+/// Turns columns p and q orthogonal, the larger one first; false where they already are.
+const fn rotate(columns: &mut Columns, p: usize, q: usize, rows: usize) -> bool {
+    let mut alpha = dot(&columns[p], &columns[p], rows);
+    let mut beta = dot(&columns[q], &columns[q], rows);
+    if alpha < beta {
+        columns.swap(p, q);
+        (alpha, beta) = (beta, alpha);
+    }
+    let gamma = dot(&columns[p], &columns[q], rows);
+    if gamma == 0.0 || gamma.abs() <= 0.5 * f64::EPSILON * sqrt(alpha) * sqrt(beta) {
+        return false;
+    }
+    let zeta = (beta - alpha) / (2.0 * gamma);
+    let tangent = if zeta.abs() > 1e150 {
+        0.5 / zeta
+    } else {
+        let size = 1.0 / (zeta.abs() + sqrt(1.0 + zeta * zeta));
+        if zeta < 0.0 { -size } else { size }
+    };
+    let cosine = 1.0 / sqrt(1.0 + tangent * tangent);
+    let sine = cosine * tangent;
+    let mut r = 0;
+    while r < rows {
+        let (a, b) = (columns[p][r], columns[q][r]);
+        columns[p][r] = cosine * a - sine * b;
+        columns[q][r] = sine * a + cosine * b;
+        r += 1;
+    }
+    true
+}

@@ -1,0 +1,40 @@
+//! Quantities with their units. The number inside is public and in SI units.
+
+macro_rules! quantity {
+    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+        pub struct $name(pub f64);
+    )*};
+}
+
+quantity! {
+    /// Moment of inertia \[kg m2\] on its own shaft.
+    Inertia,
+    /// Stiffness: \[N m/rad\] of a shaft on its own speed, \[N/m\] of a rope at the load.
+    Stiffness,
+    /// Viscous damping of a shaft \[N m s/rad\] on its own speed.
+    Damping,
+    /// Viscous damping of a rope \[N s/m\] along the travel of the load.
+    LinearDamping,
+    /// Ratio of a gear: speed of the motor's side over speed of the load's side, above 0.
+    Ratio,
+    /// Efficiency, above 0 and at most 1.
+    Efficiency,
+    /// Diameter of a drum, pinion or wheel \[m\].
+    Diameter,
+    /// Mass \[kg\].
+    Mass,
+    /// Free travel of a backlash \[rad\] on its own shaft: the whole gap, not half of it.
+    Gap,
+    /// Free travel along a straight line \[m\].
+    Length,
+    /// Torque \[N m\].
+    Torque,
+    /// Angular speed \[rad/s\].
+    Speed,
+}
+
+/// Falls of a rope: how many parts carry the load, at least 1. The load travels `1/falls` of what the drum winds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Falls(pub u32);

@@ -1,0 +1,64 @@
+//! One mass: a machine whose shafts are stiff enough to be left out.
+
+use super::error::positive;
+use super::{Chain, Error, Inertia};
+
+/// A machine that turns as one, referred to the motor: `J omega' = tau_m - tau_L`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rigid {
+    /// Inertia of the whole machine \[kg m2\].
+    pub inertia: f64,
+    /// Torque of the weight at the motor \[N m\], without losses; positive where it decelerates.
+    pub gravity_torque: f64,
+}
+
+impl Rigid {
+    /// A machine of this inertia, without weight.
+    ///
+    /// # Panics
+    /// At compile time in a constant, where the inertia is not positive and finite.
+    #[must_use]
+    pub const fn new(inertia: Inertia) -> Self {
+        match Self::try_new(inertia) {
+            Ok(machine) => machine,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`new`](Self::new), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::MotorInertia`].
+    pub const fn try_new(inertia: Inertia) -> Result<Self, Error> {
+        if positive(inertia.0) {
+            Ok(Self { inertia: inertia.0, gravity_torque: 0.0 })
+        } else {
+            Err(Error::MotorInertia)
+        }
+    }
+}
+
+impl Chain {
+    /// The whole chain as one mass.
+    ///
+    /// # Panics
+    /// At compile time in a constant, where the chain ends in a shaft.
+    #[must_use]
+    pub const fn rigid(&self) -> Rigid {
+        match self.try_rigid() {
+            Ok(machine) => machine,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`rigid`](Self::rigid), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check).
+    pub const fn try_rigid(&self) -> Result<Rigid, Error> {
+        match self.check() {
+            Ok(()) => Ok(Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity_torque() }),
+            Err(error) => Err(error),
+        }
+    }
+}
