@@ -1,1 +1,4 @@
 //! The full solver, the link to QEMU, the report.
+
+pub mod image;
+pub mod link;

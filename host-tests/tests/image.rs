@@ -1,0 +1,111 @@
+//! Images: what is read from them, and that the board counts instructions exactly.
+
+use std::time::Duration;
+
+use driveline_firmware::Visitor;
+use driveline_firmware::board::BOARDS;
+use driveline_firmware::fingerprint;
+use driveline_firmware::scene::Scene;
+use driveline_firmware::selected::{VARIANTS, visit};
+use host_tests::image::{Contents, Cost, Program, build};
+use host_tests::link;
+
+/// A bench or a self-test takes well under a second of QEMU.
+const LIMIT: Duration = Duration::from_secs(60);
+
+struct FingerprintOnHost;
+
+impl Visitor for FingerprintOnHost {
+    type Outcome = u64;
+
+    fn visit<S: Scene>(self) -> u64 {
+        fingerprint::of_run::<S>()
+    }
+}
+
+#[test]
+fn ten_and_a_thousand_nops_count_as_ten_and_a_thousand() {
+    for &board in BOARDS {
+        let image = build(
+            "placeholder/fixed/rigid/10000",
+            board,
+            Program::Bench,
+            |_| {},
+        )
+        .unwrap();
+        let lines = link::run(&image, LIMIT).unwrap();
+        for (name, expected) in [("nops/10", 10), ("nops/1000", 1000)] {
+            let line = lines.iter().find(|line| line["bench"] == name).unwrap();
+            for figure in ["min", "median", "max"] {
+                assert_eq!(
+                    line[figure], expected,
+                    "{figure} of {name} on {}",
+                    board.name
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_self_test_gives_the_hosts_fingerprint() {
+    for &variant in VARIANTS {
+        let expected = format!("{:016x}", visit(variant, FingerprintOnHost).unwrap());
+        for &board in BOARDS {
+            let image = build(variant, board, Program::SelfTest, |_| {}).unwrap();
+            let lines = link::run(&image, LIMIT).unwrap();
+            assert_eq!(lines[0]["self_test"], variant);
+            assert_eq!(
+                lines[0]["fingerprint"], expected,
+                "{variant} on {}",
+                board.name
+            );
+        }
+    }
+}
+
+#[test]
+fn each_variant_keeps_an_image_of_its_own() {
+    let read = |variant| {
+        let image = build(variant, BOARDS[1], Program::ControlLoop, |_| {}).unwrap();
+        (image.path.clone(), Contents::read(&image.path).unwrap())
+    };
+    let (empty_path, empty) = read("empty/f32/none/10000");
+    let (single_path, single) = read("placeholder/f32/rigid/10000");
+    assert_ne!(empty_path, single_path);
+    assert_eq!(Contents::read(&empty_path).unwrap().sizes, empty.sizes);
+    // on a core without an FPU the tick calls software floating point: its code is more than its own function
+    let own = single.symbol("driveline_tick").unwrap().size;
+    assert!(
+        single.tick_code > own + 500,
+        "{} bytes in all, {own} its own",
+        single.tick_code
+    );
+    assert_eq!(
+        empty.tick_code,
+        empty.symbol("driveline_tick").unwrap().size
+    );
+    // what the scene adds to the image is its tick and its start, constants, and little else; alignment makes up the rest
+    let added = single.sizes.flash() - empty.sizes.flash();
+    assert!(
+        added >= single.tick_code - empty.tick_code,
+        "{added} bytes more in the image"
+    );
+    // the drive's state: an angle and a speed
+    assert_eq!(single.sizes.ram() - empty.sizes.ram(), 8);
+}
+
+#[test]
+fn a_cost_is_the_images_and_the_runs() {
+    let cost = Cost::measure("placeholder/fixed/rigid/10000", BOARDS[0], |_| {}).unwrap();
+    let spread = cost.instructions;
+    assert!(
+        0 < spread.min && spread.min <= spread.median && spread.median <= spread.max,
+        "{spread:?}"
+    );
+    assert_eq!(cost.state, 8);
+    assert!(
+        cost.stack >= 8 && cost.sizes.ram() >= 8 && cost.tick_code > 0,
+        "{cost:?}"
+    );
+}
