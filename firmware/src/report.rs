@@ -64,6 +64,7 @@ impl Line {
         self.bytes.get(..self.length).unwrap_or(&[])
     }
 
+    #[inline(never)]
     fn key(&mut self, key: &str) {
         if self.length > 1 {
             self.push(b",");
@@ -73,6 +74,7 @@ impl Line {
         self.push(b"\":");
     }
 
+    #[inline(never)]
     fn push(&mut self, bytes: &[u8]) {
         for &byte in bytes {
             if let Some(place) = self.bytes.get_mut(self.length) {
