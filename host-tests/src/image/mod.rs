@@ -4,6 +4,7 @@ mod build;
 mod calls;
 mod cost;
 mod sections;
+mod self_test;
 
 use std::path::PathBuf;
 
@@ -12,6 +13,7 @@ use driveline_firmware::board::{BOARDS, Facts};
 pub use build::{BuildError, build, links, target_directory, workspace};
 pub use cost::{Cost, Spread};
 pub use sections::{Contents, ReadError, Sizes, Symbol};
+pub use self_test::self_test;
 
 /// The binaries of the firmware.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -80,3 +80,28 @@ impl Pipes {
         Ok(answer)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::ErrorKind;
+    use std::time::{Duration, Instant};
+
+    use super::{LENGTH, Pipes};
+
+    #[test]
+    fn nobody_at_the_other_end_is_an_error_and_not_a_wait() {
+        let directory = tempfile::tempdir().unwrap();
+        let mut pipes = Pipes::make(directory.path()).unwrap();
+        let started = Instant::now();
+        let hangs = pipes
+            .exchange(&[0; LENGTH], Duration::from_millis(250), || true)
+            .unwrap_err();
+        assert_eq!(hangs.kind(), ErrorKind::TimedOut);
+        let died = pipes
+            .exchange(&[0; LENGTH], Duration::from_secs(3600), || false)
+            .unwrap_err();
+        assert_eq!(died.kind(), ErrorKind::BrokenPipe);
+        // three or four looks of 0.1 s each and one more; a loaded machine takes longer, an hour is the other limit
+        assert!(started.elapsed() < Duration::from_secs(60));
+    }
+}
