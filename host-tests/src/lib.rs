@@ -1,1 +1,6 @@
 //! The full solver, the link to QEMU, the report.
+
+pub mod check;
+pub mod image;
+pub mod link;
+pub mod setup;

@@ -1,0 +1,4 @@
+//! The scenes: one file each.
+
+pub mod empty;
+pub mod placeholder;
