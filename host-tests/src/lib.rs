@@ -1,1 +1,3 @@
 //! The full solver, the link to QEMU, the report.
+
+pub mod plant;
