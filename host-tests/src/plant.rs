@@ -28,7 +28,7 @@
 //! - [`modes`] finds natural frequencies, of branched and geared systems too;
 //! - [`converge`] proves a run with another integrator.
 
-//pub mod converge;
+pub mod converge;
 //pub mod modes;
 
 mod chain;
