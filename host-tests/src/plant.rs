@@ -29,7 +29,7 @@
 //! - [`converge`] proves a run with another integrator.
 
 pub mod converge;
-//pub mod modes;
+pub mod modes;
 
 mod chain;
 mod dense;
