@@ -3,4 +3,5 @@
 pub mod check;
 pub mod image;
 pub mod link;
+pub mod plant;
 pub mod setup;
