@@ -111,13 +111,19 @@ where
         command
     }
 
-    /// One tick with the governor held: the estimates go on, the torque command is zero, and the next [`Drive::tick`] starts from
-    /// what the machine does now.
+    /// One tick with the governor held and a constant torque commanded, as against a closed brake: the estimates go on, and the next
+    /// [`Drive::tick`] starts from this torque and the speed that the machine has. A torque that is NaN or
+    /// beyond its limit gives zero and [`Faults::REFERENCE`].
     #[inline(always)]
-    pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
-        let command = self.observe(config, sample);
-        self.governor.start(&config.governor, &command.estimate);
-        self.commanded = N::ZERO;
+    pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>, torque: N) -> Command<N> {
+        let mut command = self.observe(config, sample);
+        if torque.exceeds(config.limits.torque) {
+            command.faults |= Faults::REFERENCE;
+        } else {
+            command.torque = torque;
+        }
+        self.governor.start(&config.governor, &command.estimate, command.torque);
+        self.commanded = command.torque;
         command
     }
 

@@ -19,8 +19,8 @@ pub trait Governor<N: Number>: Default {
     /// The torque for the tick that begins.
     fn command(&mut self, config: &Self::Config, reference: N, estimate: &Estimate<N>) -> N;
 
-    /// Starts anew from what the machine does now, so that the first command is no jolt.
-    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>);
+    /// Starts anew from the speed that the machine has and the torque that it is given now, so that the first command is no jolt.
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N);
 }
 
 /// No governor: the drive observes, and commands no torque.
@@ -32,5 +32,5 @@ impl<N: Number> Governor<N> for () {
         N::ZERO
     }
 
-    fn start(&mut self, _config: &(), _estimate: &Estimate<N>) {}
+    fn start(&mut self, _config: &(), _estimate: &Estimate<N>, _torque: N) {}
 }

@@ -9,6 +9,7 @@ pub mod board;
 pub mod fingerprint;
 pub mod program;
 pub mod report;
+pub mod governed;
 pub mod scene;
 pub mod scenes;
 pub mod selected;

@@ -62,8 +62,8 @@ impl<N: Number> Governor<N> for SpeedLoop<N> {
         torque
     }
 
-    fn start(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>) {
+    fn start(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>, torque: N) {
         self.set_point = estimate.motor_speed;
-        self.integral = estimate.shaft_torque.limited(config.torque_limit);
+        self.integral = torque.limited(config.torque_limit);
     }
 }
