@@ -87,12 +87,10 @@ where
     G: Governor<N>,
     B: Balancer<N>,
 {
-    /// A drive whose machine stands still at `angle` [2^-32 turn].
-    pub fn new(angle: u32) -> Self {
-        let mut observer = O::default();
-        observer.synchronise(angle);
+    /// A drive whose machine stands still at `angle` [2^-32 turn], without torque in its shaft.
+    pub fn new(config: &ConfigOf<N, O, F, G, B>, angle: u32) -> Self {
         Drive {
-            observer,
+            observer: O::at_rest(&config.observer, angle, N::ZERO),
             fluctuation: F::default(),
             governor: G::default(),
             balancer: B::default(),
@@ -111,19 +109,21 @@ where
         command
     }
 
-    /// One tick with the governor held and a constant torque commanded, as against a closed brake: the estimates go on, and the next
-    /// [`Drive::tick`] starts from this torque and the speed that the machine has. A torque that is NaN or
-    /// beyond its limit gives zero and [`Faults::REFERENCE`].
-    #[inline(always)]
-    pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>, torque: N) -> Command<N> {
-        let mut command = self.observe(config, sample);
+    /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken to carry
+    /// it, and the next [`Drive::tick`] starts from there. A torque that is NaN or beyond its limit counts as zero and raises
+    /// [`Faults::REFERENCE`].
+    pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Command<N> {
+        let mut command = Command { torque, ..Command::default() };
         if torque.exceeds(config.limits.torque) {
-            command.faults |= Faults::REFERENCE;
-        } else {
-            command.torque = torque;
+            command.torque = N::ZERO;
+            command.faults = Faults::REFERENCE;
         }
+        self.observer = O::at_rest(&config.observer, angle, command.torque);
+        command.estimate = self.observer.estimate(&config.observer);
         self.governor.start(&config.governor, &command.estimate, command.torque);
         self.commanded = command.torque;
+        self.reference = N::ZERO;
+        self.missed = 0;
         command
     }
 

@@ -32,13 +32,16 @@ use crate::number::Number;
 use crate::sample::Estimate;
 
 /// An estimator of the drivetrain's state, advanced once a tick: predict, then correct or coast.
-pub trait Observer<N: Number>: Default {
+pub trait Observer<N: Number>: Sized {
     /// Its constants, shared and immutable.
     type Config;
     /// The state at the end of a tick as the torque alone would have it.
     type Prediction: Predicted<N>;
 
-    /// Takes the angle as it comes, whatever was predicted: the first tick, and the first after the angle was lost.
+    /// A machine that stands still at `angle`, its shaft carrying `torque`, as after a brake has been closed on it.
+    fn at_rest(config: &Self::Config, angle: u32, torque: N) -> Self;
+
+    /// Takes the angle as it comes, whatever was predicted: the first tick after the angle was lost.
     fn synchronise(&mut self, angle: u32);
 
     /// Predicts the tick that has just ended, in which `torque` was applied and at the end of which `angle` was measured.

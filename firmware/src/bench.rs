@@ -24,12 +24,7 @@ pub struct Bench<'b, B> {
 impl<'b, B: Board> Bench<'b, B> {
     /// A bench on `board` for the image's `variant`, its inputs drawn from `inputs`.
     pub fn new(board: &'b B, variant: &'static str, inputs: Program) -> Self {
-        Bench {
-            board,
-            counter: Counter::new(board),
-            variant,
-            inputs,
-        }
+        Bench { board, counter: Counter::new(board), variant, inputs }
     }
 
     /// Calls `function` with one state and fresh inputs, and prints the least, the middle and the most instructions.
@@ -44,13 +39,9 @@ impl<'b, B: Board> Bench<'b, B> {
         let mut output = O::default();
         let mut counts = [0; CALLS];
         for count in &mut counts {
-            *count = self
-                .counter
-                .call(function, &mut state, &input(&mut inputs), &mut output);
+            *count = self.counter.call(function, &mut state, &input(&mut inputs), &mut output);
         }
-        let least = counts
-            .iter()
-            .fold(u32::MAX, |least, &count| least.min(count));
+        let least = counts.iter().fold(u32::MAX, |least, &count| least.min(count));
         let most = counts.iter().fold(0, |most, &count| most.max(count));
         let mut line = Line::new()
             .text("bench", name)

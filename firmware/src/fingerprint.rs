@@ -21,25 +21,9 @@ impl Fingerprint {
 
     /// Takes in one output; the instructions, which differ between host and target, are left out.
     pub fn add(&mut self, output: &Output) {
-        let Output {
-            torque,
-            motor_speed,
-            shaft_torque,
-            load_speed,
-            load_torque,
-            faults,
-            instructions: _,
-            reserved,
-        } = *output;
-        for word in [
-            torque,
-            motor_speed,
-            shaft_torque,
-            load_speed,
-            load_torque,
-            faults,
-            reserved,
-        ] {
+        let Output { torque, motor_speed, shaft_torque, load_speed, load_torque, faults, instructions: _, reserved } =
+            *output;
+        for word in [torque, motor_speed, shaft_torque, load_speed, load_torque, faults, reserved] {
             self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3);
         }
     }

@@ -37,19 +37,18 @@ impl<V: Variant> Scene for Governed<V> {
 
     fn new() -> Self {
         // An incremental encoder counts from where it was switched on.
-        Governed { config: V::CONFIG, drive: Drive::new(0) }
+        Governed { config: V::CONFIG, drive: Drive::new(V::CONFIG, 0) }
     }
 
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
         let word = V::Number::from_word;
         let reference = word(input.reference);
-        let mut sample = Sample { angle: input.angle, torque: word(input.torque), reference };
         let command = if input.flags & Input::RELEASED != 0 {
+            let sample = Sample { angle: input.angle, torque: word(input.torque), reference };
             self.drive.tick(self.config, &sample)
         } else {
-            sample.reference = V::Number::ZERO;
-            self.drive.hold(self.config, &sample, reference)
+            self.drive.hold(self.config, input.angle, reference)
         };
         Output {
             torque: command.torque.to_word(),

@@ -7,9 +7,9 @@
 
 pub mod board;
 pub mod fingerprint;
+pub mod governed;
 pub mod program;
 pub mod report;
-pub mod governed;
 pub mod scene;
 pub mod scenes;
 pub mod selected;

@@ -25,22 +25,13 @@ impl Program {
     /// A program from `seed` (zero counts as one) whose words are of the given number.
     pub const fn new(seed: u32, words: Words) -> Self {
         let random = if seed == 0 { 1 } else { seed };
-        Program {
-            random,
-            words,
-            tick: 0,
-            angle: 0,
-            speed: 0,
-        }
+        Program { random, words, tick: 0, angle: 0, speed: 0 }
     }
 
     /// The next input.
     pub fn next_input(&mut self) -> Input {
         let walk = self.next_signed() >> 13;
-        self.speed = self
-            .speed
-            .saturating_add(walk)
-            .clamp(-SPEED_LIMIT, SPEED_LIMIT);
+        self.speed = self.speed.saturating_add(walk).clamp(-SPEED_LIMIT, SPEED_LIMIT);
         self.angle = self.angle.wrapping_add(self.speed as u32);
         let released = self.tick & 1023 >= 16;
         self.tick = self.tick.wrapping_add(1);

@@ -48,11 +48,7 @@ impl Line {
         self.push(b"\"");
         for place in (0..16).rev() {
             let digit = (value >> (4 * place)) as u8 & 15;
-            self.push(&[if digit < 10 {
-                b'0' + digit
-            } else {
-                b'a' + digit - 10
-            }]);
+            self.push(&[if digit < 10 { b'0' + digit } else { b'a' + digit - 10 }]);
         }
         self.push(b"\"");
         self
@@ -97,13 +93,8 @@ mod tests {
 
     #[test]
     fn a_line_is_one_json_object() {
-        let mut line = Line::new()
-            .text("name", "tick")
-            .number("zero", 0)
-            .number("most", u32::MAX)
-            .hex("hash", 0x1f);
-        let expected =
-            b"{\"name\":\"tick\",\"zero\":0,\"most\":4294967295,\"hash\":\"000000000000001f\"}\n";
+        let mut line = Line::new().text("name", "tick").number("zero", 0).number("most", u32::MAX).hex("hash", 0x1f);
+        let expected = b"{\"name\":\"tick\",\"zero\":0,\"most\":4294967295,\"hash\":\"000000000000001f\"}\n";
         assert_eq!(line.finish(), expected);
     }
 }

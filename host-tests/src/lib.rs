@@ -4,4 +4,5 @@ pub mod check;
 pub mod image;
 pub mod link;
 pub mod plant;
+pub mod run;
 pub mod setup;

@@ -42,10 +42,7 @@ impl Visitor for Named {
 fn run(variant: &str, board: Facts, inputs: &[(Input, Output)]) -> (Vec<Output>, Summary) {
     let image = build(variant, board, Program::ControlLoop, |_| {}).unwrap();
     let mut link = Link::start(&image).unwrap();
-    let outputs = inputs
-        .iter()
-        .map(|(input, _)| link.exchange(input).unwrap())
-        .collect();
+    let outputs = inputs.iter().map(|(input, _)| link.exchange(input).unwrap()).collect();
     (outputs, link.finish().unwrap())
 }
 
@@ -63,21 +60,11 @@ fn outputs_are_those_of_the_host_bit_for_bit() {
         for &board in BOARDS {
             let (outputs, summary) = run(variant, board, &expected);
             for (tick, (output, (input, expected))) in outputs.iter().zip(&expected).enumerate() {
-                let output = Output {
-                    instructions: 0,
-                    ..*output
-                };
-                assert_eq!(
-                    output, *expected,
-                    "{variant} on {} at tick {tick} for {input:?}",
-                    board.name
-                );
+                let output = Output { instructions: 0, ..*output };
+                assert_eq!(output, *expected, "{variant} on {} at tick {tick} for {input:?}", board.name);
             }
             assert_eq!(summary.ticks, 3000);
-            assert_eq!(
-                (summary.control_loop.as_str(), summary.board.as_str()),
-                (variant, board.name)
-            );
+            assert_eq!((summary.control_loop.as_str(), summary.board.as_str()), (variant, board.name));
         }
     }
 }
@@ -101,11 +88,7 @@ fn a_scene_that_does_nothing_uses_one_frame_and_writes_eight_words() {
         // the frame pointer and the return address: nothing of the loop itself reaches below the measured call
         assert_eq!((summary.stack, summary.state), (8, 0), "on {}", board.name);
         // at most an address, a zero and eight stores
-        assert!(
-            outputs.iter().all(|output| output.instructions <= 12),
-            "{:?}",
-            outputs[0]
-        );
+        assert!(outputs.iter().all(|output| output.instructions <= 12), "{:?}", outputs[0]);
     }
 }
 
@@ -114,8 +97,7 @@ fn two_links_run_at_once() {
     let inputs = visit("placeholder/fixed/rigid/10000", OnHost(3, 2000)).unwrap();
     let alone = run("placeholder/fixed/rigid/10000", BOARDS[0], &inputs);
     thread::scope(|scope| {
-        let both = [0, 1]
-            .map(|_| scope.spawn(|| run("placeholder/fixed/rigid/10000", BOARDS[0], &inputs)));
+        let both = [0, 1].map(|_| scope.spawn(|| run("placeholder/fixed/rigid/10000", BOARDS[0], &inputs)));
         for one in both {
             assert_eq!(one.join().unwrap(), alone);
         }
@@ -124,13 +106,7 @@ fn two_links_run_at_once() {
 
 #[test]
 fn a_link_that_is_dropped_leaves_no_qemu_behind() {
-    let image = build(
-        "empty/f32/none/10000",
-        BOARDS[0],
-        Program::ControlLoop,
-        |_| {},
-    )
-    .unwrap();
+    let image = build("empty/f32/none/10000", BOARDS[0], Program::ControlLoop, |_| {}).unwrap();
     for _ in 0..3 {
         let mut link = Link::start(&image).unwrap();
         link.exchange(&Input::default()).unwrap();
@@ -145,16 +121,8 @@ fn a_link_that_is_dropped_leaves_no_qemu_behind() {
 fn a_qemu_that_dies_is_an_error_that_names_image_and_tick() {
     // the self-test never opens the link: it prints its line and ends
     let image = build("empty/f32/none/10000", BOARDS[0], Program::SelfTest, |_| {}).unwrap();
-    let error = Link::start(&image)
-        .unwrap()
-        .exchange(&Input::default())
-        .unwrap_err()
-        .to_string();
-    for expected in [
-        "self_test of empty/f32/none/10000 on mps2-an386 at tick 0",
-        "QEMU has ended",
-        "fingerprint",
-    ] {
+    let error = Link::start(&image).unwrap().exchange(&Input::default()).unwrap_err().to_string();
+    for expected in ["self_test of empty/f32/none/10000 on mps2-an386 at tick 0", "QEMU has ended", "fingerprint"] {
         assert!(error.contains(expected), "{error}");
     }
 }
@@ -164,22 +132,13 @@ fn a_qemu_that_dies_is_an_error_that_names_image_and_tick() {
 fn rate_of_round_trips() {
     const TICKS: usize = 50_000;
     let inputs = visit("placeholder/f32/rigid/10000", OnHost(5, TICKS)).unwrap();
-    let image = build(
-        "placeholder/f32/rigid/10000",
-        BOARDS[0],
-        Program::ControlLoop,
-        |_| {},
-    )
-    .unwrap();
+    let image = build("placeholder/f32/rigid/10000", BOARDS[0], Program::ControlLoop, |_| {}).unwrap();
     let mut link = Link::start(&image).unwrap();
     link.exchange(&inputs[0].0).unwrap();
     let started = Instant::now();
     for (input, _) in &inputs {
         link.exchange(input).unwrap();
     }
-    println!(
-        "{:.0} round trips a second",
-        TICKS as f64 / started.elapsed().as_secs_f64()
-    );
+    println!("{:.0} round trips a second", TICKS as f64 / started.elapsed().as_secs_f64());
     link.finish().unwrap();
 }

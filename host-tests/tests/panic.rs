@@ -8,18 +8,10 @@ const VARIANT: &str = "empty/f32/none/10000";
 #[test]
 fn the_linker_refuses_a_reachable_panic_by_name() {
     for &board in BOARDS {
-        let Err(BuildError::Cargo { command, output }) =
-            build(VARIANT, board, Program::Panics, |_| {})
-        else {
-            panic!(
-                "an image with a reachable panic was linked for {}",
-                board.name
-            );
+        let Err(BuildError::Cargo { command, output }) = build(VARIANT, board, Program::Panics, |_| {}) else {
+            panic!("an image with a reachable panic was linked for {}", board.name);
         };
-        assert!(
-            output.contains("undefined symbol: panic_is_reachable"),
-            "{command}: {output}"
-        );
+        assert!(output.contains("undefined symbol: panic_is_reachable"), "{command}: {output}");
         assert!(!links(VARIANT, board, Program::Panics).unwrap());
     }
 }

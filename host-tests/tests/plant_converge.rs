@@ -42,23 +42,12 @@ fn a_linear_chain() {
 fn a_chain_with_backlash_and_a_load_program() {
     let chain = Chain::motor(1.2)
         .shaft(Shaft::elastic(850.0).damping(0.4).gap(0.06), 0.35)
-        .program(LoadProgram::table(&[
-            (0.05, 0.0),
-            (0.123456, 110.0),
-            (0.2, -30.0),
-        ]))
+        .program(LoadProgram::table(&[(0.05, 0.0), (0.123456, 110.0), (0.2, -30.0)]))
         .shaft(Shaft::elastic(4000.0).gap(0.01), 0.2)
         .program(LoadProgram::steps(&[(0.1, 20.0), (0.15, 35.0)]))
         .start(Start::Slack);
     let run = run(chain, 3000, 1e-4);
-    assert!(
-        run.plant()
-            .events()
-            .iter()
-            .filter(|e| e.kind == EventKind::Contact)
-            .count()
-            > 10
-    );
+    assert!(run.plant().events().iter().filter(|e| e.kind == EventKind::Contact).count() > 10);
     report("two gaps, load program", &run);
 }
 
@@ -72,10 +61,7 @@ fn a_hoist_with_friction_a_lossy_gear_a_brake_and_a_rope() {
         .shaft(Shaft::rope(900.0).damping(0.5).gap(0.2), 0.35)
         .load(60.0)
         .coulomb(80.0)
-        .motor_law(MotorLaw::Ramp {
-            torque: 30.0,
-            time: 0.15005,
-        })
+        .motor_law(MotorLaw::Ramp { torque: 30.0, time: 0.15005 })
         .start(Start::Slack);
     let mut run = Recording::new(chain.build().unwrap());
     for tick in 0..4000 {
@@ -87,37 +73,21 @@ fn a_hoist_with_friction_a_lossy_gear_a_brake_and_a_rope() {
         }
         run.advance(demand(tick), 1e-4);
     }
-    for kind in [
-        EventKind::Contact,
-        EventKind::Stop,
-        EventKind::Slip,
-        EventKind::MotorLaw,
-    ] {
-        assert!(
-            run.plant().events().iter().any(|e| e.kind == kind),
-            "{kind:?} {:?}",
-            run.plant().events()
-        );
+    for kind in [EventKind::Contact, EventKind::Stop, EventKind::Slip, EventKind::MotorLaw] {
+        assert!(run.plant().events().iter().any(|e| e.kind == kind), "{kind:?} {:?}", run.plant().events());
     }
     report("hoist", &run);
 }
 
 #[test]
 fn a_run_that_no_tick_was_made_of_is_refused() {
-    let plant = Chain::motor(1.0)
-        .shaft(Shaft::elastic(1.0), 1.0)
-        .build()
-        .unwrap();
+    let plant = Chain::motor(1.0).shaft(Shaft::elastic(1.0), 1.0).build().unwrap();
     assert_eq!(prove(&Recording::new(plant)), Err(NotProven::Empty));
 }
 
 #[test]
 fn a_run_with_coarse_events_is_refused() {
-    let mut plant = Chain::motor(1.2)
-        .shaft(Shaft::elastic(850.0).gap(0.06), 0.35)
-        .start(Start::Slack)
-        .build()
-        .unwrap();
+    let mut plant = Chain::motor(1.2).shaft(Shaft::elastic(850.0).gap(0.06), 0.35).start(Start::Slack).build().unwrap();
     // flanks met up to 0.1 ms late: at 4 rad/s that is 4e-4 rad of 0.2 rad
     plant.set_event_tolerance(1e-4);
     let mut run = Recording::new(plant);

@@ -65,9 +65,7 @@ struct Reduction {
 }
 
 fn cases() -> Vec<Case> {
-    serde_json::from_str::<Cases<Case>>(include_str!("data/torsional_modes.json"))
-        .unwrap()
-        .cases
+    serde_json::from_str::<Cases<Case>>(include_str!("data/torsional_modes.json")).unwrap().cases
 }
 
 fn system(case: &Case) -> System {
@@ -87,11 +85,7 @@ fn system(case: &Case) -> System {
 fn largest_error(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let relative = |(f, e): (&f64, &f64)| {
-        if *e == 0.0 {
-            f.abs()
-        } else {
-            (f / e - 1.0).abs()
-        }
+        if *e == 0.0 { f.abs() } else { (f / e - 1.0).abs() }
     };
     found.iter().zip(expected).map(relative).fold(0.0, f64::max)
 }
@@ -103,27 +97,16 @@ fn published_machines_by_eigenvalues_and_by_jacobi() {
         let modes = system.modes().unwrap();
         let eigen = largest_error(&modes.omega, &case.expected_omega_rad_s);
         let jacobi = largest_error(&system.frequencies().unwrap(), &case.expected_omega_rad_s);
-        println!(
-            "{}: relative error {eigen:.1e} by eigenvalues, {jacobi:.1e} by Jacobi",
-            case.id
-        );
+        println!("{}: relative error {eigen:.1e} by eigenvalues, {jacobi:.1e} by Jacobi", case.id);
         // the tolerance of the file; zeros must be exact
-        assert!(
-            eigen <= case.rel_tol && jacobi <= case.rel_tol,
-            "{}",
-            case.id
-        );
+        assert!(eigen <= case.rel_tol && jacobi <= case.rel_tol, "{}", case.id);
         assert_eq!(modes.free_nodes, case.independent_dof_nodes, "{}", case.id);
         let zeros = modes.omega.iter().filter(|omega| **omega == 0.0).count();
         assert_eq!(zeros, case.n_zero_modes, "{}", case.id);
         let drive = modes.shapes[case.n_zero_modes][case.two_mass_reduction.drive_node].abs();
         let expected = case.two_mass_reduction.phi_drive_mass_normalised.abs();
         // a shape is as good as the gap between eigenvalues lets it be: the tolerance of the file again
-        assert!(
-            (drive / expected - 1.0).abs() <= case.rel_tol,
-            "{} {drive} {expected}",
-            case.id
-        );
+        assert!((drive / expected - 1.0).abs() <= case.rel_tol, "{} {drive} {expected}", case.id);
     }
 }
 
@@ -134,34 +117,18 @@ fn geared_chains_as_plain_ones_and_their_frequencies_by_holzer() {
         let system = system(&case);
         let found = system.equivalent_chain(case.two_mass_reduction.drive_node);
         let Some(expected) = &case.equivalent_chain_referred_to_drive else {
-            assert!(
-                matches!(found, Err(SystemError::NotAChain { .. })),
-                "{} {found:?}",
-                case.id
-            );
+            assert!(matches!(found, Err(SystemError::NotAChain { .. })), "{} {found:?}", case.id);
             continue;
         };
         let chain = found.unwrap();
         // products of a few numbers
-        assert!(
-            largest_error(&chain.inertia, &expected.J) <= 1e-14,
-            "{}",
-            case.id
-        );
-        assert!(
-            largest_error(&chain.stiffness, &expected.k) <= 1e-14,
-            "{}",
-            case.id
-        );
+        assert!(largest_error(&chain.inertia, &expected.J) <= 1e-14, "{}", case.id);
+        assert!(largest_error(&chain.stiffness, &expected.k) <= 1e-14, "{}", case.id);
         for &omega in &case.expected_omega_rad_s[case.n_zero_modes..] {
             let (low, high) = (omega * (1.0 - 1e-4), omega * (1.0 + 1e-4));
             let found = holzer::frequency_between(&chain.inertia, &chain.stiffness, low, high);
             let found = found.unwrap_or_else(|| panic!("{} no change of sign at {omega}", case.id));
-            assert!(
-                (found / omega - 1.0).abs() <= case.rel_tol,
-                "{} {found} {omega}",
-                case.id
-            );
+            assert!((found / omega - 1.0).abs() <= case.rel_tol, "{} {found} {omega}", case.id);
             checked += 1;
         }
     }
@@ -180,17 +147,10 @@ fn damped_eigenvalues_of_a_geared_drive_train() {
         assert_eq!(found.len(), expected.len());
         let largest = expected.iter().map(|e| e.0.hypot(e.1)).fold(0.0, f64::max);
         for e in expected {
-            let near = found
-                .iter()
-                .map(|f| (f.0 - e.0).hypot(f.1 - e.1))
-                .fold(f64::INFINITY, f64::min);
+            let near = found.iter().map(|f| (f.0 - e.0).hypot(f.1 - e.1)).fold(f64::INFINITY, f64::min);
             // the file's tolerance, of the eigenvalue itself; the zero of the rigid angle to rounding of the largest
             let size = e.0.hypot(e.1);
-            assert!(
-                near <= case.rel_tol * size + 1e-14 * largest,
-                "{} {e:?} {near:e}",
-                case.id
-            );
+            assert!(near <= case.rel_tol * size + 1e-14 * largest, "{} {e:?} {near:e}", case.id);
             checked += 1;
         }
     }
@@ -211,22 +171,14 @@ struct Extreme {
 fn chains_with_extreme_ratios_keep_every_digit_by_jacobi() {
     let text = include_str!("data/torsional_modes_extreme.json");
     for case in serde_json::from_str::<Cases<Extreme>>(text).unwrap().cases {
-        let numbers = |list: &[String]| {
-            list.iter()
-                .map(|s| s.parse().unwrap())
-                .collect::<Vec<f64>>()
-        };
+        let numbers = |list: &[String]| list.iter().map(|s| s.parse().unwrap()).collect::<Vec<f64>>();
         let mut system = System::new(&numbers(&case.J_kg_m2));
         for (i, k) in numbers(&case.k_Nm_rad).into_iter().enumerate() {
             system = system.shaft(i, i + 1, k, 0.0);
         }
         let error = largest_error(&system.frequencies().unwrap(), &case.expected_omega_rad_s);
         println!("{}: largest relative error {error:.1e}", case.id);
-        assert!(
-            error <= case.rel_tol_high_relative_accuracy_f64,
-            "{} {error:e}",
-            case.id
-        );
+        assert!(error <= case.rel_tol_high_relative_accuracy_f64, "{} {error:e}", case.id);
     }
 }
 
@@ -238,57 +190,28 @@ fn a_spring_to_the_ground_takes_the_rigid_motion_away() {
     assert!((system.modes().unwrap().omega[0] - 5.0).abs() < 1e-14);
     let (re, im) = system.damped_eigenvalues().unwrap()[0];
     // two by two: rounding only
-    assert!(
-        (re + 1.0).abs() < 1e-13 && (im - 24.0_f64.sqrt()).abs() < 1e-13,
-        "{re} {im}"
-    );
+    assert!((re + 1.0).abs() < 1e-13 && (im - 24.0_f64.sqrt()).abs() < 1e-13, "{re} {im}");
 }
 
 #[test]
 fn a_branch_closed_to_a_ring_has_the_frequencies_of_a_ring() {
     // three equal discs in a ring: 0 and twice sqrt(3 k / J) [Pfützner 1980 ch. 1, closed systems]
-    let system = System::new(&[2.0; 3])
-        .shaft(0, 1, 8.0, 0.0)
-        .shaft(1, 2, 8.0, 0.0)
-        .shaft(2, 0, 8.0, 0.0);
+    let system = System::new(&[2.0; 3]).shaft(0, 1, 8.0, 0.0).shaft(1, 2, 8.0, 0.0).shaft(2, 0, 8.0, 0.0);
     let expected = [0.0, 12.0_f64.sqrt(), 12.0_f64.sqrt()];
     // three by three: rounding only
     assert!(largest_error(&system.frequencies().unwrap(), &expected) < 1e-14);
     assert!(largest_error(&system.modes().unwrap().omega, &expected) < 1e-14);
-    assert!(matches!(
-        system.equivalent_chain(0),
-        Err(SystemError::NotAChain { .. })
-    ));
+    assert!(matches!(system.equivalent_chain(0), Err(SystemError::NotAChain { .. })));
 }
 
 #[test]
 fn bad_systems_are_refused_by_name() {
     let says = |system: System| system.modes().unwrap_err().to_string();
-    assert!(
-        says(System::new(&[1.0, -1.0]).shaft(0, 1, 1.0, 0.0)).contains("inertia of node 1 is -1")
-    );
-    assert!(
-        says(System::new(&[1.0, 1.0]).shaft(0, 1, f64::NAN, 0.0))
-            .contains("stiffness of shaft 0 is NaN")
-    );
+    assert!(says(System::new(&[1.0, -1.0]).shaft(0, 1, 1.0, 0.0)).contains("inertia of node 1 is -1"));
+    assert!(says(System::new(&[1.0, 1.0]).shaft(0, 1, f64::NAN, 0.0)).contains("stiffness of shaft 0 is NaN"));
     assert!(says(System::new(&[1.0, 1.0]).shaft(0, 2, 1.0, 0.0)).contains("node 2"));
-    assert!(
-        says(System::new(&[1.0, 1.0]).gear(0, 1, 1.0, 0.0)).contains("gear radius of node 1 is 0")
-    );
-    assert!(
-        says(
-            System::new(&[1.0, 1.0])
-                .gear(0, 1, 1.0, 1.0)
-                .gear(1, 0, 1.0, 1.0)
-        )
-        .contains("more than once")
-    );
-    assert!(
-        says(System::new(&[0.0, 1.0]).shaft(0, 1, 1.0, 0.0))
-            .contains("inertia with what gears tie to it")
-    );
-    assert!(
-        says(System::new(&[1.0, 1.0]).disc_damping(&[1.0]))
-            .contains("disc damping: 1 given, expected 2")
-    );
+    assert!(says(System::new(&[1.0, 1.0]).gear(0, 1, 1.0, 0.0)).contains("gear radius of node 1 is 0"));
+    assert!(says(System::new(&[1.0, 1.0]).gear(0, 1, 1.0, 1.0).gear(1, 0, 1.0, 1.0)).contains("more than once"));
+    assert!(says(System::new(&[0.0, 1.0]).shaft(0, 1, 1.0, 0.0)).contains("inertia with what gears tie to it"));
+    assert!(says(System::new(&[1.0, 1.0]).disc_damping(&[1.0])).contains("disc damping: 1 given, expected 2"));
 }

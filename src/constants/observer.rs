@@ -37,6 +37,7 @@ const fn two_mass(design: &TwoMassDesign, format: &Format) -> TwoMassConfig<f64>
         angle_correction: -angle / format.innovation,
         share: [load_share * (twist_rate / speed) / wide, -motor_share * (twist_rate / speed) / wide],
         shaft: [machine.stiffness * (twist / torque) / wide, machine.damping * (twist_rate / torque) / wide],
+        compliance: torque / (machine.stiffness * twist) / wide,
     }
 }
 
@@ -100,6 +101,7 @@ impl TwoMassConfig<f32> {
             angle_correction: c.angle_correction as f32,
             share: single(c.share),
             shaft: single(c.shaft),
+            compliance: c.compliance as f32,
         }
     }
 }
@@ -119,7 +121,7 @@ impl TwoMassConfig<Fixed> {
     /// [`Error::Coefficient`] where one is beyond the range of fixed point.
     pub const fn try_new(design: &TwoMassDesign, bases: Bases) -> Result<Self, Error> {
         let c = two_mass(design, &Format::fixed(bases));
-        let [acceleration] = get!(fixed([c.acceleration], STEP));
+        let [acceleration, compliance] = get!(fixed([c.acceleration, c.compliance], STEP));
         let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
         Ok(TwoMassConfig {
             forcing: get!(fixed(c.forcing, STEP)),
@@ -131,6 +133,7 @@ impl TwoMassConfig<Fixed> {
             angle_correction,
             share: get!(fixed(c.share, STEP)),
             shaft: get!(fixed(c.shaft, STEP)),
+            compliance,
         })
     }
 }

@@ -63,6 +63,10 @@ impl<N: Number> Observer<N> for Rigid<N> {
     type Config = RigidConfig<N>;
     type Prediction = RigidPrediction<N>;
 
+    fn at_rest(_config: &RigidConfig<N>, angle: u32, torque: N) -> Self {
+        Rigid { load_torque: torque, angle, ..Rigid::default() }
+    }
+
     fn synchronise(&mut self, angle: u32) {
         self.angle = angle;
         self.residual = N::ZERO;

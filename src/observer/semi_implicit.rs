@@ -72,6 +72,10 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
     type Config = SemiImplicitConfig<N>;
     type Prediction = SemiImplicitPrediction<N>;
 
+    fn at_rest(_config: &SemiImplicitConfig<N>, angle: u32, torque: N) -> Self {
+        SemiImplicit { shaft_torque: torque, load_torque: torque, angle, ..SemiImplicit::default() }
+    }
+
     fn synchronise(&mut self, angle: u32) {
         self.angle = angle;
         self.residual = N::ZERO;

@@ -41,6 +41,8 @@ pub struct TwoMassConfig<N: Number> {
     pub share: [N::Coefficient; 2],
     /// Shaft torque from twist and v: stiffness and damping.
     pub shaft: [N::Coefficient; 2],
+    /// Twist from shaft torque at rest: compliance.
+    pub compliance: N::Coefficient,
 }
 
 /// State of the exact two-mass observer.
@@ -81,6 +83,15 @@ impl<N: Number> Predicted<N> for TwoMassPrediction<N> {
 impl<N: Number> Observer<N> for TwoMass<N> {
     type Config = TwoMassConfig<N>;
     type Prediction = TwoMassPrediction<N>;
+
+    fn at_rest(config: &TwoMassConfig<N>, angle: u32, torque: N) -> Self {
+        TwoMass {
+            twist: N::product(&mut { N::CARRY }, config.compliance, torque.widened()),
+            load_torque: torque,
+            angle,
+            ..TwoMass::default()
+        }
+    }
 
     fn synchronise(&mut self, angle: u32) {
         self.angle = angle;

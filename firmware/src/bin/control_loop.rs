@@ -18,9 +18,7 @@ fn main() -> ! {
     static mut DRIVE: MaybeUninit<Selected> = MaybeUninit::uninit();
 
     let board = ThisBoard::start();
-    let Some(link) = board.open_link() else {
-        board.exit(false)
-    };
+    let Some(link) = board.open_link() else { board.exit(false) };
     let counter = Counter::new(&board);
     let drive = DRIVE.write(Selected::new());
     let (mut input, mut output) = (Input::default(), Output::default());

@@ -3,11 +3,7 @@
 use super::Facts;
 
 /// What the host knows of it.
-pub const FACTS: Facts = Facts {
-    name: "mps2-an385",
-    core: "m3",
-    target: "thumbv7m-none-eabi",
-};
+pub const FACTS: Facts = Facts { name: "mps2-an385", core: "m3", target: "thumbv7m-none-eabi" };
 
 /// The board, as QEMU models it.
 #[cfg(all(feature = "target", target_os = "none"))]

@@ -3,11 +3,7 @@
 use super::Facts;
 
 /// What the host knows of it.
-pub const FACTS: Facts = Facts {
-    name: "mps2-an386",
-    core: "m4f",
-    target: "thumbv7em-none-eabihf",
-};
+pub const FACTS: Facts = Facts { name: "mps2-an386", core: "m4f", target: "thumbv7em-none-eabihf" };
 
 /// The board, as QEMU models it.
 #[cfg(all(feature = "target", target_os = "none"))]

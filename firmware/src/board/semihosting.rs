@@ -28,10 +28,7 @@ pub struct Pipes {
 impl Pipes {
     /// Opens both; `None` where the working directory has none.
     pub fn open() -> Option<Self> {
-        Some(Pipes {
-            input: open(c"input", READ)?,
-            output: open(c"output", WRITE)?,
-        })
+        Some(Pipes { input: open(c"input", READ)?, output: open(c"output", WRITE)? })
     }
 }
 
@@ -46,11 +43,7 @@ impl Link for Pipes {
 
     #[inline(always)]
     fn send(&self, output: &Output) -> bool {
-        let arguments = [
-            self.output,
-            output as *const Output as usize,
-            size_of::<Output>(),
-        ];
+        let arguments = [self.output, output as *const Output as usize, size_of::<Output>()];
         // SAFETY: SYS_WRITE reads the given bytes, which `output` has.
         (unsafe { syscall(nr::WRITE, &arguments) }) == 0
     }
@@ -66,11 +59,7 @@ pub fn print(line: &[u8]) {
 
 /// Ends QEMU with exit code 0 or 1.
 pub fn exit(success: bool) -> ! {
-    let reason = if success {
-        APPLICATION_EXIT
-    } else {
-        RUN_TIME_ERROR
-    };
+    let reason = if success { APPLICATION_EXIT } else { RUN_TIME_ERROR };
     loop {
         // SAFETY: SYS_EXIT takes its reason by value on AArch32.
         unsafe { syscall1(SYS_EXIT, reason) };

@@ -25,21 +25,11 @@ impl<'b, B: Board> Counter<'b, B> {
     /// Calls `function` and gives its instructions; what the empty function has too (its frame, its return) is
     /// not counted, nor is passing the three pointers.
     #[inline(always)]
-    pub fn call<S, I, O>(
-        &self,
-        function: Measured<S, I, O>,
-        state: &mut S,
-        input: &I,
-        output: &mut O,
-    ) -> u32 {
+    pub fn call<S, I, O>(&self, function: Measured<S, I, O>, state: &mut S, input: &I, output: &mut O) -> u32 {
         // SAFETY: the same function but for the types behind its pointers, which are thin: the ABI is the same, and
         // it is called with pointers to what it expects, valid during the call.
         let function = unsafe { core::mem::transmute::<Measured<S, I, O>, Erased>(function) };
-        let (state, input, output) = (
-            (&raw mut *state).cast(),
-            (&raw const *input).cast(),
-            (&raw mut *output).cast(),
-        );
+        let (state, input, output) = ((&raw mut *state).cast(), (&raw const *input).cast(), (&raw mut *output).cast());
         let counts = timed(self.board, black_box(function), state, input, output);
         B::instructions(counts).wrapping_sub(self.overhead)
     }
@@ -52,13 +42,7 @@ impl<'b, B: Board> Counter<'b, B> {
 
 /// The one place where a measured call happens: equal instructions round every function.
 #[inline(never)]
-fn timed<B: Board>(
-    board: &B,
-    function: Erased,
-    state: *mut (),
-    input: *const (),
-    output: *mut (),
-) -> u32 {
+fn timed<B: Board>(board: &B, function: Erased, state: *mut (), input: *const (), output: *mut ()) -> u32 {
     super::stack::mark();
     let before = board.count();
     function(state, input, output);

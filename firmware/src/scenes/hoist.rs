@@ -5,9 +5,7 @@
 //! motor, 0.6 kg m2; 13 m of two-fall 20 mm rope, about 0.9 MN/m at the load); they are not those of one machine.
 
 use driveline::constants::{Bases, Screening, SpeedLoopSettings};
-use driveline::design::{
-    Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, StepChoice, TwoMassDesign,
-};
+use driveline::design::{Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
 use driveline::drive::{Config, Limits};
 use driveline::governor::SpeedLoopConfig;
 use driveline::machine::{
@@ -24,7 +22,7 @@ pub const CHAIN: Chain = Chain::motor(Inertia(0.62))
     .rotor(Inertia(0.08))
     .gear(Ratio(31.5), Efficiency(0.94))
     .drum(Diameter(0.8))
-    .damped_rope(Falls(2), Stiffness(9.0e5), LinearDamping(2.0e3))
+    .damped_rope(Falls(2), Stiffness(2.9e6), LinearDamping(3.6e3))
     .lifted(Mass(12_000.0));
 
 /// Rated speed of the motor [rad/s], 1480 r/min.

@@ -68,10 +68,8 @@ type Tables = BTreeMap<Spanned<String>, BTreeMap<Spanned<String>, Budget>>;
 impl Budgets {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self, BudgetError> {
-        let text = fs::read_to_string(path).map_err(|error| BudgetError::File {
-            path: path.display().to_string(),
-            error: error.to_string(),
-        })?;
+        let text = fs::read_to_string(path)
+            .map_err(|error| BudgetError::File { path: path.display().to_string(), error: error.to_string() })?;
         Budgets::parse(&text)
     }
 
@@ -81,11 +79,7 @@ impl Budgets {
             let at = error.span().map_or(0, |span| span.start);
             let written = line_at(text, at).1;
             let key = written.split('=').next().unwrap_or(written).trim();
-            BudgetError::Line {
-                line: line_at(text, at).0,
-                key: key.into(),
-                message: error.message().into(),
-            }
+            BudgetError::Line { line: line_at(text, at).0, key: key.into(), message: error.message().into() }
         })?;
         let unknown = |key: &Spanned<String>, what: &str, names: Vec<&str>| BudgetError::Line {
             line: line_at(text, key.span().start).0,
@@ -99,11 +93,7 @@ impl Budgets {
             }
             for (core, budget) in cores {
                 if !BOARDS.iter().any(|board| board.core == core.get_ref()) {
-                    return Err(unknown(
-                        &core,
-                        "core",
-                        BOARDS.iter().map(|board| board.core).collect(),
-                    ));
+                    return Err(unknown(&core, "core", BOARDS.iter().map(|board| board.core).collect()));
                 }
                 budgets.insert((variant.get_ref().clone(), core.into_inner()), budget);
             }
@@ -146,23 +136,17 @@ mod tests {
 
     #[test]
     fn figures_are_read_and_may_be_left_out() {
-        let text =
-            format!("[\"{VARIANT}\"]\nm4f = {{ instructions = {{ max = 12 }}, flash = 900 }}\n");
+        let text = format!("[\"{VARIANT}\"]\nm4f = {{ instructions = {{ max = 12 }}, flash = 900 }}\n");
         let budgets = Budgets::parse(&text).unwrap();
         let budget = budgets.of(VARIANT, "m4f").unwrap();
-        assert_eq!(
-            (budget.instructions.max, budget.instructions.min),
-            (Some(12), None)
-        );
+        assert_eq!((budget.instructions.max, budget.instructions.min), (Some(12), None));
         assert_eq!((budget.flash, budget.ram), (Some(900), None));
         assert_eq!(budgets.of(VARIANT, "m3"), None);
     }
 
     #[test]
     fn an_error_names_its_line_and_key() {
-        let (line, key, message) = fails(&format!(
-            "# budgets\n[\"{VARIANT}\".m4f]\nflash = 900\nramm = 1\n"
-        ));
+        let (line, key, message) = fails(&format!("# budgets\n[\"{VARIANT}\".m4f]\nflash = 900\nramm = 1\n"));
         assert_eq!((line, key.as_str()), (4, "ramm"));
         assert!(message.contains("expected one of"), "{message}");
         let (line, key, _) = fails(&format!("[\"{VARIANT}\".m4f]\n\nflash = -5\n"));
@@ -177,9 +161,6 @@ mod tests {
         assert_eq!((line, key.as_str()), (2, "hoist/f32"));
         assert!(message.contains(VARIANT), "{message}");
         let (line, key, message) = fails(&format!("[\"{VARIANT}\"]\nm5 = {{ flash = 1 }}\n"));
-        assert_eq!(
-            (line, key.as_str(), message.as_str()),
-            (2, "m5", "no such core, expected one of m4f, m3")
-        );
+        assert_eq!((line, key.as_str(), message.as_str()), (2, "m5", "no such core, expected one of m4f, m3"));
     }
 }

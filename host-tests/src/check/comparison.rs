@@ -45,44 +45,24 @@ impl Comparison {
         let row = |(variant, core, cost): &(String, &'static str, Cost)| {
             let budget = budgets.of(variant, core);
             let figures = figures(cost, &budget.copied().unwrap_or_default());
-            Row {
-                variant: variant.clone(),
-                core,
-                has_budget: budget.is_some(),
-                figures,
-            }
+            Row { variant: variant.clone(), core, has_budget: budget.is_some(), figures }
         };
-        Comparison {
-            rows: costs.iter().map(row).collect(),
-        }
+        Comparison { rows: costs.iter().map(row).collect() }
     }
 
     /// What is over its budget, by name, or has none.
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
-        for Row {
-            variant,
-            core,
-            has_budget,
-            figures,
-        } in &self.rows
-        {
+        for Row { variant, core, has_budget, figures } in &self.rows {
             if !has_budget {
                 faults.push(format!(
                     "{variant} on {core} has no budget; for budgets.toml:\n{}",
                     proposal(variant, core, figures)
                 ));
             }
-            for Figure {
-                name,
-                measured,
-                budget,
-            } in figures.iter().filter(|figure| figure.is_over())
-            {
+            for Figure { name, measured, budget } in figures.iter().filter(|figure| figure.is_over()) {
                 let budget = budget.unwrap_or_default();
-                faults.push(format!(
-                    "{variant} on {core}: {name} is {measured}, budget {budget}"
-                ));
+                faults.push(format!("{variant} on {core}: {name} is {measured}, budget {budget}"));
             }
         }
         faults
@@ -92,27 +72,14 @@ impl Comparison {
     pub fn count(&self) -> Result<Count, (Count, String)> {
         let faults = self.faults();
         let figures = self.rows.iter().flat_map(|row| &row.figures);
-        let passed = figures
-            .filter(|figure| figure.budget.is_some() && !figure.is_over())
-            .count() as u64;
-        let count = Count {
-            passed,
-            failed: faults.len() as u64,
-        };
-        if faults.is_empty() {
-            Ok(count)
-        } else {
-            Err((count, faults.join("\n")))
-        }
+        let passed = figures.filter(|figure| figure.budget.is_some() && !figure.is_over()).count() as u64;
+        let count = Count { passed, failed: faults.len() as u64 };
+        if faults.is_empty() { Ok(count) } else { Err((count, faults.join("\n"))) }
     }
 }
 
 fn figures(cost: &Cost, budget: &Budget) -> [Figure; 6] {
-    let figure = |name, measured, budget| Figure {
-        name,
-        measured,
-        budget,
-    };
+    let figure = |name, measured, budget| Figure { name, measured, budget };
     let (spread, limits) = (cost.instructions, budget.instructions);
     [
         figure("instructions.min", spread.min.into(), limits.min),
@@ -126,21 +93,13 @@ fn figures(cost: &Cost, budget: &Budget) -> [Figure; 6] {
 
 /// The lines that would make today's figures the budget.
 fn proposal(variant: &str, core: &str, figures: &[Figure; 6]) -> String {
-    let lines = figures
-        .iter()
-        .map(|figure| format!("{} = {}\n", figure.name, figure.measured));
+    let lines = figures.iter().map(|figure| format!("{} = {}\n", figure.name, figure.measured));
     format!("[\"{variant}\".{core}]\n{}", lines.collect::<String>())
 }
 
 impl Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let width = self
-            .rows
-            .iter()
-            .map(|row| row.variant.len())
-            .max()
-            .unwrap_or(0)
-            .max(7);
+        let width = self.rows.iter().map(|row| row.variant.len()).max().unwrap_or(0).max(7);
         write!(f, "{:width$}  core", "variant")?;
         for name in ["min", "median", "max", "flash", "ram", "stack"] {
             write!(f, "  {name:>13}")?;
@@ -173,43 +132,25 @@ mod tests {
 
     fn comparison(budgets: &str) -> Comparison {
         let cost = Cost {
-            instructions: Spread {
-                min: 5,
-                median: 6,
-                max: 7,
-            },
-            sizes: Sizes {
-                text: 700,
-                constants: 200,
-                data: 4,
-                zeroed: 8,
-            },
+            instructions: Spread { min: 5, median: 6, max: 7 },
+            sizes: Sizes { text: 700, constants: 200, data: 4, zeroed: 8 },
             tick_code: 20,
             state: 8,
             stack: 16,
         };
-        Comparison::of(
-            &Budgets::parse(budgets).unwrap(),
-            &[(VARIANT.into(), "m3", cost)],
-        )
+        Comparison::of(&Budgets::parse(budgets).unwrap(), &[(VARIANT.into(), "m3", cost)])
     }
 
     #[test]
     fn a_figure_at_its_budget_passes_and_one_more_is_named() {
-        let within = comparison(&format!(
-            "[\"{VARIANT}\".m3]\ninstructions.max = 7\nflash = 904\nram = 12\n"
-        ));
+        let within = comparison(&format!("[\"{VARIANT}\".m3]\ninstructions.max = 7\nflash = 904\nram = 12\n"));
         assert_eq!(within.count().map(|count| count.passed), Ok(3));
-        let over = comparison(&format!(
-            "[\"{VARIANT}\".m3]\ninstructions.max = 6\nflash = 904\nstack = 15\n"
-        ));
+        let over = comparison(&format!("[\"{VARIANT}\".m3]\ninstructions.max = 6\nflash = 904\nstack = 15\n"));
         let (count, message) = over.count().unwrap_err();
         assert_eq!((count.passed, count.failed), (1, 2));
         assert_eq!(
             message,
-            format!(
-                "{VARIANT} on m3: instructions.max is 7, budget 6\n{VARIANT} on m3: stack is 16, budget 15"
-            )
+            format!("{VARIANT} on m3: instructions.max is 7, budget 6\n{VARIANT} on m3: stack is 16, budget 15")
         );
         assert!(over.to_string().contains("7/6!"), "{over}");
     }

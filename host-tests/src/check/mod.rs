@@ -83,13 +83,7 @@ struct Failed {
 impl Failed {
     /// Of a step that is one check.
     fn whole(message: impl ToString) -> Self {
-        Failed {
-            count: Count {
-                passed: 0,
-                failed: 1,
-            },
-            message: message.to_string(),
-        }
+        Failed { count: Count { passed: 0, failed: 1 }, message: message.to_string() }
     }
 }
 
@@ -101,11 +95,7 @@ struct Voice {
 impl Voice {
     fn say(&self, line: &str) {
         // a reader that has gone away is no reason to stop checking
-        let _ = if self.json {
-            writeln!(std::io::stderr(), "{line}")
-        } else {
-            writeln!(std::io::stdout(), "{line}")
-        };
+        let _ = if self.json { writeln!(std::io::stderr(), "{line}") } else { writeln!(std::io::stdout(), "{line}") };
     }
 }
 
@@ -124,11 +114,7 @@ pub fn run(options: &Options) -> Result<Vec<Done>, CheckError> {
         all.push(done);
         if let Some(message) = error {
             close(&all, &voice);
-            return Err(CheckError::Step {
-                step: step.name,
-                message,
-                repeat: step.repeat.into(),
-            });
+            return Err(CheckError::Step { step: step.name, message, repeat: step.repeat.into() });
         }
     }
     close(&all, &voice);
@@ -146,17 +132,8 @@ fn once(step: &Step, voice: &Voice) -> Done {
     };
     let verdict = if error.is_none() { "ok" } else { "FAILED" };
     let time = Duration::from_secs_f64(seconds);
-    voice.say(&format!(
-        "== {}: {verdict}, {} passed, {time:.1?}",
-        step.name, count.passed
-    ));
-    let done = Done {
-        step: step.name,
-        count,
-        seconds,
-        error,
-        repeat: step.repeat.into(),
-    };
+    voice.say(&format!("== {}: {verdict}, {} passed, {time:.1?}", step.name, count.passed));
+    let done = Done { step: step.name, count, seconds, error, repeat: step.repeat.into() };
     if voice.json {
         println!("{}", serde_json::to_string(&done).unwrap_or_default());
     }
@@ -168,10 +145,7 @@ fn close(all: &[Done], voice: &Voice) {
     let passed: u64 = all.iter().map(|done| done.count.passed).sum();
     let failed: u64 = all.iter().map(|done| done.count.failed).sum();
     if voice.json {
-        println!(
-            "{}",
-            serde_json::json!({ "passed": passed, "failed": failed })
-        );
+        println!("{}", serde_json::json!({ "passed": passed, "failed": failed }));
     } else {
         println!("{passed} passed, {failed} failed");
     }

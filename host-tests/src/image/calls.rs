@@ -14,12 +14,7 @@ use super::Symbol;
 /// The function of that name and all that it reaches, each once; empty where there is none of that name.
 pub fn reached<'s>(file: &ElfFile32<'_>, symbols: &'s [Symbol], name: &str) -> Vec<&'s Symbol> {
     let functions: Vec<_> = symbols.iter().filter(|symbol| symbol.is_function).collect();
-    let mut found: Vec<_> = functions
-        .iter()
-        .copied()
-        .find(|symbol| symbol.name == name)
-        .into_iter()
-        .collect();
+    let mut found: Vec<_> = functions.iter().copied().find(|symbol| symbol.name == name).into_iter().collect();
     let mut seen: BTreeSet<_> = found.iter().map(|symbol| symbol.address).collect();
     let mut next = 0;
     while let Some(&function) = found.get(next) {
@@ -42,10 +37,7 @@ fn branches(file: &ElfFile32<'_>, function: &Symbol) -> Vec<u64> {
     let mut at = function.address;
     let end = function.address + function.size;
     while at < end {
-        if let Some(&(_, after)) = constants
-            .iter()
-            .find(|&&(start, after)| (start..after).contains(&at))
-        {
+        if let Some(&(_, after)) = constants.iter().find(|&&(start, after)| (start..after).contains(&at)) {
             at = after;
             continue;
         }
@@ -86,9 +78,7 @@ fn offset(at: u64, unsigned: i64, bits: u32) -> u64 {
 }
 
 fn halfword(file: &ElfFile32<'_>, address: u64) -> Option<u16> {
-    let section = file
-        .sections()
-        .find(|s| (s.address()..s.address() + s.size()).contains(&address))?;
+    let section = file.sections().find(|s| (s.address()..s.address() + s.size()).contains(&address))?;
     let bytes = section.data_range(address, 2).ok()??;
     Some(u16::from_le_bytes([bytes[0], bytes[1]]))
 }
@@ -107,15 +97,6 @@ fn constants(file: &ElfFile32<'_>, function: &Symbol) -> Vec<(u64, u64)> {
         .collect();
     marks.sort_unstable();
     marks.dedup();
-    let ends = marks
-        .iter()
-        .skip(1)
-        .map(|&(address, _)| address)
-        .chain([end]);
-    marks
-        .iter()
-        .zip(ends)
-        .filter(|((_, is_data), _)| *is_data)
-        .map(|(&(start, _), end)| (start, end))
-        .collect()
+    let ends = marks.iter().skip(1).map(|&(address, _)| address).chain([end]);
+    marks.iter().zip(ends).filter(|((_, is_data), _)| *is_data).map(|(&(start, _), end)| (start, end)).collect()
 }

@@ -30,11 +30,7 @@ impl Spread {
         numbers.sort_unstable();
         let at = |index: usize| numbers.get(index).copied().unwrap_or(0);
         let last = numbers.len().saturating_sub(1);
-        Spread {
-            min: at(0),
-            median: at(last / 2),
-            max: at(last),
-        }
+        Spread { min: at(0), median: at(last / 2), max: at(last) }
     }
 }
 
@@ -58,19 +54,15 @@ impl Cost {
     const TICKS: usize = 4096;
 
     /// Builds the control loop of `variant` for `board` and runs it.
-    pub fn measure(
-        variant: &str,
-        board: Facts,
-        progress: impl FnMut(&str),
-    ) -> Result<Self, Box<dyn Error>> {
+    pub fn measure(variant: &str, board: Facts, progress: impl FnMut(&str)) -> Result<Self, Box<dyn Error>> {
         let image = build(variant, board, Program::ControlLoop, progress)?;
         Cost::of(&image)
     }
 
     /// Runs the image of a control loop in open loop.
     pub fn of(image: &Image) -> Result<Self, Box<dyn Error>> {
-        let words = visit(&image.variant, WordsOf)
-            .ok_or_else(|| format!("no variant is called `{}`", image.variant))?;
+        let words =
+            visit(&image.variant, WordsOf).ok_or_else(|| format!("no variant is called `{}`", image.variant))?;
         let mut inputs = Inputs::new(SEED, words);
         let mut link = Link::start(image)?;
         let mut instructions = Vec::with_capacity(Cost::TICKS);
@@ -78,17 +70,9 @@ impl Cost {
             instructions.push(link.exchange(&inputs.next_input())?.instructions);
         }
         let summary = link.finish()?;
-        let Contents {
-            sizes, tick_code, ..
-        } = Contents::read(&image.path)?;
+        let Contents { sizes, tick_code, .. } = Contents::read(&image.path)?;
         let instructions = Spread::of(instructions);
-        Ok(Cost {
-            instructions,
-            sizes,
-            tick_code,
-            state: summary.state,
-            stack: summary.stack,
-        })
+        Ok(Cost { instructions, sizes, tick_code, state: summary.state, stack: summary.stack })
     }
 }
 

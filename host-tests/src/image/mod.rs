@@ -63,8 +63,5 @@ pub struct Image {
 
 /// The board with a core (`m4f`), or of that name (`mps2-an386`).
 pub fn board(name: &str) -> Option<Facts> {
-    BOARDS
-        .iter()
-        .copied()
-        .find(|board| board.core == name || board.name == name)
+    BOARDS.iter().copied().find(|board| board.core == name || board.name == name)
 }

@@ -83,24 +83,12 @@ pub struct Contents {
 impl Contents {
     /// Reads an image.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
-        let bytes = fs::read(path).map_err(|error| ReadError::File {
-            path: path.into(),
-            error,
-        })?;
-        let file = ElfFile32::<Endianness>::parse(&*bytes).map_err(|error| ReadError::Format {
-            path: path.into(),
-            error,
-        })?;
+        let bytes = fs::read(path).map_err(|error| ReadError::File { path: path.into(), error })?;
+        let file =
+            ElfFile32::<Endianness>::parse(&*bytes).map_err(|error| ReadError::Format { path: path.into(), error })?;
         let symbols = symbols(&file);
-        let tick_code = calls::reached(&file, &symbols, "driveline_tick")
-            .iter()
-            .map(|symbol| symbol.size)
-            .sum();
-        Ok(Contents {
-            sizes: sizes(&file),
-            symbols,
-            tick_code,
-        })
+        let tick_code = calls::reached(&file, &symbols, "driveline_tick").iter().map(|symbol| symbol.size).sum();
+        Ok(Contents { sizes: sizes(&file), symbols, tick_code })
     }
 
     /// The symbol of that name.
@@ -133,22 +121,11 @@ fn sizes(file: &ElfFile32<'_>) -> Sizes {
 fn symbols(file: &ElfFile32<'_>) -> Vec<Symbol> {
     let mut symbols: Vec<_> = file
         .symbols()
-        .filter(|symbol| {
-            matches!(symbol.kind(), SymbolKind::Text | SymbolKind::Data) && symbol.size() > 0
-        })
+        .filter(|symbol| matches!(symbol.kind(), SymbolKind::Text | SymbolKind::Data) && symbol.size() > 0)
         .filter_map(|symbol| {
             let is_function = symbol.kind() == SymbolKind::Text;
-            let address = if is_function {
-                symbol.address() & !1
-            } else {
-                symbol.address()
-            };
-            Some(Symbol {
-                name: symbol.name().ok()?.into(),
-                address,
-                size: symbol.size(),
-                is_function,
-            })
+            let address = if is_function { symbol.address() & !1 } else { symbol.address() };
+            Some(Symbol { name: symbol.name().ok()?.into(), address, size: symbol.size(), is_function })
         })
         .collect();
     symbols.sort_by(|a, b| (a.address, &a.name).cmp(&(b.address, &b.name)));

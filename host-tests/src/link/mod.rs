@@ -62,19 +62,12 @@ impl Link {
         let directory = tempfile::Builder::new().prefix("driveline-").tempdir()?;
         let pipes = Pipes::make(directory.path())?;
         let qemu = Qemu::start(image, directory)?;
-        Ok(Link {
-            qemu,
-            pipes,
-            ticks: 0,
-            _pinned: pinned,
-        })
+        Ok(Link { qemu, pipes, ticks: 0, _pinned: pinned })
     }
 
     /// One tick.
     pub fn exchange(&mut self, input: &Input) -> io::Result<Output> {
-        let Link {
-            qemu, pipes, ticks, ..
-        } = self;
+        let Link { qemu, pipes, ticks, .. } = self;
         let answer = pipes
             .exchange(&words::of_input(input), TICK_LIMIT, || qemu.is_running())
             .map_err(|error| qemu.describe(&error, &format!("at tick {ticks}")))?;
@@ -84,17 +77,12 @@ impl Link {
 
     /// Ends the run and gives what the loop says of it.
     pub fn finish(self) -> io::Result<Summary> {
-        let Link {
-            mut qemu, pipes, ..
-        } = self;
+        let Link { mut qemu, pipes, .. } = self;
         drop(pipes);
         let lines = qemu.finish(END_LIMIT)?;
         let last = lines.last().cloned().unwrap_or_default();
-        serde_json::from_value(last).map_err(|error| {
-            io::Error::other(format!(
-                "the control loop's summary is not as expected: {error}"
-            ))
-        })
+        serde_json::from_value(last)
+            .map_err(|error| io::Error::other(format!("the control loop's summary is not as expected: {error}")))
     }
 }
 

@@ -12,10 +12,7 @@ use rustix::fs::{CWD, FileType, Mode, OFlags, mknodat};
 use super::words::LENGTH;
 
 /// How often a wait looks whether QEMU still runs.
-const LOOK: Timespec = Timespec {
-    tv_sec: 0,
-    tv_nsec: 100_000_000,
-};
+const LOOK: Timespec = Timespec { tv_sec: 0, tv_nsec: 100_000_000 };
 
 /// The host's ends.
 pub struct Pipes {
@@ -33,10 +30,7 @@ impl Pipes {
         // opened for both, a pipe does not wait for its other end
         let input = OpenOptions::new().read(true).write(true).open(input)?;
         let nonblocking = OFlags::NONBLOCK.bits() as i32;
-        let output = OpenOptions::new()
-            .read(true)
-            .custom_flags(nonblocking)
-            .open(output)?;
+        let output = OpenOptions::new().read(true).custom_flags(nonblocking).open(output)?;
         Ok(Pipes { input, output })
     }
 
@@ -57,17 +51,10 @@ impl Pipes {
             if ready > 0 {
                 match self.output.read(&mut answer[length..]) {
                     Ok(0) => {
-                        return Err(io::Error::new(
-                            ErrorKind::UnexpectedEof,
-                            "the image closed the link",
-                        ));
+                        return Err(io::Error::new(ErrorKind::UnexpectedEof, "the image closed the link"));
                     }
                     Ok(more) => length += more,
-                    Err(error)
-                        if matches!(
-                            error.kind(),
-                            ErrorKind::WouldBlock | ErrorKind::Interrupted
-                        ) => {}
+                    Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => {}
                     Err(error) => return Err(error),
                 }
             } else if !is_running() {
@@ -93,13 +80,9 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let mut pipes = Pipes::make(directory.path()).unwrap();
         let started = Instant::now();
-        let hangs = pipes
-            .exchange(&[0; LENGTH], Duration::from_millis(250), || true)
-            .unwrap_err();
+        let hangs = pipes.exchange(&[0; LENGTH], Duration::from_millis(250), || true).unwrap_err();
         assert_eq!(hangs.kind(), ErrorKind::TimedOut);
-        let died = pipes
-            .exchange(&[0; LENGTH], Duration::from_secs(3600), || false)
-            .unwrap_err();
+        let died = pipes.exchange(&[0; LENGTH], Duration::from_secs(3600), || false).unwrap_err();
         assert_eq!(died.kind(), ErrorKind::BrokenPipe);
         // three or four looks of 0.1 s each and one more; a loaded machine takes longer, an hour is the other limit
         assert!(started.elapsed() < Duration::from_secs(60));

@@ -46,17 +46,8 @@ impl Qemu {
                 ),
                 _ => error,
             })?;
-        let name = format!(
-            "{} of {} on {}",
-            image.program.name(),
-            image.variant,
-            image.board.name
-        );
-        Ok(Qemu {
-            child,
-            directory,
-            name,
-        })
+        let name = format!("{} of {} on {}", image.program.name(), image.variant, image.board.name);
+        Ok(Qemu { child, directory, name })
     }
 
     /// Whether it has not ended.
@@ -68,20 +59,14 @@ impl Qemu {
     pub fn finish(&mut self, limit: Duration) -> io::Result<Vec<Value>> {
         let status = self.wait(limit)?;
         if !status.success() {
-            return Err(self.describe(
-                &io::Error::other(format!("ended with {status}")),
-                "at its end",
-            ));
+            return Err(self.describe(&io::Error::other(format!("ended with {status}")), "at its end"));
         }
         let console = fs::read_to_string(self.directory.path().join("console"))?;
         console
             .lines()
             .map(|line| {
                 serde_json::from_str(line).map_err(|error| {
-                    io::Error::other(format!(
-                        "{} printed `{line}`, expected JSON: {error}",
-                        self.name
-                    ))
+                    io::Error::other(format!("{} printed `{line}`, expected JSON: {error}", self.name))
                 })
             })
             .collect()
@@ -107,10 +92,7 @@ impl Qemu {
                 return Ok(status);
             }
             if started.elapsed() > limit {
-                let error = io::Error::new(
-                    ErrorKind::TimedOut,
-                    format!("has not ended within {} s", limit.as_secs()),
-                );
+                let error = io::Error::new(ErrorKind::TimedOut, format!("has not ended within {} s", limit.as_secs()));
                 return Err(self.describe(&error, "at its end"));
             }
             thread::sleep(pause);

@@ -7,19 +7,9 @@ pub const LENGTH: usize = 32;
 
 /// The bytes of an input.
 pub fn of_input(input: &Input) -> [u8; LENGTH] {
-    let Input {
-        angle,
-        torque,
-        reference,
-        flags,
-        vibration: [v0, v1],
-        reserved: [r0, r1],
-    } = *input;
+    let Input { angle, torque, reference, flags, vibration: [v0, v1], reserved: [r0, r1] } = *input;
     let mut bytes = [0; LENGTH];
-    for (place, word) in bytes
-        .chunks_exact_mut(4)
-        .zip([angle, torque, reference, flags, v0, v1, r0, r1])
-    {
+    for (place, word) in bytes.chunks_exact_mut(4).zip([angle, torque, reference, flags, v0, v1, r0, r1]) {
         place.copy_from_slice(&word.to_le_bytes());
     }
     bytes
@@ -27,9 +17,7 @@ pub fn of_input(input: &Input) -> [u8; LENGTH] {
 
 /// The output in the bytes.
 pub fn to_output(bytes: &[u8; LENGTH]) -> Output {
-    let mut words = bytes
-        .chunks_exact(4)
-        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
+    let mut words = bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
     let mut next = || words.next().unwrap_or(0);
     Output {
         torque: next(),

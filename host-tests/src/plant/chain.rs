@@ -20,14 +20,7 @@ pub(super) struct Node {
 
 impl Node {
     fn new(inertia: f64) -> Self {
-        Self {
-            inertia,
-            viscous: 0.0,
-            coulomb: 0.0,
-            load: 0.0,
-            efficiency: 1.0,
-            program: None,
-        }
+        Self { inertia, viscous: 0.0, coulomb: 0.0, load: 0.0, efficiency: 1.0, program: None }
     }
 }
 
@@ -55,12 +48,7 @@ impl Chain {
     /// Begins with the motor's inertia, kg m2, above zero.
     #[must_use]
     pub fn motor(inertia: f64) -> Self {
-        Self {
-            nodes: vec![Node::new(inertia)],
-            shafts: Vec::new(),
-            start: Start::Rest,
-            law: MotorLaw::Held,
-        }
+        Self { nodes: vec![Node::new(inertia)], shafts: Vec::new(), start: Start::Rest, law: MotorLaw::Held }
     }
 
     /// Goes on by a shaft to the next inertia, kg m2, above zero.
@@ -147,21 +135,9 @@ impl Chain {
             not_negative("Coulomb friction", place, node.coulomb)?;
             finite("load torque", place, node.load)?;
             let eta = node.efficiency;
-            in_range(
-                "efficiency",
-                place,
-                eta,
-                eta > 0.0 && eta <= 1.0,
-                "above 0 and up to 1",
-            )?;
+            in_range("efficiency", place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
             let has_shaft = j < self.shafts.len();
-            in_range(
-                "efficiency",
-                place,
-                eta,
-                has_shaft || eta == 1.0,
-                "a shaft behind the gear",
-            )?;
+            in_range("efficiency", place, eta, has_shaft || eta == 1.0, "a shaft behind the gear")?;
             if let Some(program) = &node.program {
                 program.validate(place)?;
             }

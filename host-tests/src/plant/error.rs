@@ -39,24 +39,12 @@ pub enum PlantError {
 
 /// Passes a finite number above zero.
 pub(super) fn positive(name: &'static str, place: Place, value: f64) -> Result<(), PlantError> {
-    in_range(
-        name,
-        place,
-        value,
-        value > 0.0,
-        "a finite number above zero",
-    )
+    in_range(name, place, value, value > 0.0, "a finite number above zero")
 }
 
 /// Passes a finite number that is not negative.
 pub(super) fn not_negative(name: &'static str, place: Place, value: f64) -> Result<(), PlantError> {
-    in_range(
-        name,
-        place,
-        value,
-        value >= 0.0,
-        "a finite number, zero or above",
-    )
+    in_range(name, place, value, value >= 0.0, "a finite number, zero or above")
 }
 
 /// Passes a finite number.
@@ -72,14 +60,5 @@ pub(super) fn in_range(
     holds: bool,
     expected: &'static str,
 ) -> Result<(), PlantError> {
-    if holds && value.is_finite() {
-        Ok(())
-    } else {
-        Err(PlantError::Parameter {
-            name,
-            place,
-            value,
-            expected,
-        })
-    }
+    if holds && value.is_finite() { Ok(()) } else { Err(PlantError::Parameter { name, place, value, expected }) }
 }

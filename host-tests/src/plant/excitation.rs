@@ -34,9 +34,7 @@ impl MotorLaw {
         match *self {
             MotorLaw::Held => (0.0, 0.0),
             MotorLaw::Constant(torque) => (torque, 0.0),
-            MotorLaw::Ramp { torque, time: end } if time < end => {
-                (torque * (1.0 - time / end), -torque / end)
-            }
+            MotorLaw::Ramp { torque, time: end } if time < end => (torque * (1.0 - time / end), -torque / end),
             MotorLaw::Ramp { .. } => (0.0, 0.0),
             MotorLaw::Line { stall, .. } => (stall, 0.0),
         }
@@ -44,11 +42,7 @@ impl MotorLaw {
 
     /// Fall of the torque with speed, N m s/rad.
     pub(super) fn slope(&self) -> f64 {
-        if let MotorLaw::Line { slope, .. } = *self {
-            slope
-        } else {
-            0.0
-        }
+        if let MotorLaw::Line { slope, .. } = *self { slope } else { 0.0 }
     }
 
     /// The next corner after `time`, s.
@@ -88,19 +82,13 @@ impl LoadProgram {
     /// From each time (s) on, that torque (N m); zero before the first.
     #[must_use]
     pub fn steps(points: &[(f64, f64)]) -> Self {
-        Self {
-            points: points.to_vec(),
-            linear: false,
-        }
+        Self { points: points.to_vec(), linear: false }
     }
 
     /// Straight lines through the points (s, N m); the first and the last torque before and after.
     #[must_use]
     pub fn table(points: &[(f64, f64)]) -> Self {
-        Self {
-            points: points.to_vec(),
-            linear: true,
-        }
+        Self { points: points.to_vec(), linear: true }
     }
 
     /// Torque at `time`, N m, and its rate to the right, N m/s.
@@ -122,9 +110,7 @@ impl LoadProgram {
 
     /// The next corner after `time`, s.
     pub(super) fn corner_after(&self, time: f64) -> Option<f64> {
-        self.points
-            .get(self.points.partition_point(|point| point.0 <= time))
-            .map(|point| point.0)
+        self.points.get(self.points.partition_point(|point| point.0 <= time)).map(|point| point.0)
     }
 
     pub(super) fn validate(&self, place: Place) -> Result<(), PlantError> {

@@ -9,11 +9,7 @@ use super::dense::Dense;
 pub(super) fn exponential(matrix: &Dense) -> Dense {
     let n = matrix.rows;
     let norm = matrix.row_norm();
-    let squarings = if norm > 0.5 {
-        (norm / 0.5).log2().ceil() as i32
-    } else {
-        0
-    };
+    let squarings = if norm > 0.5 { (norm / 0.5).log2().ceil() as i32 } else { 0 };
     let scale = 0.5_f64.powi(squarings);
     let small = matrix.map(|_, _, v| v * scale);
     // Horner's scheme of x + x^2/2! + ... + x^16/16!; what is left out is below 0.5^17/17! = 2e-20
@@ -48,11 +44,7 @@ impl Propagator {
         let mut whole = Dense::zeros(m + 2 * n, m + 2 * n);
         // inputs are scaled by the inertias they act on, so that their columns are of the size of the rate
         let input: Vec<f64> = (0..n)
-            .map(|j| {
-                (0..m)
-                    .map(|r| (weights[r] * b.get(r, j)).abs())
-                    .fold(0.0, f64::max)
-            })
+            .map(|j| (0..m).map(|r| (weights[r] * b.get(r, j)).abs()).fold(0.0, f64::max))
             .map(|size| if size > 0.0 { size / rate } else { 1.0 })
             .collect();
         for r in 0..m {
@@ -114,9 +106,6 @@ mod tests {
         let mut out = [0.0; 2];
         step.apply(&[1.0, 3.0], &[4.0], &[6.0], true, &mut out);
         // x = 1 + 3 t + t^2 + t^3/2 and v = 3 + 2 t + 3 t^2/2 at t = 2, to rounding
-        assert!(
-            (out[0] - 15.0).abs() < 1e-13 && (out[1] - 13.0).abs() < 1e-13,
-            "{out:?}"
-        );
+        assert!((out[0] - 15.0).abs() < 1e-13 && (out[1] - 13.0).abs() < 1e-13, "{out:?}");
     }
 }

@@ -25,12 +25,7 @@ impl Plant {
         let time = self.clock.0;
         let now = (0..self.chain.shafts.len()).map(|s| {
             let torque = self.shaft_torque(s);
-            Extremes {
-                peak: torque,
-                peak_time: time,
-                least: torque,
-                least_time: time,
-            }
+            Extremes { peak: torque, peak_time: time, least: torque, least_time: time }
         });
         self.extremes = Some(now.collect());
     }
@@ -52,11 +47,7 @@ impl Plant {
             let rate = derivative(&stretch.form(&row, constant, 0.0).0);
             let mut places = vec![0.0, share];
             // near an extreme an error of 1e-12 of the stretch changes the torque by the square of that
-            places.extend(
-                sign_changes(&rate, 1e-12)
-                    .into_iter()
-                    .filter(|&p| p < share),
-            );
+            places.extend(sign_changes(&rate, 1e-12).into_iter().filter(|&p| p < share));
             for place in places {
                 let passed = place * stretch.length;
                 self.x = stretch.at(place);

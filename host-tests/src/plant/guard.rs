@@ -53,20 +53,8 @@ impl Guard {
             (false, true) => f64::INFINITY,
             (false, false) => (s / e).powi(2),
         };
-        let bend = slope
-            .iter()
-            .zip(&regime.energy)
-            .map(share)
-            .sum::<f64>()
-            .sqrt();
-        Self {
-            action,
-            row,
-            force,
-            constant,
-            bend,
-            input,
-        }
+        let bend = slope.iter().zip(&regime.energy).map(share).sum::<f64>().sqrt();
+        Self { action, row, force, constant, bend, input }
     }
 
     pub fn value(&self, x: &[f64], force: &[f64]) -> f64 {
@@ -76,10 +64,7 @@ impl Guard {
     /// True if the guard certainly stays above zero all through the tick.
     pub fn passes(&self, tick: &Tick) -> bool {
         let h = tick.length;
-        let (a, b) = (
-            self.value(tick.before, tick.force_before),
-            self.value(tick.after, tick.force_after),
-        );
+        let (a, b) = (self.value(tick.before, tick.force_before), self.value(tick.after, tick.force_after));
         if !(a >= 0.0 && b > 0.0) {
             return false;
         }
@@ -94,9 +79,7 @@ impl Guard {
 
 /// The guards of a mode.
 pub(super) fn guards(chain: &Chain, mode: &Mode, regime: &Regime, coulomb: &[f64]) -> Vec<Guard> {
-    let layout = Layout {
-        nodes: chain.nodes.len(),
-    };
+    let layout = Layout { nodes: chain.nodes.len() };
     let (m, n) = (layout.states(), layout.nodes);
     let mut found = Vec::new();
     let mut add = |action, row: Vec<f64>, force: Vec<f64>, constant| {
@@ -118,12 +101,7 @@ pub(super) fn guards(chain: &Chain, mode: &Mode, regime: &Regime, coulomb: &[f64
                 add(Action::Contact(s, 1), twist(-1.0), idle(), reach);
                 add(Action::Contact(s, -1), twist(1.0), idle(), reach);
             }
-            (false, side) => add(
-                Action::Contact(s, 0),
-                twist(f64::from(side)),
-                idle(),
-                -reach,
-            ),
+            (false, side) => add(Action::Contact(s, 0), twist(f64::from(side)), idle(), -reach),
             (true, 0) => add(Action::Contact(s, 1), twist(-1.0), idle(), reach),
             (true, 1) => {
                 let left = if shaft.damping > 0.0 { TRAILING } else { 0 };
@@ -134,12 +112,7 @@ pub(super) fn guards(chain: &Chain, mode: &Mode, regime: &Regime, coulomb: &[f64
                 let mut taut = mode.clone();
                 taut.contact[s] = 1;
                 let (row, constant) = elastic_torque(chain, &taut, s);
-                add(
-                    Action::Contact(s, 1),
-                    row.iter().map(|v| -v).collect(),
-                    idle(),
-                    -constant,
-                );
+                add(Action::Contact(s, 1), row.iter().map(|v| -v).collect(), idle(), -constant);
                 add(Action::Contact(s, 0), twist(1.0), idle(), -reach);
             }
         }
@@ -154,24 +127,14 @@ pub(super) fn guards(chain: &Chain, mode: &Mode, regime: &Regime, coulomb: &[f64
         }
         for side in [1.0, -1.0] {
             let (row, force, constant) = hold(chain, mode, j, side);
-            add(
-                Action::Slip(j, side as i8),
-                row,
-                force,
-                constant + coulomb[j],
-            );
+            add(Action::Slip(j, side as i8), row, force, constant + coulomb[j]);
         }
     }
     for s in 0..chain.shafts.len() {
         if chain.nodes[s].efficiency < 1.0 && mode.carries(chain, s) {
             let (row, constant) = elastic_torque(chain, mode, s);
             let sign = f64::from(mode.flow[s]);
-            add(
-                Action::Flow(s),
-                row.iter().map(|v| v * sign).collect(),
-                idle(),
-                constant * sign,
-            );
+            add(Action::Flow(s), row.iter().map(|v| v * sign).collect(), idle(), constant * sign);
         }
     }
     found
@@ -194,9 +157,7 @@ fn hold(chain: &Chain, mode: &Mode, node: usize, side: f64) -> (Vec<f64>, Vec<f6
         let eta = chain.nodes[node].efficiency;
         let driving = side * f64::from(mode.flow[node]) > 0.0;
         let factor = if driving { 1.0 / eta } else { eta };
-        row.iter_mut()
-            .zip(behind)
-            .for_each(|(r, b)| *r += side * factor * b);
+        row.iter_mut().zip(behind).for_each(|(r, b)| *r += side * factor * b);
         constant += side * factor * offset;
     }
     (row, force, constant)

@@ -25,31 +25,19 @@ impl Plant {
     /// Speed of a node, rad/s; NaN for a node that is not there.
     #[must_use]
     pub fn speed(&self, node: usize) -> f64 {
-        if node < self.layout.nodes {
-            self.x[self.layout.speed(node)]
-        } else {
-            f64::NAN
-        }
+        if node < self.layout.nodes { self.x[self.layout.speed(node)] } else { f64::NAN }
     }
 
     /// Angle of a node, rad, unwrapped; NaN for a node that is not there.
     #[must_use]
     pub fn angle(&self, node: usize) -> f64 {
-        if node < self.layout.nodes {
-            self.motor_angle() - self.x[..node].iter().sum::<f64>()
-        } else {
-            f64::NAN
-        }
+        if node < self.layout.nodes { self.motor_angle() - self.x[..node].iter().sum::<f64>() } else { f64::NAN }
     }
 
     /// Twist of a shaft, rad: angle of its front node less that of its back node; NaN for a shaft that is not there.
     #[must_use]
     pub fn twist(&self, shaft: usize) -> f64 {
-        if shaft + 1 < self.layout.nodes {
-            self.x[shaft]
-        } else {
-            f64::NAN
-        }
+        if shaft + 1 < self.layout.nodes { self.x[shaft] } else { f64::NAN }
     }
 
     /// Torque of a shaft, N m, referred to the motor, as felt by the node in front of it (a gear's loss included),
@@ -73,10 +61,7 @@ impl Plant {
         let Some(description) = self.chain.nodes.get(node) else {
             return f64::NAN;
         };
-        let program = description
-            .program
-            .as_ref()
-            .map_or(0.0, |p| p.at(self.clock.0).0);
+        let program = description.program.as_ref().map_or(0.0, |p| p.at(self.clock.0).0);
         let dry = match self.mode.motion[node] {
             0 => self.hold(node).friction(),
             direction if direction.abs() == 1 => f64::from(direction) * self.coulomb[node],
@@ -106,17 +91,11 @@ impl Plant {
     #[must_use]
     pub fn energy(&self) -> f64 {
         let nodes = self.chain.nodes.iter().enumerate();
-        let kinetic: f64 = nodes
-            .map(|(j, node)| node.inertia * self.speed(j).powi(2))
-            .sum();
+        let kinetic: f64 = nodes.map(|(j, node)| node.inertia * self.speed(j).powi(2)).sum();
         let strain = self.chain.shafts.iter().enumerate().map(|(s, shaft)| {
             let carries = self.mode.carries(&self.chain, s);
             let stretch = self.x[s] - shaft.origin(self.mode.contact[s]);
-            if carries {
-                shaft.stiffness * stretch.powi(2)
-            } else {
-                0.0
-            }
+            if carries { shaft.stiffness * stretch.powi(2) } else { 0.0 }
         });
         0.5 * (kinetic + strain.sum::<f64>())
     }

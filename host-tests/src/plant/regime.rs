@@ -71,17 +71,9 @@ impl Regime {
                 continue;
             }
             energy[s] = balance[s];
-            let torque = [
-                (s, shaft.stiffness),
-                (front, shaft.damping),
-                (back, -shaft.damping),
-            ];
+            let torque = [(s, shaft.stiffness), (front, shaft.damping), (back, -shaft.damping)];
             for (column, factor) in torque {
-                a.add(
-                    front,
-                    column,
-                    -mode.loss(chain, s) * factor / chain.nodes[s].inertia,
-                );
+                a.add(front, column, -mode.loss(chain, s) * factor / chain.nodes[s].inertia);
                 a.add(back, column, factor / chain.nodes[s + 1].inertia);
             }
         }
@@ -93,16 +85,7 @@ impl Regime {
         balance[layout.angle()] = balance[layout.speed(0)];
         let (growth, rate) = energy_bounds(&a, &energy);
         balance[layout.angle()] *= if rate > 0.0 { rate } else { 1.0 };
-        Self {
-            a,
-            b,
-            energy,
-            growth,
-            rate,
-            balance,
-            steps: Vec::new(),
-            last_step: 0.0,
-        }
+        Self { a, b, energy, growth, rate, balance, steps: Vec::new(), last_step: 0.0 }
     }
 
     /// The exact step of this length, made when the same length is asked for a second time running.
@@ -129,16 +112,11 @@ impl Regime {
 /// Largest eigenvalue of the symmetric part, not below zero, and the spectral norm of `A` in energy coordinates.
 fn energy_bounds(a: &Dense, energy: &[f64]) -> (f64, f64) {
     let kept: Vec<usize> = (0..energy.len()).filter(|&i| energy[i] > 0.0).collect();
-    let scaled = DMatrix::from_fn(kept.len(), kept.len(), |r, c| {
-        a.get(kept[r], kept[c]) * energy[kept[r]] / energy[kept[c]]
-    });
+    let scaled =
+        DMatrix::from_fn(kept.len(), kept.len(), |r, c| a.get(kept[r], kept[c]) * energy[kept[r]] / energy[kept[c]]);
     let symmetric = (&scaled + scaled.transpose()) * 0.5;
     let growth = SymmetricEigen::new(symmetric).eigenvalues.max().max(0.0);
-    let norm = SymmetricEigen::new(scaled.transpose() * &scaled)
-        .eigenvalues
-        .max()
-        .max(0.0)
-        .sqrt();
+    let norm = SymmetricEigen::new(scaled.transpose() * &scaled).eigenvalues.max().max(0.0).sqrt();
     // rounding of the eigenvalues must not undercut the bounds
     let slack = 1e-12 * norm;
     (growth + slack, norm + slack)

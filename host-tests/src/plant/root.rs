@@ -7,11 +7,7 @@ pub(super) fn value(poly: &[f64], s: f64) -> f64 {
 
 /// Coefficients of the derivative.
 pub(super) fn derivative(poly: &[f64]) -> Vec<f64> {
-    poly.iter()
-        .enumerate()
-        .skip(1)
-        .map(|(k, c)| k as f64 * c)
-        .collect()
+    poly.iter().enumerate().skip(1).map(|(k, c)| k as f64 * c).collect()
 }
 
 /// First `s` in `[0, 1]` where a quantity that must not be negative falls below zero.
@@ -34,21 +30,11 @@ pub(super) fn first_fall(poly: &[f64], rounding: &[f64], tolerance: f64) -> Opti
         poly[..leading].fill(0.0);
         let rest: f64 = poly[leading + 1..].iter().map(|c| c.abs()).sum();
         // the leading term outweighs all later ones up to here
-        from = if rest > 0.0 {
-            (0.5 * poly[leading] / rest).min(1.0)
-        } else {
-            1.0
-        };
+        from = if rest > 0.0 { (0.5 * poly[leading] / rest).min(1.0) } else { 1.0 };
     }
     let slope = derivative(&poly);
     let bend = derivative(&slope);
-    Search {
-        poly: &poly,
-        slope: &slope,
-        bend: &bend,
-        tolerance,
-    }
-    .first(from, 1.0)
+    Search { poly: &poly, slope: &slope, bend: &bend, tolerance }.first(from, 1.0)
 }
 
 /// All places in `[0, 1]` where the polynomial changes its sign, in order.
@@ -57,30 +43,16 @@ pub(super) fn sign_changes(poly: &[f64], tolerance: f64) -> Vec<f64> {
     let mut from = 0.0;
     while from < 1.0 && found.len() < poly.len() {
         let ahead = value(poly, from);
-        let sign = if ahead == 0.0 {
-            value(poly, 0.5 * (from + 1.0))
-        } else {
-            ahead
-        }
-        .signum();
+        let sign = if ahead == 0.0 { value(poly, 0.5 * (from + 1.0)) } else { ahead }.signum();
         let turned: Vec<f64> = poly.iter().map(|c| c * sign).collect();
         let slope = derivative(&turned);
         let bend = derivative(&slope);
-        let search = Search {
-            poly: &turned,
-            slope: &slope,
-            bend: &bend,
-            tolerance,
-        };
+        let search = Search { poly: &turned, slope: &slope, bend: &bend, tolerance };
         let Some(root) = search.first(from, 1.0) else {
             break;
         };
         found.push(root);
-        from = if root > from {
-            root
-        } else {
-            from + tolerance.max(1e-9)
-        };
+        from = if root > from { root } else { from + tolerance.max(1e-9) };
     }
     found
 }
@@ -126,11 +98,7 @@ impl Search<'_> {
             if b - a <= self.tolerance {
                 break;
             }
-            let guess = if round % 3 == 2 {
-                0.5 * (a + b)
-            } else {
-                b - at_b * (b - a) / (at_b - at_a)
-            };
+            let guess = if round % 3 == 2 { 0.5 * (a + b) } else { b - at_b * (b - a) / (at_b - at_a) };
             // a step of half the tolerance past the guess makes the bracket shut from both sides
             let side = if round % 2 == 0 { 0.5 } else { -0.5 };
             let s = (guess + side * self.tolerance).clamp(a, b);

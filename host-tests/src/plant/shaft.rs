@@ -19,23 +19,13 @@ impl Shaft {
     /// A shaft of this stiffness, N m/rad, above zero; undamped, without backlash.
     #[must_use]
     pub const fn elastic(stiffness: f64) -> Self {
-        Self {
-            stiffness,
-            damping: 0.0,
-            gap: 0.0,
-            rope: false,
-        }
+        Self { stiffness, damping: 0.0, gap: 0.0, rope: false }
     }
 
     /// A rope of this stiffness, N m/rad: torque `max(0, k (theta - slack) + d dw)` while `theta > slack`, else zero.
     #[must_use]
     pub const fn rope(stiffness: f64) -> Self {
-        Self {
-            stiffness,
-            damping: 0.0,
-            gap: 0.0,
-            rope: true,
-        }
+        Self { stiffness, damping: 0.0, gap: 0.0, rope: true }
     }
 
     /// The same with damping, N m s/rad, zero or above. It acts only while the shaft carries torque.
@@ -60,21 +50,13 @@ impl Shaft {
 
     /// The twist at which the torque of this contact is zero at rest, rad. Contact is -1, 0 or +1.
     pub(super) fn origin(&self, contact: i8) -> f64 {
-        if self.rope {
-            self.gap
-        } else {
-            0.5 * self.gap * f64::from(contact)
-        }
+        if self.rope { self.gap } else { 0.5 * self.gap * f64::from(contact) }
     }
 
     pub(super) fn validate(&self, shaft: usize) -> Result<(), PlantError> {
         let place = Place::Shaft(shaft);
         positive("stiffness", place, self.stiffness)?;
         not_negative("damping", place, self.damping)?;
-        not_negative(
-            if self.rope { "slack" } else { "backlash" },
-            place,
-            self.gap,
-        )
+        not_negative(if self.rope { "slack" } else { "backlash" }, place, self.gap)
     }
 }

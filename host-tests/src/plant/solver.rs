@@ -55,11 +55,7 @@ impl Plant {
         let (twists, speeds) = chain.start.state(&chain);
         let x: Vec<f64> = twists.into_iter().chain(speeds).chain([0.0]).collect();
         let coulomb: Vec<f64> = chain.nodes.iter().map(|node| node.coulomb).collect();
-        let mode = Mode {
-            contact: vec![0; n - 1],
-            motion: vec![FREE; n],
-            flow: vec![1; n - 1],
-        };
+        let mode = Mode { contact: vec![0; n - 1], motion: vec![FREE; n], flow: vec![1; n - 1] };
         let m = layout.states();
         let mut plant = Self {
             chain,
@@ -159,24 +155,13 @@ impl Plant {
     }
 
     pub(super) fn hold(&self, node: usize) -> Hold {
-        Hold::new(
-            &self.chain,
-            &self.mode,
-            &self.x,
-            &self.outer,
-            &self.coulomb,
-            node,
-        )
+        Hold::new(&self.chain, &self.mode, &self.x, &self.outer, &self.coulomb, node)
     }
 
     /// Motion of a dry node from its speed, or from the torques on it when it has none.
     pub(super) fn settle_node(&mut self, node: usize) {
         let speed = self.x[self.layout.speed(node)];
-        self.mode.motion[node] = if speed == 0.0 {
-            self.hold(node).direction()
-        } else {
-            speed.signum() as i8
-        };
+        self.mode.motion[node] = if speed == 0.0 { self.hold(node).direction() } else { speed.signum() as i8 };
     }
 
     pub(super) fn settle_motion(&mut self) {
@@ -241,11 +226,6 @@ impl Plant {
             }
         };
         self.mode_torque = self.mode.torques(&self.chain, &self.coulomb);
-        self.guards = guards(
-            &self.chain,
-            &self.mode,
-            &self.regimes[self.current],
-            &self.coulomb,
-        );
+        self.guards = guards(&self.chain, &self.mode, &self.regimes[self.current], &self.coulomb);
     }
 }

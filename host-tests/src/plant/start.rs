@@ -88,10 +88,7 @@ fn carried_torques(chain: &Chain, speed: f64) -> Vec<f64> {
     let mut behind = 0.0;
     for s in (0..chain.shafts.len()).rev() {
         let node = &chain.nodes[s + 1];
-        let program = node
-            .program
-            .as_ref()
-            .map_or(0.0, |program| program.at(0.0).0);
+        let program = node.program.as_ref().map_or(0.0, |program| program.at(0.0).0);
         let through = match direction * behind {
             power if power > 0.0 => behind / node.efficiency,
             power if power < 0.0 => behind * node.efficiency,
@@ -104,13 +101,5 @@ fn carried_torques(chain: &Chain, speed: f64) -> Vec<f64> {
 }
 
 fn count(name: &'static str, found: usize, expected: usize) -> Result<(), PlantError> {
-    if found == expected {
-        Ok(())
-    } else {
-        Err(PlantError::Count {
-            name,
-            found,
-            expected,
-        })
-    }
+    if found == expected { Ok(()) } else { Err(PlantError::Count { name, found, expected }) }
 }

@@ -50,14 +50,8 @@ impl Plant {
     }
 
     fn corner_after(&self, time: f64) -> Option<f64> {
-        let loads = self
-            .chain
-            .nodes
-            .iter()
-            .filter_map(|node| node.program.as_ref()?.corner_after(time));
-        loads
-            .chain(self.chain.law.corner_after(time))
-            .reduce(f64::min)
+        let loads = self.chain.nodes.iter().filter_map(|node| node.program.as_ref()?.corner_after(time));
+        loads.chain(self.chain.law.corner_after(time)).reduce(f64::min)
     }
 
     /// Adds to the clock and keeps what rounding loses (Neumaier's sum).
@@ -65,14 +59,7 @@ impl Plant {
         let (clock, lost) = self.clock;
         let step = dt + lost;
         let sum = clock + step;
-        self.clock = (
-            sum,
-            if clock >= step {
-                (clock - sum) + step
-            } else {
-                (step - sum) + clock
-            },
-        );
+        self.clock = (sum, if clock >= step { (clock - sum) + step } else { (step - sum) + clock });
     }
 
     fn run(&mut self, length: f64, whole_tick: bool) {
@@ -87,25 +74,15 @@ impl Plant {
             return false;
         }
         let ramped = self.ramped;
-        let total: Vec<f64> = self
-            .outer
-            .iter()
-            .zip(&self.mode_torque)
-            .map(|(a, b)| a + b)
-            .collect();
+        let total: Vec<f64> = self.outer.iter().zip(&self.mode_torque).map(|(a, b)| a + b).collect();
         let regime = &mut self.regimes[self.current];
         let Some(step) = regime.step_of(length) else {
             return false;
         };
         step.apply(&self.x, &total, &self.outer_rate, ramped, &mut self.next);
         if !self.guards.is_empty() {
-            let energy_norm = |v: &[f64]| {
-                v.iter()
-                    .zip(&regime.energy)
-                    .map(|(v, e)| (v * e) * (v * e))
-                    .sum::<f64>()
-                    .sqrt()
-            };
+            let energy_norm =
+                |v: &[f64]| v.iter().zip(&regime.energy).map(|(v, e)| (v * e) * (v * e)).sum::<f64>().sqrt();
             regime.a.times(&self.x, &mut self.rate);
             let mut rise = 0.0;
             for (i, rate) in self.rate.iter_mut().enumerate() {
@@ -114,14 +91,8 @@ impl Plant {
                     rise += (dot(regime.b.row(i), &self.outer_rate) * regime.energy[i]).powi(2);
                 }
             }
-            let norm =
-                (energy_norm(&self.rate) + length * rise.sqrt()) * (regime.growth * length).exp();
-            let force_after: Vec<f64> = self
-                .outer
-                .iter()
-                .zip(&self.outer_rate)
-                .map(|(f, r)| f + r * length)
-                .collect();
+            let norm = (energy_norm(&self.rate) + length * rise.sqrt()) * (regime.growth * length).exp();
+            let force_after: Vec<f64> = self.outer.iter().zip(&self.outer_rate).map(|(f, r)| f + r * length).collect();
             let tick = Tick {
                 before: &self.x,
                 after: &self.next,
@@ -147,23 +118,10 @@ impl Plant {
         let mut events = 0;
         while left > 0.0 {
             let regime = &self.regimes[self.current];
-            let piece = if regime.rate * left > 1.0 {
-                1.0 / regime.rate
-            } else {
-                left
-            };
-            let total: Vec<f64> = self
-                .outer
-                .iter()
-                .zip(&self.mode_torque)
-                .map(|(a, b)| a + b)
-                .collect();
+            let piece = if regime.rate * left > 1.0 { 1.0 / regime.rate } else { left };
+            let total: Vec<f64> = self.outer.iter().zip(&self.mode_torque).map(|(a, b)| a + b).collect();
             let stretch = Stretch::new(regime, &self.x, &total, &self.outer_rate, piece);
-            let found = if events < MOST_EVENTS {
-                self.first_event(&stretch)
-            } else {
-                None
-            };
+            let found = if events < MOST_EVENTS { self.first_event(&stretch) } else { None };
             let share = found.map_or(1.0, |(share, _)| share);
             self.note_extremes(&stretch, share);
             let passed = share * piece;
@@ -172,11 +130,7 @@ impl Plant {
             }
             self.elapsed += passed;
             self.ramp(passed);
-            left = if share == 1.0 && piece == left {
-                0.0
-            } else {
-                left - passed
-            };
+            left = if share == 1.0 && piece == left { 0.0 } else { left - passed };
             if let Some((_, action)) = found {
                 events += 1;
                 self.fire(action);
@@ -233,11 +187,7 @@ impl Plant {
                 self.x[speed] = 0.0;
                 self.settle_node(node);
                 let new = self.mode.motion[node];
-                let kind = if new == 0 {
-                    EventKind::Stop
-                } else {
-                    EventKind::Reversal
-                };
+                let kind = if new == 0 { EventKind::Stop } else { EventKind::Reversal };
                 self.log(kind, Place::Node(node), new);
             }
             Action::Slip(node, new) => {
@@ -253,11 +203,6 @@ impl Plant {
     }
 
     fn log(&mut self, kind: EventKind, place: Place, new: i8) {
-        self.events.push(Event {
-            time: self.clock.0 + self.elapsed,
-            kind,
-            place,
-            new,
-        });
+        self.events.push(Event { time: self.clock.0 + self.elapsed, kind, place, new });
     }
 }

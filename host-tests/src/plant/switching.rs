@@ -46,15 +46,9 @@ impl Mode {
         let shafts = (0..chain.shafts.len()).map(|s| {
             let lossy = chain.nodes[s].efficiency < 1.0 && self.carries(chain, s);
             i8::from(self.carries(chain, s))
-                + if lossy && !self.is_held(s) {
-                    4 * self.motion[s] * self.flow[s]
-                } else {
-                    0
-                }
+                + if lossy && !self.is_held(s) { 4 * self.motion[s] * self.flow[s] } else { 0 }
         });
-        shafts
-            .chain(self.motion.iter().map(|&m| i8::from(m == 0)))
-            .collect()
+        shafts.chain(self.motion.iter().map(|&m| i8::from(m == 0))).collect()
     }
 
     /// Torques on the nodes that the mode itself brings: origins of the contacts and dry friction, N m.
@@ -78,9 +72,7 @@ impl Mode {
 
 /// The elastic torque of a shaft as a linear form in the state: row and constant.
 pub(super) fn elastic_torque(chain: &Chain, mode: &Mode, shaft: usize) -> (Vec<f64>, f64) {
-    let layout = Layout {
-        nodes: chain.nodes.len(),
-    };
+    let layout = Layout { nodes: chain.nodes.len() };
     let mut row = vec![0.0; layout.states()];
     if !mode.carries(chain, shaft) {
         return (row, 0.0);
@@ -102,31 +94,16 @@ pub(super) struct Hold {
 }
 
 impl Hold {
-    pub fn new(
-        chain: &Chain,
-        mode: &Mode,
-        x: &[f64],
-        outer: &[f64],
-        coulomb: &[f64],
-        node: usize,
-    ) -> Self {
+    pub fn new(chain: &Chain, mode: &Mode, x: &[f64], outer: &[f64], coulomb: &[f64], node: usize) -> Self {
         let torque = |s: usize| {
             let (row, constant) = elastic_torque(chain, mode, s);
             dot(&row, x) + constant
         };
         let before = if node > 0 { torque(node - 1) } else { 0.0 };
-        let behind = if node < chain.shafts.len() {
-            torque(node)
-        } else {
-            0.0
-        };
+        let behind = if node < chain.shafts.len() { torque(node) } else { 0.0 };
         let eta = chain.nodes[node].efficiency;
         let (one, other) = (behind * eta, behind / eta);
-        Self {
-            push: outer[node] + before,
-            reaction: (one.min(other), one.max(other)),
-            coulomb: coulomb[node],
-        }
+        Self { push: outer[node] + before, reaction: (one.min(other), one.max(other)), coulomb: coulomb[node] }
     }
 
     /// The direction in which the node starts, or 0 if it is held.

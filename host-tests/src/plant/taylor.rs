@@ -22,8 +22,7 @@ impl Stretch {
         let m = x.len();
         let mut terms = vec![x.to_vec()];
         let mut magnitudes = vec![x.iter().map(|v| v.abs()).collect::<Vec<_>>()];
-        let (mut ax, mut size, mut bf, mut bf_size) =
-            (vec![0.0; m], vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+        let (mut ax, mut size, mut bf, mut bf_size) = (vec![0.0; m], vec![0.0; m], vec![0.0; m], vec![0.0; m]);
         for order in 1..=ORDER {
             let factor = length / order as f64;
             regime.a.times(&terms[order - 1], &mut ax);
@@ -45,11 +44,7 @@ impl Stretch {
             terms.push(ax.iter().map(|v| v * factor).collect());
             magnitudes.push(size.iter().map(|v| v * factor).collect());
         }
-        Self {
-            length,
-            terms,
-            magnitudes,
-        }
+        Self { length, terms, magnitudes }
     }
 
     /// The state at `s`.
@@ -67,11 +62,7 @@ impl Stretch {
     pub fn form(&self, row: &[f64], constant: f64, slope: f64) -> (Vec<f64>, Vec<f64>) {
         let sizes: Vec<f64> = row.iter().map(|v| v.abs()).collect();
         let mut values: Vec<f64> = self.terms.iter().map(|term| dot(row, term)).collect();
-        let mut rounding: Vec<f64> = self
-            .magnitudes
-            .iter()
-            .map(|term| dot(&sizes, term))
-            .collect();
+        let mut rounding: Vec<f64> = self.magnitudes.iter().map(|term| dot(&sizes, term)).collect();
         values[0] += constant;
         values[1] += slope * self.length;
         rounding[0] += constant.abs();

@@ -42,13 +42,7 @@ impl Need {
     /// All that is needed.
     pub fn all() -> Vec<Need> {
         let targets = BOARDS.iter().map(|board| Need::Target(board.target));
-        targets
-            .chain([
-                Need::Component("rustfmt", "fmt"),
-                Need::Component("clippy", "clippy"),
-                Need::Qemu,
-            ])
-            .collect()
+        targets.chain([Need::Component("rustfmt", "fmt"), Need::Component("clippy", "clippy"), Need::Qemu]).collect()
     }
 
     /// Whether it is there.
@@ -82,18 +76,12 @@ impl Need {
 
 /// What is missing of all that is needed.
 pub fn missing() -> Vec<Need> {
-    Need::all()
-        .into_iter()
-        .filter(|need| !need.is_met())
-        .collect()
+    Need::all().into_iter().filter(|need| !need.is_met()).collect()
 }
 
 /// Installs what is missing, telling `progress` each command before it runs; the names of what was installed.
 pub fn ensure(mut progress: impl FnMut(&str)) -> Result<Vec<String>, SetupError> {
-    missing()
-        .into_iter()
-        .map(|need| install(&need, &mut progress).map(|()| need.name()))
-        .collect()
+    missing().into_iter().map(|need| install(&need, &mut progress).map(|()| need.name())).collect()
 }
 
 fn install(need: &Need, progress: &mut impl FnMut(&str)) -> Result<(), SetupError> {
@@ -112,20 +100,14 @@ fn install(need: &Need, progress: &mut impl FnMut(&str)) -> Result<(), SetupErro
         },
     };
     if commands.is_empty() {
-        return Err(failed(
-            "no package manager known here: apt-get, dnf, pacman or brew".into(),
-        ));
+        return Err(failed("no package manager known here: apt-get, dnf, pacman or brew".into()));
     }
     if *need == Need::Qemu && !rights.suffice(manager) {
-        return Err(failed(
-            "that takes root, and sudo asks for a password or is not there".into(),
-        ));
+        return Err(failed("that takes root, and sudo asks for a password or is not there".into()));
     }
     for (command, line) in commands.iter().zip(&lines) {
         progress(line);
-        let (program, arguments) = command
-            .split_first()
-            .ok_or_else(|| failed("no command".into()))?;
+        let (program, arguments) = command.split_first().ok_or_else(|| failed("no command".into()))?;
         let status = Command::new(program)
             .args(arguments)
             .env("DEBIAN_FRONTEND", "noninteractive")
@@ -138,11 +120,7 @@ fn install(need: &Need, progress: &mut impl FnMut(&str)) -> Result<(), SetupErro
             return Err(failed(format!("`{line}` ended with {status}")));
         }
     }
-    if need.is_met() {
-        Ok(())
-    } else {
-        Err(failed("it was installed and is still not found".into()))
-    }
+    if need.is_met() { Ok(()) } else { Err(failed("it was installed and is still not found".into())) }
 }
 
 /// The cargo that runs this program, else the one on the path.
@@ -152,9 +130,7 @@ pub(crate) fn cargo() -> std::ffi::OsString {
 
 /// Whether the compiler has a standard library for a target; asks the compiler, so that it works without rustup.
 fn has_target(target: &str) -> bool {
-    let output = Command::new("rustc")
-        .args(["--print", "target-libdir", "--target", target])
-        .output();
+    let output = Command::new("rustc").args(["--print", "target-libdir", "--target", target]).output();
     output.is_ok_and(|output| {
         let directory = String::from_utf8_lossy(&output.stdout);
         output.status.success() && Path::new(directory.trim()).is_dir()
@@ -162,17 +138,11 @@ fn has_target(target: &str) -> bool {
 }
 
 fn succeeds(program: &OsStr, arguments: &[&str]) -> bool {
-    let status = Command::new(program)
-        .args(arguments)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .status();
+    let status = Command::new(program).args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
     status.is_ok_and(|status| status.success())
 }
 
 /// The program on a search path.
 fn find(program: &str, path: &OsStr) -> Option<PathBuf> {
-    std::env::split_paths(path)
-        .map(|directory| directory.join(program))
-        .find(|file| file.is_file())
+    std::env::split_paths(path).map(|directory| directory.join(program)).find(|file| file.is_file())
 }

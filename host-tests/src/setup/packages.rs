@@ -31,24 +31,15 @@ pub enum Rights {
 impl Manager {
     /// The first that is installed.
     pub fn find(has: impl Fn(&str) -> bool) -> Option<Self> {
-        let all = [
-            ("apt-get", Manager::Apt),
-            ("dnf", Manager::Dnf),
-            ("pacman", Manager::Pacman),
-            ("brew", Manager::Brew),
-        ];
-        all.into_iter()
-            .find(|(program, _)| has(program))
-            .map(|(_, manager)| manager)
+        let all =
+            [("apt-get", Manager::Apt), ("dnf", Manager::Dnf), ("pacman", Manager::Pacman), ("brew", Manager::Brew)];
+        all.into_iter().find(|(program, _)| has(program)).map(|(_, manager)| manager)
     }
 
     /// The commands that install QEMU for Arm.
     pub fn install_qemu(self, rights: Rights) -> Vec<Vec<String>> {
         let lines: &[&str] = match self {
-            Manager::Apt => &[
-                "apt-get update",
-                "apt-get install -y --no-install-recommends qemu-system-arm",
-            ],
+            Manager::Apt => &["apt-get update", "apt-get install -y --no-install-recommends qemu-system-arm"],
             Manager::Dnf => &["dnf install -y qemu-system-arm"],
             Manager::Pacman => &["pacman -S --noconfirm --needed qemu-system-arm"],
             Manager::Brew => &["brew install qemu"],
@@ -58,14 +49,7 @@ impl Manager {
             (_, Rights::Sudo) => &["sudo", "-n"],
             (_, Rights::None) => &["sudo"],
         };
-        let command = |line: &&str| {
-            prefix
-                .iter()
-                .copied()
-                .chain(line.split(' '))
-                .map(String::from)
-                .collect()
-        };
+        let command = |line: &&str| prefix.iter().copied().chain(line.split(' ')).map(String::from).collect();
         lines.iter().map(command).collect()
     }
 }
@@ -96,34 +80,19 @@ mod tests {
     fn the_command_to_type_fits_the_system_and_the_rights() {
         let line = |manager: Manager, rights| {
             let commands = manager.install_qemu(rights);
-            commands
-                .iter()
-                .map(|command| command.join(" "))
-                .collect::<Vec<_>>()
-                .join(" && ")
+            commands.iter().map(|command| command.join(" ")).collect::<Vec<_>>().join(" && ")
         };
         let apt = "apt-get update && apt-get install -y --no-install-recommends qemu-system-arm";
         assert_eq!(line(Manager::Apt, Rights::Root), apt);
-        assert_eq!(
-            line(Manager::Dnf, Rights::Sudo),
-            "sudo -n dnf install -y qemu-system-arm"
-        );
-        assert_eq!(
-            line(Manager::Pacman, Rights::None),
-            "sudo pacman -S --noconfirm --needed qemu-system-arm"
-        );
+        assert_eq!(line(Manager::Dnf, Rights::Sudo), "sudo -n dnf install -y qemu-system-arm");
+        assert_eq!(line(Manager::Pacman, Rights::None), "sudo pacman -S --noconfirm --needed qemu-system-arm");
         assert_eq!(line(Manager::Brew, Rights::None), "brew install qemu");
     }
 
     #[test]
     fn the_first_manager_that_is_installed_is_taken() {
-        assert_eq!(
-            Manager::find(|program| program == "dnf" || program == "brew"),
-            Some(Manager::Dnf)
-        );
+        assert_eq!(Manager::find(|program| program == "dnf" || program == "brew"), Some(Manager::Dnf));
         assert_eq!(Manager::find(|_| false), None);
-        assert!(
-            Rights::None.suffice(Some(Manager::Brew)) && !Rights::None.suffice(Some(Manager::Apt))
-        );
+        assert!(Rights::None.suffice(Some(Manager::Brew)) && !Rights::None.suffice(Some(Manager::Apt)));
     }
 }

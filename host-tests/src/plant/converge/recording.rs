@@ -27,13 +27,7 @@ impl Recording {
     #[must_use]
     pub fn new(plant: Plant) -> Self {
         let start = plant.clone();
-        Self {
-            start,
-            steps: Vec::new(),
-            samples: Vec::new(),
-            times: Vec::new(),
-            plant,
-        }
+        Self { start, steps: Vec::new(), samples: Vec::new(), times: Vec::new(), plant }
     }
 
     /// [`Plant::advance`], written down.
@@ -41,10 +35,7 @@ impl Recording {
         let refused = self.plant.refused();
         self.plant.advance(motor_torque, dt);
         if self.plant.refused() == refused {
-            self.steps.push(Step::Advance {
-                torque: motor_torque,
-                dt,
-            });
+            self.steps.push(Step::Advance { torque: motor_torque, dt });
             self.samples.push(sample(&self.plant));
             self.times.push(self.plant.time());
         }

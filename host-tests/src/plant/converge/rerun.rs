@@ -19,10 +19,7 @@ pub(super) fn rerun(run: &Recording) -> Result<Vec<Vec<f64>>, NotProven> {
     let plant = &run.start;
     let mut y = plant.x.clone();
     let mut machine = Machine::new(plant, &y);
-    let mut pass = Pass {
-        scale: scale(run, plant),
-        longest: REACH / fastest(plant),
-    };
+    let mut pass = Pass { scale: scale(run, plant), longest: REACH / fastest(plant) };
     let mut samples = Vec::new();
     let mut start = plant.time();
     let mut fresh = true;
@@ -60,33 +57,19 @@ fn scale(run: &Recording, plant: &Plant) -> Vec<f64> {
     let peak = |i: usize| run.samples.iter().map(|s| s[i].abs()).fold(0.0, f64::max);
     let or_one = |size: f64| if size > 0.0 { size } else { 1.0 };
     let top_speed = or_one((0..n).map(peak).fold(0.0, f64::max));
-    let twists = plant
-        .chain
-        .shafts
-        .iter()
-        .enumerate()
-        .map(|(s, shaft)| or_one((peak(n + s) / shaft.stiffness).max(shaft.gap)));
-    twists
-        .chain(vec![top_speed; n])
-        .chain([or_one(peak(2 * n - 1))])
-        .collect()
+    let twists =
+        plant.chain.shafts.iter().enumerate().map(|(s, shaft)| or_one((peak(n + s) / shaft.stiffness).max(shaft.gap)));
+    twists.chain(vec![top_speed; n]).chain([or_one(peak(2 * n - 1))]).collect()
 }
 
 /// Bound of the rates of the chain, 1/s, by Gershgorin's circles.
 fn fastest(plant: &Plant) -> f64 {
     let shafts = &plant.chain.shafts;
     let rates = plant.chain.nodes.iter().enumerate().map(|(j, node)| {
-        let near = [j.checked_sub(1), Some(j)]
-            .into_iter()
-            .flatten()
-            .filter_map(|s| shafts.get(s));
-        let (k, d) = near.fold((0.0, node.viscous), |(k, d), shaft| {
-            (k + shaft.stiffness, d + shaft.damping)
-        });
+        let near = [j.checked_sub(1), Some(j)].into_iter().flatten().filter_map(|s| shafts.get(s));
+        let (k, d) = near.fold((0.0, node.viscous), |(k, d), shaft| (k + shaft.stiffness, d + shaft.damping));
         let loss = node.efficiency;
-        (2.0 * k / (loss * node.inertia))
-            .sqrt()
-            .max(2.0 * d / (loss * node.inertia))
+        (2.0 * k / (loss * node.inertia)).sqrt().max(2.0 * d / (loss * node.inertia))
     });
     rates.fold(0.0, f64::max)
 }
@@ -113,23 +96,12 @@ struct Pass {
 }
 
 impl Pass {
-    fn tick(
-        &mut self,
-        machine: &mut Machine,
-        y: &mut Vec<f64>,
-        start: f64,
-        dt: f64,
-    ) -> Result<(), NotProven> {
+    fn tick(&mut self, machine: &mut Machine, y: &mut Vec<f64>, start: f64, dt: f64) -> Result<(), NotProven> {
         let mut corners = vec![start, start + dt];
         let within = |t: &f64| *t > start && *t < start + dt;
         for node in &machine.chain.nodes {
             let mut from = start;
-            while let Some(corner) = node
-                .program
-                .as_ref()
-                .and_then(|p| p.corner_after(from))
-                .filter(within)
-            {
+            while let Some(corner) = node.program.as_ref().and_then(|p| p.corner_after(from)).filter(within) {
                 corners.push(corner);
                 from = corner;
             }
@@ -146,13 +118,7 @@ impl Pass {
         Ok(())
     }
 
-    fn piece(
-        &self,
-        machine: &mut Machine,
-        y: &mut Vec<f64>,
-        t: f64,
-        length: f64,
-    ) -> Result<(), NotProven> {
+    fn piece(&self, machine: &mut Machine, y: &mut Vec<f64>, t: f64, length: f64) -> Result<(), NotProven> {
         let (mut now, mut left) = (t, length);
         for _ in 0..1000 {
             let ahead = self.integrate(machine, y, now, left)?;
@@ -164,49 +130,24 @@ impl Pass {
             (now, left) = (now + after, left - after);
             machine.change(now, y, change);
         }
-        Err(NotProven::Integrator {
-            time: now,
-            reason: "a thousand events in one piece".into(),
-        })
+        Err(NotProven::Integrator { time: now, reason: "a thousand events in one piece".into() })
     }
 
-    fn integrate(
-        &self,
-        machine: &Machine,
-        y: &[f64],
-        t: f64,
-        length: f64,
-    ) -> Result<Vec<f64>, NotProven> {
+    fn integrate(&self, machine: &Machine, y: &[f64], t: f64, length: f64) -> Result<Vec<f64>, NotProven> {
         if length <= 0.0 {
             return Ok(y.to_vec());
         }
-        let equations = Scaled {
-            machine,
-            scale: &self.scale,
-            origin: t,
-        };
+        let equations = Scaled { machine, scale: &self.scale, origin: t };
         let start: Vec<f64> = y.iter().zip(&self.scale).map(|(y, s)| y / s).collect();
         let failed = |reason: String| NotProven::Integrator { time: t, reason };
-        let mut method = ExplicitRungeKutta::dop853()
-            .rtol(TOLERANCE)
-            .atol(TOLERANCE)
-            .h0(length);
-        method
-            .init(&equations, 0.0, length, &start)
-            .map_err(|e| failed(format!("{e:?}")))?;
+        let mut method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE).h0(length);
+        method.init(&equations, 0.0, length, &start).map_err(|e| failed(format!("{e:?}")))?;
         while method.t() < length {
             let h = method.h().min(length - method.t());
             method.set_h(h);
-            method
-                .step(&equations)
-                .map_err(|e| failed(format!("{e:?}")))?;
+            method.step(&equations).map_err(|e| failed(format!("{e:?}")))?;
         }
-        Ok(method
-            .y()
-            .iter()
-            .zip(&self.scale)
-            .map(|(z, s)| z * s)
-            .collect())
+        Ok(method.y().iter().zip(&self.scale).map(|(z, s)| z * s).collect())
     }
 
     /// The first guard to fall within `left` seconds, and after how long.
@@ -220,9 +161,7 @@ impl Pass {
     ) -> Result<Option<(f64, Change)>, NotProven> {
         let (before, after) = (machine.guards(now, y), machine.guards(now + left, ahead));
         let mut first: Option<(f64, Change)> = None;
-        for (i, (&(from, size, change), &(to, end_size, _))) in
-            before.iter().zip(&after).enumerate()
-        {
+        for (i, (&(from, size, change), &(to, end_size, _))) in before.iter().zip(&after).enumerate() {
             let fallen = FALLEN * size.max(end_size);
             let guard = |after: f64| -> Result<f64, NotProven> {
                 let there = self.integrate(machine, y, now, after)?;
@@ -231,11 +170,7 @@ impl Pass {
             let slope = |y: &[f64], t: f64| {
                 let mut rate = vec![0.0; y.len()];
                 machine.rate(t, y, &mut rate);
-                let moved: Vec<f64> = y
-                    .iter()
-                    .zip(&rate)
-                    .map(|(y, r)| y + r * 1e-3 * left)
-                    .collect();
+                let moved: Vec<f64> = y.iter().zip(&rate).map(|(y, r)| y + r * 1e-3 * left).collect();
                 machine.guards(t, &moved)[i].0 - machine.guards(t, y)[i].0
             };
             let falling = slope(y, now) < 0.0;
@@ -260,11 +195,7 @@ impl Pass {
                 while b - a > 1e-7 * left {
                     let middle = 0.5 * (a + b);
                     let there = self.integrate(machine, y, now, middle)?;
-                    if slope(&there, now + middle) < 0.0 {
-                        a = middle
-                    } else {
-                        b = middle
-                    }
+                    if slope(&there, now + middle) < 0.0 { a = middle } else { b = middle }
                 }
                 (guard(b)? < -fallen).then_some((0.0, b))
             } else {
@@ -281,11 +212,7 @@ impl Pass {
                 if middle <= a || middle >= b {
                     break;
                 }
-                if guard(middle)? < 0.0 {
-                    b = middle
-                } else {
-                    a = middle
-                }
+                if guard(middle)? < 0.0 { b = middle } else { a = middle }
             }
             if first.is_none_or(|(earliest, _)| b < earliest) {
                 first = Some((b, change));

@@ -29,24 +29,16 @@ impl System {
         let mut order: Vec<usize> = (0..n).collect();
         order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
         let rigid = reduced.rigid_motions();
-        let omega = order.iter().enumerate().map(|(rank, &i)| {
-            if rank < rigid {
-                0.0
-            } else {
-                eigen.eigenvalues[i].max(0.0).sqrt()
-            }
-        });
+        let omega = order.iter().enumerate().map(
+            |(rank, &i)| {
+                if rank < rigid { 0.0 } else { eigen.eigenvalues[i].max(0.0).sqrt() }
+            },
+        );
         let shapes = order.iter().map(|&i| {
-            let angle = |&(c, ratio): &(usize, f64)| {
-                ratio * eigen.eigenvectors[(c, i)] / reduced.inertia[c].sqrt()
-            };
+            let angle = |&(c, ratio): &(usize, f64)| ratio * eigen.eigenvectors[(c, i)] / reduced.inertia[c].sqrt();
             reduced.ties.iter().map(angle).collect()
         });
-        Ok(Modes {
-            omega: omega.collect(),
-            shapes: shapes.collect(),
-            free_nodes: reduced.free.clone(),
-        })
+        Ok(Modes { omega: omega.collect(), shapes: shapes.collect(), free_nodes: reduced.free.clone() })
     }
 
     /// Eigenvalues of the damped system, 1/s, two for every free coordinate, from the pair of equations for scaled link torques
@@ -82,11 +74,7 @@ impl System {
         values.truncate(2 * n);
         values.resize(2 * n, Complex::new(0.0, 0.0));
         let mut pairs: Vec<(f64, f64)> = values.iter().map(|v| (v.re, v.im)).collect();
-        pairs.sort_by(|a, b| {
-            a.0.hypot(a.1)
-                .total_cmp(&b.0.hypot(b.1))
-                .then(b.1.total_cmp(&a.1))
-        });
+        pairs.sort_by(|a, b| a.0.hypot(a.1).total_cmp(&b.0.hypot(b.1)).then(b.1.total_cmp(&a.1)));
         Ok(pairs)
     }
 }

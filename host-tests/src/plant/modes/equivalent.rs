@@ -21,29 +21,19 @@ impl System {
     pub fn equivalent_chain(&self, drive_node: usize) -> Result<EquivalentChain, SystemError> {
         let reduced = self.reduce()?;
         let nodes = reduced.ties.len();
-        let (mut at, ratio) = *reduced
-            .ties
-            .get(drive_node)
-            .ok_or(SystemError::NoSuchNode {
-                element: "the drive",
-                node: drive_node,
-                nodes,
-            })?;
-        let broken = |coordinate: usize| SystemError::NotAChain {
-            node: reduced.free[coordinate],
-        };
+        let (mut at, ratio) = *reduced.ties.get(drive_node).ok_or(SystemError::NoSuchNode {
+            element: "the drive",
+            node: drive_node,
+            nodes,
+        })?;
+        let broken = |coordinate: usize| SystemError::NotAChain { node: reduced.free[coordinate] };
         // angle of the coordinate per angle of the drive
         let mut speed = 1.0 / ratio;
         let mut left = reduced.links.clone();
-        let mut chain = EquivalentChain {
-            inertia: Vec::new(),
-            stiffness: Vec::new(),
-        };
+        let mut chain = EquivalentChain { inertia: Vec::new(), stiffness: Vec::new() };
         loop {
             chain.inertia.push(reduced.inertia[at] * speed * speed);
-            let touches = |link: &super::system::Link| {
-                link.from.0 == at || link.to.is_some_and(|to| to.0 == at)
-            };
+            let touches = |link: &super::system::Link| link.from.0 == at || link.to.is_some_and(|to| to.0 == at);
             let mut next = (0..left.len()).filter(|&i| touches(&left[i]));
             let Some(index) = next.next() else { break };
             if next.next().is_some() {
@@ -51,11 +41,7 @@ impl System {
             }
             let link = left.swap_remove(index);
             let to = link.to.ok_or_else(|| broken(at))?;
-            let (near, far) = if link.from.0 == at {
-                (link.from, to)
-            } else {
-                (to, link.from)
-            };
+            let (near, far) = if link.from.0 == at { (link.from, to) } else { (to, link.from) };
             let turn = near.1 * speed;
             chain.stiffness.push(link.stiffness * turn * turn);
             speed = turn / far.1;

@@ -30,10 +30,6 @@ pub fn frequency_between(inertia: &[f64], stiffness: &[f64], low: f64, high: f64
         if middle <= a || middle >= b {
             return Some(middle);
         }
-        if residual(middle).signum() == sign {
-            a = middle
-        } else {
-            b = middle
-        }
+        if residual(middle).signum() == sign { a = middle } else { b = middle }
     }
 }

@@ -53,20 +53,12 @@ fn orthogonalise(columns: &mut [Vec<f64>], i: usize, j: usize) -> bool {
         return false;
     }
     // cosine of the angle between them, free of over- and underflow
-    let cosine: f64 = columns[i]
-        .iter()
-        .zip(&columns[j])
-        .map(|(x, y)| (x / a) * (y / b))
-        .sum();
+    let cosine: f64 = columns[i].iter().zip(&columns[j]).map(|(x, y)| (x / a) * (y / b)).sum();
     if cosine.abs() <= f64::EPSILON {
         return false;
     }
     let zeta = (b / a - a / b) / (2.0 * cosine);
-    let t = if zeta.abs() > 1e150 {
-        0.5 / zeta
-    } else {
-        zeta.signum() / (zeta.abs() + zeta.hypot(1.0))
-    };
+    let t = if zeta.abs() > 1e150 { 0.5 / zeta } else { zeta.signum() / (zeta.abs() + zeta.hypot(1.0)) };
     let c = 1.0 / t.hypot(1.0);
     let s = c * t;
     for row in 0..columns[i].len() {
@@ -82,10 +74,5 @@ fn norm(column: &[f64]) -> f64 {
     if largest == 0.0 {
         return 0.0;
     }
-    largest
-        * column
-            .iter()
-            .map(|v| (v / largest).powi(2))
-            .sum::<f64>()
-            .sqrt()
+    largest * column.iter().map(|v| (v / largest).powi(2)).sum::<f64>().sqrt()
 }

@@ -75,12 +75,7 @@ impl System {
     /// Discs of these inertias, kg m2, zero or above.
     #[must_use]
     pub fn new(inertia: &[f64]) -> Self {
-        Self {
-            inertia: inertia.to_vec(),
-            disc_damping: Vec::new(),
-            springs: Vec::new(),
-            gears: Vec::new(),
-        }
+        Self { inertia: inertia.to_vec(), disc_damping: Vec::new(), springs: Vec::new(), gears: Vec::new() }
     }
 
     /// Damping of every disc to the ground, N m s/rad, zero or above; one number per disc.
@@ -93,36 +88,21 @@ impl System {
     /// A shaft of this stiffness (N m/rad, above zero) and damping (N m s/rad, zero or above) between two nodes.
     #[must_use]
     pub fn shaft(mut self, from: usize, to: usize, stiffness: f64, damping: f64) -> Self {
-        self.springs.push(Spring {
-            from,
-            to: Some(to),
-            stiffness,
-            damping,
-        });
+        self.springs.push(Spring { from, to: Some(to), stiffness, damping });
         self
     }
 
     /// A spring and damper from a node to the ground.
     #[must_use]
     pub fn ground(mut self, node: usize, stiffness: f64, damping: f64) -> Self {
-        self.springs.push(Spring {
-            from: node,
-            to: None,
-            stiffness,
-            damping,
-        });
+        self.springs.push(Spring { from: node, to: None, stiffness, damping });
         self
     }
 
     /// A pair of gears in external mesh: `r_parent theta_parent + r theta_node = 0`, radii above zero.
     #[must_use]
     pub fn gear(mut self, parent: usize, node: usize, r_parent: f64, r: f64) -> Self {
-        self.gears.push(Gear {
-            parent,
-            node,
-            ratio: -r_parent / r,
-            radii: (r_parent, r),
-        });
+        self.gears.push(Gear { parent, node, ratio: -r_parent / r, radii: (r_parent, r) });
         self
     }
 
@@ -130,17 +110,12 @@ impl System {
     pub(super) fn reduce(&self) -> Result<Reduced, SystemError> {
         self.validate()?;
         let nodes = self.inertia.len();
-        let ties = (0..nodes)
-            .map(|node| self.tie(node))
-            .collect::<Result<Vec<_>, _>>()?;
+        let ties = (0..nodes).map(|node| self.tie(node)).collect::<Result<Vec<_>, _>>()?;
         let mut free: Vec<usize> = ties.iter().map(|tie| tie.0).collect();
         free.sort_unstable();
         free.dedup();
         let place = |node: usize| free.partition_point(|&f| f < node);
-        let ties: Vec<(usize, f64)> = ties
-            .iter()
-            .map(|&(root, ratio)| (place(root), ratio))
-            .collect();
+        let ties: Vec<(usize, f64)> = ties.iter().map(|&(root, ratio)| (place(root), ratio)).collect();
         let (mut inertia, mut disc_damping) = (vec![0.0; free.len()], vec![0.0; free.len()]);
         for (node, &(coordinate, ratio)) in ties.iter().enumerate() {
             inertia[coordinate] += ratio * ratio * self.inertia[node];
@@ -148,11 +123,7 @@ impl System {
             disc_damping[coordinate] += ratio * ratio * damping;
         }
         for (&node, &inertia) in free.iter().zip(&inertia) {
-            positive(
-                "inertia with what gears tie to it",
-                Place::Node(node),
-                inertia,
-            )?;
+            positive("inertia with what gears tie to it", Place::Node(node), inertia)?;
         }
         let links = self.springs.iter().map(|spring| Link {
             from: ties[spring.from],
@@ -160,13 +131,7 @@ impl System {
             stiffness: spring.stiffness,
             damping: spring.damping,
         });
-        Ok(Reduced {
-            free,
-            links: links.collect(),
-            ties,
-            inertia,
-            disc_damping,
-        })
+        Ok(Reduced { free, links: links.collect(), ties, inertia, disc_damping })
     }
 
     /// The node that this one follows through gears, and its angle per angle of that node.
@@ -189,27 +154,14 @@ impl System {
     fn validate(&self) -> Result<(), SystemError> {
         let nodes = self.inertia.len();
         let there = |element, node| {
-            if node < nodes {
-                Ok(())
-            } else {
-                Err(SystemError::NoSuchNode {
-                    element,
-                    node,
-                    nodes,
-                })
-            }
+            if node < nodes { Ok(()) } else { Err(SystemError::NoSuchNode { element, node, nodes }) }
         };
         for (j, &inertia) in self.inertia.iter().enumerate() {
             not_negative("inertia", Place::Node(j), inertia)?;
         }
         let damped = self.disc_damping.len();
         if damped != 0 && damped != nodes {
-            return Err(PlantError::Count {
-                name: "disc damping",
-                found: damped,
-                expected: nodes,
-            }
-            .into());
+            return Err(PlantError::Count { name: "disc damping", found: damped, expected: nodes }.into());
         }
         for (j, &damping) in self.disc_damping.iter().enumerate() {
             not_negative("disc damping", Place::Node(j), damping)?;
@@ -225,13 +177,7 @@ impl System {
             there("a gear", gear.node)?;
             for radius in [gear.radii.0, gear.radii.1] {
                 let place = Place::Node(gear.node);
-                in_range(
-                    "gear radius",
-                    place,
-                    radius,
-                    radius > 0.0,
-                    "a finite number above zero",
-                )?;
+                in_range("gear radius", place, radius, radius > 0.0, "a finite number above zero")?;
             }
         }
         Ok(())
@@ -317,8 +263,7 @@ impl Reduced {
         let n = self.inertia.len();
         let scale = |link: &Link| {
             let row = link.row(n).into_iter().zip(&self.inertia);
-            row.map(|(twist, inertia)| twist * (link.stiffness / inertia).sqrt())
-                .collect()
+            row.map(|(twist, inertia)| twist * (link.stiffness / inertia).sqrt()).collect()
         };
         self.links.iter().map(scale).collect()
     }

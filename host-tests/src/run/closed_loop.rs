@@ -1,0 +1,128 @@
+//! The plant and a drive in lock-step.
+
+use std::io;
+
+use driveline_firmware::scene::{Input, Output, Scene};
+
+use super::scenario::{Action, Machine, Scenario};
+use super::sensors::Noise;
+use super::units::Units;
+use crate::link::Link;
+use crate::plant::converge::Recording;
+
+/// Something that ticks: a scene on the host, or an image in QEMU.
+pub trait Ticks {
+    /// One tick.
+    ///
+    /// # Errors
+    /// What the link says; never on the host.
+    fn tick(&mut self, input: &Input) -> io::Result<Output>;
+}
+
+/// A scene on the host.
+pub struct OnHost<S>(pub S);
+
+impl<S: Scene> Ticks for OnHost<S> {
+    fn tick(&mut self, input: &Input) -> io::Result<Output> {
+        Ok(self.0.tick(input))
+    }
+}
+
+impl Ticks for Link {
+    fn tick(&mut self, input: &Input) -> io::Result<Output> {
+        self.exchange(input)
+    }
+}
+
+/// What was true, what was estimated, and what was exchanged, at one tick.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Moment {
+    /// Time [s].
+    pub time: f64,
+    /// Torque commanded [N m].
+    pub torque: f64,
+    /// Speed of the motor [rad/s].
+    pub motor_speed: f64,
+    /// Shaft torque, load speed, load torque as the plant has them [N m, rad/s, N m].
+    pub truth: [f64; 3],
+    /// The same as the drive estimates them.
+    pub estimate: [f64; 3],
+    /// Fault flags.
+    pub faults: u32,
+    /// Instructions of the tick; zero on the host.
+    pub instructions: u32,
+}
+
+/// What a run left behind.
+pub struct Trace {
+    /// Every tick.
+    pub moments: Vec<Moment>,
+    /// What was sent and what came back.
+    pub words: Vec<(Input, Output)>,
+    /// The plant with everything that was done to it, ready to be proven.
+    pub recording: Recording,
+}
+
+/// Runs a scenario to its end with a drive that ticks `rate_hz` times a second.
+///
+/// # Errors
+/// What the drive's link says.
+pub fn run(
+    machine: &Machine,
+    scenario: &Scenario,
+    units: &Units,
+    rate_hz: u32,
+    drive: &mut impl Ticks,
+    mut progress: impl FnMut(u64),
+) -> io::Result<Trace> {
+    let period = 1.0 / f64::from(rate_hz);
+    let ticks = (scenario.duration * f64::from(rate_hz)).round() as usize;
+    let (node, shaft) = machine.load;
+    let mut recording = Recording::new(scenario.plant.clone());
+    let mut noise = Noise::new(1);
+    let mut actions = scenario.actions.iter().peekable();
+    let (mut reference, mut released, mut applied) = (0.0, false, 0.0);
+    let mut moments = Vec::with_capacity(ticks);
+    let mut words = Vec::with_capacity(ticks);
+    for tick in 0..ticks {
+        let time = tick as f64 * period;
+        // An action belongs to the tick that it falls on: half a period of slack against rounding.
+        while let Some((_, action)) = actions.next_if(|(at, _)| *at < time + 0.5 * period) {
+            match *action {
+                Action::Reference(speed) => reference = speed,
+                Action::Release => released = true,
+                Action::Load(node, torque) => recording.set_load_torque(node, torque),
+                Action::Brake(node, torque) => recording.set_brake(node, torque),
+            }
+        }
+        let plant = recording.plant();
+        let input = Input {
+            angle: machine.encoder.read(plant.motor_angle() - scenario.plant.motor_angle()),
+            torque: units.torque_word(applied + machine.torque_noise * noise.normal()),
+            reference: if released { units.speed_word(reference) } else { units.torque_word(scenario.held) },
+            flags: if released { Input::RELEASED } else { 0 },
+            ..Input::default()
+        };
+        let output = drive.tick(&input)?;
+        applied = units.torque(output.torque);
+        moments.push(Moment {
+            time,
+            torque: applied,
+            motor_speed: plant.motor_speed(),
+            truth: [plant.shaft_torque(shaft), plant.speed(node), plant.load_torque(node)],
+            estimate: [
+                units.torque(output.shaft_torque),
+                units.speed(output.load_speed),
+                units.torque(output.load_torque),
+            ],
+            faults: output.faults,
+            instructions: output.instructions,
+        });
+        words.push((input, output));
+        recording.advance(applied, period);
+        if tick % 1024 == 0 {
+            progress(tick as u64);
+        }
+    }
+    Ok(Trace { moments, words, recording })
+}

@@ -1,0 +1,86 @@
+//! The hoist's full plant and its runs.
+//!
+//! Referred to the motor here once more, from the same figures as the scene but by own arithmetic
+//! [Huang 1987 ch. 1, Wang 1989 §1-3], so that an error of the library's reduction would show.
+
+use driveline_firmware::scenes::hoist;
+
+use super::scenario::{Action, Machine, Scenario};
+use super::sensors::Encoder;
+use crate::plant::{Chain, PlantError, Shaft, Start};
+
+/// Gravity [m/s2], the standard value of ISO 80000-3.
+const GRAVITY: f64 = 9.80665;
+
+const MASS: f64 = 12_000.0;
+const DIAMETER: f64 = 0.8;
+const FALLS: f64 = 2.0;
+const RATIO: f64 = 31.5;
+const ROPE: f64 = 2.9e6;
+const ROPE_DAMPING: f64 = 3.6e3;
+const EFFICIENCY: f64 = 1.0;
+
+/// Travel of the load per angle of the motor [m/rad].
+const TRAVEL: f64 = DIAMETER / (2.0 * FALLS * RATIO);
+/// Torque of the weight at the motor [N m].
+const WEIGHT: f64 = MASS * GRAVITY * TRAVEL;
+/// The load's node and the rope's shaft.
+const LOAD: usize = 2;
+const DRUM: usize = 1;
+
+/// The chain up to the load, which hangs on a rope that comes taut at `slack` [rad of the motor].
+fn chain(slack: f64) -> Chain {
+    let square = TRAVEL * TRAVEL;
+    Chain::motor(0.62)
+        .shaft(Shaft::elastic(5.0e4).damping(2.0), 0.08)
+        .efficiency(EFFICIENCY)
+        .shaft(Shaft::rope(ROPE * square).damping(ROPE_DAMPING * square).gap(slack), MASS * square)
+}
+
+/// The hoist.
+///
+/// # Errors
+/// A figure of the plant that is out of range, which only a changed scene can bring.
+pub fn machine() -> Result<Machine, PlantError> {
+    let pretensioned = Scenario {
+        name: "pretensioned start, load step, lowering",
+        plant: chain(0.0)
+            .load(WEIGHT)
+            .start(Start::Given {
+                twists: vec![WEIGHT / EFFICIENCY / 5.0e4, WEIGHT / (ROPE * TRAVEL * TRAVEL)],
+                speeds: vec![0.0; 3],
+            })
+            .build()?,
+        held: WEIGHT / EFFICIENCY,
+        actions: vec![
+            (0.0, Action::Brake(DRUM, 2_000.0)),
+            (0.2, Action::Release),
+            (0.2, Action::Brake(DRUM, 0.0)),
+            (0.5, Action::Reference(hoist::RATED_SPEED)),
+            (4.0, Action::Load(LOAD, 1.5 * WEIGHT)),
+            (6.0, Action::Reference(-hoist::RATED_SPEED)),
+        ],
+        duration: 12.0,
+    };
+    let slack = Scenario {
+        name: "slack-rope start",
+        // On the ground: what holds the load until the rope carries its weight, and is its weight once it is lifted.
+        plant: chain(4.0).coulomb(WEIGHT).start(Start::Rest).build()?,
+        held: 0.0,
+        actions: vec![
+            (0.0, Action::Reference(10.0)),
+            (0.1, Action::Release),
+            (4.0, Action::Reference(hoist::RATED_SPEED)),
+        ],
+        duration: 8.0,
+    };
+    Ok(Machine {
+        name: "hoist",
+        scenarios: vec![pretensioned, slack],
+        encoder: Encoder::new(8192),
+        torque_noise: 0.01 * hoist::RATED_TORQUE,
+        load: (LOAD, 1),
+        rated_speed: hoist::RATED_SPEED,
+        bases: hoist::BASES,
+    })
+}
