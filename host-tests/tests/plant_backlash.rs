@@ -1,6 +1,7 @@
 //! Starts, reversal and loss of load of a two-mass drive against runs made with 40-digit matrix exponentials
 //! (`data/backlash_transients.json`; its header has the equations).
 
+use host_tests::plant::converge::{Recording, prove};
 use host_tests::plant::{Chain, EventKind, Extremes, MotorLaw, Place, Plant, Shaft, Start};
 use serde::Deserialize;
 
@@ -186,5 +187,22 @@ fn peaks_are_found_between_the_ticks() {
                 case.id
             );
         }
+    }
+}
+
+#[test]
+fn every_run_proves_its_own_convergence() {
+    for case in cases() {
+        let mut run = Recording::new(plant(&case));
+        let ticks = 2000;
+        for _ in 0..ticks {
+            run.advance(0.0, case.t_end_s / f64::from(ticks));
+        }
+        // 1e-8 of peak, or `prove` refuses
+        let proof = prove(&run).unwrap_or_else(|refused| panic!("{}: {refused}", case.id));
+        println!(
+            "{}: {:.1e} of peak from the second integrator, {:.1e} from tighter events",
+            case.id, proof.integrator.largest, proof.tightened.largest
+        );
     }
 }

@@ -38,6 +38,12 @@ impl Dense {
         self.values[row * cols..(row + 1) * cols].fill(0.0);
     }
 
+    pub fn clear_column(&mut self, col: usize) {
+        for row in 0..self.rows {
+            self.set(row, col, 0.0);
+        }
+    }
+
     /// `out = M v`.
     pub fn times(&self, v: &[f64], out: &mut [f64]) {
         for (o, row) in out.iter_mut().zip(self.values.chunks_exact(self.cols)) {
@@ -53,7 +59,7 @@ impl Dense {
     }
 
     /// `v^T M`.
-    pub fn from_left(&self, v: &[f64]) -> Vec<f64> {
+    pub fn left_times(&self, v: &[f64]) -> Vec<f64> {
         (0..self.cols)
             .map(|c| (0..self.rows).map(|r| v[r] * self.get(r, c)).sum())
             .collect()

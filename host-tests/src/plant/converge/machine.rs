@@ -155,8 +155,8 @@ impl<'a> Machine<'a> {
 
     pub fn rate(&self, t: f64, y: &[f64], out: &mut [f64]) {
         let n = self.n();
-        for s in 0..n - 1 {
-            out[s] = self.speed(y, s) - self.speed(y, s + 1);
+        for (s, twist_rate) in out[..n - 1].iter_mut().enumerate() {
+            *twist_rate = self.speed(y, s) - self.speed(y, s + 1);
         }
         for j in 0..n {
             let net = self.push(t, y, j);

@@ -194,7 +194,8 @@ impl Pass {
         method
             .init(&equations, 0.0, length, &start)
             .map_err(|e| failed(format!("{e:?}")))?;
-        while method.t() < length {
+        // the integrator refuses a step of less than 1e-14 of the one before
+        while length - method.t() > 1e-14 * length {
             let h = method.h().min(length - method.t());
             method.set_h(h);
             method
