@@ -142,7 +142,7 @@ fn events_come_when_and_as_the_reference_says() {
             case.id,
             case.events.len()
         );
-        // each event is located to 1e-13 s, and 28 of them follow on one another in the longest case
+        // each event is located to 1e-14 s, and 28 of them follow on one another in the longest case
         assert!(worst < 1e-11, "{} {worst:e}", case.id);
     }
 }

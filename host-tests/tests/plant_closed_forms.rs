@@ -58,7 +58,7 @@ fn masses_that_meet_at_a_relative_speed_add_the_impact_torque() {
     // met after the gap at that speed, left half a period later
     let times: Vec<f64> = plant.events().iter().map(|e| e.time).collect();
     let omega = (k * (j1 + j2) / (j1 * j2)).sqrt();
-    // events are located to 1e-13 s
+    // events are located to 1e-14 s
     assert!(
         (times[0] - 0.04 / speed).abs() < 1e-12 && (times[1] - times[0] - PI / omega).abs() < 1e-12
     );
@@ -130,7 +130,7 @@ fn momentum_and_energy_stay_through_thousands_of_impacts() {
         plant.events().len()
     );
     assert!(plant.events().len() > 1000);
-    // an event found 1e-13 s late puts some k d_omega^2 (1e-13)^2 astray, rounding 1e-16 per step
+    // an event found 1e-14 s late puts some k d_omega^2 (1e-14)^2 astray, rounding 1e-16 per step
     assert!(p.abs() < 1e-11 && e.abs() < 1e-10, "{p:e} {e:e}");
 }
 
@@ -254,7 +254,7 @@ fn a_rope_lifts_when_it_comes_taut_and_falls_slack_when_let_go() {
         (taut.kind, taut.place, taut.new),
         (EventKind::Contact, Place::Shaft(0), 1)
     );
-    // half a radian at 20 rad/s2; located to 1e-13 s
+    // half a radian at 20 rad/s2; located to 1e-14 s
     assert!((taut.time - (2.0_f64 * 0.5 / 20.0).sqrt()).abs() < 1e-12);
     plant.watch_extremes();
     run(&mut plant, -40.0, 1e-3, 400);

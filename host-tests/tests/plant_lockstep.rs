@@ -99,11 +99,11 @@ fn the_length_of_the_tick_does_not_matter() {
     assert!(coarse.events().len() > 10);
     for (a, b) in coarse.events().iter().zip(fine.events()) {
         assert_eq!((a.kind, a.place, a.new), (b.kind, b.place, b.new));
-        // events located to 1e-13 s each, dozens of them one after another
+        // events located to 1e-14 s each, dozens of them one after another
         assert!((a.time - b.time).abs() < 1e-10, "{a:?} {b:?}");
     }
     for node in 0..3 {
-        // speeds of some 50 rad/s with accelerations of 1e4 rad/s2 at events off by 1e-13 s
+        // speeds of some 50 rad/s with accelerations of 1e4 rad/s2 at events off by 1e-14 s
         assert!((coarse.speed(node) - fine.speed(node)).abs() < 1e-7);
     }
 }
