@@ -3,14 +3,13 @@
 use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 use differential_equations::prelude::ExplicitRungeKutta;
 
-use super::machine::{Change, Machine};
+use super::crossing::first_change;
+use super::machine::Machine;
 use super::recording::{Recording, Step};
 use super::{super::solver::Plant, NotProven};
 
 /// Relative tolerance of the integrator; a run of 1e5 pieces may gather 1e-8 of it at the very worst.
 const TOLERANCE: f64 = 1e-13;
-/// A guard below this share of its size has fallen.
-const FALLEN: f64 = 1e-12;
 /// Product of the fastest rate and a piece, at most.
 const REACH: f64 = 0.25;
 
@@ -107,7 +106,8 @@ impl ODE<f64, Vec<f64>> for Scaled<'_, '_> {
     }
 }
 
-struct Pass {
+/// How a piece is integrated.
+pub(super) struct Pass {
     scale: Vec<f64>,
     longest: f64,
 }
@@ -156,7 +156,7 @@ impl Pass {
         let (mut now, mut left) = (t, length);
         for _ in 0..1000 {
             let ahead = self.integrate(machine, y, now, left)?;
-            let Some((after, change)) = self.first_change(machine, y, &ahead, now, left)? else {
+            let Some((after, change)) = first_change(self, machine, y, &ahead, now, left)? else {
                 *y = ahead;
                 return Ok(());
             };
@@ -170,7 +170,8 @@ impl Pass {
         })
     }
 
-    fn integrate(
+    /// The state `length` seconds after `t`, with no event on the way.
+    pub fn integrate(
         &self,
         machine: &Machine,
         y: &[f64],
@@ -208,90 +209,5 @@ impl Pass {
             .zip(&self.scale)
             .map(|(z, s)| z * s)
             .collect())
-    }
-
-    /// The first guard to fall within `left` seconds, and after how long.
-    fn first_change(
-        &self,
-        machine: &Machine,
-        y: &[f64],
-        ahead: &[f64],
-        now: f64,
-        left: f64,
-    ) -> Result<Option<(f64, Change)>, NotProven> {
-        let (before, after) = (machine.guards(now, y), machine.guards(now + left, ahead));
-        let mut first: Option<(f64, Change)> = None;
-        for (i, (&(from, size, change), &(to, end_size, _))) in
-            before.iter().zip(&after).enumerate()
-        {
-            let fallen = FALLEN * size.max(end_size);
-            let guard = |after: f64| -> Result<f64, NotProven> {
-                let there = self.integrate(machine, y, now, after)?;
-                Ok(machine.guards(now + after, &there)[i].0)
-            };
-            let slope = |y: &[f64], t: f64| {
-                let mut rate = vec![0.0; y.len()];
-                machine.rate(t, y, &mut rate);
-                let moved: Vec<f64> = y
-                    .iter()
-                    .zip(&rate)
-                    .map(|(y, r)| y + r * 1e-3 * left)
-                    .collect();
-                machine.guards(t, &moved)[i].0 - machine.guards(t, y)[i].0
-            };
-            let falling = slope(y, now) < 0.0;
-            let bracket = if from < -fallen || (from <= fallen && falling && to < -fallen) {
-                Some((0.0, 0.0))
-            } else if to < -fallen && from > fallen {
-                Some((0.0, left))
-            } else if to < -fallen {
-                // leaves zero upwards and comes back: from the last sample above zero
-                let mut above = 0.0;
-                for k in (1..16).rev() {
-                    let at = left * f64::from(k) / 16.0;
-                    if guard(at)? > 0.0 {
-                        above = at;
-                        break;
-                    }
-                }
-                Some((above, left))
-            } else if falling && from > fallen && slope(ahead, now + left) > 0.0 {
-                // a dip: down to its bottom by halving on the slope
-                let (mut a, mut b) = (0.0, left);
-                while b - a > 1e-7 * left {
-                    let middle = 0.5 * (a + b);
-                    let there = self.integrate(machine, y, now, middle)?;
-                    if slope(&there, now + middle) < 0.0 {
-                        a = middle
-                    } else {
-                        b = middle
-                    }
-                }
-                (guard(b)? < -fallen).then_some((0.0, b))
-            } else {
-                None
-            };
-            let Some((mut a, mut b)) = bracket else {
-                continue;
-            };
-            if first.is_some_and(|(earliest, _)| a >= earliest) {
-                continue;
-            }
-            while b - a > 1e-15 {
-                let middle = 0.5 * (a + b);
-                if middle <= a || middle >= b {
-                    break;
-                }
-                if guard(middle)? < 0.0 {
-                    b = middle
-                } else {
-                    a = middle
-                }
-            }
-            if first.is_none_or(|(earliest, _)| b < earliest) {
-                first = Some((b, change));
-            }
-        }
-        Ok(first)
     }
 }
