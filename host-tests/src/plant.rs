@@ -24,6 +24,24 @@
 //!
 //! The module shares no code with the library that it judges.
 //!
+//! ```
+//! use host_tests::plant::{Chain, EventKind, Shaft, Start};
+//! // a slack rope is wound up by the motor, comes taut and lifts 60 N m
+//! let mut hoist = Chain::motor(0.62)
+//!     .shaft(Shaft::elastic(5.0e4).damping(2.0), 0.08).efficiency(0.94)
+//!     .shaft(Shaft::rope(900.0).damping(0.5).gap(0.5), 0.35).coulomb(60.0)
+//!     .start(Start::Slack)
+//!     .build()?;
+//! for _ in 0..5000 {
+//!     // in lock-step: angle and speed out, torque in, held for a tick of 100 us
+//!     let torque = (20.0 - hoist.motor_speed()) * 40.0;
+//!     hoist.advance(torque.clamp(-150.0, 150.0), 1e-4);
+//! }
+//! assert!(hoist.events().iter().any(|event| event.kind == EventKind::Contact && event.new == 1));
+//! assert!(hoist.shaft_torque(1) > 0.0 && hoist.speed(2) > 0.0);
+//! # Ok::<(), host_tests::plant::PlantError>(())
+//! ```
+//!
 //! - [`Chain`] describes, [`Plant`] runs, [`MotorLaw`] and [`LoadProgram`] excite, [`Event`] reports;
 //! - [`modes`] finds natural frequencies, of branched and geared systems too;
 //! - [`converge`] proves a run with another integrator.

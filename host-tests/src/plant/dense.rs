@@ -10,7 +10,11 @@ pub(super) struct Dense {
 
 impl Dense {
     pub fn zeros(rows: usize, cols: usize) -> Self {
-        Self { rows, cols, values: vec![0.0; rows * cols] }
+        Self {
+            rows,
+            cols,
+            values: vec![0.0; rows * cols],
+        }
     }
 
     pub fn get(&self, row: usize, col: usize) -> f64 {
@@ -34,6 +38,12 @@ impl Dense {
         self.values[row * cols..(row + 1) * cols].fill(0.0);
     }
 
+    pub fn clear_column(&mut self, col: usize) {
+        for row in 0..self.rows {
+            self.set(row, col, 0.0);
+        }
+    }
+
     /// `out = M v`.
     pub fn times(&self, v: &[f64], out: &mut [f64]) {
         for (o, row) in out.iter_mut().zip(self.values.chunks_exact(self.cols)) {
@@ -49,8 +59,10 @@ impl Dense {
     }
 
     /// `v^T M`.
-    pub fn from_left(&self, v: &[f64]) -> Vec<f64> {
-        (0..self.cols).map(|c| (0..self.rows).map(|r| v[r] * self.get(r, c)).sum()).collect()
+    pub fn left_times(&self, v: &[f64]) -> Vec<f64> {
+        (0..self.cols)
+            .map(|c| (0..self.rows).map(|r| v[r] * self.get(r, c)).sum())
+            .collect()
     }
 
     pub fn product(&self, other: &Dense) -> Dense {
@@ -77,7 +89,9 @@ impl Dense {
 
     /// Largest sum of the magnitudes of a row.
     pub fn row_norm(&self) -> f64 {
-        (0..self.rows).map(|r| self.row(r).iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max)
+        (0..self.rows)
+            .map(|r| self.row(r).iter().map(|v| v.abs()).sum::<f64>())
+            .fold(0.0, f64::max)
     }
 
     /// The columns from `first` on, `cols` of them, of the first `rows` rows.

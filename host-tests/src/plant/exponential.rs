@@ -51,8 +51,8 @@ impl Propagator {
             for c in 0..m {
                 whole.set(r, c, a.get(r, c) * weights[r] / weights[c] * step);
             }
-            for j in 0..n {
-                whole.set(r, m + j, b.get(r, j) * weights[r] / input[j] * step);
+            for (j, size) in input.iter().enumerate() {
+                whole.set(r, m + j, b.get(r, j) * weights[r] / size * step);
             }
         }
         for j in 0..n {

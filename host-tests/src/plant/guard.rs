@@ -46,8 +46,8 @@ pub(super) struct Tick<'a> {
 
 impl Guard {
     fn new(regime: &Regime, action: Action, row: Vec<f64>, force: Vec<f64>, constant: f64) -> Self {
-        let slope = regime.a.from_left(&row);
-        let input = regime.b.from_left(&row);
+        let slope = regime.a.left_times(&row);
+        let input = regime.b.left_times(&row);
         let share = |(s, e): (&f64, &f64)| match (*s == 0.0, *e == 0.0) {
             (true, _) => 0.0,
             (false, true) => f64::INFINITY,

@@ -77,11 +77,13 @@ impl Regime {
                 a.add(back, column, factor / chain.nodes[s + 1].inertia);
             }
         }
+        a.set(layout.angle(), layout.speed(0), 1.0);
+        // a held speed is zero: it neither changes nor moves anything
         for j in (0..n).filter(|&j| mode.is_held(j)) {
             a.clear_row(layout.speed(j));
+            a.clear_column(layout.speed(j));
             b.clear_row(layout.speed(j));
         }
-        a.set(layout.angle(), layout.speed(0), 1.0);
         balance[layout.angle()] = balance[layout.speed(0)];
         let (growth, rate) = energy_bounds(&a, &energy);
         balance[layout.angle()] *= if rate > 0.0 { rate } else { 1.0 };

@@ -12,7 +12,7 @@ use super::regime::{Layout, Regime};
 use super::switching::{FREE, Hold, Mode, elastic_torque};
 
 /// Time within which an event is located unless told otherwise, s.
-pub(super) const EVENT_TOLERANCE: f64 = 1e-13;
+pub(super) const EVENT_TOLERANCE: f64 = 1e-14;
 
 /// A running chain. Built by [`Chain::build`]; a clone runs on independently.
 #[derive(Debug, Clone)]
@@ -134,7 +134,7 @@ impl Plant {
         Ok(())
     }
 
-    /// Time within which an event is located, s, 1e-13 unless set; not below the resolution of the tick. Zero or above;
+    /// Time within which an event is located, s, 1e-14 unless set; not below the resolution of the tick. Zero or above;
     /// anything else counts as [`refused`](Self::refused).
     pub fn set_event_tolerance(&mut self, seconds: f64) {
         if seconds.is_finite() && seconds >= 0.0 {

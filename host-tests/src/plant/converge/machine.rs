@@ -16,9 +16,13 @@ pub(super) enum Motion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Change {
     Contact(usize, f64),
+    Flow(usize),
     Rest(usize),
     Loose(usize, f64),
 }
+
+/// Side of a rope that is stretched but whose damper has stopped pulling.
+const TRAILING: f64 = 0.5;
 
 /// Parameters and discrete state. The continuous state is twists, speeds, angle of the motor.
 pub(super) struct Machine<'a> {
@@ -26,8 +30,10 @@ pub(super) struct Machine<'a> {
     pub load: Vec<f64>,
     pub dry: Vec<f64>,
     pub motor_torque: f64,
-    /// Side on which each shaft is in contact, 0 in the gap.
+    /// Side on which each shaft is in contact, 0 in the gap, or [`TRAILING`].
     pub side: Vec<f64>,
+    /// Sign of the torque of each shaft, for the gear in front of it.
+    pub flow: Vec<f64>,
     pub motion: Vec<Motion>,
 }
 
@@ -35,7 +41,11 @@ impl<'a> Machine<'a> {
     pub fn new(plant: &'a Plant, y: &[f64]) -> Self {
         let chain = &plant.chain;
         let side = chain.shafts.iter().zip(y).map(|(shaft, &twist)| {
-            let reach = if shaft.rope { shaft.gap } else { 0.5 * shaft.gap };
+            let reach = if shaft.rope {
+                shaft.gap
+            } else {
+                0.5 * shaft.gap
+            };
             if shaft.is_linear() || twist > reach {
                 1.0
             } else if twist < -reach && !shaft.rope {
@@ -44,14 +54,29 @@ impl<'a> Machine<'a> {
                 0.0
             }
         });
-        Self {
+        let mut machine = Self {
             load: chain.nodes.iter().map(|node| node.load).collect(),
-            dry: chain.nodes.iter().zip(&plant.brakes).map(|(node, b)| node.coulomb + b).collect(),
+            dry: chain
+                .nodes
+                .iter()
+                .zip(&plant.brakes)
+                .map(|(node, b)| node.coulomb + b)
+                .collect(),
             motor_torque: 0.0,
             side: side.collect(),
+            flow: vec![1.0; chain.shafts.len()],
             motion: vec![Motion::Smooth; chain.nodes.len()],
             chain,
+        };
+        for s in 0..chain.shafts.len() {
+            if machine.torque(y, s) < 0.0 {
+                machine.flow[s] = -1.0;
+                if chain.shafts[s].rope {
+                    machine.side[s] = TRAILING;
+                }
+            }
         }
+        machine
     }
 
     fn n(&self) -> usize {
@@ -64,18 +89,22 @@ impl<'a> Machine<'a> {
 
     /// Torque of the shaft itself.
     fn torque(&self, y: &[f64], s: usize) -> f64 {
+        if self.side[s] == 0.0 || self.side[s] == TRAILING {
+            0.0
+        } else {
+            self.strain(y, s)
+        }
+    }
+
+    /// Torque of the shaft while it is in contact on its side, or on the positive side if it is not.
+    fn strain(&self, y: &[f64], s: usize) -> f64 {
         let shaft = &self.chain.shafts[s];
-        let closing = shaft.damping * (self.speed(y, s) - self.speed(y, s + 1));
-        if shaft.is_linear() {
-            return shaft.stiffness * y[s] + closing;
-        }
-        if self.side[s] == 0.0 {
-            return 0.0;
-        }
-        if shaft.rope {
-            return (shaft.stiffness * (y[s] - shaft.gap) + closing).max(0.0);
-        }
-        shaft.stiffness * (y[s] - 0.5 * shaft.gap * self.side[s]) + closing
+        let reach = match shaft.gap {
+            slack if shaft.rope => slack,
+            backlash => 0.5 * backlash * self.side[s],
+        };
+        let closing = self.speed(y, s) - self.speed(y, s + 1);
+        shaft.stiffness * (y[s] - reach) + shaft.damping * closing
     }
 
     fn motor(&self, t: f64, speed: f64) -> f64 {
@@ -83,7 +112,9 @@ impl<'a> Machine<'a> {
             + match self.chain.law {
                 MotorLaw::Held => 0.0,
                 MotorLaw::Constant(torque) => torque,
-                MotorLaw::Ramp { torque, time } => (torque - torque * t / time) * f64::from(t < time),
+                MotorLaw::Ramp { torque, time } => {
+                    (torque - torque * t / time) * f64::from(t < time)
+                }
                 MotorLaw::Line { stall, slope } => stall - slope * speed,
             }
     }
@@ -92,7 +123,10 @@ impl<'a> Machine<'a> {
     fn push(&self, t: f64, y: &[f64], node: usize) -> f64 {
         let speed = self.speed(y, node);
         let description = &self.chain.nodes[node];
-        let program = description.program.as_ref().map_or(0.0, |program| program.at(t).0);
+        let program = description
+            .program
+            .as_ref()
+            .map_or(0.0, |program| program.at(t).0);
         let mut sum = -self.load[node] - program - description.viscous * speed;
         if node == 0 {
             sum += self.motor(t, speed);
@@ -113,7 +147,7 @@ impl<'a> Machine<'a> {
         match self.motion[node] {
             Motion::Smooth => torque,
             Motion::Sliding(way) => {
-                if torque * way > 0.0 {
+                if self.flow[node] * way > 0.0 {
                     torque / eta
                 } else {
                     torque * eta
@@ -133,13 +167,16 @@ impl<'a> Machine<'a> {
         }
         let torque = self.torque(y, node);
         let eta = self.chain.nodes[node].efficiency;
-        ((torque * eta).min(torque / eta), (torque * eta).max(torque / eta))
+        (
+            (torque * eta).min(torque / eta),
+            (torque * eta).max(torque / eta),
+        )
     }
 
     pub fn rate(&self, t: f64, y: &[f64], out: &mut [f64]) {
         let n = self.n();
-        for s in 0..n - 1 {
-            out[s] = self.speed(y, s) - self.speed(y, s + 1);
+        for (s, twist_rate) in out[..n - 1].iter_mut().enumerate() {
+            *twist_rate = self.speed(y, s) - self.speed(y, s + 1);
         }
         for j in 0..n {
             let net = self.push(t, y, j);
@@ -175,11 +212,35 @@ impl<'a> Machine<'a> {
     /// Guards that must stay above zero: value, size to measure its rounding by, and what its fall means.
     pub fn guards(&self, t: f64, y: &[f64]) -> Vec<(f64, f64, Change)> {
         let mut all = Vec::new();
-        for (s, shaft) in self.chain.shafts.iter().enumerate().filter(|(_, shaft)| !shaft.is_linear()) {
-            let reach = if shaft.rope { shaft.gap } else { 0.5 * shaft.gap };
+        for (s, shaft) in self
+            .chain
+            .shafts
+            .iter()
+            .enumerate()
+            .filter(|(_, shaft)| !shaft.is_linear())
+        {
+            let reach = if shaft.rope {
+                shaft.gap
+            } else {
+                0.5 * shaft.gap
+            };
             let size = reach.max(y[s].abs());
+            let back = (self.side[s] * y[s] - reach, size, Change::Contact(s, 0.0));
+            if shaft.rope && self.side[s] != 0.0 {
+                let strain = self.strain(y, s);
+                let pull = shaft.stiffness * reach.max(y[s].abs());
+                if self.side[s] == TRAILING {
+                    all.push((-strain, pull, Change::Contact(s, 1.0)));
+                    all.push((y[s] - reach, size, Change::Contact(s, 0.0)));
+                } else if shaft.damping > 0.0 {
+                    all.push((strain, pull, Change::Contact(s, TRAILING)));
+                } else {
+                    all.push(back);
+                }
+                continue;
+            }
             if self.side[s] != 0.0 {
-                all.push((self.side[s] * y[s] - reach, size, Change::Contact(s, 0.0)));
+                all.push(back);
                 continue;
             }
             all.push((reach - y[s], size, Change::Contact(s, 1.0)));
@@ -187,7 +248,16 @@ impl<'a> Machine<'a> {
                 all.push((y[s] + reach, size, Change::Contact(s, -1.0)));
             }
         }
-        let top = (0..self.n()).map(|j| self.speed(y, j).abs()).fold(0.0, f64::max);
+        for (s, shaft) in self.chain.shafts.iter().enumerate() {
+            let in_contact = self.side[s].abs() == 1.0;
+            if self.chain.nodes[s].efficiency < 1.0 && in_contact {
+                let size = shaft.stiffness * y[s].abs();
+                all.push((self.flow[s] * self.torque(y, s), size, Change::Flow(s)));
+            }
+        }
+        let top = (0..self.n())
+            .map(|j| self.speed(y, j).abs())
+            .fold(0.0, f64::max);
         for j in 0..self.n() {
             match self.motion[j] {
                 Motion::Smooth => {}
@@ -205,7 +275,13 @@ impl<'a> Machine<'a> {
 
     pub fn change(&mut self, t: f64, y: &mut [f64], change: Change) {
         match change {
-            Change::Contact(shaft, side) => self.side[shaft] = side,
+            Change::Contact(shaft, side) => {
+                self.side[shaft] = side;
+                if side.abs() == 1.0 {
+                    self.flow[shaft] = side;
+                }
+            }
+            Change::Flow(shaft) => self.flow[shaft] = -self.flow[shaft],
             Change::Loose(node, way) => self.motion[node] = Motion::Sliding(way),
             Change::Rest(node) => {
                 y[self.n() - 1 + node] = 0.0;
