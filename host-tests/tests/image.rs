@@ -19,7 +19,7 @@ fn ten_and_a_thousand_nops_count_as_ten_and_a_thousand() {
             |_| {},
         )
         .unwrap();
-        let lines = link::run(&image, LIMIT).unwrap();
+        let lines = link::run(&image, LIMIT).unwrap().lines;
         for (name, expected) in [("nops/10", 10), ("nops/1000", 1000)] {
             let line = lines.iter().find(|line| line["bench"] == name).unwrap();
             for figure in ["min", "median", "max"] {

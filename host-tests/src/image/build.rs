@@ -68,11 +68,11 @@ pub fn build(
         "--package=driveline-firmware",
         "--profile=firmware",
         &format!("--bin={}", program.name()),
-        &format!("--features={}", program.feature()),
+        &format!("--features={}", program.features()),
         &format!("--target={}", board.target),
     ];
     let command = format!(
-        "DRIVELINE_VARIANT={variant} DRIVELINE_BOARD={} cargo {}",
+        "DRIVELINE_VARIANT={variant} DRIVELINE_BOARD={} DEFMT_LOG=info cargo {}",
         board.name,
         arguments.join(" ")
     );
@@ -83,6 +83,8 @@ pub fn build(
         .arg(&firmware)
         .env("DRIVELINE_VARIANT", variant)
         .env("DRIVELINE_BOARD", board.name)
+        // what is logged below this level is not in the image at all
+        .env("DEFMT_LOG", "info")
         // these would replace the linker script that .cargo/config.toml names
         .env_remove("RUSTFLAGS")
         .env_remove("CARGO_ENCODED_RUSTFLAGS")

@@ -21,7 +21,7 @@ pub fn self_test(variant: &str, board: Facts) -> Result<String, Box<dyn Error>> 
         visit(variant, OnHost).ok_or_else(|| format!("no variant is called `{variant}`"))?;
     let on_host = format!("{on_host:016x}");
     let image = build(variant, board, Program::SelfTest, |_| {})?;
-    let lines = link::run(&image, LIMIT)?;
+    let lines = link::run(&image, LIMIT)?.lines;
     let in_qemu = lines
         .first()
         .and_then(|line| line["fingerprint"].as_str())
