@@ -82,7 +82,7 @@ fn clippy(voice: &Voice) -> Result<Count, Failed> {
         let package = [
             "clippy",
             "--package=driveline-firmware",
-            "--features=target",
+            "--features=target,defmt",
         ];
         let arguments = [&package[..], &[&target, &directory, "--", "-D", "warnings"]].concat();
         count.passed += cargo::passes(&arguments, voice)?.passed;
