@@ -25,6 +25,9 @@ fn main() {
 
     if target.starts_with("thumb") {
         memory_map(&board);
+        if env::var_os("CARGO_FEATURE_DEFMT").is_some() {
+            println!("cargo::rustc-link-arg-bins=-Tdefmt.x");
+        }
     }
 }
 

@@ -9,7 +9,7 @@ pub mod mps2_an386;
 #[cfg(all(feature = "target", target_os = "none"))]
 mod cmsdk_timer;
 #[cfg(all(feature = "target", target_os = "none"))]
-mod semihosting;
+pub(crate) mod semihosting;
 
 #[cfg(all(feature = "target", target_os = "none", driveline_board = "mps2-an385"))]
 pub use mps2_an385::Mps2An385 as ThisBoard;

@@ -17,6 +17,8 @@ mod variants;
 
 #[cfg(all(feature = "target", target_os = "none"))]
 pub mod bench;
+#[cfg(all(feature = "target", feature = "defmt", target_os = "none"))]
+mod logger;
 #[cfg(all(feature = "target", target_os = "none"))]
 pub mod measure;
 #[cfg(all(feature = "target", target_os = "none"))]

@@ -57,6 +57,25 @@ pub fn print(line: &[u8]) {
     }
 }
 
+/// A file that is written.
+#[cfg(feature = "defmt")]
+pub struct Sink(usize);
+
+#[cfg(feature = "defmt")]
+impl Sink {
+    /// Opens a file of the host, emptied.
+    pub fn open(path: &CStr) -> Option<Self> {
+        open(path, WRITE).map(Sink)
+    }
+
+    /// Appends bytes; what the host does not take is lost.
+    pub fn write(&self, bytes: &[u8]) {
+        let arguments = [self.0, bytes.as_ptr() as usize, bytes.len()];
+        // SAFETY: SYS_WRITE reads the given bytes, which the slice has.
+        unsafe { syscall(nr::WRITE, &arguments) };
+    }
+}
+
 /// Ends QEMU with exit code 0 or 1.
 pub fn exit(success: bool) -> ! {
     let reason = if success { APPLICATION_EXIT } else { RUN_TIME_ERROR };

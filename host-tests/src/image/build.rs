@@ -36,7 +36,9 @@ pub enum BuildError {
 
 /// The root of the workspace.
 pub fn workspace() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .unwrap_or(Path::new("."))
 }
 
 /// Cargo's target directory.
@@ -55,8 +57,10 @@ pub fn build(
     let images = target_directory().join("images");
     let place = |what: String| move |error| BuildError::Io { place: what, error };
     fs::create_dir_all(&images).map_err(place(format!("making {}", images.display())))?;
-    let lock = File::create(images.join(".lock")).map_err(place(format!("making {}/.lock", images.display())))?;
-    lock.lock().map_err(place(format!("locking {}/.lock", images.display())))?;
+    let lock = File::create(images.join(".lock"))
+        .map_err(place(format!("making {}/.lock", images.display())))?;
+    lock.lock()
+        .map_err(place(format!("locking {}/.lock", images.display())))?;
 
     let firmware = target_directory().join("firmware");
     let arguments = [
@@ -64,10 +68,14 @@ pub fn build(
         "--package=driveline-firmware",
         "--profile=firmware",
         &format!("--bin={}", program.name()),
-        &format!("--features={}", program.feature()),
+        &format!("--features={}", program.features()),
         &format!("--target={}", board.target),
     ];
-    let command = format!("DRIVELINE_VARIANT={variant} DRIVELINE_BOARD={} cargo {}", board.name, arguments.join(" "));
+    let command = format!(
+        "DRIVELINE_VARIANT={variant} DRIVELINE_BOARD={} DEFMT_LOG=info cargo {}",
+        board.name,
+        arguments.join(" ")
+    );
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut child = Command::new(cargo)
         .args(arguments)
@@ -75,6 +83,8 @@ pub fn build(
         .arg(&firmware)
         .env("DRIVELINE_VARIANT", variant)
         .env("DRIVELINE_BOARD", board.name)
+        // what is logged below this level is not in the image at all
+        .env("DEFMT_LOG", "info")
         // these would replace the linker script that .cargo/config.toml names
         .env_remove("RUSTFLAGS")
         .env_remove("CARGO_ENCODED_RUSTFLAGS")
@@ -85,27 +95,55 @@ pub fn build(
         .spawn()
         .map_err(place(format!("starting `{command}`")))?;
     let mut output = String::new();
-    for line in child.stderr.take().into_iter().flat_map(|stderr| BufReader::new(stderr).lines()) {
+    for line in child
+        .stderr
+        .take()
+        .into_iter()
+        .flat_map(|stderr| BufReader::new(stderr).lines())
+    {
         let line = line.map_err(place(format!("reading from `{command}`")))?;
         progress(&line);
         output.push_str(&line);
         output.push('\n');
     }
-    let status = child.wait().map_err(place(format!("waiting for `{command}`")))?;
+    let status = child
+        .wait()
+        .map_err(place(format!("waiting for `{command}`")))?;
     if !status.success() {
         return Err(BuildError::Cargo { command, output });
     }
-    let built = firmware.join(board.target).join("firmware").join(program.name());
-    let path = images.join(format!("{}.{}.{}.elf", variant.replace('/', "-"), board.core, program.name()));
-    fs::copy(&built, &path).map_err(place(format!("copying {} to {}", built.display(), path.display())))?;
-    Ok(Image { path, variant: variant.into(), board, program })
+    let built = firmware
+        .join(board.target)
+        .join("firmware")
+        .join(program.name());
+    let path = images.join(format!(
+        "{}.{}.{}.elf",
+        variant.replace('/', "-"),
+        board.core,
+        program.name()
+    ));
+    fs::copy(&built, &path).map_err(place(format!(
+        "copying {} to {}",
+        built.display(),
+        path.display()
+    )))?;
+    Ok(Image {
+        path,
+        variant: variant.into(),
+        board,
+        program,
+    })
 }
 
 /// Whether an image links: no where the linker names the symbol that a reachable panic calls.
 pub fn links(variant: &str, board: Facts, program: Program) -> Result<bool, BuildError> {
     match build(variant, board, program, |_| {}) {
         Ok(_) => Ok(true),
-        Err(BuildError::Cargo { output, .. }) if output.contains("undefined symbol: panic_is_reachable") => Ok(false),
+        Err(BuildError::Cargo { output, .. })
+            if output.contains("undefined symbol: panic_is_reachable") =>
+        {
+            Ok(false)
+        }
         Err(error) => Err(error),
     }
 }

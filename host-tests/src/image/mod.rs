@@ -24,6 +24,8 @@ pub enum Program {
     Bench,
     /// The fingerprint of a run.
     SelfTest,
+    /// What a run logs, through `defmt`.
+    Log,
     /// Has a reachable panic: must not link.
     Panics,
 }
@@ -35,13 +37,15 @@ impl Program {
             Program::ControlLoop => "control_loop",
             Program::Bench => "bench",
             Program::SelfTest => "self_test",
+            Program::Log => "log",
             Program::Panics => "panics",
         }
     }
 
-    /// The feature that it needs.
-    const fn feature(self) -> &'static str {
+    /// The features that it needs.
+    const fn features(self) -> &'static str {
         match self {
+            Program::Log => "target,defmt",
             Program::Panics => "reachable_panic",
             _ => "target",
         }

@@ -18,7 +18,7 @@ use driveline_firmware::scene::{Input, Output};
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::image::Image;
+use crate::image::{Image, Program};
 use affinity::Pinned;
 use pipes::Pipes;
 use qemu::Qemu;
@@ -86,9 +86,25 @@ impl Link {
     }
 }
 
-/// Runs an image that needs no link (the bench, the self-test) to its end and gives its lines of JSON.
-pub fn run(image: &Image, limit: Duration) -> io::Result<Vec<Value>> {
+/// What an image leaves that needs no link (the bench, the self-test, the log).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Left {
+    /// The lines of JSON that it printed.
+    pub lines: Vec<Value>,
+    /// What it logged: frames of `defmt`, to be decoded with the image itself.
+    pub log: Vec<u8>,
+}
+
+/// Runs an image that needs no link to its end, `limit` at most.
+pub fn run(image: &Image, limit: Duration) -> io::Result<Left> {
     let _pinned = Pinned::to_free_core();
     let directory = tempfile::Builder::new().prefix("driveline-").tempdir()?;
-    Qemu::start(image, directory)?.finish(limit)
+    let mut qemu = Qemu::start(image, directory)?;
+    let lines = qemu.finish(limit)?;
+    let log = if image.program == Program::Log {
+        qemu.left("log")?
+    } else {
+        Vec::new()
+    };
+    Ok(Left { lines, log })
 }

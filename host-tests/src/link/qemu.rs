@@ -72,6 +72,12 @@ impl Qemu {
             .collect()
     }
 
+    /// A file that the image has written.
+    pub fn left(&self, name: &str) -> io::Result<Vec<u8>> {
+        fs::read(self.directory.path().join(name))
+            .map_err(|error| self.describe(&error, &format!("left no `{name}`")))
+    }
+
     /// An error with the image's name, the place, and what QEMU and the image printed.
     pub fn describe(&self, error: &io::Error, place: &str) -> io::Error {
         let mut message = format!("{} {place}: {error}", self.name);
