@@ -20,10 +20,7 @@ struct Unshared(UnsafeCell<State>);
 // SAFETY: one core and no interrupt: there is never a second one that uses it.
 unsafe impl Sync for Unshared {}
 
-static STATE: Unshared = Unshared(UnsafeCell::new(State {
-    encoder: defmt::Encoder::new(),
-    sink: None,
-}));
+static STATE: Unshared = Unshared(UnsafeCell::new(State { encoder: defmt::Encoder::new(), sink: None }));
 
 /// Does something with the encoder and the way out.
 fn with(action: impl FnOnce(&mut defmt::Encoder, &mut dyn FnMut(&[u8]))) {

@@ -46,9 +46,7 @@ fn cases() -> Vec<Case> {
 }
 
 fn plant(case: &Case) -> Plant {
-    let shaft = Shaft::elastic(case.c_Nm_rad)
-        .damping(case.d_Nms_rad)
-        .gap(case.gap_total_rad);
+    let shaft = Shaft::elastic(case.c_Nm_rad).damping(case.d_Nms_rad).gap(case.gap_total_rad);
     let chain = Chain::motor(case.J1_kg_m2).shaft(shaft, case.J2_kg_m2);
     let chain = match case.load_law.as_str() {
         "active" => chain.load(case.M2_Nm),
@@ -59,10 +57,7 @@ fn plant(case: &Case) -> Plant {
     assert_eq!(case.motor.0, "const");
     let [theta, w1, w2] = case.initial_theta_w1_w2;
     chain
-        .start(Start::Given {
-            twists: vec![theta],
-            speeds: vec![w1, w2],
-        })
+        .start(Start::Given { twists: vec![theta], speeds: vec![w1, w2] })
         .motor_law(MotorLaw::Constant(case.motor.1))
         .build()
         .unwrap()
@@ -77,33 +72,20 @@ fn trajectories_agree_with_the_reference() {
     for case in cases() {
         let mut plant = plant(&case);
         let mut worst = [0.0_f64; 3];
-        let top_speed = case
-            .trajectory
-            .iter()
-            .flat_map(|p| [p[1].abs(), p[2].abs()])
-            .fold(0.0, f64::max);
+        let top_speed = case.trajectory.iter().flat_map(|p| [p[1].abs(), p[2].abs()]).fold(0.0, f64::max);
         for &[t, w1, w2, torque] in &case.trajectory {
             // uneven ticks on purpose: the grid of the reference is not the solver's
             plant.advance(0.0, t - plant.time());
             let found = [plant.speed(0), plant.speed(1), plant.shaft_torque(0)];
-            for ((worst, found), (expected, scale)) in worst.iter_mut().zip(found).zip([
-                (w1, top_speed),
-                (w2, top_speed),
-                (torque, peak(&case)),
-            ]) {
+            for ((worst, found), (expected, scale)) in
+                worst.iter_mut().zip(found).zip([(w1, top_speed), (w2, top_speed), (torque, peak(&case))])
+            {
                 *worst = worst.max((found - expected).abs() / scale);
             }
         }
-        println!(
-            "{}: largest deviation of w1, w2, torque over their peaks {worst:?}",
-            case.id
-        );
+        println!("{}: largest deviation of w1, w2, torque over their peaks {worst:?}", case.id);
         // the tolerance that the file sets: 1e-6 of peak
-        assert!(
-            worst.iter().all(|w| *w <= case.rel_tol_peak),
-            "{} {worst:?}",
-            case.id
-        );
+        assert!(worst.iter().all(|w| *w <= case.rel_tol_peak), "{} {worst:?}", case.id);
     }
 }
 
@@ -114,13 +96,7 @@ fn events_come_when_and_as_the_reference_says() {
         while plant.time() < case.t_end_s {
             plant.advance(0.0, 1e-3_f64.min(case.t_end_s - plant.time()));
         }
-        assert_eq!(
-            plant.events().len(),
-            case.events.len(),
-            "{} {:?}",
-            case.id,
-            plant.events()
-        );
+        assert_eq!(plant.events().len(), case.events.len(), "{} {:?}", case.id, plant.events());
         let mut worst = 0.0_f64;
         for (event, expected) in plant.events().iter().zip(&case.events) {
             let (kind, place) = match expected.kind.as_str() {
@@ -129,19 +105,10 @@ fn events_come_when_and_as_the_reference_says() {
                 "slip" => (EventKind::Slip, Place::Node(1)),
                 other => panic!("kind {other}"),
             };
-            assert_eq!(
-                (event.kind, event.place, event.new),
-                (kind, place, expected.new),
-                "{}",
-                case.id
-            );
+            assert_eq!((event.kind, event.place, event.new), (kind, place, expected.new), "{}", case.id);
             worst = worst.max((event.time - expected.t_s).abs());
         }
-        println!(
-            "{}: {} events, largest error of a time {worst:.1e} s",
-            case.id,
-            case.events.len()
-        );
+        println!("{}: {} events, largest error of a time {worst:.1e} s", case.id, case.events.len());
         // each event is located to 1e-14 s, and 28 of them follow on one another in the longest case
         assert!(worst < 1e-11, "{} {worst:e}", case.id);
     }
@@ -157,35 +124,18 @@ fn peaks_are_found_between_the_ticks() {
         while watched.time() < case.t_end_s {
             watched.advance(0.0, 0.0137_f64.min(case.t_end_s - watched.time()));
         }
-        let Extremes {
-            peak: most, least, ..
-        } = watched.extremes(0).unwrap();
+        let Extremes { peak: most, least, .. } = watched.extremes(0).unwrap();
         // the tolerance that the file sets: 1e-6 of peak
         let tolerance = case.rel_tol_peak * peak(&case);
-        assert!(
-            (most - case.peak_torque_Nm).abs() <= tolerance,
-            "{} peak {most}",
-            case.id
-        );
-        assert!(
-            (least - case.min_torque_Nm).abs() <= tolerance,
-            "{} least {least}",
-            case.id
-        );
+        assert!((most - case.peak_torque_Nm).abs() <= tolerance, "{} peak {most}", case.id);
+        assert!((least - case.min_torque_Nm).abs() <= tolerance, "{} least {least}", case.id);
         // an undamped drive meets its extremes again and again, so the times are checked by going there
-        for (time, torque) in [
-            (case.t_peak_s, case.peak_torque_Nm),
-            (case.t_min_s, case.min_torque_Nm),
-        ] {
+        for (time, torque) in [(case.t_peak_s, case.peak_torque_Nm), (case.t_min_s, case.min_torque_Nm)] {
             let mut there = start.clone();
             if time > 0.0 {
                 there.advance(0.0, time);
             }
-            assert!(
-                (there.shaft_torque(0) - torque).abs() <= tolerance,
-                "{} at {time}",
-                case.id
-            );
+            assert!((there.shaft_torque(0) - torque).abs() <= tolerance, "{} at {time}", case.id);
         }
     }
 }

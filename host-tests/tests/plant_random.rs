@@ -26,11 +26,7 @@ impl Dice {
 
 fn shaft(dice: &mut Dice) -> Shaft {
     let stiffness = dice.between(200.0, 5.0e4);
-    let mut shaft = if dice.often(0.25) {
-        Shaft::rope(stiffness)
-    } else {
-        Shaft::elastic(stiffness)
-    };
+    let mut shaft = if dice.often(0.25) { Shaft::rope(stiffness) } else { Shaft::elastic(stiffness) };
     if dice.often(0.6) {
         shaft = shaft.damping(dice.between(0.05, 3.0));
     }
@@ -61,11 +57,7 @@ fn chain(dice: &mut Dice) -> Chain {
             chain = chain.shaft(link, inertia);
         }
     }
-    if dice.often(0.5) {
-        chain.start(Start::Slack)
-    } else {
-        chain
-    }
+    if dice.often(0.5) { chain.start(Start::Slack) } else { chain }
 }
 
 #[test]
@@ -94,11 +86,7 @@ fn chains_at_random_prove_their_convergence() {
         }
         events += run.plant().events().len();
         match prove(&run) {
-            Ok(proof) => {
-                largest = largest
-                    .max(proof.integrator.largest)
-                    .max(proof.tightened.largest)
-            }
+            Ok(proof) => largest = largest.max(proof.integrator.largest).max(proof.tightened.largest),
             Err(refused) => panic!("seed {seed}: {refused}\n{chain:#?}"),
         }
     }

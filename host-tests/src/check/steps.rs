@@ -11,41 +11,13 @@ use crate::setup;
 
 /// All steps.
 pub const STEPS: [Step; 7] = [
-    Step {
-        name: "setup",
-        repeat: "cargo driveline check --only setup",
-        run: setup_step,
-    },
-    Step {
-        name: "format",
-        repeat: "cargo fmt --check",
-        run: format,
-    },
-    Step {
-        name: "clippy",
-        repeat: "cargo driveline check --only clippy",
-        run: clippy,
-    },
-    Step {
-        name: "tests",
-        repeat: "cargo test --workspace --no-fail-fast",
-        run: tests,
-    },
-    Step {
-        name: "firmware",
-        repeat: "cargo driveline check --only firmware",
-        run: firmware,
-    },
-    Step {
-        name: "self-tests",
-        repeat: "cargo driveline check --only self-tests",
-        run: self_tests,
-    },
-    Step {
-        name: "budgets",
-        repeat: "cargo driveline check --only budgets",
-        run: budgets,
-    },
+    Step { name: "setup", repeat: "cargo driveline check --only setup", run: setup_step },
+    Step { name: "format", repeat: "cargo fmt --check", run: format },
+    Step { name: "clippy", repeat: "cargo driveline check --only clippy", run: clippy },
+    Step { name: "tests", repeat: "cargo test --workspace --no-fail-fast", run: tests },
+    Step { name: "firmware", repeat: "cargo driveline check --only firmware", run: firmware },
+    Step { name: "self-tests", repeat: "cargo driveline check --only self-tests", run: self_tests },
+    Step { name: "budgets", repeat: "cargo driveline check --only budgets", run: budgets },
 ];
 
 fn setup_step(voice: &Voice) -> Result<Count, Failed> {
@@ -53,10 +25,7 @@ fn setup_step(voice: &Voice) -> Result<Count, Failed> {
     for name in installed {
         voice.say(&format!("installed {name}"));
     }
-    Ok(Count {
-        passed: 1,
-        failed: 0,
-    })
+    Ok(Count { passed: 1, failed: 0 })
 }
 
 fn format(voice: &Voice) -> Result<Count, Failed> {
@@ -65,25 +34,11 @@ fn format(voice: &Voice) -> Result<Count, Failed> {
 
 /// The host's workspace, then the firmware as each core sees it.
 fn clippy(voice: &Voice) -> Result<Count, Failed> {
-    let host = [
-        "clippy",
-        "--workspace",
-        "--all-targets",
-        "--",
-        "-D",
-        "warnings",
-    ];
+    let host = ["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"];
     let mut count = cargo::passes(&host, voice)?;
     for board in BOARDS {
-        let (target, directory) = (
-            format!("--target={}", board.target),
-            cargo::firmware_directory(),
-        );
-        let package = [
-            "clippy",
-            "--package=driveline-firmware",
-            "--features=target,defmt",
-        ];
+        let (target, directory) = (format!("--target={}", board.target), cargo::firmware_directory());
+        let package = ["clippy", "--package=driveline-firmware", "--features=target,defmt"];
         let arguments = [&package[..], &[&target, &directory, "--", "-D", "warnings"]].concat();
         count.passed += cargo::passes(&arguments, voice)?.passed;
     }
@@ -125,9 +80,7 @@ fn budgets(voice: &Voice) -> Result<Count, Failed> {
     })?;
     let comparison = Comparison::of(&budgets, &costs);
     voice.say(comparison.to_string().trim_end());
-    comparison
-        .count()
-        .map_err(|(count, message)| Failed { count, message })
+    comparison.count().map_err(|(count, message)| Failed { count, message })
 }
 
 /// Does something for every variant on every board, up to the first failure.
@@ -137,10 +90,7 @@ fn each(mut check: impl FnMut(&str, Facts) -> Result<(), String>) -> Result<Coun
         for &board in BOARDS {
             if let Err(error) = check(variant, board) {
                 count.failed += 1;
-                return Err(Failed {
-                    count,
-                    message: format!("{variant} on {}: {error}", board.name),
-                });
+                return Err(Failed { count, message: format!("{variant} on {}: {error}", board.name) });
             }
             count.passed += 1;
         }

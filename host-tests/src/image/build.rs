@@ -36,9 +36,7 @@ pub enum BuildError {
 
 /// The root of the workspace.
 pub fn workspace() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .parent()
-        .unwrap_or(Path::new("."))
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
 }
 
 /// Cargo's target directory.
@@ -57,10 +55,8 @@ pub fn build(
     let images = target_directory().join("images");
     let place = |what: String| move |error| BuildError::Io { place: what, error };
     fs::create_dir_all(&images).map_err(place(format!("making {}", images.display())))?;
-    let lock = File::create(images.join(".lock"))
-        .map_err(place(format!("making {}/.lock", images.display())))?;
-    lock.lock()
-        .map_err(place(format!("locking {}/.lock", images.display())))?;
+    let lock = File::create(images.join(".lock")).map_err(place(format!("making {}/.lock", images.display())))?;
+    lock.lock().map_err(place(format!("locking {}/.lock", images.display())))?;
 
     let firmware = target_directory().join("firmware");
     let arguments = [
@@ -95,55 +91,27 @@ pub fn build(
         .spawn()
         .map_err(place(format!("starting `{command}`")))?;
     let mut output = String::new();
-    for line in child
-        .stderr
-        .take()
-        .into_iter()
-        .flat_map(|stderr| BufReader::new(stderr).lines())
-    {
+    for line in child.stderr.take().into_iter().flat_map(|stderr| BufReader::new(stderr).lines()) {
         let line = line.map_err(place(format!("reading from `{command}`")))?;
         progress(&line);
         output.push_str(&line);
         output.push('\n');
     }
-    let status = child
-        .wait()
-        .map_err(place(format!("waiting for `{command}`")))?;
+    let status = child.wait().map_err(place(format!("waiting for `{command}`")))?;
     if !status.success() {
         return Err(BuildError::Cargo { command, output });
     }
-    let built = firmware
-        .join(board.target)
-        .join("firmware")
-        .join(program.name());
-    let path = images.join(format!(
-        "{}.{}.{}.elf",
-        variant.replace('/', "-"),
-        board.core,
-        program.name()
-    ));
-    fs::copy(&built, &path).map_err(place(format!(
-        "copying {} to {}",
-        built.display(),
-        path.display()
-    )))?;
-    Ok(Image {
-        path,
-        variant: variant.into(),
-        board,
-        program,
-    })
+    let built = firmware.join(board.target).join("firmware").join(program.name());
+    let path = images.join(format!("{}.{}.{}.elf", variant.replace('/', "-"), board.core, program.name()));
+    fs::copy(&built, &path).map_err(place(format!("copying {} to {}", built.display(), path.display())))?;
+    Ok(Image { path, variant: variant.into(), board, program })
 }
 
 /// Whether an image links: no where the linker names the symbol that a reachable panic calls.
 pub fn links(variant: &str, board: Facts, program: Program) -> Result<bool, BuildError> {
     match build(variant, board, program, |_| {}) {
         Ok(_) => Ok(true),
-        Err(BuildError::Cargo { output, .. })
-            if output.contains("undefined symbol: panic_is_reachable") =>
-        {
-            Ok(false)
-        }
+        Err(BuildError::Cargo { output, .. }) if output.contains("undefined symbol: panic_is_reachable") => Ok(false),
         Err(error) => Err(error),
     }
 }

@@ -17,23 +17,15 @@ const LIMIT: Duration = Duration::from_secs(60);
 /// Builds the self-test of `variant` for `board`, runs it, and compares its fingerprint with the host's; gives the
 /// fingerprint, 16 hexadecimal digits.
 pub fn self_test(variant: &str, board: Facts) -> Result<String, Box<dyn Error>> {
-    let on_host =
-        visit(variant, OnHost).ok_or_else(|| format!("no variant is called `{variant}`"))?;
+    let on_host = visit(variant, OnHost).ok_or_else(|| format!("no variant is called `{variant}`"))?;
     let on_host = format!("{on_host:016x}");
     let image = build(variant, board, Program::SelfTest, |_| {})?;
     let lines = link::run(&image, LIMIT)?.lines;
-    let in_qemu = lines
-        .first()
-        .and_then(|line| line["fingerprint"].as_str())
-        .unwrap_or("no fingerprint");
+    let in_qemu = lines.first().and_then(|line| line["fingerprint"].as_str()).unwrap_or("no fingerprint");
     if in_qemu == on_host {
         Ok(on_host)
     } else {
-        Err(format!(
-            "{variant}: {in_qemu} in QEMU on {}, {on_host} on the host",
-            board.name
-        )
-        .into())
+        Err(format!("{variant}: {in_qemu} in QEMU on {}, {on_host} on the host", board.name).into())
     }
 }
 

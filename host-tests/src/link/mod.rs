@@ -101,10 +101,6 @@ pub fn run(image: &Image, limit: Duration) -> io::Result<Left> {
     let directory = tempfile::Builder::new().prefix("driveline-").tempdir()?;
     let mut qemu = Qemu::start(image, directory)?;
     let lines = qemu.finish(limit)?;
-    let log = if image.program == Program::Log {
-        qemu.left("log")?
-    } else {
-        Vec::new()
-    };
+    let log = if image.program == Program::Log { qemu.left("log")? } else { Vec::new() };
     Ok(Left { lines, log })
 }

@@ -74,8 +74,7 @@ impl Qemu {
 
     /// A file that the image has written.
     pub fn left(&self, name: &str) -> io::Result<Vec<u8>> {
-        fs::read(self.directory.path().join(name))
-            .map_err(|error| self.describe(&error, &format!("left no `{name}`")))
+        fs::read(self.directory.path().join(name)).map_err(|error| self.describe(&error, &format!("left no `{name}`")))
     }
 
     /// An error with the image's name, the place, and what QEMU and the image printed.

@@ -53,9 +53,7 @@ pub struct Proof {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotProven {
     /// A check came out otherwise.
-    #[error(
-        "the run deviates by {found:.1e} of peak from {from} at {time} s: expected at most {BOUND:.0e}"
-    )]
+    #[error("the run deviates by {found:.1e} of peak from {from} at {time} s: expected at most {BOUND:.0e}")]
     Deviates {
         /// Which check.
         from: &'static str,
@@ -84,23 +82,14 @@ pub enum NotProven {
 pub fn prove(run: &Recording) -> Result<Proof, NotProven> {
     let integrator = deviation(run, &rerun::rerun(run)?)?;
     let tightened = deviation(run, &tightened(run))?;
-    let checks = [
-        ("the second integrator", integrator),
-        ("the solver with events located ten times closer", tightened),
-    ];
+    let checks =
+        [("the second integrator", integrator), ("the solver with events located ten times closer", tightened)];
     for (from, Deviation { largest, time }) in checks {
         if largest > BOUND {
-            return Err(NotProven::Deviates {
-                from,
-                found: largest,
-                time,
-            });
+            return Err(NotProven::Deviates { from, found: largest, time });
         }
     }
-    Ok(Proof {
-        integrator,
-        tightened,
-    })
+    Ok(Proof { integrator, tightened })
 }
 
 fn tightened(run: &Recording) -> Vec<Vec<f64>> {
@@ -138,10 +127,7 @@ fn deviation(run: &Recording, other: &[Vec<f64>]) -> Result<Deviation, NotProven
     }
     let top_speed = peaks[..n].iter().copied().fold(0.0, f64::max);
     peaks[..n].fill(top_speed);
-    let mut worst = Deviation {
-        largest: 0.0,
-        time: 0.0,
-    };
+    let mut worst = Deviation { largest: 0.0, time: 0.0 };
     for ((ours, theirs), &time) in run.samples.iter().zip(other).zip(&run.times) {
         for ((a, b), peak) in ours.iter().zip(theirs).zip(&peaks) {
             let share = (a - b).abs() / if *peak > 0.0 { *peak } else { 1.0 };

@@ -10,11 +10,7 @@ pub(super) struct Dense {
 
 impl Dense {
     pub fn zeros(rows: usize, cols: usize) -> Self {
-        Self {
-            rows,
-            cols,
-            values: vec![0.0; rows * cols],
-        }
+        Self { rows, cols, values: vec![0.0; rows * cols] }
     }
 
     pub fn get(&self, row: usize, col: usize) -> f64 {
@@ -60,9 +56,7 @@ impl Dense {
 
     /// `v^T M`.
     pub fn left_times(&self, v: &[f64]) -> Vec<f64> {
-        (0..self.cols)
-            .map(|c| (0..self.rows).map(|r| v[r] * self.get(r, c)).sum())
-            .collect()
+        (0..self.cols).map(|c| (0..self.rows).map(|r| v[r] * self.get(r, c)).sum()).collect()
     }
 
     pub fn product(&self, other: &Dense) -> Dense {
@@ -89,9 +83,7 @@ impl Dense {
 
     /// Largest sum of the magnitudes of a row.
     pub fn row_norm(&self) -> f64 {
-        (0..self.rows)
-            .map(|r| self.row(r).iter().map(|v| v.abs()).sum::<f64>())
-            .fold(0.0, f64::max)
+        (0..self.rows).map(|r| self.row(r).iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max)
     }
 
     /// The columns from `first` on, `cols` of them, of the first `rows` rows.

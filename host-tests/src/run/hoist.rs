@@ -57,7 +57,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             (0.2, Action::Release),
             (0.2, Action::Brake(DRUM, 0.0)),
             (0.5, Action::Reference(hoist::RATED_SPEED)),
-            (if std::env::var("NS").is_ok(){14.0}else{4.0}, Action::Load(LOAD, 1.5 * WEIGHT)),
+            (if std::env::var("NS").is_ok() { 14.0 } else { 4.0 }, Action::Load(LOAD, 1.5 * WEIGHT)),
             (6.0, Action::Reference(-hoist::RATED_SPEED)),
         ],
         duration: 12.0,

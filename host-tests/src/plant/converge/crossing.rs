@@ -22,15 +22,7 @@ pub(super) fn first_change(
     let mut first: Option<(f64, Change)> = None;
     for (index, (start, end)) in before.iter().zip(&after).enumerate() {
         let fallen = -FALLEN * start.1.max(end.1);
-        let watch = Watch {
-            pass,
-            machine,
-            y,
-            now,
-            left,
-            index,
-            fallen,
-        };
+        let watch = Watch { pass, machine, y, now, left, index, fallen };
         let Some((a, b)) = watch.bracket(start.0, end.0, ahead)? else {
             continue;
         };
@@ -68,32 +60,19 @@ impl Watch<'_, '_> {
         let t = self.now + after;
         let mut rate = vec![0.0; y.len()];
         self.machine.rate(t, y, &mut rate);
-        let moved: Vec<f64> = y
-            .iter()
-            .zip(&rate)
-            .map(|(y, r)| y + r * 1e-3 * self.left)
-            .collect();
+        let moved: Vec<f64> = y.iter().zip(&rate).map(|(y, r)| y + r * 1e-3 * self.left).collect();
         self.machine.guards(t, &moved)[self.index].0 - self.machine.guards(t, y)[self.index].0
     }
 
     /// An interval in which the guard goes from standing to fallen; none if it stands throughout.
-    fn bracket(
-        &self,
-        start: f64,
-        end: f64,
-        ahead: &[f64],
-    ) -> Result<Option<(f64, f64)>, NotProven> {
+    fn bracket(&self, start: f64, end: f64, ahead: &[f64]) -> Result<Option<(f64, f64)>, NotProven> {
         if start < self.fallen {
             return Ok(Some((0.0, 0.0)));
         }
         let stands = start > -self.fallen;
         let falling = self.slope(self.y, 0.0) < 0.0;
         if end < self.fallen {
-            let from = if stands || falling {
-                0.0
-            } else {
-                self.last_above()?
-            };
+            let from = if stands || falling { 0.0 } else { self.last_above()? };
             let to = if stands || !falling { self.left } else { 0.0 };
             return Ok(Some((from, to)));
         }
@@ -122,14 +101,8 @@ impl Watch<'_, '_> {
         // at the bottom an error of 1e-7 of the piece changes the guard by 1e-14 of its fall
         while b - a > 1e-7 * self.left {
             let middle = 0.5 * (a + b);
-            let there = self
-                .pass
-                .integrate(self.machine, self.y, self.now, middle)?;
-            if self.slope(&there, middle) < 0.0 {
-                a = middle
-            } else {
-                b = middle
-            }
+            let there = self.pass.integrate(self.machine, self.y, self.now, middle)?;
+            if self.slope(&there, middle) < 0.0 { a = middle } else { b = middle }
         }
         Ok(b)
     }
@@ -141,11 +114,7 @@ impl Watch<'_, '_> {
             if middle <= a || middle >= b {
                 break;
             }
-            if self.value(middle)? < 0.0 {
-                b = middle
-            } else {
-                a = middle
-            }
+            if self.value(middle)? < 0.0 { b = middle } else { a = middle }
         }
         Ok(b)
     }

@@ -41,11 +41,7 @@ impl<'a> Machine<'a> {
     pub fn new(plant: &'a Plant, y: &[f64]) -> Self {
         let chain = &plant.chain;
         let side = chain.shafts.iter().zip(y).map(|(shaft, &twist)| {
-            let reach = if shaft.rope {
-                shaft.gap
-            } else {
-                0.5 * shaft.gap
-            };
+            let reach = if shaft.rope { shaft.gap } else { 0.5 * shaft.gap };
             if shaft.is_linear() || twist > reach {
                 1.0
             } else if twist < -reach && !shaft.rope {
@@ -56,12 +52,7 @@ impl<'a> Machine<'a> {
         });
         let mut machine = Self {
             load: chain.nodes.iter().map(|node| node.load).collect(),
-            dry: chain
-                .nodes
-                .iter()
-                .zip(&plant.brakes)
-                .map(|(node, b)| node.coulomb + b)
-                .collect(),
+            dry: chain.nodes.iter().zip(&plant.brakes).map(|(node, b)| node.coulomb + b).collect(),
             motor_torque: 0.0,
             side: side.collect(),
             flow: vec![1.0; chain.shafts.len()],
@@ -89,11 +80,7 @@ impl<'a> Machine<'a> {
 
     /// Torque of the shaft itself.
     fn torque(&self, y: &[f64], s: usize) -> f64 {
-        if self.side[s] == 0.0 || self.side[s] == TRAILING {
-            0.0
-        } else {
-            self.strain(y, s)
-        }
+        if self.side[s] == 0.0 || self.side[s] == TRAILING { 0.0 } else { self.strain(y, s) }
     }
 
     /// Torque of the shaft while it is in contact on its side, or on the positive side if it is not.
@@ -112,9 +99,7 @@ impl<'a> Machine<'a> {
             + match self.chain.law {
                 MotorLaw::Held => 0.0,
                 MotorLaw::Constant(torque) => torque,
-                MotorLaw::Ramp { torque, time } => {
-                    (torque - torque * t / time) * f64::from(t < time)
-                }
+                MotorLaw::Ramp { torque, time } => (torque - torque * t / time) * f64::from(t < time),
                 MotorLaw::Line { stall, slope } => stall - slope * speed,
             }
     }
@@ -123,10 +108,7 @@ impl<'a> Machine<'a> {
     fn push(&self, t: f64, y: &[f64], node: usize) -> f64 {
         let speed = self.speed(y, node);
         let description = &self.chain.nodes[node];
-        let program = description
-            .program
-            .as_ref()
-            .map_or(0.0, |program| program.at(t).0);
+        let program = description.program.as_ref().map_or(0.0, |program| program.at(t).0);
         let mut sum = -self.load[node] - program - description.viscous * speed;
         if node == 0 {
             sum += self.motor(t, speed);
@@ -167,10 +149,7 @@ impl<'a> Machine<'a> {
         }
         let torque = self.torque(y, node);
         let eta = self.chain.nodes[node].efficiency;
-        (
-            (torque * eta).min(torque / eta),
-            (torque * eta).max(torque / eta),
-        )
+        ((torque * eta).min(torque / eta), (torque * eta).max(torque / eta))
     }
 
     pub fn rate(&self, t: f64, y: &[f64], out: &mut [f64]) {
@@ -212,18 +191,8 @@ impl<'a> Machine<'a> {
     /// Guards that must stay above zero: value, size to measure its rounding by, and what its fall means.
     pub fn guards(&self, t: f64, y: &[f64]) -> Vec<(f64, f64, Change)> {
         let mut all = Vec::new();
-        for (s, shaft) in self
-            .chain
-            .shafts
-            .iter()
-            .enumerate()
-            .filter(|(_, shaft)| !shaft.is_linear())
-        {
-            let reach = if shaft.rope {
-                shaft.gap
-            } else {
-                0.5 * shaft.gap
-            };
+        for (s, shaft) in self.chain.shafts.iter().enumerate().filter(|(_, shaft)| !shaft.is_linear()) {
+            let reach = if shaft.rope { shaft.gap } else { 0.5 * shaft.gap };
             let size = reach.max(y[s].abs());
             let back = (self.side[s] * y[s] - reach, size, Change::Contact(s, 0.0));
             if shaft.rope && self.side[s] != 0.0 {
@@ -255,9 +224,7 @@ impl<'a> Machine<'a> {
                 all.push((self.flow[s] * self.torque(y, s), size, Change::Flow(s)));
             }
         }
-        let top = (0..self.n())
-            .map(|j| self.speed(y, j).abs())
-            .fold(0.0, f64::max);
+        let top = (0..self.n()).map(|j| self.speed(y, j).abs()).fold(0.0, f64::max);
         for j in 0..self.n() {
             match self.motion[j] {
                 Motion::Smooth => {}

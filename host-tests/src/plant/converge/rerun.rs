@@ -18,10 +18,7 @@ pub(super) fn rerun(run: &Recording) -> Result<Vec<Vec<f64>>, NotProven> {
     let plant = &run.start;
     let mut y = plant.x.clone();
     let mut machine = Machine::new(plant, &y);
-    let mut pass = Pass {
-        scale: scale(run, plant),
-        longest: REACH / fastest(plant),
-    };
+    let mut pass = Pass { scale: scale(run, plant), longest: REACH / fastest(plant) };
     let mut samples = Vec::new();
     let mut start = plant.time();
     let mut fresh = true;
@@ -59,33 +56,19 @@ fn scale(run: &Recording, plant: &Plant) -> Vec<f64> {
     let peak = |i: usize| run.samples.iter().map(|s| s[i].abs()).fold(0.0, f64::max);
     let or_one = |size: f64| if size > 0.0 { size } else { 1.0 };
     let top_speed = or_one((0..n).map(peak).fold(0.0, f64::max));
-    let twists = plant
-        .chain
-        .shafts
-        .iter()
-        .enumerate()
-        .map(|(s, shaft)| or_one((peak(n + s) / shaft.stiffness).max(shaft.gap)));
-    twists
-        .chain(vec![top_speed; n])
-        .chain([or_one(peak(2 * n - 1))])
-        .collect()
+    let twists =
+        plant.chain.shafts.iter().enumerate().map(|(s, shaft)| or_one((peak(n + s) / shaft.stiffness).max(shaft.gap)));
+    twists.chain(vec![top_speed; n]).chain([or_one(peak(2 * n - 1))]).collect()
 }
 
 /// Bound of the rates of the chain, 1/s, by Gershgorin's circles.
 fn fastest(plant: &Plant) -> f64 {
     let shafts = &plant.chain.shafts;
     let rates = plant.chain.nodes.iter().enumerate().map(|(j, node)| {
-        let near = [j.checked_sub(1), Some(j)]
-            .into_iter()
-            .flatten()
-            .filter_map(|s| shafts.get(s));
-        let (k, d) = near.fold((0.0, node.viscous), |(k, d), shaft| {
-            (k + shaft.stiffness, d + shaft.damping)
-        });
+        let near = [j.checked_sub(1), Some(j)].into_iter().flatten().filter_map(|s| shafts.get(s));
+        let (k, d) = near.fold((0.0, node.viscous), |(k, d), shaft| (k + shaft.stiffness, d + shaft.damping));
         let loss = node.efficiency;
-        (2.0 * k / (loss * node.inertia))
-            .sqrt()
-            .max(2.0 * d / (loss * node.inertia))
+        (2.0 * k / (loss * node.inertia)).sqrt().max(2.0 * d / (loss * node.inertia))
     });
     rates.fold(0.0, f64::max)
 }
@@ -113,23 +96,12 @@ pub(super) struct Pass {
 }
 
 impl Pass {
-    fn tick(
-        &mut self,
-        machine: &mut Machine,
-        y: &mut Vec<f64>,
-        start: f64,
-        dt: f64,
-    ) -> Result<(), NotProven> {
+    fn tick(&mut self, machine: &mut Machine, y: &mut Vec<f64>, start: f64, dt: f64) -> Result<(), NotProven> {
         let mut corners = vec![start, start + dt];
         let within = |t: &f64| *t > start && *t < start + dt;
         for node in &machine.chain.nodes {
             let mut from = start;
-            while let Some(corner) = node
-                .program
-                .as_ref()
-                .and_then(|p| p.corner_after(from))
-                .filter(within)
-            {
+            while let Some(corner) = node.program.as_ref().and_then(|p| p.corner_after(from)).filter(within) {
                 corners.push(corner);
                 from = corner;
             }
@@ -146,13 +118,7 @@ impl Pass {
         Ok(())
     }
 
-    fn piece(
-        &self,
-        machine: &mut Machine,
-        y: &mut Vec<f64>,
-        t: f64,
-        length: f64,
-    ) -> Result<(), NotProven> {
+    fn piece(&self, machine: &mut Machine, y: &mut Vec<f64>, t: f64, length: f64) -> Result<(), NotProven> {
         let (mut now, mut left) = (t, length);
         for _ in 0..1000 {
             let ahead = self.integrate(machine, y, now, left)?;
@@ -164,50 +130,25 @@ impl Pass {
             (now, left) = (now + after, left - after);
             machine.change(now, y, change);
         }
-        Err(NotProven::Integrator {
-            time: now,
-            reason: "a thousand events in one piece".into(),
-        })
+        Err(NotProven::Integrator { time: now, reason: "a thousand events in one piece".into() })
     }
 
     /// The state `length` seconds after `t`, with no event on the way.
-    pub fn integrate(
-        &self,
-        machine: &Machine,
-        y: &[f64],
-        t: f64,
-        length: f64,
-    ) -> Result<Vec<f64>, NotProven> {
+    pub fn integrate(&self, machine: &Machine, y: &[f64], t: f64, length: f64) -> Result<Vec<f64>, NotProven> {
         if length <= 0.0 {
             return Ok(y.to_vec());
         }
-        let equations = Scaled {
-            machine,
-            scale: &self.scale,
-            origin: t,
-        };
+        let equations = Scaled { machine, scale: &self.scale, origin: t };
         let start: Vec<f64> = y.iter().zip(&self.scale).map(|(y, s)| y / s).collect();
         let failed = |reason: String| NotProven::Integrator { time: t, reason };
-        let mut method = ExplicitRungeKutta::dop853()
-            .rtol(TOLERANCE)
-            .atol(TOLERANCE)
-            .h0(length);
-        method
-            .init(&equations, 0.0, length, &start)
-            .map_err(|e| failed(format!("{e:?}")))?;
+        let mut method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE).h0(length);
+        method.init(&equations, 0.0, length, &start).map_err(|e| failed(format!("{e:?}")))?;
         // the integrator refuses a step of less than 1e-14 of the one before
         while length - method.t() > 1e-14 * length {
             let h = method.h().min(length - method.t());
             method.set_h(h);
-            method
-                .step(&equations)
-                .map_err(|e| failed(format!("{e:?}")))?;
+            method.step(&equations).map_err(|e| failed(format!("{e:?}")))?;
         }
-        Ok(method
-            .y()
-            .iter()
-            .zip(&self.scale)
-            .map(|(z, s)| z * s)
-            .collect())
+        Ok(method.y().iter().zip(&self.scale).map(|(z, s)| z * s).collect())
     }
 }
