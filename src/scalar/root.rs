@@ -32,7 +32,7 @@ pub const fn sqrt(x: f64) -> f64 {
     }
     // As integers: n = m 2^104, root = y 2^52. The rounded root r satisfies r^2 - r < n <= r^2 + r.
     let n = (mantissa as u128) << (52 + odd);
-    let mut root = (y.to_bits() & ((1 << 52) - 1)) as u128 | (1 << 52);
+    let mut root = (y * 4_503_599_627_370_496.0) as u64 as u128;
     while root * root - root >= n {
         root -= 1;
     }
