@@ -117,7 +117,7 @@ impl TwoMass {
             integral,
             slip,
         )));
-        if !(spectral_radius < 1.0) {
+        if spectral_radius.is_nan() || spectral_radius >= 1.0 {
             return Err(Error::SpeedLoopUnstable);
         }
         let open = Loop {

@@ -42,10 +42,13 @@ pub const fn sqrt(x: f64) -> f64 {
     scale_by_power_of_two(root as u64 as f64, half - 52)
 }
 
-/// Length of the hypotenuse, without overflow on the way.
+/// Length of the hypotenuse, without overflow on the way; NaN where either side is.
 #[must_use]
 pub const fn hypot(a: f64, b: f64) -> f64 {
     let (a, b) = (a.abs(), b.abs());
+    if a.is_nan() || b.is_nan() {
+        return f64::NAN;
+    }
     let (large, small) = if a > b { (a, b) } else { (b, a) };
     if large == 0.0 || large.is_infinite() {
         return large;
