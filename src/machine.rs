@@ -47,8 +47,7 @@ pub use linear::STANDARD_GRAVITY;
 pub use modes::{Mode, Modes};
 pub use planetary::Planetary;
 pub use quantity::{
-    Damping, Diameter, Efficiency, Falls, Gap, Inertia, Length, LinearDamping, Mass, Ratio, Speed,
-    Stiffness, Torque,
+    Damping, Diameter, Efficiency, Falls, Gap, Inertia, Length, LinearDamping, Mass, Ratio, Speed, Stiffness, Torque,
 };
 pub use reduce::{Match, ReductionError};
 pub use refer::{Flow, Side, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};

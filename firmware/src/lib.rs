@@ -1,2 +1,25 @@
 #![no_std]
-//! Scenes and boards.
+#![warn(missing_docs)]
+//! Scenes as a portable library, and the boards they are flashed onto.
+//!
+//! The same scenes build for the host, where the tests drive them, and for the target, where feature `target` adds
+//! the start-up code, the board and the panic handler. [`selected`] lists the variants and says which one an image holds.
+
+pub mod board;
+pub mod fingerprint;
+pub mod program;
+pub mod report;
+pub mod governed;
+pub mod scene;
+pub mod scenes;
+pub mod selected;
+mod variants;
+
+#[cfg(all(feature = "target", target_os = "none"))]
+pub mod bench;
+#[cfg(all(feature = "target", target_os = "none"))]
+pub mod measure;
+#[cfg(all(feature = "target", target_os = "none"))]
+mod panic;
+
+pub use variants::{Visitor, Words};

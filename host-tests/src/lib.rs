@@ -1,1 +1,7 @@
 //! The full solver, the link to QEMU, the report.
+
+pub mod check;
+pub mod image;
+pub mod link;
+pub mod plant;
+pub mod setup;

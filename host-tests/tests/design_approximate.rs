@@ -6,12 +6,7 @@ use serde_json::Value;
 
 fn machine(w: f64, zeta: f64) -> TwoMass {
     // Reduced inertia 0.5: k = 0.5 w^2, d = 2 zeta w 0.5.
-    TwoMass::new(
-        Inertia(1.0),
-        Inertia(1.0),
-        Stiffness(0.5 * w * w),
-        Damping(zeta * w),
-    )
+    TwoMass::new(Inertia(1.0), Inertia(1.0), Stiffness(0.5 * w * w), Damping(zeta * w))
 }
 
 /// Undamped, the semi-implicit step turns by `2 asin(w T/2)`, the trapezoidal one by `2 atan(w T/2)` per tick, neither
@@ -27,20 +22,14 @@ fn undamped_poles() {
         // The angle of a pole next to 1 loses the digits that it is small by.
         let limit = 1e-14 / angle;
         assert!((semi.frequency_error - (2.0 * (0.5 * angle).asin() / angle - 1.0)).abs() < limit);
-        assert!(
-            (tustin.frequency_error - (2.0 * (0.5 * angle).atan() / angle - 1.0)).abs() < limit
-        );
+        assert!((tustin.frequency_error - (2.0 * (0.5 * angle).atan() / angle - 1.0)).abs() < limit);
         assert!(semi.damping_error.abs() < limit && tustin.damping_error.abs() < limit);
         assert!(semi.stable && tustin.stable && !euler.stable);
         assert!((euler.spectral_radius - 1.0_f64.hypot(angle)).abs() < 1e-15);
         assert_eq!(euler.error_bound, f64::INFINITY);
     }
     // The semi-implicit step's limit is w T = 2.
-    assert!(
-        !SemiImplicitStep::new(&machine(2.01 / t, 0.0), t)
-            .fidelity
-            .stable
-    );
+    assert!(!SemiImplicitStep::new(&machine(2.01 / t, 0.0), t).fidelity.stable);
 }
 
 /// Damped: the semi-implicit poles have the product `1 - c` and the sum `2 - c - (w T)^2`, c = 2 zeta w T.
@@ -61,17 +50,9 @@ fn damped_poles() {
 
 #[test]
 fn forward_euler_meets_the_reference() {
-    let path = format!(
-        "{}/tests/data/discretisation.json",
-        env!("CARGO_MANIFEST_DIR")
-    );
+    let path = format!("{}/tests/data/discretisation.json", env!("CARGO_MANIFEST_DIR"));
     let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    let case = file["cases"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .find(|c| c["id"] == "B03_mill_undamped_Ts0.001")
-        .unwrap();
+    let case = file["cases"].as_array().unwrap().iter().find(|c| c["id"] == "B03_mill_undamped_Ts0.001").unwrap();
     let at = |key: &str| case[key].as_f64().unwrap();
     let mill = TwoMass::new(
         Inertia(at("J_motor_kg_m2")),
@@ -80,9 +61,7 @@ fn forward_euler_meets_the_reference() {
         Damping(0.0),
     );
     let euler = ApproximateStep::forward_euler(&mill, at("Ts_s"));
-    let expected = case["elastic"]["spectral_radius_forward_euler"]
-        .as_f64()
-        .unwrap();
+    let expected = case["elastic"]["spectral_radius_forward_euler"].as_f64().unwrap();
     assert!((euler.fidelity.spectral_radius - expected).abs() < 1e-14);
 }
 

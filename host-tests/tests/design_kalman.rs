@@ -23,22 +23,13 @@ fn diagonal<const N: usize>(value: &Value) -> Matrix<N, N> {
 
 /// Largest relative difference of the elements.
 fn apart<const R: usize, const C: usize>(a: &Matrix<R, C>, b: &Matrix<R, C>) -> f64 {
-    a.0.iter()
-        .flatten()
-        .zip(b.0.iter().flatten())
-        .map(|(a, b)| (a / b - 1.0).abs())
-        .fold(0.0, f64::max)
+    a.0.iter().flatten().zip(b.0.iter().flatten()).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
 }
 
 fn meets<const M: usize>(case: &Value) {
     let f = matrix::<4, 4>(&case["F"]);
-    let found = Kalman::<4, M>::design(
-        &f,
-        &matrix(&case["H"]),
-        &diagonal(&case["Q_diag"]),
-        &diagonal(&case["R_diag"]),
-    )
-    .unwrap();
+    let found = Kalman::<4, M>::design(&f, &matrix(&case["H"]), &diagonal(&case["Q_diag"]), &diagonal(&case["R_diag"]))
+        .unwrap();
     let radius = case["spectral_radius"].as_f64().unwrap();
     let errors = [
         apart(&found.gain, &matrix(&case["K_filter"])),
@@ -48,18 +39,11 @@ fn meets<const M: usize>(case: &Value) {
         apart(&found.innovation, &matrix(&case["innovation_cov_S"])),
         (found.spectral_radius / radius - 1.0).abs(),
     ];
-    println!(
-        "{}: gain, predictor, prior, posterior, innovation, radius: {errors:?}",
-        case["id"]
-    );
+    println!("{}: gain, predictor, prior, posterior, innovation, radius: {errors:?}", case["id"]);
     // The file's own tolerance for the gains; the covariances are held to the same.
     let limit = case["rel_tol_gain"].as_f64().unwrap();
     assert!(errors.iter().all(|error| *error < limit));
-    for (pole, expected) in found
-        .poles
-        .iter()
-        .zip(case["observer_poles_re_im"].as_array().unwrap())
-    {
+    for (pole, expected) in found.poles.iter().zip(case["observer_poles_re_im"].as_array().unwrap()) {
         // Poles come in pairs that lie close together: half the digits of the gains remain in the worst case.
         let known = case["observer_poles_re_im"].as_array().unwrap();
         let near = known
@@ -72,10 +56,7 @@ fn meets<const M: usize>(case: &Value) {
 
 #[test]
 fn gains_meet_the_reference() {
-    let path = format!(
-        "{}/tests/data/kalman_gains.json",
-        env!("CARGO_MANIFEST_DIR")
-    );
+    let path = format!("{}/tests/data/kalman_gains.json", env!("CARGO_MANIFEST_DIR"));
     let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     for case in file["cases"].as_array().unwrap() {
         match case["H"].as_array().unwrap().len() {

@@ -1,8 +1,6 @@
 //! Small matrices, their exponential, eigenvalues and Riccati equations, against closed forms.
 
-use driveline::design::{
-    Error, Kalman, Matrix, discretise, doubling, eigenvalues, exponential, spectral_radius,
-};
+use driveline::design::{Error, Kalman, Matrix, discretise, doubling, eigenvalues, exponential, spectral_radius};
 use serde_json::Value;
 
 fn largest<const R: usize, const C: usize>(m: &Matrix<R, C>) -> f64 {
@@ -12,9 +10,7 @@ fn largest<const R: usize, const C: usize>(m: &Matrix<R, C>) -> f64 {
 #[test]
 fn solve_inverts() {
     // The inverse of Hilbert's matrix of order 4 is whole numbers [Knuth, TAOCP 1, §1.2.3, exercise 45].
-    let hilbert = Matrix(core::array::from_fn(|i| {
-        core::array::from_fn(|j| 1.0 / (i + j + 1) as f64)
-    }));
+    let hilbert = Matrix(core::array::from_fn(|i| core::array::from_fn(|j| 1.0 / (i + j + 1) as f64)));
     let inverse = Matrix([
         [16.0, -120.0, 240.0, -140.0],
         [-120.0, 1200.0, -2700.0, 1680.0],
@@ -25,33 +21,18 @@ fn solve_inverts() {
     // Condition 1.6e4 times some roundings, of the largest element.
     assert!(largest(&found.plus(-1.0, &inverse)) < 1e-11 * 6480.0);
     // A zero in the first place needs an exchange; a repeated row has no solution.
-    assert_eq!(
-        Matrix([[0.0, 2.0], [4.0, 0.0]]).solve(&Matrix([[2.0], [4.0]])),
-        Some(Matrix([[1.0], [1.0]]))
-    );
-    assert_eq!(
-        Matrix([[1.0, 2.0], [1.0, 2.0]]).solve(&Matrix([[1.0], [1.0]])),
-        None
-    );
+    assert_eq!(Matrix([[0.0, 2.0], [4.0, 0.0]]).solve(&Matrix([[2.0], [4.0]])), Some(Matrix([[1.0], [1.0]])));
+    assert_eq!(Matrix([[1.0, 2.0], [1.0, 2.0]]).solve(&Matrix([[1.0], [1.0]])), None);
     assert_eq!(Matrix([[f64::NAN]]).solve(&Matrix([[1.0]])), None);
 }
 
 #[test]
 fn products_and_transposes() {
     let a = Matrix([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
-    assert_eq!(
-        a.times(&a.transpose()),
-        Matrix([[14.0, 32.0], [32.0, 77.0]])
-    );
-    assert_eq!(
-        a.plus(-2.0, &a),
-        Matrix([[-1.0, -2.0, -3.0], [-4.0, -5.0, -6.0]])
-    );
+    assert_eq!(a.times(&a.transpose()), Matrix([[14.0, 32.0], [32.0, 77.0]]));
+    assert_eq!(a.plus(-2.0, &a), Matrix([[-1.0, -2.0, -3.0], [-4.0, -5.0, -6.0]]));
     assert_eq!(a.norm(), 9.0);
-    assert_eq!(
-        Matrix([[1.0, 4.0], [2.0, 3.0]]).symmetric(),
-        Matrix([[1.0, 3.0], [3.0, 3.0]])
-    );
+    assert_eq!(Matrix([[1.0, 4.0], [2.0, 3.0]]).symmetric(), Matrix([[1.0, 3.0], [3.0, 3.0]]));
     assert!(Matrix([[f64::NAN, 1.0]]).norm().is_nan());
 }
 
@@ -61,10 +42,7 @@ fn exponential_has_its_closed_forms() {
     for angle in [1e-9, 0.3, 3.0, 1000.0_f64] {
         let turned = exponential(&Matrix([[0.0, -angle], [angle, 0.0]])).unwrap();
         let expected = Matrix([[angle.cos(), -angle.sin()], [angle.sin(), angle.cos()]]);
-        assert!(
-            largest(&turned.plus(-1.0, &expected)) < 1e-15 * angle.max(1.0),
-            "{angle}"
-        );
+        assert!(largest(&turned.plus(-1.0, &expected)) < 1e-15 * angle.max(1.0), "{angle}");
     }
     // ... a chain of integrators, of order 6: t^n/n!, exact but for rounding ...
     let mut chain = Matrix::<6, 6>::ZERO;
@@ -95,12 +73,7 @@ fn discretise_at_huge_norms() {
         let at = |key: &str| case[key].as_str().unwrap().parse::<f64>().unwrap();
         let (w2, two_a, t) = (at("w2"), at("two_a"), at("period"));
         let unit = w2.sqrt().max(1.0 / t);
-        let (f, _) = discretise::<2, 1, 3>(
-            &Matrix([[0.0, 1.0], [-w2, -two_a]]),
-            &Matrix([[0.0], [1.0]]),
-            t,
-        )
-        .unwrap();
+        let (f, _) = discretise::<2, 1, 3>(&Matrix([[0.0, 1.0], [-w2, -two_a]]), &Matrix([[0.0], [1.0]]), t).unwrap();
         let errors = [
             f.0[0][0] - 1.0 - at("n11"),
             (f.0[0][1] - at("g2")) * unit,
@@ -122,10 +95,7 @@ fn apart(found: (f64, f64), expected: (f64, f64)) -> f64 {
 #[test]
 fn eigenvalues_have_their_closed_forms() {
     // Diagonal, a rotation, a triangle.
-    assert_eq!(
-        eigenvalues(&Matrix::diagonal(&[0.5, -2.0, 3.0])),
-        [(3.0, 0.0), (0.5, 0.0), (-2.0, 0.0)]
-    );
+    assert_eq!(eigenvalues(&Matrix::diagonal(&[0.5, -2.0, 3.0])), [(3.0, 0.0), (0.5, 0.0), (-2.0, 0.0)]);
     let (c, s) = (0.9 * 0.3_f64.cos(), 0.9 * 0.3_f64.sin());
     let turned = eigenvalues(&Matrix([[c, -s], [s, c]]));
     assert!(apart(turned[0], (c, -s)) < 1e-15 && apart(turned[1], (c, s)) < 1e-15);
@@ -137,10 +107,7 @@ fn eigenvalues_have_their_closed_forms() {
     }
     let found = eigenvalues(&companion);
     // Simple roots of a matrix of norm 10: its roundings times a condition below 10.
-    for (f, e) in found
-        .iter()
-        .zip([(2.0, 0.0), (0.5, 0.0), (0.0, -1.0), (0.0, 1.0), (-3.0, 0.0)])
-    {
+    for (f, e) in found.iter().zip([(2.0, 0.0), (0.5, 0.0), (0.0, -1.0), (0.0, 1.0), (-3.0, 0.0)]) {
         assert!(apart(*f, e) < 1e-13, "{found:?}");
     }
     assert!((spectral_radius(&found) - 3.0).abs() < 1e-13);
@@ -170,26 +137,14 @@ fn slow_poles_keep_their_distance_from_one() {
 /// The scalar equation has a closed form: x = a^2 x/(1 + g x) + h.
 #[test]
 fn scalar_riccati() {
-    for (a, g, h) in [
-        (1.0_f64, 1.0, 1e-12),
-        (0.9, 2.0, 3.0),
-        (3.0, 0.5, 0.0),
-        (1.0, 1e6, 1e-6),
-    ] {
+    for (a, g, h) in [(1.0_f64, 1.0, 1e-12), (0.9, 2.0, 3.0), (3.0, 0.5, 0.0), (1.0, 1e6, 1e-6)] {
         let b = 1.0 - a * a - g * h;
         let root = (b * b + 4.0 * g * h).sqrt();
-        let expected = if b > 0.0 {
-            2.0 * h / (b + root)
-        } else {
-            (root - b) / (2.0 * g)
-        };
+        let expected = if b > 0.0 { 2.0 * h / (b + root) } else { (root - b) / (2.0 * g) };
         let found = doubling(&Matrix([[a]]), &Matrix([[g]]), &Matrix([[h]]));
         match found {
             // Near the edge of stability, h = 1e-12, half the digits are lost by the equation itself.
-            Some(found) if h > 0.0 => assert!(
-                (found.solution.0[0][0] / expected - 1.0).abs() < 1e-9,
-                "{a} {g} {h}"
-            ),
+            Some(found) if h > 0.0 => assert!((found.solution.0[0][0] / expected - 1.0).abs() < 1e-9, "{a} {g} {h}"),
             // Without noise the doubling stays at the other solution, zero.
             Some(found) => assert_eq!(found.solution.0[0][0], 0.0),
             None => panic!("{a} {g} {h} did not converge"),
@@ -201,13 +156,7 @@ fn scalar_riccati() {
 fn filters_that_do_not_exist() {
     let one = Matrix([[1.0]]);
     let design = |f: f64, h: f64, q: f64, r: f64| {
-        Kalman::<1, 1>::design(
-            &Matrix([[f]]),
-            &Matrix([[h]]),
-            &Matrix([[q]]),
-            &Matrix([[r]]),
-        )
-        .unwrap_err()
+        Kalman::<1, 1>::design(&Matrix([[f]]), &Matrix([[h]]), &Matrix([[q]]), &Matrix([[r]])).unwrap_err()
     };
     // A walk that never moves: the gain dies out and nothing is forgotten.
     assert_eq!(design(1.0, 1.0, 0.0, 1.0), Error::NotStabilising);

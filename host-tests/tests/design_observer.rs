@@ -2,17 +2,12 @@
 
 use driveline::design::{Disturbance, Encoder, Error, Rate, RigidDesign, TwoMassDesign};
 use driveline::machine::{
-    Chain, Damping, Diameter, Efficiency, Falls, Inertia, Mass, Match, Ratio, Rigid, Stiffness,
-    TwoMass,
+    Chain, Damping, Diameter, Efficiency, Falls, Inertia, Mass, Match, Ratio, Rigid, Stiffness, TwoMass,
 };
 use serde_json::Value;
 use std::hint::black_box;
 
-const DISTURBANCE: Disturbance = Disturbance {
-    torque_accuracy: 0.5,
-    load_torque_step: 50.0,
-    within: 0.05,
-};
+const DISTURBANCE: Disturbance = Disturbance { torque_accuracy: 0.5, load_torque_step: 50.0, within: 0.05 };
 
 const HOIST: Chain = Chain::motor(Inertia(0.62))
     .shaft(Stiffness(5.0e4), Damping(2.0))
@@ -23,22 +18,14 @@ const HOIST: Chain = Chain::motor(Inertia(0.62))
     .lifted(Mass(12_000.0));
 const TWO: TwoMass = HOIST.reduce(Match::ResonanceAntiresonance);
 const OBSERVER: TwoMassDesign = TWO.observer(Rate::hz(10_000), Encoder::lines(2048), DISTURBANCE);
-const RIGID: RigidDesign =
-    HOIST
-        .rigid()
-        .observer(Rate::hz(10_000), Encoder::lines(2048), DISTURBANCE);
+const RIGID: RigidDesign = HOIST.rigid().observer(Rate::hz(10_000), Encoder::lines(2048), DISTURBANCE);
 
 fn number(value: &Value, key: &str) -> f64 {
     value[key].as_str().unwrap().parse().unwrap()
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|x| x.as_str().unwrap().parse().unwrap())
-        .collect()
+    value.as_array().unwrap().iter().map(|x| x.as_str().unwrap().parse().unwrap()).collect()
 }
 
 fn apart(found: f64, expected: f64) -> f64 {
@@ -51,24 +38,14 @@ fn observers_meet_seventy_digits() {
     let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     for case in file["cases"].as_array().unwrap() {
         let at = |key| number(case, key);
-        let machine = TwoMass::new(
-            Inertia(at("J_motor")),
-            Inertia(at("J_load")),
-            Stiffness(at("k")),
-            Damping(at("d")),
-        );
+        let machine = TwoMass::new(Inertia(at("J_motor")), Inertia(at("J_load")), Stiffness(at("k")), Damping(at("d")));
         let disturbance = Disturbance {
             torque_accuracy: at("torque_accuracy"),
             load_torque_step: at("load_torque_step"),
             within: at("within"),
         };
-        let found = machine
-            .try_observer(
-                Rate::every(at("period")),
-                Encoder::counts(at("counts") as u32),
-                disturbance,
-            )
-            .unwrap();
+        let found =
+            machine.try_observer(Rate::every(at("period")), Encoder::counts(at("counts") as u32), disturbance).unwrap();
 
         // Each row of the transition against its largest element, states in units of their own motion in a tick.
         let t = at("period");
@@ -76,40 +53,20 @@ fn observers_meet_seventy_digits() {
         let mut transition: f64 = 0.0;
         for i in 0..5 {
             let expected = numbers(&case["F"][i]);
-            let largest = (0..5)
-                .map(|j| (expected[j] / s[j]).abs())
-                .fold(0.0, f64::max);
+            let largest = (0..5).map(|j| (expected[j] / s[j]).abs()).fold(0.0, f64::max);
             for j in 0..5 {
-                transition =
-                    transition.max((found.transition.0[i][j] - expected[j]).abs() / s[j] / largest);
+                transition = transition.max((found.transition.0[i][j] - expected[j]).abs() / s[j] / largest);
             }
         }
-        let input = found
-            .input
-            .iter()
-            .zip(numbers(&case["B"]))
-            .take(4)
-            .map(|(b, e)| apart(*b, e))
-            .fold(0.0, f64::max);
-        let gain = found
-            .gains
-            .iter()
-            .zip(numbers(&case["gain"]))
-            .map(|(k, e)| apart(*k, e))
-            .fold(0.0, f64::max);
+        let input = found.input.iter().zip(numbers(&case["B"])).take(4).map(|(b, e)| apart(*b, e)).fold(0.0, f64::max);
+        let gain = found.gains.iter().zip(numbers(&case["gain"])).map(|(k, e)| apart(*k, e)).fold(0.0, f64::max);
         let sd = &found.standard_deviation;
-        let deviation = [
-            sd.motor_angle,
-            sd.motor_speed,
-            sd.twist,
-            sd.load_speed,
-            sd.load_torque,
-        ]
-        .iter()
-        .zip(numbers(&case["posterior_std"]))
-        .map(|(s, e)| apart(*s, e))
-        .fold(apart(sd.shaft_torque, at("shaft_torque_std")), f64::max)
-        .max(apart(found.innovation, at("innovation_std")));
+        let deviation = [sd.motor_angle, sd.motor_speed, sd.twist, sd.load_speed, sd.load_torque]
+            .iter()
+            .zip(numbers(&case["posterior_std"]))
+            .map(|(s, e)| apart(*s, e))
+            .fold(apart(sd.shaft_torque, at("shaft_torque_std")), f64::max)
+            .max(apart(found.innovation, at("innovation_std")));
         let radius = apart(found.spectral_radius, at("spectral_radius"));
         println!(
             "{}: F {transition:.1e} B {input:.1e} K {gain:.1e} deviations {deviation:.1e} radius {radius:.1e} chosen {:?} {:.2e}",
@@ -123,11 +80,7 @@ fn observers_meet_seventy_digits() {
         assert!(radius < 1e-13);
         for pole in case["poles"].as_array().unwrap() {
             let pole = numbers(pole);
-            let near = found
-                .poles
-                .iter()
-                .map(|p| (p.0 - pole[0]).hypot(p.1 - pole[1]))
-                .fold(f64::INFINITY, f64::min);
+            let near = found.poles.iter().map(|p| (p.0 - pole[0]).hypot(p.1 - pole[1])).fold(f64::INFINITY, f64::min);
             // Five poles within a few hundredths of 1: they move by many times a change in the gains.
             assert!(near < 1e-11, "{pole:?}, {near:e}");
         }
@@ -145,16 +98,8 @@ fn compile_time_and_run_time_give_the_same_bits() {
         .rope(Falls(black_box(2)), Stiffness(black_box(9.0e5)))
         .lifted(Mass(black_box(12_000.0)));
     let two = chain.reduce(black_box(Match::ResonanceAntiresonance));
-    let design = two.observer(
-        black_box(Rate::hz(10_000)),
-        Encoder::lines(black_box(2048)),
-        black_box(DISTURBANCE),
-    );
-    let rigid = chain.rigid().observer(
-        black_box(Rate::hz(10_000)),
-        Encoder::lines(2048),
-        black_box(DISTURBANCE),
-    );
+    let design = two.observer(black_box(Rate::hz(10_000)), Encoder::lines(black_box(2048)), black_box(DISTURBANCE));
+    let rigid = chain.rigid().observer(black_box(Rate::hz(10_000)), Encoder::lines(2048), black_box(DISTURBANCE));
     // `{:?}` prints the shortest text that reads back as the same bits, the sign of zero included.
     assert_eq!(format!("{HOIST:?}"), format!("{chain:?}"));
     assert_eq!(format!("{OBSERVER:?}"), format!("{design:?}"));
@@ -169,13 +114,8 @@ fn compile_time_and_run_time_give_the_same_bits() {
 #[test]
 fn rigid_observer_has_the_poles_of_a_triple_integrator() {
     let (inertia, t, counts) = (0.75, 1.0e-4, 8192_u32);
-    let quiet = Disturbance {
-        torque_accuracy: 1e-9,
-        load_torque_step: 50.0,
-        within: 0.05,
-    };
-    let design =
-        Rigid::new(Inertia(inertia)).observer(Rate::hz(10_000), Encoder::counts(counts), quiet);
+    let quiet = Disturbance { torque_accuracy: 1e-9, load_torque_step: 50.0, within: 0.05 };
+    let design = Rigid::new(Inertia(inertia)).observer(Rate::hz(10_000), Encoder::counts(counts), quiet);
     // Continuous equivalent: q/(J^2 s^6) = -r, q the walk's intensity, r the measurement's variance times T.
     let r = (core::f64::consts::TAU / f64::from(counts)).powi(2) / 12.0 * t;
     let w = (50.0_f64.powi(2) / 0.05 / inertia.powi(2) / r).powf(1.0 / 6.0);
@@ -194,67 +134,24 @@ fn errors_name_the_parameter() {
     let machine = |k, d| TwoMass::new(Inertia(1.0), Inertia(1.0), Stiffness(k), Damping(d));
     let design = |m: TwoMass, r, e, d| m.try_observer(r, e, d).unwrap_err();
     let cases = [
+        (design(machine(0.0, 0.0), rate, encoder, DISTURBANCE), Error::Unobservable),
+        (design(machine(1e8, 1.0), rate, encoder, DISTURBANCE), Error::SampleRate),
+        (design(machine(1e4, 0.0), Rate::hz(0), encoder, DISTURBANCE), Error::Period),
+        (design(machine(1e4, 0.0), rate, Encoder::lines(0), DISTURBANCE), Error::EncoderLines),
         (
-            design(machine(0.0, 0.0), rate, encoder, DISTURBANCE),
-            Error::Unobservable,
-        ),
-        (
-            design(machine(1e8, 1.0), rate, encoder, DISTURBANCE),
-            Error::SampleRate,
-        ),
-        (
-            design(machine(1e4, 0.0), Rate::hz(0), encoder, DISTURBANCE),
-            Error::Period,
-        ),
-        (
-            design(machine(1e4, 0.0), rate, Encoder::lines(0), DISTURBANCE),
-            Error::EncoderLines,
-        ),
-        (
-            design(
-                machine(1e4, 0.0),
-                rate,
-                encoder,
-                Disturbance {
-                    torque_accuracy: 0.0,
-                    ..DISTURBANCE
-                },
-            ),
+            design(machine(1e4, 0.0), rate, encoder, Disturbance { torque_accuracy: 0.0, ..DISTURBANCE }),
             Error::TorqueAccuracy,
         ),
         (
-            design(
-                machine(1e4, 0.0),
-                rate,
-                encoder,
-                Disturbance {
-                    load_torque_step: f64::NAN,
-                    ..DISTURBANCE
-                },
-            ),
+            design(machine(1e4, 0.0), rate, encoder, Disturbance { load_torque_step: f64::NAN, ..DISTURBANCE }),
             Error::LoadTorqueStep,
         ),
-        (
-            design(
-                machine(1e4, 0.0),
-                rate,
-                encoder,
-                Disturbance {
-                    within: -1.0,
-                    ..DISTURBANCE
-                },
-            ),
-            Error::Within,
-        ),
+        (design(machine(1e4, 0.0), rate, encoder, Disturbance { within: -1.0, ..DISTURBANCE }), Error::Within),
     ];
     for (found, expected) in cases {
         assert_eq!(found, expected);
         assert_eq!(found.to_string(), expected.message());
     }
     // A stiff shaft with a strong damper: above half the rate, but it leaves nothing to follow.
-    assert!(
-        machine(1e8, 1e4)
-            .try_observer(rate, encoder, DISTURBANCE)
-            .is_ok()
-    );
+    assert!(machine(1e8, 1e4).try_observer(rate, encoder, DISTURBANCE).is_ok());
 }

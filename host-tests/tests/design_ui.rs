@@ -2,26 +2,11 @@
 
 /// What each file of `ui/` must be told; the sentence of the error, and the file's name.
 const SENTENCES: [(&str, &str); 5] = [
-    (
-        "negative_inertia",
-        driveline::machine::Error::RotorInertia.message(),
-    ),
-    (
-        "efficiency_out_of_range",
-        driveline::machine::Error::GearEfficiency.message(),
-    ),
-    (
-        "unobservable_pair",
-        driveline::design::Error::Unobservable.message(),
-    ),
-    (
-        "rate_below_the_shaft",
-        driveline::design::Error::SampleRate.message(),
-    ),
-    (
-        "encoder_without_lines",
-        driveline::design::Error::EncoderLines.message(),
-    ),
+    ("negative_inertia", driveline::machine::Error::RotorInertia.message()),
+    ("efficiency_out_of_range", driveline::machine::Error::GearEfficiency.message()),
+    ("unobservable_pair", driveline::design::Error::Unobservable.message()),
+    ("rate_below_the_shaft", driveline::design::Error::SampleRate.message()),
+    ("encoder_without_lines", driveline::design::Error::EncoderLines.message()),
 ];
 
 #[test]
@@ -36,9 +21,6 @@ fn wrong_machines_do_not_compile() {
 fn the_compiler_says_the_sentence_of_the_error() {
     for (file, sentence) in SENTENCES {
         let path = format!("{}/tests/ui/{file}.stderr", env!("CARGO_MANIFEST_DIR"));
-        assert!(
-            std::fs::read_to_string(path).unwrap().contains(sentence),
-            "{file}"
-        );
+        assert!(std::fs::read_to_string(path).unwrap().contains(sentence), "{file}");
     }
 }

@@ -1,9 +1,9 @@
 //! Chains against the textbooks' formulas and worked examples, and the sentences of their errors.
 
 use driveline::machine::{
-    Chain, Damping, Diameter, Efficiency, Element, Error, Falls, Flow, Gap, Inertia, Length,
-    LinearDamping, Mass, Match, Planetary, Ratio, STANDARD_GRAVITY, Side, Stiffness, TwoMass,
-    refer_gap, refer_inertia, refer_stiffness, refer_torque,
+    Chain, Damping, Diameter, Efficiency, Element, Error, Falls, Flow, Gap, Inertia, Length, LinearDamping, Mass,
+    Match, Planetary, Ratio, STANDARD_GRAVITY, Side, Stiffness, TwoMass, refer_gap, refer_inertia, refer_stiffness,
+    refer_torque,
 };
 use serde_json::Value;
 
@@ -14,13 +14,7 @@ fn data(name: &str) -> Value {
 
 fn example(id: &str) -> Value {
     let file = data("textbook_examples.json");
-    file["cases"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .find(|case| case["id"] == id)
-        .unwrap()
-        .clone()
+    file["cases"].as_array().unwrap().iter().find(|case| case["id"] == id).unwrap().clone()
 }
 
 /// The tolerance of the example files: a handful of roundings, with room.
@@ -28,10 +22,7 @@ const TEXTBOOK: f64 = 1e-12;
 
 fn near(found: f64, expected: &Value) {
     let expected = expected.as_f64().unwrap();
-    assert!(
-        (found / expected - 1.0).abs() < TEXTBOOK,
-        "{found}, not {expected}"
-    );
+    assert!((found / expected - 1.0).abs() < TEXTBOOK, "{found}, not {expected}");
 }
 
 #[test]
@@ -43,40 +34,21 @@ fn huang_hoist() {
             .gear(Ratio(at("gear_i")), Efficiency(at("eta")))
             .rotor(Inertia(1e-3))
             .drum(Diameter(at("drum_D_m")))
-            .rope(
-                Falls(at("reeving_n") as u32),
-                Stiffness(at("rope_k_N_m_at_load")),
-            )
+            .rope(Falls(at("reeving_n") as u32), Stiffness(at("rope_k_N_m_at_load")))
             .slack(Length(at("gap_m_at_load")))
             .lifted(Mass(at("load_kg")))
     };
     let chain = hoist(Chain::motor(Inertia(1.0)));
     near(chain.masses()[1], &case["expected_J_high_no_loss"]);
-    near(
-        chain.shafts()[0].stiffness,
-        &case["expected_c_high_no_loss"],
-    );
-    near(
-        chain.shafts()[0].gap,
-        &case["expected_gap_rad_high_if_gap_is_at_load"],
-    );
-    near(
-        chain.gravity_torque_hoisting(),
-        &case["expected_M_high_start_for_weight_9.80665"],
-    );
-    near(
-        hoist(Chain::motor(Inertia(1.0)).starting()).masses()[1],
-        &case["expected_J_high_start"],
-    );
+    near(chain.shafts()[0].stiffness, &case["expected_c_high_no_loss"]);
+    near(chain.shafts()[0].gap, &case["expected_gap_rad_high_if_gap_is_at_load"]);
+    near(chain.gravity_torque_hoisting(), &case["expected_M_high_start_for_weight_9.80665"]);
+    near(hoist(Chain::motor(Inertia(1.0)).starting()).masses()[1], &case["expected_J_high_start"]);
     // Braking multiplies by the efficiency where starting divides.
     let ratio = hoist(Chain::motor(Inertia(1.0)).braking()).masses()[1] / chain.masses()[1];
     assert!((ratio - at("eta")).abs() < TEXTBOOK);
-    assert!(
-        (chain.gravity_torque() / chain.gravity_torque_hoisting() - at("eta")).abs() < TEXTBOOK
-    );
-    assert!(
-        (chain.gravity_torque_lowering() / chain.gravity_torque() - at("eta")).abs() < TEXTBOOK
-    );
+    assert!((chain.gravity_torque() / chain.gravity_torque_hoisting() - at("eta")).abs() < TEXTBOOK);
+    assert!((chain.gravity_torque_lowering() / chain.gravity_torque() - at("eta")).abs() < TEXTBOOK);
 }
 
 #[test]
@@ -102,10 +74,7 @@ fn wang_gears_from_either_side() {
     near(gears.masses()[1], &motor["J_gears"]);
 
     let load = &case["expected_at_load_shaft"];
-    near(
-        refer_inertia(at("J1"), i, 1.0, Side::Motor, Flow::Lossless),
-        &load["J1"],
-    );
+    near(refer_inertia(at("J1"), i, 1.0, Side::Motor, Flow::Lossless), &load["J1"]);
     let k1 = refer_stiffness(at("k1"), i, 1.0, Side::Motor, Flow::Lossless);
     near(driveline::machine::series(k1, at("k2")), &load["k_series"]);
 }
@@ -149,12 +118,7 @@ fn wang_planetary_set() {
 #[test]
 fn open_torsion_geared_chain() {
     let file = data("torsional_modes.json");
-    let case = file["cases"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .find(|c| c["id"] == "A15_ot_transient_geared_damped")
-        .unwrap();
+    let case = file["cases"].as_array().unwrap().iter().find(|c| c["id"] == "A15_ot_transient_geared_damped").unwrap();
     let chain = Chain::motor(Inertia(0.5))
         .shaft(Stiffness(5000.0), Damping(10.0))
         .rotor(Inertia(0.1))
@@ -173,11 +137,8 @@ fn open_torsion_geared_chain() {
     }
     // 5 N m s/rad behind 8 : 1.
     assert_eq!(chain.shafts()[2].damping, 5.0 / 64.0);
-    for (mode, expected) in chain
-        .modes()
-        .resonances()
-        .iter()
-        .zip(case["expected_omega_rad_s"].as_array().unwrap()[1..].iter())
+    for (mode, expected) in
+        chain.modes().resonances().iter().zip(case["expected_omega_rad_s"].as_array().unwrap()[1..].iter())
     {
         near(mode.frequency, expected);
     }
@@ -188,12 +149,7 @@ fn published_two_mass_rig() {
     let file = data("two_mass_benchmarks.json");
     let case = &file["two_mass_cases"][0];
     let at = |key: &str| case[key].as_f64().unwrap();
-    let rig = TwoMass::new(
-        Inertia(at("J_motor")),
-        Inertia(at("J_load")),
-        Stiffness(at("k")),
-        Damping(at("d")),
-    );
+    let rig = TwoMass::new(Inertia(at("J_motor")), Inertia(at("J_load")), Stiffness(at("k")), Damping(at("d")));
     near(rig.resonance(), &case["expected_omega_res_rad_s"]);
     near(rig.antiresonance(), &case["expected_omega_antires_rad_s"]);
     near(rig.damping_ratio(), &case["expected_zeta_res"]);
@@ -241,9 +197,7 @@ fn modal_damping_survives_the_reduction() {
     let beta = 1e-4;
     let mut chain = Chain::motor(Inertia(0.4));
     for (j, k) in [(0.05, 2.0e4), (0.2, 9.0e3), (0.7, 4.0e4)] {
-        chain = chain
-            .shaft(Stiffness(k), Damping(beta * k))
-            .rotor(Inertia(j));
+        chain = chain.shaft(Stiffness(k), Damping(beta * k)).rotor(Inertia(j));
     }
     for by in [Match::ResonanceAntiresonance, Match::ModalTruncation] {
         let two = chain.reduce(by);
@@ -265,12 +219,7 @@ fn residues_add_up_to_the_static_give() {
     let modes = chain.modes();
     let mut give = 0.0;
     for mode in modes.resonances() {
-        let norm: f64 = chain
-            .masses()
-            .iter()
-            .zip(mode.shape)
-            .map(|(j, phi)| j * phi * phi)
-            .sum();
+        let norm: f64 = chain.masses().iter().zip(mode.shape).map(|(j, phi)| j * phi * phi).sum();
         assert!((norm - 1.0).abs() < 1e-14);
         give += mode.residue / mode.frequency.powi(2);
     }
@@ -285,25 +234,15 @@ fn worst_case_bounds_the_answer_to_a_blow() {
         chain = chain.shaft(Stiffness(k), Damping(0.0)).rotor(Inertia(j));
     }
     let (modes, total) = (chain.modes(), chain.total_inertia());
-    let cuts = [
-        Match::ResonanceAntiresonance,
-        Match::ModalTruncation,
-        Match::TextbookCut(1),
-        Match::TextbookShaft(1),
-    ];
+    let cuts = [Match::ResonanceAntiresonance, Match::ModalTruncation, Match::TextbookCut(1), Match::TextbookShaft(1)];
     for by in cuts {
         let two = chain.reduce(by);
         let residue = two.load_inertia / (two.motor_inertia * total);
         let mut largest: f64 = 0.0;
         for n in 0..20_000 {
             let t = f64::from(n) * 100.0 * core::f64::consts::TAU / two.resonance() / 20_000.0;
-            let full: f64 = modes
-                .resonances()
-                .iter()
-                .map(|m| m.residue * (m.frequency * t).cos())
-                .sum();
-            largest = largest
-                .max((full - residue * (two.resonance() * t).cos()).abs() * chain.masses()[0]);
+            let full: f64 = modes.resonances().iter().map(|m| m.residue * (m.frequency * t).cos()).sum();
+            largest = largest.max((full - residue * (two.resonance() * t).cos()).abs() * chain.masses()[0]);
         }
         println!("{by:?}: error {largest:.4}, bound {:.4}", two.error.worst);
         // Not exceeded, and not vain: a hundred periods come within a tenth of it.
@@ -341,11 +280,7 @@ fn worth_of_each_part() {
         assert!(part.worst() >= part.resonance.abs());
     }
     // The small mass between two shafts matters least.
-    let least = worth
-        .parts()
-        .iter()
-        .min_by(|a, b| a.worst().total_cmp(&b.worst()))
-        .unwrap();
+    let least = worth.parts().iter().min_by(|a, b| a.worst().total_cmp(&b.worst())).unwrap();
     assert_eq!(least.element, Element::Mass(1));
 }
 
@@ -359,41 +294,20 @@ fn errors_name_the_parameter() {
         (Chain::try_motor(Inertia(0.0)), Error::MotorInertia),
         (motor.try_rotor(Inertia(-0.08)), Error::RotorInertia),
         (motor.try_rotor(Inertia(f64::NAN)), Error::RotorInertia),
-        (
-            motor.try_shaft(Stiffness(0.0), Damping(0.0)),
-            Error::ShaftStiffness,
-        ),
-        (
-            motor.try_shaft(Stiffness(1.0), Damping(-1.0)),
-            Error::ShaftDamping,
-        ),
+        (motor.try_shaft(Stiffness(0.0), Damping(0.0)), Error::ShaftStiffness),
+        (motor.try_shaft(Stiffness(1.0), Damping(-1.0)), Error::ShaftDamping),
         (motor.try_gear(Ratio(0.0), one), Error::GearRatio),
-        (
-            motor.try_gear(Ratio(2.0), Efficiency(1.01)),
-            Error::GearEfficiency,
-        ),
-        (
-            motor.try_gear(Ratio(2.0), Efficiency(0.0)),
-            Error::GearEfficiency,
-        ),
+        (motor.try_gear(Ratio(2.0), Efficiency(1.01)), Error::GearEfficiency),
+        (motor.try_gear(Ratio(2.0), Efficiency(0.0)), Error::GearEfficiency),
         (motor.try_drum(Diameter(f64::INFINITY)), Error::DrumDiameter),
         (motor.try_rope(Falls(2), Stiffness(1.0)), Error::DrumMissing),
         (motor.try_lifted(Mass(1.0)), Error::DrumMissing),
         (drum.try_rope(Falls(0), Stiffness(1.0)), Error::RopeFalls),
-        (
-            drum.try_rope(Falls(1), Stiffness(-1.0)),
-            Error::RopeStiffness,
-        ),
-        (
-            drum.try_damped_rope(Falls(1), Stiffness(1.0), LinearDamping(-1.0)),
-            Error::RopeDamping,
-        ),
+        (drum.try_rope(Falls(1), Stiffness(-1.0)), Error::RopeStiffness),
+        (drum.try_damped_rope(Falls(1), Stiffness(1.0), LinearDamping(-1.0)), Error::RopeDamping),
         (drum.try_driven(Mass(0.0)), Error::LoadMass),
         (drum.try_slack(Length(-1.0)), Error::BacklashGap),
-        (
-            drum.try_shaft(Stiffness(1.0), Damping(0.0)),
-            Error::RotaryAfterDrum,
-        ),
+        (drum.try_shaft(Stiffness(1.0), Damping(0.0)), Error::RotaryAfterDrum),
         (drum.try_drum(Diameter(1.0)), Error::RotaryAfterDrum),
         (motor.try_backlash(Gap(-0.1)), Error::BacklashGap),
     ];
@@ -404,27 +318,15 @@ fn errors_name_the_parameter() {
     }
     let two = Match::ResonanceAntiresonance;
     assert_eq!(shaft.try_reduce(two), Err(Error::OpenEnd));
-    assert_eq!(
-        shaft.rotor(Inertia(1.0)).backlash(Gap(0.1)).try_reduce(two),
-        Err(Error::BacklashAlone)
-    );
+    assert_eq!(shaft.rotor(Inertia(1.0)).backlash(Gap(0.1)).try_reduce(two), Err(Error::BacklashAlone));
     assert_eq!(motor.try_reduce(two), Err(Error::Rigid));
-    assert_eq!(
-        shaft.rotor(Inertia(1.0)).try_reduce(Match::TextbookCut(1)),
-        Err(Error::CutOutOfRange)
-    );
+    assert_eq!(shaft.rotor(Inertia(1.0)).try_reduce(Match::TextbookCut(1)), Err(Error::CutOutOfRange));
     let mut full = motor;
     for _ in 1..driveline::machine::CAPACITY {
         full = full.shaft(Stiffness(1.0), Damping(0.0)).rotor(Inertia(1.0));
     }
-    assert_eq!(
-        full.try_shaft(Stiffness(1.0), Damping(0.0)),
-        Err(Error::TooManyMasses)
-    );
-    assert_eq!(
-        full.reduce(two).error.next_mode,
-        full.modes().resonances()[1].frequency
-    );
+    assert_eq!(full.try_shaft(Stiffness(1.0), Damping(0.0)), Err(Error::TooManyMasses));
+    assert_eq!(full.reduce(two).error.next_mode, full.modes().resonances()[1].frequency);
 }
 
 /// A weight with no gear: its torque is m g D/2.
@@ -432,17 +334,8 @@ fn errors_name_the_parameter() {
 fn weight_and_level_mass() {
     let drum = Chain::motor(Inertia(1.0)).drum(Diameter(0.5));
     let rope = |chain: Chain| chain.rope(Falls(1), Stiffness(1.0e4));
-    assert_eq!(
-        rope(drum).lifted(Mass(10.0)).gravity_torque(),
-        10.0 * STANDARD_GRAVITY * 0.25
-    );
+    assert_eq!(rope(drum).lifted(Mass(10.0)).gravity_torque(), 10.0 * STANDARD_GRAVITY * 0.25);
     assert_eq!(rope(drum).driven(Mass(10.0)).gravity_torque(), 0.0);
-    assert_eq!(
-        rope(drum).driven(Mass(10.0)).masses(),
-        rope(drum).lifted(Mass(10.0)).masses()
-    );
-    assert_eq!(
-        rope(drum).driven(Mass(10.0)).rigid().inertia,
-        1.0 + 10.0 * 0.0625
-    );
+    assert_eq!(rope(drum).driven(Mass(10.0)).masses(), rope(drum).lifted(Mass(10.0)).masses());
+    assert_eq!(rope(drum).driven(Mass(10.0)).rigid().inertia, 1.0 + 10.0 * 0.0625);
 }

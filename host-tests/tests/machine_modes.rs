@@ -13,10 +13,7 @@ fn numbers(value: &Value) -> Vec<f64> {
         .as_array()
         .unwrap()
         .iter()
-        .map(|x| {
-            x.as_f64()
-                .unwrap_or_else(|| x.as_str().unwrap().parse().unwrap())
-        })
+        .map(|x| x.as_f64().unwrap_or_else(|| x.as_str().unwrap().parse().unwrap()))
         .collect()
 }
 
@@ -37,43 +34,23 @@ fn meets(id: &Value, chain: &Chain, case: &Value, limit: f64) -> f64 {
     let expected = numbers(&case["expected_omega_rad_s"]);
     let modes = chain.modes();
     assert_eq!(modes.resonances().len(), expected.len() - 1);
-    let worst = modes
-        .resonances()
-        .iter()
-        .zip(&expected[1..])
-        .map(|(m, e)| apart(m.frequency, *e))
-        .fold(0.0, f64::max);
+    let worst = modes.resonances().iter().zip(&expected[1..]).map(|(m, e)| apart(m.frequency, *e)).fold(0.0, f64::max);
     println!("{id}: worst frequency {worst:e}");
     assert!(worst < limit, "{id}");
 
     let two = &case["two_mass_reduction"];
     let at = |value: &Value, key: &str| value[key].as_f64().unwrap();
     let turn = core::f64::consts::TAU;
-    assert!(
-        apart(
-            modes.antiresonances()[0],
-            turn * at(two, "f1_antiresonance_drive_locked_Hz")
-        ) < limit,
-        "{id}"
-    );
-    assert!(
-        apart(
-            modes.resonances()[0].shape[0].abs(),
-            at(two, "phi_drive_mass_normalised")
-        ) < 1e-12,
-        "{id}"
-    );
+    assert!(apart(modes.antiresonances()[0], turn * at(two, "f1_antiresonance_drive_locked_Hz")) < limit, "{id}");
+    assert!(apart(modes.resonances()[0].shape[0].abs(), at(two, "phi_drive_mass_normalised")) < 1e-12, "{id}");
     for (by, key) in [
         (Match::ModalTruncation, "modal_truncation_at_drive"),
         (Match::ResonanceAntiresonance, "resonance_antiresonance_fit"),
     ] {
         let (found, expected) = (chain.reduce(by), &two[key]);
         // Differences of nearly equal frequencies: a small mass keeps what the frequencies leave of it.
-        for (value, name) in [
-            (found.motor_inertia, "J_motor"),
-            (found.load_inertia, "J_load"),
-            (found.stiffness, "k"),
-        ] {
+        for (value, name) in [(found.motor_inertia, "J_motor"), (found.load_inertia, "J_load"), (found.stiffness, "k")]
+        {
             let error = apart(value, at(expected, name));
             println!("{id} {key} {name} {error:e}");
             assert!(error < 2e-12, "{id} {key} {name}: {value} {expected}");
@@ -82,14 +59,9 @@ fn meets(id: &Value, chain: &Chain, case: &Value, limit: f64) -> f64 {
         if by == Match::ResonanceAntiresonance {
             assert!(found.error.antiresonance.abs() < 1e-12);
         }
-        assert!(
-            chain.masses().len() == 2 || found.error.next_mode == modes.resonances()[1].frequency
-        );
+        assert!(chain.masses().len() == 2 || found.error.next_mode == modes.resonances()[1].frequency);
     }
-    for cut in two["textbook_cut"]["per_base_shaft"]
-        .as_array()
-        .unwrap_or(&Vec::new())
-    {
+    for cut in two["textbook_cut"]["per_base_shaft"].as_array().unwrap_or(&Vec::new()) {
         let shaft = cut["base_shaft"].as_u64().unwrap() as usize;
         for (by, error) in [
             (Match::TextbookCut(shaft), "rel_err_series_vs_exact_f1"),
@@ -97,10 +69,7 @@ fn meets(id: &Value, chain: &Chain, case: &Value, limit: f64) -> f64 {
         ] {
             let (found, expected) = (chain.reduce(by).error.resonance, at(cut, error));
             // The errors are differences from one: absolute, in units of the frequency ratio.
-            assert!(
-                (found - expected).abs() < 1e-12 * (1.0 + expected.abs()),
-                "{id} {by:?}: {found} {expected}"
-            );
+            assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{id} {by:?}: {found} {expected}");
         }
     }
     worst
@@ -114,28 +83,15 @@ fn published_machines() {
             continue; // branched
         }
         // 1e-13 where the file asks 1e-9: ordinary machines are no harder than the extreme ones.
-        meets(
-            &case["id"],
-            &chain(&numbers(&equivalent["J"]), &numbers(&equivalent["k"])),
-            case,
-            1e-13,
-        );
+        meets(&case["id"], &chain(&numbers(&equivalent["J"]), &numbers(&equivalent["k"])), case, 1e-13);
     }
 }
 
 #[test]
 fn extreme_chains() {
-    for case in data("torsional_modes_extreme.json")["cases"]
-        .as_array()
-        .unwrap()
-    {
+    for case in data("torsional_modes_extreme.json")["cases"].as_array().unwrap() {
         let limit = case["rel_tol_high_relative_accuracy_f64"].as_f64().unwrap();
-        meets(
-            &case["id"],
-            &chain(&numbers(&case["J_kg_m2"]), &numbers(&case["k_Nm_rad"])),
-            case,
-            limit,
-        );
+        meets(&case["id"], &chain(&numbers(&case["J_kg_m2"]), &numbers(&case["k_Nm_rad"])), case, limit);
     }
 }
 
@@ -146,16 +102,8 @@ fn every_order_of_extreme_ratios() {
         let modes = chain(&numbers(&case["J"]), &numbers(&case["k"])).modes();
         let free = numbers(&case["resonances"]);
         let held = numbers(&case["antiresonances"]);
-        let resonances = modes
-            .resonances()
-            .iter()
-            .zip(&free)
-            .map(|(m, e)| apart(m.frequency, *e));
-        let antiresonances = modes
-            .antiresonances()
-            .iter()
-            .zip(&held)
-            .map(|(f, e)| apart(*f, *e));
+        let resonances = modes.resonances().iter().zip(&free).map(|(m, e)| apart(m.frequency, *e));
+        let antiresonances = modes.antiresonances().iter().zip(&held).map(|(f, e)| apart(*f, *e));
         let worst = resonances.chain(antiresonances).fold(0.0, f64::max);
         println!("{}: {worst:e}", case["id"]);
         // The same limit as for the extreme chains above.

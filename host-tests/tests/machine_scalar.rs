@@ -8,13 +8,7 @@ fn rows(key: &str) -> Vec<Vec<f64>> {
     let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let rows = file[key].as_array().unwrap();
     rows.iter()
-        .map(|row| {
-            row.as_array()
-                .unwrap()
-                .iter()
-                .map(|x| x.as_str().unwrap().parse().unwrap())
-                .collect()
-        })
+        .map(|row| row.as_array().unwrap().iter().map(|x| x.as_str().unwrap().parse().unwrap()).collect())
         .collect()
 }
 
@@ -35,9 +29,7 @@ fn worst(key: &str, limit: f64, apart: impl Fn(&[f64]) -> f64) {
 fn functions_meet_sixty_digits() {
     worst("sqrt", 0.0, |row| ulps(sqrt(row[0]), row[1]));
     // Less than 1 ulp from the truth is at most 1 ulp from its rounding.
-    worst("sin_cos", 1.0, |row| {
-        ulps(sin_cos(row[0]).0, row[1]).max(ulps(sin_cos(row[0]).1, row[2]))
-    });
+    worst("sin_cos", 1.0, |row| ulps(sin_cos(row[0]).0, row[1]).max(ulps(sin_cos(row[0]).1, row[2])));
     worst("exp", 1.0, |row| ulps(exp(row[0]), row[1]));
     worst("exp_m1", 1.0, |row| ulps(exp_m1(row[0]), row[1]));
     // Two halvings with a root each, or a sum with the exponent's share: some three roundings.
@@ -51,9 +43,7 @@ fn square_root_is_the_processors() {
     // A linear congruential sequence [Knuth, TAOCP 2, §3.3.4] runs through all exponents, subnormal ones too.
     let mut bits = 0x1234_5678_9ABC_DEF1_u64;
     for _ in 0..200_000 {
-        bits = bits
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let x = f64::from_bits(bits >> 1);
         if x.is_finite() {
             assert_eq!(sqrt(x).to_bits(), x.sqrt().to_bits(), "{x:e}");
@@ -62,11 +52,7 @@ fn square_root_is_the_processors() {
     // Squares and their neighbours: the hard cases of rounding.
     for n in 1..50_000_u64 {
         let square = (n * n) as f64;
-        for x in [
-            square,
-            f64::from_bits(square.to_bits() - 1),
-            f64::from_bits(square.to_bits() + 1),
-        ] {
+        for x in [square, f64::from_bits(square.to_bits() - 1), f64::from_bits(square.to_bits() + 1)] {
             assert_eq!(sqrt(x).to_bits(), x.sqrt().to_bits(), "{x:e}");
         }
     }

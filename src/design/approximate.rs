@@ -49,11 +49,7 @@ impl ApproximateStep {
     #[must_use]
     pub const fn forward_euler(machine: &TwoMass, period: f64) -> Self {
         let (w2, two_a) = rates(machine);
-        Self::judged(
-            [0.0, period, 0.0, -w2 * period, -two_a * period, period],
-            machine,
-            period,
-        )
+        Self::judged([0.0, period, 0.0, -w2 * period, -two_a * period, period], machine, period)
     }
 
     /// Trapezoidal rule (Tustin): stable at any rate, its frequency too low.
@@ -62,28 +58,13 @@ impl ApproximateStep {
         let (w2, two_a) = rates(machine);
         let half = 0.5 * period;
         let over = period / (1.0 + half * two_a + half * half * w2);
-        let n = [
-            -over * w2 * half,
-            over,
-            over * half,
-            -over * w2,
-            -over * (w2 * half + two_a),
-            over,
-        ];
+        let n = [-over * w2 * half, over, over * half, -over * w2, -over * (w2 * half + two_a), over];
         Self::judged(n, machine, period)
     }
 
     const fn judged(n: [f64; 6], machine: &TwoMass, period: f64) -> Self {
         let [n11, n12, g1, n21, n22, g2] = n;
-        Self {
-            n11,
-            n12,
-            g1,
-            n21,
-            n22,
-            g2,
-            fidelity: Fidelity::of([n11, n12, n21, n22], machine, period),
-        }
+        Self { n11, n12, g1, n21, n22, g2, fidelity: Fidelity::of([n11, n12, n21, n22], machine, period) }
     }
 }
 
@@ -106,18 +87,8 @@ impl SemiImplicitStep {
     pub const fn new(machine: &TwoMass, period: f64) -> Self {
         let (w2, two_a) = rates(machine);
         let (stiffness_dt, damping_dt) = (period * w2, period * two_a);
-        let n = [
-            -period * stiffness_dt,
-            period * (1.0 - damping_dt),
-            -stiffness_dt,
-            -damping_dt,
-        ];
-        Self {
-            dt: period,
-            stiffness_dt,
-            damping_dt,
-            fidelity: Fidelity::of(n, machine, period),
-        }
+        let n = [-period * stiffness_dt, period * (1.0 - damping_dt), -stiffness_dt, -damping_dt];
+        Self { dt: period, stiffness_dt, damping_dt, fidelity: Fidelity::of(n, machine, period) }
     }
 }
 
@@ -137,11 +108,7 @@ impl StepChoice {
     /// The semi-implicit step where it is stable and its [`Fidelity::error_bound`] is at most `threshold`.
     #[must_use]
     pub const fn choose(step: &SemiImplicitStep, threshold: f64) -> Self {
-        if step.fidelity.stable && step.fidelity.error_bound <= threshold {
-            Self::SemiImplicit
-        } else {
-            Self::Exact
-        }
+        if step.fidelity.stable && step.fidelity.error_bound <= threshold { Self::SemiImplicit } else { Self::Exact }
     }
 }
 
@@ -164,24 +131,10 @@ const fn slow_pole(n: [f64; 4]) -> ((f64, f64), f64) {
     } else {
         // The pole less one that is smaller in size, without cancellation.
         let root = sqrt(-turning);
-        let far = if trace < 0.0 {
-            0.5 * trace - root
-        } else {
-            0.5 * trace + root
-        };
+        let far = if trace < 0.0 { 0.5 * trace - root } else { 0.5 * trace + root };
         let near = if far == 0.0 { 0.0 } else { determinant / far };
         let (slow, fast) = ((1.0 + near).abs(), (1.0 + far).abs());
-        (
-            (
-                ln(slow),
-                if near < -1.0 {
-                    core::f64::consts::PI
-                } else {
-                    0.0
-                },
-            ),
-            slow.max(fast),
-        )
+        ((ln(slow), if near < -1.0 { core::f64::consts::PI } else { 0.0 }), slow.max(fast))
     }
 }
 
@@ -195,38 +148,16 @@ impl Fidelity {
         let stable = spectral_radius <= 1.0 + 4.0 * f64::EPSILON;
 
         let a = 0.5 * two_a;
-        let slow = if w > a {
-            w
-        } else {
-            w2 / (a + sqrt((a - w) * (a + w)))
-        };
+        let slow = if w > a { w } else { w2 / (a + sqrt((a - w) * (a + w))) };
         let ratio = if w > a { a / w } else { 1.0 };
         let size = hypot(log.0, log.1);
-        let (frequency_error, damping_error) = if slow > 0.0 && size > 0.0 {
-            (size / (slow * period) - 1.0, -log.0 / size - ratio)
-        } else {
-            (0.0, 0.0)
-        };
+        let (frequency_error, damping_error) =
+            if slow > 0.0 && size > 0.0 { (size / (slow * period) - 1.0, -log.0 / size - ratio) } else { (0.0, 0.0) };
 
         let ticks = core::f64::consts::TAU / (w * period);
-        let horizon = if ticks < LONGEST_HORIZON as f64 {
-            ticks as u32 + 1
-        } else {
-            LONGEST_HORIZON
-        };
-        let error_bound = if stable {
-            state_error(n, machine, period, horizon)
-        } else {
-            f64::INFINITY
-        };
-        Self {
-            error_bound,
-            horizon,
-            frequency_error,
-            damping_error,
-            spectral_radius,
-            stable,
-        }
+        let horizon = if ticks < LONGEST_HORIZON as f64 { ticks as u32 + 1 } else { LONGEST_HORIZON };
+        let error_bound = if stable { state_error(n, machine, period, horizon) } else { f64::INFINITY };
+        Self { error_bound, horizon, frequency_error, damping_error, spectral_radius, stable }
     }
 }
 
@@ -237,12 +168,7 @@ const fn state_error(n: [f64; 4], machine: &TwoMass, period: f64, horizon: u32) 
     // Twist in units of 1/w, or of T where there is no spring.
     let unit = if w > 0.0 { w } else { 1.0 / period };
     let step = (1.0 + n[0], n[1] * unit, n[2] / unit, 1.0 + n[3]);
-    let truth = (
-        1.0 + exact.n11,
-        exact.n12 * unit,
-        exact.n21 / unit,
-        1.0 + exact.n22,
-    );
+    let truth = (1.0 + exact.n11, exact.n12 * unit, exact.n21 / unit, 1.0 + exact.n22);
     let (mut p, mut q) = ((1.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 1.0));
     let mut largest = 0.0;
     let mut tick = 0;
@@ -262,10 +188,5 @@ const fn state_error(n: [f64; 4], machine: &TwoMass, period: f64, horizon: u32) 
 type Square = (f64, f64, f64, f64);
 
 const fn product(a: Square, b: Square) -> Square {
-    (
-        a.0 * b.0 + a.1 * b.2,
-        a.0 * b.1 + a.1 * b.3,
-        a.2 * b.0 + a.3 * b.2,
-        a.2 * b.1 + a.3 * b.3,
-    )
+    (a.0 * b.0 + a.1 * b.2, a.0 * b.1 + a.1 * b.3, a.2 * b.0 + a.3 * b.2, a.2 * b.1 + a.3 * b.3)
 }

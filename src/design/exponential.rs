@@ -55,9 +55,7 @@ pub const fn exponential<const N: usize>(a: &Matrix<N, N>) -> Option<Matrix<N, N
         return None;
     };
     while squarings > 0 {
-        less_one = Matrix::ZERO
-            .plus(2.0, &less_one)
-            .plus(1.0, &less_one.times(&less_one));
+        less_one = Matrix::ZERO.plus(2.0, &less_one).plus(1.0, &less_one.times(&less_one));
         squarings -= 1;
     }
     Some(Matrix::IDENTITY.plus(1.0, &less_one).scaled(&units, &units))
@@ -72,12 +70,7 @@ pub const fn discretise<const N: usize, const M: usize, const W: usize>(
     b: &Matrix<N, M>,
     period: f64,
 ) -> Option<(Matrix<N, N>, Matrix<N, M>)> {
-    const {
-        assert!(
-            W == N + M,
-            "the joined order must be the number of states and inputs"
-        )
-    };
+    const { assert!(W == N + M, "the joined order must be the number of states and inputs") };
     let mut joined = Matrix::<W, W>::ZERO;
     let mut i = 0;
     while i < N {
@@ -119,11 +112,7 @@ const fn sum<const N: usize>(
     c2: f64,
     c0: f64,
 ) -> Matrix<N, N> {
-    Matrix::ZERO
-        .plus(c0, &Matrix::IDENTITY)
-        .plus(c2, a2)
-        .plus(c4, a4)
-        .plus(c6, a6)
+    Matrix::ZERO.plus(c0, &Matrix::IDENTITY).plus(c2, a2).plus(c4, a4).plus(c6, a6)
 }
 
 const fn reciprocal<const N: usize>(units: &[f64; N]) -> [f64; N] {

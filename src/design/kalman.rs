@@ -30,12 +30,7 @@ impl<const N: usize, const M: usize> Kalman<N, M> {
     /// # Errors
     /// [`Error::Noise`] where R is not invertible or not positive on its diagonal, [`Error::NotConverged`] where there is no stabilising solution,
     /// [`Error::NotStabilising`] where the gain leaves a pole on or outside the unit circle.
-    pub const fn design(
-        f: &Matrix<N, N>,
-        h: &Matrix<M, N>,
-        q: &Matrix<N, N>,
-        r: &Matrix<M, M>,
-    ) -> Result<Self, Error> {
+    pub const fn design(f: &Matrix<N, N>, h: &Matrix<M, N>, q: &Matrix<N, N>, r: &Matrix<M, M>) -> Result<Self, Error> {
         let mut j = 0;
         while j < M {
             if !(r.0[j][j] > 0.0 && r.0[j][j].is_finite()) {
@@ -69,24 +64,14 @@ impl<const N: usize, const M: usize> Kalman<N, M> {
         let gain = gain.transpose();
         let left = Matrix::IDENTITY.plus(-1.0, &gain.times(h));
         // Joseph's form: no cancellation, positive by construction.
-        let posterior = left
-            .times(&prior)
-            .times(&left.transpose())
-            .plus(1.0, &gain.times(r).times(&gain.transpose()))
-            .symmetric();
+        let posterior =
+            left.times(&prior).times(&left.transpose()).plus(1.0, &gain.times(r).times(&gain.transpose())).symmetric();
         let poles = eigenvalues(&left.times(f).scaled(&inverse(&units), &inverse(&units)));
         let spectral_radius = super::spectral_radius(&poles);
         if spectral_radius.is_nan() || spectral_radius >= 1.0 {
             return Err(Error::NotStabilising);
         }
-        Ok(Self {
-            gain,
-            prior,
-            posterior,
-            innovation,
-            poles,
-            spectral_radius,
-        })
+        Ok(Self { gain, prior, posterior, innovation, poles, spectral_radius })
     }
 
     /// Predictor gain `F K`: the correction carried on to the next tick.

@@ -36,10 +36,7 @@ const fn times(a: Complex, b: Complex) -> Complex {
 }
 const fn over(a: Complex, b: Complex) -> Complex {
     let square = b.0 * b.0 + b.1 * b.1;
-    (
-        (a.0 * b.0 + a.1 * b.1) / square,
-        (a.1 * b.0 - a.0 * b.1) / square,
-    )
+    ((a.0 * b.0 + a.1 * b.1) / square, (a.1 * b.0 - a.0 * b.1) / square)
 }
 
 impl Loop {
@@ -57,24 +54,16 @@ impl Loop {
         let determinant = (determinant.0 - n.n12 * n.n21, determinant.1);
         let numerator = (n.n21 * n.g1 + a.0 * n.g2, a.1 * n.g2);
         let slip = over(numerator, determinant);
-        let slip = (
-            slip.0 / self.machine.motor_inertia,
-            slip.1 / self.machine.motor_inertia,
-        );
+        let slip = (slip.0 / self.machine.motor_inertia, slip.1 / self.machine.motor_inertia);
         let total = self.machine.total_inertia();
         let mean = over((self.period / total, 0.0), d);
         let load = self.machine.load_inertia / total;
         let motor = (mean.0 + load * slip.0, mean.1 + load * slip.1);
         let integral = over(z, d);
-        let controller = (
-            self.proportional + self.integral * self.period * integral.0,
-            self.integral * self.period * integral.1,
-        );
+        let controller =
+            (self.proportional + self.integral * self.period * integral.0, self.integral * self.period * integral.1);
         let speed = times(controller, motor);
-        over(
-            (speed.0 + self.slip * slip.0, speed.1 + self.slip * slip.1),
-            z,
-        )
+        over((speed.0 + self.slip * slip.0, speed.1 + self.slip * slip.1), z)
     }
 
     /// The margins, from a sweep of the whole range and a finer one about the resonance.
@@ -88,10 +77,7 @@ impl Loop {
             modulus: f64::INFINITY,
         };
         self.sweep(&mut found, 1e-2 * bandwidth, nyquist, 300);
-        let (from, to) = (
-            0.8 * self.machine.antiresonance(),
-            1.25 * self.machine.resonance(),
-        );
+        let (from, to) = (0.8 * self.machine.antiresonance(), 1.25 * self.machine.resonance());
         if to < nyquist {
             self.sweep(&mut found, from, to, 300);
         }
@@ -104,11 +90,7 @@ impl Loop {
         let mut before = self.response(low);
         let mut point = 0;
         while point < points {
-            let high = if point + 1 == points {
-                to
-            } else {
-                low * factor
-            };
+            let high = if point + 1 == points { to } else { low * factor };
             let after = self.response(high);
             let distance = hypot(1.0 + after.0, after.1);
             if distance < found.modulus {
@@ -162,10 +144,6 @@ impl Loop {
 
     const fn is_low(&self, frequency: f64, imaginary: bool) -> bool {
         let response = self.response(frequency);
-        if imaginary {
-            response.1 < 0.0
-        } else {
-            hypot(response.0, response.1) < 1.0
-        }
+        if imaginary { response.1 < 0.0 } else { hypot(response.0, response.1) < 1.0 }
     }
 }

@@ -67,12 +67,7 @@ impl TwoMass {
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer) returns.
     #[must_use]
-    pub const fn observer(
-        &self,
-        rate: Rate,
-        encoder: Encoder,
-        disturbance: Disturbance,
-    ) -> TwoMassDesign {
+    pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> TwoMassDesign {
         match self.try_observer(rate, encoder, disturbance) {
             Ok(design) => design,
             Err(error) => error.stop(),
@@ -102,10 +97,7 @@ impl TwoMass {
             Ok(variance) => variance,
             Err(error) => return Err(error),
         };
-        let (torque, load) = match (
-            disturbance.torque_variance(),
-            disturbance.load_torque_variance(period),
-        ) {
+        let (torque, load) = match (disturbance.torque_variance(), disturbance.load_torque_variance(period)) {
             (Ok(torque), Ok(load)) => (torque, load),
             (Err(error), _) | (_, Err(error)) => return Err(error),
         };
@@ -134,11 +126,10 @@ impl TwoMass {
         }
         noise.0[4][4] += load;
         let seen = Matrix([[1.0, 0.0, 0.0, 0.0, 0.0]]);
-        let filter =
-            match Kalman::<5, 1>::design(&transition, &seen, &noise, &Matrix([[measurement]])) {
-                Ok(filter) => filter,
-                Err(error) => return Err(error),
-            };
+        let filter = match Kalman::<5, 1>::design(&transition, &seen, &noise, &Matrix([[measurement]])) {
+            Ok(filter) => filter,
+            Err(error) => return Err(error),
+        };
 
         let semi_implicit = SemiImplicitStep::new(self, period);
         let p = &filter.posterior;
@@ -171,46 +162,18 @@ impl TwoMass {
 
 /// Exact transition and input of the five states over a tick.
 const fn transition(machine: &TwoMass, step: &ExactStep, t: f64) -> (Matrix<5, 5>, [f64; 5]) {
-    let (jm, jl, total) = (
-        machine.motor_inertia,
-        machine.load_inertia,
-        machine.total_inertia(),
-    );
+    let (jm, jl, total) = (machine.motor_inertia, machine.load_inertia, machine.total_inertia());
     let (motor, load) = (jm / total, jl / total);
     // theta_m = mean angle + (J_l/J) delta; the mean angle moves as one rigid machine.
     let glide = 0.5 * t * t / total;
     // The slip's change splits in inverse proportion to the inertias, on top of the mean speed's T (tau_m - tau_L)/J.
     let transition = Matrix([
-        [
-            1.0,
-            t * motor + load * step.n12,
-            load * step.n11,
-            t * load - load * step.n12,
-            load * step.g1 / jl - glide,
-        ],
-        [
-            0.0,
-            1.0 + load * step.n22,
-            load * step.n21,
-            -load * step.n22,
-            -step.lag / total,
-        ],
+        [1.0, t * motor + load * step.n12, load * step.n11, t * load - load * step.n12, load * step.g1 / jl - glide],
+        [0.0, 1.0 + load * step.n22, load * step.n21, -load * step.n22, -step.lag / total],
         [0.0, step.n12, 1.0 + step.n11, -step.n12, step.g1 / jl],
-        [
-            0.0,
-            -motor * step.n22,
-            -motor * step.n21,
-            1.0 + motor * step.n22,
-            -(t + jm / jl * step.g2) / total,
-        ],
+        [0.0, -motor * step.n22, -motor * step.n21, 1.0 + motor * step.n22, -(t + jm / jl * step.g2) / total],
         [0.0, 0.0, 0.0, 0.0, 1.0],
     ]);
-    let input = [
-        glide + load * step.g1 / jm,
-        (t + jl / jm * step.g2) / total,
-        step.g1 / jm,
-        step.lag / total,
-        0.0,
-    ];
+    let input = [glide + load * step.g1 / jm, (t + jl / jm * step.g2) / total, step.g1 / jm, step.lag / total, 0.0];
     (transition, input)
 }

@@ -53,9 +53,7 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
         let mut low = n;
         while low > 0 {
             let around = size(h[low][low]) + size(h[low - 1][low - 1]);
-            if size(h[low][low - 1]) <= f64::EPSILON * 0.1 * around
-                || size(h[low][low - 1]) < 1e-290
-            {
+            if size(h[low][low - 1]) <= f64::EPSILON * 0.1 * around || size(h[low][low - 1]) < 1e-290 {
                 h[low][low - 1] = (0.0, 0.0);
                 break;
             }
@@ -70,11 +68,7 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
         if tries > 200 {
             return values;
         }
-        let shift = if tries % 11 == 10 {
-            (size(h[n][n - 1]), size(h[n][n - 1]))
-        } else {
-            wilkinson(&h, n)
-        };
+        let shift = if tries % 11 == 10 { (size(h[n][n - 1]), size(h[n][n - 1])) } else { wilkinson(&h, n) };
         qr_step(&mut h, low, n, shift);
         tries += 1;
     }
@@ -97,11 +91,7 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
 
 /// Whether `a` comes after `b`.
 const fn after(a: Complex, b: Complex) -> bool {
-    if (a.0 - b.0).abs() > 1e-12 {
-        a.0 < b.0
-    } else {
-        a.1 > b.1
-    }
+    if (a.0 - b.0).abs() > 1e-12 { a.0 < b.0 } else { a.1 > b.1 }
 }
 
 /// Largest size of a set of poles; not a number where one is not.
@@ -182,11 +172,7 @@ const fn wilkinson<const N: usize>(h: &[[Complex; N]; N], n: usize) -> Complex {
     let r = root(plus(times(half, half), times(b, c)));
     let one = plus(plus(d, half), r);
     let two = minus(plus(d, half), r);
-    if size(minus(one, d)) < size(minus(two, d)) {
-        one
-    } else {
-        two
-    }
+    if size(minus(one, d)) < size(minus(two, d)) { one } else { two }
 }
 
 /// One QR step with Givens rotations on the rows and columns `low..=n`.

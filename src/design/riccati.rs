@@ -21,11 +21,7 @@ pub struct Doubling<const N: usize> {
 ///
 /// `None` where it does not converge within 60 doublings: no stabilising solution, or one at the edge of stability.
 #[must_use]
-pub const fn doubling<const N: usize>(
-    a: &Matrix<N, N>,
-    g: &Matrix<N, N>,
-    h: &Matrix<N, N>,
-) -> Option<Doubling<N>> {
+pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Matrix<N, N>) -> Option<Doubling<N>> {
     let (mut a, mut g, mut h) = (*a, *g, *h);
     let mut iterations = 0;
     while iterations < 60 {
@@ -55,10 +51,7 @@ pub const fn doubling<const N: usize>(
             i += 1;
         }
         if settled {
-            return Some(Doubling {
-                solution: h,
-                iterations,
-            });
+            return Some(Doubling { solution: h, iterations });
         }
     }
     None

@@ -36,12 +36,7 @@ impl Rigid {
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer) returns.
     #[must_use]
-    pub const fn observer(
-        &self,
-        rate: Rate,
-        encoder: Encoder,
-        disturbance: Disturbance,
-    ) -> RigidDesign {
+    pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> RigidDesign {
         match self.try_observer(rate, encoder, disturbance) {
             Ok(design) => design,
             Err(error) => error.stop(),
@@ -69,10 +64,7 @@ impl Rigid {
             Ok(variance) => variance,
             Err(error) => return Err(error),
         };
-        let (torque, load) = match (
-            disturbance.torque_variance(),
-            disturbance.load_torque_variance(t),
-        ) {
+        let (torque, load) = match (disturbance.torque_variance(), disturbance.load_torque_variance(t)) {
             (Ok(torque), Ok(load)) => (torque, load),
             (Err(error), _) | (_, Err(error)) => return Err(error),
         };

@@ -29,11 +29,7 @@ pub struct SpeedLoopTuning {
 
 impl SpeedLoopTuning {
     /// Brisk and well damped: 0.4 of the antiresonance, damping ratios 1 and 0.4.
-    pub const USUAL: Self = Self {
-        bandwidth: 0.4,
-        damping: 1.0,
-        shaft_damping: 0.4,
-    };
+    pub const USUAL: Self = Self { bandwidth: 0.4, damping: 1.0, shaft_damping: 0.4 };
 }
 
 /// A finished speed loop.
@@ -77,11 +73,7 @@ impl TwoMass {
     ///
     /// # Errors
     /// A value out of range, or [`Error::SpeedLoopUnstable`].
-    pub const fn try_speed_loop(
-        &self,
-        rate: Rate,
-        tuning: SpeedLoopTuning,
-    ) -> Result<SpeedLoopDesign, Error> {
+    pub const fn try_speed_loop(&self, rate: Rate, tuning: SpeedLoopTuning) -> Result<SpeedLoopDesign, Error> {
         if let Err(error) = self.check() {
             return Err(Error::Machine(error));
         }
@@ -109,25 +101,12 @@ impl TwoMass {
         let (proportional, integral, slip) = (jm * kp, jm * (b * w2) * (b * w2), jm * kv);
 
         let step = ExactStep::new(self, period);
-        let spectral_radius = spectral_radius(&eigenvalues(&closed_loop(
-            self,
-            &step,
-            period,
-            proportional,
-            integral,
-            slip,
-        )));
+        let spectral_radius =
+            spectral_radius(&eigenvalues(&closed_loop(self, &step, period, proportional, integral, slip)));
         if spectral_radius.is_nan() || spectral_radius >= 1.0 {
             return Err(Error::SpeedLoopUnstable);
         }
-        let open = Loop {
-            step,
-            machine: *self,
-            period,
-            proportional,
-            integral,
-            slip,
-        };
+        let open = Loop { step, machine: *self, period, proportional, integral, slip };
         Ok(SpeedLoopDesign {
             period,
             proportional,
@@ -142,14 +121,7 @@ impl TwoMass {
 }
 
 /// Closed loop of `[delta w_r, v, mean speed, integral part, torque]`, the last two over the motor's inertia and w_r.
-const fn closed_loop(
-    machine: &TwoMass,
-    step: &ExactStep,
-    t: f64,
-    kp: f64,
-    ki: f64,
-    kv: f64,
-) -> Matrix<5, 5> {
+const fn closed_loop(machine: &TwoMass, step: &ExactStep, t: f64, kp: f64, ki: f64, kv: f64) -> Matrix<5, 5> {
     let total = machine.total_inertia();
     let load = machine.load_inertia / total;
     let w = machine.resonance();

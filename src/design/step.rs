@@ -38,11 +38,7 @@ impl ExactStep {
     #[must_use]
     pub const fn new(machine: &TwoMass, period: f64) -> Self {
         let reduced = machine.reduced_inertia();
-        Self::from_rates(
-            machine.stiffness / reduced,
-            machine.damping / reduced,
-            period,
-        )
+        Self::from_rates(machine.stiffness / reduced, machine.damping / reduced, period)
     }
 
     /// The step from `w^2 = k/J_r` \[1/s2\] and `2 a = d/J_r` \[1/s\] over a period \[s\].
@@ -50,15 +46,7 @@ impl ExactStep {
     pub const fn from_rates(w2: f64, two_a: f64, period: f64) -> Self {
         let (g1, g2, lag) = step_response(0.5 * two_a * period, w2 * period * period);
         let (g1, g2, lag) = (g1 * period * period, g2 * period, lag * period);
-        Self {
-            n11: -w2 * g1,
-            n12: g2,
-            g1,
-            n21: -w2 * g2,
-            n22: -(w2 * g1 + two_a * g2),
-            g2,
-            lag,
-        }
+        Self { n11: -w2 * g1, n12: g2, g1, n21: -w2 * g2, n22: -(w2 * g1 + two_a * g2), g2, lag }
     }
 
     /// Impulse \[N m s\] that the shaft passes from the motor to the load in a tick, from twist, slip and drive:
@@ -78,11 +66,7 @@ const fn step_response(x: f64, p: f64) -> (f64, f64, f64) {
     // p - x^2: square of the angle turned, or less the square of the real rate.
     let root = sqrt(p);
     let q = (root - x) * (root + x);
-    let (g1, g2) = if q > -0.1 {
-        near_or_under(x, p, q)
-    } else {
-        over(x, p, sqrt(-q))
-    };
+    let (g1, g2) = if q > -0.1 { near_or_under(x, p, q) } else { over(x, p, sqrt(-q)) };
     (g1, g2, 1.0 - g2)
 }
 
@@ -95,8 +79,7 @@ const fn series(x: f64, p: f64) -> (f64, f64, f64) {
     let mut n = 3;
     while n < 32 {
         let m = (n - 2) as f64;
-        terms[n] =
-            -(2.0 * x * (m + 1.0) * terms[n - 1] + p * terms[n - 2]) / ((m + 2.0) * (m + 1.0));
+        terms[n] = -(2.0 * x * (m + 1.0) * terms[n - 1] + p * terms[n - 2]) / ((m + 2.0) * (m + 1.0));
         n += 1;
     }
     // Smallest first.

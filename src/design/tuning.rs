@@ -42,17 +42,13 @@ impl Encoder {
     /// An encoder of so many lines, each read as four counts.
     #[must_use]
     pub const fn lines(lines: u32) -> Self {
-        Self {
-            counts: 4 * lines as u64,
-        }
+        Self { counts: 4 * lines as u64 }
     }
 
     /// An encoder or resolver of so many counts a turn.
     #[must_use]
     pub const fn counts(counts: u32) -> Self {
-        Self {
-            counts: counts as u64,
-        }
+        Self { counts: counts as u64 }
     }
 
     /// Angle of one count \[rad\].
@@ -60,11 +56,7 @@ impl Encoder {
     /// # Errors
     /// [`Error::EncoderLines`] for an encoder of none.
     pub const fn resolution(self) -> Result<f64, Error> {
-        if self.counts == 0 {
-            Err(Error::EncoderLines)
-        } else {
-            Ok(core::f64::consts::TAU / self.counts as f64)
-        }
+        if self.counts == 0 { Err(Error::EncoderLines) } else { Ok(core::f64::consts::TAU / self.counts as f64) }
     }
 
     /// Variance of the measured angle \[rad2\]: that of rounding to a count, `resolution^2/12`.
@@ -97,11 +89,7 @@ impl Disturbance {
     /// [`Error::TorqueAccuracy`].
     pub const fn torque_variance(&self) -> Result<f64, Error> {
         let square = self.torque_accuracy * self.torque_accuracy;
-        if self.torque_accuracy > 0.0 && square.is_finite() {
-            Ok(square)
-        } else {
-            Err(Error::TorqueAccuracy)
-        }
+        if self.torque_accuracy > 0.0 && square.is_finite() { Ok(square) } else { Err(Error::TorqueAccuracy) }
     }
 
     /// Variance that the load torque gains in a tick \[N2 m2\]: `step^2 T / within`.

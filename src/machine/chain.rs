@@ -19,11 +19,7 @@ pub struct Shaft {
 }
 
 impl Shaft {
-    pub(crate) const NONE: Self = Self {
-        stiffness: 0.0,
-        damping: 0.0,
-        gap: 0.0,
-    };
+    pub(crate) const NONE: Self = Self { stiffness: 0.0, damping: 0.0, gap: 0.0 };
 }
 
 /// A machine as an ordered chain from the motor, referred to the motor's shaft.
@@ -123,29 +119,14 @@ impl Chain {
         if self.travel != 0.0 {
             return Err(Error::RotaryAfterDrum);
         }
-        let referred = refer_stiffness(
-            stiffness.0,
-            self.ratio,
-            self.efficiency,
-            Side::Load,
-            self.flow,
-        );
+        let referred = refer_stiffness(stiffness.0, self.ratio, self.efficiency, Side::Load, self.flow);
         if !positive(stiffness.0) || !positive(referred) {
             return Err(Error::ShaftStiffness);
         }
         if !not_negative(damping.0) {
             return Err(Error::ShaftDamping);
         }
-        self.link(
-            referred,
-            refer_stiffness(
-                damping.0,
-                self.ratio,
-                self.efficiency,
-                Side::Load,
-                self.flow,
-            ),
-        )
+        self.link(referred, refer_stiffness(damping.0, self.ratio, self.efficiency, Side::Load, self.flow))
     }
 
     /// A rotor on the present mass: inertia \[kg m2\] on its own speed.
@@ -165,13 +146,7 @@ impl Chain {
         if self.travel != 0.0 {
             return Err(Error::RotaryAfterDrum);
         }
-        let referred = refer_inertia(
-            inertia.0,
-            self.ratio,
-            self.efficiency,
-            Side::Load,
-            self.flow,
-        );
+        let referred = refer_inertia(inertia.0, self.ratio, self.efficiency, Side::Load, self.flow);
         if !positive(inertia.0) || !positive(referred) {
             return Err(Error::RotorInertia);
         }
@@ -253,11 +228,7 @@ impl Chain {
         } else if self.count == CAPACITY {
             return Err(Error::TooManyMasses);
         } else {
-            self.shaft[self.count - 1] = Shaft {
-                stiffness,
-                damping,
-                gap: self.gap,
-            };
+            self.shaft[self.count - 1] = Shaft { stiffness, damping, gap: self.gap };
             self.count += 1;
         }
         self.gap = 0.0;

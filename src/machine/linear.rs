@@ -51,12 +51,7 @@ impl Chain {
 
     /// A rope: falls, stiffness \[N/m\] and damping \[N s/m\] at the load.
     #[must_use]
-    pub const fn damped_rope(
-        self,
-        falls: Falls,
-        stiffness: Stiffness,
-        damping: LinearDamping,
-    ) -> Self {
+    pub const fn damped_rope(self, falls: Falls, stiffness: Stiffness, damping: LinearDamping) -> Self {
         match self.try_damped_rope(falls, stiffness, damping) {
             Ok(chain) => chain,
             Err(error) => error.stop(),

@@ -61,22 +61,11 @@ impl Chain {
             stiffness[j] = self.shaft[j].stiffness;
             j += 1;
         }
-        let free = singular(
-            scaled_incidence(&self.inertia, &stiffness, shafts, false),
-            shafts,
-        );
-        let held = singular(
-            scaled_incidence(&self.inertia, &stiffness, shafts, true),
-            shafts,
-        );
+        let free = singular(scaled_incidence(&self.inertia, &stiffness, shafts, false), shafts);
+        let held = singular(scaled_incidence(&self.inertia, &stiffness, shafts, true), shafts);
 
         let mut modes = Modes {
-            mode: [Mode {
-                frequency: 0.0,
-                shape: [0.0; CAPACITY],
-                residue: 0.0,
-                damping: 0.0,
-            }; SHAFTS],
+            mode: [Mode { frequency: 0.0, shape: [0.0; CAPACITY], residue: 0.0, damping: 0.0 }; SHAFTS],
             antiresonance: held.0,
             count: shafts,
         };
@@ -103,23 +92,14 @@ impl Chain {
 }
 
 /// First resonance and first antiresonance \[rad/s\] of a chain with `shafts` shafts.
-pub(super) const fn lowest(
-    inertia: &[f64; CAPACITY],
-    stiffness: &[f64; SHAFTS],
-    shafts: usize,
-) -> (f64, f64) {
+pub(super) const fn lowest(inertia: &[f64; CAPACITY], stiffness: &[f64; SHAFTS], shafts: usize) -> (f64, f64) {
     let free = singular(scaled_incidence(inertia, stiffness, shafts, false), shafts);
     let held = singular(scaled_incidence(inertia, stiffness, shafts, true), shafts);
     (free.0[0], held.0[0])
 }
 
 /// The transpose of `sqrt(k) B / sqrt(J)`, by columns; without the motor's row where it is held.
-const fn scaled_incidence(
-    inertia: &[f64; CAPACITY],
-    stiffness: &[f64; SHAFTS],
-    shafts: usize,
-    held: bool,
-) -> Columns {
+const fn scaled_incidence(inertia: &[f64; CAPACITY], stiffness: &[f64; SHAFTS], shafts: usize, held: bool) -> Columns {
     let mut columns = [[0.0; CAPACITY]; SHAFTS];
     let mut j = 0;
     while j < shafts {

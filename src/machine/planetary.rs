@@ -48,8 +48,8 @@ impl Planetary {
         let planet_teeth = (self.ring_teeth as f64 - self.sun_teeth as f64) / 2.0;
         let radius = self.module * (self.sun_teeth as f64 + planet_teeth) / 2.0;
         let spin = self.planet_speed();
-        let planet = self.planet.0 * spin * spin
-            + self.planet_mass.0 * (radius * carrier_speed) * (radius * carrier_speed);
+        let planet =
+            self.planet.0 * spin * spin + self.planet_mass.0 * (radius * carrier_speed) * (radius * carrier_speed);
         self.sun.0 + self.planets as f64 * planet + self.carrier.0 * carrier_speed * carrier_speed
     }
 }

@@ -156,11 +156,8 @@ impl Chain {
         let load_share = machine.load_inertia / total;
         let resonance = machine.resonance() / first.frequency - 1.0;
         // Same frequency: the two cosines stay together. Otherwise they drift apart to twice the mean.
-        let mut left_out = if resonance.abs() < 1e-9 {
-            (first.residue - residue).abs()
-        } else {
-            first.residue + residue
-        };
+        let mut left_out =
+            if resonance.abs() < 1e-9 { (first.residue - residue).abs() } else { first.residue + residue };
         let mut i = 1;
         while i + 1 < self.count {
             left_out += modes.resonances()[i].residue;

@@ -43,13 +43,7 @@ pub const fn refer_torque(torque: f64, ratio: f64, efficiency: f64, side: Side, 
 
 /// An inertia \[kg m2\] on the other side of a gear of `ratio`.
 #[must_use]
-pub const fn refer_inertia(
-    inertia: f64,
-    ratio: f64,
-    efficiency: f64,
-    side: Side,
-    flow: Flow,
-) -> f64 {
+pub const fn refer_inertia(inertia: f64, ratio: f64, efficiency: f64, side: Side, flow: Flow) -> f64 {
     let kept = match side {
         Side::Load => inertia / (ratio * ratio),
         Side::Motor => inertia * (ratio * ratio),
@@ -59,13 +53,7 @@ pub const fn refer_inertia(
 
 /// A stiffness \[N m/rad\] or a damping \[N m s/rad\] on the other side of a gear of `ratio`.
 #[must_use]
-pub const fn refer_stiffness(
-    stiffness: f64,
-    ratio: f64,
-    efficiency: f64,
-    side: Side,
-    flow: Flow,
-) -> f64 {
+pub const fn refer_stiffness(stiffness: f64, ratio: f64, efficiency: f64, side: Side, flow: Flow) -> f64 {
     refer_inertia(stiffness, ratio, efficiency, side, flow)
 }
 

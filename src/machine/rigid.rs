@@ -31,10 +31,7 @@ impl Rigid {
     /// [`Error::MotorInertia`].
     pub const fn try_new(inertia: Inertia) -> Result<Self, Error> {
         if positive(inertia.0) {
-            Ok(Self {
-                inertia: inertia.0,
-                gravity_torque: 0.0,
-            })
+            Ok(Self { inertia: inertia.0, gravity_torque: 0.0 })
         } else {
             Err(Error::MotorInertia)
         }
@@ -60,10 +57,7 @@ impl Chain {
     /// As [`check`](Self::check).
     pub const fn try_rigid(&self) -> Result<Rigid, Error> {
         match self.check() {
-            Ok(()) => Ok(Rigid {
-                inertia: self.total_inertia(),
-                gravity_torque: self.gravity_torque(),
-            }),
+            Ok(()) => Ok(Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity_torque() }),
             Err(error) => Err(error),
         }
     }

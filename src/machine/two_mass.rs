@@ -32,12 +32,7 @@ impl TwoMass {
     /// # Panics
     /// At compile time in a constant, where a value is out of range; [`try_new`](Self::try_new) returns it.
     #[must_use]
-    pub const fn new(
-        motor: Inertia,
-        load: Inertia,
-        stiffness: Stiffness,
-        damping: Damping,
-    ) -> Self {
+    pub const fn new(motor: Inertia, load: Inertia, stiffness: Stiffness, damping: Damping) -> Self {
         match Self::try_new(motor, load, stiffness, damping) {
             Ok(machine) => machine,
             Err(error) => error.stop(),
@@ -48,12 +43,7 @@ impl TwoMass {
     ///
     /// # Errors
     /// [`Error::MotorInertia`], [`Error::LoadInertia`], [`Error::ShaftStiffnessNegative`], [`Error::ShaftDamping`].
-    pub const fn try_new(
-        motor: Inertia,
-        load: Inertia,
-        stiffness: Stiffness,
-        damping: Damping,
-    ) -> Result<Self, Error> {
+    pub const fn try_new(motor: Inertia, load: Inertia, stiffness: Stiffness, damping: Damping) -> Result<Self, Error> {
         let machine = Self {
             motor_inertia: motor.0,
             load_inertia: load.0,

@@ -34,10 +34,7 @@ impl Part {
     /// The largest of the three changes in size.
     #[must_use]
     pub const fn worst(&self) -> f64 {
-        self.resonance
-            .abs()
-            .max(self.antiresonance.abs())
-            .max(self.compliance.abs())
+        self.resonance.abs().max(self.antiresonance.abs()).max(self.compliance.abs())
     }
 }
 
@@ -61,16 +58,8 @@ impl Chain {
     #[must_use]
     pub const fn worth(&self) -> Worth {
         let shafts = self.count - 1;
-        let nothing = Part {
-            element: Element::Shaft(0),
-            resonance: 0.0,
-            antiresonance: 0.0,
-            compliance: 0.0,
-        };
-        let mut table = Worth {
-            part: [nothing; 2 * (CAPACITY - 1)],
-            count: 2 * shafts,
-        };
+        let nothing = Part { element: Element::Shaft(0), resonance: 0.0, antiresonance: 0.0, compliance: 0.0 };
+        let mut table = Worth { part: [nothing; 2 * (CAPACITY - 1)], count: 2 * shafts };
         let mut j = 0;
         while j < shafts {
             table.part[j] = self.without(Element::Shaft(j));
@@ -93,12 +82,7 @@ impl Chain {
         let give = compliance(&inertia, &stiffness, shafts);
         if shafts == 1 {
             let change = f64::INFINITY;
-            return Part {
-                element,
-                resonance: change,
-                antiresonance: change,
-                compliance: -1.0,
-            };
+            return Part { element, resonance: change, antiresonance: change, compliance: -1.0 };
         }
         // The mass and the shaft that go; what lies beyond moves up.
         let (mass, shaft) = match element {

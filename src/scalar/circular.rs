@@ -82,15 +82,7 @@ pub const fn atan2(y: f64, x: f64) -> f64 {
     }
     // atan t = t (1 - (t^2/3 - t^4/5 + ...))
     let octant = 4.0 * (t - t * sum);
-    let quadrant = if ax > ay {
-        octant
-    } else {
-        HALF_PI[0] + (HALF_PI[1] - octant)
-    };
-    let half_plane = if x < 0.0 {
-        2.0 * HALF_PI[0] + (2.0 * HALF_PI[1] - quadrant)
-    } else {
-        quadrant
-    };
+    let quadrant = if ax > ay { octant } else { HALF_PI[0] + (HALF_PI[1] - octant) };
+    let half_plane = if x < 0.0 { 2.0 * HALF_PI[0] + (2.0 * HALF_PI[1] - quadrant) } else { quadrant };
     if y < 0.0 { -half_plane } else { half_plane }
 }

@@ -3,10 +3,7 @@
 use super::{nearest, scale_by_power_of_two};
 
 /// ln 2 with 33 bits, so that products with a power of two's exponent are exact, and the rest of it.
-const LN_2: [f64; 2] = [
-    f64::from_bits(0x3FE6_2E42_FEE0_0000),
-    f64::from_bits(0x3DEA_39EF_3579_3C76),
-];
+const LN_2: [f64; 2] = [f64::from_bits(0x3FE6_2E42_FEE0_0000), f64::from_bits(0x3DEA_39EF_3579_3C76)];
 
 /// `x = k ln 2 + r` with `|r| <= ln 2 / 2`: the pair `(k, e^r - 1)`.
 const fn reduced(x: f64) -> (i32, f64) {
@@ -22,10 +19,7 @@ const fn reduced(x: f64) -> (i32, f64) {
         sum = (1.0 + sum) * r / n as f64;
         n -= 1;
     }
-    (
-        k as i32,
-        r + (0.5 * (r * r) * (1.0 + sum) + lost * (1.0 + r)),
-    )
+    (k as i32, r + (0.5 * (r * r) * (1.0 + sum) + lost * (1.0 + r)))
 }
 
 /// `e^x`, within 1 ulp; zero below -745.2, infinity above 709.8.
@@ -79,11 +73,7 @@ pub const fn ln(x: f64) -> f64 {
     if x.is_infinite() {
         return x;
     }
-    let (normal, lifted) = if x < f64::MIN_POSITIVE {
-        (x * 18_014_398_509_481_984.0, 54)
-    } else {
-        (x, 0)
-    };
+    let (normal, lifted) = if x < f64::MIN_POSITIVE { (x * 18_014_398_509_481_984.0, 54) } else { (x, 0) };
     let bits = normal.to_bits();
     let mut exponent = (bits >> 52) as i32 - 1023 - lifted;
     let mut m = f64::from_bits((bits & ((1 << 52) - 1)) | (1023 << 52));

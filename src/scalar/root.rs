@@ -12,11 +12,7 @@ pub const fn sqrt(x: f64) -> f64 {
         return x;
     }
     // x = m * 2^(2h), with m in [1, 4).
-    let (normal, lifted) = if x < f64::MIN_POSITIVE {
-        (x * 18_014_398_509_481_984.0, 54)
-    } else {
-        (x, 0)
-    };
+    let (normal, lifted) = if x < f64::MIN_POSITIVE { (x * 18_014_398_509_481_984.0, 54) } else { (x, 0) };
     let bits = normal.to_bits();
     let exponent = (bits >> 52) as i32 - 1023 - lifted;
     let odd = exponent.rem_euclid(2);

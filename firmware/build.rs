@@ -1,0 +1,65 @@
+//! Tells the compiler which variant an image holds and on which board, and the linker where that board's memory is.
+//!
+//! `DRIVELINE_VARIANT`: a name from `src/selected.rs`. `DRIVELINE_BOARD`: a name from `src/board.rs`; where it is not
+//! set, the board that goes with the compiler's target.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The variant of an image that was asked for without naming one.
+const DEFAULT_VARIANT: &str = "placeholder/f32/rigid/10000";
+
+fn main() {
+    let variant = env::var("DRIVELINE_VARIANT").unwrap_or_else(|_| DEFAULT_VARIANT.into());
+    println!("cargo::rerun-if-env-changed=DRIVELINE_VARIANT");
+    println!("cargo::rustc-check-cfg=cfg(driveline_variant, values(any()))");
+    println!("cargo::rustc-cfg=driveline_variant={variant:?}");
+    println!("cargo::rustc-env=DRIVELINE_VARIANT={variant}");
+
+    let target = env::var("TARGET").expect("cargo sets TARGET for build scripts");
+    let board = env::var("DRIVELINE_BOARD").unwrap_or_else(|_| default_board(&target).into());
+    println!("cargo::rerun-if-env-changed=DRIVELINE_BOARD");
+    println!("cargo::rustc-check-cfg=cfg(driveline_board, values(any()))");
+    println!("cargo::rustc-cfg=driveline_board={board:?}");
+
+    if target.starts_with("thumb") {
+        memory_map(&board);
+    }
+}
+
+/// The board that QEMU offers for a target: a core with an FPU, or one without.
+fn default_board(target: &str) -> &'static str {
+    if target.ends_with("eabihf") {
+        "mps2-an386"
+    } else {
+        "mps2-an385"
+    }
+}
+
+/// Puts `memory.x` where the linker finds it: the board's own beside its source, else the default board's at the root
+/// of the workspace.
+fn memory_map(board: &str) {
+    let root =
+        PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
+    let own = root.join(format!("src/board/{}.x", board.replace('-', "_")));
+    let map = if own.exists() {
+        own
+    } else {
+        root.join("../memory.x")
+    };
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    copy(&map, &out.join("memory.x"));
+    println!("cargo::rerun-if-changed={}", map.display());
+    println!("cargo::rustc-link-search={}", out.display());
+}
+
+fn copy(from: &Path, to: &Path) {
+    if let Err(error) = fs::copy(from, to) {
+        panic!(
+            "the memory map {} could not be copied to {}: {error}",
+            from.display(),
+            to.display()
+        );
+    }
+}

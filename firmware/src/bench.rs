@@ -1,0 +1,76 @@
+//! The bench: instructions of single functions, each over many inputs, one line of JSON a function.
+
+mod calibration;
+mod table;
+
+pub use table::run;
+
+use crate::board::Board;
+use crate::measure::count::{Counter, Measured};
+use crate::program::Program;
+use crate::report::Line;
+
+/// Calls of each function; odd, so that the median is one of them.
+const CALLS: usize = 1001;
+
+/// Measures functions one by one.
+pub struct Bench<'b, B> {
+    board: &'b B,
+    counter: Counter<'b, B>,
+    variant: &'static str,
+    inputs: Program,
+}
+
+impl<'b, B: Board> Bench<'b, B> {
+    /// A bench on `board` for the image's `variant`, its inputs drawn from `inputs`.
+    pub fn new(board: &'b B, variant: &'static str, inputs: Program) -> Self {
+        Bench {
+            board,
+            counter: Counter::new(board),
+            variant,
+            inputs,
+        }
+    }
+
+    /// Calls `function` with one state and fresh inputs, and prints the least, the middle and the most instructions.
+    pub fn measure<S, I, O: Default>(
+        &mut self,
+        name: &str,
+        mut state: S,
+        mut input: impl FnMut(&mut Program) -> I,
+        function: Measured<S, I, O>,
+    ) {
+        let mut inputs = self.inputs.clone();
+        let mut output = O::default();
+        let mut counts = [0; CALLS];
+        for count in &mut counts {
+            *count = self
+                .counter
+                .call(function, &mut state, &input(&mut inputs), &mut output);
+        }
+        let least = counts
+            .iter()
+            .fold(u32::MAX, |least, &count| least.min(count));
+        let most = counts.iter().fold(0, |most, &count| most.max(count));
+        let mut line = Line::new()
+            .text("bench", name)
+            .text("variant", self.variant)
+            .text("board", B::FACTS.name)
+            .number("min", least)
+            .number("median", median(&counts))
+            .number("max", most)
+            .number("calls", CALLS as u32);
+        self.board.print(line.finish());
+    }
+}
+
+/// The middle value: at most half of the values are smaller, and at most half greater.
+fn median(counts: &[u32; CALLS]) -> u32 {
+    let half = CALLS / 2;
+    let is_middle = |&&value: &&u32| {
+        let smaller = counts.iter().filter(|&&other| other < value).count();
+        let greater = counts.iter().filter(|&&other| other > value).count();
+        smaller <= half && greater <= half
+    };
+    counts.iter().find(is_middle).copied().unwrap_or(0)
+}

@@ -1,0 +1,20 @@
+#![no_std]
+#![no_main]
+//! Instructions of the functions in the bench's table, as lines of JSON.
+
+use cortex_m_rt::entry;
+use driveline_firmware::Words;
+use driveline_firmware::bench::{self, Bench};
+use driveline_firmware::board::{Board, ThisBoard};
+use driveline_firmware::fingerprint::SEED;
+use driveline_firmware::program::Program;
+use driveline_firmware::scene::Scene;
+use driveline_firmware::selected::Selected;
+
+#[entry]
+fn main() -> ! {
+    let board = ThisBoard::start();
+    let inputs = Program::new(SEED, const { Words::of::<Selected>() });
+    bench::run(&mut Bench::new(&board, Selected::NAME, inputs));
+    board.exit(true)
+}

@@ -1,0 +1,22 @@
+#![no_std]
+#![no_main]
+//! The fingerprint of the selected scene over the built-in inputs, to be compared with the host's.
+
+use cortex_m_rt::entry;
+use driveline_firmware::board::{Board, ThisBoard};
+use driveline_firmware::fingerprint;
+use driveline_firmware::report::Line;
+use driveline_firmware::scene::Scene;
+use driveline_firmware::selected::Selected;
+
+#[entry]
+fn main() -> ! {
+    let board = ThisBoard::start();
+    let mut line = Line::new()
+        .text("self_test", Selected::NAME)
+        .text("board", ThisBoard::FACTS.name)
+        .number("ticks", fingerprint::TICKS)
+        .hex("fingerprint", fingerprint::of_run::<Selected>());
+    board.print(line.finish());
+    board.exit(true)
+}

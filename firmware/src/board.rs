@@ -1,0 +1,62 @@
+//! The boards: what the binaries need of one, and what the host needs to know to run it.
+//!
+//! A new board is one file beside [`mps2_an386`] with its [`Facts`] and its [`Board`], a line in [`BOARDS`] and one in
+//! the choice below, and, where its memory differs from the `memory.x` at the root, a `.x` file of the same name.
+
+pub mod mps2_an385;
+pub mod mps2_an386;
+
+#[cfg(all(feature = "target", target_os = "none"))]
+mod cmsdk_timer;
+#[cfg(all(feature = "target", target_os = "none"))]
+mod semihosting;
+
+#[cfg(all(feature = "target", target_os = "none", driveline_board = "mps2-an385"))]
+pub use mps2_an385::Mps2An385 as ThisBoard;
+#[cfg(all(feature = "target", target_os = "none", driveline_board = "mps2-an386"))]
+pub use mps2_an386::Mps2An386 as ThisBoard;
+
+use crate::scene::{Input, Output};
+
+/// What the host needs to build for a board and to run it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Facts {
+    /// The board's name, and that of QEMU's machine: `mps2-an386`.
+    pub name: &'static str,
+    /// Its core, as in `budgets.toml`: `m4f`.
+    pub core: &'static str,
+    /// The compiler's target.
+    pub target: &'static str,
+}
+
+/// All boards.
+pub const BOARDS: &[Facts] = &[mps2_an386::FACTS, mps2_an385::FACTS];
+
+/// What the binaries need of a board.
+pub trait Board {
+    /// What the host knows of it.
+    const FACTS: Facts;
+    /// The way in and out of a control loop.
+    type Link: Link;
+
+    /// Starts the counter.
+    fn start() -> Self;
+    /// A free-running 32-bit counter that goes up.
+    fn count(&self) -> u32;
+    /// Instructions (or cycles, on a board that has no exact count of them) in a difference of counts.
+    fn instructions(counts: u32) -> u32;
+    /// Opens the link of a control loop; `None` where there is none.
+    fn open_link(&self) -> Option<Self::Link>;
+    /// Prints a line, its end included.
+    fn print(&self, line: &[u8]);
+    /// Ends the run, with success or without.
+    fn exit(&self, success: bool) -> !;
+}
+
+/// The way in and out of a control loop, in lock-step.
+pub trait Link {
+    /// Waits for the next input; false at the end of the run.
+    fn receive(&self, input: &mut Input) -> bool;
+    /// Sends an output; false where the other side has gone.
+    fn send(&self, output: &Output) -> bool;
+}

@@ -1,0 +1,17 @@
+//! Arm MPS2 with the AN386 image: a Cortex-M4F at 25 MHz.
+
+use super::Facts;
+
+/// What the host knows of it.
+pub const FACTS: Facts = Facts {
+    name: "mps2-an386",
+    core: "m4f",
+    target: "thumbv7em-none-eabihf",
+};
+
+/// The board, as QEMU models it.
+#[cfg(all(feature = "target", target_os = "none"))]
+pub struct Mps2An386(super::cmsdk_timer::Timer);
+
+#[cfg(all(feature = "target", target_os = "none"))]
+super::cmsdk_timer::qemu_mps2!(Mps2An386);

@@ -1,0 +1,65 @@
+//! A governed drive as a scene: the words of the link on one side, the library on the other.
+
+use driveline::drive::{ConfigOf, Drive};
+use driveline::governor::SpeedLoop;
+use driveline::number::Number;
+use driveline::observer::Observer;
+use driveline::sample::Sample;
+
+use crate::scene::{Input, Output, Scene};
+
+/// The parts and constants of one variant of a scene.
+pub trait Variant: 'static {
+    /// What it calculates with.
+    type Number: Number + 'static;
+    /// What it estimates with.
+    type Observer: Observer<Self::Number>;
+    /// Scene, number, observer and rate.
+    const NAME: &'static str;
+    /// Ticks a second.
+    const RATE_HZ: u32;
+    /// The drive's constants.
+    const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), SpeedLoop<Self::Number>>;
+}
+
+/// A drive with its constants.
+///
+/// While the governor is not released, [`Input::reference`] is the torque that the drive holds.
+pub struct Governed<V: Variant> {
+    // By reference: folded into the code, the constants cost more instructions than loaded from a table.
+    config: &'static ConfigOf<V::Number, V::Observer, (), SpeedLoop<V::Number>>,
+    drive: Drive<V::Number, V::Observer, (), SpeedLoop<V::Number>>,
+}
+
+impl<V: Variant> Scene for Governed<V> {
+    const NAME: &'static str = V::NAME;
+    const RATE_HZ: u32 = V::RATE_HZ;
+
+    fn new() -> Self {
+        // An incremental encoder counts from where it was switched on.
+        Governed { config: V::CONFIG, drive: Drive::new(0) }
+    }
+
+    #[inline(always)]
+    fn tick(&mut self, input: &Input) -> Output {
+        let word = V::Number::from_word;
+        let reference = word(input.reference);
+        let mut sample = Sample { angle: input.angle, torque: word(input.torque), reference };
+        let command = if input.flags & Input::RELEASED != 0 {
+            self.drive.tick(self.config, &sample)
+        } else {
+            sample.reference = V::Number::ZERO;
+            self.drive.hold(self.config, &sample, reference)
+        };
+        Output {
+            torque: command.torque.to_word(),
+            motor_speed: command.estimate.motor_speed.to_word(),
+            shaft_torque: command.estimate.shaft_torque.to_word(),
+            load_speed: command.estimate.load_speed.to_word(),
+            load_torque: command.estimate.load_torque.to_word(),
+            faults: command.faults.bits(),
+            instructions: 0,
+            reserved: 0,
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Instructions of a call: the counter read before and after it, less the same round an empty function.
+
+use core::hint::black_box;
+
+use crate::board::Board;
+
+/// A function to be measured: state, input, output.
+pub type Measured<S, I, O> = fn(&mut S, &I, &mut O);
+type Erased = fn(*mut (), *const (), *mut ());
+
+/// Counts instructions on board `B`.
+pub struct Counter<'b, B> {
+    board: &'b B,
+    overhead: u32,
+}
+
+impl<'b, B: Board> Counter<'b, B> {
+    /// Measures the empty function.
+    pub fn new(board: &'b B) -> Self {
+        let empty = Counter { board, overhead: 0 };
+        let overhead = empty.call(nothing, &mut (), &(), &mut ());
+        Counter { board, overhead }
+    }
+
+    /// Calls `function` and gives its instructions; what the empty function has too (its frame, its return) is
+    /// not counted, nor is passing the three pointers.
+    #[inline(always)]
+    pub fn call<S, I, O>(
+        &self,
+        function: Measured<S, I, O>,
+        state: &mut S,
+        input: &I,
+        output: &mut O,
+    ) -> u32 {
+        // SAFETY: the same function but for the types behind its pointers, which are thin: the ABI is the same, and
+        // it is called with pointers to what it expects, valid during the call.
+        let function = unsafe { core::mem::transmute::<Measured<S, I, O>, Erased>(function) };
+        let (state, input, output) = (
+            (&raw mut *state).cast(),
+            (&raw const *input).cast(),
+            (&raw mut *output).cast(),
+        );
+        let counts = timed(self.board, black_box(function), state, input, output);
+        B::instructions(counts).wrapping_sub(self.overhead)
+    }
+
+    /// Instructions of the frame round a call, an empty function included.
+    pub fn overhead(&self) -> u32 {
+        self.overhead
+    }
+}
+
+/// The one place where a measured call happens: equal instructions round every function.
+#[inline(never)]
+fn timed<B: Board>(
+    board: &B,
+    function: Erased,
+    state: *mut (),
+    input: *const (),
+    output: *mut (),
+) -> u32 {
+    super::stack::mark();
+    let before = board.count();
+    function(state, input, output);
+    board.count().wrapping_sub(before)
+}
+
+/// The empty function.
+#[inline(never)]
+fn nothing(_: &mut (), _: &(), _: &mut ()) {}

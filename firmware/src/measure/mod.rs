@@ -1,0 +1,7 @@
+//! What a call costs, measured by the image itself: instructions ([`count`]) and stack ([`stack`]).
+
+pub mod count;
+pub mod stack;
+mod tick;
+
+pub use tick::driveline_tick;

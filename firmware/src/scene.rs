@@ -1,0 +1,62 @@
+//! What the loop, the bench and the self-test need to know of a scene, in words of 32 bits.
+//!
+//! A scene is a drive composed from parts, with its constants. Every word is the bit pattern of the scene's own number
+//! type (`f32` in SI units, or fixed point per unit of the scene's limits), so that host and target can be
+//! compared bit for bit and the link needs no conversion.
+
+/// What a tick is given: eight words, as they travel over the link.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Input {
+    /// Motor angle, 2^32 per turn.
+    pub angle: u32,
+    /// Motor torque applied during the tick that has just ended, as bits of the scene's number.
+    pub torque: u32,
+    /// Speed set point, as bits of the scene's number.
+    pub reference: u32,
+    /// Bits for the drive: [`Input::RELEASED`].
+    pub flags: u32,
+    /// Vibration samples, as bits of the scene's number.
+    pub vibration: [u32; 2],
+    /// Zero.
+    pub reserved: [u32; 2],
+}
+
+impl Input {
+    /// Flag: the governor is released; without it the torque command is zero and its state is reset.
+    pub const RELEASED: u32 = 1;
+}
+
+/// What a tick gives back: eight words, as they travel over the link.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Output {
+    /// Torque command for the next tick.
+    pub torque: u32,
+    /// Estimated motor speed.
+    pub motor_speed: u32,
+    /// Estimated shaft torque.
+    pub shaft_torque: u32,
+    /// Estimated load speed.
+    pub load_speed: u32,
+    /// Estimated load torque.
+    pub load_torque: u32,
+    /// Fault flags, bits of `driveline::fault`.
+    pub faults: u32,
+    /// Instructions that the tick took; filled in by the board, zero on the host.
+    pub instructions: u32,
+    /// Zero.
+    pub reserved: u32,
+}
+
+/// A drive of a scene, ready to tick; state and constants together.
+pub trait Scene {
+    /// The scene's name, number, observer and rate, as `hoist/f32/reduced/10000`.
+    const NAME: &'static str;
+    /// Ticks a second.
+    const RATE_HZ: u32;
+    /// A drive at rest.
+    fn new() -> Self;
+    /// One tick. Pure: no clock, no allocation, no panic.
+    fn tick(&mut self, input: &Input) -> Output;
+}

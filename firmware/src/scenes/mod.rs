@@ -1,0 +1,5 @@
+//! The scenes: one file each.
+
+pub mod empty;
+pub mod hoist;
+pub mod placeholder;

@@ -1,0 +1,149 @@
+//! The steps, in order: what is cheap and finds most comes first.
+
+use driveline_firmware::board::{BOARDS, Facts};
+use driveline_firmware::selected::VARIANTS;
+
+use super::budgets::Budgets;
+use super::comparison::Comparison;
+use super::{Count, Failed, Step, Voice, cargo};
+use crate::image::{Cost, Program, build, self_test, workspace};
+use crate::setup;
+
+/// All steps.
+pub const STEPS: [Step; 7] = [
+    Step {
+        name: "setup",
+        repeat: "cargo driveline check --only setup",
+        run: setup_step,
+    },
+    Step {
+        name: "format",
+        repeat: "cargo fmt --check",
+        run: format,
+    },
+    Step {
+        name: "clippy",
+        repeat: "cargo driveline check --only clippy",
+        run: clippy,
+    },
+    Step {
+        name: "tests",
+        repeat: "cargo test --workspace --no-fail-fast",
+        run: tests,
+    },
+    Step {
+        name: "firmware",
+        repeat: "cargo driveline check --only firmware",
+        run: firmware,
+    },
+    Step {
+        name: "self-tests",
+        repeat: "cargo driveline check --only self-tests",
+        run: self_tests,
+    },
+    Step {
+        name: "budgets",
+        repeat: "cargo driveline check --only budgets",
+        run: budgets,
+    },
+];
+
+fn setup_step(voice: &Voice) -> Result<Count, Failed> {
+    let installed = setup::ensure(|command| voice.say(command)).map_err(Failed::whole)?;
+    for name in installed {
+        voice.say(&format!("installed {name}"));
+    }
+    Ok(Count {
+        passed: 1,
+        failed: 0,
+    })
+}
+
+fn format(voice: &Voice) -> Result<Count, Failed> {
+    cargo::passes(&["fmt", "--all", "--check"], voice)
+}
+
+/// The host's workspace, then the firmware as each core sees it.
+fn clippy(voice: &Voice) -> Result<Count, Failed> {
+    let host = [
+        "clippy",
+        "--workspace",
+        "--all-targets",
+        "--",
+        "-D",
+        "warnings",
+    ];
+    let mut count = cargo::passes(&host, voice)?;
+    for board in BOARDS {
+        let (target, directory) = (
+            format!("--target={}", board.target),
+            cargo::firmware_directory(),
+        );
+        let package = [
+            "clippy",
+            "--package=driveline-firmware",
+            "--features=target",
+        ];
+        let arguments = [&package[..], &[&target, &directory, "--", "-D", "warnings"]].concat();
+        count.passed += cargo::passes(&arguments, voice)?.passed;
+    }
+    Ok(count)
+}
+
+fn tests(voice: &Voice) -> Result<Count, Failed> {
+    cargo::tests(&["test", "--workspace", "--no-fail-fast"], voice)
+}
+
+/// Every image links: no panic can be reached in any.
+fn firmware(voice: &Voice) -> Result<Count, Failed> {
+    each(|variant, board| {
+        for program in [Program::ControlLoop, Program::Bench] {
+            build(variant, board, program, |_| {}).map_err(|error| error.to_string())?;
+        }
+        voice.say(&format!("{variant} for {}: linked", board.name));
+        Ok(())
+    })
+}
+
+/// Every variant gives the same bits on the host and in QEMU.
+fn self_tests(voice: &Voice) -> Result<Count, Failed> {
+    each(|variant, board| {
+        let fingerprint = self_test(variant, board).map_err(|error| error.to_string())?;
+        voice.say(&format!("{variant} on {}: {fingerprint}", board.name));
+        Ok(())
+    })
+}
+
+/// Every figure is within its budget.
+fn budgets(voice: &Voice) -> Result<Count, Failed> {
+    let budgets = Budgets::read(&workspace().join("budgets.toml")).map_err(Failed::whole)?;
+    let mut costs = Vec::new();
+    each(|variant, board| {
+        let cost = Cost::measure(variant, board, |_| {}).map_err(|error| error.to_string())?;
+        costs.push((variant.to_string(), board.core, cost));
+        Ok(())
+    })?;
+    let comparison = Comparison::of(&budgets, &costs);
+    voice.say(comparison.to_string().trim_end());
+    comparison
+        .count()
+        .map_err(|(count, message)| Failed { count, message })
+}
+
+/// Does something for every variant on every board, up to the first failure.
+fn each(mut check: impl FnMut(&str, Facts) -> Result<(), String>) -> Result<Count, Failed> {
+    let mut count = Count::default();
+    for &variant in VARIANTS {
+        for &board in BOARDS {
+            if let Err(error) = check(variant, board) {
+                count.failed += 1;
+                return Err(Failed {
+                    count,
+                    message: format!("{variant} on {}: {error}", board.name),
+                });
+            }
+            count.passed += 1;
+        }
+    }
+    Ok(count)
+}

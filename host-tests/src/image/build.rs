@@ -1,0 +1,147 @@
+//! Building an image with cargo.
+//!
+//! In a target directory of its own, `target/firmware`, so that a test or a command that is itself run by cargo
+//! does not wait for cargo's lock. One image at a time: they share that directory, and each is copied out before the
+//! next variant overwrites it.
+
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use driveline_firmware::board::Facts;
+
+use super::{Image, Program};
+
+/// Why an image was not built.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// A file or cargo could not be reached.
+    #[error("{place}: {error}")]
+    Io {
+        /// What was being done.
+        place: String,
+        /// What went wrong.
+        error: io::Error,
+    },
+    /// Cargo refused.
+    #[error("`{command}` failed:\n{output}")]
+    Cargo {
+        /// The command to type.
+        command: String,
+        /// What it printed.
+        output: String,
+    },
+}
+
+/// The root of the workspace.
+pub fn workspace() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .unwrap_or(Path::new("."))
+}
+
+/// Cargo's target directory.
+pub fn target_directory() -> PathBuf {
+    let named = std::env::var_os("CARGO_TARGET_DIR").filter(|name| !name.is_empty());
+    named.map_or_else(|| workspace().join("target"), PathBuf::from)
+}
+
+/// Builds `program` holding `variant` for `board`; `progress` is told each line that cargo prints.
+pub fn build(
+    variant: &str,
+    board: Facts,
+    program: Program,
+    mut progress: impl FnMut(&str),
+) -> Result<Image, BuildError> {
+    let images = target_directory().join("images");
+    let place = |what: String| move |error| BuildError::Io { place: what, error };
+    fs::create_dir_all(&images).map_err(place(format!("making {}", images.display())))?;
+    let lock = File::create(images.join(".lock"))
+        .map_err(place(format!("making {}/.lock", images.display())))?;
+    lock.lock()
+        .map_err(place(format!("locking {}/.lock", images.display())))?;
+
+    let firmware = target_directory().join("firmware");
+    let arguments = [
+        "build",
+        "--package=driveline-firmware",
+        "--profile=firmware",
+        &format!("--bin={}", program.name()),
+        &format!("--features={}", program.feature()),
+        &format!("--target={}", board.target),
+    ];
+    let command = format!(
+        "DRIVELINE_VARIANT={variant} DRIVELINE_BOARD={} cargo {}",
+        board.name,
+        arguments.join(" ")
+    );
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut child = Command::new(cargo)
+        .args(arguments)
+        .arg("--target-dir")
+        .arg(&firmware)
+        .env("DRIVELINE_VARIANT", variant)
+        .env("DRIVELINE_BOARD", board.name)
+        // these would replace the linker script that .cargo/config.toml names
+        .env_remove("RUSTFLAGS")
+        .env_remove("CARGO_ENCODED_RUSTFLAGS")
+        .current_dir(workspace())
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(place(format!("starting `{command}`")))?;
+    let mut output = String::new();
+    for line in child
+        .stderr
+        .take()
+        .into_iter()
+        .flat_map(|stderr| BufReader::new(stderr).lines())
+    {
+        let line = line.map_err(place(format!("reading from `{command}`")))?;
+        progress(&line);
+        output.push_str(&line);
+        output.push('\n');
+    }
+    let status = child
+        .wait()
+        .map_err(place(format!("waiting for `{command}`")))?;
+    if !status.success() {
+        return Err(BuildError::Cargo { command, output });
+    }
+    let built = firmware
+        .join(board.target)
+        .join("firmware")
+        .join(program.name());
+    let path = images.join(format!(
+        "{}.{}.{}.elf",
+        variant.replace('/', "-"),
+        board.core,
+        program.name()
+    ));
+    fs::copy(&built, &path).map_err(place(format!(
+        "copying {} to {}",
+        built.display(),
+        path.display()
+    )))?;
+    Ok(Image {
+        path,
+        variant: variant.into(),
+        board,
+        program,
+    })
+}
+
+/// Whether an image links: no where the linker names the symbol that a reachable panic calls.
+pub fn links(variant: &str, board: Facts, program: Program) -> Result<bool, BuildError> {
+    match build(variant, board, program, |_| {}) {
+        Ok(_) => Ok(true),
+        Err(BuildError::Cargo { output, .. })
+            if output.contains("undefined symbol: panic_is_reachable") =>
+        {
+            Ok(false)
+        }
+        Err(error) => Err(error),
+    }
+}

@@ -1,0 +1,103 @@
+//! What a variant costs on a board: instructions a tick, flash, RAM and stack.
+
+use std::error::Error;
+
+use driveline_firmware::Words;
+use driveline_firmware::board::Facts;
+use driveline_firmware::fingerprint::SEED;
+use driveline_firmware::program::Program as Inputs;
+use driveline_firmware::scene::Scene;
+use driveline_firmware::selected::visit;
+use serde::Serialize;
+
+use super::{Contents, Image, Program, Sizes, build};
+use crate::link::Link;
+
+/// Least, middle and most of a set of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Spread {
+    /// The least.
+    pub min: u32,
+    /// The middle one, the smaller of two.
+    pub median: u32,
+    /// The most.
+    pub max: u32,
+}
+
+impl Spread {
+    /// Of some numbers; zero of none.
+    pub fn of(mut numbers: Vec<u32>) -> Self {
+        numbers.sort_unstable();
+        let at = |index: usize| numbers.get(index).copied().unwrap_or(0);
+        let last = numbers.len().saturating_sub(1);
+        Spread {
+            min: at(0),
+            median: at(last / 2),
+            max: at(last),
+        }
+    }
+}
+
+/// What a variant costs on a board.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Cost {
+    /// Instructions a tick.
+    pub instructions: Spread,
+    /// Bytes of the control loop's image, by section.
+    pub sizes: Sizes,
+    /// Bytes of code that a tick reaches.
+    pub tick_code: u64,
+    /// Bytes of the drive's state and constants in RAM, part of the image's RAM.
+    pub state: u32,
+    /// Most bytes of stack that a tick used.
+    pub stack: u32,
+}
+
+impl Cost {
+    /// Ticks in open loop, over the built-in inputs: the governor's release and every sign of speed and torque occur.
+    const TICKS: usize = 4096;
+
+    /// Builds the control loop of `variant` for `board` and runs it.
+    pub fn measure(
+        variant: &str,
+        board: Facts,
+        progress: impl FnMut(&str),
+    ) -> Result<Self, Box<dyn Error>> {
+        let image = build(variant, board, Program::ControlLoop, progress)?;
+        Cost::of(&image)
+    }
+
+    /// Runs the image of a control loop in open loop.
+    pub fn of(image: &Image) -> Result<Self, Box<dyn Error>> {
+        let words = visit(&image.variant, WordsOf)
+            .ok_or_else(|| format!("no variant is called `{}`", image.variant))?;
+        let mut inputs = Inputs::new(SEED, words);
+        let mut link = Link::start(image)?;
+        let mut instructions = Vec::with_capacity(Cost::TICKS);
+        for _ in 0..Cost::TICKS {
+            instructions.push(link.exchange(&inputs.next_input())?.instructions);
+        }
+        let summary = link.finish()?;
+        let Contents {
+            sizes, tick_code, ..
+        } = Contents::read(&image.path)?;
+        let instructions = Spread::of(instructions);
+        Ok(Cost {
+            instructions,
+            sizes,
+            tick_code,
+            state: summary.state,
+            stack: summary.stack,
+        })
+    }
+}
+
+struct WordsOf;
+
+impl driveline_firmware::Visitor for WordsOf {
+    type Outcome = Words;
+
+    fn visit<S: Scene>(self) -> Words {
+        Words::of::<S>()
+    }
+}

@@ -1,0 +1,70 @@
+//! Firmware images: built for a variant and a board, and read for what they take of a controller.
+
+mod build;
+mod calls;
+mod cost;
+mod sections;
+mod self_test;
+
+use std::path::PathBuf;
+
+use driveline_firmware::board::{BOARDS, Facts};
+
+pub use build::{BuildError, build, links, target_directory, workspace};
+pub use cost::{Cost, Spread};
+pub use sections::{Contents, ReadError, Sizes, Symbol};
+pub use self_test::self_test;
+
+/// The binaries of the firmware.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Program {
+    /// In lock-step with a host.
+    ControlLoop,
+    /// Instructions of single functions.
+    Bench,
+    /// The fingerprint of a run.
+    SelfTest,
+    /// Has a reachable panic: must not link.
+    Panics,
+}
+
+impl Program {
+    /// The binary's name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Program::ControlLoop => "control_loop",
+            Program::Bench => "bench",
+            Program::SelfTest => "self_test",
+            Program::Panics => "panics",
+        }
+    }
+
+    /// The feature that it needs.
+    const fn feature(self) -> &'static str {
+        match self {
+            Program::Panics => "reachable_panic",
+            _ => "target",
+        }
+    }
+}
+
+/// An image on disk.
+#[derive(Clone, Debug)]
+pub struct Image {
+    /// The ELF file.
+    pub path: PathBuf,
+    /// The variant that it holds.
+    pub variant: String,
+    /// The board that it is for.
+    pub board: Facts,
+    /// The binary.
+    pub program: Program,
+}
+
+/// The board with a core (`m4f`), or of that name (`mps2-an386`).
+pub fn board(name: &str) -> Option<Facts> {
+    BOARDS
+        .iter()
+        .copied()
+        .find(|board| board.core == name || board.name == name)
+}

@@ -1,0 +1,107 @@
+//! The two named pipes, `input` and `output`, in QEMU's working directory.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, ErrorKind, Read, Write};
+use std::os::unix::fs::OpenOptionsExt;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::{CWD, FileType, Mode, OFlags, mknodat};
+
+use super::words::LENGTH;
+
+/// How often a wait looks whether QEMU still runs.
+const LOOK: Timespec = Timespec {
+    tv_sec: 0,
+    tv_nsec: 100_000_000,
+};
+
+/// The host's ends.
+pub struct Pipes {
+    input: File,
+    output: File,
+}
+
+impl Pipes {
+    /// Makes the pipes and opens them; neither waits for QEMU.
+    pub fn make(directory: &Path) -> io::Result<Self> {
+        let (input, output) = (directory.join("input"), directory.join("output"));
+        for path in [&input, &output] {
+            mknodat(CWD, path, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0)?;
+        }
+        // opened for both, a pipe does not wait for its other end
+        let input = OpenOptions::new().read(true).write(true).open(input)?;
+        let nonblocking = OFlags::NONBLOCK.bits() as i32;
+        let output = OpenOptions::new()
+            .read(true)
+            .custom_flags(nonblocking)
+            .open(output)?;
+        Ok(Pipes { input, output })
+    }
+
+    /// Writes a message and waits for the answer, as long as `is_running` and at most `limit`.
+    pub fn exchange(
+        &mut self,
+        message: &[u8; LENGTH],
+        limit: Duration,
+        mut is_running: impl FnMut() -> bool,
+    ) -> io::Result<[u8; LENGTH]> {
+        // shorter than a pipe's buffer, which is empty: does not block
+        self.input.write_all(message)?;
+        let mut answer = [0; LENGTH];
+        let mut length = 0;
+        let mut started = None;
+        while length < LENGTH {
+            let ready = poll(&mut [PollFd::new(&self.output, PollFlags::IN)], Some(&LOOK))?;
+            if ready > 0 {
+                match self.output.read(&mut answer[length..]) {
+                    Ok(0) => {
+                        return Err(io::Error::new(
+                            ErrorKind::UnexpectedEof,
+                            "the image closed the link",
+                        ));
+                    }
+                    Ok(more) => length += more,
+                    Err(error)
+                        if matches!(
+                            error.kind(),
+                            ErrorKind::WouldBlock | ErrorKind::Interrupted
+                        ) => {}
+                    Err(error) => return Err(error),
+                }
+            } else if !is_running() {
+                return Err(io::Error::new(ErrorKind::BrokenPipe, "QEMU has ended"));
+            } else if started.get_or_insert_with(Instant::now).elapsed() > limit {
+                let message = format!("no answer within {} s", limit.as_secs());
+                return Err(io::Error::new(ErrorKind::TimedOut, message));
+            }
+        }
+        Ok(answer)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::ErrorKind;
+    use std::time::{Duration, Instant};
+
+    use super::{LENGTH, Pipes};
+
+    #[test]
+    fn nobody_at_the_other_end_is_an_error_and_not_a_wait() {
+        let directory = tempfile::tempdir().unwrap();
+        let mut pipes = Pipes::make(directory.path()).unwrap();
+        let started = Instant::now();
+        let hangs = pipes
+            .exchange(&[0; LENGTH], Duration::from_millis(250), || true)
+            .unwrap_err();
+        assert_eq!(hangs.kind(), ErrorKind::TimedOut);
+        let died = pipes
+            .exchange(&[0; LENGTH], Duration::from_secs(3600), || false)
+            .unwrap_err();
+        assert_eq!(died.kind(), ErrorKind::BrokenPipe);
+        // three or four looks of 0.1 s each and one more; a loaded machine takes longer, an hour is the other limit
+        assert!(started.elapsed() < Duration::from_secs(60));
+    }
+}

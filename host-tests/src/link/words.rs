@@ -1,0 +1,44 @@
+//! Inputs and outputs as they travel: eight little-endian words.
+
+use driveline_firmware::scene::{Input, Output};
+
+/// Bytes of an input, and of an output.
+pub const LENGTH: usize = 32;
+
+/// The bytes of an input.
+pub fn of_input(input: &Input) -> [u8; LENGTH] {
+    let Input {
+        angle,
+        torque,
+        reference,
+        flags,
+        vibration: [v0, v1],
+        reserved: [r0, r1],
+    } = *input;
+    let mut bytes = [0; LENGTH];
+    for (place, word) in bytes
+        .chunks_exact_mut(4)
+        .zip([angle, torque, reference, flags, v0, v1, r0, r1])
+    {
+        place.copy_from_slice(&word.to_le_bytes());
+    }
+    bytes
+}
+
+/// The output in the bytes.
+pub fn to_output(bytes: &[u8; LENGTH]) -> Output {
+    let mut words = bytes
+        .chunks_exact(4)
+        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
+    let mut next = || words.next().unwrap_or(0);
+    Output {
+        torque: next(),
+        motor_speed: next(),
+        shaft_torque: next(),
+        load_speed: next(),
+        load_torque: next(),
+        faults: next(),
+        instructions: next(),
+        reserved: next(),
+    }
+}

@@ -1,0 +1,245 @@
+//! The chain once more, written for an ordinary integrator: torques from the laws as they stand in the books.
+
+use super::super::chain::Chain;
+use super::super::excitation::MotorLaw;
+use super::super::solver::Plant;
+
+/// How a node stands to its dry friction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Motion {
+    Smooth,
+    Sliding(f64),
+    Held,
+}
+
+/// What a guard that falls below zero stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Change {
+    Contact(usize, f64),
+    Rest(usize),
+    Loose(usize, f64),
+}
+
+/// Parameters and discrete state. The continuous state is twists, speeds, angle of the motor.
+pub(super) struct Machine<'a> {
+    pub chain: &'a Chain,
+    pub load: Vec<f64>,
+    pub dry: Vec<f64>,
+    pub motor_torque: f64,
+    /// Side on which each shaft is in contact, 0 in the gap.
+    pub side: Vec<f64>,
+    pub motion: Vec<Motion>,
+}
+
+impl<'a> Machine<'a> {
+    pub fn new(plant: &'a Plant, y: &[f64]) -> Self {
+        let chain = &plant.chain;
+        let side = chain.shafts.iter().zip(y).map(|(shaft, &twist)| {
+            let reach = if shaft.rope {
+                shaft.gap
+            } else {
+                0.5 * shaft.gap
+            };
+            if shaft.is_linear() || twist > reach {
+                1.0
+            } else if twist < -reach && !shaft.rope {
+                -1.0
+            } else {
+                0.0
+            }
+        });
+        Self {
+            load: chain.nodes.iter().map(|node| node.load).collect(),
+            dry: chain
+                .nodes
+                .iter()
+                .zip(&plant.brakes)
+                .map(|(node, b)| node.coulomb + b)
+                .collect(),
+            motor_torque: 0.0,
+            side: side.collect(),
+            motion: vec![Motion::Smooth; chain.nodes.len()],
+            chain,
+        }
+    }
+
+    fn n(&self) -> usize {
+        self.chain.nodes.len()
+    }
+
+    pub fn speed(&self, y: &[f64], node: usize) -> f64 {
+        y[self.n() - 1 + node]
+    }
+
+    /// Torque of the shaft itself.
+    fn torque(&self, y: &[f64], s: usize) -> f64 {
+        let shaft = &self.chain.shafts[s];
+        let closing = shaft.damping * (self.speed(y, s) - self.speed(y, s + 1));
+        if shaft.is_linear() {
+            return shaft.stiffness * y[s] + closing;
+        }
+        if self.side[s] == 0.0 {
+            return 0.0;
+        }
+        if shaft.rope {
+            return (shaft.stiffness * (y[s] - shaft.gap) + closing).max(0.0);
+        }
+        shaft.stiffness * (y[s] - 0.5 * shaft.gap * self.side[s]) + closing
+    }
+
+    fn motor(&self, t: f64, speed: f64) -> f64 {
+        self.motor_torque
+            + match self.chain.law {
+                MotorLaw::Held => 0.0,
+                MotorLaw::Constant(torque) => torque,
+                MotorLaw::Ramp { torque, time } => {
+                    (torque - torque * t / time) * f64::from(t < time)
+                }
+                MotorLaw::Line { stall, slope } => stall - slope * speed,
+            }
+    }
+
+    /// Torque on a node but for its dry friction and the shaft behind it.
+    fn push(&self, t: f64, y: &[f64], node: usize) -> f64 {
+        let speed = self.speed(y, node);
+        let description = &self.chain.nodes[node];
+        let program = description
+            .program
+            .as_ref()
+            .map_or(0.0, |program| program.at(t).0);
+        let mut sum = -self.load[node] - program - description.viscous * speed;
+        if node == 0 {
+            sum += self.motor(t, speed);
+        }
+        if node > 0 {
+            sum += self.torque(y, node - 1);
+        }
+        sum
+    }
+
+    /// What the shaft behind takes of a node.
+    pub fn reaction(&self, t: f64, y: &[f64], node: usize) -> f64 {
+        if node + 1 == self.n() {
+            return 0.0;
+        }
+        let torque = self.torque(y, node);
+        let eta = self.chain.nodes[node].efficiency;
+        match self.motion[node] {
+            Motion::Smooth => torque,
+            Motion::Sliding(way) => {
+                if torque * way > 0.0 {
+                    torque / eta
+                } else {
+                    torque * eta
+                }
+            }
+            Motion::Held => {
+                let (low, high) = self.band(y, node);
+                self.push(t, y, node).clamp(low, high)
+            }
+        }
+    }
+
+    /// What the gear of a held node can balance.
+    fn band(&self, y: &[f64], node: usize) -> (f64, f64) {
+        if node + 1 == self.n() {
+            return (0.0, 0.0);
+        }
+        let torque = self.torque(y, node);
+        let eta = self.chain.nodes[node].efficiency;
+        (
+            (torque * eta).min(torque / eta),
+            (torque * eta).max(torque / eta),
+        )
+    }
+
+    pub fn rate(&self, t: f64, y: &[f64], out: &mut [f64]) {
+        let n = self.n();
+        for s in 0..n - 1 {
+            out[s] = self.speed(y, s) - self.speed(y, s + 1);
+        }
+        for j in 0..n {
+            let net = self.push(t, y, j);
+            out[n - 1 + j] = match self.motion[j] {
+                Motion::Held => 0.0,
+                Motion::Smooth => net - self.reaction(t, y, j),
+                Motion::Sliding(way) => net - self.reaction(t, y, j) - way * self.dry[j],
+            } / self.chain.nodes[j].inertia;
+        }
+        out[2 * n - 1] = self.speed(y, 0);
+    }
+
+    /// Sets a node with dry friction or a lossy gear moving, or holds it.
+    pub fn judge(&mut self, t: f64, y: &[f64], node: usize) {
+        if self.dry[node] == 0.0 && self.chain.nodes[node].efficiency == 1.0 {
+            self.motion[node] = Motion::Smooth;
+            return;
+        }
+        let speed = self.speed(y, node);
+        let (low, high) = self.band(y, node);
+        let push = self.push(t, y, node);
+        self.motion[node] = if speed != 0.0 {
+            Motion::Sliding(speed.signum())
+        } else if push > high + self.dry[node] {
+            Motion::Sliding(1.0)
+        } else if push < low - self.dry[node] {
+            Motion::Sliding(-1.0)
+        } else {
+            Motion::Held
+        };
+    }
+
+    /// Guards that must stay above zero: value, size to measure its rounding by, and what its fall means.
+    pub fn guards(&self, t: f64, y: &[f64]) -> Vec<(f64, f64, Change)> {
+        let mut all = Vec::new();
+        for (s, shaft) in self
+            .chain
+            .shafts
+            .iter()
+            .enumerate()
+            .filter(|(_, shaft)| !shaft.is_linear())
+        {
+            let reach = if shaft.rope {
+                shaft.gap
+            } else {
+                0.5 * shaft.gap
+            };
+            let size = reach.max(y[s].abs());
+            if self.side[s] != 0.0 {
+                all.push((self.side[s] * y[s] - reach, size, Change::Contact(s, 0.0)));
+                continue;
+            }
+            all.push((reach - y[s], size, Change::Contact(s, 1.0)));
+            if !shaft.rope {
+                all.push((y[s] + reach, size, Change::Contact(s, -1.0)));
+            }
+        }
+        let top = (0..self.n())
+            .map(|j| self.speed(y, j).abs())
+            .fold(0.0, f64::max);
+        for j in 0..self.n() {
+            match self.motion[j] {
+                Motion::Smooth => {}
+                Motion::Sliding(way) => all.push((way * self.speed(y, j), top, Change::Rest(j))),
+                Motion::Held => {
+                    let (push, (low, high)) = (self.push(t, y, j), self.band(y, j));
+                    let size = push.abs().max(self.dry[j]);
+                    all.push((high + self.dry[j] - push, size, Change::Loose(j, 1.0)));
+                    all.push((push - low + self.dry[j], size, Change::Loose(j, -1.0)));
+                }
+            }
+        }
+        all
+    }
+
+    pub fn change(&mut self, t: f64, y: &mut [f64], change: Change) {
+        match change {
+            Change::Contact(shaft, side) => self.side[shaft] = side,
+            Change::Loose(node, way) => self.motion[node] = Motion::Sliding(way),
+            Change::Rest(node) => {
+                y[self.n() - 1 + node] = 0.0;
+                self.judge(t, y, node);
+            }
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! From a design to the constants that the tick path loads: the one place that knows both.
+//!
+//! A design is in `f64` and SI units. Floats take it as it is, rounded; [`Fixed`](crate::number::Fixed) is per unit of [`Bases`], and its
+//! coefficients have formats of their own. Everything is `const fn`, so a firmware holds nothing but the result; the same functions run
+//! on a machine that is commissioned in the field.
+
+mod bases;
+mod convert;
+mod format;
+mod governor;
+mod limits;
+mod observer;
+
+pub use bases::Bases;
+pub use convert::Error;
+pub use governor::SpeedLoopSettings;
+pub use limits::Screening;
+
+pub(crate) use format::Format;

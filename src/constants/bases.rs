@@ -1,0 +1,63 @@
+//! What fixed-point numbers are fractions of.
+
+use crate::design::TwoMassDesign;
+use crate::machine::TwoMass;
+
+/// Bases of the fixed-point numbers of a drive.
+///
+/// A state is reported beyond its base and held at twice it; choose the limits so that the healthy machine stays within.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Bases {
+    /// Base of every torque [N m].
+    pub torque: f64,
+    /// Base of every speed [rad/s].
+    pub speed: f64,
+    /// Base of the twist [rad].
+    pub twist: f64,
+    /// Base of the twist rate [rad/s].
+    pub twist_rate: f64,
+    /// Base of the twist forcing s [rad/s2].
+    pub forcing: f64,
+}
+
+impl Bases {
+    /// All one: SI units, as floats have them.
+    pub const SI: Bases = Bases { torque: 1.0, speed: 1.0, twist: 1.0, twist_rate: 1.0, forcing: 1.0 };
+
+    /// Bases for a machine whose torques, in motor and shaft, stay within `torque` [N m] and whose speeds stay within `speed`
+    /// [rad/s].
+    ///
+    /// The twist's base is what 1.9 times the torque's gives (a shaft coefficient of k twist/torque must stay under 2), the
+    /// twist rate's what that twist swings at, and no more than the speeds or the damper allow.
+    pub const fn new(machine: &TwoMass, torque: f64, speed: f64) -> Bases {
+        let twist = 1.9 * torque / machine.stiffness;
+        let mut twist_rate = machine.resonance() * twist;
+        if machine.damping * twist_rate > 1.9 * torque {
+            twist_rate = 1.9 * torque / machine.damping;
+        }
+        if twist_rate > 2.0 * speed {
+            twist_rate = 2.0 * speed;
+        }
+        let lighter =
+            if machine.motor_inertia < machine.load_inertia { machine.motor_inertia } else { machine.load_inertia };
+        Bases {
+            torque,
+            speed,
+            twist,
+            twist_rate,
+            // The lighter mass's coefficient torque/(J forcing) just under 1/2.
+            forcing: torque / (0.49 * lighter),
+        }
+    }
+
+    /// Bases for a design; see [`Bases::new`].
+    pub const fn of(design: &TwoMassDesign, torque: f64, speed: f64) -> Bases {
+        Bases::new(&design.machine, torque, speed)
+    }
+
+    /// Bases for a rigid machine, which has no twist.
+    pub const fn rigid(torque: f64, speed: f64) -> Bases {
+        Bases { torque, speed, ..Bases::SI }
+    }
+}

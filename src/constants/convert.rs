@@ -1,0 +1,89 @@
+//! Coefficients of one number type from those of `f64`.
+
+use core::fmt;
+
+use crate::number::{Coefficient, Fixed};
+
+/// A constant that a number type cannot hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A coefficient outside the range of fixed point.
+    Coefficient(&'static str),
+    /// A value beyond what its base leaves room for.
+    Value(&'static str),
+}
+
+impl Error {
+    /// The sentence that names the constant.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Error::Coefficient(sentence) | Error::Value(sentence) => sentence,
+        }
+    }
+
+    /// Stops with the sentence: a compile error in a constant.
+    pub(crate) const fn stop(self) -> ! {
+        panic!("{}", self.message())
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.message())
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// Coefficients in fixed point; the error names what they are of.
+pub(super) const fn fixed<const K: usize>(values: [f64; K], sentence: &'static str) -> Result<[Coefficient; K], Error> {
+    let mut out = [Coefficient::ZERO; K];
+    let mut k = 0;
+    while k < K {
+        match Coefficient::from_f64(values[k]) {
+            Some(coefficient) => out[k] = coefficient,
+            None => return Err(Error::Coefficient(sentence)),
+        }
+        k += 1;
+    }
+    Ok(out)
+}
+
+/// Coefficients in `f32`.
+pub(super) const fn single<const K: usize>(values: [f64; K]) -> [f32; K] {
+    let mut out = [0.0; K];
+    let mut k = 0;
+    while k < K {
+        out[k] = values[k] as f32;
+        k += 1;
+    }
+    out
+}
+
+/// A value per unit of its base; the error names it.
+pub(super) const fn per_unit(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
+    if value.abs() <= 2.0 { Ok(Fixed::from_f64(value)) } else { Err(Error::Value(sentence)) }
+}
+
+/// Unwraps a result in a `const fn` that returns one.
+macro_rules! get {
+    ($result:expr) => {
+        match $result {
+            Ok(value) => value,
+            Err(error) => return Err(error),
+        }
+    };
+}
+
+/// Unwraps a result in a `const fn` that stops the compilation with the error's sentence.
+macro_rules! or_stop {
+    ($result:expr) => {
+        match $result {
+            Ok(value) => value,
+            Err(error) => error.stop(),
+        }
+    };
+}
+
+pub(super) use {get, or_stop};

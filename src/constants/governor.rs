@@ -1,0 +1,79 @@
+//! Constants of the speed loop.
+
+use super::convert::{fixed, get, or_stop, per_unit, single};
+use super::{Bases, Error, Format};
+use crate::design::SpeedLoopDesign;
+use crate::governor::SpeedLoopConfig;
+use crate::number::Fixed;
+
+const GAIN: &str =
+    "a gain of the speed loop is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
+const TORQUE: &str = "the torque limit of the speed loop is beyond twice the base of the torque";
+const RAMP: &str = "the ramp of the speed loop crosses twice the base of the speed within a tick";
+
+/// What the speed loop needs besides its gains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpeedLoopSettings {
+    /// Largest torque, either way [N m].
+    pub torque_limit: f64,
+    /// Largest acceleration of the set point [rad/s2].
+    pub ramp: f64,
+}
+
+const fn speed_loop(design: &SpeedLoopDesign, settings: &SpeedLoopSettings, format: &Format) -> SpeedLoopConfig<f64> {
+    let Bases { torque, speed, .. } = format.bases;
+    let scale = speed / (torque * format.gain);
+    SpeedLoopConfig {
+        proportional: design.proportional * scale,
+        integral: design.integral * design.period * scale,
+        damping: -design.slip * scale,
+        unwinding: design.integral * design.period / design.proportional,
+        torque_limit: settings.torque_limit / torque,
+        ramp: settings.ramp * design.period / speed,
+    }
+}
+
+impl SpeedLoopConfig<f64> {
+    /// The constants of a design in `f64`.
+    pub const fn new(design: &SpeedLoopDesign, settings: SpeedLoopSettings) -> Self {
+        speed_loop(design, &settings, &Format::FLOAT)
+    }
+}
+
+impl SpeedLoopConfig<f32> {
+    /// The constants of a design in `f32`.
+    pub const fn new(design: &SpeedLoopDesign, settings: SpeedLoopSettings) -> Self {
+        let c = speed_loop(design, &settings, &Format::FLOAT);
+        let [proportional, integral, damping, unwinding, torque_limit, ramp] =
+            single([c.proportional, c.integral, c.damping, c.unwinding, c.torque_limit, c.ramp]);
+        SpeedLoopConfig { proportional, integral, damping, unwinding, torque_limit, ramp }
+    }
+}
+
+impl SpeedLoopConfig<Fixed> {
+    /// The constants of a design in fixed point.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+    pub const fn new(design: &SpeedLoopDesign, settings: SpeedLoopSettings, bases: Bases) -> Self {
+        or_stop!(Self::try_new(design, settings, bases))
+    }
+
+    /// The constants of a design in fixed point.
+    ///
+    /// # Errors
+    /// [`Error::Coefficient`] for a gain beyond the range of fixed point, [`Error::Value`] for a limit beyond its base.
+    pub const fn try_new(design: &SpeedLoopDesign, settings: SpeedLoopSettings, bases: Bases) -> Result<Self, Error> {
+        let c = speed_loop(design, &settings, &Format::fixed(bases));
+        let [proportional, integral, damping, unwinding] =
+            get!(fixed([c.proportional, c.integral, c.damping, c.unwinding], GAIN));
+        Ok(SpeedLoopConfig {
+            proportional,
+            integral,
+            damping,
+            unwinding,
+            torque_limit: get!(per_unit(c.torque_limit, TORQUE)),
+            ramp: get!(per_unit(c.ramp, RAMP)),
+        })
+    }
+}

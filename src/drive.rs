@@ -1,0 +1,204 @@
+//! One tick through all parts: screen the sample, estimate, measure, govern.
+//!
+//! A drive is composed by type, `Drive<N, Observer, Fluctuation, Governor, Balancer>`, with `()` for a part that the machine does not need;
+//! such a part costs nothing. Configuration stands apart: one [`Config`] may serve many drives.
+//!
+//! # Bad samples
+//! A sample is believed as far as it can be true, and what is not believed is flagged and left out, never taken in:
+//!
+//! | sample | flag | the tick |
+//! |---|---|---|
+//! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque that was last commanded |
+//! | set point NaN, infinite, beyond its limit | [`Faults::REFERENCE`] | keeps the last good one |
+//! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
+//! | angle unchanged though the motor should have turned by more than the standstill limit | [`Faults::ANGLE_FROZEN`] | coasts |
+//! | either for more ticks than the limit | [`Faults::ANGLE_LOST`] as well | takes the next angle that moves as it comes |
+//!
+//! Below the speed at which the motor turns by the standstill limit in a tick, a frozen encoder and a machine that something holds
+//! look alike from the motor's side; the estimate of the load torque then shows what it would take to hold it.
+
+use crate::balance::Balancer;
+use crate::fault::Faults;
+use crate::fluctuation::Fluctuation;
+use crate::governor::Governor;
+use crate::number::Number;
+use crate::observer::{Observer, Predicted};
+use crate::sample::{Command, Sample};
+
+/// Limits of what a sample can be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Limits<N: Number> {
+    /// Largest applied torque that is believed [N m].
+    pub torque: N,
+    /// Largest set point that is believed [rad/s].
+    pub reference: N,
+    /// Largest innovation that is believed [2^-32 turn].
+    pub innovation: N,
+    /// Largest predicted turn in a tick that an unchanged angle is believed with [2^-32 turn].
+    pub standstill: N,
+    /// Ticks in a row without a usable angle after which it counts as lost.
+    pub missed: u16,
+}
+
+/// The constants of a drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Config<N: Number, O, F = (), G = (), B = ()> {
+    /// Limits of what a sample can be.
+    pub limits: Limits<N>,
+    /// Constants of the observer.
+    pub observer: O,
+    /// Constants of the fluctuation's measurement.
+    pub fluctuation: F,
+    /// Constants of the governor.
+    pub governor: G,
+    /// Constants of the balancer.
+    pub balancer: B,
+}
+
+/// The constants of a drive composed of these parts.
+pub type ConfigOf<N, O, F = (), G = (), B = ()> = Config<
+    N,
+    <O as Observer<N>>::Config,
+    <F as Fluctuation<N>>::Config,
+    <G as Governor<N>>::Config,
+    <B as Balancer<N>>::Config,
+>;
+
+/// The state of a drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Drive<N, O, F = (), G = (), B = ()> {
+    observer: O,
+    fluctuation: F,
+    governor: G,
+    balancer: B,
+    commanded: N,
+    reference: N,
+    missed: u16,
+}
+
+impl<N, O, F, G, B> Drive<N, O, F, G, B>
+where
+    N: Number,
+    O: Observer<N>,
+    F: Fluctuation<N>,
+    G: Governor<N>,
+    B: Balancer<N>,
+{
+    /// A drive whose machine stands still at `angle` [2^-32 turn].
+    pub fn new(angle: u32) -> Self {
+        let mut observer = O::default();
+        observer.synchronise(angle);
+        Drive {
+            observer,
+            fluctuation: F::default(),
+            governor: G::default(),
+            balancer: B::default(),
+            commanded: N::ZERO,
+            reference: N::ZERO,
+            missed: 0,
+        }
+    }
+
+    /// One tick with the governor at work.
+    #[inline(always)]
+    pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
+        let mut command = self.observe(config, sample);
+        command.torque = self.governor.command(&config.governor, self.reference, &command.estimate);
+        self.commanded = command.torque;
+        command
+    }
+
+    /// One tick with the governor held and a constant torque commanded, as against a closed brake: the estimates go on, and the next
+    /// [`Drive::tick`] starts from this torque and the speed that the machine has. A torque that is NaN or
+    /// beyond its limit gives zero and [`Faults::REFERENCE`].
+    #[inline(always)]
+    pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>, torque: N) -> Command<N> {
+        let mut command = self.observe(config, sample);
+        if torque.exceeds(config.limits.torque) {
+            command.faults |= Faults::REFERENCE;
+        } else {
+            command.torque = torque;
+        }
+        self.governor.start(&config.governor, &command.estimate, command.torque);
+        self.commanded = command.torque;
+        command
+    }
+
+    /// The fluctuation's measurement.
+    pub fn fluctuation(&self) -> &F {
+        &self.fluctuation
+    }
+
+    /// The governor.
+    pub fn governor(&self) -> &G {
+        &self.governor
+    }
+
+    /// The balancer.
+    pub fn balancer(&self) -> &B {
+        &self.balancer
+    }
+
+    /// Gives the balancer a sample of the vibration, taken with the last angle.
+    #[inline(always)]
+    pub fn vibration(&mut self, config: &ConfigOf<N, O, F, G, B>, vibration: N) {
+        self.balancer.measure(&config.balancer, self.observer.angle(), vibration);
+    }
+
+    /// The angle that was last believed, 2^32 per turn.
+    pub fn angle(&self) -> u32 {
+        self.observer.angle()
+    }
+
+    #[inline(always)]
+    fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
+        let limits = &config.limits;
+        let mut faults = Faults::NONE;
+        let mut torque = sample.torque;
+        if torque.exceeds(limits.torque) {
+            torque = self.commanded;
+            faults |= Faults::TORQUE;
+        }
+        if sample.reference.exceeds(limits.reference) {
+            faults |= Faults::REFERENCE;
+        } else {
+            self.reference = sample.reference;
+        }
+        faults |= self.advance(config, sample.angle, torque);
+        if self.observer.is_beyond_base() {
+            faults |= Faults::RANGE;
+        }
+        let estimate = self.observer.estimate(&config.observer);
+        self.fluctuation.measure(&config.fluctuation, self.observer.angle(), &estimate);
+        Command { torque: N::ZERO, estimate, faults }
+    }
+
+    /// Advances the observer by the angle where it can be true, without it where not.
+    #[inline(always)]
+    fn advance(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Faults {
+        let limits = &config.limits;
+        let predicted = self.observer.predict(&config.observer, angle, torque);
+        let unchanged = angle == self.observer.angle();
+        let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
+        if !frozen && !predicted.innovation().exceeds(limits.innovation) {
+            self.observer.correct(&config.observer, predicted, angle);
+            self.missed = 0;
+            return Faults::NONE;
+        }
+        self.observer.coast(predicted);
+        self.missed = self.missed.saturating_add(1);
+        let lost = self.missed > limits.missed;
+        match (lost, unchanged) {
+            (false, false) => Faults::ANGLE_JUMP,
+            (false, true) => Faults::ANGLE_FROZEN,
+            (true, true) => Faults::ANGLE_FROZEN | Faults::ANGLE_LOST,
+            (true, false) => {
+                self.observer.synchronise(angle);
+                Faults::ANGLE_JUMP | Faults::ANGLE_LOST
+            }
+        }
+    }
+}

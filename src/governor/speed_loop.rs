@@ -1,0 +1,69 @@
+//! A speed loop: proportional and integral, active damping, limits, anti-windup.
+//!
+//! ```text
+//! tau = k_p (omega* - omega_m) + I - k_d (omega_m - omega_l),   I' = I + k_i (omega* - omega_m)
+//! ```
+//!
+//! limited to the drive's torque. What the limit cuts off is taken from the integral at the rate at which it would
+//! otherwise have grown (back-calculation with the integral's own time constant), so that it does not wind up. The set point moves by at
+//! most the ramp's step a tick.
+
+use super::Governor;
+use crate::number::Number;
+use crate::sample::Estimate;
+
+/// Constants of [`SpeedLoop`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SpeedLoopConfig<N: Number> {
+    /// Proportional gain k_p [N m s/rad].
+    pub proportional: N::Coefficient,
+    /// Integral gain per tick, k_i T [N m s/rad].
+    pub integral: N::Coefficient,
+    /// Active damping -k_d [N m s/rad], on the twist rate.
+    pub damping: N::Coefficient,
+    /// The share of what the limit cuts off that is taken from the integral in a tick, k_i T/k_p.
+    pub unwinding: N::Coefficient,
+    /// Largest torque, either way [N m].
+    pub torque_limit: N,
+    /// Largest change of the set point in a tick [rad/s].
+    pub ramp: N,
+}
+
+/// State of the speed loop.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SpeedLoop<N> {
+    integral: N,
+    set_point: N,
+}
+
+impl<N> SpeedLoop<N> {
+    /// Where the ramp stands [rad/s].
+    pub fn set_point(&self) -> &N {
+        &self.set_point
+    }
+}
+
+impl<N: Number> Governor<N> for SpeedLoop<N> {
+    type Config = SpeedLoopConfig<N>;
+
+    #[inline(always)]
+    fn command(&mut self, config: &SpeedLoopConfig<N>, reference: N, estimate: &Estimate<N>) -> N {
+        let mut carry = N::CARRY;
+        let step = reference.minus(self.set_point).limited(config.ramp);
+        self.set_point = self.set_point.plus(step);
+        let error = self.set_point.minus(estimate.motor_speed).gain_operand();
+        let twist_rate = estimate.motor_speed.minus(estimate.load_speed).gain_operand();
+        let integral = self.integral.accumulate(&mut carry, config.integral, error);
+        let wanted = integral.accumulate2(&mut carry, [config.proportional, config.damping], [error, twist_rate]);
+        let torque = wanted.limited(config.torque_limit);
+        self.integral = integral.accumulate(&mut carry, config.unwinding, torque.minus(wanted)).saturated();
+        torque
+    }
+
+    fn start(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>, torque: N) {
+        self.set_point = estimate.motor_speed;
+        self.integral = torque.limited(config.torque_limit);
+    }
+}

@@ -1,0 +1,200 @@
+//! Fixed point: `i32` values, 2^28 to the base, and `i64` accumulators.
+
+use super::{GAIN_SHIFT, INNOVATION_SHIFT, Number, TURN_SHIFT};
+
+/// A number per unit of its base: 2^28 is the base, the resolution 3.7e-9 of it, the representable range +-8.
+///
+/// A state beyond +-1 is reported, and held within +-2 ([`Number::saturated`]); the bits above are headroom for the sums
+/// of a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Fixed(i32);
+
+/// A factor in fixed point: a fraction of 2^32, from -1/2 to just under 1/2.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Coefficient(i32);
+
+impl Fixed {
+    /// The base.
+    pub const ONE: Fixed = Fixed(1 << 28);
+
+    /// The number nearest to `value`, in units of the base; saturates at +-8, and a NaN gives zero.
+    pub const fn from_f64(value: f64) -> Fixed {
+        // A cast from float to integer saturates, and turns NaN into 0.
+        Fixed(round(value * 268_435_456.0) as i32)
+    }
+
+    /// The value in units of the base.
+    pub const fn to_f64(self) -> f64 {
+        self.0 as f64 / 268_435_456.0
+    }
+
+    /// The number with these bits.
+    pub const fn from_bits(bits: i32) -> Fixed {
+        Fixed(bits)
+    }
+
+    /// The bits: 2^28 to the base.
+    pub const fn to_bits(self) -> i32 {
+        self.0
+    }
+}
+
+impl Coefficient {
+    /// Zero.
+    pub const ZERO: Coefficient = Coefficient(0);
+
+    /// The coefficient nearest to `value`, or `None` where that is not within -1/2 to 1/2.
+    pub const fn from_f64(value: f64) -> Option<Coefficient> {
+        let scaled = round(value * 4_294_967_296.0);
+        if scaled >= -2_147_483_648.0 && scaled <= 2_147_483_647.0 { Some(Coefficient(scaled as i32)) } else { None }
+    }
+
+    /// The value.
+    pub const fn to_f64(self) -> f64 {
+        self.0 as f64 / 4_294_967_296.0
+    }
+}
+
+/// To the nearest integer, halves away from zero; what is too large to have a fraction stays as it is.
+const fn round(value: f64) -> f64 {
+    if value.abs() < 4_503_599_627_370_496.0 {
+        let half = if value < 0.0 { -0.5 } else { 0.5 };
+        ((value + half) as i64) as f64
+    } else {
+        value
+    }
+}
+
+#[inline(always)]
+fn product(c: Coefficient, y: Fixed) -> i64 {
+    c.0 as i64 * y.0 as i64
+}
+
+/// Closes a sum: the upper word is the result, the lower one is carried on.
+#[inline(always)]
+fn close(sum: i64, carry: &mut u32) -> Fixed {
+    *carry = sum as u32;
+    Fixed((sum >> 32) as i32)
+}
+
+/// Opens a sum with `x` in the upper word and the carry in the lower.
+#[inline(always)]
+fn open(x: Fixed, carry: u32) -> i64 {
+    ((x.0 as i64) << 32) | carry as i64
+}
+
+impl Number for Fixed {
+    type Coefficient = Coefficient;
+    type Carry = u32;
+
+    const ZERO: Self = Fixed(0);
+    const ONE: Self = Fixed::ONE;
+    const CARRY: u32 = 1 << 31;
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Fixed(self.0.wrapping_add(other.0))
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        Fixed(self.0.wrapping_sub(other.0))
+    }
+
+    #[inline(always)]
+    fn accumulate(self, carry: &mut u32, c: Coefficient, y: Self) -> Self {
+        close(open(self, *carry).wrapping_add(product(c, y)), carry)
+    }
+
+    #[inline(always)]
+    fn accumulate2(self, carry: &mut u32, c: [Coefficient; 2], y: [Self; 2]) -> Self {
+        let sum = open(self, *carry).wrapping_add(product(c[0], y[0])).wrapping_add(product(c[1], y[1]));
+        close(sum, carry)
+    }
+
+    #[inline(always)]
+    fn accumulate3(self, carry: &mut u32, c: [Coefficient; 3], y: [Self; 3]) -> Self {
+        let sum = open(self, *carry)
+            .wrapping_add(product(c[0], y[0]))
+            .wrapping_add(product(c[1], y[1]))
+            .wrapping_add(product(c[2], y[2]));
+        close(sum, carry)
+    }
+
+    #[inline(always)]
+    fn product(carry: &mut u32, c: Coefficient, y: Self) -> Self {
+        Fixed(0).accumulate(carry, c, y)
+    }
+
+    #[inline(always)]
+    fn sum2(carry: &mut u32, c: [Coefficient; 2], y: [Self; 2]) -> Self {
+        Fixed(0).accumulate2(carry, c, y)
+    }
+
+    #[inline(always)]
+    fn widened(self) -> Self {
+        Fixed(self.0 << 2)
+    }
+
+    // Bounds that are powers of two: one SSAT instruction.
+    #[inline(always)]
+    fn saturated(self) -> Self {
+        Fixed(self.0.clamp(-(1 << 29), (1 << 29) - 1))
+    }
+
+    // The bits of a magnitude from 2^28 upwards are set in the union where they are set in any.
+    #[inline(always)]
+    fn any_beyond_base(states: [Self; 4]) -> bool {
+        let magnitude = |x: Fixed| x.0 ^ (x.0 >> 31);
+        let [a, b, c, d] = states;
+        (magnitude(a) | magnitude(b) | magnitude(c) | magnitude(d)) >= 1 << 28
+    }
+
+    #[inline(always)]
+    fn limited(self, limit: Self) -> Self {
+        if self.0 > limit.0 {
+            limit
+        } else if self.0 < limit.0.wrapping_neg() {
+            Fixed(limit.0.wrapping_neg())
+        } else {
+            self
+        }
+    }
+
+    #[inline(always)]
+    fn exceeds(self, limit: Self) -> bool {
+        self.0.unsigned_abs() > limit.0 as u32
+    }
+
+    #[inline(always)]
+    fn from_angle(turned: i32) -> Self {
+        Fixed(turned)
+    }
+
+    #[inline(always)]
+    fn to_turn(self) -> Self {
+        Fixed(self.0 << TURN_SHIFT)
+    }
+
+    #[inline(always)]
+    fn innovation_operand(self) -> Self {
+        Fixed(self.0 << INNOVATION_SHIFT)
+    }
+
+    #[inline(always)]
+    fn gain_operand(self) -> Self {
+        Fixed(self.0.clamp(-(1 << 26), (1 << 26) - 1) << GAIN_SHIFT)
+    }
+
+    #[inline(always)]
+    fn to_word(self) -> u32 {
+        self.0 as u32
+    }
+
+    #[inline(always)]
+    fn from_word(word: u32) -> Self {
+        Fixed(word as i32)
+    }
+}

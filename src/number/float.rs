@@ -1,0 +1,116 @@
+//! Floating point: SI units, no carry, no rails.
+
+use super::Number;
+
+macro_rules! float {
+    ($float:ident) => {
+        impl Number for $float {
+            type Coefficient = $float;
+            type Carry = ();
+
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const CARRY: () = ();
+
+            #[inline(always)]
+            fn plus(self, other: Self) -> Self {
+                self + other
+            }
+
+            #[inline(always)]
+            fn minus(self, other: Self) -> Self {
+                self - other
+            }
+
+            #[inline(always)]
+            fn accumulate(self, _carry: &mut (), c: Self, y: Self) -> Self {
+                self + c * y
+            }
+
+            #[inline(always)]
+            fn accumulate2(self, _carry: &mut (), c: [Self; 2], y: [Self; 2]) -> Self {
+                self + (c[0] * y[0] + c[1] * y[1])
+            }
+
+            #[inline(always)]
+            fn accumulate3(self, _carry: &mut (), c: [Self; 3], y: [Self; 3]) -> Self {
+                self + (c[0] * y[0] + c[1] * y[1] + c[2] * y[2])
+            }
+
+            #[inline(always)]
+            fn product(_carry: &mut (), c: Self, y: Self) -> Self {
+                c * y
+            }
+
+            #[inline(always)]
+            fn sum2(_carry: &mut (), c: [Self; 2], y: [Self; 2]) -> Self {
+                c[0] * y[0] + c[1] * y[1]
+            }
+
+            #[inline(always)]
+            fn widened(self) -> Self {
+                self
+            }
+
+            #[inline(always)]
+            fn saturated(self) -> Self {
+                self
+            }
+
+            #[inline(always)]
+            fn any_beyond_base(_states: [Self; 4]) -> bool {
+                false
+            }
+
+            #[inline(always)]
+            fn limited(self, limit: Self) -> Self {
+                if self > limit {
+                    limit
+                } else if self < -limit {
+                    -limit
+                } else {
+                    self
+                }
+            }
+
+            // Written so that a NaN, which compares with nothing, exceeds every limit.
+            #[inline(always)]
+            fn exceeds(self, limit: Self) -> bool {
+                !(self.abs() <= limit)
+            }
+
+            #[inline(always)]
+            fn from_angle(turned: i32) -> Self {
+                turned as $float
+            }
+
+            #[inline(always)]
+            fn to_turn(self) -> Self {
+                self
+            }
+
+            #[inline(always)]
+            fn innovation_operand(self) -> Self {
+                self
+            }
+
+            #[inline(always)]
+            fn gain_operand(self) -> Self {
+                self
+            }
+
+            #[inline(always)]
+            fn to_word(self) -> u32 {
+                (self as f32).to_bits()
+            }
+
+            #[inline(always)]
+            fn from_word(word: u32) -> Self {
+                f32::from_bits(word) as $float
+            }
+        }
+    };
+}
+
+float!(f32);
+float!(f64);

@@ -1,0 +1,76 @@
+//! Estimate: what no sensor on the motor sees, from the motor's angle and torque alone.
+//!
+//! Every observer predicts the tick that has just ended from the torque applied during it, compares the
+//! predicted motor angle with the measured one, and corrects each state by a constant gain times the difference, the *innovation*.
+//! The gains are the steady state of a Kalman filter, found at compile time.
+//!
+//! | observer | states | for |
+//! |---|---|---|
+//! | [`Rigid`] | speed, load torque | shafts that are rigid to the controller |
+//! | [`TwoMass`] | mean speed, twist rate, twist, load torque | any stiffness, any tick rate |
+//! | [`SemiImplicit`] | motor speed, load speed, shaft torque, load torque | soft shafts sampled fast |
+//!
+//! # The angle
+//! No observer stores the angle it estimates. It stores the last measured angle as a `u32` of 2^32 per turn, and its
+//! own distance from that as a number, the *residual*: the innovation is the wrapped difference of two measured
+//! angles, plus the residual, less the predicted turn. Nothing grows with the revolutions, so nothing is lost after a
+//! year of running, and an angle is never converted back to an integer.
+//!
+//! # Terms
+//! *Base*: what a fixed-point number is a fraction of. *Coast*: a tick without a usable angle, by prediction
+//! alone. *Innovation*: measured less predicted motor angle [2^-32 turn].
+
+mod rigid;
+mod semi_implicit;
+mod two_mass;
+
+pub use rigid::{Rigid, RigidConfig, RigidPrediction};
+pub use semi_implicit::{SemiImplicit, SemiImplicitConfig, SemiImplicitPrediction};
+pub use two_mass::{TwoMass, TwoMassConfig, TwoMassPrediction};
+
+use crate::number::Number;
+use crate::sample::Estimate;
+
+/// An estimator of the drivetrain's state, advanced once a tick: predict, then correct or coast.
+pub trait Observer<N: Number>: Default {
+    /// Its constants, shared and immutable.
+    type Config;
+    /// The state at the end of a tick as the torque alone would have it.
+    type Prediction: Predicted<N>;
+
+    /// Takes the angle as it comes, whatever was predicted: the first tick, and the first after the angle was lost.
+    fn synchronise(&mut self, angle: u32);
+
+    /// Predicts the tick that has just ended, in which `torque` was applied and at the end of which `angle` was measured.
+    fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Self::Prediction;
+
+    /// Takes the prediction, corrected by its innovation, for the state.
+    fn correct(&mut self, config: &Self::Config, predicted: Self::Prediction, angle: u32);
+
+    /// Takes the prediction for the state as it is: the angle cannot be used.
+    fn coast(&mut self, predicted: Self::Prediction);
+
+    /// What is known now.
+    fn estimate(&self, config: &Self::Config) -> Estimate<N>;
+
+    /// The angle that was last believed, 2^32 per turn.
+    fn angle(&self) -> u32;
+
+    /// Whether a state is beyond its base, in fixed point.
+    fn is_beyond_base(&self) -> bool;
+
+    /// One tick with an angle that is known to be good.
+    #[inline(always)]
+    fn step(&mut self, config: &Self::Config, angle: u32, torque: N) {
+        let predicted = self.predict(config, angle, torque);
+        self.correct(config, predicted, angle);
+    }
+}
+
+/// What a prediction says of the angle.
+pub trait Predicted<N> {
+    /// Measured less predicted angle [2^-32 turn].
+    fn innovation(&self) -> N;
+    /// How far the motor should have turned [2^-32 turn].
+    fn turn(&self) -> N;
+}

@@ -1,0 +1,136 @@
+//! The semi-implicit two-mass observer: for soft shafts that are sampled fast.
+//!
+//! Speeds first, from the torques as they were, then the shaft torque from the speeds as they have become:
+//!
+//! ```text
+//! omega_m' = omega_m + T/J_m (tau_m - tau_s)
+//! omega_l' = omega_l + T/J_l (tau_s - tau_L)
+//! tau_s'   = tau_s + (k T + d) (omega_m' - omega_l') - d (omega_m - omega_l)
+//! ```
+//!
+//! Symplectic Euler: the undamped pair turns on an ellipse that closes, whatever the rounding, as long as omega T < 2; its
+//! frequency is high by (omega T)^2/24. `design` states the error of both and chooses between this step and the exact one.
+
+use super::{Observer, Predicted};
+use crate::number::Number;
+use crate::sample::Estimate;
+
+/// Constants of [`SemiImplicit`]. Made by [`crate::constants`] from a design; the fields are in SI units for floats.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SemiImplicitConfig<N: Number> {
+    /// T/J_m.
+    pub motor: N::Coefficient,
+    /// T/J_l.
+    pub load: N::Coefficient,
+    /// Shaft torque from the new and from the old twist rate: k T + d and -d.
+    pub shaft: [N::Coefficient; 2],
+    /// Turn of the motor from its new speed [2^-32 turn].
+    pub turn: N::Coefficient,
+    /// Correction of motor speed, load speed, shaft torque and load torque per innovation.
+    pub correction: [N::Coefficient; 4],
+    /// The share of an innovation that is taken off the residual.
+    pub angle_correction: N::Coefficient,
+}
+
+/// State of the semi-implicit two-mass observer.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SemiImplicit<N> {
+    shaft_torque: N,
+    load_speed: N,
+    load_torque: N,
+    motor_speed: N,
+    residual: N,
+    angle: u32,
+}
+
+/// The state of [`SemiImplicit`] at the end of a tick as the torque alone would have it.
+#[derive(Clone, Copy, Debug)]
+pub struct SemiImplicitPrediction<N: Number> {
+    motor_speed: N,
+    load_speed: N,
+    shaft_torque: N,
+    turn: N,
+    innovation: N,
+    carry: N::Carry,
+}
+
+impl<N: Number> Predicted<N> for SemiImplicitPrediction<N> {
+    #[inline(always)]
+    fn innovation(&self) -> N {
+        self.innovation
+    }
+
+    #[inline(always)]
+    fn turn(&self) -> N {
+        self.turn
+    }
+}
+
+impl<N: Number> Observer<N> for SemiImplicit<N> {
+    type Config = SemiImplicitConfig<N>;
+    type Prediction = SemiImplicitPrediction<N>;
+
+    fn synchronise(&mut self, angle: u32) {
+        self.angle = angle;
+        self.residual = N::ZERO;
+    }
+
+    #[inline(always)]
+    fn predict(&self, config: &SemiImplicitConfig<N>, angle: u32, torque: N) -> SemiImplicitPrediction<N> {
+        let mut carry = N::CARRY;
+        let accelerating = torque.minus(self.shaft_torque);
+        let motor_speed = self.motor_speed.accumulate(&mut carry, config.motor, accelerating);
+        let accelerating = self.shaft_torque.minus(self.load_torque);
+        let load_speed = self.load_speed.accumulate(&mut carry, config.load, accelerating);
+        let twist_rates = [motor_speed.minus(load_speed), self.motor_speed.minus(self.load_speed)];
+        let shaft_torque = self.shaft_torque.accumulate2(&mut carry, config.shaft, twist_rates);
+        let turn = N::product(&mut carry, config.turn, motor_speed).to_turn();
+        let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
+        SemiImplicitPrediction { motor_speed, load_speed, shaft_torque, turn, innovation: turned.minus(turn), carry }
+    }
+
+    #[inline(always)]
+    fn correct(&mut self, config: &SemiImplicitConfig<N>, predicted: SemiImplicitPrediction<N>, angle: u32) {
+        let mut carry = predicted.carry;
+        let innovation = predicted.innovation;
+        let operand = innovation.innovation_operand();
+        let [motor_speed, load_speed, shaft_torque, load_torque] = config.correction;
+        self.angle = angle;
+        self.motor_speed = predicted.motor_speed.accumulate(&mut carry, motor_speed, operand).saturated();
+        self.load_speed = predicted.load_speed.accumulate(&mut carry, load_speed, operand).saturated();
+        self.shaft_torque = predicted.shaft_torque.accumulate(&mut carry, shaft_torque, operand).saturated();
+        self.load_torque = self.load_torque.accumulate(&mut carry, load_torque, operand).saturated();
+        self.residual = innovation.accumulate(&mut carry, config.angle_correction, operand);
+    }
+
+    /// The angle stays where it was last believed, and the residual runs on.
+    #[inline(always)]
+    fn coast(&mut self, predicted: SemiImplicitPrediction<N>) {
+        self.motor_speed = predicted.motor_speed.saturated();
+        self.load_speed = predicted.load_speed.saturated();
+        self.shaft_torque = predicted.shaft_torque.saturated();
+        self.residual = self.residual.minus(predicted.turn);
+    }
+
+    #[inline(always)]
+    fn estimate(&self, _config: &SemiImplicitConfig<N>) -> Estimate<N> {
+        Estimate {
+            motor_speed: self.motor_speed,
+            shaft_torque: self.shaft_torque,
+            load_speed: self.load_speed,
+            load_torque: self.load_torque,
+        }
+    }
+
+    #[inline(always)]
+    fn angle(&self) -> u32 {
+        self.angle
+    }
+
+    #[inline(always)]
+    fn is_beyond_base(&self) -> bool {
+        N::any_beyond_base([self.motor_speed, self.load_speed, self.shaft_torque, self.load_torque])
+    }
+}
