@@ -35,8 +35,8 @@ fn gains_place_the_poles() {
     }
 }
 
-/// Closed loop of `[w_m, twist, w_l, integral, torque]` from the general exponential, the gain scaled and the torque late by
-/// `late` ticks (one or two).
+/// Spectral radius of the closed loop of `[w_m, twist, w_l, integral, torque]`, built from the general exponential, all three
+/// gains scaled by `gain`, the torque one tick late.
 fn radius(machine: &TwoMass, design: &SpeedLoopDesign, gain: f64) -> f64 {
     let (jm, jl, k, d) = (machine.motor_inertia, machine.load_inertia, machine.stiffness, machine.damping);
     let a = Matrix([[-d / jm, -k / jm, d / jm], [1.0, 0.0, -1.0], [d / jl, k / jl, -d / jl]]);
