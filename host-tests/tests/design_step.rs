@@ -10,7 +10,8 @@ fn data(name: &str) -> Value {
 }
 
 fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap()
+    let value = &value[key];
+    value.as_f64().unwrap_or_else(|| value.as_str().unwrap().parse().unwrap())
 }
 
 /// Each coefficient in the energy norm, twist in `1/w` and slip in 1, against the size of the whole step.

@@ -31,7 +31,7 @@ pub const fn exponential<const N: usize>(a: &Matrix<N, N>) -> Option<Matrix<N, N
     let units = balance(a);
     let balanced = a.scaled(&reciprocal(&units), &reciprocal(&units));
     let norm = balanced.norm();
-    if !(norm < 1e15) {
+    if norm.is_nan() || norm > 1e15 {
         return None;
     }
     let mut squarings = 0;

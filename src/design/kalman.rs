@@ -68,7 +68,7 @@ impl<const N: usize, const M: usize> Kalman<N, M> {
             left.times(&prior).times(&left.transpose()).plus(1.0, &gain.times(r).times(&gain.transpose())).symmetric();
         let poles = eigenvalues(&left.times(f).scaled(&inverse(&units), &inverse(&units)));
         let spectral_radius = super::spectral_radius(&poles);
-        if !(spectral_radius < 1.0) {
+        if spectral_radius.is_nan() || spectral_radius >= 1.0 {
             return Err(Error::NotStabilising);
         }
         Ok(Self { gain, prior, posterior, innovation, poles, spectral_radius })

@@ -91,7 +91,7 @@ impl<const R: usize, const C: usize> Matrix<R, C> {
                 sum += self.0[i][j].abs();
                 i += 1;
             }
-            if !(sum <= largest) {
+            if sum > largest || sum.is_nan() {
                 largest = sum;
             }
             j += 1;

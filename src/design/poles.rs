@@ -101,11 +101,11 @@ pub const fn spectral_radius(poles: &[Complex]) -> f64 {
     let mut i = 0;
     while i < poles.len() {
         let size = size(poles[i]);
-        if !(size <= largest) {
-            largest = size;
-        }
         if size.is_nan() {
             return size;
+        }
+        if size > largest {
+            largest = size;
         }
         i += 1;
     }

@@ -17,6 +17,8 @@ pub struct Doubling<const N: usize> {
 
 /// The stabilising `X` of `X = A^T X (1 + G X)^-1 A + H`, with G and H symmetric and positive semidefinite.
 ///
+/// Where H vanishes the doubling stays at zero, which stabilises only an A that is stable already.
+///
 /// `None` where it does not converge within 60 doublings: no stabilising solution, or one at the edge of stability.
 #[must_use]
 pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Matrix<N, N>) -> Option<Doubling<N>> {
@@ -45,9 +47,7 @@ pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Ma
         let mut settled = true;
         let mut i = 0;
         while i < N {
-            if !(grown.0[i][i] <= 1e-17 * h.0[i][i]) {
-                settled = false;
-            }
+            settled = settled && grown.0[i][i] <= 1e-17 * h.0[i][i];
             i += 1;
         }
         if settled {

@@ -103,7 +103,7 @@ impl TwoMass {
         let step = ExactStep::new(self, period);
         let spectral_radius =
             spectral_radius(&eigenvalues(&closed_loop(self, &step, period, proportional, integral, slip)));
-        if !(spectral_radius < 1.0) {
+        if spectral_radius.is_nan() || spectral_radius >= 1.0 {
             return Err(Error::SpeedLoopUnstable);
         }
         let open = Loop { step, machine: *self, period, proportional, integral, slip };

@@ -28,7 +28,7 @@ pub const fn sqrt(x: f64) -> f64 {
     }
     // As integers: n = m 2^104, root = y 2^52. The rounded root r satisfies r^2 - r < n <= r^2 + r.
     let n = (mantissa as u128) << (52 + odd);
-    let mut root = (y.to_bits() & ((1 << 52) - 1)) as u128 | (1 << 52);
+    let mut root = (y * 4_503_599_627_370_496.0) as u64 as u128;
     while root * root - root >= n {
         root -= 1;
     }
@@ -38,10 +38,13 @@ pub const fn sqrt(x: f64) -> f64 {
     scale_by_power_of_two(root as u64 as f64, half - 52)
 }
 
-/// Length of the hypotenuse, without overflow on the way.
+/// Length of the hypotenuse, without overflow on the way; NaN where either side is.
 #[must_use]
 pub const fn hypot(a: f64, b: f64) -> f64 {
     let (a, b) = (a.abs(), b.abs());
+    if a.is_nan() || b.is_nan() {
+        return f64::NAN;
+    }
     let (large, small) = if a > b { (a, b) } else { (b, a) };
     if large == 0.0 || large.is_infinite() {
         return large;

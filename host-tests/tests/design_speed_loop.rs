@@ -1,0 +1,107 @@
+//! The speed loop against its own specification: the poles asked for, and margins found by scaling the gain.
+
+use driveline::design::{
+    Error, Matrix, Rate, SpeedLoopDesign, SpeedLoopTuning, discretise, eigenvalues, spectral_radius,
+};
+use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+
+fn rig(damping: f64) -> TwoMass {
+    // Saarakkala and Hinkkanen 2015: two equal masses, 60 Hz antiresonance, 84 Hz resonance.
+    TwoMass::new(Inertia(0.005), Inertia(0.005), Stiffness(700.0), Damping(damping))
+}
+
+/// Characteristic polynomial of the undamped machine in continuous time, with the designed gains, against the product of
+/// the two quadratics that were asked for.
+#[test]
+fn gains_place_the_poles() {
+    for (load, tuning) in [
+        (0.005, SpeedLoopTuning::USUAL),
+        (0.05, SpeedLoopTuning { bandwidth: 0.7, damping: 0.8, shaft_damping: 0.3 }),
+        (0.001, SpeedLoopTuning { bandwidth: 0.2, damping: 1.2, shaft_damping: 0.5 }),
+    ] {
+        let machine = TwoMass::new(Inertia(0.005), Inertia(load), Stiffness(700.0), Damping(0.0));
+        let design = machine.speed_loop(Rate::hz(20_000), tuning);
+        let jm = machine.motor_inertia;
+        let (kp, ki, kv) = (design.proportional / jm, design.integral / jm, design.slip / jm);
+        let (wa2, wr2) = (700.0 / load, 700.0 * (1.0 / 0.005 + 1.0 / load));
+        let found = [kp + kv, ki + wr2, kp * wa2, ki * wa2];
+        let (w1, w2) = (tuning.bandwidth * wa2.sqrt(), design.shaft_frequency);
+        let (a, b) = (2.0 * tuning.damping * w1, 2.0 * tuning.shaft_damping * w2);
+        let expected = [a + b, w1 * w1 + w2 * w2 + a * b, a * w2 * w2 + b * w1 * w1, (w1 * w2).powi(2)];
+        for (f, e) in found.iter().zip(expected) {
+            // Some ten roundings, and a difference of k_p in k_v.
+            assert!((f / e - 1.0).abs() < 1e-13, "{found:?} {expected:?}");
+        }
+    }
+}
+
+/// Spectral radius of the closed loop of `[w_m, twist, w_l, integral, torque]`, built from the general exponential, all three
+/// gains scaled by `gain`, the torque one tick late.
+fn radius(machine: &TwoMass, design: &SpeedLoopDesign, gain: f64) -> f64 {
+    let (jm, jl, k, d) = (machine.motor_inertia, machine.load_inertia, machine.stiffness, machine.damping);
+    let a = Matrix([[-d / jm, -k / jm, d / jm], [1.0, 0.0, -1.0], [d / jl, k / jl, -d / jl]]);
+    let (f, g) = discretise::<3, 1, 4>(&a, &Matrix([[1.0 / jm], [0.0], [0.0]]), design.period).unwrap();
+    let (p, i, v) = (gain * design.proportional, gain * design.integral * design.period, gain * design.slip);
+    let mut loop_ = Matrix::<5, 5>::ZERO;
+    for row in 0..3 {
+        loop_.0[row][..3].copy_from_slice(&f.0[row]);
+        loop_.0[row][4] = g.0[row][0];
+    }
+    loop_.0[3] = [i, 0.0, 0.0, 1.0, 0.0];
+    loop_.0[4] = [-(p + i + v), 0.0, v, -1.0, 0.0];
+    spectral_radius(&eigenvalues(&loop_))
+}
+
+/// The loop built here from the exponential has the radius that the design tells; at the gain margins it is on the edge.
+#[test]
+fn margins_are_where_the_loop_turns_unstable() {
+    for damping in [0.01, 0.2] {
+        for tuning in [SpeedLoopTuning::USUAL, SpeedLoopTuning { bandwidth: 0.6, damping: 0.8, shaft_damping: 0.5 }] {
+            let machine = rig(damping);
+            let design = machine.speed_loop(Rate::hz(4000), tuning);
+            let margins = design.margins;
+            println!("{design:?}");
+            // Poles of a matrix of mixed units, simple ones: nine digits.
+            assert!((radius(&machine, &design, 1.0) - design.spectral_radius).abs() < 1e-9);
+            assert!(margins.gain_up.is_finite() && margins.gain_up > 1.0);
+            // The crossing is bisected to 40 bits; a thousandth either side tells the edge.
+            assert!(radius(&machine, &design, margins.gain_up * 0.999) < 1.0);
+            assert!(radius(&machine, &design, margins.gain_up * 1.001) > 1.0);
+            if margins.gain_down > 0.0 {
+                assert!(radius(&machine, &design, margins.gain_down * 1.001) < 1.0);
+                assert!(radius(&machine, &design, margins.gain_down * 0.999) > 1.0);
+            }
+            // Both other margins bound the distance from -1 [Astrom and Murray, Feedback Systems, §10.3]; the sweep's grid
+            // finds the distance within 1 %.
+            assert!(margins.modulus <= 1.01 * (1.0 - 1.0 / margins.gain_up));
+            assert!(margins.modulus <= 1.01 * 2.0 * (0.5 * margins.phase).sin());
+            assert!(margins.modulus > 0.3);
+        }
+    }
+}
+
+const COMPILED: SpeedLoopDesign = rig_const().speed_loop(Rate::hz(4000), SpeedLoopTuning::USUAL);
+
+const fn rig_const() -> TwoMass {
+    TwoMass::new(Inertia(0.005), Inertia(0.005), Stiffness(700.0), Damping(0.01))
+}
+
+#[test]
+fn compile_time_and_run_time_give_the_same_bits() {
+    let run =
+        std::hint::black_box(rig_const()).speed_loop(Rate::hz(4000), std::hint::black_box(SpeedLoopTuning::USUAL));
+    // The shortest text that reads back as the same bits.
+    assert_eq!(format!("{COMPILED:?}"), format!("{run:?}"));
+}
+
+#[test]
+fn errors_name_the_parameter() {
+    let design = |rate, tuning| rig(0.01).try_speed_loop(Rate::hz(rate), tuning).unwrap_err();
+    let usual = SpeedLoopTuning::USUAL;
+    assert_eq!(design(4000, SpeedLoopTuning { bandwidth: 1.0, ..usual }), Error::Bandwidth);
+    assert_eq!(design(4000, SpeedLoopTuning { damping: 0.0, ..usual }), Error::DampingRatio);
+    assert_eq!(design(0, usual), Error::Period);
+    // 200 ticks a second cannot damp 84 Hz.
+    assert_eq!(design(200, usual), Error::SpeedLoopUnstable);
+    assert_eq!(Error::SpeedLoopUnstable.to_string(), Error::SpeedLoopUnstable.message());
+}

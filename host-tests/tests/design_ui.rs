@@ -1,0 +1,26 @@
+//! A wrong machine does not compile, and the compiler says the sentence that the run-time error says.
+
+/// What each file of `ui/` must be told; the sentence of the error, and the file's name.
+const SENTENCES: [(&str, &str); 5] = [
+    ("negative_inertia", driveline::machine::Error::RotorInertia.message()),
+    ("efficiency_out_of_range", driveline::machine::Error::GearEfficiency.message()),
+    ("unobservable_pair", driveline::design::Error::Unobservable.message()),
+    ("rate_below_the_shaft", driveline::design::Error::SampleRate.message()),
+    ("encoder_without_lines", driveline::design::Error::EncoderLines.message()),
+];
+
+#[test]
+fn wrong_machines_do_not_compile() {
+    let cases = trybuild::TestCases::new();
+    for (file, _) in SENTENCES {
+        cases.compile_fail(format!("tests/ui/{file}.rs"));
+    }
+}
+
+#[test]
+fn the_compiler_says_the_sentence_of_the_error() {
+    for (file, sentence) in SENTENCES {
+        let path = format!("{}/tests/ui/{file}.stderr", env!("CARGO_MANIFEST_DIR"));
+        assert!(std::fs::read_to_string(path).unwrap().contains(sentence), "{file}");
+    }
+}
