@@ -4,5 +4,6 @@ pub mod check;
 pub mod image;
 pub mod link;
 pub mod plant;
+pub mod report;
 pub mod run;
 pub mod setup;
