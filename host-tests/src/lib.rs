@@ -3,6 +3,7 @@
 pub mod check;
 pub mod image;
 pub mod link;
+pub mod machine_file;
 pub mod plant;
 pub mod report;
 pub mod run;
