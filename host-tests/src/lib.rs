@@ -1,6 +1,7 @@
-//! The full solver, the link to QEMU, the report.
+//! The full solver, the link to QEMU, the command line, the report.
 
 pub mod check;
+pub mod cli;
 pub mod image;
 pub mod link;
 pub mod machine_file;

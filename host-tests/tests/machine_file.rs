@@ -41,10 +41,7 @@ fn the_file_and_the_scene_are_one_hoist() {
     assert_eq!(hoist.chain, scene::CHAIN);
     assert_eq!((hoist.limits.torque, hoist.limits.speed), (scene::TORQUE_LIMIT, scene::RATED_SPEED));
     let Disturbance { torque_accuracy, load_torque_step, within } = scene::DISTURBANCE;
-    assert_eq!(
-        hoist.disturbance,
-        host_tests::machine_file::Disturbance { torque_accuracy, load_torque_step, within }
-    );
+    assert_eq!(hoist.disturbance, host_tests::machine_file::Disturbance { torque_accuracy, load_torque_step, within });
 }
 
 #[test]
