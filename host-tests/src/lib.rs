@@ -1,8 +1,11 @@
-//! The full solver, the link to QEMU, the report.
+//! The full solver, the link to QEMU, the command line, the report.
 
 pub mod check;
+pub mod cli;
 pub mod image;
 pub mod link;
+pub mod machine_file;
 pub mod plant;
+pub mod report;
 pub mod run;
 pub mod setup;

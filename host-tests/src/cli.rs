@@ -1,0 +1,105 @@
+//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`.
+//!
+//! | exit code | meaning |
+//! |---|---|
+//! | 0 | done |
+//! | 1 | done, and the answer is no: a check failed, a run could not finish |
+//! | 2 | not begun: a wrong argument or a machine file with a fault |
+//!
+//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
+//! `{"error": ...}`.
+
+mod check;
+mod design;
+mod emit;
+mod failure;
+mod modes;
+mod plan;
+mod progress;
+mod run;
+mod setup;
+mod vibration;
+mod vibration_page;
+
+pub use emit::rust;
+pub use failure::Failure;
+pub use plan::Plan;
+pub use progress::Progress;
+pub use vibration::Vibration;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Controllers for machine drives, checked against a full solver of the machine.
+#[derive(Debug, Parser)]
+#[command(name = "cargo driveline", bin_name = "cargo driveline", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Run),
+    Modes(modes::Modes),
+    Design(design::Design),
+    Check(check::Check),
+    Setup(setup::Setup),
+}
+
+impl Command {
+    const fn json(&self) -> bool {
+        match self {
+            Self::Run(command) => command.json,
+            Self::Modes(command) => command.json,
+            Self::Design(command) => command.json,
+            Self::Check(command) => command.json,
+            Self::Setup(command) => command.json,
+        }
+    }
+
+    fn execute(&self) -> Result<(), Failure> {
+        match self {
+            Self::Run(command) => command.execute(),
+            Self::Modes(command) => command.execute(),
+            Self::Design(command) => command.execute(),
+            Self::Check(command) => command.execute(),
+            Self::Setup(command) => command.execute(),
+        }
+    }
+}
+
+/// Runs a command line, the program's name first, and says how it ended.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let cli = match Cli::try_parse_from(&arguments) {
+        Ok(cli) => cli,
+        // Help and version come this way too, and are no errors.
+        Err(error) if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") => {
+            let message = error.to_string();
+            let sentence = message.lines().next().unwrap_or("wrong arguments").trim_start_matches("error: ");
+            return Failure::usage(sentence).report(true);
+        }
+        Err(error) => error.exit(),
+    };
+    match cli.command.execute() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(cli.command.json()),
+    }
+}
+
+/// Writes to standard output. A reader that has gone away (`| head`) is no error.
+fn say(text: impl std::fmt::Display) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stdout(), "{text}");
+}
+
+/// Writes JSON to standard output.
+fn say_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value)
+        .map_err(|error| Failure::failed(format!("the result cannot be written as JSON: {error}")))?;
+    say(text);
+    Ok(())
+}

@@ -1,0 +1,34 @@
+//! `cargo driveline check`: everything that must hold before a commit.
+
+use clap::Args;
+
+use super::Failure;
+use crate::check::{CheckError, Options, STEPS, run};
+
+/// Check everything: formatting, clippy, tests, firmware builds, the QEMU self-test, the budgets.
+///
+/// Stops at the first step that fails and says what to type to repeat it.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  cargo driveline check\n  cargo driveline check --only budgets --json")]
+pub struct Check {
+    /// Only this step
+    #[arg(long, value_name = "STEP", value_parser = STEPS.map(|step| step.name))]
+    only: Option<String>,
+    /// Print one JSON object a step
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Check {
+    /// Runs the steps.
+    ///
+    /// # Errors
+    /// The step that failed.
+    pub fn execute(&self) -> Result<(), Failure> {
+        match run(&Options { json: self.json, only: self.only.clone() }) {
+            Ok(_) => Ok(()),
+            Err(error @ CheckError::NoSuchStep(_)) => Err(Failure::usage(error.to_string())),
+            Err(error) => Err(Failure::failed(error.to_string())),
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! How a command ends badly, and how that is told.
+
+use std::process::ExitCode;
+
+use serde_json::json;
+
+use crate::machine_file::Diagnostic;
+
+/// Why a command gave no result.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// A machine file with a fault: exit code 2.
+    #[error(transparent)]
+    Machine(#[from] Diagnostic),
+    /// A wrong argument: exit code 2.
+    #[error("{0}")]
+    Usage(String),
+    /// The command ran and did not succeed: exit code 1.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl Failure {
+    /// A wrong argument, as a sentence.
+    pub fn usage(sentence: impl Into<String>) -> Self {
+        Self::Usage(sentence.into())
+    }
+
+    /// What did not succeed, as a sentence.
+    pub fn failed(sentence: impl Into<String>) -> Self {
+        Self::Failed(sentence.into())
+    }
+
+    /// The exit code.
+    pub const fn code(&self) -> u8 {
+        match self {
+            Self::Machine(_) | Self::Usage(_) => 2,
+            Self::Failed(_) => 1,
+        }
+    }
+
+    /// Tells it on standard error, as a sentence or as JSON, and gives the exit code.
+    pub fn report(&self, as_json: bool) -> ExitCode {
+        match self {
+            _ if as_json => {
+                let mut value = json!({ "error": self.to_string() });
+                if let Self::Machine(diagnostic) = self {
+                    value["at"] = json!(diagnostic);
+                }
+                eprintln!("{value}");
+            }
+            Self::Machine(diagnostic) => eprintln!("error: {}", diagnostic.explained()),
+            Self::Usage(sentence) => eprintln!("error: {sentence}; `--help` shows what there is"),
+            Self::Failed(sentence) => eprintln!("error: {sentence}"),
+        }
+        ExitCode::from(self.code())
+    }
+}

@@ -1,0 +1,215 @@
+//! What `design` finds for a machine: the step, the observer, the governor.
+
+use driveline::design::{
+    Disturbance, Encoder, Error, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, StepChoice, TwoMassDesign,
+};
+use driveline::machine::{Match, TwoMass};
+use serde::Serialize;
+
+use crate::machine_file::MachineFile;
+
+/// The controller of a machine, in SI units at the motor.
+#[derive(Clone, Debug, Serialize)]
+pub struct Plan {
+    /// The machine's name.
+    pub name: String,
+    /// `two-mass`, or `rigid` where the machine has no shaft.
+    pub observer: &'static str,
+    /// Ticks a second.
+    pub rate_hz: u32,
+    /// Inertias \[kg m2\]: motor's side and load's side, or one.
+    pub inertias: Vec<f64>,
+    /// The shaft between the two masses and the step that follows it.
+    pub shaft: Option<Shaft>,
+    /// The states, in the order of gains and standard deviations.
+    pub states: Vec<State>,
+    /// Poles of the estimate's error.
+    pub poles: Vec<Pole>,
+    /// Largest size of a pole.
+    pub spectral_radius: f64,
+    /// Predicted standard deviation of the innovation \[rad\].
+    pub innovation: f64,
+    /// The speed loop, for two masses.
+    pub speed_loop: Option<SpeedLoop>,
+}
+
+/// The shaft between the two masses.
+#[derive(Clone, Debug, Serialize)]
+pub struct Shaft {
+    /// Stiffness \[N m/rad\].
+    pub stiffness: f64,
+    /// Damping \[N m s/rad\].
+    pub damping: f64,
+    /// Whole free angle \[rad\].
+    pub gap: f64,
+    /// Resonance \[rad/s\].
+    pub resonance: f64,
+    /// Antiresonance \[rad/s\].
+    pub antiresonance: f64,
+    /// Worst-case error of the reduction, over the first jump of the motor's speed.
+    pub reduction_error: f64,
+    /// Step that the design takes: `exact` or `semi-implicit`.
+    pub step: &'static str,
+    /// Error bound of the semi-implicit step over a period of the resonance; `null` where it is unstable.
+    pub semi_implicit_error: Option<f64>,
+    /// The bound up to which the semi-implicit step is taken.
+    pub semi_implicit_threshold: f64,
+    /// Predicted standard deviation of the shaft torque \[N m\].
+    pub torque_standard_deviation: f64,
+}
+
+/// A state of the observer.
+#[derive(Clone, Debug, Serialize)]
+pub struct State {
+    /// Name.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// Correction per radian of innovation.
+    pub gain: f64,
+    /// Predicted standard deviation after the measurement of a tick.
+    pub standard_deviation: f64,
+}
+
+/// A pole of the estimate's error.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Pole {
+    /// Real part.
+    pub re: f64,
+    /// Imaginary part.
+    pub im: f64,
+}
+
+/// The speed loop.
+#[derive(Clone, Debug, Serialize)]
+pub struct SpeedLoop {
+    /// Gain on the error of the motor's speed \[N m s/rad\].
+    pub proportional: f64,
+    /// Integral gain \[N m/rad\].
+    pub integral: f64,
+    /// Gain on the slip \[N m s/rad\].
+    pub slip: f64,
+    /// Natural frequency of the speed \[rad/s\].
+    pub bandwidth: f64,
+    /// Factor by which the gain may grow; `null` where no growth destabilises.
+    pub gain_margin_up: Option<f64>,
+    /// Factor by which the gain may shrink.
+    pub gain_margin_down: f64,
+    /// Phase margin \[rad\]; `null` where the gain crosses 1 nowhere.
+    pub phase_margin: Option<f64>,
+    /// Smallest distance of the response from -1.
+    pub modulus: f64,
+    /// Largest size of a pole of the closed loop.
+    pub spectral_radius: f64,
+}
+
+/// The tuning of a file in the library's words.
+pub fn tuning(machine: &MachineFile) -> (Rate, Encoder, Disturbance) {
+    let disturbance = Disturbance {
+        torque_accuracy: machine.disturbance.torque_accuracy,
+        load_torque_step: machine.disturbance.load_torque_step,
+        within: machine.disturbance.within,
+    };
+    (Rate::hz(machine.control.rate_hz), Encoder::lines(machine.encoder.lines), disturbance)
+}
+
+/// The machine as two masses; `None` where it has no shaft.
+pub fn two_masses(machine: &MachineFile) -> Option<TwoMass> {
+    machine.chain.try_reduce(Match::ResonanceAntiresonance).ok()
+}
+
+impl Plan {
+    /// Designs observer and governor.
+    ///
+    /// # Errors
+    /// The library's sentence for a machine that cannot be observed or governed so.
+    pub fn of(machine: &MachineFile) -> Result<Self, Error> {
+        let (rate, encoder, disturbance) = tuning(machine);
+        match two_masses(machine) {
+            Some(two) => {
+                let observer = two.try_observer(rate, encoder, disturbance)?;
+                let governor = two.try_speed_loop(rate, SpeedLoopTuning::USUAL)?;
+                Ok(Self::two_mass(machine, &two, &observer, &governor))
+            }
+            None => Ok(Self::rigid(machine, &machine.chain.try_rigid()?.try_observer(rate, encoder, disturbance)?)),
+        }
+    }
+
+    fn two_mass(machine: &MachineFile, two: &TwoMass, observer: &TwoMassDesign, governor: &SpeedLoopDesign) -> Self {
+        let deviation = &observer.standard_deviation;
+        let of = [
+            deviation.motor_angle,
+            deviation.motor_speed,
+            deviation.twist,
+            deviation.load_speed,
+            deviation.load_torque,
+        ];
+        let names = [
+            ("motor angle", "rad"),
+            ("motor speed", "rad/s"),
+            ("twist", "rad"),
+            ("load speed", "rad/s"),
+            ("load torque", "N m"),
+        ];
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let margins = &governor.margins;
+        Self {
+            name: machine.name.clone(),
+            observer: "two-mass",
+            rate_hz: machine.control.rate_hz,
+            inertias: vec![two.motor_inertia, two.load_inertia],
+            shaft: Some(Shaft {
+                stiffness: two.stiffness,
+                damping: two.damping,
+                gap: two.gap,
+                resonance: two.resonance(),
+                antiresonance: two.antiresonance(),
+                reduction_error: two.error.worst,
+                step: if observer.chosen == StepChoice::Exact { "exact" } else { "semi-implicit" },
+                semi_implicit_error: finite(observer.semi_implicit.fidelity.error_bound),
+                semi_implicit_threshold: StepChoice::THRESHOLD,
+                torque_standard_deviation: deviation.shaft_torque,
+            }),
+            states: states(&names, &observer.gains, &of),
+            poles: poles(&observer.poles),
+            spectral_radius: observer.spectral_radius,
+            innovation: observer.innovation,
+            speed_loop: Some(SpeedLoop {
+                proportional: governor.proportional,
+                integral: governor.integral,
+                slip: governor.slip,
+                bandwidth: governor.bandwidth,
+                gain_margin_up: finite(margins.gain_up),
+                gain_margin_down: margins.gain_down,
+                phase_margin: finite(margins.phase),
+                modulus: margins.modulus,
+                spectral_radius: governor.spectral_radius,
+            }),
+        }
+    }
+
+    fn rigid(machine: &MachineFile, observer: &RigidDesign) -> Self {
+        let names = [("motor angle", "rad"), ("motor speed", "rad/s"), ("load torque", "N m")];
+        Self {
+            name: machine.name.clone(),
+            observer: "rigid",
+            rate_hz: machine.control.rate_hz,
+            inertias: vec![observer.machine.inertia],
+            shaft: None,
+            states: states(&names, &observer.gains, &observer.standard_deviation),
+            poles: poles(&observer.poles),
+            spectral_radius: observer.spectral_radius,
+            innovation: observer.innovation,
+            speed_loop: None,
+        }
+    }
+}
+
+fn states(names: &[(&'static str, &'static str)], gains: &[f64], deviations: &[f64]) -> Vec<State> {
+    let state = |((&(name, unit), &gain), &standard_deviation)| State { name, unit, gain, standard_deviation };
+    names.iter().zip(gains).zip(deviations).map(state).collect()
+}
+
+fn poles(poles: &[(f64, f64)]) -> Vec<Pole> {
+    poles.iter().map(|&(re, im)| Pole { re, im }).collect()
+}

@@ -1,0 +1,220 @@
+//! What `modes` finds of a machine: vibrations, reductions, and the parts that are not worth keeping.
+
+use std::f64::consts::TAU;
+
+use driveline::machine::{Element, Match, Shaft};
+use serde::Serialize;
+
+use crate::machine_file::{Element as Written, MachineFile};
+
+/// Change below which a part is not worth keeping: 1 %, less than a stiffness is ever known to.
+pub const WORTH: f64 = 0.01;
+
+/// The vibrations of a machine, everything referred to the motor.
+#[derive(Clone, Debug, Serialize)]
+pub struct Vibration {
+    /// The machine's name.
+    pub name: String,
+    /// Its masses, from the motor.
+    pub masses: Vec<Mass>,
+    /// The shafts and ropes between them.
+    pub shafts: Vec<Spring>,
+    /// Natural vibrations of the free machine, lowest first.
+    pub resonances: Vec<Resonance>,
+    /// Natural frequencies with the motor held \[rad/s\], lowest first.
+    pub antiresonances: Vec<f64>,
+    /// The two masses that can stand for it.
+    pub reductions: Vec<Reduction>,
+    /// What leaving out each part would change, the least first.
+    pub worth: Vec<Leaving>,
+}
+
+/// A mass.
+#[derive(Clone, Debug, Serialize)]
+pub struct Mass {
+    /// Labels of what it is made of.
+    pub name: String,
+    /// Inertia \[kg m2\].
+    pub inertia: f64,
+}
+
+/// A shaft or rope.
+#[derive(Clone, Debug, Serialize)]
+pub struct Spring {
+    /// Labels of what it is made of.
+    pub name: String,
+    /// Stiffness \[N m/rad\].
+    pub stiffness: f64,
+    /// Damping \[N m s/rad\].
+    pub damping: f64,
+    /// Whole free angle \[rad\].
+    pub gap: f64,
+}
+
+/// A natural vibration.
+#[derive(Clone, Debug, Serialize)]
+pub struct Resonance {
+    /// Frequency \[rad/s\].
+    pub frequency: f64,
+    /// Frequency \[Hz\].
+    pub hz: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+    /// Square of the mass-normalised shape at the motor \[1/(kg m2)\].
+    pub residue: f64,
+    /// Amplitude of each mass, the largest 1.
+    pub shape: Vec<f64>,
+}
+
+/// Two masses that stand for the chain, and what they do not show of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Reduction {
+    /// How they were found.
+    pub by: String,
+    /// Inertia on the motor's side \[kg m2\].
+    pub motor_inertia: f64,
+    /// Inertia on the load's side \[kg m2\].
+    pub load_inertia: f64,
+    /// Stiffness \[N m/rad\].
+    pub stiffness: f64,
+    /// Damping \[N m s/rad\].
+    pub damping: f64,
+    /// Relative error of the first resonance, signed.
+    pub resonance_error: f64,
+    /// Relative error of the first antiresonance, signed.
+    pub antiresonance_error: f64,
+    /// Relative error of the static give at the motor, signed.
+    pub compliance_error: f64,
+    /// Lowest frequency left out \[rad/s\]; `null` where none is.
+    pub next_mode: Option<f64>,
+    /// Its share at the motor.
+    pub next_share: f64,
+    /// Bound of the error of the motor's speed after a blow, over its first jump.
+    pub worst: f64,
+}
+
+/// What leaving out a part would change, relative and signed; `null` where no vibration would be left.
+#[derive(Clone, Debug, Serialize)]
+pub struct Leaving {
+    /// The part.
+    pub part: String,
+    /// Change of the first resonance.
+    pub resonance: Option<f64>,
+    /// Change of the first antiresonance.
+    pub antiresonance: Option<f64>,
+    /// Change of the static give at the motor.
+    pub compliance: Option<f64>,
+    /// Whether it is worth keeping: some change of [`WORTH`] or more.
+    pub worth_keeping: bool,
+}
+
+impl Vibration {
+    /// Of a machine.
+    pub fn of(machine: &MachineFile) -> Self {
+        let chain = &machine.chain;
+        let (masses, shafts) = names(machine);
+        let modes = chain.modes();
+        let count = masses.len();
+        let resonance = |mode: &driveline::machine::Mode| {
+            let shape = &mode.shape[..count];
+            let most =
+                shape.iter().copied().fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most });
+            Resonance {
+                frequency: mode.frequency,
+                hz: mode.frequency / TAU,
+                damping_ratio: mode.damping / (2.0 * mode.frequency),
+                residue: mode.residue,
+                shape: shape.iter().map(|value| value / most).collect(),
+            }
+        };
+        let spring = |(name, shaft): (&String, &Shaft)| Spring {
+            name: name.clone(),
+            stiffness: shaft.stiffness,
+            damping: shaft.damping,
+            gap: shaft.gap,
+        };
+        let mut worth: Vec<_> = chain.worth().parts().to_vec();
+        worth.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let leaving = |part: &driveline::machine::Part| Leaving {
+            part: match part.element {
+                Element::Shaft(index) => format!("{} made rigid", shafts[index]),
+                Element::Mass(index) => format!("inertia of {} left out", masses[index]),
+            },
+            resonance: finite(part.resonance),
+            antiresonance: finite(part.antiresonance),
+            compliance: finite(part.compliance),
+            worth_keeping: part.worst() >= WORTH,
+        };
+        Self {
+            name: machine.name.clone(),
+            resonances: modes.resonances().iter().map(resonance).collect(),
+            antiresonances: modes.antiresonances().to_vec(),
+            reductions: reductions(machine, &shafts),
+            worth: worth.iter().map(leaving).collect(),
+            shafts: shafts.iter().zip(chain.shafts()).map(spring).collect(),
+            masses: masses.into_iter().zip(chain.masses()).map(|(name, &inertia)| Mass { name, inertia }).collect(),
+        }
+    }
+}
+
+/// Both matches, and the textbook's cut at every shaft. A machine of two masses or one has none to compare.
+fn reductions(machine: &MachineFile, shafts: &[String]) -> Vec<Reduction> {
+    let cut = |(index, name): (usize, &String)| {
+        [
+            (format!("cut at {name}, all shafts in series"), Match::TextbookCut(index)),
+            (format!("cut at {name}, the others rigid"), Match::TextbookShaft(index)),
+        ]
+    };
+    let matches = [
+        ("same resonance and antiresonance".to_owned(), Match::ResonanceAntiresonance),
+        ("first mode kept exactly".to_owned(), Match::ModalTruncation),
+    ];
+    let all = matches.into_iter().chain(shafts.iter().enumerate().flat_map(cut));
+    let reduced = |(by, how): (String, Match)| {
+        let two = machine.chain.try_reduce(how).ok()?;
+        Some(Reduction {
+            by,
+            motor_inertia: two.motor_inertia,
+            load_inertia: two.load_inertia,
+            stiffness: two.stiffness,
+            damping: two.damping,
+            resonance_error: two.error.resonance,
+            antiresonance_error: two.error.antiresonance,
+            compliance_error: two.error.compliance,
+            next_mode: two.error.next_mode.is_finite().then_some(two.error.next_mode),
+            next_share: two.error.next_share,
+            worst: two.error.worst,
+        })
+    };
+    all.filter_map(reduced).collect()
+}
+
+/// Names of the masses and of the shafts between them, from the labels of the elements.
+fn names(machine: &MachineFile) -> (Vec<String>, Vec<String>) {
+    let (mut masses, mut shafts): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+    let join = |names: &mut Vec<String>, index: usize, label: &str| {
+        if names.len() <= index {
+            names.resize(index + 1, String::new());
+        }
+        let name = &mut names[index];
+        if !name.is_empty() {
+            name.push_str(" + ");
+        }
+        name.push_str(label);
+    };
+    let mut chain = machine.chain;
+    for part in &machine.elements {
+        // The whole chain was built of these elements, so each of them can follow.
+        chain = part.element.follow(chain).unwrap_or(chain);
+        let last = chain.masses().len() - 1;
+        match part.element {
+            Written::Motor { .. } | Written::Rotor { .. } | Written::Lifted { .. } | Written::Driven { .. } => {
+                join(&mut masses, last, &part.label);
+            }
+            Written::Shaft { .. } | Written::Rope { .. } => join(&mut shafts, last - 1, &part.label),
+            Written::Gear { .. } | Written::Drum { .. } | Written::Backlash { .. } => {}
+        }
+    }
+    (masses, shafts)
+}

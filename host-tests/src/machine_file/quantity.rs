@@ -1,0 +1,113 @@
+//! The ranges that a number in a machine file may lie in.
+//!
+//! The bounds are wide on purpose: they refuse what no machine has (and what would overflow a product of a few
+//! quantities), not what is unusual.
+
+use std::fmt;
+
+/// A physical quantity: its unit and the numbers it may take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// Unit as it is written in a message; empty for a pure number.
+    pub unit: &'static str,
+    /// Smallest number allowed.
+    pub least: f64,
+    /// Largest number allowed.
+    pub most: f64,
+    /// Zero is allowed although it lies below `least`.
+    pub zero: bool,
+    /// Only whole numbers are allowed.
+    pub whole: bool,
+}
+
+/// Twelve decades either side of one SI unit: a watch's balance wheel has 1e-9 kg m2, a tanker 3e8 kg; products of four
+/// such numbers stay within the range of `f64`.
+const FAR: f64 = 1e12;
+
+const fn positive(unit: &'static str) -> Quantity {
+    Quantity { unit, least: 1.0 / FAR, most: FAR, zero: false, whole: false }
+}
+
+const fn not_negative(unit: &'static str) -> Quantity {
+    Quantity { zero: true, ..positive(unit) }
+}
+
+impl Quantity {
+    /// Moment of inertia.
+    pub const INERTIA: Self = positive("kg m²");
+    /// Torsional stiffness.
+    pub const STIFFNESS: Self = positive("N m/rad");
+    /// Torsional damping.
+    pub const DAMPING: Self = not_negative("N m s/rad");
+    /// Stiffness of a rope at the load, all falls together.
+    pub const ROPE_STIFFNESS: Self = positive("N/m");
+    /// Damping of a rope at the load, all falls together.
+    pub const ROPE_DAMPING: Self = not_negative("N s/m");
+    /// Mass.
+    pub const MASS: Self = positive("kg");
+    /// Diameter; a kilometre is more than any drum has.
+    pub const DIAMETER: Self = Quantity { least: 1e-6, most: 1e3, ..positive("m") };
+    /// Speed of the motor's side over speed of the load's side.
+    pub const RATIO: Self = Quantity { least: 1e-6, most: 1e6, ..positive("") };
+    /// Share of the power that passes.
+    pub const EFFICIENCY: Self = Quantity { least: 1e-3, most: 1.0, ..positive("") };
+    /// Falls of rope that carry the load.
+    pub const FALLS: Self = Quantity { least: 1.0, most: 64.0, whole: true, ..positive("") };
+    /// Whole angle of a gap between its two flanks; more than a turn is not a gap.
+    pub const GAP: Self = Quantity { most: std::f64::consts::TAU, ..not_negative("rad") };
+    /// Lines of an encoder on a turn; four counts a line fit the 2^32 of an angle word.
+    pub const LINES: Self = Quantity { least: 1.0, most: 1_073_741_824.0, whole: true, ..positive("") };
+    /// Control ticks a second.
+    pub const RATE: Self = Quantity { least: 1.0, most: 10_000_000.0, whole: true, ..positive("Hz") };
+    /// Torque.
+    pub const TORQUE: Self = positive("N m");
+    /// Speed.
+    pub const SPEED: Self = positive("rad/s");
+    /// Time.
+    pub const TIME: Self = positive("s");
+
+    /// Whether a number is one of this quantity's.
+    pub fn allows(self, number: f64) -> bool {
+        let within = number >= self.least && number <= self.most || self.zero && number == 0.0;
+        within && (!self.whole || number.fract() == 0.0)
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kind = if self.whole { "a whole number" } else { "a number" };
+        let zero = if self.zero { "zero or " } else { "" };
+        write!(f, "{kind}, {zero}{} to {}", Short(self.least), Short(self.most))?;
+        if self.unit.is_empty() { Ok(()) } else { write!(f, " {}", self.unit) }
+    }
+}
+
+/// A number as people write it: plain where that is short, with an exponent elsewhere.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size != 0.0 && !(1e-3..1e6).contains(&size) {
+            write!(f, "{:e}", self.0)
+        } else {
+            write!(f, "{}", (self.0 * 1e3).round() / 1e3)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Quantity;
+
+    #[test]
+    fn ranges_refuse_what_no_machine_has() {
+        for absurd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, 1e300, 1e-300] {
+            assert!(!Quantity::INERTIA.allows(absurd), "{absurd}");
+        }
+        assert!(Quantity::DAMPING.allows(0.0));
+        assert!(!Quantity::DAMPING.allows(-0.1));
+        assert!(!Quantity::FALLS.allows(2.5));
+        assert!(!Quantity::EFFICIENCY.allows(1.01));
+    }
+}

@@ -1,0 +1,167 @@
+//! From a path or a text to a machine.
+
+use std::fs::File;
+use std::io::Read;
+use std::ops::Range;
+use std::path::Path;
+
+use driveline::machine::{Chain, Inertia};
+use toml::de::DeTable;
+
+use super::diagnostic::Diagnostic;
+use super::quantity::Quantity;
+use super::source::{Source, printable};
+use super::table::Table;
+use super::{Control, Disturbance, Element, Encoder, Limits, MachineFile, Part};
+
+/// Largest machine file in bytes: a thousand times what the longest chain needs.
+pub const LARGEST: u64 = 1 << 20;
+
+/// What a name may be.
+const NAME: &str = "a name of 1 to 40 letters, digits, spaces, `-` and `_`, with a letter or digit among them";
+
+/// Reads a machine from a file.
+///
+/// # Errors
+/// A [`Diagnostic`] with the place, the key, what was found and what was expected.
+pub fn read(path: &Path) -> Result<MachineFile, Diagnostic> {
+    let name = printable(&path.display().to_string(), 200);
+    let file =
+        |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), "a machine file");
+    let mut bytes = Vec::new();
+    // The limit holds for what has no length too, a device or a pipe.
+    File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes)).map_err(file)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(Diagnostic::of_file(&name, "more than 1 MiB", "a machine file of at most 1 MiB"));
+    }
+    match std::str::from_utf8(&bytes) {
+        Ok(text) => parse(&name, text),
+        Err(error) => {
+            let text = String::from_utf8_lossy(&bytes);
+            let at = error.valid_up_to();
+            // Up to the first bad byte the lossy text is the same as the bytes.
+            let source = Source { name: &name, text: &text };
+            let found = format!("the byte 0x{:02x}, which is not UTF-8", bytes[at]);
+            Err(Diagnostic::at(source, at..at + 1, "", found, "a text file in TOML"))
+        }
+    }
+}
+
+/// Reads a machine from a text; `name` is what messages call it.
+///
+/// # Errors
+/// A [`Diagnostic`] with the place, the key, what was found and what was expected.
+pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
+    let source = Source { name, text };
+    if text.trim().is_empty() {
+        return Err(Diagnostic::of_file(
+            name,
+            "an empty file",
+            "a machine: `name`, [[element]] tables and the settings",
+        ));
+    }
+    let document = DeTable::parse(text).map_err(|error| not_toml(source, &error))?;
+    let mut root = Table::root(source, document.get_ref());
+
+    let machine_name = root.text("name", NAME)?;
+    let allowed = |c: char| c.is_ascii_alphanumeric() || " -_".contains(c);
+    let named =
+        machine_name.len() <= 40 && machine_name.chars().all(allowed) && machine_name.contains(char::is_alphanumeric);
+    if !named {
+        return Err(root.wrong("name", NAME));
+    }
+    let (elements, chain) = elements(source, &mut root)?;
+    let encoder = section(&mut root, "encoder", |table| {
+        // `LINES` and `RATE` allow whole numbers within `u32` only.
+        Ok(Encoder { lines: table.number("lines", Quantity::LINES)? as u32 })
+    })?;
+    let control = section(&mut root, "control", |table| {
+        Ok(Control { rate_hz: table.number("rate_hz", Quantity::RATE)? as u32 })
+    })?;
+    let disturbance = section(&mut root, "disturbance", |table| {
+        Ok(Disturbance {
+            torque_accuracy: table.number("torque_accuracy", Quantity::TORQUE)?,
+            load_torque_step: table.number("load_torque_step", Quantity::TORQUE)?,
+            within: table.number("within", Quantity::TIME)?,
+        })
+    })?;
+    let limits = section(&mut root, "limits", |table| {
+        Ok(Limits { torque: table.number("torque", Quantity::TORQUE)?, speed: table.number("speed", Quantity::SPEED)? })
+    })?;
+    root.finish()?;
+    Ok(MachineFile { name: machine_name.to_owned(), elements, encoder, control, disturbance, limits, chain })
+}
+
+/// Reads a table of settings, all of its keys.
+fn section<T>(
+    root: &mut Table<'_>,
+    key: &'static str,
+    read: impl FnOnce(&mut Table<'_>) -> Result<T, Diagnostic>,
+) -> Result<T, Diagnostic> {
+    let mut table = root.table(key)?;
+    let settings = read(&mut table)?;
+    table.finish()?;
+    Ok(settings)
+}
+
+/// Reads the elements and puts them together, so that what cannot follow is reported at its own place.
+fn elements(source: Source<'_>, root: &mut Table<'_>) -> Result<(Vec<Part>, Chain), Diagnostic> {
+    let mut parts: Vec<Part> = Vec::new();
+    let mut chain: Option<Chain> = None;
+    let mut last: Range<usize> = 0..0;
+    for (index, (span, mut table)) in root.tables("element")?.into_iter().enumerate() {
+        let at = |found: String, expected: &str| {
+            Diagnostic::at(source, span.clone(), format!("element[{index}]"), found, expected)
+        };
+        let label = label(&mut table)?;
+        let element = Element::read(table)?;
+        let kind = element.kind();
+        let longer = match (element, chain) {
+            (Element::Motor { .. }, Some(_)) => {
+                return Err(at("a second motor".to_owned(), "one motor only, as the first element"));
+            }
+            (Element::Motor { inertia }, None) => Chain::try_motor(Inertia(inertia)),
+            (_, None) => return Err(at(format!("a {kind} before the motor"), "the motor as the first element")),
+            (element, Some(chain)) => element.follow(chain),
+        };
+        let refused = |error: driveline::machine::Error| {
+            at(format!("a {kind} that cannot stand here ({error})"), "an element that can follow those before it")
+        };
+        chain = Some(longer.map_err(refused)?);
+        let same = parts.iter().filter(|part| part.element.kind() == kind).count();
+        let label = label.unwrap_or_else(|| if same == 0 { kind.to_owned() } else { format!("{kind} {}", same + 1) });
+        parts.push(Part { label, element });
+        last = span;
+    }
+    let key = format!("element[{}]", parts.len().saturating_sub(1));
+    let Some(chain) = chain else {
+        return Err(Diagnostic::at(source, last, key, "no element", "the motor as the first element"));
+    };
+    let kind = parts.last().map_or("motor", |part| part.element.kind());
+    let ended = |error: driveline::machine::Error| {
+        let found = format!("a chain that ends in a {kind} ({error})");
+        Diagnostic::at(source, last, key, found, "a rotor, a lifted or a driven mass as the last element")
+    };
+    chain.check().map_err(ended)?;
+    Ok((parts, chain))
+}
+
+/// An element's label, if it has one.
+fn label(table: &mut Table<'_>) -> Result<Option<String>, Diagnostic> {
+    const LABEL: &str = "a label of 1 to 24 printable characters";
+    let Some(label) = table.text_if("label", LABEL)? else { return Ok(None) };
+    let printable = !label.trim().is_empty() && label.chars().count() <= 24 && !label.chars().any(char::is_control);
+    if printable { Ok(Some(label.to_owned())) } else { Err(table.wrong("label", LABEL)) }
+}
+
+/// A fault of the TOML itself, with the key of its line where there is one.
+fn not_toml(source: Source<'_>, error: &toml::de::Error) -> Diagnostic {
+    let span = error.span().unwrap_or(0..0);
+    let line = source.line(span.start);
+    let key = line.split_once('=').map_or("", |(key, _)| key.trim());
+    let key = if key.chars().all(|c| c.is_alphanumeric() || "_-.".contains(c)) { key } else { "" };
+    let found = source.excerpt(span.clone());
+    let found = if found.is_empty() { "nothing more".to_owned() } else { format!("`{}`", printable(&found, 40)) };
+    let reason = error.message().lines().next().unwrap_or("").trim();
+    Diagnostic::at(source, span, printable(key, 40), found, format!("TOML ({})", printable(reason, 160)))
+}

@@ -1,0 +1,178 @@
+//! A TOML table read key by key, so that every fault has its place and its key.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::diagnostic::Diagnostic;
+use super::quantity::Quantity;
+use super::source::{Source, printable};
+
+/// Longest value that a message repeats, in characters.
+const REPEATED: usize = 40;
+
+/// A table being read: which keys were asked for, and where it stands.
+pub struct Table<'a> {
+    source: Source<'a>,
+    table: &'a DeTable<'a>,
+    /// Where a missing key is reported.
+    place: Range<usize>,
+    /// Path of the table, as `element[2]`; empty for the file itself.
+    path: String,
+    asked: Vec<&'static str>,
+}
+
+impl<'a> Table<'a> {
+    /// The file's outermost table.
+    pub fn root(source: Source<'a>, table: &'a DeTable<'a>) -> Self {
+        Self { source, table, place: 0..0, path: String::new(), asked: Vec::new() }
+    }
+
+    fn name(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+
+    fn get(&mut self, key: &'static str) -> Option<&'a Spanned<DeValue<'a>>> {
+        self.asked.push(key);
+        self.table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value)
+    }
+
+    fn missing(&self, key: &str, expected: impl std::fmt::Display) -> Diagnostic {
+        Diagnostic::at(self.source, self.place.clone(), self.name(key), "nothing", format!("`{key}`: {expected}"))
+    }
+
+    /// The diagnostic for a key's value that is not what was expected.
+    pub fn wrong(&self, key: &str, expected: impl Into<String>) -> Diagnostic {
+        match self.table.iter().find(|(name, _)| name.get_ref() == key) {
+            Some((_, value)) => {
+                Diagnostic::at(self.source, value.span(), self.name(key), describe(value.get_ref()), expected)
+            }
+            None => self.missing(key, expected.into()),
+        }
+    }
+
+    /// A number that must be there.
+    ///
+    /// # Errors
+    /// Missing, not a number, or out of the quantity's range.
+    pub fn number(&mut self, key: &'static str, quantity: Quantity) -> Result<f64, Diagnostic> {
+        match self.get(key) {
+            Some(value) => self.in_range(key, value, quantity),
+            None => Err(self.missing(key, quantity)),
+        }
+    }
+
+    /// A number with a default where the key is missing.
+    ///
+    /// # Errors
+    /// Not a number, or out of the quantity's range.
+    pub fn number_or(&mut self, key: &'static str, quantity: Quantity, default: f64) -> Result<f64, Diagnostic> {
+        match self.get(key) {
+            Some(value) => self.in_range(key, value, quantity),
+            None => Ok(default),
+        }
+    }
+
+    fn in_range(&self, key: &str, value: &Spanned<DeValue<'_>>, quantity: Quantity) -> Result<f64, Diagnostic> {
+        number(value.get_ref())
+            .filter(|&number| quantity.allows(number))
+            .ok_or_else(|| self.wrong(key, quantity.to_string()))
+    }
+
+    /// A text that must be there.
+    ///
+    /// # Errors
+    /// Missing or not a text.
+    pub fn text(&mut self, key: &'static str, expected: &str) -> Result<&'a str, Diagnostic> {
+        match self.get(key) {
+            Some(value) => value.get_ref().as_str().ok_or_else(|| self.wrong(key, expected)),
+            None => Err(self.missing(key, expected)),
+        }
+    }
+
+    /// A text that may be left out.
+    ///
+    /// # Errors
+    /// Not a text.
+    pub fn text_if(&mut self, key: &'static str, expected: &str) -> Result<Option<&'a str>, Diagnostic> {
+        let Some(value) = self.get(key) else { return Ok(None) };
+        value.get_ref().as_str().map(Some).ok_or_else(|| self.wrong(key, expected))
+    }
+
+    /// A table that must be there.
+    ///
+    /// # Errors
+    /// Missing or not a table.
+    pub fn table(&mut self, key: &'static str) -> Result<Table<'a>, Diagnostic> {
+        let expected = format!("a table [{key}]");
+        let Some(value) = self.get(key) else {
+            return Err(self.missing(key, expected));
+        };
+        let table = value.get_ref().as_table().ok_or_else(|| self.wrong(key, expected))?;
+        let (source, path) = (self.source, self.name(key));
+        Ok(Table { source, table, place: value.span(), path, asked: Vec::new() })
+    }
+
+    /// A list of tables that must be there: each with the span of its heading.
+    ///
+    /// # Errors
+    /// Missing, empty, or not a list of tables.
+    pub fn tables(&mut self, key: &'static str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
+        let expected = format!("one table [[{key}]] for each part of the machine, the motor first");
+        let Some(value) = self.get(key) else {
+            return Err(self.missing(key, expected));
+        };
+        let list = value.get_ref().as_array().filter(|list| !list.is_empty());
+        let list = list.ok_or_else(|| self.wrong(key, expected.clone()))?;
+        let read = |(index, item): (usize, &'a Spanned<DeValue<'a>>)| {
+            let path = format!("{key}[{index}]");
+            let Some(table) = item.get_ref().as_table() else {
+                return Err(Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), expected.clone()));
+            };
+            Ok((item.span(), Table { source: self.source, table, place: item.span(), path, asked: Vec::new() }))
+        };
+        list.iter().enumerate().map(read).collect()
+    }
+
+    /// Ends the reading: a key that nobody asked for is a fault.
+    ///
+    /// # Errors
+    /// The first unknown key in the order of the text.
+    pub fn finish(self) -> Result<(), Diagnostic> {
+        let unknown = |name: &&Spanned<toml::de::DeString<'_>>| !self.asked.contains(&name.get_ref().as_ref());
+        let Some(first) = self.table.keys().filter(unknown).min_by_key(|name| name.span().start) else {
+            return Ok(());
+        };
+        let key = printable(first.get_ref(), REPEATED);
+        let known: Vec<String> = self.asked.iter().map(|key| format!("`{key}`")).collect();
+        let expected = format!("only {}", known.join(", "));
+        Err(Diagnostic::at(self.source, first.span(), self.name(&key), "an unknown key", expected))
+    }
+}
+
+/// A TOML integer or float as `f64`; out of range is infinite.
+fn number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+        DeValue::Integer(integer) => {
+            Some(i128::from_str_radix(integer.as_str(), integer.radix()).map_or(f64::INFINITY, |whole| whole as f64))
+        }
+        _ => None,
+    }
+}
+
+/// A value in the words of a message.
+fn describe(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::Integer(integer) => printable(&integer.to_string(), REPEATED),
+        DeValue::Float(float) => printable(float.as_str(), REPEATED),
+        DeValue::String(text) => format!("the text \"{}\"", printable(text, REPEATED)),
+        DeValue::Boolean(truth) => truth.to_string(),
+        DeValue::Datetime(date) => format!("the date {date}"),
+        DeValue::Array(list) if list.is_empty() => "an empty list".to_owned(),
+        DeValue::Array(_) => "a list".to_owned(),
+        DeValue::Table(_) => "a table".to_owned(),
+    }
+}

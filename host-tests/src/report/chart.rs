@@ -1,0 +1,18 @@
+//! The plots of the report, each from its data to an `<svg>` element.
+
+mod compare;
+mod cost;
+mod course;
+mod heat;
+mod label;
+mod pareto;
+mod response;
+mod shape;
+
+pub use compare::step_errors;
+pub use cost::{Cost, Quality, error_against_cost};
+pub use course::course;
+pub use heat::{CLASSES, heat_map};
+pub use pareto::front;
+pub use response::{Response, response};
+pub use shape::{Station, mode_shape};

@@ -1,0 +1,162 @@
+//! The figures of a run: what each variant got wrong and what it cost.
+
+use serde::{Deserialize, Serialize};
+
+/// Root mean square and largest absolute value of an error, as a fraction: of the peak for a torque, of the rated speed for a
+/// speed. A value that is not finite stands for an estimate that diverged; JSON writes it as `null`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Deviation {
+    /// Root mean square over the run.
+    #[serde(with = "diverged_as_null")]
+    pub rms: f64,
+    /// Largest absolute value over the run.
+    #[serde(with = "diverged_as_null")]
+    pub max: f64,
+}
+
+/// Instructions of one tick over the inputs of the run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Instructions {
+    /// Fewest.
+    pub min: u64,
+    /// Median.
+    pub median: u64,
+    /// Most: the worst path.
+    pub max: u64,
+}
+
+/// One variant of a scene: how wrong it was and what it cost. The fields are those that `run --json` prints.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Variant {
+    /// Number type: `f32` or `fixed`.
+    pub number: String,
+    /// Core: `m4f` or `m3`.
+    pub core: String,
+    /// Observer: `rigid`, `cut`, `reduced` and so on.
+    pub observer: String,
+    /// Control ticks a second.
+    pub rate_hz: u32,
+    /// Error of the shaft torque, of its peak.
+    pub shaft_torque: Deviation,
+    /// Error of the load speed, of the rated speed.
+    pub load_speed: Deviation,
+    /// Error of the load torque, of its peak.
+    pub load_torque: Deviation,
+    /// Instructions of a tick, counted exactly.
+    pub instructions: Instructions,
+    /// Cycles of a tick, estimated from the instruction mix.
+    pub cycles_estimate: u64,
+    /// Flash of the tick's code and constants.
+    pub flash_bytes: u64,
+    /// RAM of the drive's state.
+    pub ram_bytes: u64,
+    /// Deepest stack of the tick.
+    pub stack_bytes: u64,
+    /// Host and target agreed bit for bit over the whole run.
+    pub bit_exact: bool,
+    /// Ticks of the run.
+    pub ticks: u64,
+}
+
+impl Variant {
+    /// Instructions a second at the worst path.
+    pub fn instructions_per_second(&self) -> f64 {
+        self.instructions.max as f64 * f64::from(self.rate_hz)
+    }
+
+    /// The variant in a line: `f32 · m4f · reduced · 10 kHz`.
+    pub fn label(&self) -> String {
+        format!("{} · {} · {} · {}", self.number, self.core, self.observer, super::format::rate(self.rate_hz))
+    }
+}
+
+/// The observer computed on the host with another step: the exact one's worth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Comparison {
+    /// Step: `exact`, `semi-implicit`, `Tustin`, `forward Euler`.
+    pub step: String,
+    /// Observer it was put into.
+    pub observer: String,
+    /// Ticks a second.
+    pub rate_hz: u32,
+    /// Error of the shaft torque, of its peak.
+    pub shaft_torque: Deviation,
+    /// Error of the load speed, of the rated speed.
+    pub load_speed: Deviation,
+    /// Error of the load torque, of its peak.
+    pub load_torque: Deviation,
+}
+
+/// Flash and RAM of a drive composed in one way, by section of the image, over the image without a drive.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Composition {
+    /// What it is composed of: `rigid`, `two-mass`, `full`.
+    pub name: String,
+    /// Number type.
+    pub number: String,
+    /// Core.
+    pub core: String,
+    /// Code \[byte\].
+    pub text_bytes: u64,
+    /// Constants \[byte\].
+    pub rodata_bytes: u64,
+    /// Initialised data \[byte\]: in flash and in RAM.
+    pub data_bytes: u64,
+    /// Zeroed data \[byte\].
+    pub bss_bytes: u64,
+}
+
+impl Composition {
+    /// Flash \[byte\].
+    pub const fn flash(&self) -> u64 {
+        self.text_bytes + self.rodata_bytes + self.data_bytes
+    }
+
+    /// RAM \[byte\].
+    pub const fn ram(&self) -> u64 {
+        self.data_bytes + self.bss_bytes
+    }
+}
+
+/// A budget and what was measured against it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Budget {
+    /// What is bounded: `instructions, exact step, m4f f32`.
+    pub name: String,
+    /// Unit of both numbers: `instructions`, `byte`, `%`; empty for a pure number.
+    pub unit: String,
+    /// What was measured.
+    #[serde(with = "diverged_as_null")]
+    pub measured: f64,
+    /// The most that is allowed.
+    pub limit: f64,
+}
+
+impl Budget {
+    /// Whether the budget is kept; what is not finite is not.
+    pub fn kept(&self) -> bool {
+        self.measured <= self.limit
+    }
+}
+
+/// A fact of the machine or the run, as a name and a value with its unit.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Fact {
+    /// Name.
+    pub name: String,
+    /// Value with its unit.
+    pub value: String,
+}
+
+/// JSON has no infinity: what diverged is `null`, and comes back as infinite.
+pub(super) mod diverged_as_null {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        if value.is_finite() { serializer.serialize_f64(*value) } else { serializer.serialize_none() }
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::<f64>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    }
+}
