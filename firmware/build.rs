@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The variant of an image that was asked for without naming one.
-const DEFAULT_VARIANT: &str = "placeholder/f32/rigid/10000";
+const DEFAULT_VARIANT: &str = "hoist/f32/reduced/10000";
 
 fn main() {
     let variant = env::var("DRIVELINE_VARIANT").unwrap_or_else(|_| DEFAULT_VARIANT.into());

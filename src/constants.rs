@@ -7,6 +7,7 @@
 mod bases;
 mod convert;
 mod format;
+mod geared;
 mod governor;
 mod limits;
 mod observer;

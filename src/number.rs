@@ -56,6 +56,9 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// Whether the magnitude is beyond `limit`, or not a number at all.
     fn exceeds(self, limit: Self) -> bool;
 
+    /// The number without its sign.
+    fn magnitude(self) -> Self;
+
     /// An angle difference, from 2^-32 turns.
     fn from_angle(turned: i32) -> Self;
     /// A sum of speeds and twists as an angle difference.

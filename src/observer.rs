@@ -10,6 +10,8 @@
 //! | [`TwoMass`] | mean speed, twist rate, twist, load torque | any stiffness, any tick rate |
 //! | [`SemiImplicit`] | motor speed, load speed, shaft torque, load torque | soft shafts sampled fast |
 //!
+//! [`Geared`] puts any of them behind a gear with losses.
+//!
 //! # The angle
 //! No observer stores the angle it estimates. It stores the last measured angle as a `u32` of 2^32 per turn, and its
 //! own distance from that as a number, the *residual*: the innovation is the wrapped difference of two measured
@@ -20,10 +22,12 @@
 //! *Base*: what a fixed-point number is a fraction of. *Coast*: a tick without a usable angle, by prediction
 //! alone. *Innovation*: measured less predicted motor angle [2^-32 turn].
 
+mod geared;
 mod rigid;
 mod semi_implicit;
 mod two_mass;
 
+pub use geared::{Geared, GearedConfig};
 pub use rigid::{Rigid, RigidConfig, RigidPrediction};
 pub use semi_implicit::{SemiImplicit, SemiImplicitConfig, SemiImplicitPrediction};
 pub use two_mass::{TwoMass, TwoMassConfig, TwoMassPrediction};

@@ -5,7 +5,7 @@ use driveline::{
     governor::*,
     machine::*,
     number::Number,
-    observer::{TwoMass as Exact, TwoMassConfig},
+    observer::{Geared, GearedConfig, TwoMass as Exact, TwoMassConfig},
     sample::Sample,
 };
 use driveline_firmware::{
@@ -15,8 +15,8 @@ use driveline_firmware::{
 };
 use host_tests::run::{closed_loop::*, hoist, units::Units};
 struct D {
-    c: ConfigOf<f32, Exact<f32>, (), SpeedLoop<f32>>,
-    d: Drive<f32, Exact<f32>, (), SpeedLoop<f32>>,
+    c: ConfigOf<f32, Geared<Exact<f32>>, (), SpeedLoop<f32>>,
+    d: Drive<f32, Geared<Exact<f32>>, (), SpeedLoop<f32>>,
 }
 impl Ticks for D {
     fn tick(&mut self, i: &Input) -> std::io::Result<Output> {
@@ -76,7 +76,12 @@ fn main() {
                     standstill: 0.0015,
                     missed: 200,
                 }),
-                observer: TwoMassConfig::<f32>::new(&d),
+                observer: GearedConfig::<f32, _>::new(
+                    TwoMassConfig::<f32>::new(&d),
+                    Efficiency(0.94),
+                    0.7,
+                    1.0 / rate as f64,
+                ),
                 fluctuation: (),
                 governor: SpeedLoopConfig::<f32>::new(
                     &g,

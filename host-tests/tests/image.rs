@@ -12,7 +12,7 @@ const LIMIT: Duration = Duration::from_secs(60);
 #[test]
 fn ten_and_a_thousand_nops_count_as_ten_and_a_thousand() {
     for &board in BOARDS {
-        let image = build("placeholder/fixed/rigid/10000", board, Program::Bench, |_| {}).unwrap();
+        let image = build("hoist/fixed/rigid/10000", board, Program::Bench, |_| {}).unwrap();
         let lines = link::run(&image, LIMIT).unwrap().lines;
         for (name, expected) in [("nops/10", 10), ("nops/1000", 1000)] {
             let line = lines.iter().find(|line| line["bench"] == name).unwrap();
@@ -25,7 +25,7 @@ fn ten_and_a_thousand_nops_count_as_ten_and_a_thousand() {
 
 #[test]
 fn the_self_test_gives_the_hosts_fingerprint() {
-    for variant in ["placeholder/f32/rigid/10000", "placeholder/fixed/rigid/10000"] {
+    for variant in ["hoist/f32/rigid/10000", "hoist/fixed/rigid/10000"] {
         for &board in BOARDS {
             self_test(variant, board).unwrap();
         }
@@ -48,7 +48,7 @@ fn each_variant_keeps_an_image_of_its_own() {
         (image.path.clone(), Contents::read(&image.path).unwrap())
     };
     let (empty_path, empty) = read("empty/f32/none/10000");
-    let (single_path, single) = read("placeholder/f32/rigid/10000");
+    let (single_path, single) = read("hoist/f32/rigid/10000");
     assert_ne!(empty_path, single_path);
     assert_eq!(Contents::read(&empty_path).unwrap().sizes, empty.sizes);
     // on a core without an FPU the tick calls software floating point: its code is more than its own function
@@ -64,7 +64,7 @@ fn each_variant_keeps_an_image_of_its_own() {
 
 #[test]
 fn a_cost_is_the_images_and_the_runs() {
-    let cost = Cost::measure("placeholder/fixed/rigid/10000", BOARDS[0], |_| {}).unwrap();
+    let cost = Cost::measure("hoist/fixed/rigid/10000", BOARDS[0], |_| {}).unwrap();
     let spread = cost.instructions;
     assert!(0 < spread.min && spread.min <= spread.median && spread.median <= spread.max, "{spread:?}");
     assert_eq!(cost.state, 8);

@@ -71,10 +71,10 @@ fn outputs_are_those_of_the_host_bit_for_bit() {
 
 #[test]
 fn two_runs_take_the_same_instructions() {
-    let inputs = visit("placeholder/f32/rigid/10000", OnHost(7, 2000)).unwrap();
+    let inputs = visit("hoist/f32/rigid/10000", OnHost(7, 2000)).unwrap();
     let m3 = board("m3").unwrap();
-    let first = run("placeholder/f32/rigid/10000", m3, &inputs);
-    assert_eq!(first, run("placeholder/f32/rigid/10000", m3, &inputs));
+    let first = run("hoist/f32/rigid/10000", m3, &inputs);
+    assert_eq!(first, run("hoist/f32/rigid/10000", m3, &inputs));
     let counts: Vec<_> = first.0.iter().map(|output| output.instructions).collect();
     // software floating point takes longer for some operands than for others
     assert!(counts.iter().min() < counts.iter().max());
@@ -94,10 +94,10 @@ fn a_scene_that_does_nothing_uses_one_frame_and_writes_eight_words() {
 
 #[test]
 fn two_links_run_at_once() {
-    let inputs = visit("placeholder/fixed/rigid/10000", OnHost(3, 2000)).unwrap();
-    let alone = run("placeholder/fixed/rigid/10000", BOARDS[0], &inputs);
+    let inputs = visit("hoist/fixed/rigid/10000", OnHost(3, 2000)).unwrap();
+    let alone = run("hoist/fixed/rigid/10000", BOARDS[0], &inputs);
     thread::scope(|scope| {
-        let both = [0, 1].map(|_| scope.spawn(|| run("placeholder/fixed/rigid/10000", BOARDS[0], &inputs)));
+        let both = [0, 1].map(|_| scope.spawn(|| run("hoist/fixed/rigid/10000", BOARDS[0], &inputs)));
         for one in both {
             assert_eq!(one.join().unwrap(), alone);
         }
@@ -131,8 +131,8 @@ fn a_qemu_that_dies_is_an_error_that_names_image_and_tick() {
 #[test]
 fn rate_of_round_trips() {
     const TICKS: usize = 50_000;
-    let inputs = visit("placeholder/f32/rigid/10000", OnHost(5, TICKS)).unwrap();
-    let image = build("placeholder/f32/rigid/10000", BOARDS[0], Program::ControlLoop, |_| {}).unwrap();
+    let inputs = visit("hoist/f32/rigid/10000", OnHost(5, TICKS)).unwrap();
+    let image = build("hoist/f32/rigid/10000", BOARDS[0], Program::ControlLoop, |_| {}).unwrap();
     let mut link = Link::start(&image).unwrap();
     link.exchange(&inputs[0].0).unwrap();
     let started = Instant::now();

@@ -11,7 +11,7 @@ use host_tests::link;
 #[test]
 fn logged_frames_are_decoded_with_the_image_itself() {
     for &board in BOARDS {
-        let image = build("placeholder/f32/rigid/10000", board, Program::Log, |_| {}).unwrap();
+        let image = build("hoist/f32/rigid/10000", board, Program::Log, |_| {}).unwrap();
         // ten thousand ticks take a fraction of a second
         let log = link::run(&image, Duration::from_secs(60)).unwrap().log;
         let table = Table::parse(&fs::read(&image.path).unwrap()).unwrap().unwrap();
@@ -21,7 +21,7 @@ fn logged_frames_are_decoded_with_the_image_itself() {
         while let Ok(frame) = decoder.decode() {
             messages.push(frame.display_message().to_string());
         }
-        assert_eq!(messages.first(), Some(&format!("placeholder/f32/rigid/10000 on {}", board.name)));
+        assert_eq!(messages.first(), Some(&format!("hoist/f32/rigid/10000 on {}", board.name)));
         assert_eq!(messages.last().map(String::as_str), Some("10000 ticks"));
     }
 }

@@ -169,6 +169,11 @@ impl Number for Fixed {
     }
 
     #[inline(always)]
+    fn magnitude(self) -> Self {
+        Fixed(self.0.wrapping_abs())
+    }
+
+    #[inline(always)]
     fn from_angle(turned: i32) -> Self {
         Fixed(turned)
     }

@@ -80,6 +80,11 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn magnitude(self) -> Self {
+                self.abs()
+            }
+
+            #[inline(always)]
             fn from_angle(turned: i32) -> Self {
                 turned as $float
             }

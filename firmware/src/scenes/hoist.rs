@@ -1,26 +1,34 @@
 //! A bridge crane's hoist: 12 t on two falls of rope.
 //!
-//! A 116 kW, four-pole motor at 1480 r/min drives a 0.8 m drum through a gearbox of 31.5 and lifts 12 t at 0.97 m/s. On the motor's shaft
-//! sits the drum of the holding brake. The figures are of the size that makers' tables give for such a hoist (frame size 315
-//! motor, 0.6 kg m2; 13 m of two-fall 20 mm rope, about 0.9 MN/m at the load); they are not those of one machine.
+//! A 116 kW, four-pole motor at 1480 r/min drives a 0.8 m drum through a gearbox of 31.5 and lifts 12 t at 0.98 m/s. On the motor's shaft
+//! sits the drum of the holding brake. The rope's stiffness at the load is that of the hoist in Huang 1987 (2.87 MN/m for 8.7 t on two
+//! falls); inertias and efficiency are of the size that makers' tables give for such a motor (frame size 315, 0.6 kg m2) and a
+//! two-stage gearbox. They are not those of one machine.
+
+use core::marker::PhantomData;
 
 use driveline::constants::{Bases, Screening, SpeedLoopSettings};
-use driveline::design::{Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
-use driveline::drive::{Config, Limits};
-use driveline::governor::SpeedLoopConfig;
+use driveline::design::{
+    Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, StepChoice, TwoMassDesign,
+};
+use driveline::drive::{Config, ConfigOf, Limits};
+use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Match, Ratio, Stiffness, TwoMass,
 };
 use driveline::number::Fixed;
-use driveline::observer::{self, RigidConfig, SemiImplicitConfig, TwoMassConfig};
+use driveline::observer::{self, Geared, GearedConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
 
-use crate::governed::{Governed, Variant};
+use crate::governed::Variant;
+
+/// Efficiency of the gearbox.
+const EFFICIENCY: Efficiency = Efficiency(0.94);
 
 /// The machine, from the motor to the hook.
 pub const CHAIN: Chain = Chain::motor(Inertia(0.62))
     .shaft(Stiffness(5.0e4), Damping(2.0))
     .rotor(Inertia(0.08))
-    .gear(Ratio(31.5), Efficiency(0.94))
+    .gear(Ratio(31.5), EFFICIENCY)
     .drum(Diameter(0.8))
     .damped_rope(Falls(2), Stiffness(2.9e6), LinearDamping(3.6e3))
     .lifted(Mass(12_000.0));
@@ -44,11 +52,11 @@ pub const CUT: TwoMass = CHAIN.reduce(Match::TextbookShaft(1));
 pub const ENCODER: Encoder = Encoder::lines(2048);
 
 /// How the observer is tuned: the drive knows its torque to 1 % of rated in a tick, and the load may change by half a load in
-/// half a second.
+/// five seconds.
 pub const DISTURBANCE: Disturbance =
-    Disturbance { torque_accuracy: 0.01 * RATED_TORQUE, load_torque_step: 300.0, within: 0.5 };
+    Disturbance { torque_accuracy: 0.01 * RATED_TORQUE, load_torque_step: 375.0, within: 5.0 };
 
-/// Bases of fixed point: twice the largest torque in the shaft as in the motor, a third over rated speed.
+/// Bases of fixed point: twice the motor's largest torque, a third over rated speed.
 pub const BASES: Bases = Bases::new(&REDUCED, 2.0 * TORQUE_LIMIT, 1.34 * RATED_SPEED);
 
 /// Limits of what a sample can be: two thirds over the largest torque; 1/128 turn, which that torque does not move the motor before
@@ -83,190 +91,85 @@ pub const fn rigid(rate_hz: u32) -> RigidDesign {
 /// The load's share of the inertia.
 const LOAD_SHARE: f64 = REDUCED.load_inertia / (REDUCED.motor_inertia + REDUCED.load_inertia);
 
-macro_rules! config {
-    (f32, $rate:expr, $observer:expr) => {
+/// The design chooses the cheap step from 4 kHz on; a change that makes it too coarse stops here. At 1 kHz `Reduced` overrules the
+/// design, to show what that costs.
+const _: () = {
+    assert!(matches!(observer(&REDUCED, 10_000).chosen, StepChoice::SemiImplicit));
+    assert!(matches!(observer(&REDUCED, 4_000).chosen, StepChoice::SemiImplicit));
+};
+
+/// The observers that the hoist is tried with.
+pub mod with {
+    /// One mass.
+    pub struct Rigid;
+    /// Two masses by the textbook, exact step.
+    pub struct Cut;
+    /// Two masses by resonance and antiresonance, exact step: the design's choice overruled.
+    pub struct Exact;
+    /// Two masses by resonance and antiresonance, semi-implicit step: the design's choice.
+    pub struct Reduced;
+}
+
+/// The hoist with a number, an observer and a rate.
+pub struct Hoist<N, O, const RATE_HZ: u32>(PhantomData<(N, O)>);
+
+macro_rules! limits_and_governor {
+    (f32, $observer:expr) => {
         &Config {
-            limits: Limits::<f32>::new(&screening($rate)),
-            observer: $observer,
+            limits: Limits::<f32>::new(&screening(R)),
+            observer: GearedConfig::<f32, _>::new($observer, EFFICIENCY, REDUCED.motor_inertia, 1.0 / R as f64),
             fluctuation: (),
-            governor: SpeedLoopConfig::<f32>::new(&speed_loop($rate), SETTINGS),
+            governor: SpeedLoopConfig::<f32>::new(&speed_loop(R), SETTINGS),
             balancer: (),
         }
     };
-    (Fixed, $rate:expr, $observer:expr) => {
+    (Fixed, $observer:expr) => {
         &Config {
-            limits: Limits::<Fixed>::new(&screening($rate), BASES),
-            observer: $observer,
+            limits: Limits::<Fixed>::new(&screening(R), BASES),
+            observer: GearedConfig::<Fixed, _>::new(
+                $observer,
+                EFFICIENCY,
+                REDUCED.motor_inertia,
+                1.0 / R as f64,
+                BASES,
+            ),
             fluctuation: (),
-            governor: SpeedLoopConfig::<Fixed>::new(&speed_loop($rate), SETTINGS, BASES),
+            governor: SpeedLoopConfig::<Fixed>::new(&speed_loop(R), SETTINGS, BASES),
             balancer: (),
         }
     };
 }
 
 macro_rules! variant {
-    ($(#[$doc:meta])* $name:ident, $text:literal, $number:ident, $observer:ident, $rate:literal, $config:expr) => {
-        $(#[$doc])*
-        pub type $name = Governed<marker::$name>;
-
-        impl Variant for marker::$name {
+    ($with:ident, $text:literal, $number:ident, $observer:ident, $config:expr) => {
+        // Generic over the rate: the compiler designs only those that an image holds.
+        impl<const R: u32> Variant for Hoist<$number, with::$with, R> {
             type Number = $number;
-            type Observer = observer::$observer<$number>;
-            const NAME: &'static str = $text;
-            const RATE_HZ: u32 = $rate;
-            const CONFIG: &'static driveline::drive::ConfigOf<
-                $number,
-                observer::$observer<$number>,
-                (),
-                driveline::governor::SpeedLoop<$number>,
-            > = config!($number, $rate, $config);
+            type Observer = Geared<observer::$observer<$number>>;
+            const NAME: &'static str = match R {
+                1_000 => concat!("hoist/", $text, "/1000"),
+                4_000 => concat!("hoist/", $text, "/4000"),
+                10_000 => concat!("hoist/", $text, "/10000"),
+                _ => panic!("the hoist runs at 1000, 4000 or 10000 ticks a second"),
+            };
+            const RATE_HZ: u32 = R;
+            const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), SpeedLoop<$number>> =
+                limits_and_governor!($number, $config);
         }
     };
 }
-variant!(
-    /// Rigid, f32, 1000 Hz.
-    RigidSingle1000, "hoist/f32/rigid/1000", f32, Rigid, 1000,
-    RigidConfig::<f32>::new(&rigid(1000), LOAD_SHARE)
-);
-variant!(
-    /// Textbook cut, f32, 1000 Hz.
-    CutSingle1000, "hoist/f32/cut/1000", f32, TwoMass, 1000,
-    TwoMassConfig::<f32>::new(&observer(&CUT, 1000))
-);
-variant!(
-    /// Reduced, exact step, f32, 1000 Hz.
-    ExactSingle1000, "hoist/f32/exact/1000", f32, TwoMass, 1000,
-    TwoMassConfig::<f32>::new(&observer(&REDUCED, 1000))
-);
-variant!(
-    /// Reduced, semi-implicit step, f32, 1000 Hz.
-    ReducedSingle1000, "hoist/f32/reduced/1000", f32, SemiImplicit, 1000,
-    SemiImplicitConfig::<f32>::new(&observer(&REDUCED, 1000))
-);
-variant!(
-    /// Rigid, fixed, 1000 Hz.
-    RigidFixed1000, "hoist/fixed/rigid/1000", Fixed, Rigid, 1000,
-    RigidConfig::<Fixed>::new(&rigid(1000), LOAD_SHARE, BASES)
-);
-variant!(
-    /// Textbook cut, fixed, 1000 Hz.
-    CutFixed1000, "hoist/fixed/cut/1000", Fixed, TwoMass, 1000,
-    TwoMassConfig::<Fixed>::new(&observer(&CUT, 1000), BASES)
-);
-variant!(
-    /// Reduced, exact step, fixed, 1000 Hz.
-    ExactFixed1000, "hoist/fixed/exact/1000", Fixed, TwoMass, 1000,
-    TwoMassConfig::<Fixed>::new(&observer(&REDUCED, 1000), BASES)
-);
-variant!(
-    /// Reduced, semi-implicit step, fixed, 1000 Hz.
-    ReducedFixed1000, "hoist/fixed/reduced/1000", Fixed, SemiImplicit, 1000,
-    SemiImplicitConfig::<Fixed>::new(&observer(&REDUCED, 1000), BASES)
-);
-variant!(
-    /// Rigid, f32, 4000 Hz.
-    RigidSingle4000, "hoist/f32/rigid/4000", f32, Rigid, 4000,
-    RigidConfig::<f32>::new(&rigid(4000), LOAD_SHARE)
-);
-variant!(
-    /// Textbook cut, f32, 4000 Hz.
-    CutSingle4000, "hoist/f32/cut/4000", f32, TwoMass, 4000,
-    TwoMassConfig::<f32>::new(&observer(&CUT, 4000))
-);
-variant!(
-    /// Reduced, exact step, f32, 4000 Hz.
-    ExactSingle4000, "hoist/f32/exact/4000", f32, TwoMass, 4000,
-    TwoMassConfig::<f32>::new(&observer(&REDUCED, 4000))
-);
-variant!(
-    /// Reduced, semi-implicit step, f32, 4000 Hz.
-    ReducedSingle4000, "hoist/f32/reduced/4000", f32, SemiImplicit, 4000,
-    SemiImplicitConfig::<f32>::new(&observer(&REDUCED, 4000))
-);
-variant!(
-    /// Rigid, fixed, 4000 Hz.
-    RigidFixed4000, "hoist/fixed/rigid/4000", Fixed, Rigid, 4000,
-    RigidConfig::<Fixed>::new(&rigid(4000), LOAD_SHARE, BASES)
-);
-variant!(
-    /// Textbook cut, fixed, 4000 Hz.
-    CutFixed4000, "hoist/fixed/cut/4000", Fixed, TwoMass, 4000,
-    TwoMassConfig::<Fixed>::new(&observer(&CUT, 4000), BASES)
-);
-variant!(
-    /// Reduced, exact step, fixed, 4000 Hz.
-    ExactFixed4000, "hoist/fixed/exact/4000", Fixed, TwoMass, 4000,
-    TwoMassConfig::<Fixed>::new(&observer(&REDUCED, 4000), BASES)
-);
-variant!(
-    /// Reduced, semi-implicit step, fixed, 4000 Hz.
-    ReducedFixed4000, "hoist/fixed/reduced/4000", Fixed, SemiImplicit, 4000,
-    SemiImplicitConfig::<Fixed>::new(&observer(&REDUCED, 4000), BASES)
-);
-variant!(
-    /// Rigid, f32, 10000 Hz.
-    RigidSingle10000, "hoist/f32/rigid/10000", f32, Rigid, 10000,
-    RigidConfig::<f32>::new(&rigid(10000), LOAD_SHARE)
-);
-variant!(
-    /// Textbook cut, f32, 10000 Hz.
-    CutSingle10000, "hoist/f32/cut/10000", f32, TwoMass, 10000,
-    TwoMassConfig::<f32>::new(&observer(&CUT, 10000))
-);
-variant!(
-    /// Reduced, exact step, f32, 10000 Hz.
-    ExactSingle10000, "hoist/f32/exact/10000", f32, TwoMass, 10000,
-    TwoMassConfig::<f32>::new(&observer(&REDUCED, 10000))
-);
-variant!(
-    /// Reduced, semi-implicit step, f32, 10000 Hz.
-    ReducedSingle10000, "hoist/f32/reduced/10000", f32, SemiImplicit, 10000,
-    SemiImplicitConfig::<f32>::new(&observer(&REDUCED, 10000))
-);
-variant!(
-    /// Rigid, fixed, 10000 Hz.
-    RigidFixed10000, "hoist/fixed/rigid/10000", Fixed, Rigid, 10000,
-    RigidConfig::<Fixed>::new(&rigid(10000), LOAD_SHARE, BASES)
-);
-variant!(
-    /// Textbook cut, fixed, 10000 Hz.
-    CutFixed10000, "hoist/fixed/cut/10000", Fixed, TwoMass, 10000,
-    TwoMassConfig::<Fixed>::new(&observer(&CUT, 10000), BASES)
-);
-variant!(
-    /// Reduced, exact step, fixed, 10000 Hz.
-    ExactFixed10000, "hoist/fixed/exact/10000", Fixed, TwoMass, 10000,
-    TwoMassConfig::<Fixed>::new(&observer(&REDUCED, 10000), BASES)
-);
-variant!(
-    /// Reduced, semi-implicit step, fixed, 10000 Hz.
-    ReducedFixed10000, "hoist/fixed/reduced/10000", Fixed, SemiImplicit, 10000,
-    SemiImplicitConfig::<Fixed>::new(&observer(&REDUCED, 10000), BASES)
-);
 
-mod marker {
-    pub struct RigidSingle1000;
-    pub struct CutSingle1000;
-    pub struct ExactSingle1000;
-    pub struct ReducedSingle1000;
-    pub struct RigidFixed1000;
-    pub struct CutFixed1000;
-    pub struct ExactFixed1000;
-    pub struct ReducedFixed1000;
-    pub struct RigidSingle4000;
-    pub struct CutSingle4000;
-    pub struct ExactSingle4000;
-    pub struct ReducedSingle4000;
-    pub struct RigidFixed4000;
-    pub struct CutFixed4000;
-    pub struct ExactFixed4000;
-    pub struct ReducedFixed4000;
-    pub struct RigidSingle10000;
-    pub struct CutSingle10000;
-    pub struct ExactSingle10000;
-    pub struct ReducedSingle10000;
-    pub struct RigidFixed10000;
-    pub struct CutFixed10000;
-    pub struct ExactFixed10000;
-    pub struct ReducedFixed10000;
-}
+variant!(Rigid, "f32/rigid", f32, Rigid, RigidConfig::<f32>::new(&rigid(R), LOAD_SHARE));
+variant!(Cut, "f32/cut", f32, TwoMass, TwoMassConfig::<f32>::new(&observer(&CUT, R)));
+variant!(Exact, "f32/exact", f32, TwoMass, TwoMassConfig::<f32>::new(&observer(&REDUCED, R)));
+variant!(Reduced, "f32/reduced", f32, SemiImplicit, SemiImplicitConfig::<f32>::new(&observer(&REDUCED, R)));
+variant!(Rigid, "fixed/rigid", Fixed, Rigid, RigidConfig::<Fixed>::new(&rigid(R), LOAD_SHARE, BASES));
+variant!(Cut, "fixed/cut", Fixed, TwoMass, TwoMassConfig::<Fixed>::new(&observer(&CUT, R), BASES));
+variant!(Exact, "fixed/exact", Fixed, TwoMass, TwoMassConfig::<Fixed>::new(&observer(&REDUCED, R), BASES));
+variant!(
+    Reduced,
+    "fixed/reduced",
+    Fixed,
+    SemiImplicit,
+    SemiImplicitConfig::<Fixed>::new(&observer(&REDUCED, R), BASES)
+);

@@ -2,4 +2,3 @@
 
 pub mod empty;
 pub mod hoist;
-pub mod placeholder;

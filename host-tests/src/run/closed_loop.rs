@@ -77,7 +77,7 @@ pub fn run(
 ) -> io::Result<Trace> {
     let period = 1.0 / f64::from(rate_hz);
     let ticks = (scenario.duration * f64::from(rate_hz)).round() as usize;
-    let (node, shaft) = machine.load;
+    let node = machine.load;
     let mut recording = Recording::new(scenario.plant.clone());
     let mut noise = Noise::new(1);
     let mut actions = scenario.actions.iter().peekable();
@@ -109,7 +109,7 @@ pub fn run(
             time,
             torque: applied,
             motor_speed: plant.motor_speed(),
-            truth: [plant.shaft_torque(shaft), plant.speed(node), plant.load_torque(node)],
+            truth: [(machine.shaft_torque)(plant), plant.speed(node), plant.load_torque(node)],
             estimate: [
                 units.torque(output.shaft_torque),
                 units.speed(output.load_speed),

@@ -7,7 +7,7 @@ use driveline_firmware::scenes::hoist;
 
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
-use crate::plant::{Chain, PlantError, Shaft, Start};
+use crate::plant::{Chain, Plant, PlantError, Shaft, Start};
 
 /// Gravity [m/s2], the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665;
@@ -18,15 +18,16 @@ const FALLS: f64 = 2.0;
 const RATIO: f64 = 31.5;
 const ROPE: f64 = 2.9e6;
 const ROPE_DAMPING: f64 = 3.6e3;
-const EFFICIENCY: f64 = 1.0;
+const EFFICIENCY: f64 = 0.94;
 
 /// Travel of the load per angle of the motor [m/rad].
 const TRAVEL: f64 = DIAMETER / (2.0 * FALLS * RATIO);
 /// Torque of the weight at the motor [N m].
 const WEIGHT: f64 = MASS * GRAVITY * TRAVEL;
-/// The load's node and the rope's shaft.
+/// The nodes of load and brake drum, and the rope's shaft.
 const LOAD: usize = 2;
 const DRUM: usize = 1;
+const ROPE_SHAFT: usize = 1;
 
 /// The chain up to the load, which hangs on a rope that comes taut at `slack` [rad of the motor].
 fn chain(slack: f64) -> Chain {
@@ -35,6 +36,14 @@ fn chain(slack: f64) -> Chain {
         .shaft(Shaft::elastic(5.0e4).damping(2.0), 0.08)
         .efficiency(EFFICIENCY)
         .shaft(Shaft::rope(ROPE * square).damping(ROPE_DAMPING * square).gap(slack), MASS * square)
+}
+
+/// The rope's pull at the motor [N m], without the gear's loss.
+fn rope_torque(plant: &Plant) -> f64 {
+    let square = TRAVEL * TRAVEL;
+    let twist = plant.twist(ROPE_SHAFT);
+    let rate = plant.speed(DRUM) - plant.speed(LOAD);
+    if twist > 0.0 { (square * (ROPE * twist + ROPE_DAMPING * rate)).max(0.0) } else { 0.0 }
 }
 
 /// The hoist.
@@ -47,17 +56,17 @@ pub fn machine() -> Result<Machine, PlantError> {
         plant: chain(0.0)
             .load(WEIGHT)
             .start(Start::Given {
-                twists: vec![WEIGHT / EFFICIENCY / 5.0e4, WEIGHT / (ROPE * TRAVEL * TRAVEL)],
+                twists: vec![WEIGHT / 5.0e4, WEIGHT / (ROPE * TRAVEL * TRAVEL)],
                 speeds: vec![0.0; 3],
             })
             .build()?,
-        held: WEIGHT / EFFICIENCY,
+        held: WEIGHT,
         actions: vec![
             (0.0, Action::Brake(DRUM, 2_000.0)),
             (0.2, Action::Release),
             (0.2, Action::Brake(DRUM, 0.0)),
-            (0.5, Action::Reference(hoist::RATED_SPEED)),
-            (if std::env::var("NS").is_ok() { 14.0 } else { 4.0 }, Action::Load(LOAD, 1.5 * WEIGHT)),
+            (0.2, Action::Reference(hoist::RATED_SPEED)),
+            (4.0, Action::Load(LOAD, 1.5 * WEIGHT)),
             (6.0, Action::Reference(-hoist::RATED_SPEED)),
         ],
         duration: 12.0,
@@ -65,7 +74,7 @@ pub fn machine() -> Result<Machine, PlantError> {
     let slack = Scenario {
         name: "slack-rope start",
         // On the ground: what holds the load until the rope carries its weight, and is its weight once it is lifted.
-        plant: chain(4.0).coulomb(WEIGHT).start(Start::Rest).build()?,
+        plant: chain(0.0).coulomb(WEIGHT).start(Start::Rest).build()?,
         held: 0.0,
         actions: vec![
             (0.0, Action::Reference(10.0)),
@@ -78,8 +87,9 @@ pub fn machine() -> Result<Machine, PlantError> {
         name: "hoist",
         scenarios: vec![pretensioned, slack],
         encoder: Encoder::new(8192),
-        torque_noise: std::env::var("TN").map(|x| x.parse().unwrap()).unwrap_or(0.01) * hoist::RATED_TORQUE,
-        load: (LOAD, 1),
+        torque_noise: 0.01 * hoist::RATED_TORQUE,
+        load: LOAD,
+        shaft_torque: rope_torque,
         rated_speed: hoist::RATED_SPEED,
         bases: hoist::BASES,
     })

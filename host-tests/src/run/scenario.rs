@@ -42,8 +42,10 @@ pub struct Machine {
     pub encoder: Encoder,
     /// Standard deviation of the torque that the drive believes to have given [N m].
     pub torque_noise: f64,
-    /// The node of the load, and the shaft whose torque is estimated.
-    pub load: (usize, usize),
+    /// The node of the load.
+    pub load: usize,
+    /// The torque that the drive calls the shaft's [N m].
+    pub shaft_torque: fn(&Plant) -> f64,
     /// Rated speed of the motor [rad/s].
     pub rated_speed: f64,
     /// Bases of its fixed-point variants.
