@@ -14,6 +14,7 @@ mod observer;
 
 pub use bases::Bases;
 pub use convert::Error;
+pub use geared::Gear;
 pub use governor::SpeedLoopSettings;
 pub use limits::Screening;
 

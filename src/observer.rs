@@ -27,7 +27,7 @@ mod rigid;
 mod semi_implicit;
 mod two_mass;
 
-pub use geared::{Geared, GearedConfig};
+pub use geared::{Geared, GearedConfig, GearedPrediction};
 pub use rigid::{Rigid, RigidConfig, RigidPrediction};
 pub use semi_implicit::{SemiImplicit, SemiImplicitConfig, SemiImplicitPrediction};
 pub use two_mass::{TwoMass, TwoMassConfig, TwoMassPrediction};

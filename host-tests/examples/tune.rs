@@ -78,9 +78,7 @@ fn main() {
                 }),
                 observer: GearedConfig::<f32, _>::new(
                     TwoMassConfig::<f32>::new(&d),
-                    Efficiency(0.94),
-                    0.7,
-                    1.0 / rate as f64,
+                    &h::GEAR, 1.0 / rate as f64
                 ),
                 fluctuation: (),
                 governor: SpeedLoopConfig::<f32>::new(

@@ -1,56 +1,76 @@
 //! Constants of a gear's loss.
 
 use super::convert::{fixed, get, or_stop};
+use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
-use crate::machine::Efficiency;
-use crate::number::Fixed;
+use crate::number::{Fixed, INNOVATION_RANGE};
 use crate::observer::GearedConfig;
 
 const EFFICIENCY: &str = "the efficiency of the gear must be above 0 and at most 1";
-const INERTIA: &str = "the inertia in front of the gear and the period must be positive and finite";
+const MOTOR: &str = "the inertia in front of the gear and the period must be positive and finite";
+const PLAY: &str =
+    "the play in front of a held gear must not be negative, and at most 5.6 degrees (0.098 rad) in fixed point";
 const FIXED: &str = "the efficiency of the gear must be above 0.62 in fixed point";
 
-/// Friction per shaft torque, and what brings the motor to rest within two ticks, scaled to a format.
-const fn losses(efficiency: Efficiency, motor_inertia: f64, period: f64, format: &Format) -> Result<[f64; 2], Error> {
-    let eta = efficiency.0;
-    if !(eta > 0.0 && eta <= 1.0) {
-        return Err(Error::Value(EFFICIENCY));
+/// A gear with losses, as an observer has to know it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gear {
+    /// Efficiency, above 0 and at most 1.
+    pub efficiency: f64,
+    /// Inertia in front of the gear, which comes to rest when the gear is held [kg m2].
+    pub inertia: f64,
+    /// How far the motor can turn while the gear is held [rad]: twice what the gear's friction twists the shaft in front of it, and a few counts of
+    /// the encoder.
+    pub play: f64,
+}
+
+impl Gear {
+    /// Friction per shaft torque, what brings the motor to rest within two ticks, and the play, scaled to a format.
+    const fn losses(&self, period: f64, format: &Format) -> Result<[f64; 3], Error> {
+        let eta = self.efficiency;
+        if !(eta > 0.0 && eta <= 1.0) {
+            return Err(Error::Value(EFFICIENCY));
+        }
+        let stiction = 0.5 * self.inertia / period;
+        if !(stiction > 0.0 && stiction.is_finite() && period > 0.0) {
+            return Err(Error::Value(MOTOR));
+        }
+        let play = self.play * ANGLE_PER_RADIAN;
+        if !(play >= 0.0 && play < INNOVATION_RANGE) {
+            return Err(Error::Value(PLAY));
+        }
+        let Bases { torque, speed, .. } = format.bases;
+        let scaled = stiction * (speed / torque) / format.gain;
+        // Fixed point holds no more than 16 per unit; a softer hold brings the motor to rest within more ticks.
+        let limit = if format.gain == 1.0 { f64::INFINITY } else { 0.499 };
+        let held = if scaled < limit { scaled } else { limit };
+        Ok([0.5 * ((1.0 / eta - 1.0) + (1.0 - eta)), held, play])
     }
-    let stiction = 0.5 * motor_inertia / period;
-    if !(stiction > 0.0 && stiction.is_finite()) {
-        return Err(Error::Value(INERTIA));
-    }
-    let Bases { torque, speed, .. } = format.bases;
-    let scaled = stiction * (speed / torque) / format.gain;
-    // Fixed point holds no more than 16 per unit; a softer hold brings the motor to rest within more ticks.
-    let limit = if format.gain == 1.0 { f64::INFINITY } else { 0.499 };
-    let held = if scaled < limit { scaled } else { limit };
-    Ok([0.5 * ((1.0 / eta - 1.0) + (1.0 - eta)), held])
 }
 
 macro_rules! float {
     ($float:ident) => {
         impl<C: Copy> GearedConfig<$float, C> {
-            /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period [s].
+            /// An observer's constants behind a gear, in ticks of this period [s].
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-            pub const fn new(observer: C, efficiency: Efficiency, motor_inertia: f64, period: f64) -> Self {
-                or_stop!(Self::try_new(observer, efficiency, motor_inertia, period))
+            pub const fn new(observer: C, gear: &Gear, period: f64) -> Self {
+                or_stop!(Self::try_new(observer, gear, period))
             }
 
-            /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period [s].
+            /// An observer's constants behind a gear, in ticks of this period [s].
             ///
             /// # Errors
-            /// [`Error::Value`] for an efficiency that is not above 0 and at most 1, or an inertia or period that is not positive.
-            pub const fn try_new(
-                observer: C,
-                efficiency: Efficiency,
-                motor_inertia: f64,
-                period: f64,
-            ) -> Result<Self, Error> {
-                let [friction, stiction] = get!(losses(efficiency, motor_inertia, period, &Format::FLOAT));
-                Ok(GearedConfig { observer, friction: friction as $float, stiction: stiction as $float })
+            /// [`Error::Value`] for a figure of the gear that is out of its range.
+            pub const fn try_new(observer: C, gear: &Gear, period: f64) -> Result<Self, Error> {
+                let [friction, stiction, play] = get!(gear.losses(period, &Format::FLOAT));
+                Ok(GearedConfig {
+                    observer,
+                    friction: friction as $float,
+                    stiction: stiction as $float,
+                    play: play as $float,
+                })
             }
         }
     };
@@ -60,28 +80,21 @@ float!(f32);
 float!(f64);
 
 impl<C: Copy> GearedConfig<Fixed, C> {
-    /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period [s].
+    /// An observer's constants behind a gear, in ticks of this period [s].
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(observer: C, efficiency: Efficiency, motor_inertia: f64, period: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(observer, efficiency, motor_inertia, period, bases))
+    pub const fn new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Self {
+        or_stop!(Self::try_new(observer, gear, period, bases))
     }
 
-    /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period [s].
+    /// An observer's constants behind a gear, in ticks of this period [s].
     ///
     /// # Errors
-    /// [`Error::Value`] for an efficiency that is not above 0 and at most 1, or an inertia or period that is not positive;
-    /// [`Error::Coefficient`] for an efficiency below 0.62.
-    pub const fn try_new(
-        observer: C,
-        efficiency: Efficiency,
-        motor_inertia: f64,
-        period: f64,
-        bases: Bases,
-    ) -> Result<Self, Error> {
-        let [friction, stiction] =
-            get!(fixed(get!(losses(efficiency, motor_inertia, period, &Format::fixed(bases))), FIXED));
-        Ok(GearedConfig { observer, friction, stiction })
+    /// [`Error::Value`] for a figure of the gear that is out of its range; [`Error::Coefficient`] for an efficiency below 0.62.
+    pub const fn try_new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Result<Self, Error> {
+        let [friction, stiction, play] = get!(gear.losses(period, &Format::fixed(bases)));
+        let [friction, stiction] = get!(fixed([friction, stiction], FIXED));
+        Ok(GearedConfig { observer, friction, stiction, play: Fixed::from_bits(play as i32) })
     }
 }

@@ -11,8 +11,11 @@
 //! in motion the limit, at a standstill just what balances the motor against the shaft, with c omega_m to bring the estimate to rest there. T
 //! is the torque behind the gear, the one that shaft, rope and load feel. Without this a loss of 6 % is taken for shaft torque,
 //! and its reversal for a jerk of the load.
+//!
+//! While the gear is held, the motor's angle says nothing of the load: what little it moves is the motor on its own shaft. The innovation is then
+//! left out, up to the play that such a shaft has.
 
-use super::Observer;
+use super::{Observer, Predicted};
 use crate::number::Number;
 use crate::sample::Estimate;
 
@@ -26,6 +29,8 @@ pub struct GearedConfig<N: Number, C> {
     pub friction: N::Coefficient,
     /// How firmly a standing gear is held, c [N m s/rad].
     pub stiction: N::Coefficient,
+    /// Largest innovation that a held gear leaves out [2^-32 turn].
+    pub play: N,
 }
 
 /// An observer behind a gear with losses.
@@ -35,9 +40,28 @@ pub struct Geared<O> {
     observer: O,
 }
 
+/// The prediction of the observer behind the gear, and whether the gear was held.
+#[derive(Clone, Copy, Debug)]
+pub struct GearedPrediction<P> {
+    observer: P,
+    held: bool,
+}
+
+impl<N, P: Predicted<N>> Predicted<N> for GearedPrediction<P> {
+    #[inline(always)]
+    fn innovation(&self) -> N {
+        self.observer.innovation()
+    }
+
+    #[inline(always)]
+    fn turn(&self) -> N {
+        self.observer.turn()
+    }
+}
+
 impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
     type Config = GearedConfig<N, O::Config>;
-    type Prediction = O::Prediction;
+    type Prediction = GearedPrediction<O::Prediction>;
 
     fn at_rest(config: &Self::Config, angle: u32, torque: N) -> Self {
         Geared { observer: O::at_rest(&config.observer, angle, torque) }
@@ -48,26 +72,31 @@ impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
     }
 
     #[inline(always)]
-    fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> O::Prediction {
+    fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Self::Prediction {
         let now = self.observer.estimate(&config.observer);
         let mut carry = N::CARRY;
         let limit = N::product(&mut carry, config.friction, now.shaft_torque).magnitude();
-        let friction = torque
-            .minus(now.shaft_torque)
-            .accumulate(&mut carry, config.stiction, now.motor_speed.gain_operand())
-            .limited(limit);
-        let torque = torque.minus(friction);
-        self.observer.predict(&config.observer, angle, torque)
+        let holding =
+            torque.minus(now.shaft_torque).accumulate(&mut carry, config.stiction, now.motor_speed.gain_operand());
+        let friction = holding.limited(limit);
+        GearedPrediction {
+            observer: self.observer.predict(&config.observer, angle, torque.minus(friction)),
+            held: friction == holding,
+        }
     }
 
     #[inline(always)]
-    fn correct(&mut self, config: &Self::Config, predicted: O::Prediction, angle: u32) {
-        self.observer.correct(&config.observer, predicted, angle);
+    fn correct(&mut self, config: &Self::Config, predicted: Self::Prediction, angle: u32) {
+        if predicted.held && !predicted.innovation().exceeds(config.play) {
+            self.observer.coast(predicted.observer);
+        } else {
+            self.observer.correct(&config.observer, predicted.observer, angle);
+        }
     }
 
     #[inline(always)]
-    fn coast(&mut self, predicted: O::Prediction) {
-        self.observer.coast(predicted);
+    fn coast(&mut self, predicted: Self::Prediction) {
+        self.observer.coast(predicted.observer);
     }
 
     #[inline(always)]

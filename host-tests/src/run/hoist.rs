@@ -7,7 +7,7 @@ use driveline_firmware::scenes::hoist;
 
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
-use crate::plant::{Chain, Plant, PlantError, Shaft, Start};
+use crate::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
 
 /// Gravity [m/s2], the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665;
@@ -55,6 +55,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         name: "pretensioned start, load step, lowering",
         plant: chain(0.0)
             .load(WEIGHT)
+            .program(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]))
             .start(Start::Given {
                 twists: vec![WEIGHT / 5.0e4, WEIGHT / (ROPE * TRAVEL * TRAVEL)],
                 speeds: vec![0.0; 3],
@@ -66,7 +67,6 @@ pub fn machine() -> Result<Machine, PlantError> {
             (0.2, Action::Release),
             (0.2, Action::Brake(DRUM, 0.0)),
             (0.2, Action::Reference(hoist::RATED_SPEED)),
-            (4.0, Action::Load(LOAD, 1.5 * WEIGHT)),
             (6.0, Action::Reference(-hoist::RATED_SPEED)),
         ],
         duration: 12.0,
