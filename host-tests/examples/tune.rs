@@ -76,10 +76,7 @@ fn main() {
                     standstill: 0.0015,
                     missed: 200,
                 }),
-                observer: GearedConfig::<f32, _>::new(
-                    TwoMassConfig::<f32>::new(&d),
-                    &h::GEAR, 1.0 / rate as f64
-                ),
+                observer: GearedConfig::<f32, _>::new(TwoMassConfig::<f32>::new(&d), &h::GEAR, 1.0 / rate as f64),
                 fluctuation: (),
                 governor: SpeedLoopConfig::<f32>::new(
                     &g,

@@ -1,7 +1,14 @@
 //! A scene's firmware in closed loop with the full solver of its machine: how wrong the estimates are, and what they cost.
 
+mod assemble;
 pub mod closed_loop;
+pub mod engine;
+mod facts;
+pub mod figures;
 pub mod hoist;
+pub mod plan;
 pub mod scenario;
 pub mod sensors;
 pub mod units;
+
+pub use assemble::Plan;

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{Failure, Progress, say, say_json};
-use crate::report::{Report, variants_table};
+use crate::report::variants_table;
+use crate::run::Plan;
+use crate::setup;
 
 /// Run a scene's variants in QEMU, in closed loop with the full solver, and report what they get wrong and cost.
 ///
@@ -40,7 +42,13 @@ impl Run {
     /// # Errors
     /// No such scene or variant; what kept a variant from running; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
-        let report = engine(&self.scene, self.variants.as_deref(), self.quick, &Progress::of(0))?;
+        let plan = Plan::of(&self.scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
+        setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
+        let progress = Progress::of(plan.steps());
+        let report = plan
+            .run(&|text| progress.says(text), &|| progress.step())
+            .map_err(|error| Failure::failed(error.to_string()))?;
+        drop(progress);
         let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{}.html", self.scene)));
         let written = report.write(&path);
         written.map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
@@ -57,10 +65,4 @@ impl Run {
         say(format_args!("page: {}", path.display()));
         Ok(())
     }
-}
-
-/// Where the closed loop of plant and target is called.
-fn engine(scene: &str, variants: Option<&str>, quick: bool, progress: &Progress) -> Result<Report, Failure> {
-    let _ = (variants, quick, progress);
-    Err(Failure::failed(format!("the closed loop of scene `{scene}` is not built yet")))
 }

@@ -77,14 +77,14 @@ fn offset(at: u64, unsigned: i64, bits: u32) -> u64 {
     at.wrapping_add(4).wrapping_add_signed(signed)
 }
 
-fn halfword(file: &ElfFile32<'_>, address: u64) -> Option<u16> {
+pub(super) fn halfword(file: &ElfFile32<'_>, address: u64) -> Option<u16> {
     let section = file.sections().find(|s| (s.address()..s.address() + s.size()).contains(&address))?;
     let bytes = section.data_range(address, 2).ok()??;
     Some(u16::from_le_bytes([bytes[0], bytes[1]]))
 }
 
 /// The ranges of constants within a function.
-fn constants(file: &ElfFile32<'_>, function: &Symbol) -> Vec<(u64, u64)> {
+pub(super) fn constants(file: &ElfFile32<'_>, function: &Symbol) -> Vec<(u64, u64)> {
     let end = function.address + function.size;
     let mut marks: Vec<_> = file
         .symbols()

@@ -3,6 +3,7 @@
 mod build;
 mod calls;
 mod cost;
+pub mod cycles;
 mod sections;
 mod self_test;
 

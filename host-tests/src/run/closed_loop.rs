@@ -53,6 +53,13 @@ pub struct Moment {
     pub instructions: u32,
 }
 
+impl Moment {
+    /// Estimate less truth.
+    pub fn error(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.estimate[k] - self.truth[k])
+    }
+}
+
 /// What a run left behind.
 pub struct Trace {
     /// Every tick.

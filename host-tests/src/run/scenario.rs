@@ -19,6 +19,7 @@ pub enum Action {
 }
 
 /// One run of a scene's machine.
+#[derive(Clone)]
 pub struct Scenario {
     /// What it shows.
     pub name: &'static str,
@@ -30,6 +31,10 @@ pub struct Scenario {
     pub held: f64,
     /// Duration [s].
     pub duration: f64,
+    /// Whether its errors count among the variant's figures; what lies outside what the observer is made for is shown, not counted.
+    pub counted: bool,
+    /// What the plot says happened when [s].
+    pub marks: Vec<(f64, &'static str)>,
 }
 
 /// A scene's machine, as the report sees it.

@@ -1,0 +1,118 @@
+//! A scene's report, put together from its runs.
+
+use std::error::Error;
+
+use driveline_firmware::board::Facts;
+
+use super::engine::{self, Options, Ran};
+use super::plan::{Candidate, candidates};
+use super::scenario::Machine;
+use super::{facts, hoist};
+use crate::check::budgets::Budgets;
+use crate::image::workspace;
+use crate::report::{Budget, Report};
+
+/// A run that is ready to start.
+pub struct Plan {
+    machine: Machine,
+    candidates: Vec<Candidate>,
+    options: Options,
+    /// Whether the sweep and the sizes belong to it: a run of all variants.
+    whole: bool,
+}
+
+impl Plan {
+    /// The run of a scene, of the variants whose number/core/observer/rate contains `filter`.
+    ///
+    /// # Errors
+    /// A sentence: no such scene, or no such variant.
+    pub fn of(scene: &str, filter: Option<&str>, quick: bool) -> Result<Self, String> {
+        if scene != "hoist" {
+            return Err(format!("there is no scene `{scene}`; there is `hoist`"));
+        }
+        let machine = hoist::machine().map_err(|error| format!("the plant of scene `{scene}`: {error}"))?;
+        let candidates = candidates(scene, filter);
+        if let (true, Some(filter)) = (candidates.is_empty(), filter) {
+            let all = engine_keys(scene);
+            return Err(format!("no variant of `{scene}` contains `{filter}`; there are {all}"));
+        }
+        Ok(Plan { machine, candidates, options: Options { quick }, whole: filter.is_none() })
+    }
+
+    /// Steps of the run, for its progress.
+    pub fn steps(&self) -> u64 {
+        self.candidates.len() as u64 + if self.whole { 2 } else { 0 }
+    }
+
+    /// Runs it. `says` names what is under way, `step` counts.
+    ///
+    /// # Errors
+    /// What kept a variant from being built, run or proven, with its name.
+    pub fn run(&self, says: &dyn Fn(&str), step: &dyn Fn()) -> Result<Report, Box<dyn Error>> {
+        let mut report = Report {
+            scene: self.machine.name.into(),
+            summary: facts::SUMMARY.into(),
+            facts: facts::of_hoist(&self.machine),
+            notes: facts::notes(self.options.quick),
+            ..Report::default()
+        };
+        let mut bases: Vec<(Facts, (u64, u64))> = Vec::new();
+        for candidate in &self.candidates {
+            let known = bases.iter().find(|(board, _)| board.core == candidate.board.core);
+            let base = match known {
+                Some(&(_, base)) => base,
+                None => {
+                    let base = engine::empty(candidate.board)?;
+                    bases.push((candidate.board, base));
+                    base
+                }
+            };
+            let ran = engine::run(&self.machine, candidate, base, self.options, says)?;
+            self.add(&mut report, candidate, &ran);
+            step();
+        }
+        self.budgets(&mut report)?;
+        Ok(report)
+    }
+
+    /// A variant's figures, its courses where they are worth a plot, and the other steps on its inputs.
+    fn add(&self, report: &mut Report, candidate: &Candidate, ran: &Ran) {
+        report.variants.push(ran.variant.clone());
+        if candidate.rate_hz() == 10_000 && candidate.part(2) != "cut" {
+            report.trajectories.extend(engine::trajectories(&self.machine, ran));
+        }
+        if candidate.part(2) == "reduced" && candidate.rate_hz() == 10_000 {
+            report.facts.extend(facts::of_sudden(&self.machine, &ran.variant, &ran.traces));
+        }
+    }
+
+    /// What `budgets.toml` allows beside what was measured in closed loop.
+    fn budgets(&self, report: &mut Report) -> Result<(), Box<dyn Error>> {
+        let budgets = Budgets::read(&workspace().join("budgets.toml"))?;
+        for (candidate, variant) in self.candidates.iter().zip(&report.variants) {
+            let Some(budget) = budgets.of(candidate.variant, candidate.board.core) else { continue };
+            let figures = [
+                ("instructions at most", variant.instructions.max, budget.instructions.max),
+                ("stack", variant.stack_bytes, budget.stack),
+            ];
+            for (name, measured, limit) in figures {
+                if let Some(limit) = limit {
+                    let unit = if name == "stack" { "byte" } else { "" };
+                    report.budgets.push(Budget {
+                        name: format!("{name}, {}", variant.label()),
+                        unit: unit.into(),
+                        measured: measured as f64,
+                        limit: limit as f64,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The keys of a scene's variants, for a message.
+fn engine_keys(scene: &str) -> String {
+    let keys: Vec<String> = candidates(scene, None).iter().map(Candidate::key).collect();
+    keys.join(", ")
+}
