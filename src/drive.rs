@@ -35,7 +35,7 @@ pub struct Limits<N: Number> {
     pub reference: N,
     /// Largest innovation that is believed [2^-32 turn].
     pub innovation: N,
-    /// Largest predicted turn in a tick that an unchanged angle is believed with [2^-32 turn].
+    /// Largest predicted turn in a tick that an unchanged angle is believed with, as [`Number::less_turn`] takes it.
     pub standstill: N,
     /// Ticks in a row without a usable angle after which it counts as lost.
     pub missed: u16,
@@ -156,8 +156,7 @@ where
     #[inline(always)]
     fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let limits = &config.limits;
-        let mut faults = Faults::NONE;
-        let mut torque = sample.torque;
+        let (mut torque, mut faults) = (sample.torque, Faults::NONE);
         if torque.exceeds(limits.torque) {
             torque = self.commanded;
             faults |= Faults::TORQUE;
@@ -167,7 +166,15 @@ where
         } else {
             self.reference = sample.reference;
         }
-        faults |= self.advance(config, sample.angle, torque);
+        let predicted = self.observer.predict(&config.observer, sample.angle, torque);
+        let unchanged = sample.angle == self.observer.angle();
+        let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
+        if frozen || predicted.innovation().exceeds(limits.innovation) {
+            faults |= self.refuse(limits.missed, sample.angle, predicted);
+        } else {
+            self.observer.correct(&config.observer, predicted, sample.angle);
+            self.missed = 0;
+        }
         if self.observer.is_beyond_base() {
             faults |= Faults::RANGE;
         }
@@ -176,29 +183,19 @@ where
         Command { torque: N::ZERO, estimate, faults }
     }
 
-    /// Advances the observer by the angle where it can be true, without it where not.
-    #[inline(always)]
-    fn advance(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Faults {
-        let limits = &config.limits;
-        let predicted = self.observer.predict(&config.observer, angle, torque);
+    /// Goes by the prediction where the angle cannot be true.
+    #[cold]
+    fn refuse(&mut self, limit: u16, angle: u32, predicted: O::Prediction) -> Faults {
         let unchanged = angle == self.observer.angle();
-        let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
-        if !frozen && !predicted.innovation().exceeds(limits.innovation) {
-            self.observer.correct(&config.observer, predicted, angle);
-            self.missed = 0;
-            return Faults::NONE;
-        }
         self.observer.coast(predicted);
         self.missed = self.missed.saturating_add(1);
-        let lost = self.missed > limits.missed;
-        match (lost, unchanged) {
-            (false, false) => Faults::ANGLE_JUMP,
-            (false, true) => Faults::ANGLE_FROZEN,
-            (true, true) => Faults::ANGLE_FROZEN | Faults::ANGLE_LOST,
-            (true, false) => {
-                self.observer.synchronise(angle);
-                Faults::ANGLE_JUMP | Faults::ANGLE_LOST
-            }
+        let fault = if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
+        if self.missed <= limit {
+            return fault;
         }
+        if !unchanged {
+            self.observer.synchronise(angle);
+        }
+        fault | Faults::ANGLE_LOST
     }
 }

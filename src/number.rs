@@ -49,20 +49,20 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     fn widened(self) -> Self;
     /// Held within twice the base in fixed point; floats are left alone.
     fn saturated(self) -> Self;
-    /// Whether any of four states is beyond its base, in fixed point.
-    fn any_beyond_base(states: [Self; 4]) -> bool;
+    /// Whether any of three states is beyond its base, in fixed point.
+    fn any_beyond_base(states: [Self; 3]) -> bool;
     /// `limit` where the number is above it, `-limit` where it is below that.
     fn limited(self, limit: Self) -> Self;
-    /// Whether the magnitude is beyond `limit`, or not a number at all.
+    /// Whether the magnitude is beyond `limit`, which is not negative, or not a number at all.
     fn exceeds(self, limit: Self) -> bool;
 
-    /// The number without its sign.
+    /// The number without its sign; a negative one in fixed point comes out one unit in the last place short.
     fn magnitude(self) -> Self;
 
     /// An angle difference, from 2^-32 turns.
     fn from_angle(turned: i32) -> Self;
-    /// A sum of speeds and twists as an angle difference.
-    fn to_turn(self) -> Self;
+    /// An angle difference less a turn, which is in 2^-32 turns for floats and 2^-25 turns in fixed point ([`TURN_SHIFT`]).
+    fn less_turn(self, turn: Self) -> Self;
     /// An angle difference as the operand of the correction gains.
     fn innovation_operand(self) -> Self;
     /// A difference of speeds or torques as the operand of a governor's gain: held within what a gain may

@@ -63,7 +63,7 @@ pub trait Observer<N: Number>: Sized {
     /// The angle that was last believed, 2^32 per turn.
     fn angle(&self) -> u32;
 
-    /// Whether a state is beyond its base, in fixed point.
+    /// Whether the motor's speed, the twist or the load torque is beyond its base, in fixed point.
     fn is_beyond_base(&self) -> bool;
 
     /// One tick with an angle that is known to be good.
@@ -78,6 +78,6 @@ pub trait Observer<N: Number>: Sized {
 pub trait Predicted<N> {
     /// Measured less predicted angle [2^-32 turn].
     fn innovation(&self) -> N;
-    /// How far the motor should have turned [2^-32 turn].
+    /// How far the motor should have turned, as [`Number::less_turn`] takes it.
     fn turn(&self) -> N;
 }

@@ -4,7 +4,7 @@ use super::convert::{get, or_stop, per_unit};
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error};
 use crate::drive::Limits;
-use crate::number::{Fixed, INNOVATION_RANGE};
+use crate::number::{Fixed, INNOVATION_RANGE, TURN_SHIFT};
 
 const TORQUE: &str = "the largest believable torque is beyond twice the base of the torque";
 const REFERENCE: &str = "the largest believable set point is beyond twice the base of the speed";
@@ -78,7 +78,7 @@ impl Limits<Fixed> {
             torque: get!(per_unit(screening.torque / bases.torque, TORQUE)),
             reference: get!(per_unit(screening.reference / bases.speed, REFERENCE)),
             innovation: Fixed::from_bits(innovation as i32),
-            standstill: Fixed::from_bits(standstill as i32),
+            standstill: Fixed::from_bits(standstill as i32 >> TURN_SHIFT),
             missed: screening.missed,
         })
     }

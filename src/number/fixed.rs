@@ -146,31 +146,28 @@ impl Number for Fixed {
 
     // The bits of a magnitude from 2^28 upwards are set in the union where they are set in any.
     #[inline(always)]
-    fn any_beyond_base(states: [Self; 4]) -> bool {
+    fn any_beyond_base(states: [Self; 3]) -> bool {
         let magnitude = |x: Fixed| x.0 ^ (x.0 >> 31);
-        let [a, b, c, d] = states;
-        (magnitude(a) | magnitude(b) | magnitude(c) | magnitude(d)) >= 1 << 28
+        let [a, b, c] = states;
+        (magnitude(a) | magnitude(b) | magnitude(c)) >= 1 << 28
     }
 
+    // The limit with the sign of the number, in two instructions.
     #[inline(always)]
     fn limited(self, limit: Self) -> Self {
-        if self.0 > limit.0 {
-            limit
-        } else if self.0 < limit.0.wrapping_neg() {
-            Fixed(limit.0.wrapping_neg())
-        } else {
-            self
-        }
+        let sign = self.0 >> 31;
+        if self.exceeds(limit) { Fixed((limit.0 ^ sign).wrapping_sub(sign)) } else { self }
     }
 
+    // -limit..=limit as one range of unsigned numbers.
     #[inline(always)]
     fn exceeds(self, limit: Self) -> bool {
-        self.0.unsigned_abs() > limit.0 as u32
+        self.0.wrapping_add(limit.0) as u32 > (limit.0 as u32) << 1
     }
 
     #[inline(always)]
     fn magnitude(self) -> Self {
-        Fixed(self.0.wrapping_abs())
+        Fixed(self.0 ^ (self.0 >> 31))
     }
 
     #[inline(always)]
@@ -179,8 +176,8 @@ impl Number for Fixed {
     }
 
     #[inline(always)]
-    fn to_turn(self) -> Self {
-        Fixed(self.0 << TURN_SHIFT)
+    fn less_turn(self, turn: Self) -> Self {
+        Fixed(self.0.wrapping_sub(turn.0 << TURN_SHIFT))
     }
 
     #[inline(always)]

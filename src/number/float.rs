@@ -58,7 +58,7 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn any_beyond_base(_states: [Self; 4]) -> bool {
+            fn any_beyond_base(_states: [Self; 3]) -> bool {
                 false
             }
 
@@ -90,8 +90,8 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn to_turn(self) -> Self {
-                self
+            fn less_turn(self, turn: Self) -> Self {
+                self - turn
             }
 
             #[inline(always)]

@@ -77,9 +77,9 @@ impl<N: Number> Observer<N> for Rigid<N> {
         let mut carry = N::CARRY;
         let accelerating = torque.minus(self.load_torque);
         let speed = self.speed.accumulate(&mut carry, config.acceleration, accelerating);
-        let turn = N::product(&mut carry, config.turn, self.speed.plus(speed)).to_turn();
+        let turn = N::product(&mut carry, config.turn, self.speed.plus(speed));
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        RigidPrediction { speed, accelerating, turn, innovation: turned.minus(turn), carry }
+        RigidPrediction { speed, accelerating, turn, innovation: turned.less_turn(turn), carry }
     }
 
     #[inline(always)]
@@ -99,7 +99,7 @@ impl<N: Number> Observer<N> for Rigid<N> {
     fn coast(&mut self, predicted: RigidPrediction<N>) {
         self.speed = predicted.speed.saturated();
         self.accelerating = predicted.accelerating;
-        self.residual = self.residual.minus(predicted.turn);
+        self.residual = self.residual.less_turn(predicted.turn);
     }
 
     #[inline(always)]
@@ -123,6 +123,6 @@ impl<N: Number> Observer<N> for Rigid<N> {
 
     #[inline(always)]
     fn is_beyond_base(&self) -> bool {
-        N::any_beyond_base([self.speed, self.load_torque, N::ZERO, N::ZERO])
+        N::any_beyond_base([self.speed, self.load_torque, N::ZERO])
     }
 }

@@ -90,9 +90,16 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
         let load_speed = self.load_speed.accumulate(&mut carry, config.load, accelerating);
         let twist_rates = [motor_speed.minus(load_speed), self.motor_speed.minus(self.load_speed)];
         let shaft_torque = self.shaft_torque.accumulate2(&mut carry, config.shaft, twist_rates);
-        let turn = N::product(&mut carry, config.turn, motor_speed).to_turn();
+        let turn = N::product(&mut carry, config.turn, motor_speed);
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        SemiImplicitPrediction { motor_speed, load_speed, shaft_torque, turn, innovation: turned.minus(turn), carry }
+        SemiImplicitPrediction {
+            motor_speed,
+            load_speed,
+            shaft_torque,
+            turn,
+            innovation: turned.less_turn(turn),
+            carry,
+        }
     }
 
     #[inline(always)]
@@ -115,7 +122,7 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
         self.motor_speed = predicted.motor_speed.saturated();
         self.load_speed = predicted.load_speed.saturated();
         self.shaft_torque = predicted.shaft_torque.saturated();
-        self.residual = self.residual.minus(predicted.turn);
+        self.residual = self.residual.less_turn(predicted.turn);
     }
 
     #[inline(always)]
@@ -135,6 +142,6 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
 
     #[inline(always)]
     fn is_beyond_base(&self) -> bool {
-        N::any_beyond_base([self.motor_speed, self.load_speed, self.shaft_torque, self.load_torque])
+        N::any_beyond_base([self.motor_speed, self.shaft_torque, self.load_torque])
     }
 }

@@ -108,9 +108,9 @@ impl<N: Number> Observer<N> for TwoMass<N> {
         let accelerating = torque.minus(self.load_torque);
         let speed = self.speed.accumulate(&mut carry, config.acceleration, accelerating);
         let path = [self.speed.plus(speed), twist.minus(self.twist).widened()];
-        let turn = N::sum2(&mut carry, config.turn, path).to_turn();
+        let turn = N::sum2(&mut carry, config.turn, path);
         let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        TwoMassPrediction { twist, twist_rate, speed, turn, innovation: turned.minus(turn), carry }
+        TwoMassPrediction { twist, twist_rate, speed, turn, innovation: turned.less_turn(turn), carry }
     }
 
     #[inline(always)]
@@ -133,7 +133,7 @@ impl<N: Number> Observer<N> for TwoMass<N> {
         self.speed = predicted.speed.saturated();
         self.twist_rate = predicted.twist_rate.saturated();
         self.twist = predicted.twist.saturated();
-        self.residual = self.residual.minus(predicted.turn);
+        self.residual = self.residual.less_turn(predicted.turn);
     }
 
     #[inline(always)]
@@ -155,6 +155,6 @@ impl<N: Number> Observer<N> for TwoMass<N> {
 
     #[inline(always)]
     fn is_beyond_base(&self) -> bool {
-        N::any_beyond_base([self.twist, self.twist_rate, self.speed, self.load_torque])
+        N::any_beyond_base([self.twist, self.speed, self.load_torque])
     }
 }
