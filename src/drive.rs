@@ -23,7 +23,7 @@ use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;
 use crate::number::Number;
 use crate::observer::{Observer, Predicted};
-use crate::sample::{Command, Sample};
+use crate::sample::{Command, Estimate, Sample};
 
 /// Limits of what a sample can be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,28 +103,34 @@ where
     /// One tick with the governor at work.
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
-        let mut command = self.observe(config, sample);
-        command.torque = self.governor.command(&config.governor, self.reference, &command.estimate);
-        self.commanded = command.torque;
-        command
+        let faults = self.observe(config, sample);
+        let estimate = self.estimate(config);
+        self.fluctuation.measure(&config.fluctuation, self.observer.angle(), &estimate);
+        let torque = self.governor.command(&config.governor, self.reference, &estimate);
+        self.commanded = torque;
+        Command { torque, faults }
     }
 
     /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken to carry
     /// it, and the next [`Drive::tick`] starts from there. A torque that is NaN or beyond its limit counts as zero and raises
     /// [`Faults::REFERENCE`].
     pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Command<N> {
-        let mut command = Command { torque, ..Command::default() };
+        let mut command = Command { torque, faults: Faults::NONE };
         if torque.exceeds(config.limits.torque) {
-            command.torque = N::ZERO;
-            command.faults = Faults::REFERENCE;
+            command = Command { torque: N::ZERO, faults: Faults::REFERENCE };
         }
         self.observer = O::at_rest(&config.observer, angle, command.torque);
-        command.estimate = self.observer.estimate(&config.observer);
-        self.governor.start(&config.governor, &command.estimate, command.torque);
+        self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;
         self.reference = N::ZERO;
         self.missed = 0;
         command
+    }
+
+    /// What is known of the machine now.
+    #[inline(always)]
+    pub fn estimate(&self, config: &ConfigOf<N, O, F, G, B>) -> Estimate<N> {
+        self.observer.estimate(&config.observer)
     }
 
     /// The fluctuation's measurement.
@@ -154,7 +160,7 @@ where
     }
 
     #[inline(always)]
-    fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
+    fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Faults {
         let limits = &config.limits;
         let (mut torque, mut faults) = (sample.torque, Faults::NONE);
         if torque.exceeds(limits.torque) {
@@ -170,7 +176,8 @@ where
         let unchanged = sample.angle == self.observer.angle();
         let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
         if frozen || predicted.innovation().exceeds(limits.innovation) {
-            faults |= self.refuse(limits.missed, sample.angle, predicted);
+            self.observer.coast(predicted, sample.angle);
+            faults |= self.refuse(limits.missed, sample.angle, unchanged);
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
             self.missed = 0;
@@ -178,24 +185,21 @@ where
         if self.observer.is_beyond_base() {
             faults |= Faults::RANGE;
         }
-        let estimate = self.observer.estimate(&config.observer);
-        self.fluctuation.measure(&config.fluctuation, self.observer.angle(), &estimate);
-        Command { torque: N::ZERO, estimate, faults }
+        faults
     }
 
-    /// Goes by the prediction where the angle cannot be true.
-    #[cold]
-    fn refuse(&mut self, limit: u16, angle: u32, predicted: O::Prediction) -> Faults {
-        let unchanged = angle == self.observer.angle();
-        self.observer.coast(predicted);
-        self.missed = self.missed.saturating_add(1);
-        let fault = if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
-        if self.missed <= limit {
-            return fault;
+    /// Counts a tick whose angle cannot be true, and takes the next that moves where there have been too many.
+    #[inline(always)]
+    fn refuse(&mut self, limit: u16, angle: u32, unchanged: bool) -> Faults {
+        let mut fault = if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
+        if self.missed < limit {
+            self.missed += 1;
+        } else {
+            fault |= Faults::ANGLE_LOST;
+            if !unchanged {
+                self.observer.synchronise(angle);
+            }
         }
-        if !unchanged {
-            self.observer.synchronise(angle);
-        }
-        fault | Faults::ANGLE_LOST
+        fault
     }
 }

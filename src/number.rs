@@ -44,6 +44,10 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     fn product(carry: &mut Self::Carry, c: Self::Coefficient, y: Self) -> Self;
     /// `c[0] y[0] + c[1] y[1]`.
     fn sum2(carry: &mut Self::Carry, c: [Self::Coefficient; 2], y: [Self; 2]) -> Self;
+    /// `c y`, cut off: for what is not summed over the ticks.
+    fn times(self, c: Self::Coefficient) -> Self;
+    /// `c[0] y[0] + c[1] y[1]`, cut off.
+    fn times2(c: [Self::Coefficient; 2], y: [Self; 2]) -> Self;
     /// The operand of a coefficient that may reach 2 in magnitude: four times the number in fixed point, whose
     /// coefficients end at 1/2, and the number itself in floating point.
     fn widened(self) -> Self;

@@ -54,8 +54,8 @@ pub trait Observer<N: Number>: Sized {
     /// Takes the prediction, corrected by its innovation, for the state.
     fn correct(&mut self, config: &Self::Config, predicted: Self::Prediction, angle: u32);
 
-    /// Takes the prediction for the state as it is: the angle cannot be used.
-    fn coast(&mut self, predicted: Self::Prediction);
+    /// Takes the prediction, which was made for `angle`, for the state as it is: the angle cannot be used.
+    fn coast(&mut self, predicted: Self::Prediction, angle: u32);
 
     /// What is known now.
     fn estimate(&self, config: &Self::Config) -> Estimate<N>;

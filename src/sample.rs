@@ -36,8 +36,6 @@ pub struct Estimate<N> {
 pub struct Command<N> {
     /// Torque that the motor is to produce during the tick that begins; always within the governor's limit.
     pub torque: N,
-    /// The estimates behind it.
-    pub estimate: Estimate<N>,
     /// What was wrong with this tick.
     pub faults: Faults,
 }

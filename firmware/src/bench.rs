@@ -1,12 +1,15 @@
 //! The bench: instructions of single functions, each over many inputs, one line of JSON a function.
 
 mod calibration;
+mod steps;
 mod table;
 
 pub use table::run;
 
+use driveline::number::Number;
+
 use crate::board::Board;
-use crate::measure::count::{Counter, Measured};
+use crate::measure::count::{Counter, Measured, Stepped};
 use crate::program::Program;
 use crate::report::Line;
 
@@ -41,6 +44,21 @@ impl<'b, B: Board> Bench<'b, B> {
         for count in &mut counts {
             *count = self.counter.call(function, &mut state, &input(&mut inputs), &mut output);
         }
+        self.print(name, &counts);
+    }
+
+    /// Calls an observer's step with one state and fresh angles and torques.
+    pub fn measure_step<C, S, N: Number>(&mut self, name: &str, constants: &C, mut state: S, step: Stepped<C, S, N>) {
+        let mut inputs = self.inputs.clone();
+        let mut counts = [0; CALLS];
+        for count in &mut counts {
+            let input = inputs.next_input();
+            *count = self.counter.step(step, constants, &mut state, input.angle, N::from_word(input.torque));
+        }
+        self.print(name, &counts);
+    }
+
+    fn print(&self, name: &str, counts: &[u32; CALLS]) {
         let least = counts.iter().fold(u32::MAX, |least, &count| least.min(count));
         let most = counts.iter().fold(0, |most, &count| most.max(count));
         let mut line = Line::new()
@@ -48,7 +66,7 @@ impl<'b, B: Board> Bench<'b, B> {
             .text("variant", self.variant)
             .text("board", B::FACTS.name)
             .number("min", least)
-            .number("median", median(&counts))
+            .number("median", median(counts))
             .number("max", most)
             .number("calls", CALLS as u32);
         self.board.print(line.finish());

@@ -50,12 +50,13 @@ impl<V: Variant> Scene for Governed<V> {
         } else {
             self.drive.hold(self.config, input.angle, reference)
         };
+        let estimate = self.drive.estimate(self.config);
         Output {
             torque: command.torque.to_word(),
-            motor_speed: command.estimate.motor_speed.to_word(),
-            shaft_torque: command.estimate.shaft_torque.to_word(),
-            load_speed: command.estimate.load_speed.to_word(),
-            load_torque: command.estimate.load_torque.to_word(),
+            motor_speed: estimate.motor_speed.to_word(),
+            shaft_torque: estimate.shaft_torque.to_word(),
+            load_speed: estimate.load_speed.to_word(),
+            load_torque: estimate.load_torque.to_word(),
             faults: command.faults.bits(),
             instructions: 0,
             reserved: 0,

@@ -2,7 +2,7 @@
 //!
 //! A machine that wanders: its speed walks within +-0.005 turns a tick, its torque and set point within +-8 (SI units,
 //! or one part in 16 of the fixed-point range), the governor is released after 16 ticks and again after every
-//! 1024th. Only the angle is continuous; nothing is in closed loop. It is for comparing bits and counting instructions,
+//! 1024th. Now and then a sample is bad: the angle jumps or stands still, torque or set point are any bits. Only the good angle is continuous; nothing is in closed loop. It is for comparing bits and counting instructions,
 //! not for judging control.
 
 use crate::Words;
@@ -18,6 +18,7 @@ pub struct Program {
     words: Words,
     tick: u32,
     angle: u32,
+    seen: u32,
     speed: i32,
 }
 
@@ -25,7 +26,7 @@ impl Program {
     /// A program from `seed` (zero counts as one) whose words are of the given number.
     pub const fn new(seed: u32, words: Words) -> Self {
         let random = if seed == 0 { 1 } else { seed };
-        Program { random, words, tick: 0, angle: 0, speed: 0 }
+        Program { random, words, tick: 0, angle: 0, seen: 0, speed: 0 }
     }
 
     /// The next input.
@@ -35,10 +36,16 @@ impl Program {
         self.angle = self.angle.wrapping_add(self.speed as u32);
         let released = self.tick & 1023 >= 16;
         self.tick = self.tick.wrapping_add(1);
+        // Primes, so that every pair of faults meets.
+        let jump = if self.tick % 61 < 4 { self.next_signed() as u32 } else { 0 };
+        let torque = if self.tick % 67 < 3 { self.next_signed() as u32 } else { self.next_word() };
+        let reference = if self.tick % 71 < 3 { self.next_signed() as u32 } else { self.next_word() };
+        let angle = if self.tick % 73 < 3 { self.seen } else { self.angle.wrapping_add(jump) };
+        self.seen = angle;
         Input {
-            angle: self.angle,
-            torque: self.next_word(),
-            reference: self.next_word(),
+            angle,
+            torque,
+            reference,
             flags: if released { Input::RELEASED } else { 0 },
             vibration: [self.next_word(), self.next_word()],
             reserved: [0; 2],

@@ -56,7 +56,7 @@ impl<N: Number> Governor<N> for SpeedLoop<N> {
         let error = self.set_point.minus(estimate.motor_speed).gain_operand();
         let twist_rate = estimate.motor_speed.minus(estimate.load_speed).widened();
         let integral = self.integral.accumulate(&mut carry, config.integral, error);
-        let prompt = N::sum2(&mut carry, [config.proportional, config.damping], [error, twist_rate]);
+        let prompt = N::times2([config.proportional, config.damping], [error, twist_rate]);
         let wanted = integral.plus(prompt);
         let torque = wanted.limited(config.torque_limit);
         self.integral = integral.accumulate(&mut carry, config.unwinding, torque.minus(wanted)).saturated();

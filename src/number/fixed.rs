@@ -134,6 +134,16 @@ impl Number for Fixed {
     }
 
     #[inline(always)]
+    fn times(self, c: Coefficient) -> Self {
+        Fixed((product(c, self) >> 32) as i32)
+    }
+
+    #[inline(always)]
+    fn times2(c: [Coefficient; 2], y: [Self; 2]) -> Self {
+        Fixed((product(c[0], y[0]).wrapping_add(product(c[1], y[1])) >> 32) as i32)
+    }
+
+    #[inline(always)]
     fn widened(self) -> Self {
         Fixed(self.0 << 2)
     }

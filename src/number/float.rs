@@ -48,6 +48,16 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn times(self, c: Self) -> Self {
+                c * self
+            }
+
+            #[inline(always)]
+            fn times2(c: [Self; 2], y: [Self; 2]) -> Self {
+                c[0] * y[0] + c[1] * y[1]
+            }
+
+            #[inline(always)]
             fn widened(self) -> Self {
                 self
             }

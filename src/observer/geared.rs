@@ -74,10 +74,8 @@ impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
     #[inline(always)]
     fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Self::Prediction {
         let now = self.observer.estimate(&config.observer);
-        let mut carry = N::CARRY;
-        let limit = N::product(&mut carry, config.friction, now.shaft_torque).magnitude();
-        let holding =
-            torque.minus(now.shaft_torque).accumulate(&mut carry, config.stiction, now.motor_speed.gain_operand());
+        let limit = now.shaft_torque.times(config.friction).magnitude();
+        let holding = torque.minus(now.shaft_torque).plus(now.motor_speed.gain_operand().times(config.stiction));
         let friction = holding.limited(limit);
         GearedPrediction {
             observer: self.observer.predict(&config.observer, angle, torque.minus(friction)),
@@ -88,15 +86,15 @@ impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
     #[inline(always)]
     fn correct(&mut self, config: &Self::Config, predicted: Self::Prediction, angle: u32) {
         if predicted.held && !predicted.innovation().exceeds(config.play) {
-            self.observer.coast(predicted.observer);
+            self.observer.coast(predicted.observer, angle);
         } else {
             self.observer.correct(&config.observer, predicted.observer, angle);
         }
     }
 
     #[inline(always)]
-    fn coast(&mut self, predicted: Self::Prediction) {
-        self.observer.coast(predicted.observer);
+    fn coast(&mut self, predicted: Self::Prediction, angle: u32) {
+        self.observer.coast(predicted.observer, angle);
     }
 
     #[inline(always)]

@@ -96,10 +96,10 @@ impl<N: Number> Observer<N> for Rigid<N> {
 
     /// The angle stays where it was last believed, and the residual runs on.
     #[inline(always)]
-    fn coast(&mut self, predicted: RigidPrediction<N>) {
+    fn coast(&mut self, predicted: RigidPrediction<N>, angle: u32) {
         self.speed = predicted.speed.saturated();
         self.accelerating = predicted.accelerating;
-        self.residual = self.residual.less_turn(predicted.turn);
+        self.residual = predicted.innovation.minus(N::from_angle(angle.wrapping_sub(self.angle) as i32));
     }
 
     #[inline(always)]

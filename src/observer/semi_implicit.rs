@@ -118,11 +118,11 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
 
     /// The angle stays where it was last believed, and the residual runs on.
     #[inline(always)]
-    fn coast(&mut self, predicted: SemiImplicitPrediction<N>) {
+    fn coast(&mut self, predicted: SemiImplicitPrediction<N>, angle: u32) {
         self.motor_speed = predicted.motor_speed.saturated();
         self.load_speed = predicted.load_speed.saturated();
         self.shaft_torque = predicted.shaft_torque.saturated();
-        self.residual = self.residual.less_turn(predicted.turn);
+        self.residual = predicted.innovation.minus(N::from_angle(angle.wrapping_sub(self.angle) as i32));
     }
 
     #[inline(always)]

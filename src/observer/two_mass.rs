@@ -101,7 +101,7 @@ impl<N: Number> Observer<N> for TwoMass<N> {
     #[inline(always)]
     fn predict(&self, config: &TwoMassConfig<N>, angle: u32, torque: N) -> TwoMassPrediction<N> {
         let mut carry = N::CARRY;
-        let forcing = N::sum2(&mut carry, config.forcing, [torque, self.load_torque]);
+        let forcing = N::times2(config.forcing, [torque, self.load_torque]);
         let pair = [self.twist.widened(), self.twist_rate.widened(), forcing.widened()];
         let twist = self.twist.accumulate3(&mut carry, config.twist, pair);
         let twist_rate = self.twist_rate.accumulate3(&mut carry, config.twist_rate, pair);
@@ -129,11 +129,11 @@ impl<N: Number> Observer<N> for TwoMass<N> {
 
     /// The angle stays where it was last believed, and the residual runs on.
     #[inline(always)]
-    fn coast(&mut self, predicted: TwoMassPrediction<N>) {
+    fn coast(&mut self, predicted: TwoMassPrediction<N>, angle: u32) {
         self.speed = predicted.speed.saturated();
         self.twist_rate = predicted.twist_rate.saturated();
         self.twist = predicted.twist.saturated();
-        self.residual = self.residual.less_turn(predicted.turn);
+        self.residual = predicted.innovation.minus(N::from_angle(angle.wrapping_sub(self.angle) as i32));
     }
 
     #[inline(always)]
@@ -142,7 +142,7 @@ impl<N: Number> Observer<N> for TwoMass<N> {
         let pair = [self.twist.widened(), self.twist_rate.widened()];
         Estimate {
             motor_speed: self.speed.accumulate(&mut carry, config.share[0], pair[1]),
-            shaft_torque: N::sum2(&mut carry, config.shaft, pair),
+            shaft_torque: N::times2(config.shaft, pair),
             load_speed: self.speed.accumulate(&mut carry, config.share[1], pair[1]),
             load_torque: self.load_torque,
         }

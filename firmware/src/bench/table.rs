@@ -2,6 +2,8 @@
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
+use super::steps;
+use crate::Words;
 use crate::board::Board;
 use crate::measure::driveline_tick;
 use crate::program::Program;
@@ -13,4 +15,8 @@ pub fn run<B: Board>(bench: &mut Bench<'_, B>) {
     bench.measure("nops/10", (), |_| (), ten_nops);
     bench.measure("nops/1000", (), |_| (), thousand_nops);
     bench.measure("tick", Selected::new(), Program::next_input, driveline_tick);
+    match const { Words::of::<Selected>() } {
+        Words::Single => steps::single(bench),
+        Words::Fixed => steps::fixed(bench),
+    }
 }

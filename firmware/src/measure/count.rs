@@ -6,6 +6,8 @@ use crate::board::Board;
 
 /// A function to be measured: state, input, output.
 pub type Measured<S, I, O> = fn(&mut S, &I, &mut O);
+/// An observer's step to be measured: constants, state, angle, torque.
+pub type Stepped<C, S, N> = fn(&C, &mut S, u32, N);
 type Erased = fn(*mut (), *const (), *mut ());
 
 /// Counts instructions on board `B`.
@@ -34,6 +36,25 @@ impl<'b, B: Board> Counter<'b, B> {
         B::instructions(counts).wrapping_sub(self.overhead)
     }
 
+    /// Instructions of a function that takes constants, a state, an angle and a number in registers, as an observer's step does; what an
+    /// empty function of that kind has too is not counted.
+    #[inline(always)]
+    pub fn step<C, S, N: Copy>(
+        &self,
+        function: Stepped<C, S, N>,
+        constants: &C,
+        state: &mut S,
+        angle: u32,
+        number: N,
+    ) -> u32 {
+        // One closure, one inlined place: the same instructions round both.
+        let mut round = |function: Stepped<C, S, N>| {
+            timed_step(self.board, black_box(function), constants, &mut *state, angle, number)
+        };
+        let overhead = B::instructions(round(no_step::<C, S, N>));
+        B::instructions(round(function)).wrapping_sub(overhead)
+    }
+
     /// Instructions of the frame round a call, an empty function included.
     pub fn overhead(&self) -> u32 {
         self.overhead
@@ -48,6 +69,25 @@ fn timed<B: Board>(board: &B, function: Erased, state: *mut (), input: *const ()
     function(state, input, output);
     board.count().wrapping_sub(before)
 }
+
+/// The one place where a measured step happens.
+#[inline(never)]
+fn timed_step<B: Board, C, S, N>(
+    board: &B,
+    function: Stepped<C, S, N>,
+    constants: &C,
+    state: &mut S,
+    angle: u32,
+    number: N,
+) -> u32 {
+    let before = board.count();
+    function(constants, state, angle, number);
+    board.count().wrapping_sub(before)
+}
+
+/// The empty step.
+#[inline(never)]
+fn no_step<C, S, N>(_: &C, _: &mut S, _: u32, _: N) {}
 
 /// The empty function.
 #[inline(never)]

@@ -1,0 +1,79 @@
+//! The steps of the observers and the whole tick, on the hoist's constants.
+
+use driveline::drive::{ConfigOf, Drive};
+use driveline::governor::SpeedLoop;
+use driveline::number::{Fixed, Number};
+use driveline::observer::{Geared, Observer, Rigid, SemiImplicit, TwoMass};
+use driveline::sample::{Command, Sample};
+
+use super::Bench;
+use crate::board::Board;
+use crate::governed::Variant;
+use crate::program::Program;
+use crate::scenes::hoist::{Hoist, with};
+
+/// The steps in `f32`.
+pub fn single<B: Board>(bench: &mut Bench<'_, B>) {
+    all::<B, f32, Hoist<f32, with::Exact, 10_000>, Hoist<f32, with::Reduced, 10_000>, Hoist<f32, with::Rigid, 10_000>>(
+        bench,
+    );
+}
+
+/// The steps in fixed point.
+pub fn fixed<B: Board>(bench: &mut Bench<'_, B>) {
+    all::<
+        B,
+        Fixed,
+        Hoist<Fixed, with::Exact, 10_000>,
+        Hoist<Fixed, with::Reduced, 10_000>,
+        Hoist<Fixed, with::Rigid, 10_000>,
+    >(bench);
+}
+
+fn all<B, N, E, R, G>(bench: &mut Bench<'_, B>)
+where
+    B: Board,
+    N: Number + 'static,
+    E: Variant<Number = N, Observer = Geared<TwoMass<N>>>,
+    R: Variant<Number = N, Observer = Geared<SemiImplicit<N>>>,
+    G: Variant<Number = N, Observer = Geared<Rigid<N>>>,
+{
+    observer::<B, N, TwoMass<N>>(bench, "step/exact", &E::CONFIG.observer.observer);
+    observer::<B, N, SemiImplicit<N>>(bench, "step/semi-implicit", &R::CONFIG.observer.observer);
+    observer::<B, N, Rigid<N>>(bench, "step/rigid", &G::CONFIG.observer.observer);
+    drive::<B, E>(bench, "drive/exact");
+    drive::<B, R>(bench, "drive/semi-implicit");
+    drive::<B, G>(bench, "drive/rigid");
+}
+
+/// An observer's step: predict and correct, without the checks that the drive makes.
+fn observer<B: Board, N: Number, O: Observer<N>>(bench: &mut Bench<'_, B>, name: &str, config: &O::Config) {
+    bench.measure_step(name, config, O::at_rest(config, 0, N::ZERO), step::<N, O>);
+}
+
+#[inline(never)]
+fn step<N: Number, O: Observer<N>>(config: &O::Config, observer: &mut O, angle: u32, torque: N) {
+    observer.step(config, angle, torque);
+}
+
+type Whole<V> = Drive<<V as Variant>::Number, <V as Variant>::Observer, (), SpeedLoop<<V as Variant>::Number>>;
+type Constants<V> = ConfigOf<<V as Variant>::Number, <V as Variant>::Observer, (), SpeedLoop<<V as Variant>::Number>>;
+
+/// The whole tick, checks and flags included, good and bad samples alike.
+fn drive<B: Board, V: Variant>(bench: &mut Bench<'_, B>, name: &str) {
+    let input = |inputs: &mut Program| {
+        let input = inputs.next_input();
+        let number = V::Number::from_word;
+        Sample { angle: input.angle, torque: number(input.torque), reference: number(input.reference) }
+    };
+    bench.measure(name, (V::CONFIG, Drive::new(V::CONFIG, 0)), input, tick::<V>);
+}
+
+#[inline(never)]
+fn tick<V: Variant>(
+    drive: &mut (&Constants<V>, Whole<V>),
+    sample: &Sample<V::Number>,
+    command: &mut Command<V::Number>,
+) {
+    *command = drive.1.tick(drive.0, sample);
+}
