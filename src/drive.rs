@@ -38,7 +38,7 @@ pub struct Limits<N: Number> {
     /// Largest predicted turn in a tick that an unchanged angle is believed with, as [`Number::less_turn`] takes it.
     pub standstill: N,
     /// Ticks in a row without a usable angle after which it counts as lost.
-    pub missed: u16,
+    pub missed: u32,
 }
 
 /// The constants of a drive.
@@ -76,7 +76,7 @@ pub struct Drive<N, O, F = (), G = (), B = ()> {
     balancer: B,
     commanded: N,
     reference: N,
-    missed: u16,
+    missed: u32,
 }
 
 impl<N, O, F, G, B> Drive<N, O, F, G, B>
@@ -182,15 +182,12 @@ where
             self.observer.correct(&config.observer, predicted, sample.angle);
             self.missed = 0;
         }
-        if self.observer.is_beyond_base() {
-            faults |= Faults::RANGE;
-        }
-        faults
+        faults | Faults::range(self.observer.beyond_base())
     }
 
     /// Counts a tick whose angle cannot be true, and takes the next that moves where there have been too many.
     #[inline(always)]
-    fn refuse(&mut self, limit: u16, angle: u32, unchanged: bool) -> Faults {
+    fn refuse(&mut self, limit: u32, angle: u32, unchanged: bool) -> Faults {
         let mut fault = if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
         if self.missed < limit {
             self.missed += 1;

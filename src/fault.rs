@@ -12,7 +12,7 @@ impl Faults {
     /// Nothing wrong.
     pub const NONE: Faults = Faults(0);
     /// The applied torque of the sample was NaN, infinite or beyond the drive's limit; the tick used the last command instead.
-    pub const TORQUE: Faults = Faults(1 << 0);
+    pub const TORQUE: Faults = Faults(1 << 5);
     /// The speed set point was NaN, infinite or beyond the drive's limit; the last good one stands.
     pub const REFERENCE: Faults = Faults(1 << 1);
     /// The motor angle jumped further from the prediction than any torque could have moved the motor; the tick
@@ -23,7 +23,7 @@ impl Faults {
     /// The angle has been unusable for longer than the estimates stay good without it; the observer takes the next angle as it comes.
     pub const ANGLE_LOST: Faults = Faults(1 << 4);
     /// A state of the observer is beyond its fixed-point base, which is beyond the machine's limits; at twice the base it is held.
-    pub const RANGE: Faults = Faults(1 << 5);
+    pub const RANGE: Faults = Faults(1 << 0);
 
     /// Every flag with its name, in the order of the bits.
     pub const NAMES: [(Faults, &'static str); 6] = [
@@ -51,6 +51,12 @@ impl Faults {
     #[inline(always)]
     pub const fn bits(self) -> u32 {
         self.0
+    }
+
+    /// [`Faults::RANGE`] where `beyond` is 1, none where it is 0.
+    #[inline(always)]
+    pub(crate) const fn range(beyond: u32) -> Faults {
+        Faults(beyond)
     }
 
     /// The faults with these bits; bits that mean nothing are dropped.

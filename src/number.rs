@@ -53,8 +53,8 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     fn widened(self) -> Self;
     /// Held within twice the base in fixed point; floats are left alone.
     fn saturated(self) -> Self;
-    /// Whether any of three states is beyond its base, in fixed point.
-    fn any_beyond_base(states: [Self; 3]) -> bool;
+    /// In fixed point 1 where any of three saturated states is beyond its base, 0 where not; always 0 for floats.
+    fn beyond_base(states: [Self; 3]) -> u32;
     /// `limit` where the number is above it, `-limit` where it is below that.
     fn limited(self, limit: Self) -> Self;
     /// Whether the magnitude is beyond `limit`, which is not negative, or not a number at all.

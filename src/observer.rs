@@ -63,8 +63,8 @@ pub trait Observer<N: Number>: Sized {
     /// The angle that was last believed, 2^32 per turn.
     fn angle(&self) -> u32;
 
-    /// Whether the motor's speed, the twist or the load torque is beyond its base, in fixed point.
-    fn is_beyond_base(&self) -> bool;
+    /// [`Number::beyond_base`] of the motor's speed, the twist or shaft torque, and the load torque.
+    fn beyond_base(&self) -> u32;
 
     /// One tick with an angle that is known to be good.
     #[inline(always)]

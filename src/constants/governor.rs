@@ -26,7 +26,7 @@ const fn speed_loop(design: &SpeedLoopDesign, settings: &SpeedLoopSettings, form
     SpeedLoopConfig {
         proportional: design.proportional * scale,
         integral: design.integral * design.period * scale,
-        damping: -design.slip * speed / (torque * format.widened),
+        damping: -design.slip * scale,
         unwinding: design.integral * design.period / design.proportional,
         torque_limit: settings.torque_limit / torque,
         ramp: settings.ramp * design.period / speed,

@@ -24,7 +24,7 @@ pub struct Screening {
     /// Largest predicted turn in a tick that an unchanged angle is believed with [rad]: two counts of the encoder.
     pub standstill: f64,
     /// Ticks in a row without a usable angle after which it counts as lost.
-    pub missed: u16,
+    pub missed: u32,
 }
 
 impl Limits<f64> {

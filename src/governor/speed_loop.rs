@@ -54,7 +54,7 @@ impl<N: Number> Governor<N> for SpeedLoop<N> {
         let step = reference.minus(self.set_point).limited(config.ramp);
         self.set_point = self.set_point.plus(step);
         let error = self.set_point.minus(estimate.motor_speed).gain_operand();
-        let twist_rate = estimate.motor_speed.minus(estimate.load_speed).widened();
+        let twist_rate = estimate.motor_speed.minus(estimate.load_speed).gain_operand();
         let integral = self.integral.accumulate(&mut carry, config.integral, error);
         let prompt = N::times2([config.proportional, config.damping], [error, twist_rate]);
         let wanted = integral.plus(prompt);

@@ -154,12 +154,12 @@ impl Number for Fixed {
         Fixed(self.0.clamp(-(1 << 29), (1 << 29) - 1))
     }
 
-    // The bits of a magnitude from 2^28 upwards are set in the union where they are set in any.
+    // Bit 28 of a magnitude is set in the union where it is set in any; saturated states have none above it.
     #[inline(always)]
-    fn any_beyond_base(states: [Self; 3]) -> bool {
+    fn beyond_base(states: [Self; 3]) -> u32 {
         let magnitude = |x: Fixed| x.0 ^ (x.0 >> 31);
         let [a, b, c] = states;
-        (magnitude(a) | magnitude(b) | magnitude(c)) >= 1 << 28
+        (magnitude(a) | magnitude(b) | magnitude(c)) as u32 >> 28
     }
 
     // The limit with the sign of the number, in two instructions.

@@ -68,8 +68,8 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn any_beyond_base(_states: [Self; 3]) -> bool {
-                false
+            fn beyond_base(_states: [Self; 3]) -> u32 {
+                0
             }
 
             #[inline(always)]

@@ -108,7 +108,7 @@ impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
     }
 
     #[inline(always)]
-    fn is_beyond_base(&self) -> bool {
-        self.observer.is_beyond_base()
+    fn beyond_base(&self) -> u32 {
+        self.observer.beyond_base()
     }
 }

@@ -122,7 +122,7 @@ impl<N: Number> Observer<N> for Rigid<N> {
     }
 
     #[inline(always)]
-    fn is_beyond_base(&self) -> bool {
-        N::any_beyond_base([self.speed, self.load_torque, N::ZERO])
+    fn beyond_base(&self) -> u32 {
+        N::beyond_base([self.speed, self.load_torque, N::ZERO])
     }
 }

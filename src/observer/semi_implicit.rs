@@ -141,7 +141,7 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
     }
 
     #[inline(always)]
-    fn is_beyond_base(&self) -> bool {
-        N::any_beyond_base([self.motor_speed, self.shaft_torque, self.load_torque])
+    fn beyond_base(&self) -> u32 {
+        N::beyond_base([self.motor_speed, self.shaft_torque, self.load_torque])
     }
 }

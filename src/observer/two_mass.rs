@@ -154,7 +154,7 @@ impl<N: Number> Observer<N> for TwoMass<N> {
     }
 
     #[inline(always)]
-    fn is_beyond_base(&self) -> bool {
-        N::any_beyond_base([self.twist, self.speed, self.load_torque])
+    fn beyond_base(&self) -> u32 {
+        N::beyond_base([self.twist, self.speed, self.load_torque])
     }
 }

@@ -72,7 +72,7 @@ const fn screening(rate_hz: u32) -> Screening {
         reference: 1.2 * RATED_SPEED,
         innovation: core::f64::consts::TAU / 128.0,
         standstill: 2.0 * core::f64::consts::TAU / 8192.0,
-        missed: (rate_hz / 50) as u16,
+        missed: rate_hz / 50,
     }
 }
 
