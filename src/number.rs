@@ -20,6 +20,8 @@ pub use fixed::{Coefficient, Fixed};
 pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// What a number is multiplied by. In fixed point a fraction of 2^32.
     type Coefficient: Copy + Default + PartialEq + core::fmt::Debug;
+    /// How firmly a standing gear is held: a factor for floats; in fixed point always [`FIRMNESS`].
+    type Firmness: Copy + Default + PartialEq + core::fmt::Debug;
     /// What one sum leaves to the next.
     type Carry: Copy;
 
@@ -73,6 +75,9 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// amplify without overflow.
     fn gain_operand(self) -> Self;
 
+    /// The torque that brings a speed to rest; in fixed point it ends at twice the base.
+    fn braked(self, firmness: Self::Firmness) -> Self;
+
     /// The bits, as they travel over a link; an `f64` is rounded to `f32` first.
     fn to_word(self) -> u32;
     /// The number that has these bits.
@@ -86,6 +91,9 @@ pub const TURN_SHIFT: u32 = 7;
 /// Binary places by which an innovation is shifted up before its gains, which then range over +-16 units in the last place per 2^-32
 /// turn.
 pub const INNOVATION_SHIFT: u32 = 5;
+
+/// Torque per speed, per unit, that brings a standing gear to rest in fixed point.
+pub const FIRMNESS: f64 = 16.0;
 
 /// Largest innovation in 2^-32 turns that fixed point can correct by: 2^26, 5.6 degrees of the motor.
 pub const INNOVATION_RANGE: f64 = 67_108_863.0;

@@ -2,14 +2,16 @@
 
 use super::convert::{fixed, get, or_stop};
 use super::format::ANGLE_PER_RADIAN;
-use super::{Bases, Error, Format};
-use crate::number::{Fixed, INNOVATION_RANGE};
+use super::{Bases, Error};
+use crate::number::{FIRMNESS, Fixed, INNOVATION_RANGE};
 use crate::observer::GearedConfig;
 
 const EFFICIENCY: &str = "the efficiency of the gear must be above 0 and at most 1";
 const MOTOR: &str = "the inertia in front of the gear and the period must be positive and finite";
 const PLAY: &str =
     "the play in front of a held gear must not be negative, and at most 5.6 degrees (0.098 rad) in fixed point";
+const LIGHT: &str =
+    "the inertia in front of the gear is too light for the bases at this rate: raise the rate or the base of the speed";
 const FIXED: &str = "the efficiency of the gear must be above 0.62 in fixed point";
 
 /// A gear with losses, as an observer has to know it.
@@ -25,26 +27,21 @@ pub struct Gear {
 }
 
 impl Gear {
-    /// Friction per shaft torque, what brings the motor to rest within two ticks, and the play, scaled to a format.
-    const fn losses(&self, period: f64, format: &Format) -> Result<[f64; 3], Error> {
+    /// Friction per shaft torque, what brings the motor to rest within two ticks [N m s/rad], and the play [2^-32 turn].
+    const fn losses(&self, period: f64) -> Result<[f64; 3], Error> {
         let eta = self.efficiency;
         if !(eta > 0.0 && eta <= 1.0) {
             return Err(Error::Value(EFFICIENCY));
         }
-        let stiction = 0.5 * self.inertia / period;
-        if !(stiction > 0.0 && stiction.is_finite() && period > 0.0) {
+        let firmness = 0.5 * self.inertia / period;
+        if !(firmness > 0.0 && firmness.is_finite() && period > 0.0) {
             return Err(Error::Value(MOTOR));
         }
         let play = self.play * ANGLE_PER_RADIAN;
         if !(play >= 0.0 && play < INNOVATION_RANGE) {
             return Err(Error::Value(PLAY));
         }
-        let Bases { torque, speed, .. } = format.bases;
-        let scaled = stiction * (speed / torque) / format.gain;
-        // Fixed point holds no more than 16 per unit; a softer hold brings the motor to rest within more ticks.
-        let limit = if format.gain == 1.0 { f64::INFINITY } else { 0.499 };
-        let held = if scaled < limit { scaled } else { limit };
-        Ok([0.5 * ((1.0 / eta - 1.0) + (1.0 - eta)), held, play])
+        Ok([0.5 * ((1.0 / eta - 1.0) + (1.0 - eta)), firmness, play])
     }
 }
 
@@ -64,11 +61,11 @@ macro_rules! float {
             /// # Errors
             /// [`Error::Value`] for a figure of the gear that is out of its range.
             pub const fn try_new(observer: C, gear: &Gear, period: f64) -> Result<Self, Error> {
-                let [friction, stiction, play] = get!(gear.losses(period, &Format::FLOAT));
+                let [friction, firmness, play] = get!(gear.losses(period));
                 Ok(GearedConfig {
                     observer,
                     friction: friction as $float,
-                    stiction: stiction as $float,
+                    firmness: firmness as $float,
                     play: play as $float,
                 })
             }
@@ -91,10 +88,15 @@ impl<C: Copy> GearedConfig<Fixed, C> {
     /// An observer's constants behind a gear, in ticks of this period [s].
     ///
     /// # Errors
-    /// [`Error::Value`] for a figure of the gear that is out of its range; [`Error::Coefficient`] for an efficiency below 0.62.
+    /// [`Error::Value`] for a figure of the gear that is out of its range, or an inertia too light for the bases;
+    /// [`Error::Coefficient`] for an efficiency below 0.62.
     pub const fn try_new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Result<Self, Error> {
-        let [friction, stiction, play] = get!(gear.losses(period, &Format::fixed(bases)));
-        let [friction, stiction] = get!(fixed([friction, stiction], FIXED));
-        Ok(GearedConfig { observer, friction, stiction, play: Fixed::from_bits(play as i32) })
+        let [friction, firmness, play] = get!(gear.losses(period));
+        let [friction] = get!(fixed([friction], FIXED));
+        // Twice the firmness that is held within two ticks would swing, four times would grow.
+        if FIRMNESS * (bases.torque / bases.speed) > 2.0 * firmness {
+            return Err(Error::Value(LIGHT));
+        }
+        Ok(GearedConfig { observer, friction, firmness: (), play: Fixed::from_bits(play as i32) })
     }
 }

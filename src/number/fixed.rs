@@ -87,6 +87,7 @@ fn open(x: Fixed, carry: u32) -> i64 {
 
 impl Number for Fixed {
     type Coefficient = Coefficient;
+    type Firmness = ();
     type Carry = u32;
 
     const ZERO: Self = Fixed(0);
@@ -198,6 +199,12 @@ impl Number for Fixed {
     #[inline(always)]
     fn gain_operand(self) -> Self {
         Fixed(self.0.clamp(-(1 << 26), (1 << 26) - 1) << GAIN_SHIFT)
+    }
+
+    // 16 times: a saturation and a shift that the addition takes along.
+    #[inline(always)]
+    fn braked(self, _firmness: ()) -> Self {
+        Fixed(self.0.clamp(-(1 << 25), (1 << 25) - 1) << 4)
     }
 
     #[inline(always)]

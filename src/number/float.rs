@@ -6,6 +6,7 @@ macro_rules! float {
     ($float:ident) => {
         impl Number for $float {
             type Coefficient = $float;
+            type Firmness = $float;
             type Carry = ();
 
             const ZERO: Self = 0.0;
@@ -112,6 +113,11 @@ macro_rules! float {
             #[inline(always)]
             fn gain_operand(self) -> Self {
                 self
+            }
+
+            #[inline(always)]
+            fn braked(self, firmness: Self) -> Self {
+                firmness * self
             }
 
             #[inline(always)]

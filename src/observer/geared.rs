@@ -28,7 +28,7 @@ pub struct GearedConfig<N: Number, C> {
     /// Friction per shaft torque in motion, lambda.
     pub friction: N::Coefficient,
     /// How firmly a standing gear is held, c [N m s/rad].
-    pub stiction: N::Coefficient,
+    pub firmness: N::Firmness,
     /// Largest innovation that a held gear leaves out [2^-32 turn].
     pub play: N,
 }
@@ -75,7 +75,7 @@ impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
     fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Self::Prediction {
         let now = self.observer.estimate(&config.observer);
         let limit = now.shaft_torque.times(config.friction).magnitude();
-        let holding = torque.minus(now.shaft_torque).plus(now.motor_speed.gain_operand().times(config.stiction));
+        let holding = torque.minus(now.shaft_torque).plus(now.motor_speed.braked(config.firmness));
         let friction = holding.limited(limit);
         GearedPrediction {
             observer: self.observer.predict(&config.observer, angle, torque.minus(friction)),
