@@ -9,3 +9,4 @@ pub mod plant;
 pub mod report;
 pub mod run;
 pub mod setup;
+pub mod sweep;
