@@ -2,6 +2,7 @@
 
 mod assemble;
 pub mod closed_loop;
+mod comparison;
 pub mod engine;
 mod facts;
 pub mod figures;

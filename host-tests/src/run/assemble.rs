@@ -7,10 +7,11 @@ use driveline_firmware::board::Facts;
 use super::engine::{self, Options, Ran};
 use super::plan::{Candidate, candidates};
 use super::scenario::Machine;
-use super::{facts, hoist};
+use super::{comparison, facts, hoist};
 use crate::check::budgets::Budgets;
 use crate::image::workspace;
 use crate::report::{Budget, Report};
+use crate::sweep;
 
 /// A run that is ready to start.
 pub struct Plan {
@@ -41,7 +42,7 @@ impl Plan {
 
     /// Steps of the run, for its progress.
     pub fn steps(&self) -> u64 {
-        self.candidates.len() as u64 + if self.whole { 2 } else { 0 }
+        self.candidates.len() as u64 + if self.whole { 1 } else { 0 }
     }
 
     /// Runs it. `says` names what is under way, `step` counts.
@@ -68,22 +69,33 @@ impl Plan {
                 }
             };
             let ran = engine::run(&self.machine, candidate, base, self.options, says)?;
-            self.add(&mut report, candidate, &ran);
+            self.add(&mut report, candidate, &ran)?;
             step();
         }
         self.budgets(&mut report)?;
+        if self.whole {
+            says("stiff and extreme machines");
+            report.sweeps = sweep::run(self.options.quick, |done, all| {
+                says(&format!("stiff and extreme machines, {done} of {all}"))
+            });
+            step();
+        }
         Ok(report)
     }
 
     /// A variant's figures, its courses where they are worth a plot, and the other steps on its inputs.
-    fn add(&self, report: &mut Report, candidate: &Candidate, ran: &Ran) {
+    fn add(&self, report: &mut Report, candidate: &Candidate, ran: &Ran) -> Result<(), Box<dyn Error>> {
         report.variants.push(ran.variant.clone());
         if candidate.rate_hz() == 10_000 && candidate.part(2) != "cut" {
             report.trajectories.extend(engine::trajectories(&self.machine, ran));
         }
+        if candidate.part(1) == "f32" && candidate.part(2) == "reduced" {
+            report.comparisons.extend(comparison::of_hoist(&self.machine, candidate.rate_hz(), ran)?);
+        }
         if candidate.part(2) == "reduced" && candidate.rate_hz() == 10_000 {
             report.facts.extend(facts::of_sudden(&self.machine, &ran.variant, &ran.traces));
         }
+        Ok(())
     }
 
     /// What `budgets.toml` allows beside what was measured in closed loop.
