@@ -9,6 +9,8 @@ use driveline_firmware::selected::VARIANTS;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::image::BENCHES;
+
 /// Upper limits; a figure that is not named has none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -88,8 +90,9 @@ impl Budgets {
         };
         let mut budgets = BTreeMap::new();
         for (variant, cores) in tables {
-            if !VARIANTS.contains(&variant.get_ref().as_str()) {
-                return Err(unknown(&variant, "variant", VARIANTS.to_vec()));
+            let name = variant.get_ref().as_str();
+            if !VARIANTS.contains(&name) && !BENCHES.contains(&name) {
+                return Err(unknown(&variant, "variant", [VARIANTS, &BENCHES].concat()));
             }
             for (core, budget) in cores {
                 if !BOARDS.iter().any(|board| board.core == core.get_ref()) {

@@ -1,6 +1,7 @@
 //! What a variant costs on a board: instructions a tick, flash, RAM and stack.
 
 use std::error::Error;
+use std::time::Duration;
 
 use driveline_firmware::Words;
 use driveline_firmware::board::Facts;
@@ -75,6 +76,42 @@ impl Cost {
         Ok(Cost { instructions, sizes, tick_code, state: summary.state, stack: summary.stack })
     }
 }
+
+/// Functions that the bench measures and `budgets.toml` may name.
+pub const BENCHES: [&str; 6] = [
+    "bench/step/exact",
+    "bench/step/semi-implicit",
+    "bench/step/rigid",
+    "bench/drive/exact",
+    "bench/drive/semi-implicit",
+    "bench/drive/rigid",
+];
+
+impl Cost {
+    /// Instructions of the functions in [`BENCHES`] on a board, in the number that its core is for.
+    ///
+    /// # Errors
+    /// What the build or QEMU says, or that a function was not measured.
+    pub fn benches(board: Facts) -> Result<Vec<(String, Self)>, Box<dyn Error>> {
+        let number = if board.target.ends_with("hf") { "f32" } else { "fixed" };
+        let image = build(&format!("hoist/{number}/reduced/10000"), board, Program::Bench, |_| {})?;
+        let lines = crate::link::run(&image, BENCH_LIMIT)?.lines;
+        let cost = |name: &str| {
+            let line = lines.iter().find(|line| line["bench"].as_str().is_some_and(|bench| name.ends_with(bench)));
+            let figure =
+                |key: &str| line.and_then(|line| line[key].as_u64()).and_then(|value| u32::try_from(value).ok());
+            let (Some(min), Some(median), Some(max)) = (figure("min"), figure("median"), figure("max")) else {
+                return Err(format!("{name} was not measured on {}", board.name).into());
+            };
+            let instructions = Spread { min, median, max };
+            Ok((name.into(), Cost { instructions, sizes: Sizes::default(), tick_code: 0, state: 0, stack: 0 }))
+        };
+        BENCHES.iter().map(|name| cost(name)).collect()
+    }
+}
+
+/// A bench takes a second; this is for a QEMU that hangs.
+const BENCH_LIMIT: Duration = Duration::from_secs(60);
 
 struct WordsOf;
 

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use driveline_firmware::board::{BOARDS, Facts};
 
 pub use build::{BuildError, build, links, target_directory, workspace};
-pub use cost::{Cost, Spread};
+pub use cost::{BENCHES, Cost, Spread};
 pub use sections::{Contents, ReadError, Sizes, Symbol};
 pub use self_test::self_test;
 
@@ -64,6 +64,11 @@ pub struct Image {
     pub board: Facts,
     /// The binary.
     pub program: Program,
+}
+
+/// Whether a variant belongs on a board: floats on cores that have a unit for them, fixed point on all.
+pub fn belongs(variant: &str, board: &Facts) -> bool {
+    variant.split('/').nth(1) != Some("f32") || board.target.ends_with("hf")
 }
 
 /// The board with a core (`m4f`), or of that name (`mps2-an386`).

@@ -4,6 +4,8 @@ use driveline_firmware::Words;
 use driveline_firmware::board::{BOARDS, Facts};
 use driveline_firmware::selected::VARIANTS;
 
+use crate::image::belongs;
+
 /// A variant on a board.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate {
@@ -35,15 +37,16 @@ impl Candidate {
     }
 }
 
-/// The candidates of a scene whose key contains `filter`: floats on cores that have a unit for them, fixed point on
-/// all.
+/// The candidates of a scene whose key contains `filter`.
 pub fn candidates(scene: &str, filter: Option<&str>) -> Vec<Candidate> {
     let mut candidates = Vec::new();
     for &board in BOARDS {
         for variant in VARIANTS {
             let candidate = Candidate { variant, board };
-            let fits = candidate.words() == Words::Fixed || board.target.ends_with("hf");
-            if candidate.part(0) == scene && fits && filter.is_none_or(|filter| candidate.key().contains(filter)) {
+            if candidate.part(0) == scene
+                && belongs(variant, &board)
+                && filter.is_none_or(|filter| candidate.key().contains(filter))
+            {
                 candidates.push(candidate);
             }
         }
