@@ -13,6 +13,7 @@
 
 mod approximate;
 mod cause;
+mod comparison;
 mod course;
 mod error;
 mod grid;
@@ -25,8 +26,9 @@ mod step;
 mod swing;
 mod table;
 
-pub use approximate::{ApproximateObserver, Recorded, StepOf, comparison};
+pub use approximate::{ApproximateObserver, StepOf};
 pub use cause::Cause;
+pub use comparison::{Recorded, comparison, comparisons, recorded};
 pub use error::{FINEST, Outcome, STEPS, USABLE, errors};
 pub use grid::{PERIOD, Place, open_loop, places};
 pub use growth::{Growth, TICKS, TOLERANCE, growths};

@@ -6,7 +6,13 @@ use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass as Machine};
 use driveline::observer::{Geared, GearedConfig, TwoMass, TwoMassConfig};
 use driveline::sample::Sample;
-use host_tests::sweep::{ApproximateObserver, Recorded, StepOf, comparison};
+use driveline_firmware::scene::Scene;
+use driveline_firmware::scenes::hoist as scene;
+use driveline_firmware::{Visitor, Words, selected};
+use host_tests::run::closed_loop::{OnHost, Trace, run};
+use host_tests::run::hoist;
+use host_tests::run::units::Units;
+use host_tests::sweep::{ApproximateObserver, Recorded, StepOf, comparison, comparisons, recorded};
 
 const GEAR: Gear = Gear { efficiency: 0.94, inertia: 0.7, play: 0.01 };
 
@@ -92,4 +98,32 @@ fn the_exact_step_is_the_best() {
     println!("{exact:?}\n{tustin:?}\n{euler:?}");
     assert!(exact.shaft_torque.rms < tustin.shaft_torque.rms);
     assert!(tustin.shaft_torque.rms < euler.shaft_torque.rms);
+}
+
+/// The hoist's recorded runs: the observer in `f64` and the drive in `f32` see the same, and the other steps stand beside it.
+#[test]
+fn the_hoists_recordings_are_understood() {
+    struct Record;
+    impl Visitor for Record {
+        type Outcome = Vec<(Trace, Units)>;
+        fn visit<S: Scene>(self) -> Self::Outcome {
+            let machine = hoist::machine().unwrap();
+            let units = Units::new(Words::of::<S>(), machine.bases);
+            let record = |scenario| run(&machine, scenario, &units, S::RATE_HZ, &mut OnHost(S::new()), |_| ()).unwrap();
+            machine.scenarios.iter().map(|scenario| (record(scenario), units)).collect()
+        }
+    }
+    let design = scene::observer(&scene::REDUCED, 1_000);
+    let runs = selected::visit("hoist/f32/exact/1000", Record).unwrap();
+    for (trace, units) in runs {
+        let run = recorded(&trace, &units);
+        let compared = comparisons(&design, &scene::GEAR, &run, scene::RATED_SPEED).unwrap();
+        let peak = trace.moments.iter().map(|moment| moment.truth[0].abs()).fold(0.0, f64::max);
+        let squares = trace.moments.iter().map(|moment| ((moment.estimate[0] - moment.truth[0]) / peak).powi(2));
+        let drive = (squares.sum::<f64>() / trace.moments.len() as f64).sqrt();
+        println!("drive {drive} {:?}", compared.iter().map(|c| (&c.step, c.shaft_torque)).collect::<Vec<_>>());
+        // As long as the drive believes every sample they differ by the rounding of f32, far below what both are wrong by.
+        let unscreened = trace.moments.iter().all(|moment| moment.faults == 0);
+        assert!(!unscreened || (compared[0].shaft_torque.rms - drive).abs() < 1e-4);
+    }
 }

@@ -8,8 +8,6 @@ use driveline::constants::Gear;
 use driveline::design::{ApproximateStep, TwoMassDesign};
 use driveline::observer::{Geared, GearedConfig, Observer, TwoMass, TwoMassConfig};
 
-use crate::report::{Comparison, Deviation};
-
 /// The step of twist and slip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepOf {
@@ -79,54 +77,4 @@ impl ApproximateObserver {
         let estimate = self.observer.estimate(&self.config);
         [estimate.shaft_torque, estimate.load_speed, estimate.load_torque]
     }
-}
-
-/// One tick of a recorded run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Recorded {
-    /// Motor angle as the drive read it [2^-32 turn].
-    pub angle: u32,
-    /// Torque that the drive was told of, or that it held against the brake [N m].
-    pub torque: f64,
-    /// The governor was released.
-    pub released: bool,
-    /// Shaft torque, load speed, load torque as the plant had them [N m, rad/s, N m].
-    pub truth: [f64; 3],
-}
-
-/// The errors of an observer with this step on a recorded run, torques of their peaks in the run, the speed of the rated one [rad/s]. An
-/// estimate that is no longer finite makes them infinite.
-///
-/// # Errors
-/// For a gear out of its range.
-pub fn comparison(
-    design: &TwoMassDesign,
-    step: StepOf,
-    gear: &Gear,
-    run: &[Recorded],
-    rated_speed: f64,
-) -> Result<Comparison, driveline::constants::Error> {
-    let mut observer = ApproximateObserver::new(design, step, gear)?;
-    let peak = |index: usize| run.iter().map(|tick| tick.truth[index].abs()).fold(0.0, f64::max);
-    let scales = [peak(0), rated_speed, peak(2)];
-    let (mut squares, mut largest) = ([0.0_f64; 3], [0.0_f64; 3]);
-    for tick in run {
-        let estimate =
-            if tick.released { observer.tick(tick.angle, tick.torque) } else { observer.hold(tick.angle, tick.torque) };
-        for index in 0..3 {
-            let error = (estimate[index] - tick.truth[index]).abs() / scales[index];
-            let error = if error.is_finite() { error } else { f64::INFINITY };
-            squares[index] += error * error;
-            largest[index] = largest[index].max(error);
-        }
-    }
-    let deviation = |index: usize| Deviation { rms: (squares[index] / run.len() as f64).sqrt(), max: largest[index] };
-    Ok(Comparison {
-        step: step.name().to_owned(),
-        observer: "two-mass, f64".to_owned(),
-        rate_hz: (1.0 / design.period).round() as u32,
-        shaft_torque: deviation(0),
-        load_speed: deviation(1),
-        load_torque: deviation(2),
-    })
 }

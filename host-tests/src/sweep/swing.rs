@@ -88,8 +88,9 @@ fn swings<N: Swept, S: Step<N>>(ticks: u64, omega_t: &[f64]) -> Vec<Swing> {
 
 /// Free swings of so many ticks by every step of [`STEPS`](super::STEPS): the semi-implicit ones where it is stable.
 pub fn free_swings(ticks: u64, mut progress: impl FnMut()) -> [Vec<Swing>; 6] {
+    type Run = fn(u64, &[f64]) -> Vec<Swing>;
     let stable = &DECISIVE[..3];
-    let runs: [(fn(u64, &[f64]) -> Vec<Swing>, &[f64]); 6] = [
+    let runs: [(Run, &[f64]); 6] = [
         (swings::<f32, TwoMass<f32>>, &DECISIVE),
         (swings::<Fixed, TwoMass<Fixed>>, &DECISIVE),
         (swings::<f64, TwoMass<f64>>, &DECISIVE),
