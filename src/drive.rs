@@ -12,7 +12,12 @@
 //! | set point NaN, infinite, beyond its limit | [`Faults::REFERENCE`] | keeps the last good one |
 //! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
 //! | angle unchanged though the motor should have turned by more than the standstill limit | [`Faults::ANGLE_FROZEN`] | coasts |
-//! | either for more ticks than the limit | [`Faults::ANGLE_LOST`] as well | takes the next angle that moves as it comes |
+//! | either for more ticks than the limit | [`Faults::ANGLE_LOST`] as well | coasts until there are two angles in a row that differ |
+//!
+//! Of two such angles the second is taken as it comes. If they differ by what was predicted, to the standstill limit, the estimates stand:
+//! the angle has merely moved elsewhere. If not, the observer starts anew at the speed that they show, as if the machine turned steadily
+//! under the torque that is applied: so a machine is caught that was spinning when the drive was switched on, or that has changed its speed
+//! unseen. A speed beyond twice the largest set point is not believed.
 //!
 //! Below the speed at which the motor turns by the standstill limit in a tick, a frozen encoder and a machine that something holds
 //! look alike from the motor's side; the estimate of the load torque then shows what it would take to hold it.
@@ -37,7 +42,11 @@ pub struct Limits<N: Number> {
     pub innovation: N,
     /// Largest predicted turn in a tick that an unchanged angle is believed with [2^-32 turn].
     pub standstill: N,
-    /// Ticks in a row without a usable angle after which it counts as lost.
+    /// Ticks without a usable angle, less those with one, after which it counts as lost: no more than the motor needs for half a turn, after
+    /// which its angle says no longer how far it has turned.
+    ///
+    /// Less, and not in a row: where the estimated speed is wrong, a prediction of the angle comes past the measured one now and then, and
+    /// is none the better for it.
     pub missed: u16,
 }
 
@@ -185,20 +194,33 @@ where
         let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
         if !frozen && !predicted.innovation().exceeds(limits.innovation) {
             self.observer.correct(&config.observer, predicted, angle);
-            self.missed = 0;
+            self.missed = self.missed.saturating_sub(1);
             return Faults::NONE;
         }
-        self.observer.coast(predicted);
-        self.missed = self.missed.saturating_add(1);
-        let lost = self.missed > limits.missed;
-        match (lost, unchanged) {
-            (false, false) => Faults::ANGLE_JUMP,
-            (false, true) => Faults::ANGLE_FROZEN,
-            (true, true) => Faults::ANGLE_FROZEN | Faults::ANGLE_LOST,
-            (true, false) => {
-                self.observer.synchronise(angle);
-                Faults::ANGLE_JUMP | Faults::ANGLE_LOST
-            }
+        let kind = if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
+        if self.missed < limits.missed {
+            self.observer.coast(predicted);
+            self.missed += 1;
+            return kind;
         }
+        let turned = N::from_angle(angle.wrapping_sub(self.observer.angle()) as i32);
+        let speed = O::speed_of_turn(&config.observer, turned);
+        if unchanged {
+            self.observer.coast(predicted);
+            self.missed = limits.missed;
+        } else if self.missed == limits.missed || speed.exceeds(limits.reference.plus(limits.reference)) {
+            self.observer.coast(predicted);
+            // No innovation counts before there is a second angle.
+            self.observer.synchronise(angle, N::from_angle(i32::MIN));
+            self.missed = limits.missed.saturating_add(1);
+        } else if turned.minus(predicted.turn()).exceeds(limits.standstill) {
+            self.observer = O::steady(&config.observer, angle, torque, speed);
+            self.missed = limits.missed;
+        } else {
+            self.observer.coast(predicted);
+            self.observer.synchronise(angle, N::ZERO);
+            self.missed = limits.missed;
+        }
+        kind | Faults::ANGLE_LOST
     }
 }

@@ -61,7 +61,7 @@ pub const BASES: Bases = Bases::new(&REDUCED, 2.0 * TORQUE_LIMIT, 1.34 * RATED_S
 
 /// Limits of what a sample can be: two thirds over the largest torque; 1/128 turn, which that torque does not move the motor before
 /// the observer has followed; two counts; 20 ms.
-const fn screening(rate_hz: u32) -> Screening {
+pub const fn screening(rate_hz: u32) -> Screening {
     Screening {
         torque: 1.67 * TORQUE_LIMIT,
         reference: 1.2 * RATED_SPEED,
