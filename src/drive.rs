@@ -8,7 +8,7 @@
 //!
 //! | sample | flag | the tick |
 //! |---|---|---|
-//! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque that was last commanded |
+//! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque that was last commanded; without a governor, the last one that was believed |
 //! | set point NaN, infinite, beyond its limit | [`Faults::REFERENCE`] | keeps the last good one |
 //! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
 //! | angle unchanged though the motor should have turned by more than the standstill limit | [`Faults::ANGLE_FROZEN`] | coasts |
@@ -83,8 +83,8 @@ pub struct Drive<N, O, F = (), G = (), B = ()> {
     fluctuation: F,
     governor: G,
     balancer: B,
+    /// What stands in for a torque that cannot be believed.
     commanded: N,
-    reference: N,
     missed: u16,
 }
 
@@ -104,7 +104,6 @@ where
             governor: G::default(),
             balancer: B::default(),
             commanded: N::ZERO,
-            reference: N::ZERO,
             missed: 0,
         }
     }
@@ -113,8 +112,15 @@ where
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let mut command = self.observe(config, sample);
-        command.torque = self.governor.command(&config.governor, self.reference, &command.estimate);
-        self.commanded = command.torque;
+        let mut reference = Some(sample.reference);
+        if sample.reference.exceeds(config.limits.reference) {
+            command.faults |= Faults::REFERENCE;
+            reference = None;
+        }
+        command.torque = self.governor.command(&config.governor, reference, &command.estimate);
+        if G::COMMANDS {
+            self.commanded = command.torque;
+        }
         command
     }
 
@@ -131,7 +137,6 @@ where
         command.estimate = self.observer.estimate(&config.observer);
         self.governor.start(&config.governor, &command.estimate, command.torque);
         self.commanded = command.torque;
-        self.reference = N::ZERO;
         self.missed = 0;
         command
     }
@@ -170,11 +175,8 @@ where
         if torque.exceeds(limits.torque) {
             torque = self.commanded;
             faults |= Faults::TORQUE;
-        }
-        if sample.reference.exceeds(limits.reference) {
-            faults |= Faults::REFERENCE;
-        } else {
-            self.reference = sample.reference;
+        } else if !G::COMMANDS {
+            self.commanded = torque;
         }
         faults |= self.advance(config, sample.angle, torque);
         if self.observer.is_beyond_base() {

@@ -2,6 +2,7 @@
 
 mod build;
 mod calls;
+mod compositions;
 mod cost;
 mod sections;
 mod self_test;
@@ -11,6 +12,7 @@ use std::path::PathBuf;
 use driveline_firmware::board::{BOARDS, Facts};
 
 pub use build::{BuildError, build, links, target_directory, workspace};
+pub use compositions::compositions;
 pub use cost::{Cost, Spread};
 pub use sections::{Contents, ReadError, Sizes, Symbol};
 pub use self_test::self_test;

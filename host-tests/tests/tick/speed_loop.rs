@@ -34,12 +34,12 @@ proptest! {
         for (error, slip, speed) in errors {
             let (motor, load, reference) = (speed, speed - slip, speed + error);
             let now = Estimate { motor_speed: motor, load_speed: load, ..Estimate::default() };
-            let wanted = exact.command(&exact_config, reference, &now);
+            let wanted = exact.command(&exact_config, Some(reference), &now);
             let now = Estimate { motor_speed: motor as f32, load_speed: load as f32, ..Estimate::default() };
-            let by_single = f64::from(single.command(&single_config, reference as f32, &now));
+            let by_single = f64::from(single.command(&single_config, Some(reference as f32), &now));
             let of = Fixed::of_speed;
             let now = Estimate { motor_speed: of(motor), load_speed: of(load), ..Estimate::default() };
-            let by_fixed = fixed.command(&fixed_config, of(reference), &now).torque();
+            let by_fixed = fixed.command(&fixed_config, Some(of(reference)), &now).torque();
             // Gains of ten and a few roundings of 1000 N m in f32; of a base of 2700 N m over 2^28, times the gains' 32, in fixed point.
             prop_assert!((by_single - wanted).abs() < 0.01, "{by_single} {wanted}");
             prop_assert!((by_fixed - wanted).abs() < 0.01, "{by_fixed} {wanted}");
@@ -57,7 +57,7 @@ proptest! {
         // The set point's ramp first.
         let mut torque = Fixed::ZERO;
         for _ in 0..ticks + 3 {
-            torque = governor.command(&config, Fixed::from_bits(reference), &now);
+            torque = governor.command(&config, Some(Fixed::from_bits(reference)), &now);
         }
         // An error of 0.25 of the base gives 10.5 * 52 = 546 N m at once.
         let error = i64::from(reference) - i64::from(motor);
@@ -102,7 +102,7 @@ fn the_integral_does_not_wind_up() {
         let (mut governor, mut speed, mut top, mut limited) = (SpeedLoop::default(), 0.0, 0.0_f64, 0);
         for _ in 0..60_000 {
             let now = Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() };
-            let torque = governor.command(&config, RATED_SPEED, &now);
+            let torque = governor.command(&config, Some(RATED_SPEED), &now);
             limited += u32::from(torque.abs() >= limit);
             speed += period * torque / inertia;
             top = top.max(speed);
