@@ -8,11 +8,16 @@
 //!
 //! | sample | flag | the tick |
 //! |---|---|---|
-//! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque that was last commanded |
+//! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque that was last commanded; without a governor, the last one that was believed |
 //! | set point NaN, infinite, beyond its limit | [`Faults::REFERENCE`] | keeps the last good one |
 //! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
 //! | angle unchanged though the motor should have turned by more than the standstill limit | [`Faults::ANGLE_FROZEN`] | coasts |
-//! | either for more ticks than the limit | [`Faults::ANGLE_LOST`] as well | takes the next angle that moves as it comes |
+//! | either for more ticks than the limit | [`Faults::ANGLE_LOST`] as well | keeps the estimates until there are two angles in a row that differ |
+//!
+//! Of two such angles the second is taken as it comes. If they differ by the speed that is known, to the standstill limit, the estimates stand: the
+//! angle has merely moved elsewhere. If not, the observer starts anew at the speed that they show, as if the machine turned steadily under the
+//! torque that is applied: so a machine is caught that was spinning when the drive was switched on, or that has changed its speed unseen. A speed
+//! beyond twice the largest set point is not believed.
 //!
 //! Below the speed at which the motor turns by the standstill limit in a tick, a frozen encoder and a machine that something holds
 //! look alike from the motor's side; the estimate of the load torque then shows what it would take to hold it.
@@ -37,7 +42,11 @@ pub struct Limits<N: Number> {
     pub innovation: N,
     /// Largest predicted turn in a tick that an unchanged angle is believed with, as [`Number::less_turn`] takes it.
     pub standstill: N,
-    /// Ticks in a row without a usable angle after which it counts as lost.
+    /// Ticks without a usable angle, less those with one, after which it counts as lost: no more than the motor needs for half a turn, after
+    /// which its angle says no longer how far it has turned.
+    ///
+    /// Less, and not in a row: where the estimated speed is wrong, a prediction of the angle comes past the measured one now and then, and
+    /// is none the better for it.
     pub missed: u32,
 }
 
@@ -74,8 +83,8 @@ pub struct Drive<N, O, F = (), G = (), B = ()> {
     fluctuation: F,
     governor: G,
     balancer: B,
+    /// What stands in for a torque that cannot be believed.
     commanded: N,
-    reference: N,
     missed: u32,
 }
 
@@ -95,7 +104,6 @@ where
             governor: G::default(),
             balancer: B::default(),
             commanded: N::ZERO,
-            reference: N::ZERO,
             missed: 0,
         }
     }
@@ -106,8 +114,10 @@ where
         let faults = self.observe(config, sample);
         let estimate = self.estimate(config);
         self.fluctuation.measure(&config.fluctuation, self.observer.angle(), &estimate);
-        let torque = self.governor.command(&config.governor, self.reference, &estimate);
-        self.commanded = torque;
+        let torque = self.governor.command(&config.governor, &estimate);
+        if G::COMMANDS {
+            self.commanded = torque;
+        }
         Command { torque, faults }
     }
 
@@ -122,7 +132,6 @@ where
         self.observer = O::at_rest(&config.observer, angle, command.torque);
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;
-        self.reference = N::ZERO;
         self.missed = 0;
         command
     }
@@ -166,37 +175,56 @@ where
         if torque.exceeds(limits.torque) {
             torque = self.commanded;
             faults |= Faults::TORQUE;
+        } else if !G::COMMANDS {
+            self.commanded = torque;
         }
         if sample.reference.exceeds(limits.reference) {
             faults |= Faults::REFERENCE;
         } else {
-            self.reference = sample.reference;
+            self.governor.refer(sample.reference);
+        }
+        if self.missed > limits.missed {
+            return faults | self.search(config, sample.angle, torque);
         }
         let predicted = self.observer.predict(&config.observer, sample.angle, torque);
         let unchanged = sample.angle == self.observer.angle();
         let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
         if frozen || predicted.innovation().exceeds(limits.innovation) {
+            faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
-            faults |= self.refuse(limits.missed, sample.angle, unchanged);
+            self.missed = self.missed.wrapping_add(1);
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
-            self.missed = 0;
+            self.missed = self.missed.saturating_sub(1);
         }
         faults | Faults::range(self.observer.beyond_base())
     }
 
-    /// Counts a tick whose angle cannot be true, and takes the next that moves where there have been too many.
-    #[inline(always)]
-    fn refuse(&mut self, limit: u32, angle: u32, unchanged: bool) -> Faults {
-        let mut fault = if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
-        if self.missed < limit {
-            self.missed += 1;
+    /// The angle is lost: looks for two angles in a row that differ, and goes on from the second.
+    #[cold]
+    fn search(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Faults {
+        let limits = &config.limits;
+        let (none_yet, one) = (limits.missed.saturating_add(1), limits.missed.saturating_add(2));
+        let last = self.observer.angle();
+        if angle == last {
+            self.missed = none_yet;
+            return Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
+        }
+        let turned = N::from_angle(angle.wrapping_sub(last) as i32);
+        let speed = O::speed_of_turn(&config.observer, turned);
+        if self.missed == none_yet || speed.exceeds(limits.reference.plus(limits.reference)) {
+            self.observer.synchronise(angle);
+            self.missed = one;
         } else {
-            fault |= Faults::ANGLE_LOST;
-            if !unchanged {
+            let count = O::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.standstill)).magnitude();
+            let known = self.observer.estimate(&config.observer).motor_speed;
+            if speed.minus(known).exceeds(count) {
+                self.observer = O::steady(&config.observer, angle, torque, speed);
+            } else {
                 self.observer.synchronise(angle);
             }
+            self.missed = limits.missed;
         }
-        fault
+        Faults::ANGLE_JUMP | Faults::ANGLE_LOST
     }
 }

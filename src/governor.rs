@@ -16,10 +16,17 @@ pub trait Governor<N: Number>: Default {
     /// Its constants, shared and immutable.
     type Config;
 
-    /// The torque for the tick that begins.
-    fn command(&mut self, config: &Self::Config, reference: N, estimate: &Estimate<N>) -> N;
+    /// Whether it commands the torque. Where it does not, something else does.
+    const COMMANDS: bool;
 
-    /// Starts anew from the speed that the machine has and the torque that it is given now, so that the first command is no jolt.
+    /// Takes a set point that can be believed; it stands until the next.
+    fn refer(&mut self, reference: N);
+
+    /// The torque for the tick that begins.
+    fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N;
+
+    /// Starts anew from the speed that the machine has and the torque that it is given now, so that the first command is no jolt; the set
+    /// point is a standstill.
     fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N);
 }
 
@@ -27,8 +34,13 @@ pub trait Governor<N: Number>: Default {
 impl<N: Number> Governor<N> for () {
     type Config = ();
 
+    const COMMANDS: bool = false;
+
     #[inline(always)]
-    fn command(&mut self, _config: &(), _reference: N, _estimate: &Estimate<N>) -> N {
+    fn refer(&mut self, _reference: N) {}
+
+    #[inline(always)]
+    fn command(&mut self, _config: &(), _estimate: &Estimate<N>) -> N {
         N::ZERO
     }
 

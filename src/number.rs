@@ -78,6 +78,9 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// The torque that brings a speed to rest; in fixed point it ends at twice the base.
     fn braked(self, firmness: Self::Firmness) -> Self;
 
+    /// The speed at which the motor turns by this angle difference in a tick; held within four times the base in fixed point.
+    fn speed_of_turn(self, c: Self::Coefficient) -> Self;
+
     /// The bits, as they travel over a link; an `f64` is rounded to `f32` first.
     fn to_word(self) -> u32;
     /// The number that has these bits.
@@ -100,3 +103,7 @@ pub const INNOVATION_RANGE: f64 = 67_108_863.0;
 
 /// Binary places by which a governor's gain exceeds other coefficients: gains range over +-16 per unit.
 pub const GAIN_SHIFT: u32 = 5;
+
+/// Binary places by which the factor from an angle difference to a speed exceeds other coefficients: it ranges to 32,768 units in the
+/// last place per 2^-32 turn.
+pub const SPEED_SHIFT: u32 = 16;

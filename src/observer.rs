@@ -42,10 +42,18 @@ pub trait Observer<N: Number>: Sized {
     /// The state at the end of a tick as the torque alone would have it.
     type Prediction: Predicted<N>;
 
-    /// A machine that stands still at `angle`, its shaft carrying `torque`, as after a brake has been closed on it.
-    fn at_rest(config: &Self::Config, angle: u32, torque: N) -> Self;
+    /// A machine that turns steadily at `speed` and is at `angle`, its shaft carrying `torque` against the load.
+    fn steady(config: &Self::Config, angle: u32, torque: N, speed: N) -> Self;
 
-    /// Takes the angle as it comes, whatever was predicted: the first tick after the angle was lost.
+    /// A machine that stands still at `angle`, its shaft carrying `torque`, as after a brake has been closed on it.
+    fn at_rest(config: &Self::Config, angle: u32, torque: N) -> Self {
+        Self::steady(config, angle, torque, N::ZERO)
+    }
+
+    /// The speed at which the motor turns by `turned` [2^-32 turn] in a tick.
+    fn speed_of_turn(config: &Self::Config, turned: N) -> N;
+
+    /// Takes the angle as it comes, whatever was predicted.
     fn synchronise(&mut self, angle: u32);
 
     /// Predicts the tick that has just ended, in which `torque` was applied and at the end of which `angle` was measured.

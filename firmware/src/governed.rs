@@ -4,7 +4,7 @@ use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::number::Number;
 use driveline::observer::Observer;
-use driveline::sample::Sample;
+use driveline::sample::{Command, Estimate, Sample};
 
 use crate::scene::{Input, Output, Scene};
 
@@ -50,16 +50,21 @@ impl<V: Variant> Scene for Governed<V> {
         } else {
             self.drive.hold(self.config, input.angle, reference)
         };
-        let estimate = self.drive.estimate(self.config);
-        Output {
-            torque: command.torque.to_word(),
-            motor_speed: estimate.motor_speed.to_word(),
-            shaft_torque: estimate.shaft_torque.to_word(),
-            load_speed: estimate.load_speed.to_word(),
-            load_torque: estimate.load_torque.to_word(),
-            faults: command.faults.bits(),
-            instructions: 0,
-            reserved: 0,
-        }
+        output(&command, &self.drive.estimate(self.config))
+    }
+}
+
+/// A command and the estimates behind it as words.
+#[inline(always)]
+pub(crate) fn output<N: Number>(command: &Command<N>, estimate: &Estimate<N>) -> Output {
+    Output {
+        torque: command.torque.to_word(),
+        motor_speed: estimate.motor_speed.to_word(),
+        shaft_torque: estimate.shaft_torque.to_word(),
+        load_speed: estimate.load_speed.to_word(),
+        load_torque: estimate.load_torque.to_word(),
+        faults: command.faults.bits(),
+        instructions: 0,
+        reserved: 0,
     }
 }

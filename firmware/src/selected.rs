@@ -3,15 +3,36 @@
 //! One line a variant: its name (the scene's [`Scene::NAME`](crate::scene::Scene::NAME): scene, number, observer,
 //! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line at build time; [`Selected`] is the type.
 
+use driveline::governor::SpeedLoop;
 use driveline::number::Fixed;
+use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 
 use crate::governed::Governed;
+use crate::scenes::composition::{ByHand, Composed, Of};
 use crate::scenes::empty::Empty;
 use crate::scenes::hoist::{Hoist, with};
 use crate::variants::variants;
 
 variants! {
     "empty/f32/none/10000" => Empty,
+    "composition/f32/rigid-observer/10000" => Composed<Of<f32, Rigid<f32>, ()>>,
+    "composition/f32/rigid-governed/10000" => Composed<Of<f32, Rigid<f32>, SpeedLoop<f32>>>,
+    "composition/f32/semi-implicit-observer/10000" => Composed<Of<f32, SemiImplicit<f32>, ()>>,
+    "composition/f32/semi-implicit-governed/10000" => Composed<Of<f32, SemiImplicit<f32>, SpeedLoop<f32>>>,
+    "composition/f32/two-mass-observer/10000" => Composed<Of<f32, TwoMass<f32>, ()>>,
+    "composition/f32/two-mass-governed/10000" => Composed<Of<f32, TwoMass<f32>, SpeedLoop<f32>>>,
+    "composition/f32/two-mass-geared-observer/10000" => Composed<Of<f32, Geared<TwoMass<f32>>, ()>>,
+    "composition/f32/two-mass-geared-governed/10000" => Composed<Of<f32, Geared<TwoMass<f32>>, SpeedLoop<f32>>>,
+    "composition/f32/two-mass-by-hand/10000" => ByHand<f32, TwoMass<f32>>,
+    "composition/fixed/rigid-observer/10000" => Composed<Of<Fixed, Rigid<Fixed>, ()>>,
+    "composition/fixed/rigid-governed/10000" => Composed<Of<Fixed, Rigid<Fixed>, SpeedLoop<Fixed>>>,
+    "composition/fixed/semi-implicit-observer/10000" => Composed<Of<Fixed, SemiImplicit<Fixed>, ()>>,
+    "composition/fixed/semi-implicit-governed/10000" => Composed<Of<Fixed, SemiImplicit<Fixed>, SpeedLoop<Fixed>>>,
+    "composition/fixed/two-mass-observer/10000" => Composed<Of<Fixed, TwoMass<Fixed>, ()>>,
+    "composition/fixed/two-mass-governed/10000" => Composed<Of<Fixed, TwoMass<Fixed>, SpeedLoop<Fixed>>>,
+    "composition/fixed/two-mass-geared-observer/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, ()>>,
+    "composition/fixed/two-mass-geared-governed/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, SpeedLoop<Fixed>>>,
+    "composition/fixed/two-mass-by-hand/10000" => ByHand<Fixed, TwoMass<Fixed>>,
     "hoist/f32/rigid/1000" => Governed<Hoist<f32, with::Rigid, 1000>>,
     "hoist/f32/rigid/4000" => Governed<Hoist<f32, with::Rigid, 4000>>,
     "hoist/f32/rigid/10000" => Governed<Hoist<f32, with::Rigid, 10000>>,

@@ -1,7 +1,7 @@
 //! How a number type's coefficients are scaled against SI units.
 
 use super::Bases;
-use crate::number::{GAIN_SHIFT, INNOVATION_SHIFT, TURN_SHIFT};
+use crate::number::{GAIN_SHIFT, INNOVATION_SHIFT, SPEED_SHIFT, TURN_SHIFT};
 
 /// Scales from SI units to a number type: units per base, and what its operand methods multiply by.
 #[derive(Clone, Copy)]
@@ -17,12 +17,14 @@ pub(crate) struct Format {
     pub(crate) innovation: f64,
     /// What `gain_operand` multiplies by.
     pub(crate) gain: f64,
+    /// What `speed_of_turn` multiplies by.
+    pub(crate) speed: f64,
 }
 
 impl Format {
     /// SI units, nothing shifted.
     pub(crate) const FLOAT: Format =
-        Format { bases: Bases::SI, unit: 1.0, widened: 1.0, turn: 1.0, innovation: 1.0, gain: 1.0 };
+        Format { bases: Bases::SI, unit: 1.0, widened: 1.0, turn: 1.0, innovation: 1.0, gain: 1.0, speed: 1.0 };
 
     /// Fixed point per unit of these bases.
     pub(crate) const fn fixed(bases: Bases) -> Format {
@@ -33,7 +35,16 @@ impl Format {
             turn: (1u64 << TURN_SHIFT) as f64,
             innovation: (1u64 << INNOVATION_SHIFT) as f64,
             gain: (1u64 << GAIN_SHIFT) as f64,
+            speed: (1u64 << SPEED_SHIFT) as f64,
         }
+    }
+
+    /// Factor from a turn in a tick [2^-32 turn] to a speed.
+    pub(crate) const fn speed_of_turn(&self, period: f64) -> f64 {
+        let factor = self.unit / (ANGLE_PER_RADIAN * period * self.bases.speed * self.speed);
+        // Beyond what fixed point holds (a tick turns the motor by less than a count of 2^-32 turns at its base) the
+        // speed that is started from is too low, and is corrected.
+        if self.unit == 1.0 || factor < 0.499 { factor } else { 0.499 }
     }
 }
 

@@ -67,6 +67,10 @@ impl SpeedLoopConfig<Fixed> {
         let c = speed_loop(design, &settings, &Format::fixed(bases));
         let [proportional, integral, damping, unwinding] =
             get!(fixed([c.proportional, c.integral, c.damping, c.unwinding], GAIN));
+        // Operands are held within 8 bases and the integral within 2: the sum of all must stay within 8.
+        if 8.0 * (c.proportional.abs() + c.integral.abs() + c.damping.abs()) > 5.99 {
+            return Err(Error::Coefficient(GAIN));
+        }
         Ok(SpeedLoopConfig {
             proportional,
             integral,

@@ -35,6 +35,7 @@ const fn two_mass(design: &TwoMassDesign, format: &Format) -> TwoMassConfig<f64>
             torque_gain / torque * per_angle,
         ],
         angle_correction: -angle / format.innovation,
+        speed: format.speed_of_turn(design.period),
         share: [load_share * (twist_rate / speed) / wide, -motor_share * (twist_rate / speed) / wide],
         shaft: [machine.stiffness * (twist / torque) / wide, machine.damping * (twist_rate / torque) / wide],
         compliance: torque / (machine.stiffness * twist) / wide,
@@ -62,6 +63,7 @@ const fn semi_implicit(design: &TwoMassDesign, format: &Format) -> SemiImplicitC
             torque_gain / torque * per_angle,
         ],
         angle_correction: -angle / format.innovation,
+        speed: format.speed_of_turn(design.period),
     }
 }
 
@@ -76,6 +78,7 @@ const fn rigid(design: &RigidDesign, load_share: f64, format: &Format) -> RigidC
         turn: 0.5 * design.period * speed * turn,
         correction: [speed_gain / speed * per_angle, torque_gain / torque * per_angle],
         angle_correction: -angle / format.innovation,
+        speed: format.speed_of_turn(design.period),
         load_share: load_share / format.widened,
     }
 }
@@ -99,6 +102,7 @@ impl TwoMassConfig<f32> {
             turn: single(c.turn),
             correction: single(c.correction),
             angle_correction: c.angle_correction as f32,
+            speed: c.speed as f32,
             share: single(c.share),
             shaft: single(c.shaft),
             compliance: c.compliance as f32,
@@ -121,7 +125,7 @@ impl TwoMassConfig<Fixed> {
     /// [`Error::Coefficient`] where one is beyond the range of fixed point.
     pub const fn try_new(design: &TwoMassDesign, bases: Bases) -> Result<Self, Error> {
         let c = two_mass(design, &Format::fixed(bases));
-        let [acceleration, compliance] = get!(fixed([c.acceleration, c.compliance], STEP));
+        let [acceleration, compliance, speed] = get!(fixed([c.acceleration, c.compliance, c.speed], STEP));
         let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
         Ok(TwoMassConfig {
             forcing: get!(fixed(c.forcing, STEP)),
@@ -131,6 +135,7 @@ impl TwoMassConfig<Fixed> {
             turn: get!(fixed(c.turn, STEP)),
             correction: get!(fixed(c.correction, GAIN)),
             angle_correction,
+            speed,
             share: get!(fixed(c.share, STEP)),
             shaft: get!(fixed(c.shaft, STEP)),
             compliance,
@@ -156,6 +161,7 @@ impl SemiImplicitConfig<f32> {
             turn: c.turn as f32,
             correction: single(c.correction),
             angle_correction: c.angle_correction as f32,
+            speed: c.speed as f32,
         }
     }
 }
@@ -175,7 +181,7 @@ impl SemiImplicitConfig<Fixed> {
     /// [`Error::Coefficient`] where one is beyond the range of fixed point.
     pub const fn try_new(design: &TwoMassDesign, bases: Bases) -> Result<Self, Error> {
         let c = semi_implicit(design, &Format::fixed(bases));
-        let [motor, load, turn] = get!(fixed([c.motor, c.load, c.turn], STEP));
+        let [motor, load, turn, speed] = get!(fixed([c.motor, c.load, c.turn, c.speed], STEP));
         let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
         Ok(SemiImplicitConfig {
             motor,
@@ -184,6 +190,7 @@ impl SemiImplicitConfig<Fixed> {
             turn,
             correction: get!(fixed(c.correction, GAIN)),
             angle_correction,
+            speed,
         })
     }
 }
@@ -204,6 +211,7 @@ impl RigidConfig<f32> {
             turn: c.turn as f32,
             correction: single(c.correction),
             angle_correction: c.angle_correction as f32,
+            speed: c.speed as f32,
             load_share: c.load_share as f32,
         }
     }
@@ -224,13 +232,15 @@ impl RigidConfig<Fixed> {
     /// [`Error::Coefficient`] where one is beyond the range of fixed point.
     pub const fn try_new(design: &RigidDesign, load_share: f64, bases: Bases) -> Result<Self, Error> {
         let c = rigid(design, load_share, &Format::fixed(bases));
-        let [acceleration, turn, load_share] = get!(fixed([c.acceleration, c.turn, c.load_share], STEP));
+        let [acceleration, turn, load_share, speed] =
+            get!(fixed([c.acceleration, c.turn, c.load_share, c.speed], STEP));
         let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
         Ok(RigidConfig {
             acceleration,
             turn,
             correction: get!(fixed(c.correction, GAIN)),
             angle_correction,
+            speed,
             load_share,
         })
     }

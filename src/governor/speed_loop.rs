@@ -36,6 +36,7 @@ pub struct SpeedLoopConfig<N: Number> {
 pub struct SpeedLoop<N> {
     integral: N,
     set_point: N,
+    reference: N,
 }
 
 impl<N> SpeedLoop<N> {
@@ -48,10 +49,17 @@ impl<N> SpeedLoop<N> {
 impl<N: Number> Governor<N> for SpeedLoop<N> {
     type Config = SpeedLoopConfig<N>;
 
+    const COMMANDS: bool = true;
+
     #[inline(always)]
-    fn command(&mut self, config: &SpeedLoopConfig<N>, reference: N, estimate: &Estimate<N>) -> N {
+    fn refer(&mut self, reference: N) {
+        self.reference = reference;
+    }
+
+    #[inline(always)]
+    fn command(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>) -> N {
         let mut carry = N::CARRY;
-        let step = reference.minus(self.set_point).limited(config.ramp);
+        let step = self.reference.minus(self.set_point).limited(config.ramp);
         self.set_point = self.set_point.plus(step);
         let error = self.set_point.minus(estimate.motor_speed).gain_operand();
         let twist_rate = estimate.motor_speed.minus(estimate.load_speed).gain_operand();
@@ -65,6 +73,7 @@ impl<N: Number> Governor<N> for SpeedLoop<N> {
 
     fn start(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>, torque: N) {
         self.set_point = estimate.motor_speed;
+        self.reference = N::ZERO;
         self.integral = torque.limited(config.torque_limit);
     }
 }

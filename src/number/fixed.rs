@@ -1,6 +1,6 @@
 //! Fixed point: `i32` values, 2^28 to the base, and `i64` accumulators.
 
-use super::{GAIN_SHIFT, INNOVATION_SHIFT, Number, TURN_SHIFT};
+use super::{GAIN_SHIFT, INNOVATION_SHIFT, Number, SPEED_SHIFT, TURN_SHIFT};
 
 /// A number per unit of its base: 2^28 is the base, the resolution 3.7e-9 of it, the representable range +-8.
 ///
@@ -205,6 +205,11 @@ impl Number for Fixed {
     #[inline(always)]
     fn braked(self, _firmness: ()) -> Self {
         Fixed(self.0.clamp(-(1 << 25), (1 << 25) - 1) << 4)
+    }
+
+    #[inline(always)]
+    fn speed_of_turn(self, c: Coefficient) -> Self {
+        Fixed((product(c, self) >> (32 - SPEED_SHIFT)).clamp(-(1 << 30), 1 << 30) as i32)
     }
 
     #[inline(always)]

@@ -121,6 +121,11 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn speed_of_turn(self, c: Self) -> Self {
+                c * self
+            }
+
+            #[inline(always)]
             fn to_word(self) -> u32 {
                 (self as f32).to_bits()
             }

@@ -63,8 +63,12 @@ impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
     type Config = GearedConfig<N, O::Config>;
     type Prediction = GearedPrediction<O::Prediction>;
 
-    fn at_rest(config: &Self::Config, angle: u32, torque: N) -> Self {
-        Geared { observer: O::at_rest(&config.observer, angle, torque) }
+    fn steady(config: &Self::Config, angle: u32, torque: N, speed: N) -> Self {
+        Geared { observer: O::steady(&config.observer, angle, torque, speed) }
+    }
+
+    fn speed_of_turn(config: &Self::Config, turned: N) -> N {
+        O::speed_of_turn(&config.observer, turned)
     }
 
     fn synchronise(&mut self, angle: u32) {

@@ -22,6 +22,8 @@ pub struct RigidConfig<N: Number> {
     pub correction: [N::Coefficient; 2],
     /// The share of an innovation that is taken off the residual.
     pub angle_correction: N::Coefficient,
+    /// Speed from a turn in a tick [rad/s per 2^-32 turn].
+    pub speed: N::Coefficient,
     /// The load's share of the inertia, which is the share of the accelerating torque that passes through the shaft.
     pub load_share: N::Coefficient,
 }
@@ -63,8 +65,12 @@ impl<N: Number> Observer<N> for Rigid<N> {
     type Config = RigidConfig<N>;
     type Prediction = RigidPrediction<N>;
 
-    fn at_rest(_config: &RigidConfig<N>, angle: u32, torque: N) -> Self {
-        Rigid { load_torque: torque, angle, ..Rigid::default() }
+    fn steady(_config: &RigidConfig<N>, angle: u32, torque: N, speed: N) -> Self {
+        Rigid { speed: speed.saturated(), load_torque: torque, angle, ..Rigid::default() }
+    }
+
+    fn speed_of_turn(config: &RigidConfig<N>, turned: N) -> N {
+        turned.speed_of_turn(config.speed)
     }
 
     fn synchronise(&mut self, angle: u32) {

@@ -31,6 +31,8 @@ pub struct SemiImplicitConfig<N: Number> {
     pub correction: [N::Coefficient; 4],
     /// The share of an innovation that is taken off the residual.
     pub angle_correction: N::Coefficient,
+    /// Speed from a turn in a tick [rad/s per 2^-32 turn].
+    pub speed: N::Coefficient,
 }
 
 /// State of the semi-implicit two-mass observer.
@@ -72,8 +74,20 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
     type Config = SemiImplicitConfig<N>;
     type Prediction = SemiImplicitPrediction<N>;
 
-    fn at_rest(_config: &SemiImplicitConfig<N>, angle: u32, torque: N) -> Self {
-        SemiImplicit { shaft_torque: torque, load_torque: torque, angle, ..SemiImplicit::default() }
+    fn steady(_config: &SemiImplicitConfig<N>, angle: u32, torque: N, speed: N) -> Self {
+        let speed = speed.saturated();
+        SemiImplicit {
+            motor_speed: speed,
+            load_speed: speed,
+            shaft_torque: torque,
+            load_torque: torque,
+            angle,
+            ..SemiImplicit::default()
+        }
+    }
+
+    fn speed_of_turn(config: &SemiImplicitConfig<N>, turned: N) -> N {
+        turned.speed_of_turn(config.speed)
     }
 
     fn synchronise(&mut self, angle: u32) {

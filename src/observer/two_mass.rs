@@ -37,6 +37,8 @@ pub struct TwoMassConfig<N: Number> {
     pub correction: [N::Coefficient; 4],
     /// The share of an innovation that is taken off the residual.
     pub angle_correction: N::Coefficient,
+    /// Speed from a turn in a tick [rad/s per 2^-32 turn].
+    pub speed: N::Coefficient,
     /// Motor speed above the mean, load speed below it, both per v.
     pub share: [N::Coefficient; 2],
     /// Shaft torque from twist and v: stiffness and damping.
@@ -84,13 +86,18 @@ impl<N: Number> Observer<N> for TwoMass<N> {
     type Config = TwoMassConfig<N>;
     type Prediction = TwoMassPrediction<N>;
 
-    fn at_rest(config: &TwoMassConfig<N>, angle: u32, torque: N) -> Self {
+    fn steady(config: &TwoMassConfig<N>, angle: u32, torque: N, speed: N) -> Self {
         TwoMass {
             twist: N::product(&mut { N::CARRY }, config.compliance, torque.widened()),
             load_torque: torque,
+            speed: speed.saturated(),
             angle,
             ..TwoMass::default()
         }
+    }
+
+    fn speed_of_turn(config: &TwoMassConfig<N>, turned: N) -> N {
+        turned.speed_of_turn(config.speed)
     }
 
     fn synchronise(&mut self, angle: u32) {

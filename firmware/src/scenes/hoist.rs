@@ -22,7 +22,7 @@ use driveline::observer::{self, Geared, GearedConfig, RigidConfig, SemiImplicitC
 use crate::governed::Variant;
 
 /// Efficiency of the gearbox.
-const EFFICIENCY: Efficiency = Efficiency(0.94);
+pub const EFFICIENCY: Efficiency = Efficiency(0.94);
 
 /// The machine, from the motor to the hook.
 pub const CHAIN: Chain = Chain::motor(Inertia(0.62))
@@ -66,7 +66,7 @@ pub const BASES: Bases = Bases::new(&REDUCED, 2.0 * TORQUE_LIMIT, 1.34 * RATED_S
 
 /// Limits of what a sample can be: two thirds over the largest torque; 1/128 turn, which that torque does not move the motor before
 /// the observer has followed; two counts; 20 ms.
-const fn screening(rate_hz: u32) -> Screening {
+pub const fn screening(rate_hz: u32) -> Screening {
     Screening {
         torque: 1.67 * TORQUE_LIMIT,
         reference: 1.2 * RATED_SPEED,
@@ -77,9 +77,10 @@ const fn screening(rate_hz: u32) -> Screening {
 }
 
 /// The governor reaches rated speed in two seconds.
-const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE_LIMIT, ramp: RATED_SPEED / 2.0 };
+pub const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE_LIMIT, ramp: RATED_SPEED / 2.0 };
 
-const fn speed_loop(rate_hz: u32) -> SpeedLoopDesign {
+/// The governor at a rate.
+pub const fn speed_loop(rate_hz: u32) -> SpeedLoopDesign {
     REDUCED.speed_loop(Rate::hz(rate_hz), SpeedLoopTuning::USUAL)
 }
 
@@ -94,7 +95,7 @@ pub const fn rigid(rate_hz: u32) -> RigidDesign {
 }
 
 /// The load's share of the inertia.
-const LOAD_SHARE: f64 = REDUCED.load_inertia / (REDUCED.motor_inertia + REDUCED.load_inertia);
+pub const LOAD_SHARE: f64 = REDUCED.load_inertia / (REDUCED.motor_inertia + REDUCED.load_inertia);
 
 /// The design chooses the cheap step from 4 kHz on; a change that makes it too coarse stops here. At 1 kHz `Reduced` overrules the
 /// design, to show what that costs.

@@ -1,4 +1,5 @@
 //! The scenes: one file each.
 
+pub mod composition;
 pub mod empty;
 pub mod hoist;

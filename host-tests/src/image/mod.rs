@@ -2,6 +2,7 @@
 
 mod build;
 mod calls;
+mod compositions;
 mod cost;
 pub mod cycles;
 mod sections;
@@ -12,6 +13,7 @@ use std::path::PathBuf;
 use driveline_firmware::board::{BOARDS, Facts};
 
 pub use build::{BuildError, build, links, target_directory, workspace};
+pub use compositions::compositions;
 pub use cost::{BENCHES, Cost, Spread};
 pub use sections::{Contents, ReadError, Sizes, Symbol};
 pub use self_test::self_test;

@@ -1,0 +1,208 @@
+//! The hoist's drive with parts left out, to measure what each costs: an observer alone, an observer and a governor, and an observer that is
+//! called by hand, without a drive.
+
+use core::marker::PhantomData;
+
+use driveline::drive::{Config, ConfigOf, Drive, Limits};
+use driveline::fault::Faults;
+use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
+use driveline::number::{Fixed, Number};
+use driveline::observer::{
+    Geared, GearedConfig, Observer, Predicted, Rigid, RigidConfig, SemiImplicit, SemiImplicitConfig, TwoMass,
+    TwoMassConfig,
+};
+use driveline::sample::{Command, Sample};
+
+use super::hoist::{BASES, GEAR, LOAD_SHARE, REDUCED, SETTINGS, observer, rigid, screening, speed_loop};
+use crate::governed::output;
+use crate::scene::{Input, Output, Scene};
+
+const RATE_HZ: u32 = 10_000;
+
+/// The parts of a drive and their constants.
+pub trait Composition: 'static {
+    /// What it calculates with.
+    type Number: Number + 'static;
+    /// What it estimates with.
+    type Observer: Observer<Self::Number>;
+    /// What it governs with, `()` for nothing.
+    type Governor: Governor<Self::Number>;
+    /// Scene, number, parts and rate.
+    const NAME: &'static str;
+    /// The constants.
+    const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), Self::Governor>;
+}
+
+/// A number, an observer and a governor, with the hoist's constants.
+pub struct Of<N, O, G>(PhantomData<(N, O, G)>);
+
+/// A drive of these parts.
+pub struct Composed<C: Composition> {
+    // By reference: folded into the code, the constants cost more instructions than loaded from a table.
+    config: &'static ConfigOf<C::Number, C::Observer, (), C::Governor>,
+    drive: Drive<C::Number, C::Observer, (), C::Governor>,
+}
+
+impl<C: Composition> Scene for Composed<C> {
+    const NAME: &'static str = C::NAME;
+    const RATE_HZ: u32 = RATE_HZ;
+
+    fn new() -> Self {
+        Composed { config: C::CONFIG, drive: Drive::new(C::CONFIG, 0) }
+    }
+
+    #[inline(always)]
+    fn tick(&mut self, input: &Input) -> Output {
+        let command = self.drive.tick(self.config, &sample(input));
+        output(&command, &self.drive.estimate(self.config))
+    }
+}
+
+#[inline(always)]
+fn sample<N: Number>(input: &Input) -> Sample<N> {
+    let word = N::from_word;
+    Sample { angle: input.angle, torque: word(input.torque), reference: word(input.reference) }
+}
+
+macro_rules! compositions {
+    ($number:ident, $text:literal, $limits:expr, $governor:expr, $($name:literal: $observer:ty = $config:expr;)+) => {$(
+        impl Composition for Of<$number, $observer, ()> {
+            type Number = $number;
+            type Observer = $observer;
+            type Governor = ();
+            const NAME: &'static str = concat!("composition/", $text, "/", $name, "-observer/10000");
+            const CONFIG: &'static ConfigOf<$number, $observer> =
+                &Config { limits: $limits, observer: $config, fluctuation: (), governor: (), balancer: () };
+        }
+
+        impl Composition for Of<$number, $observer, SpeedLoop<$number>> {
+            type Number = $number;
+            type Observer = $observer;
+            type Governor = SpeedLoop<$number>;
+            const NAME: &'static str = concat!("composition/", $text, "/", $name, "-governed/10000");
+            const CONFIG: &'static ConfigOf<$number, $observer, (), SpeedLoop<$number>> =
+                &Config { limits: $limits, observer: $config, fluctuation: (), governor: $governor, balancer: () };
+        }
+    )+};
+}
+
+const PERIOD: f64 = 1.0 / RATE_HZ as f64;
+
+compositions! {
+    f32, "f32", Limits::<f32>::new(&screening(RATE_HZ)), SpeedLoopConfig::<f32>::new(&speed_loop(RATE_HZ), SETTINGS),
+    "rigid": Rigid<f32> = RigidConfig::<f32>::new(&rigid(RATE_HZ), LOAD_SHARE);
+    "semi-implicit": SemiImplicit<f32> = SemiImplicitConfig::<f32>::new(&observer(&REDUCED, RATE_HZ));
+    "two-mass": TwoMass<f32> = TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ));
+    "two-mass-geared": Geared<TwoMass<f32>> = GearedConfig::<f32, _>::new(
+        TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ)), &GEAR, PERIOD
+    );
+}
+
+compositions! {
+    Fixed, "fixed", Limits::<Fixed>::new(&screening(RATE_HZ), BASES),
+    SpeedLoopConfig::<Fixed>::new(&speed_loop(RATE_HZ), SETTINGS, BASES),
+    "rigid": Rigid<Fixed> = RigidConfig::<Fixed>::new(&rigid(RATE_HZ), LOAD_SHARE, BASES);
+    "semi-implicit": SemiImplicit<Fixed> = SemiImplicitConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES);
+    "two-mass": TwoMass<Fixed> = TwoMassConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES);
+    "two-mass-geared": Geared<TwoMass<Fixed>> = GearedConfig::<Fixed, _>::new(
+        TwoMassConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES), &GEAR, PERIOD, BASES
+    );
+}
+
+/// An observer called by hand with the screening of [`driveline::drive`], without a drive: what a drive of nothing but an observer is
+/// measured against.
+pub struct ByHand<N: Number + 'static, O: Observer<N, Config: 'static> + 'static> {
+    config: &'static ConfigOf<N, O>,
+    observer: O,
+    torque: N,
+    missed: u32,
+}
+
+impl<N: Number, O: Observer<N>> ByHand<N, O> {
+    #[inline(always)]
+    fn tick(&mut self, sample: &Sample<N>) -> Command<N> {
+        let faults = self.observe(sample);
+        Command { torque: N::ZERO, faults }
+    }
+
+    #[inline(always)]
+    fn observe(&mut self, sample: &Sample<N>) -> Faults {
+        let (limits, config) = (&self.config.limits, &self.config.observer);
+        let (mut torque, mut faults) = (sample.torque, Faults::NONE);
+        if torque.exceeds(limits.torque) {
+            torque = self.torque;
+            faults |= Faults::TORQUE;
+        } else {
+            self.torque = torque;
+        }
+        if sample.reference.exceeds(limits.reference) {
+            faults |= Faults::REFERENCE;
+        }
+        if self.missed > limits.missed {
+            return faults | self.search(sample.angle, torque);
+        }
+        let predicted = self.observer.predict(config, sample.angle, torque);
+        let unchanged = sample.angle == self.observer.angle();
+        let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
+        if frozen || predicted.innovation().exceeds(limits.innovation) {
+            faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
+            self.observer.coast(predicted, sample.angle);
+            self.missed = self.missed.wrapping_add(1);
+        } else {
+            self.observer.correct(config, predicted, sample.angle);
+            self.missed = self.missed.saturating_sub(1);
+        }
+        faults | Faults::from_bits(self.observer.beyond_base())
+    }
+
+    #[cold]
+    fn search(&mut self, angle: u32, torque: N) -> Faults {
+        let limits = &self.config.limits;
+        let (none_yet, one) = (limits.missed.saturating_add(1), limits.missed.saturating_add(2));
+        let last = self.observer.angle();
+        if angle == last {
+            self.missed = none_yet;
+            return Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
+        }
+        let turned = N::from_angle(angle.wrapping_sub(last) as i32);
+        let speed = O::speed_of_turn(&self.config.observer, turned);
+        if self.missed == none_yet || speed.exceeds(limits.reference.plus(limits.reference)) {
+            self.observer.synchronise(angle);
+            self.missed = one;
+        } else {
+            let count = O::speed_of_turn(&self.config.observer, N::ZERO.less_turn(limits.standstill)).magnitude();
+            let known = self.observer.estimate(&self.config.observer).motor_speed;
+            if speed.minus(known).exceeds(count) {
+                self.observer = O::steady(&self.config.observer, angle, torque, speed);
+            } else {
+                self.observer.synchronise(angle);
+            }
+            self.missed = limits.missed;
+        }
+        Faults::ANGLE_JUMP | Faults::ANGLE_LOST
+    }
+}
+
+macro_rules! by_hand {
+    ($number:ident, $text:literal) => {
+        impl Scene for ByHand<$number, TwoMass<$number>> {
+            const NAME: &'static str = concat!("composition/", $text, "/two-mass-by-hand/10000");
+            const RATE_HZ: u32 = RATE_HZ;
+
+            fn new() -> Self {
+                let config = <Of<$number, TwoMass<$number>, ()> as Composition>::CONFIG;
+                let observer = Observer::<$number>::at_rest(&config.observer, 0, <$number as Number>::ZERO);
+                ByHand { config, observer, torque: <$number as Number>::ZERO, missed: 0 }
+            }
+
+            #[inline(always)]
+            fn tick(&mut self, input: &Input) -> Output {
+                let command = ByHand::tick(self, &sample(input));
+                output(&command, &self.observer.estimate(&self.config.observer))
+            }
+        }
+    };
+}
+
+by_hand!(f32, "f32");
+by_hand!(Fixed, "fixed");
