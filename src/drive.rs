@@ -183,7 +183,8 @@ where
         } else {
             self.governor.refer(sample.reference);
         }
-        if self.missed > limits.missed {
+        let missed = self.missed;
+        if missed > limits.missed {
             return faults | self.search(config, sample.angle, torque);
         }
         let predicted = self.observer.predict(&config.observer, sample.angle, torque);
@@ -192,10 +193,12 @@ where
         if frozen || predicted.innovation().exceeds(limits.innovation) {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
-            self.missed = self.missed.wrapping_add(1);
+            self.missed = missed.wrapping_add(1);
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
-            self.missed = self.missed.saturating_sub(1);
+            if missed != 0 {
+                self.missed = missed - 1;
+            }
         }
         faults | Faults::range(self.observer.beyond_base())
     }
