@@ -13,6 +13,7 @@ const INNOVATION: &str =
 
 /// How samples are screened, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Screening {
     /// Largest applied torque that is believed [N m].
     pub torque: f64,
