@@ -31,7 +31,7 @@ const fn losses(efficiency: Efficiency, motor_inertia: f64, period: f64, format:
 macro_rules! float {
     ($float:ident) => {
         impl<C: Copy> GearedConfig<$float, C> {
-            /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period [s].
+            /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period \[s\].
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -39,7 +39,7 @@ macro_rules! float {
                 or_stop!(Self::try_new(observer, efficiency, motor_inertia, period))
             }
 
-            /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period [s].
+            /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period \[s\].
             ///
             /// # Errors
             /// [`Error::Value`] for an efficiency that is not above 0 and at most 1, or an inertia or period that is not positive.
@@ -60,7 +60,7 @@ float!(f32);
 float!(f64);
 
 impl<C: Copy> GearedConfig<Fixed, C> {
-    /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period [s].
+    /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period \[s\].
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -68,7 +68,7 @@ impl<C: Copy> GearedConfig<Fixed, C> {
         or_stop!(Self::try_new(observer, efficiency, motor_inertia, period, bases))
     }
 
-    /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period [s].
+    /// An observer's constants behind a gear of this efficiency, driven by this inertia [kg m2] in ticks of this period \[s\].
     ///
     /// # Errors
     /// [`Error::Value`] for an efficiency that is not above 0 and at most 1, or an inertia or period that is not positive;
