@@ -231,3 +231,78 @@ where
         Faults::ANGLE_JUMP | Faults::ANGLE_LOST
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Config, Drive, Limits};
+    use crate::fault::Faults;
+    use crate::observer::{Rigid, RigidConfig};
+    use crate::sample::Sample;
+
+    /// 2^32 per turn and ticks as units of angle and time, an inertia of one: no encoder, gains of a third.
+    const CONFIG: Config<f64, RigidConfig<f64>> = Config {
+        limits: Limits { torque: 10.0, reference: 1e6, innovation: 1000.0, standstill: 10.0, missed: 3 },
+        observer: RigidConfig {
+            acceleration: 1.0,
+            turn: 0.5,
+            correction: [0.3, 0.0],
+            angle_correction: -0.3,
+            speed: 1.0,
+            load_share: 0.5,
+        },
+        fluctuation: (),
+        governor: (),
+        balancer: (),
+    };
+
+    fn tick(drive: &mut Drive<f64, Rigid<f64>>, angle: u32) -> (Faults, u16) {
+        let faults = drive.tick(&CONFIG, &Sample { angle, torque: 0.0, reference: 0.0 }).faults;
+        (faults, drive.missed)
+    }
+
+    #[test]
+    fn missed_ticks_count_up_to_the_limit_and_good_ones_count_them_down() {
+        let mut drive = Drive::new(&CONFIG, 0);
+        assert_eq!(tick(&mut drive, 5000), (Faults::ANGLE_JUMP, 1));
+        assert_eq!(tick(&mut drive, 9000), (Faults::ANGLE_JUMP, 2));
+        assert_eq!(tick(&mut drive, 0), (Faults::NONE, 1));
+        assert_eq!(tick(&mut drive, 0), (Faults::NONE, 0));
+        assert_eq!(tick(&mut drive, 0), (Faults::NONE, 0));
+    }
+
+    #[test]
+    fn two_angles_that_differ_by_what_is_predicted_let_the_estimates_stand() {
+        let mut drive = Drive::new(&CONFIG, 0);
+        for missed in 1..=3 {
+            assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, missed));
+        }
+        let lost = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
+        assert_eq!(tick(&mut drive, 70_000), (lost, 4));
+        // The machine stands: the second angle is the first, or two counts beside it.
+        assert_eq!(tick(&mut drive, 70_009), (lost, 3));
+        assert_eq!(tick(&mut drive, 70_009), (Faults::NONE, 2));
+    }
+
+    #[test]
+    fn two_angles_that_differ_by_more_give_the_speed() {
+        let mut drive = Drive::new(&CONFIG, 0);
+        let mut angle = 0;
+        for _ in 0..4 {
+            angle += 5000;
+            tick(&mut drive, angle);
+        }
+        assert_eq!(tick(&mut drive, angle + 5000).0, Faults::ANGLE_JUMP | Faults::ANGLE_LOST);
+        let command = drive.tick(&CONFIG, &Sample { angle: angle + 10_000, torque: 0.0, reference: 0.0 });
+        assert_eq!((command.faults, command.estimate.motor_speed), (Faults::NONE, 5000.0));
+    }
+
+    #[test]
+    fn without_a_governor_the_last_torque_that_was_believed_stands_in() {
+        let mut drive = Drive::<f64, Rigid<f64>>::new(&CONFIG, 0);
+        drive.tick(&CONFIG, &Sample { angle: 0, torque: 1.0, reference: 0.0 });
+        for torque in [f64::NAN, f64::INFINITY, -10.1] {
+            let command = drive.tick(&CONFIG, &Sample { angle: 0, torque, reference: 0.0 });
+            assert_eq!((command.faults, drive.commanded), (Faults::TORQUE, 1.0));
+        }
+    }
+}

@@ -13,7 +13,7 @@ pub struct Bases {
     pub torque: f64,
     /// Base of every speed [rad/s].
     pub speed: f64,
-    /// Base of the twist [rad].
+    /// Base of the twist \[rad\].
     pub twist: f64,
     /// Base of the twist rate [rad/s].
     pub twist_rate: f64,

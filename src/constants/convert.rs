@@ -6,6 +6,7 @@ use crate::number::{Coefficient, Fixed};
 
 /// A constant that a number type cannot hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Error {
     /// A coefficient outside the range of fixed point.

@@ -19,15 +19,15 @@ const FIXED: &str = "the efficiency of the gear must be above 0.62 in fixed poin
 pub struct Gear {
     /// Efficiency, above 0 and at most 1.
     pub efficiency: f64,
-    /// Inertia in front of the gear, which comes to rest when the gear is held [kg m2].
+    /// Inertia in front of the gear, which comes to rest when the gear is held \[kg m2\].
     pub inertia: f64,
-    /// How far the motor can turn while the gear is held [rad]: twice what the gear's friction twists the shaft in front of it, and a few counts of
+    /// How far the motor can turn while the gear is held \[rad\]: twice what the gear's friction twists the shaft in front of it, and a few counts of
     /// the encoder.
     pub play: f64,
 }
 
 impl Gear {
-    /// Friction per shaft torque, what brings the motor to rest within two ticks [N m s/rad], and the play [2^-32 turn].
+    /// Friction per shaft torque, what brings the motor to rest within two ticks \[N m s/rad\], and the play \[2^-32 turn\].
     const fn losses(&self, period: f64) -> Result<[f64; 3], Error> {
         let eta = self.efficiency;
         if !(eta > 0.0 && eta <= 1.0) {
@@ -48,7 +48,7 @@ impl Gear {
 macro_rules! float {
     ($float:ident) => {
         impl<C: Copy> GearedConfig<$float, C> {
-            /// An observer's constants behind a gear, in ticks of this period [s].
+            /// An observer's constants behind a gear, in ticks of this period \[s\].
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -56,7 +56,7 @@ macro_rules! float {
                 or_stop!(Self::try_new(observer, gear, period))
             }
 
-            /// An observer's constants behind a gear, in ticks of this period [s].
+            /// An observer's constants behind a gear, in ticks of this period \[s\].
             ///
             /// # Errors
             /// [`Error::Value`] for a figure of the gear that is out of its range.
@@ -77,7 +77,7 @@ float!(f32);
 float!(f64);
 
 impl<C: Copy> GearedConfig<Fixed, C> {
-    /// An observer's constants behind a gear, in ticks of this period [s].
+    /// An observer's constants behind a gear, in ticks of this period \[s\].
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -85,7 +85,7 @@ impl<C: Copy> GearedConfig<Fixed, C> {
         or_stop!(Self::try_new(observer, gear, period, bases))
     }
 
-    /// An observer's constants behind a gear, in ticks of this period [s].
+    /// An observer's constants behind a gear, in ticks of this period \[s\].
     ///
     /// # Errors
     /// [`Error::Value`] for a figure of the gear that is out of its range, or an inertia too light for the bases;

@@ -13,6 +13,7 @@ const RAMP: &str = "the ramp of the speed loop crosses twice the base of the spe
 
 /// What the speed loop needs besides its gains.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopSettings {
     /// Largest torque, either way [N m].
     pub torque_limit: f64,

@@ -13,15 +13,16 @@ const INNOVATION: &str =
 
 /// How samples are screened, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Screening {
     /// Largest applied torque that is believed [N m].
     pub torque: f64,
     /// Largest set point that is believed [rad/s].
     pub reference: f64,
-    /// Largest innovation that is believed [rad]: what the largest torque can do to the motor before the observer has
+    /// Largest innovation that is believed \[rad\]: what the largest torque can do to the motor before the observer has
     /// followed, and no more than 0.098 rad in fixed point.
     pub innovation: f64,
-    /// Largest predicted turn in a tick that an unchanged angle is believed with [rad]: two counts of the encoder.
+    /// Largest predicted turn in a tick that an unchanged angle is believed with \[rad\]: two counts of the encoder.
     pub standstill: f64,
     /// Ticks in a row without a usable angle after which it counts as lost.
     pub missed: u32,

@@ -9,6 +9,7 @@ const LONGEST_HORIZON: u32 = 4096;
 
 /// How far an approximate step is from the exact one.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Fidelity {
     /// Largest error of twist and slip over [`horizon`](Self::horizon) ticks of free motion, relative to the start, in the
     /// energy norm (twist times w, slip); infinite where the step is unstable.
@@ -27,6 +28,7 @@ pub struct Fidelity {
 
 /// A step in increments: `delta += n11 delta + n12 v + g1 s`, `v += n21 delta + n22 v + g2 s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ApproximateStep {
     /// Twist from twist \[1\], less one.
     pub n11: f64,
@@ -70,6 +72,7 @@ impl ApproximateStep {
 
 /// Semi-implicit Euler: `v += dt s - stiffness_dt delta - damping_dt v`, then `delta += dt v` with the new slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SemiImplicitStep {
     /// Period \[s\].
     pub dt: f64,
@@ -94,6 +97,7 @@ impl SemiImplicitStep {
 
 /// Which step an observer should take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum StepChoice {
     /// [`ExactStep`]: twelve multiply-adds.
     Exact,

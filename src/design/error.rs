@@ -9,6 +9,7 @@ macro_rules! sentences {
         /// [`Display`](fmt::Display) gives a sentence that names the parameter; the `const` forms stop the
         /// compilation with the same sentence.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
         #[non_exhaustive]
         pub enum Error {
             /// The machine itself is out of range.

@@ -6,6 +6,7 @@ use crate::scalar::sqrt;
 
 /// A steady-state filter for `x+ = F x + B u + w`, `y = H x + e`, `E[w w^T] = Q`, `E[e e^T] = R`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Kalman<const N: usize, const M: usize> {
     /// Filter gain `K = P H^T S^-1`: the correction at the tick of the measurement.
     pub gain: Matrix<N, M>,

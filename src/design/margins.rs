@@ -6,6 +6,7 @@ use crate::scalar::{atan2, exp, hypot, ln, sin_cos};
 
 /// How far a loop is from instability.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Margins {
     /// Factor by which the gain may grow; infinite where no growth destabilises.
     pub gain_up: f64,

@@ -2,6 +2,7 @@
 
 /// A matrix of `R` rows and `C` columns, row by row.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Matrix<const R: usize, const C: usize>(pub [[f64; C]; R]);
 
 impl<const R: usize, const C: usize> Matrix<R, C> {

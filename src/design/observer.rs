@@ -13,6 +13,7 @@ const SURVIVING_SWING: f64 = 0.1;
 
 /// Predicted standard deviations of what the observer estimates, after the measurement of a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StandardDeviation {
     /// Motor angle \[rad\].
     pub motor_angle: f64,
@@ -30,6 +31,7 @@ pub struct StandardDeviation {
 
 /// A finished observer of two masses.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TwoMassDesign {
     /// Time between two ticks \[s\].
     pub period: f64,

@@ -8,6 +8,7 @@ use super::Matrix;
 
 /// A solution of the Riccati equation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Doubling<const N: usize> {
     /// The stabilising solution.
     pub solution: Matrix<N, N>,

@@ -9,6 +9,7 @@ use crate::scalar::sqrt;
 
 /// A finished observer of a rigid machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RigidDesign {
     /// Time between two ticks \[s\].
     pub period: f64,

@@ -18,6 +18,7 @@ use crate::scalar::sqrt;
 
 /// How the speed loop is to behave.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopTuning {
     /// Natural frequency of the speed over the antiresonance, above 0 and below 1; from 0.3 to 0.6 in practice.
     pub bandwidth: f64,
@@ -34,6 +35,7 @@ impl SpeedLoopTuning {
 
 /// A finished speed loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopDesign {
     /// Time between two ticks \[s\].
     pub period: f64,

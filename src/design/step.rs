@@ -16,6 +16,7 @@ use crate::scalar::{exp, exp_m1, sin_cos, sqrt};
 /// Exact zero-order-hold step in increments:
 /// `delta += n11 delta + n12 v + g1 s`, `v += n21 delta + n22 v + g2 s`, right sides at the old tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ExactStep {
     /// Twist from twist \[1\], less one.
     pub n11: f64,

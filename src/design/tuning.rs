@@ -4,6 +4,7 @@ use super::Error;
 
 /// Sample rate of the controller.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rate(f64);
 
 impl Rate {
@@ -34,6 +35,7 @@ impl Rate {
 
 /// An incremental encoder on the motor's shaft.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Encoder {
     counts: u64,
 }
@@ -73,6 +75,7 @@ impl Encoder {
 
 /// How the machine is disturbed, in figures that a commissioning engineer has.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Disturbance {
     /// Root mean square of the error of the motor's torque in one tick \[N m\], taken as independent from tick to tick.
     pub torque_accuracy: f64,

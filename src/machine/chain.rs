@@ -9,6 +9,7 @@ pub const CAPACITY: usize = 16;
 
 /// A shaft or rope of a chain, referred to the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Shaft {
     /// Stiffness \[N m/rad\].
     pub stiffness: f64,
@@ -35,6 +36,7 @@ impl Shaft {
 /// [`gravity_torque_lowering`](Self::gravity_torque_lowering) use the efficiency, unless the chain begins with
 /// [`starting`](Self::starting) or [`braking`](Self::braking).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Chain {
     pub(super) inertia: [f64; CAPACITY],
     pub(super) shaft: [Shaft; CAPACITY - 1],

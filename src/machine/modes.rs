@@ -15,6 +15,7 @@ type Columns = [[f64; CAPACITY]; SHAFTS];
 
 /// A natural vibration of the free chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Mode {
     /// Natural frequency \[rad/s\], undamped.
     pub frequency: f64,
@@ -28,6 +29,7 @@ pub struct Mode {
 
 /// The natural vibrations of a chain in rising order, without the rigid turning at zero frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Modes {
     mode: [Mode; SHAFTS],
     antiresonance: [f64; SHAFTS],

@@ -5,6 +5,7 @@ use super::{Chain, Efficiency, Error, Inertia, Mass, Ratio};
 
 /// A planetary set driven at the sun, with the ring held and the carrier as output [Wang 1989 example 1-4].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Planetary {
     /// Teeth of the sun.
     pub sun_teeth: u32,

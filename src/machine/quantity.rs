@@ -4,6 +4,7 @@ macro_rules! quantity {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
         pub struct $name(pub f64);
     )*};
 }
@@ -37,4 +38,5 @@ quantity! {
 
 /// Falls of a rope: how many parts carry the load, at least 1. The load travels `1/falls` of what the drum winds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Falls(pub u32);

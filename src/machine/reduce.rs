@@ -5,6 +5,7 @@ use super::{Chain, Error, TwoMass};
 
 /// How two masses stand in for a chain. Every choice keeps the total inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Match {
     /// Same first resonance and first antiresonance (motor held): the choice for control at the motor.
     ResonanceAntiresonance,
@@ -18,6 +19,7 @@ pub enum Match {
 
 /// What two masses do not show of the chain that they stand for.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ReductionError {
     /// Lowest natural frequency left out \[rad/s\]; infinite where none is.
     pub next_mode: f64,

@@ -5,6 +5,7 @@
 
 /// Which way the power flows through a lossy gear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Flow {
     /// No loss: energy is kept.
     Lossless,
@@ -16,6 +17,7 @@ pub enum Flow {
 
 /// On which side of the gear the quantity is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Side {
     /// Given on the load's (slow) side, wanted on the motor's.
     Load,

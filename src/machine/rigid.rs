@@ -5,6 +5,7 @@ use super::{Chain, Error, Inertia};
 
 /// A machine that turns as one, referred to the motor: `J omega' = tau_m - tau_L`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rigid {
     /// Inertia of the whole machine \[kg m2\].
     pub inertia: f64,

@@ -9,6 +9,7 @@ use crate::scalar::sqrt;
 /// `J_m phi_m'' = tau_m - tau_s`, `J_l phi_l'' = tau_s - tau_L`, `tau_s = k delta + d delta'` with the twist
 /// `delta = phi_m - phi_l`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TwoMass {
     /// Inertia on the motor's side \[kg m2\].
     pub motor_inertia: f64,

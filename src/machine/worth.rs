@@ -10,6 +10,7 @@ use super::refer::series;
 
 /// A part of a chain that could be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Element {
     /// The shaft of this index made rigid: its two masses become one.
     Shaft(usize),
@@ -19,6 +20,7 @@ pub enum Element {
 
 /// Relative changes at the motor when a part is left out, signed; infinite where no vibration is left.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Part {
     /// The part.
     pub element: Element,
@@ -40,6 +42,7 @@ impl Part {
 
 /// Every part of a chain that could be left out, shafts first, then the masses but for the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Worth {
     part: [Part; 2 * (CAPACITY - 1)],
     count: usize,

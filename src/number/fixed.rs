@@ -222,3 +222,38 @@ impl Number for Fixed {
         Fixed(word as i32)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Coefficient, Fixed, close, open, round};
+
+    #[test]
+    fn halves_round_away_from_zero_and_what_has_no_fraction_stays() {
+        // IEC 60559, roundTiesToAway
+        for (value, rounded) in [(0.5, 1.0), (-0.5, -1.0), (1.5, 2.0), (2.49, 2.0), (-2.51, -3.0), (0.0, 0.0)] {
+            assert_eq!(round(value), rounded);
+        }
+        let large = 4_503_599_627_370_497.0;
+        assert_eq!((round(large), round(-large), round(f64::INFINITY)), (large, -large, f64::INFINITY));
+        assert!(round(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn what_is_opened_closes_as_it_was() {
+        for bits in [i32::MIN, -1, 0, 1, i32::MAX] {
+            let mut carry = 0;
+            assert_eq!(close(open(Fixed::from_bits(bits), 0x8765_4321), &mut carry), Fixed::from_bits(bits));
+            assert_eq!(carry, 0x8765_4321);
+        }
+    }
+
+    #[test]
+    fn a_coefficient_ends_at_a_half() {
+        let last = 2_147_483_647.0 / 4_294_967_296.0;
+        assert_eq!(Coefficient::from_f64(last).map(|c| c.0), Some(i32::MAX));
+        assert_eq!(Coefficient::from_f64(-0.5).map(|c| c.0), Some(i32::MIN));
+        for beyond in [0.5, -0.500_000_001, f64::NAN, f64::INFINITY] {
+            assert_eq!(Coefficient::from_f64(beyond), None);
+        }
+    }
+}

@@ -41,6 +41,7 @@ pub struct Rigid<N> {
 
 /// The state of [`Rigid`] at the end of a tick as the torque alone would have it.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RigidPrediction<N: Number> {
     speed: N,
     accelerating: N,

@@ -49,6 +49,7 @@ pub struct SemiImplicit<N> {
 
 /// The state of [`SemiImplicit`] at the end of a tick as the torque alone would have it.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SemiImplicitPrediction<N: Number> {
     motor_speed: N,
     load_speed: N,

@@ -61,6 +61,7 @@ pub struct TwoMass<N> {
 
 /// The state of [`TwoMass`] at the end of a tick as the torque alone would have it.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TwoMassPrediction<N: Number> {
     twist: N,
     twist_rate: N,
