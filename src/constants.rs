@@ -11,6 +11,7 @@ mod geared;
 mod governor;
 mod limits;
 mod observer;
+mod settled;
 
 pub use bases::Bases;
 pub use convert::Error;

@@ -194,6 +194,9 @@ where
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
             self.missed = missed.wrapping_add(1);
+            if self.missed > limits.missed {
+                faults |= Faults::ANGLE_LOST;
+            }
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
             if missed != 0 {
@@ -255,7 +258,7 @@ mod tests {
         balancer: (),
     };
 
-    fn tick(drive: &mut Drive<f64, Rigid<f64>>, angle: u32) -> (Faults, u16) {
+    fn tick(drive: &mut Drive<f64, Rigid<f64>>, angle: u32) -> (Faults, u32) {
         let faults = drive.tick(&CONFIG, &Sample { angle, torque: 0.0, reference: 0.0 }).faults;
         (faults, drive.missed)
     }
@@ -278,7 +281,8 @@ mod tests {
         }
         let lost = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
         assert_eq!(tick(&mut drive, 70_000), (lost, 4));
-        // The machine stands: the second angle is the first, or two counts beside it.
+        assert_eq!(tick(&mut drive, 70_000), (lost, 5));
+        // The machine stands: the second angle is two counts beside the first.
         assert_eq!(tick(&mut drive, 70_009), (lost, 3));
         assert_eq!(tick(&mut drive, 70_009), (Faults::NONE, 2));
     }
@@ -287,13 +291,13 @@ mod tests {
     fn two_angles_that_differ_by_more_give_the_speed() {
         let mut drive = Drive::new(&CONFIG, 0);
         let mut angle = 0;
-        for _ in 0..4 {
+        for _ in 0..5 {
             angle += 5000;
             tick(&mut drive, angle);
         }
         assert_eq!(tick(&mut drive, angle + 5000).0, Faults::ANGLE_JUMP | Faults::ANGLE_LOST);
         let command = drive.tick(&CONFIG, &Sample { angle: angle + 10_000, torque: 0.0, reference: 0.0 });
-        assert_eq!((command.faults, command.estimate.motor_speed), (Faults::NONE, 5000.0));
+        assert_eq!((command.faults, drive.estimate(&CONFIG).motor_speed), (Faults::NONE, 5000.0));
     }
 
     #[test]

@@ -80,7 +80,8 @@ fn with_the_exact_step_it_is_the_drive() {
         let sample = Sample { angle: tick.angle, torque: tick.torque, reference: 0.0 };
         let command = drive.tick(&config, &sample);
         assert!(command.faults.is_none());
-        let expected = [command.estimate.shaft_torque, command.estimate.load_speed, command.estimate.load_torque];
+        let now = drive.estimate(&config);
+        let expected = [now.shaft_torque, now.load_speed, now.load_torque];
         for (value, expected) in observer.tick(tick.angle, tick.torque).into_iter().zip(expected) {
             assert!((value - expected).abs() <= 1e-9 * expected.abs().max(1.0));
         }

@@ -2,6 +2,7 @@
 
 use super::convert::{fixed, get, or_stop, single};
 use super::format::ANGLE_PER_RADIAN;
+use super::settled::{settled, unit_single};
 use super::{Bases, Error, Format};
 use crate::design::{RigidDesign, TwoMassDesign};
 use crate::number::Fixed;
@@ -94,10 +95,14 @@ impl TwoMassConfig<f32> {
     /// The constants of a design in `f32`.
     pub const fn new(design: &TwoMassDesign) -> Self {
         let c = two_mass(design, &Format::FLOAT);
+        let pair = [c.twist[0], c.twist[1], c.twist_rate[0], c.twist_rate[1]];
+        let [a, b, d, e] = single(pair);
+        let unit = [unit_single(pair[0]), unit_single(pair[1]), unit_single(pair[2]), unit_single(pair[3])];
+        let [n11, n12, n21, n22] = single(settled(pair, [a as f64, b as f64, d as f64, e as f64], unit));
         TwoMassConfig {
             forcing: single(c.forcing),
-            twist: single(c.twist),
-            twist_rate: single(c.twist_rate),
+            twist: [n11, n12, c.twist[2] as f32],
+            twist_rate: [n21, n22, c.twist_rate[2] as f32],
             acceleration: c.acceleration as f32,
             turn: single(c.turn),
             correction: single(c.correction),
@@ -127,10 +132,20 @@ impl TwoMassConfig<Fixed> {
         let c = two_mass(design, &Format::fixed(bases));
         let [acceleration, compliance, speed] = get!(fixed([c.acceleration, c.compliance, c.speed], STEP));
         let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
+        let [g1, g2] = get!(fixed([c.twist[2], c.twist_rate[2]], STEP));
+        let pair = [c.twist[0], c.twist[1], c.twist_rate[0], c.twist_rate[1]];
+        let near = get!(fixed(pair, STEP));
+        // Times what the operand is widened by, and back.
+        let (wide, unit) = (4.0, 4.0 / 4_294_967_296.0);
+        let rounded =
+            [wide * near[0].to_f64(), wide * near[1].to_f64(), wide * near[2].to_f64(), wide * near[3].to_f64()];
+        let pair = [wide * pair[0], wide * pair[1], wide * pair[2], wide * pair[3]];
+        let [n11, n12, n21, n22] = settled(pair, rounded, [unit; 4]);
+        let [n11, n12, n21, n22] = get!(fixed([n11 / wide, n12 / wide, n21 / wide, n22 / wide], STEP));
         Ok(TwoMassConfig {
             forcing: get!(fixed(c.forcing, STEP)),
-            twist: get!(fixed(c.twist, STEP)),
-            twist_rate: get!(fixed(c.twist_rate, STEP)),
+            twist: [n11, n12, g1],
+            twist_rate: [n21, n22, g2],
             acceleration,
             turn: get!(fixed(c.turn, STEP)),
             correction: get!(fixed(c.correction, GAIN)),

@@ -138,7 +138,8 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
         if sample.reference.exceeds(limits.reference) {
             faults |= Faults::REFERENCE;
         }
-        if self.missed > limits.missed {
+        let missed = self.missed;
+        if missed > limits.missed {
             return faults | self.search(sample.angle, torque);
         }
         let predicted = self.observer.predict(config, sample.angle, torque);
@@ -147,10 +148,15 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
         if frozen || predicted.innovation().exceeds(limits.innovation) {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
-            self.missed = self.missed.wrapping_add(1);
+            self.missed = missed.wrapping_add(1);
+            if self.missed > limits.missed {
+                faults |= Faults::ANGLE_LOST;
+            }
         } else {
             self.observer.correct(config, predicted, sample.angle);
-            self.missed = self.missed.saturating_sub(1);
+            if missed != 0 {
+                self.missed = missed - 1;
+            }
         }
         faults | Faults::from_bits(self.observer.beyond_base())
     }

@@ -64,45 +64,27 @@ fn short(word: u16) -> u32 {
         _ => {}
     }
     match word >> 11 {
-        0b01001 => 2, // LDR, literal
-        0b01010 => {
-            if word >> 9 & 3 == 3 {
-                2
-            } else {
-                1
-            }
-        } // STR, STRH, STRB, LDRSB
+        0b01001 => 2,                                         // LDR, literal
+        0b01010 if word >> 9 & 3 == 3 => 2,                   // STR, STRH, STRB, LDRSB
         0b01011 | 0b01101 | 0b01111 | 0b10001 | 0b10011 => 2, // LDR and its like
-        0b11000 | 0b11001 => 1 + (word & 0xff).count_ones(), // STM, LDM
-        0b11010 | 0b11011 | 0b11100 => 2, // B
-        0b10110 | 0b10111 if word & 0xf500 == 0xb100 => 2, // CBZ, CBNZ
-        _ if word & 0xff00 == 0x4700 => 3, // BX, BLX
+        0b11000 | 0b11001 => 1 + (word & 0xff).count_ones(),  // STM, LDM
+        0b11010..=0b11100 => 2,                               // B
+        0b10110 | 0b10111 if word & 0xf500 == 0xb100 => 2,    // CBZ, CBNZ
+        _ if word & 0xff00 == 0x4700 => 3,                    // BX, BLX
         _ => 1,
     }
 }
 
 fn long(first: u16, second: u16, slow_multiplier: bool) -> u32 {
     match first {
-        _ if first & 0xffd0 == 0xfb80 => {
-            if slow_multiplier {
-                4
-            } else {
-                1
-            }
-        } // SMULL, UMULL
-        _ if first & 0xffd0 == 0xfb90 => 7, // SDIV, UDIV: 2 to 12
-        _ if first & 0xffd0 == 0xfbc0 => {
-            if slow_multiplier {
-                5
-            } else {
-                1
-            }
-        } // SMLAL, UMLAL
+        _ if first & 0xffd0 == 0xfb80 && slow_multiplier => 4, // SMULL, UMULL
+        _ if first & 0xffd0 == 0xfb90 => 7,                    // SDIV, UDIV: 2 to 12
+        _ if first & 0xffd0 == 0xfbc0 && slow_multiplier => 5, // SMLAL, UMLAL
         _ if first & 0xff80 == 0xfb00 && second & 0xf000 != 0xf000 && slow_multiplier => 2, // MLA, MLS
         _ if first & 0xfe40 == 0xe800 => 1 + second.count_ones(), // LDM, STM
-        _ if first & 0xfe50 == 0xe850 => 3, // LDRD
-        _ if first & 0xfe50 == 0xe840 => 2, // STRD
-        _ if first & 0xfe10 == 0xf810 => 2, // LDR and its like
+        _ if first & 0xfe50 == 0xe850 => 3,                    // LDRD
+        _ if first & 0xfe50 == 0xe840 => 2,                    // STRD
+        _ if first & 0xfe10 == 0xf810 => 2,                    // LDR and its like
         _ if first & 0xf800 == 0xf000 && second & 0x8000 != 0 => {
             if second & 0x4000 != 0 {
                 3
@@ -110,13 +92,7 @@ fn long(first: u16, second: u16, slow_multiplier: bool) -> u32 {
                 2
             }
         } // BL, B
-        _ if first & 0xff20 == 0xed00 => {
-            if first & 0x10 != 0 {
-                2
-            } else {
-                1
-            }
-        } // VLDR, VSTR
+        _ if first & 0xff20 == 0xed00 && first & 0x10 != 0 => 2, // VLDR, VSTR
         _ if first & 0xfe00 == 0xec00 => 1 + u32::from(second & 0xff), // VLDM, VSTM, VPUSH, VPOP
         _ if first & 0xffb0 == 0xee00 && second & 0x10 == 0 => 3, // VMLA, VMLS
         _ if first & 0xffb0 == 0xee10 && second & 0x10 == 0 => 3, // VNMLA, VNMLS

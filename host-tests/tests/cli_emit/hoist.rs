@@ -22,7 +22,7 @@ pub const HOIST_RATE: Rate = Rate::hz(10000);
 pub const HOIST_OBSERVER: TwoMassDesign = HOIST_MODEL.observer(
     HOIST_RATE,
     Encoder::lines(2048),
-    Disturbance { torque_accuracy: 7.5, load_torque_step: 300.0, within: 0.5 },
+    Disturbance { torque_accuracy: 7.5, load_torque_step: 300.0, within: 50.0 },
 );
 
 /// The speed loop.

@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use driveline::constants::SpeedLoopSettings;
+use driveline::constants::{Gear, SpeedLoopSettings};
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopTuning};
 use driveline::drive::{Config, Limits};
 use driveline::governor::SpeedLoopConfig;
@@ -26,7 +26,7 @@ fn chain() -> Chain {
 }
 
 fn disturbance() -> Disturbance {
-    Disturbance { torque_accuracy: black_box(7.5), load_torque_step: black_box(375.0), within: black_box(5.0) }
+    Disturbance { torque_accuracy: black_box(7.5), load_torque_step: black_box(300.0), within: black_box(50.0) }
 }
 
 fn settings() -> SpeedLoopSettings {
@@ -48,16 +48,20 @@ fn test<const R: u32>() {
     let cut = chain().reduce(Match::TextbookShaft(black_box(1))).observer(Rate::hz(rate), encoder, disturbance());
     let rigid = chain().rigid().observer(Rate::hz(rate), encoder, disturbance());
     let speed_loop = reduced.speed_loop(Rate::hz(rate), SpeedLoopTuning::USUAL);
-    let (motor, period) = (reduced.motor_inertia, 1.0 / f64::from(rate));
+    let period = 1.0 / f64::from(rate);
     let share = reduced.load_inertia / (reduced.motor_inertia + reduced.load_inertia);
-    let gear = Efficiency(black_box(0.94));
+    let gear = Gear {
+        efficiency: black_box(0.94),
+        inertia: reduced.motor_inertia,
+        play: 8.0 * core::f64::consts::TAU / black_box(8192.0),
+    };
     let bases = black_box(BASES);
 
     macro_rules! config {
         ($number:ident, $with:ident, $observer:expr $(, $bases:expr)?) => {{
             let run = Config {
                 limits: Limits::<$number>::new(&hoist::screening(rate) $(, $bases)?),
-                observer: GearedConfig::<$number, _>::new($observer, gear, motor, period $(, $bases)?),
+                observer: GearedConfig::<$number, _>::new($observer, &gear, period $(, $bases)?),
                 fluctuation: (),
                 governor: SpeedLoopConfig::<$number>::new(&speed_loop, settings() $(, $bases)?),
                 balancer: (),

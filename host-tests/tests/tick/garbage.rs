@@ -11,7 +11,7 @@ use driveline_firmware::governed::Variant;
 use driveline_firmware::scenes::hoist::{Hoist, RATED_SPEED, with};
 use proptest::prelude::*;
 
-use super::rig::{Scaled, check};
+use super::rig::{Scaled, Seen, check};
 
 /// Time in which the estimates are right again [s]: the angle is lost after 20 ms and caught by two angles that differ; what the restart
 /// leaves fades with a time constant below 40 ms, of which ten fit.
@@ -76,7 +76,7 @@ fn plays<N: Scaled, O: Observer<N>>(
                 torque = if first < 0 { config.limits.torque } else { N::ZERO.minus(config.limits.torque) };
             }
             let sample = Sample { angle, torque, reference: N::from_word((words >> 32) as u32) };
-            let command = drive.tick(&config, &sample);
+            let command = Seen::new(drive.tick(&config, &sample), drive.estimate(&config));
             check(name, config.governor.torque_limit, &command);
             if walk % 997 == 0 {
                 // Any torque may be held against the brake too.
@@ -94,7 +94,7 @@ fn plays<N: Scaled, O: Observer<N>>(
             torque: N::of_torque(torque),
             reference: N::of_speed(speed),
         };
-        let command = drive.tick(&config, &sample);
+        let command = Seen::new(drive.tick(&config, &sample), drive.estimate(&config));
         check(name, config.governor.torque_limit, &command);
         if tick == ticks {
             let now = command.estimate;

@@ -10,7 +10,7 @@ use super::rig::Scaled;
 
 /// Torque of each tick [N m]: as much above the load's as below it, so that the shaft swings and no speed meets the rails of fixed point.
 fn torque(tick: u32) -> f64 {
-    if tick / 700 % 2 == 0 { 1_200.0 } else { -400.0 }
+    if (tick / 700).is_multiple_of(2) { 1_200.0 } else { -400.0 }
 }
 
 /// Coasts from a held torque and compares the mean speed with its closed form; `resolution` is a number's error in a tick [rad/s].
@@ -25,7 +25,7 @@ fn coasts<N: Scaled, O: Observer<N>>(config: &O::Config, resolution: impl Fn(f64
     for tick in 0..20_000 {
         let torque = N::of_torque(torque(tick));
         let predicted = observer.predict(config, 0, torque);
-        observer.coast(predicted);
+        observer.coast(predicted, 0);
         expected += period * (torque.torque() - held) / (jm + jl);
         let now = observer.estimate(config);
         let (motor, load) = (now.motor_speed.speed(), now.load_speed.speed());

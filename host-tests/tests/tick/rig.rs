@@ -6,7 +6,7 @@ use driveline::drive::Drive;
 use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
 use driveline::number::{Fixed, Number};
-use driveline::sample::{Command, Sample};
+use driveline::sample::{Command, Estimate, Sample};
 use driveline_firmware::governed::Variant;
 use driveline_firmware::scenes::hoist::{BASES, RATED_SPEED, REDUCED};
 use host_tests::plant::{Chain, Plant, Shaft};
@@ -53,6 +53,21 @@ impl Scaled for Fixed {
     }
     fn speed(self) -> f64 {
         self.to_f64() * BASES.speed
+    }
+}
+
+/// A command with the estimates behind it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen<N> {
+    pub torque: N,
+    pub estimate: Estimate<N>,
+    pub faults: Faults,
+}
+
+impl<N> Seen<N> {
+    /// Of a command and the estimates that the drive had after it.
+    pub fn new(Command { torque, faults }: Command<N>, estimate: Estimate<N>) -> Self {
+        Seen { torque, estimate, faults }
     }
 }
 
@@ -130,10 +145,10 @@ where
     }
 
     /// One tick with a sample that `spoil` has had in its hands.
-    pub fn tick(&mut self, spoil: impl FnOnce(&mut Sample<V::Number>)) -> Command<V::Number> {
+    pub fn tick(&mut self, spoil: impl FnOnce(&mut Sample<V::Number>)) -> Seen<V::Number> {
         let mut sample = self.sample();
         spoil(&mut sample);
-        let command = self.drive.tick(V::CONFIG, &sample);
+        let command = Seen::new(self.drive.tick(V::CONFIG, &sample), self.drive.estimate(V::CONFIG));
         self.applied = command.torque.torque();
         self.plant.advance(self.applied, 1.0 / f64::from(V::RATE_HZ));
         check(V::NAME, V::CONFIG.governor.torque_limit, &command);
@@ -141,7 +156,7 @@ where
     }
 
     /// Errors of the estimates before the next sample: motor speed, load speed [rad/s], shaft and load torque [N m].
-    pub fn errors(&self, command: &Command<V::Number>, before: &Plant) -> [f64; 4] {
+    pub fn errors(&self, command: &Seen<V::Number>, before: &Plant) -> [f64; 4] {
         let estimate = &command.estimate;
         [
             estimate.motor_speed.speed() - before.speed(0),
@@ -168,7 +183,7 @@ where
 
 /// The promises that hold whatever the sample: everything finite, the torque within the governor's limit.
 #[track_caller]
-pub fn check<N: Scaled>(name: &str, limit: N, command: &Command<N>) {
+pub fn check<N: Scaled>(name: &str, limit: N, command: &Seen<N>) {
     let estimate = &command.estimate;
     for torque in [command.torque, estimate.shaft_torque, estimate.load_torque] {
         assert!(torque.torque().is_finite(), "{name}: {command:?}");

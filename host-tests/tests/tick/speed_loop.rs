@@ -34,12 +34,15 @@ proptest! {
         for (error, slip, speed) in errors {
             let (motor, load, reference) = (speed, speed - slip, speed + error);
             let now = Estimate { motor_speed: motor, load_speed: load, ..Estimate::default() };
-            let wanted = exact.command(&exact_config, Some(reference), &now);
+            exact.refer(reference);
+            let wanted = exact.command(&exact_config, &now);
             let now = Estimate { motor_speed: motor as f32, load_speed: load as f32, ..Estimate::default() };
-            let by_single = f64::from(single.command(&single_config, Some(reference as f32), &now));
+            single.refer(reference as f32);
+            let by_single = f64::from(single.command(&single_config, &now));
             let of = Fixed::of_speed;
             let now = Estimate { motor_speed: of(motor), load_speed: of(load), ..Estimate::default() };
-            let by_fixed = fixed.command(&fixed_config, Some(of(reference)), &now).torque();
+            fixed.refer(of(reference));
+            let by_fixed = fixed.command(&fixed_config, &now).torque();
             // Gains of ten and a few roundings of 1000 N m in f32; of a base of 2700 N m over 2^28, times the gains' 32, in fixed point.
             prop_assert!((by_single - wanted).abs() < 0.01, "{by_single} {wanted}");
             prop_assert!((by_fixed - wanted).abs() < 0.01, "{by_fixed} {wanted}");
@@ -57,7 +60,8 @@ proptest! {
         // The set point's ramp first.
         let mut torque = Fixed::ZERO;
         for _ in 0..ticks + 3 {
-            torque = governor.command(&config, Some(Fixed::from_bits(reference)), &now);
+            governor.refer(Fixed::from_bits(reference));
+            torque = governor.command(&config, &now);
         }
         // An error of 0.25 of the base gives 10.5 * 52 = 546 N m at once.
         let error = i64::from(reference) - i64::from(motor);
@@ -102,7 +106,8 @@ fn the_integral_does_not_wind_up() {
         let (mut governor, mut speed, mut top, mut limited) = (SpeedLoop::default(), 0.0, 0.0_f64, 0);
         for _ in 0..60_000 {
             let now = Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() };
-            let torque = governor.command(&config, Some(RATED_SPEED), &now);
+            governor.refer(RATED_SPEED);
+            let torque = governor.command(&config, &now);
             limited += u32::from(torque.abs() >= limit);
             speed += period * torque / inertia;
             top = top.max(speed);
@@ -130,7 +135,7 @@ fn from_hold_to_tick_there_is_no_jolt() {
                 let command = drive.hold(V::CONFIG, 12_345, V::Number::of_torque(held));
                 assert_eq!((command.torque, command.faults), (V::Number::of_torque(held), Faults::NONE));
                 // It stands, and the shaft carries the torque: to the numbers' resolution, 1e-6 of the base.
-                let now = command.estimate;
+                let now = drive.estimate(V::CONFIG);
                 assert!((now.shaft_torque.torque() - held).abs() < 1e-6 * BASES.torque, "{} {now:?}", V::NAME);
                 assert_eq!((now.motor_speed, now.load_speed), (V::Number::ZERO, V::Number::ZERO));
             }

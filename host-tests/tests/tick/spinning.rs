@@ -6,7 +6,7 @@ use driveline::sample::Sample;
 use driveline_firmware::governed::Variant;
 use driveline_firmware::scenes::hoist::RATED_SPEED;
 
-use super::rig::{DriveOf, Scaled, check, for_every_variant};
+use super::rig::{DriveOf, Scaled, Seen, check, for_every_variant};
 
 /// A machine that turns steadily and without torque, and a drive that believes it at rest. At 1 kHz it turns by 0.155 rad a tick, three
 /// times the innovation limit: no correction that needs an innovation within the limit would ever catch it.
@@ -20,7 +20,7 @@ fn caught<V: Variant<Number: Scaled, Observer: Copy>>() {
         for tick in 1..=ticks {
             let angle = (turn * f64::from(tick)) as i64 as u32;
             let sample = Sample { angle, torque: V::Number::ZERO, reference: V::Number::of_speed(speed) };
-            let command = drive.tick(V::CONFIG, &sample);
+            let command = Seen::new(drive.tick(V::CONFIG, &sample), drive.estimate(V::CONFIG));
             check(V::NAME, V::CONFIG.governor.torque_limit, &command);
             if command.faults != Faults::NONE {
                 last = tick;
