@@ -1,6 +1,8 @@
 //! A wrong machine does not compile, and the compiler says the sentence that the run-time error says.
+//!
+//! A test of the root package: the compiler that it starts needs the library alone, not what the host's programs depend on.
 
-/// What each file of `ui/` must be told; the sentence of the error, and the file's name.
+/// What each file beside this one must be told; the sentence of the error, and the file's name.
 const SENTENCES: [(&str, &str); 5] = [
     ("negative_inertia", driveline::machine::Error::RotorInertia.message()),
     ("efficiency_out_of_range", driveline::machine::Error::GearEfficiency.message()),
@@ -13,14 +15,14 @@ const SENTENCES: [(&str, &str); 5] = [
 fn wrong_machines_do_not_compile() {
     let cases = trybuild::TestCases::new();
     for (file, _) in SENTENCES {
-        cases.compile_fail(format!("tests/ui/{file}.rs"));
+        cases.compile_fail(format!("host-tests/compile-fail/{file}.rs"));
     }
 }
 
 #[test]
 fn the_compiler_says_the_sentence_of_the_error() {
     for (file, sentence) in SENTENCES {
-        let path = format!("{}/tests/ui/{file}.stderr", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/host-tests/compile-fail/{file}.stderr", env!("CARGO_MANIFEST_DIR"));
         assert!(std::fs::read_to_string(path).unwrap().contains(sentence), "{file}");
     }
 }
