@@ -110,8 +110,8 @@ mod tests {
     #[test]
     fn instructions_cost_what_the_manuals_say() {
         let cases = [
-            ((0xb5f0, 0), 1 + 6, "push {r4-r7, lr}"),
-            ((0xbdf0, 0), 1 + 6 + 2, "pop {r4-r7, pc}"),
+            ((0xb5f0, 0), 1 + 5, "push {r4-r7, lr}"),
+            ((0xbdf0, 0), 1 + 5 + 2, "pop {r4-r7, pc}"),
             ((0x6808, 0), 2, "ldr r0, [r1]"),
             ((0x6008, 0), 1, "str r0, [r1]"),
             ((0x1840, 0), 1, "adds r0, r0, r1"),
