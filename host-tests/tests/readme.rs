@@ -152,11 +152,9 @@ fn run(mut tick: impl FnMut(u32, f32, f32) -> (f32, Estimate<f32>)) -> [f64; 2] 
         let load = if now < 30_000 { 0.0 } else { 150.0 };
         let mut shaft = [0.0; 2];
         for _ in 0..20 {
-            for j in 0..2 {
-                shaft[j] = STIFFNESS[j] * (angle[j] - angle[j + 1]) + DAMPING[j] * (speed[j] - speed[j + 1]);
-            }
+            shaft = [0, 1].map(|j| STIFFNESS[j] * (angle[j] - angle[j + 1]) + DAMPING[j] * (speed[j] - speed[j + 1]));
             let sums = [f64::from(torque) - shaft[0], shaft[0] - shaft[1], shaft[1] - load];
-            for j in 0..3 {
+            for j in [0, 1, 2] {
                 speed[j] += STEP * sums[j] / INERTIA[j];
                 angle[j] += STEP * speed[j];
             }
@@ -172,8 +170,8 @@ fn run(mut tick: impl FnMut(u32, f32, f32) -> (f32, Estimate<f32>)) -> [f64; 2] 
     squares.map(|square| (square / 10_000.0).sqrt())
 }
 
-/// The two listings govern the roll, and their errors are of the size that the design predicts: half as much again is left for an encoder
-/// whose error is not white and a mode that the reduction drops. The machine is stepped by nothing of the library's.
+/// The two listings govern the roll, and their errors are below the standard deviations that the design predicts: the torque here is known
+/// exactly, which the design does not count on. The machine is stepped by nothing of the library's.
 #[test]
 fn the_listings_govern_their_machine() {
     let mut single = single::start(0);
@@ -189,9 +187,6 @@ fn the_listings_govern_their_machine() {
     let predicted = single::DESIGN.standard_deviation;
     println!("{by_single:?}\n{by_fixed:?}\n{predicted:?}");
     for [torque, speed] in [by_single, by_fixed] {
-        assert!(
-            torque < 1.5 * predicted.shaft_torque && speed < 1.5 * predicted.load_speed,
-            "{torque} N m, {speed} rad/s"
-        );
+        assert!(torque < predicted.shaft_torque && speed < predicted.load_speed, "{torque} N m, {speed} rad/s");
     }
 }
