@@ -9,7 +9,7 @@ use super::plan::{Candidate, candidates};
 use super::scenario::Machine;
 use super::{comparison, facts, hoist};
 use crate::check::budgets::Budgets;
-use crate::image::workspace;
+use crate::image::{compositions, workspace};
 use crate::report::{Budget, Report};
 use crate::sweep;
 
@@ -42,7 +42,7 @@ impl Plan {
 
     /// Steps of the run, for its progress.
     pub fn steps(&self) -> u64 {
-        self.candidates.len() as u64 + if self.whole { 1 } else { 0 }
+        self.candidates.len() as u64 + if self.whole { 2 } else { 0 }
     }
 
     /// Runs it. `says` names what is under way, `step` counts.
@@ -74,6 +74,9 @@ impl Plan {
         }
         self.budgets(&mut report)?;
         if self.whole {
+            says("flash and RAM of what a drive is composed of");
+            report.compositions = compositions(|text| says(text))?;
+            step();
             says("stiff and extreme machines");
             report.sweeps = sweep::run(self.options.quick, |done, all| {
                 says(&format!("stiff and extreme machines, {done} of {all}"))
@@ -87,7 +90,14 @@ impl Plan {
     fn add(&self, report: &mut Report, candidate: &Candidate, ran: &Ran) -> Result<(), Box<dyn Error>> {
         report.variants.push(ran.variant.clone());
         if candidate.rate_hz() == 10_000 && candidate.part(2) != "cut" {
-            report.trajectories.extend(engine::trajectories(&self.machine, ran));
+            let courses = engine::trajectories(&self.machine, ran);
+            // The first is shown first: the design's choice.
+            let at = if candidate.part(2) == "reduced" && candidate.part(1) == "f32" {
+                0
+            } else {
+                report.trajectories.len()
+            };
+            report.trajectories.splice(at..at, courses);
         }
         if candidate.part(1) == "f32" && candidate.part(2) == "reduced" {
             report.comparisons.extend(comparison::of_hoist(&self.machine, candidate.rate_hz(), ran)?);
