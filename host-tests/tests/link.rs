@@ -55,7 +55,8 @@ fn every_variant_is_listed_under_the_name_of_its_scene() {
 
 #[test]
 fn outputs_are_those_of_the_host_bit_for_bit() {
-    for &variant in VARIANTS {
+    // The others' bits are compared with their budgets.
+    for variant in ["empty/f32/none/10000", "hoist/f32/exact/10000", "hoist/fixed/exact/10000"] {
         let expected = visit(variant, OnHost(1, 3000)).unwrap();
         for &board in BOARDS {
             let (outputs, summary) = run(variant, board, &expected);

@@ -58,9 +58,13 @@ fn firmware(voice: &Voice) -> Result<Count, Failed> {
     })
 }
 
-/// Every variant gives the same bits on the host and in QEMU.
+/// The self-test of every observer in every number gives the same bits on the host and in QEMU, at one rate; the budgets compare the others over
+/// the link.
 fn self_tests(voice: &Voice) -> Result<Count, Failed> {
     each(|variant, board| {
+        if !(variant.starts_with("hoist/") && variant.ends_with("/10000")) {
+            return Ok(());
+        }
         let fingerprint = self_test(variant, board).map_err(|error| error.to_string())?;
         voice.say(&format!("{variant} on {}: {fingerprint}", board.name));
         Ok(())

@@ -11,6 +11,7 @@ use std::process::{Command, Stdio};
 
 use driveline_firmware::board::Facts;
 
+use super::fresh::fingerprint;
 use super::{Image, Program};
 
 /// Why an image was not built.
@@ -45,7 +46,8 @@ pub fn target_directory() -> PathBuf {
     named.map_or_else(|| workspace().join("target"), PathBuf::from)
 }
 
-/// Builds `program` holding `variant` for `board`; `progress` is told each line that cargo prints.
+/// Builds `program` holding `variant` for `board`, unless the image on disk is what would be built; `progress` is told each line that
+/// cargo prints.
 pub fn build(
     variant: &str,
     board: Facts,
@@ -72,6 +74,13 @@ pub fn build(
         board.name,
         arguments.join(" ")
     );
+    let path = images.join(format!("{}.{}.{}.elf", variant.replace('/', "-"), board.core, program.name()));
+    let stamp = path.with_extension("stamp");
+    let fresh = fingerprint(workspace(), &command).map_err(place("reading the firmware's sources".into()))?;
+    let image = Image { path: path.clone(), variant: variant.into(), board, program };
+    if path.exists() && fs::read_to_string(&stamp).is_ok_and(|old| old == fresh) {
+        return Ok(image);
+    }
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut child = Command::new(cargo)
         .args(arguments)
@@ -102,9 +111,9 @@ pub fn build(
         return Err(BuildError::Cargo { command, output });
     }
     let built = firmware.join(board.target).join("firmware").join(program.name());
-    let path = images.join(format!("{}.{}.{}.elf", variant.replace('/', "-"), board.core, program.name()));
     fs::copy(&built, &path).map_err(place(format!("copying {} to {}", built.display(), path.display())))?;
-    Ok(Image { path, variant: variant.into(), board, program })
+    fs::write(&stamp, fresh).map_err(place(format!("writing {}", stamp.display())))?;
+    Ok(image)
 }
 
 /// Whether an image links: no where the linker names the symbol that a reachable panic calls.

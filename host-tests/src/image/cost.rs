@@ -7,7 +7,7 @@ use driveline_firmware::Words;
 use driveline_firmware::board::Facts;
 use driveline_firmware::fingerprint::SEED;
 use driveline_firmware::program::Program as Inputs;
-use driveline_firmware::scene::Scene;
+use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_firmware::selected::visit;
 use serde::Serialize;
 
@@ -60,15 +60,22 @@ impl Cost {
         Cost::of(&image)
     }
 
-    /// Runs the image of a control loop in open loop.
+    /// Runs the image of a control loop in open loop, and compares every output with the host's.
     pub fn of(image: &Image) -> Result<Self, Box<dyn Error>> {
         let words =
             visit(&image.variant, WordsOf).ok_or_else(|| format!("no variant is called `{}`", image.variant))?;
         let mut inputs = Inputs::new(SEED, words);
         let mut link = Link::start(image)?;
         let mut instructions = Vec::with_capacity(Cost::TICKS);
+        let mut exchanged = Vec::with_capacity(Cost::TICKS);
         for _ in 0..Cost::TICKS {
-            instructions.push(link.exchange(&inputs.next_input())?.instructions);
+            let input = inputs.next_input();
+            let output = link.exchange(&input)?;
+            instructions.push(output.instructions);
+            exchanged.push((input, Output { instructions: 0, ..output }));
+        }
+        if visit(&image.variant, Replay(&exchanged)) != Some(true) {
+            return Err(format!("{} on {} and on the host give other bits", image.variant, image.board.name).into());
         }
         let summary = link.finish()?;
         let Contents { sizes, tick_code, .. } = Contents::read(&image.path)?;
@@ -112,6 +119,18 @@ impl Cost {
 
 /// A bench takes a second; this is for a QEMU that hangs.
 const BENCH_LIMIT: Duration = Duration::from_secs(60);
+
+/// Whether the host gives these outputs for these inputs.
+struct Replay<'e>(&'e [(Input, Output)]);
+
+impl driveline_firmware::Visitor for Replay<'_> {
+    type Outcome = bool;
+
+    fn visit<S: Scene>(self) -> bool {
+        let mut scene = S::new();
+        self.0.iter().all(|(input, output)| scene.tick(input) == *output)
+    }
+}
 
 struct WordsOf;
 

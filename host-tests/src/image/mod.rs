@@ -5,6 +5,7 @@ mod calls;
 mod compositions;
 mod cost;
 pub mod cycles;
+mod fresh;
 mod sections;
 mod self_test;
 

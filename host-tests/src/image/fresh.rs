@@ -1,0 +1,62 @@
+//! Whether an image on disk is what would be built: by a fingerprint of everything that goes into it.
+//!
+//! A variant is chosen by an environment variable, so that cargo builds the firmware anew whenever another was asked for in between. The
+//! fingerprint of the sources, kept beside the image, saves that for images that are already there.
+
+use std::collections::hash_map::DefaultHasher;
+use std::fs;
+use std::hash::{Hash, Hasher};
+use std::io;
+use std::path::Path;
+use std::process::Command;
+
+/// What goes into an image, from the workspace's root.
+const SOURCES: [&str; 6] = ["Cargo.toml", "Cargo.lock", "memory.x", ".cargo/config.toml", "src", "firmware"];
+
+/// Fingerprint of the sources, the compiler and the command.
+///
+/// # Errors
+/// A source that cannot be read, or no compiler.
+pub fn fingerprint(root: &Path, command: &str) -> io::Result<String> {
+    let mut hasher = DefaultHasher::new();
+    command.hash(&mut hasher);
+    Command::new("rustc").arg("-vV").output()?.stdout.hash(&mut hasher);
+    for source in SOURCES {
+        add(&root.join(source), &mut hasher)?;
+    }
+    Ok(format!("{:016x}", hasher.finish()))
+}
+
+/// Adds a file, or a folder's files in the order of their names.
+fn add(path: &Path, hasher: &mut DefaultHasher) -> io::Result<()> {
+    path.hash(hasher);
+    if !path.is_dir() {
+        fs::read(path)?.hash(hasher);
+        return Ok(());
+    }
+    let mut entries: Vec<_> = fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<io::Result<_>>()?;
+    entries.sort();
+    entries.iter().try_for_each(|entry| add(entry, hasher))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::{SOURCES, fingerprint};
+
+    #[test]
+    fn a_changed_source_or_command_changes_the_fingerprint() {
+        let root = tempfile::tempdir().unwrap();
+        for source in SOURCES {
+            let path = root.path().join(source);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, "a").unwrap();
+        }
+        let first = fingerprint(root.path(), "build").unwrap();
+        assert_eq!(fingerprint(root.path(), "build").unwrap(), first);
+        assert_ne!(fingerprint(root.path(), "build --release").unwrap(), first);
+        fs::write(root.path().join("memory.x"), "b").unwrap();
+        assert_ne!(fingerprint(root.path(), "build").unwrap(), first);
+    }
+}
