@@ -12,7 +12,7 @@
 //! | set point NaN, infinite, beyond its limit | [`Faults::REFERENCE`] | keeps the last good one |
 //! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
 //! | angle unchanged though the motor should have turned by more than the standstill limit | [`Faults::ANGLE_FROZEN`] | coasts |
-//! | either for more ticks than the limit | [`Faults::ANGLE_LOST`] as well | keeps the estimates until there are two angles in a row that differ |
+//! | after more than the limit of such ticks | [`Faults::ANGLE_LOST`] as well | keeps the estimates until there are two angles in a row that differ |
 //!
 //! Of two such angles the second is taken as it comes. If they differ by the speed that is known, to the standstill limit, the estimates stand: the
 //! angle has merely moved elsewhere. If not, the observer starts anew at the speed that they show, as if the machine turned steadily under the
@@ -194,9 +194,6 @@ where
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
             self.missed = missed.wrapping_add(1);
-            if self.missed > limits.missed {
-                faults |= Faults::ANGLE_LOST;
-            }
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
             if missed != 0 {
@@ -207,7 +204,7 @@ where
     }
 
     /// The angle is lost: looks for two angles in a row that differ, and goes on from the second.
-    #[cold]
+    #[inline(always)]
     fn search(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Faults {
         let limits = &config.limits;
         let (none_yet, one) = (limits.missed.saturating_add(1), limits.missed.saturating_add(2));
@@ -280,7 +277,7 @@ mod tests {
             assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, missed));
         }
         let lost = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
-        assert_eq!(tick(&mut drive, 70_000), (lost, 4));
+        assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, 4));
         assert_eq!(tick(&mut drive, 70_000), (lost, 5));
         // The machine stands: the second angle is two counts beside the first.
         assert_eq!(tick(&mut drive, 70_009), (lost, 3));

@@ -149,9 +149,6 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
             self.missed = missed.wrapping_add(1);
-            if self.missed > limits.missed {
-                faults |= Faults::ANGLE_LOST;
-            }
         } else {
             self.observer.correct(config, predicted, sample.angle);
             if missed != 0 {
@@ -161,7 +158,7 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
         faults | Faults::from_bits(self.observer.beyond_base())
     }
 
-    #[cold]
+    #[inline(always)]
     fn search(&mut self, angle: u32, torque: N) -> Faults {
         let limits = &self.config.limits;
         let (none_yet, one) = (limits.missed.saturating_add(1), limits.missed.saturating_add(2));

@@ -69,9 +69,9 @@ pub struct Image {
     pub program: Program,
 }
 
-/// Whether a variant belongs on a board: floats on cores that have a unit for them, fixed point on all.
+/// Whether a variant belongs on a board: floats on cores that have a unit for them, fixed point and the empty variant on all.
 pub fn belongs(variant: &str, board: &Facts) -> bool {
-    variant.split('/').nth(1) != Some("f32") || board.target.ends_with("hf")
+    variant.starts_with("empty/") || variant.split('/').nth(1) != Some("f32") || board.target.ends_with("hf")
 }
 
 /// The board with a core (`m4f`), or of that name (`mps2-an386`).
