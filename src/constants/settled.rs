@@ -25,8 +25,8 @@ pub(super) const fn settled(exact: [f64; 4], rounded: [f64; 4], unit: [f64; 4]) 
             i += 1;
         }
         let (t, e) = invariants(tried);
-        // No coefficient may leave the range that fixed point has: n11 is exactly -2 at half the sample rate.
-        let held = tried[0] >= -2.0 && tried[1] >= -2.0 && tried[2] >= -2.0 && tried[3] >= -2.0;
+        // n11 and n22 have no unit, and are exactly -2 at half the sample rate, where fixed point's range ends.
+        let held = tried[0] >= -2.0 && tried[3] >= -2.0;
         // Jury's conditions: |2 + t| <= 2 + e and e <= 0; the second by what the exact pair loses.
         if held && e <= excess && e - t >= 0.0 && 4.0 + e + t >= 0.0 && excess - e < gap {
             best = tried;
