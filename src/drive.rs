@@ -11,8 +11,11 @@
 //! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque that was last commanded; without a governor, the last one that was believed |
 //! | set point NaN, infinite, beyond its limit | [`Faults::REFERENCE`] | keeps the last good one |
 //! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
-//! | angle unchanged though the motor should have turned by more than the standstill limit | [`Faults::ANGLE_FROZEN`] | coasts |
-//! | after more than the limit of such ticks | [`Faults::ANGLE_LOST`] as well | keeps the estimates until there are two angles in a row that differ |
+//! | angle unchanged though the motor should have turned by more than the standstill limit, or far from the prediction | [`Faults::ANGLE_FROZEN`] | coasts |
+//! | after more than the limit of such ticks | [`Faults::ANGLE_LOST`] as well | keeps the estimates and commands no torque until there are two angles in a row that differ |
+//!
+//! Without an angle the drive is blind: it gives no torque, and what holds the machine then is for its brake. The governor starts anew when the angle
+//! is found.
 //!
 //! Of two such angles the second is taken as it comes. If they differ by the speed that is known, to the standstill limit, the estimates stand: the
 //! angle has merely moved elsewhere. If not, the observer starts anew at the speed that they show, as if the machine turned steadily under the
@@ -111,6 +114,9 @@ where
     /// One tick with the governor at work.
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
+        if self.missed > config.limits.missed {
+            return self.search(config, sample);
+        }
         let faults = self.observe(config, sample);
         let estimate = self.estimate(config);
         self.fluctuation.measure(&config.fluctuation, self.observer.angle(), &estimate);
@@ -122,7 +128,7 @@ where
     }
 
     /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken to carry
-    /// it, and the next [`Drive::tick`] starts from there. A torque that is NaN or beyond its limit counts as zero and raises
+    /// it, and the next [`Drive::tick`] starts from there, within the governor's limit. A torque that is NaN or beyond what a sample may have counts as zero and raises
     /// [`Faults::REFERENCE`].
     pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Command<N> {
         let mut command = Command { torque, faults: Faults::NONE };
@@ -184,9 +190,6 @@ where
             self.governor.refer(sample.reference);
         }
         let missed = self.missed;
-        if missed > limits.missed {
-            return faults | self.search(config, sample.angle, torque);
-        }
         let predicted = self.observer.predict(&config.observer, sample.angle, torque);
         let unchanged = sample.angle == self.observer.angle();
         let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
@@ -203,32 +206,40 @@ where
         faults | Faults::range(self.observer.beyond_base())
     }
 
-    /// The angle is lost: looks for two angles in a row that differ, and goes on from the second.
+    /// The angle is lost: commands no torque, looks for two angles in a row that differ, and goes on from the second.
     #[inline(always)]
-    fn search(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Faults {
+    fn search(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let limits = &config.limits;
+        let mut faults = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
+        let mut torque = sample.torque;
+        if torque.exceeds(limits.torque) {
+            torque = N::ZERO;
+            faults |= Faults::TORQUE;
+        }
         let (none_yet, one) = (limits.missed.saturating_add(1), limits.missed.saturating_add(2));
         let last = self.observer.angle();
-        if angle == last {
-            self.missed = none_yet;
-            return Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
-        }
-        let turned = N::from_angle(angle.wrapping_sub(last) as i32);
+        let turned = N::from_angle(sample.angle.wrapping_sub(last) as i32);
         let speed = O::speed_of_turn(&config.observer, turned);
-        if self.missed == none_yet || speed.exceeds(limits.reference.plus(limits.reference)) {
-            self.observer.synchronise(angle);
+        if sample.angle == last {
+            faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
+            self.missed = none_yet;
+        } else if self.missed == none_yet || speed.exceeds(limits.reference.plus(limits.reference)) {
+            self.observer.synchronise(sample.angle);
             self.missed = one;
         } else {
             let count = O::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.standstill)).magnitude();
-            let known = self.observer.estimate(&config.observer).motor_speed;
+            let known = self.estimate(config).motor_speed;
             if speed.minus(known).exceeds(count) {
-                self.observer = O::steady(&config.observer, angle, torque, speed);
+                self.observer = O::steady(&config.observer, sample.angle, torque, speed);
             } else {
-                self.observer.synchronise(angle);
+                self.observer.synchronise(sample.angle);
             }
             self.missed = limits.missed;
         }
-        Faults::ANGLE_JUMP | Faults::ANGLE_LOST
+        self.commanded = N::ZERO;
+        let estimate = self.estimate(config);
+        self.governor.start(&config.governor, &estimate, N::ZERO);
+        Command { torque: N::ZERO, faults }
     }
 }
 

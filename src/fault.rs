@@ -11,7 +11,8 @@ pub struct Faults(u32);
 impl Faults {
     /// Nothing wrong.
     pub const NONE: Faults = Faults(0);
-    /// The applied torque of the sample was NaN, infinite or beyond the drive's limit; the tick used the last command instead.
+    /// The applied torque of the sample was NaN, infinite or beyond the drive's limit; the tick used the last command instead, or without a governor
+    /// the last torque that was believed.
     pub const TORQUE: Faults = Faults(1 << 5);
     /// The speed set point was NaN, infinite or beyond the drive's limit; the last good one stands.
     pub const REFERENCE: Faults = Faults(1 << 1);
@@ -20,12 +21,13 @@ impl Faults {
     pub const ANGLE_JUMP: Faults = Faults(1 << 2);
     /// The motor angle stands still while the motor turns; the tick went by the prediction alone.
     pub const ANGLE_FROZEN: Faults = Faults(1 << 3);
-    /// The angle has been unusable for longer than the estimates stay good without it; the observer takes the next angle as it comes.
+    /// The angle has been unusable for longer than the estimates stay good without it; the drive commands no torque until two angles in a row tell where the
+    /// motor is and how it turns.
     pub const ANGLE_LOST: Faults = Faults(1 << 4);
     /// A state of the observer is beyond its fixed-point base, which is beyond the machine's limits; at twice the base it is held.
     pub const RANGE: Faults = Faults(1 << 0);
 
-    /// Every flag with its name, in the order of the bits.
+    /// Every flag with its name.
     pub const NAMES: [(Faults, &'static str); 6] = [
         (Faults::TORQUE, "torque"),
         (Faults::REFERENCE, "reference"),

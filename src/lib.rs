@@ -29,7 +29,7 @@
 //! type Mill = Drive<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>; // `()`: no fluctuation is measured
 //! const CONFIG: ConfigOf<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>> = Config {
 //!     limits: Limits::<f32>::new(&Screening {
-//!         torque: 500.0, reference: 180.0, innovation: 0.05, standstill: 0.0015, missed: 200,
+//!         torque: 500.0, reference: 180.0, innovation: 0.05, standstill: 0.0015, missed: 150,
 //!     }),
 //!     observer: TwoMassConfig::<f32>::new(&DESIGN),
 //!     fluctuation: (),

@@ -18,6 +18,7 @@ macro_rules! all_of_number {
             governor::SpeedLoopConfig<$number>,
             observer::Geared<observer::Rigid<$number>>,
             observer::GearedConfig<$number, observer::RigidConfig<$number>>,
+            observer::GearedPrediction<observer::RigidPrediction<$number>>,
             observer::Rigid<$number>,
             observer::RigidConfig<$number>,
             observer::RigidPrediction<$number>,
@@ -39,6 +40,7 @@ const _: () = {
     all!(
         constants::Bases,
         constants::Error,
+        constants::Gear,
         constants::Screening,
         constants::SpeedLoopSettings,
         design::ApproximateStep,

@@ -34,7 +34,7 @@ pub struct Estimate<N> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Command<N> {
-    /// Torque that the motor is to produce during the tick that begins; always within the governor's limit.
+    /// Torque that the motor is to produce during the tick that begins; within the governor's limit, or what [`crate::drive::Drive::hold`] was asked for.
     pub torque: N,
     /// What was wrong with this tick.
     pub faults: Faults,

@@ -29,7 +29,7 @@ mod single {
     const GOVERNOR: SpeedLoopDesign = TWO.speed_loop(RATE, SpeedLoopTuning::USUAL);
     const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: 550.0, ramp: 80.0 };
     const SCREENING: Screening =
-        Screening { torque: 800.0, reference: 180.0, innovation: 0.05, standstill: 1.5e-3, missed: 200 };
+        Screening { torque: 800.0, reference: 180.0, innovation: 0.05, standstill: 1.5e-3, missed: 150 };
 
     type Roll = Drive<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>;
     static CONFIG: ConfigOf<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>> = Config {
@@ -49,7 +49,7 @@ mod single {
     pub fn on_timer(roll: &mut Roll, angle: u32, torque: f32, speed: f32) -> f32 {
         let command = roll.tick(&CONFIG, &Sample { angle, torque, reference: speed });
         let _estimate = roll.estimate(&CONFIG); // shaft torque, load speed, load torque, motor speed
-        if command.faults.is_none() { command.torque } else { command.torque.clamp(-100.0, 100.0) }
+        command.torque // within the limit; zero while the angle is lost, which command.faults says
     }
     // end
 
@@ -64,7 +64,7 @@ mod single {
 #[allow(dead_code)]
 mod fixed {
     use super::single::{DESIGN as OBSERVER, LIMITS, LOOP as GOVERNOR};
-    use driveline::constants::{Bases, Screening, SpeedLoopSettings};
+    use driveline::constants::{Screening, SpeedLoopSettings};
     use driveline::drive::{Config, ConfigOf, Drive, Limits};
     use driveline::governor::{SpeedLoop, SpeedLoopConfig};
     use driveline::observer::{self, TwoMassConfig};
@@ -73,6 +73,7 @@ mod fixed {
     const SETTINGS: SpeedLoopSettings = LIMITS.1;
 
     // listing: fixed
+    use driveline::constants::Bases;
     use driveline::number::Fixed;
 
     const BASES: Bases = Bases::of(&OBSERVER, 900.0, 200.0); // N m and rad/s that a healthy machine stays below

@@ -1,7 +1,11 @@
 //! What fixed-point numbers are fractions of.
 
+use super::Error;
 use crate::design::TwoMassDesign;
 use crate::machine::TwoMass;
+
+const BASE: &str =
+    "the bases of fixed point must be positive and finite: check the machine and the largest torque and speed";
 
 /// Bases of the fixed-point numbers of a drive.
 ///
@@ -49,6 +53,19 @@ impl Bases {
             // The lighter mass's coefficient torque/(J forcing) just under 1/2.
             forcing: torque / (0.49 * lighter),
         }
+    }
+
+    /// Checks that each base is positive and finite.
+    pub(super) const fn check(&self) -> Result<(), Error> {
+        let bases = [self.torque, self.speed, self.twist, self.twist_rate, self.forcing];
+        let mut k = 0;
+        while k < 5 {
+            if !(bases[k] > 0.0 && bases[k].is_finite()) {
+                return Err(Error::Value(BASE));
+            }
+            k += 1;
+        }
+        Ok(())
     }
 
     /// Bases for a design; see [`Bases::new`].

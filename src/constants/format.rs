@@ -11,7 +11,7 @@ pub(crate) struct Format {
     pub(crate) unit: f64,
     /// What `widened` multiplies by.
     pub(crate) widened: f64,
-    /// What `to_turn` multiplies by.
+    /// What `less_turn` multiplies a turn by.
     pub(crate) turn: f64,
     /// What `innovation_operand` multiplies by.
     pub(crate) innovation: f64,

@@ -16,6 +16,7 @@ const FIXED: &str = "the efficiency of the gear must be above 0.62 in fixed poin
 
 /// A gear with losses, as an observer has to know it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gear {
     /// Efficiency, above 0 and at most 1.
     pub efficiency: f64,
@@ -41,7 +42,11 @@ impl Gear {
         if !(play >= 0.0 && play < INNOVATION_RANGE) {
             return Err(Error::Value(PLAY));
         }
-        Ok([0.5 * ((1.0 / eta - 1.0) + (1.0 - eta)), firmness, play])
+        let friction = 0.5 * ((1.0 / eta - 1.0) + (1.0 - eta));
+        if !(friction as f32).is_finite() {
+            return Err(Error::Value(EFFICIENCY));
+        }
+        Ok([friction, firmness, play])
     }
 }
 
@@ -91,10 +96,11 @@ impl<C: Copy> GearedConfig<Fixed, C> {
     /// [`Error::Value`] for a figure of the gear that is out of its range, or an inertia too light for the bases;
     /// [`Error::Coefficient`] for an efficiency below 0.62.
     pub const fn try_new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Result<Self, Error> {
+        get!(bases.check());
         let [friction, firmness, play] = get!(gear.losses(period));
         let [friction] = get!(fixed([friction], FIXED));
         // Twice the firmness that is held within two ticks would swing, four times would grow.
-        if FIRMNESS * (bases.torque / bases.speed) > 2.0 * firmness {
+        if !(FIRMNESS * (bases.torque / bases.speed) <= 2.0 * firmness) {
             return Err(Error::Value(LIGHT));
         }
         Ok(GearedConfig { observer, friction, firmness: (), play: Fixed::from_bits(play as i32) })

@@ -1,6 +1,6 @@
 //! Constants of the speed loop.
 
-use super::convert::{fixed, get, or_stop, per_unit, single};
+use super::convert::{fixed, get, or_stop, per_unit, positive};
 use super::{Bases, Error, Format};
 use crate::design::SpeedLoopDesign;
 use crate::governor::SpeedLoopConfig;
@@ -8,8 +8,8 @@ use crate::number::Fixed;
 
 const GAIN: &str =
     "a gain of the speed loop is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
-const TORQUE: &str = "the torque limit of the speed loop is beyond twice the base of the torque";
-const RAMP: &str = "the ramp of the speed loop crosses twice the base of the speed within a tick";
+const TORQUE: &str = "the torque limit of the speed loop must be positive and finite, and at most twice the base of the torque in fixed point";
+const RAMP: &str = "the ramp of the speed loop must be positive and finite, and within a tick at most twice the base of the speed in fixed point";
 
 /// What the speed loop needs besides its gains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,22 +34,38 @@ const fn speed_loop(design: &SpeedLoopDesign, settings: &SpeedLoopSettings, form
     }
 }
 
-impl SpeedLoopConfig<f64> {
-    /// The constants of a design in `f64`.
-    pub const fn new(design: &SpeedLoopDesign, settings: SpeedLoopSettings) -> Self {
-        speed_loop(design, &settings, &Format::FLOAT)
-    }
+macro_rules! float {
+    ($float:ident) => {
+        impl SpeedLoopConfig<$float> {
+            /// The constants of a design as floats.
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+            pub const fn new(design: &SpeedLoopDesign, settings: SpeedLoopSettings) -> Self {
+                or_stop!(Self::try_new(design, settings))
+            }
+
+            /// The constants of a design as floats.
+            ///
+            /// # Errors
+            /// [`Error::Value`] for a torque limit or a ramp that is not positive and finite.
+            pub const fn try_new(design: &SpeedLoopDesign, settings: SpeedLoopSettings) -> Result<Self, Error> {
+                let c = speed_loop(design, &settings, &Format::FLOAT);
+                Ok(SpeedLoopConfig {
+                    proportional: c.proportional as $float,
+                    integral: c.integral as $float,
+                    damping: c.damping as $float,
+                    unwinding: c.unwinding as $float,
+                    torque_limit: get!(positive(c.torque_limit, TORQUE)) as $float,
+                    ramp: get!(positive(c.ramp, RAMP)) as $float,
+                })
+            }
+        }
+    };
 }
 
-impl SpeedLoopConfig<f32> {
-    /// The constants of a design in `f32`.
-    pub const fn new(design: &SpeedLoopDesign, settings: SpeedLoopSettings) -> Self {
-        let c = speed_loop(design, &settings, &Format::FLOAT);
-        let [proportional, integral, damping, unwinding, torque_limit, ramp] =
-            single([c.proportional, c.integral, c.damping, c.unwinding, c.torque_limit, c.ramp]);
-        SpeedLoopConfig { proportional, integral, damping, unwinding, torque_limit, ramp }
-    }
-}
+float!(f32);
+float!(f64);
 
 impl SpeedLoopConfig<Fixed> {
     /// The constants of a design in fixed point.
@@ -65,6 +81,7 @@ impl SpeedLoopConfig<Fixed> {
     /// # Errors
     /// [`Error::Coefficient`] for a gain beyond the range of fixed point, [`Error::Value`] for a limit beyond its base.
     pub const fn try_new(design: &SpeedLoopDesign, settings: SpeedLoopSettings, bases: Bases) -> Result<Self, Error> {
+        get!(bases.check());
         let c = speed_loop(design, &settings, &Format::fixed(bases));
         let [proportional, integral, damping, unwinding] =
             get!(fixed([c.proportional, c.integral, c.damping, c.unwinding], GAIN));

@@ -1,13 +1,15 @@
 //! Limits of what a sample can be.
 
-use super::convert::{get, or_stop, per_unit};
+use super::convert::{get, or_stop, per_unit, positive};
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error};
 use crate::drive::Limits;
 use crate::number::{Fixed, INNOVATION_RANGE, TURN_SHIFT};
 
-const TORQUE: &str = "the largest believable torque is beyond twice the base of the torque";
-const REFERENCE: &str = "the largest believable set point is beyond twice the base of the speed";
+const TORQUE: &str = "the largest believable torque must be positive and finite, and at most twice the base of the torque in fixed point";
+const REFERENCE: &str = "the largest believable set point must be positive and finite, and at most twice the base of the speed in fixed point";
+const STANDSTILL: &str =
+    "the standstill limit must be at least 0 and finite, and at most 5.6 degrees (0.098 rad) in fixed point";
 const INNOVATION: &str =
     "the largest believable innovation must be positive and at most 5.6 degrees (0.098 rad) in fixed point";
 
@@ -24,36 +26,55 @@ pub struct Screening {
     pub innovation: f64,
     /// Largest predicted turn in a tick that an unchanged angle is believed with \[rad\]: two counts of the encoder.
     pub standstill: f64,
-    /// Ticks in a row without a usable angle after which it counts as lost.
+    /// Ticks without a usable angle, less those with one, after which it counts as lost: fewer than the motor needs for half a turn.
     pub missed: u32,
 }
 
-impl Limits<f64> {
-    /// The limits in `f64`.
-    pub const fn new(screening: &Screening) -> Self {
-        Limits {
-            torque: screening.torque,
-            reference: screening.reference,
-            innovation: screening.innovation * ANGLE_PER_RADIAN,
-            standstill: screening.standstill * ANGLE_PER_RADIAN,
-            missed: screening.missed,
-        }
+/// The limits in 2^-32 turns and SI units, each of them positive.
+const fn checked(screening: &Screening) -> Result<[f64; 4], Error> {
+    let standstill = screening.standstill * ANGLE_PER_RADIAN;
+    if !(standstill >= 0.0 && standstill.is_finite()) {
+        return Err(Error::Value(STANDSTILL));
     }
+    Ok([
+        get!(positive(screening.torque, TORQUE)),
+        get!(positive(screening.reference, REFERENCE)),
+        get!(positive(screening.innovation * ANGLE_PER_RADIAN, INNOVATION)),
+        standstill,
+    ])
 }
 
-impl Limits<f32> {
-    /// The limits in `f32`.
-    pub const fn new(screening: &Screening) -> Self {
-        let limits = Limits::<f64>::new(screening);
-        Limits {
-            torque: limits.torque as f32,
-            reference: limits.reference as f32,
-            innovation: limits.innovation as f32,
-            standstill: limits.standstill as f32,
-            missed: limits.missed,
+macro_rules! float {
+    ($float:ident) => {
+        impl Limits<$float> {
+            /// The limits as floats.
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+            pub const fn new(screening: &Screening) -> Self {
+                or_stop!(Self::try_new(screening))
+            }
+
+            /// The limits as floats.
+            ///
+            /// # Errors
+            /// [`Error::Value`] for one that is not positive and finite.
+            pub const fn try_new(screening: &Screening) -> Result<Self, Error> {
+                let [torque, reference, innovation, standstill] = get!(checked(screening));
+                Ok(Limits {
+                    torque: torque as $float,
+                    reference: reference as $float,
+                    innovation: innovation as $float,
+                    standstill: standstill as $float,
+                    missed: screening.missed,
+                })
+            }
         }
-    }
+    };
 }
+
+float!(f32);
+float!(f64);
 
 impl Limits<Fixed> {
     /// The limits in fixed point.
@@ -69,15 +90,17 @@ impl Limits<Fixed> {
     /// # Errors
     /// [`Error::Value`] for one that its base leaves no room for.
     pub const fn try_new(screening: &Screening, bases: Bases) -> Result<Self, Error> {
-        let innovation = screening.innovation * ANGLE_PER_RADIAN;
-        let standstill = screening.standstill * ANGLE_PER_RADIAN;
-        // Comparisons that a NaN fails.
-        if !(innovation > 0.0 && innovation <= INNOVATION_RANGE && standstill <= INNOVATION_RANGE) {
+        get!(bases.check());
+        let [torque, reference, innovation, standstill] = get!(checked(screening));
+        if innovation > INNOVATION_RANGE {
             return Err(Error::Value(INNOVATION));
         }
+        if standstill > INNOVATION_RANGE {
+            return Err(Error::Value(STANDSTILL));
+        }
         Ok(Limits {
-            torque: get!(per_unit(screening.torque / bases.torque, TORQUE)),
-            reference: get!(per_unit(screening.reference / bases.speed, REFERENCE)),
+            torque: get!(per_unit(torque / bases.torque, TORQUE)),
+            reference: get!(per_unit(reference / bases.speed, REFERENCE)),
             innovation: Fixed::from_bits(innovation as i32),
             standstill: Fixed::from_bits(standstill as i32 >> TURN_SHIFT),
             missed: screening.missed,

@@ -9,6 +9,7 @@ use crate::number::Fixed;
 use crate::observer::{RigidConfig, SemiImplicitConfig, TwoMassConfig};
 
 const STEP: &str = "a coefficient of the observer's step is beyond the range of fixed point: the machine is too soft, too light or too strongly damped for its bases at this rate";
+const SHARE: &str = "the load's share of the inertia must be at least 0 and at most 1";
 const GAIN: &str = "a gain of the observer is beyond the range of fixed point: the disturbances are too large for the machine's bases, or the rate is too low";
 
 /// The exact observer's constants, scaled to a format.
@@ -66,6 +67,11 @@ const fn semi_implicit(design: &TwoMassDesign, format: &Format) -> SemiImplicitC
         angle_correction: -angle / format.innovation,
         speed: format.speed_of_turn(design.period),
     }
+}
+
+/// A part of the whole.
+const fn share(value: f64) -> Result<(), Error> {
+    if value >= 0.0 && value <= 1.0 { Ok(()) } else { Err(Error::Value(SHARE)) }
 }
 
 /// The rigid observer's constants, scaled to a format.
@@ -129,6 +135,7 @@ impl TwoMassConfig<Fixed> {
     /// # Errors
     /// [`Error::Coefficient`] where one is beyond the range of fixed point.
     pub const fn try_new(design: &TwoMassDesign, bases: Bases) -> Result<Self, Error> {
+        get!(bases.check());
         let c = two_mass(design, &Format::fixed(bases));
         let [acceleration, compliance, speed] = get!(fixed([c.acceleration, c.compliance, c.speed], STEP));
         let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
@@ -195,6 +202,7 @@ impl SemiImplicitConfig<Fixed> {
     /// # Errors
     /// [`Error::Coefficient`] where one is beyond the range of fixed point.
     pub const fn try_new(design: &TwoMassDesign, bases: Bases) -> Result<Self, Error> {
+        get!(bases.check());
         let c = semi_implicit(design, &Format::fixed(bases));
         let [motor, load, turn, speed] = get!(fixed([c.motor, c.load, c.turn, c.speed], STEP));
         let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
@@ -212,14 +220,22 @@ impl SemiImplicitConfig<Fixed> {
 
 impl RigidConfig<f64> {
     /// The constants of a design in `f64`; `load_share` is the part of the inertia that lies behind the shaft, 0 to 1.
+    ///
+    /// # Panics
+    /// At compile time in a constant, for a share outside 0 to 1.
     pub const fn new(design: &RigidDesign, load_share: f64) -> Self {
+        or_stop!(share(load_share));
         rigid(design, load_share, &Format::FLOAT)
     }
 }
 
 impl RigidConfig<f32> {
     /// The constants of a design in `f32`; `load_share` is the part of the inertia that lies behind the shaft, 0 to 1.
+    ///
+    /// # Panics
+    /// At compile time in a constant, for a share outside 0 to 1.
     pub const fn new(design: &RigidDesign, load_share: f64) -> Self {
+        or_stop!(share(load_share));
         let c = rigid(design, load_share, &Format::FLOAT);
         RigidConfig {
             acceleration: c.acceleration as f32,
@@ -246,6 +262,8 @@ impl RigidConfig<Fixed> {
     /// # Errors
     /// [`Error::Coefficient`] where one is beyond the range of fixed point.
     pub const fn try_new(design: &RigidDesign, load_share: f64, bases: Bases) -> Result<Self, Error> {
+        get!(share(load_share));
+        get!(bases.check());
         let c = rigid(design, load_share, &Format::fixed(bases));
         let [acceleration, turn, load_share, speed] =
             get!(fixed([c.acceleration, c.turn, c.load_share, c.speed], STEP));

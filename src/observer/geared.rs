@@ -42,6 +42,7 @@ pub struct Geared<O> {
 
 /// The prediction of the observer behind the gear, and whether the gear was held.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GearedPrediction<P> {
     observer: P,
     held: bool,

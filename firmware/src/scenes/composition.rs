@@ -110,7 +110,7 @@ compositions! {
 }
 
 /// An observer called by hand with the screening of [`driveline::drive`], without a drive: what a drive of nothing but an observer is
-/// measured against.
+/// measured against. It follows `Drive::observe` and `Drive::search` line by line.
 pub struct ByHand<N: Number + 'static, O: Observer<N, Config: 'static> + 'static> {
     config: &'static ConfigOf<N, O>,
     observer: O,
@@ -121,7 +121,7 @@ pub struct ByHand<N: Number + 'static, O: Observer<N, Config: 'static> + 'static
 impl<N: Number, O: Observer<N>> ByHand<N, O> {
     #[inline(always)]
     fn tick(&mut self, sample: &Sample<N>) -> Command<N> {
-        let faults = self.observe(sample);
+        let faults = if self.missed > self.config.limits.missed { self.search(sample) } else { self.observe(sample) };
         Command { torque: N::ZERO, faults }
     }
 
@@ -139,9 +139,6 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
             faults |= Faults::REFERENCE;
         }
         let missed = self.missed;
-        if missed > limits.missed {
-            return faults | self.search(sample.angle, torque);
-        }
         let predicted = self.observer.predict(config, sample.angle, torque);
         let unchanged = sample.angle == self.observer.angle();
         let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
@@ -159,30 +156,36 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
     }
 
     #[inline(always)]
-    fn search(&mut self, angle: u32, torque: N) -> Faults {
+    fn search(&mut self, sample: &Sample<N>) -> Faults {
         let limits = &self.config.limits;
+        let mut faults = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
+        let mut torque = sample.torque;
+        if torque.exceeds(limits.torque) {
+            torque = N::ZERO;
+            faults |= Faults::TORQUE;
+        }
         let (none_yet, one) = (limits.missed.saturating_add(1), limits.missed.saturating_add(2));
         let last = self.observer.angle();
-        if angle == last {
-            self.missed = none_yet;
-            return Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
-        }
-        let turned = N::from_angle(angle.wrapping_sub(last) as i32);
+        let turned = N::from_angle(sample.angle.wrapping_sub(last) as i32);
         let speed = O::speed_of_turn(&self.config.observer, turned);
-        if self.missed == none_yet || speed.exceeds(limits.reference.plus(limits.reference)) {
-            self.observer.synchronise(angle);
+        if sample.angle == last {
+            faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
+            self.missed = none_yet;
+        } else if self.missed == none_yet || speed.exceeds(limits.reference.plus(limits.reference)) {
+            self.observer.synchronise(sample.angle);
             self.missed = one;
         } else {
             let count = O::speed_of_turn(&self.config.observer, N::ZERO.less_turn(limits.standstill)).magnitude();
             let known = self.observer.estimate(&self.config.observer).motor_speed;
             if speed.minus(known).exceeds(count) {
-                self.observer = O::steady(&self.config.observer, angle, torque, speed);
+                self.observer = O::steady(&self.config.observer, sample.angle, torque, speed);
             } else {
-                self.observer.synchronise(angle);
+                self.observer.synchronise(sample.angle);
             }
             self.missed = limits.missed;
         }
-        Faults::ANGLE_JUMP | Faults::ANGLE_LOST
+        self.torque = N::ZERO;
+        faults
     }
 }
 

@@ -65,14 +65,14 @@ pub const DISTURBANCE: Disturbance =
 pub const BASES: Bases = Bases::new(&REDUCED, 2.0 * TORQUE_LIMIT, 1.34 * RATED_SPEED);
 
 /// Limits of what a sample can be: two thirds over the largest torque; 1/128 turn, which that torque does not move the motor before
-/// the observer has followed; two counts; 20 ms.
+/// the observer has followed; two counts; 15 ms, in which it turns by less than half a turn.
 pub const fn screening(rate_hz: u32) -> Screening {
     Screening {
         torque: 1.67 * TORQUE_LIMIT,
         reference: 1.2 * RATED_SPEED,
         innovation: core::f64::consts::TAU / 128.0,
         standstill: 2.0 * core::f64::consts::TAU / 8192.0,
-        missed: rate_hz / 50,
+        missed: rate_hz / 67,
     }
 }
 

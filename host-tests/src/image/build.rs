@@ -43,7 +43,8 @@ pub fn workspace() -> &'static Path {
 /// Cargo's target directory.
 pub fn target_directory() -> PathBuf {
     let named = std::env::var_os("CARGO_TARGET_DIR").filter(|name| !name.is_empty());
-    named.map_or_else(|| workspace().join("target"), PathBuf::from)
+    let named = named.map_or_else(|| workspace().join("target"), PathBuf::from);
+    std::path::absolute(&named).unwrap_or(named)
 }
 
 /// Builds `program` holding `variant` for `board`, unless the image on disk is what would be built; `progress` is told each line that
@@ -111,6 +112,8 @@ pub fn build(
         return Err(BuildError::Cargo { command, output });
     }
     let built = firmware.join(board.target).join("firmware").join(program.name());
+    // Without its stamp a half-copied image is never taken for a fresh one.
+    let _ = fs::remove_file(&stamp);
     fs::copy(&built, &path).map_err(place(format!("copying {} to {}", built.display(), path.display())))?;
     fs::write(&stamp, fresh).map_err(place(format!("writing {}", stamp.display())))?;
     Ok(image)

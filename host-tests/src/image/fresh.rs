@@ -20,7 +20,7 @@ const SOURCES: [&str; 6] = ["Cargo.toml", "Cargo.lock", "memory.x", ".cargo/conf
 pub fn fingerprint(root: &Path, command: &str) -> io::Result<String> {
     let mut hasher = DefaultHasher::new();
     command.hash(&mut hasher);
-    Command::new("rustc").arg("-vV").output()?.stdout.hash(&mut hasher);
+    Command::new("rustc").arg("-vV").current_dir(root).output()?.stdout.hash(&mut hasher);
     for source in SOURCES {
         add(&root.join(source), &mut hasher)?;
     }

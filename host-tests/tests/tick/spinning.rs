@@ -14,7 +14,7 @@ fn caught<V: Variant<Number: Scaled, Observer: Copy>>() {
     for speed in [RATED_SPEED, -RATED_SPEED, 30.0] {
         let mut drive = DriveOf::<V>::new(V::CONFIG, 0);
         let turn = speed / f64::from(V::RATE_HZ) / core::f64::consts::TAU * 4_294_967_296.0;
-        let missed = V::RATE_HZ / 50;
+        let missed = V::RATE_HZ / 67;
         let mut last = 0;
         let ticks = V::RATE_HZ / 2;
         for tick in 1..=ticks {
