@@ -85,14 +85,10 @@ fn long(first: u16, second: u16, slow_multiplier: bool) -> u32 {
         _ if first & 0xfe50 == 0xe850 => 3,                    // LDRD
         _ if first & 0xfe50 == 0xe840 => 2,                    // STRD
         _ if first & 0xfe10 == 0xf810 => 2,                    // LDR and its like
-        _ if first & 0xf800 == 0xf000 && second & 0x8000 != 0 => {
-            if second & 0x4000 != 0 {
-                3
-            } else {
-                2
-            }
-        } // BL, B
-        _ if first & 0xff20 == 0xed00 && first & 0x10 != 0 => 2, // VLDR, VSTR
+        _ if first & 0xf800 == 0xf000 && second & 0xc000 == 0xc000 => 3, // BL
+        _ if first & 0xf800 == 0xf000 && second & 0xc000 == 0x8000 => 2, // B
+        _ if first & 0xff30 == 0xed10 => 2,                    // VLDR
+        _ if first & 0xff30 == 0xed00 => 1,                    // VSTR
         _ if first & 0xfe00 == 0xec00 => 1 + u32::from(second & 0xff), // VLDM, VSTM, VPUSH, VPOP
         _ if first & 0xffb0 == 0xee00 && second & 0x10 == 0 => 3, // VMLA, VMLS
         _ if first & 0xffb0 == 0xee10 && second & 0x10 == 0 => 3, // VNMLA, VNMLS
