@@ -75,7 +75,7 @@ fn absurd_values_are_refused_at_their_key() {
         ("damping = 2.0", "damping = -2.0", "element[1].damping", "-2.0"),
         ("lines = 2048", "lines = 0", "encoder.lines", "0"),
         ("rate_hz = 10000", "rate_hz = 1e9", "control.rate_hz", "1e9"),
-        ("within = 0.5 ", "within = 0.0 ", "disturbance.within", "0.0"),
+        ("within = 50.0 ", "within = 0.0 ", "disturbance.within", "0.0"),
         ("speed = 155.0", "speed = -155.0", "limits.speed", "-155.0"),
         ("kind = \"gear\"", "kind = \"belt\"", "element[3].kind", "the text \"belt\""),
         ("name = \"hoist\"", "name = \"../../etc\"", "name", "the text \"../../etc\""),
