@@ -45,9 +45,11 @@ pub struct Limits<N: Number> {
     pub innovation: N,
     /// Largest predicted turn in a tick that an unchanged angle is believed with, as [`Number::less_turn`] takes it.
     pub standstill: N,
-    /// Ticks in a row without a usable angle after which it counts as lost: no more than the motor needs for half a turn at the largest set
-    /// point, after which its angle says no longer how far it has turned. Where the estimated speed is wrong by up to twice that set point, the
-    /// predicted angle then does not come past the measured one before the angle counts as lost.
+    /// Ticks without a usable angle, less those with one, after which it counts as lost: no more than the motor needs for half a turn at the
+    /// largest set point, after which its angle says no longer how far it has turned.
+    ///
+    /// Less, and not in a row: where the estimated speed is far off, a prediction of the angle comes past the measured one now and then, and
+    /// is none the better for it.
     pub missed: u32,
 }
 
@@ -187,16 +189,19 @@ where
         } else {
             self.governor.refer(sample.reference);
         }
+        let missed = self.missed;
         let predicted = self.observer.predict(&config.observer, sample.angle, torque);
         let unchanged = sample.angle == self.observer.angle();
         let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
         if frozen || predicted.innovation().exceeds(limits.innovation) {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
-            self.missed = self.missed.wrapping_add(1);
+            self.missed = missed.wrapping_add(1);
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
-            self.missed = 0;
+            if missed != 0 {
+                self.missed = missed - 1;
+            }
         }
         faults | Faults::range(self.observer.beyond_base())
     }
@@ -267,12 +272,13 @@ mod tests {
     }
 
     #[test]
-    fn missed_ticks_are_counted_in_a_row() {
+    fn missed_ticks_count_up_and_good_ones_count_them_down() {
         let mut drive = Drive::new(&CONFIG, 0);
         assert_eq!(tick(&mut drive, 5000), (Faults::ANGLE_JUMP, 1));
         assert_eq!(tick(&mut drive, 9000), (Faults::ANGLE_JUMP, 2));
+        assert_eq!(tick(&mut drive, 0), (Faults::NONE, 1));
         assert_eq!(tick(&mut drive, 0), (Faults::NONE, 0));
-        assert_eq!(tick(&mut drive, 9000), (Faults::ANGLE_JUMP, 1));
+        assert_eq!(tick(&mut drive, 0), (Faults::NONE, 0));
     }
 
     #[test]
@@ -286,7 +292,7 @@ mod tests {
         assert_eq!(tick(&mut drive, 70_000), (lost, 5));
         // The machine stands: the second angle is two counts beside the first.
         assert_eq!(tick(&mut drive, 70_009), (lost, 3));
-        assert_eq!(tick(&mut drive, 70_009), (Faults::NONE, 0));
+        assert_eq!(tick(&mut drive, 70_009), (Faults::NONE, 2));
     }
 
     #[test]

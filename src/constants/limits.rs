@@ -26,7 +26,7 @@ pub struct Screening {
     pub innovation: f64,
     /// Largest predicted turn in a tick that an unchanged angle is believed with \[rad\]: two counts of the encoder.
     pub standstill: f64,
-    /// Ticks in a row without a usable angle after which it counts as lost: no more than the motor needs for half a turn.
+    /// Ticks without a usable angle, less those with one, after which it counts as lost: no more than the motor needs for half a turn.
     pub missed: u32,
 }
 

@@ -138,16 +138,19 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
         if sample.reference.exceeds(limits.reference) {
             faults |= Faults::REFERENCE;
         }
+        let missed = self.missed;
         let predicted = self.observer.predict(config, sample.angle, torque);
         let unchanged = sample.angle == self.observer.angle();
         let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
         if frozen || predicted.innovation().exceeds(limits.innovation) {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
-            self.missed = self.missed.wrapping_add(1);
+            self.missed = missed.wrapping_add(1);
         } else {
             self.observer.correct(config, predicted, sample.angle);
-            self.missed = 0;
+            if missed != 0 {
+                self.missed = missed - 1;
+            }
         }
         faults | Faults::from_bits(self.observer.beyond_base())
     }
