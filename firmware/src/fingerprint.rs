@@ -21,9 +21,9 @@ impl Fingerprint {
 
     /// Takes in one output; the instructions, which differ between host and target, are left out.
     pub fn add(&mut self, output: &Output) {
-        let Output { torque, motor_speed, shaft_torque, load_speed, load_torque, faults, instructions: _, reserved } =
+        let Output { torque, motor_speed, shaft_torque, load_speed, load_torque, faults, instructions: _, answer } =
             *output;
-        for word in [torque, motor_speed, shaft_torque, load_speed, load_torque, faults, reserved] {
+        for word in [torque, motor_speed, shaft_torque, load_speed, load_torque, faults, answer] {
             self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3);
         }
     }
@@ -46,7 +46,7 @@ pub fn of_run<S: Scene>() -> u64 {
     let mut inputs = Program::new(SEED, const { Words::of::<S>() });
     let mut fingerprint = Fingerprint::new();
     for _ in 0..TICKS {
-        fingerprint.add(&scene.tick(&inputs.next_input()));
+        fingerprint.add(&scene.exchange(&inputs.next_input()));
     }
     fingerprint.value()
 }

@@ -65,6 +65,6 @@ pub(crate) fn output<N: Number>(command: &Command<N>, estimate: &Estimate<N>) ->
         load_torque: estimate.load_torque.to_word(),
         faults: command.faults.bits(),
         instructions: 0,
-        reserved: 0,
+        answer: 0,
     }
 }

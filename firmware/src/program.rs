@@ -48,7 +48,7 @@ impl Program {
             reference,
             flags: if released { Input::RELEASED } else { 0 },
             vibration: [self.next_word(), self.next_word()],
-            reserved: [0; 2],
+            asked: [0; 2],
         }
     }
 

@@ -18,12 +18,12 @@ pub struct Input {
     pub flags: u32,
     /// Vibration samples, as bits of the scene's number.
     pub vibration: [u32; 2],
-    /// Zero.
-    pub reserved: [u32; 2],
+    /// What the panel asks for, a key and a value; the scene says what they mean, zeros ask for nothing.
+    pub asked: [u32; 2],
 }
 
 impl Input {
-    /// Flag: the governor is released; without it the torque command is zero and its state is reset.
+    /// Flag: the brake is open and the governor at work; without it the scene holds, and [`Input::reference`] is the torque that it holds with.
     pub const RELEASED: u32 = 1;
 }
 
@@ -45,8 +45,8 @@ pub struct Output {
     pub faults: u32,
     /// Instructions that the tick took; filled in by the board, zero on the host.
     pub instructions: u32,
-    /// Zero.
-    pub reserved: u32,
+    /// The answer to what the panel asked; zero from the tick itself.
+    pub answer: u32,
 }
 
 /// A drive of a scene, ready to tick; state and constants together.
@@ -59,4 +59,16 @@ pub trait Scene {
     fn new() -> Self;
     /// One tick. Pure: no clock, no allocation, no panic.
     fn tick(&mut self, input: &Input) -> Output;
+
+    /// What a panel or a terminal does between two ticks: gives a value, asks for one. It may take longer than a tick, and a scene without
+    /// a panel has nothing of it.
+    fn panel(&mut self, _asked: [u32; 2]) -> u32 {
+        0
+    }
+
+    /// A tick and the panel's turn after it, as the control loop runs them.
+    fn exchange(&mut self, input: &Input) -> Output {
+        let output = self.tick(input);
+        Output { answer: self.panel(input.asked), ..output }
+    }
 }

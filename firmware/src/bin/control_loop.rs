@@ -26,6 +26,7 @@ fn main() -> ! {
     stack::paint();
     while link.receive(&mut input) {
         output.instructions = counter.call(driveline_tick, drive, &input, &mut output);
+        output.answer = drive.panel(input.asked);
         if !link.send(&output) {
             board.exit(false);
         }

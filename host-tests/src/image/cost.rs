@@ -128,7 +128,7 @@ impl driveline_firmware::Visitor for Replay<'_> {
 
     fn visit<S: Scene>(self) -> bool {
         let mut scene = S::new();
-        self.0.iter().all(|(input, output)| scene.tick(input) == *output)
+        self.0.iter().all(|(input, output)| scene.exchange(input) == *output)
     }
 }
 

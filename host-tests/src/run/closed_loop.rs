@@ -24,7 +24,7 @@ pub struct OnHost<S>(pub S);
 
 impl<S: Scene> Ticks for OnHost<S> {
     fn tick(&mut self, input: &Input) -> io::Result<Output> {
-        Ok(self.0.tick(input))
+        Ok(self.0.exchange(input))
     }
 }
 
