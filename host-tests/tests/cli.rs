@@ -142,3 +142,31 @@ fn wrong_arguments_end_with_2() {
     assert_eq!(output.status.code(), Some(2));
     assert!(json(&err(&output))["error"].as_str().unwrap().contains("--loud"));
 }
+
+#[test]
+fn a_page_that_cannot_be_written_is_found_before_anything_runs() {
+    // A file stands where the folder should be.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "kept").unwrap();
+    let page = file.join("page.html");
+    let output = driveline(&["run", "--html", page.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("page.html cannot be written") && !err(&output).contains("building"));
+    assert_eq!(std::fs::read_to_string(file).unwrap(), "kept");
+}
+
+#[test]
+fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("three.toml");
+    let text = std::fs::read_to_string(HOIST).unwrap();
+    let settings = &text[text.find("[encoder]").unwrap()..];
+    // Three equal masses on equal shafts: the second mode moves the motor as much as the first.
+    let rotor = |kind: &str| format!("[[element]]\nkind = \"{kind}\"\ninertia = 1.0\n");
+    let shaft = "[[element]]\nkind = \"shaft\"\nstiffness = 1000.0\n";
+    let (motor, rotor) = (rotor("motor"), rotor("rotor"));
+    std::fs::write(&file, format!("name = \"three\"\n{motor}{shaft}{rotor}{shaft}{rotor}{settings}")).unwrap();
+    assert!(out(&driveline(&["design", file.to_str().unwrap()])).contains("warning: two masses are a poor image"));
+    assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
+}
