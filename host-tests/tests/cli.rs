@@ -162,11 +162,12 @@ fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
     let file = folder.path().join("three.toml");
     let text = std::fs::read_to_string(HOIST).unwrap();
     let settings = &text[text.find("[encoder]").unwrap()..];
-    // Three equal masses on equal shafts: the second mode moves the motor as much as the first.
-    let rotor = |kind: &str| format!("[[element]]\nkind = \"{kind}\"\ninertia = 1.0\n");
-    let shaft = "[[element]]\nkind = \"shaft\"\nstiffness = 1000.0\n";
-    let (motor, rotor) = (rotor("motor"), rotor("rotor"));
-    std::fs::write(&file, format!("name = \"three\"\n{motor}{shaft}{rotor}{shaft}{rotor}{settings}")).unwrap();
+    // A light motor before two heavy masses: ten elevenths of a blow to it go into the second mode.
+    let mass = |kind: &str, inertia: f64| format!("[[element]]\nkind = \"{kind}\"\ninertia = {inertia:?}\n");
+    let shaft = |stiffness: f64| format!("[[element]]\nkind = \"shaft\"\nstiffness = {stiffness:?}\n");
+    let (motor, first, second) = (mass("motor", 0.1), mass("rotor", 1.0), mass("rotor", 1.0));
+    let (stiff, soft) = (shaft(1e5), shaft(10.0));
+    std::fs::write(&file, format!("name = \"three\"\n{motor}{stiff}{first}{soft}{second}{settings}")).unwrap();
     assert!(out(&driveline(&["design", file.to_str().unwrap()])).contains("warning: two masses are a poor image"));
     assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
 }
