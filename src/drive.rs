@@ -88,8 +88,15 @@ pub struct Drive<N, O, F = (), G = (), B = ()> {
     balancer: B,
     /// What stands in for a torque that cannot be believed.
     commanded: N,
-    missed: u32,
+    /// Ticks without a usable angle, less those with one; while the angle is lost [`NONE_YET`] or [`ONE`].
+    missed: i32,
 }
+
+/// The angle is lost, and none has been seen since.
+const NONE_YET: i32 = i32::MIN;
+
+/// The angle is lost, and one has been seen that differs from the last.
+const ONE: i32 = NONE_YET + 1;
 
 impl<N, O, F, G, B> Drive<N, O, F, G, B>
 where
@@ -114,7 +121,7 @@ where
     /// One tick with the governor at work.
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
-        if self.missed > config.limits.missed {
+        if self.missed < 0 {
             return self.search(config, sample);
         }
         let faults = self.observe(config, sample);
@@ -196,7 +203,7 @@ where
         if frozen || predicted.innovation().exceeds(limits.innovation) {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
-            self.missed = missed.wrapping_add(1);
+            self.missed = if (missed as u32) < limits.missed { missed.wrapping_add(1) } else { NONE_YET };
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
             if missed != 0 {
@@ -207,7 +214,9 @@ where
     }
 
     /// The angle is lost: commands no torque, looks for two angles in a row that differ, and goes on from the second.
-    #[inline(always)]
+    // Out of line: it leaves the registers to the tick.
+    #[cold]
+    #[inline(never)]
     fn search(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let limits = &config.limits;
         let mut faults = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
@@ -216,16 +225,15 @@ where
             torque = N::ZERO;
             faults |= Faults::TORQUE;
         }
-        let (none_yet, one) = (limits.missed.saturating_add(1), limits.missed.saturating_add(2));
         let last = self.observer.angle();
         let turned = N::from_angle(sample.angle.wrapping_sub(last) as i32);
         let speed = O::speed_of_turn(&config.observer, turned);
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
-            self.missed = none_yet;
-        } else if self.missed == none_yet || speed.exceeds(limits.reference.plus(limits.reference)) {
+            self.missed = NONE_YET;
+        } else if self.missed == NONE_YET || speed.exceeds(limits.reference.plus(limits.reference)) {
             self.observer.synchronise(sample.angle);
-            self.missed = one;
+            self.missed = ONE;
         } else {
             let count = O::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.standstill)).magnitude();
             let known = self.estimate(config).motor_speed;
@@ -234,7 +242,7 @@ where
             } else {
                 self.observer.synchronise(sample.angle);
             }
-            self.missed = limits.missed;
+            self.missed = limits.missed as i32 & i32::MAX;
         }
         self.commanded = N::ZERO;
         let estimate = self.estimate(config);
@@ -245,7 +253,7 @@ where
 
 #[cfg(test)]
 mod tests {
-    use super::{Config, Drive, Limits};
+    use super::{Config, Drive, Limits, NONE_YET, ONE};
     use crate::fault::Faults;
     use crate::observer::{Rigid, RigidConfig};
     use crate::sample::Sample;
@@ -266,7 +274,7 @@ mod tests {
         balancer: (),
     };
 
-    fn tick(drive: &mut Drive<f64, Rigid<f64>>, angle: u32) -> (Faults, u32) {
+    fn tick(drive: &mut Drive<f64, Rigid<f64>>, angle: u32) -> (Faults, i32) {
         let faults = drive.tick(&CONFIG, &Sample { angle, torque: 0.0, reference: 0.0 }).faults;
         (faults, drive.missed)
     }
@@ -288,8 +296,8 @@ mod tests {
             assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, missed));
         }
         let lost = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
-        assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, 4));
-        assert_eq!(tick(&mut drive, 70_000), (lost, 5));
+        assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, NONE_YET));
+        assert_eq!(tick(&mut drive, 70_000), (lost, ONE));
         // The machine stands: the second angle is two counts beside the first.
         assert_eq!(tick(&mut drive, 70_009), (lost, 3));
         assert_eq!(tick(&mut drive, 70_009), (Faults::NONE, 2));
