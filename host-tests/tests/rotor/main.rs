@@ -2,6 +2,7 @@
 
 mod campaign;
 mod closed_forms;
+mod command;
 mod rig;
 mod run_up;
 mod speeds;

@@ -82,3 +82,15 @@ fn a_tilting_disc_whirls_as_the_closed_form_says() {
     let backward = (tilt / (diametral + polar)).sqrt();
     assert!(criticals.iter().any(|c| (c.speed / backward - 1.0).abs() < 1e-12 && c.sense == WhirlSense::Backward));
 }
+
+#[test]
+fn the_lowest_vibrations_give_the_lowest_whirls() {
+    // What the command's diagram keeps: 32 of 52 vibrations for eight whirls, good to a line's width.
+    let model = three_discs(BEARING).build().unwrap();
+    let speeds = [0.0, 300.0, 600.0];
+    let [whole, kept] = [52, 32].map(|count| Modal::lowest(&model, count).unwrap().campbell(&speeds, 8).unwrap());
+    for (a, b) in whole.whirls.iter().flatten().zip(kept.whirls.iter().flatten()) {
+        assert!((a.frequency / b.frequency - 1.0).abs() < 2e-3, "{a:?} {b:?}");
+        assert!((a.damping_ratio - b.damping_ratio).abs() < 2e-3, "{a:?} {b:?}");
+    }
+}
