@@ -11,6 +11,7 @@ mod geared;
 mod governor;
 mod limits;
 mod observer;
+mod phasors;
 mod settled;
 
 pub use bases::Bases;
@@ -18,5 +19,6 @@ pub use convert::Error;
 pub use geared::Gear;
 pub use governor::SpeedLoopSettings;
 pub use limits::Screening;
+pub use phasors::{Measured, MeasuredError};
 
 pub(crate) use format::Format;

@@ -163,9 +163,14 @@ where
         &self.balancer
     }
 
-    /// Gives the balancer a sample of the vibration, taken with the last angle.
+    /// The balancer, to begin a reading or to tell it the rotor's angle: between two ticks.
+    pub fn balancer_mut(&mut self) -> &mut B {
+        &mut self.balancer
+    }
+
+    /// Gives the balancer the samples of the vibration, taken with the last angle: once a tick.
     #[inline(always)]
-    pub fn vibration(&mut self, config: &ConfigOf<N, O, F, G, B>, vibration: N) {
+    pub fn vibration(&mut self, config: &ConfigOf<N, O, F, G, B>, vibration: &B::Vibration) {
         self.balancer.measure(&config.balancer, self.observer.angle(), vibration);
     }
 

@@ -1,6 +1,6 @@
 //! Every public type can be logged: this does not compile where one cannot.
 
-use crate::{constants, design, drive, fault, governor, machine, number, observer, sample};
+use crate::{balance, constants, design, drive, fault, governor, machine, number, observer, sample};
 
 const fn is_logged<T: defmt::Format>() {}
 
@@ -16,6 +16,8 @@ macro_rules! all_of_number {
             drive::Drive<$number, observer::TwoMass<$number>, (), governor::SpeedLoop<$number>, ()>,
             governor::SpeedLoop<$number>,
             governor::SpeedLoopConfig<$number>,
+            balance::Phasors<$number, 2, 9>,
+            balance::PhasorsConfig<$number, 2>,
             observer::Geared<observer::Rigid<$number>>,
             observer::GearedConfig<$number, observer::RigidConfig<$number>>,
             observer::GearedPrediction<observer::RigidPrediction<$number>>,
@@ -38,9 +40,19 @@ macro_rules! all_of_number {
 const _: () = {
     all_of_number!(f32, f64, number::Fixed);
     all!(
+        balance::Doubt,
+        balance::Motion,
+        balance::Phasor,
+        balance::Reading,
+        balance::Sensor,
+        balance::Steadiness,
+        balance::Turning,
+        balance::TurningConfig,
         constants::Bases,
         constants::Error,
         constants::Gear,
+        constants::Measured,
+        constants::MeasuredError,
         constants::Screening,
         constants::SpeedLoopSettings,
         design::ApproximateStep,
