@@ -1,4 +1,4 @@
-//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `rotor`, `check`, `setup`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -16,6 +16,7 @@ mod failure;
 mod modes;
 mod plan;
 mod progress;
+mod rotor;
 mod run;
 mod setup;
 mod vibration;
@@ -45,6 +46,7 @@ enum Command {
     Run(run::Run),
     Modes(modes::Modes),
     Design(design::Design),
+    Rotor(rotor::Rotor),
     Check(check::Check),
     Setup(setup::Setup),
 }
@@ -55,6 +57,7 @@ impl Command {
             Self::Run(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
+            Self::Rotor(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
         }
@@ -65,6 +68,7 @@ impl Command {
             Self::Run(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
+            Self::Rotor(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
         }
