@@ -42,6 +42,8 @@ mod reduce;
 mod refer;
 mod rigid;
 mod section;
+mod train;
+mod train_reduce;
 mod two_mass;
 mod worth;
 
@@ -61,5 +63,6 @@ pub use reduce::{Match, ReductionError};
 pub use refer::{Flow, Side, parallel, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};
 pub use rigid::Rigid;
 pub use section::{Section, stepped, try_stepped};
+pub use train::{Joint, TRAIN_SHAFTS, Train};
 pub use two_mass::TwoMass;
 pub use worth::{Element, Part, Worth};

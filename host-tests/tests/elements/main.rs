@@ -4,6 +4,7 @@ mod crank;
 mod prime_mover;
 mod section;
 mod starting;
+mod train;
 mod travel;
 
 use serde_json::Value;
