@@ -9,6 +9,7 @@ mod convert;
 mod format;
 mod geared;
 mod governor;
+mod governor_parts;
 mod limits;
 mod observer;
 mod phasors;
@@ -18,6 +19,7 @@ pub use bases::Bases;
 pub use convert::Error;
 pub use geared::Gear;
 pub use governor::SpeedLoopSettings;
+pub use governor_parts::ModesSettings;
 pub use limits::Screening;
 pub use phasors::{Measured, MeasuredError};
 

@@ -14,8 +14,10 @@
 //! | prior, posterior | covariance before and after the measurement of a tick | state squared |
 
 mod approximate;
+mod barred;
 mod error;
 mod exponential;
+mod governor;
 mod kalman;
 mod margins;
 mod matrix;
@@ -25,11 +27,14 @@ mod riccati;
 mod rigid;
 mod speed_loop;
 mod step;
+mod torque_curve;
 mod tuning;
 
 pub use approximate::{ApproximateStep, Fidelity, SemiImplicitStep, StepChoice};
+pub use barred::{BarredSpeeds, USUAL_MARGIN};
 pub use error::Error;
 pub use exponential::{discretise, exponential};
+pub use governor::{Actuator, GovernorDesign, LoadFeedForward};
 pub use kalman::Kalman;
 pub use margins::Margins;
 pub use matrix::Matrix;
@@ -39,4 +44,5 @@ pub use riccati::{Doubling, doubling};
 pub use rigid::RigidDesign;
 pub use speed_loop::{SpeedLoopDesign, SpeedLoopTuning};
 pub use step::ExactStep;
+pub use torque_curve::TorqueCurve;
 pub use tuning::{Disturbance, Encoder, Rate};

@@ -136,11 +136,14 @@ where
 
     /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken to carry
     /// it, and the next [`Drive::tick`] starts from there, within the governor's limit. A torque that is NaN or beyond what a sample may have counts as zero and raises
-    /// [`Faults::REFERENCE`].
+    /// [`Faults::REFERENCE`]. A governor that has tripped holds with none.
     pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Command<N> {
         let mut command = Command { torque, faults: Faults::NONE };
         if torque.exceeds(config.limits.torque) {
             command = Command { torque: N::ZERO, faults: Faults::REFERENCE };
+        }
+        if !self.governor.permits() {
+            command.torque = N::ZERO;
         }
         self.observer = O::at_rest(&config.observer, angle, command.torque);
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
@@ -163,6 +166,11 @@ where
     /// The governor.
     pub fn governor(&self) -> &G {
         &self.governor
+    }
+
+    /// The governor, to ask for another mode or to switch its constants, between two ticks.
+    pub fn governor_mut(&mut self) -> &mut G {
+        &mut self.governor
     }
 
     /// The balancer.
@@ -251,7 +259,7 @@ where
         }
         self.commanded = N::ZERO;
         let estimate = self.estimate(config);
-        self.governor.start(&config.governor, &estimate, N::ZERO);
+        self.governor.lost(&config.governor, &estimate);
         Command { torque: N::ZERO, faults }
     }
 }
