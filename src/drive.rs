@@ -117,9 +117,9 @@ where
         if self.missed > config.limits.missed {
             return self.search(config, sample);
         }
-        let faults = self.observe(config, sample);
+        let (faults, applied) = self.observe(config, sample);
         let estimate = self.estimate(config);
-        self.fluctuation.measure(&config.fluctuation, self.observer.angle(), &estimate);
+        self.fluctuation.measure(&config.fluctuation, self.observer.angle(), applied, &estimate);
         let torque = self.governor.command(&config.governor, &estimate);
         if G::COMMANDS {
             self.commanded = torque;
@@ -136,6 +136,7 @@ where
             command = Command { torque: N::ZERO, faults: Faults::REFERENCE };
         }
         self.observer = O::at_rest(&config.observer, angle, command.torque);
+        self.fluctuation.disturb();
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;
         self.missed = 0;
@@ -151,6 +152,11 @@ where
     /// The fluctuation's measurement.
     pub fn fluctuation(&self) -> &F {
         &self.fluctuation
+    }
+
+    /// The fluctuation's measurement, to take from it what it has finished.
+    pub fn fluctuation_mut(&mut self) -> &mut F {
+        &mut self.fluctuation
     }
 
     /// The governor.
@@ -175,7 +181,7 @@ where
     }
 
     #[inline(always)]
-    fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Faults {
+    fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> (Faults, N) {
         let limits = &config.limits;
         let (mut torque, mut faults) = (sample.torque, Faults::NONE);
         if torque.exceeds(limits.torque) {
@@ -196,6 +202,7 @@ where
         if frozen || predicted.innovation().exceeds(limits.innovation) {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
+            self.fluctuation.disturb();
             self.missed = missed.wrapping_add(1);
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
@@ -203,13 +210,14 @@ where
                 self.missed = missed - 1;
             }
         }
-        faults | Faults::range(self.observer.beyond_base())
+        (faults | Faults::range(self.observer.beyond_base()), torque)
     }
 
     /// The angle is lost: commands no torque, looks for two angles in a row that differ, and goes on from the second.
     #[inline(always)]
     fn search(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let limits = &config.limits;
+        self.fluctuation.disturb();
         let mut faults = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
         let mut torque = sample.torque;
         if torque.exceeds(limits.torque) {

@@ -1,6 +1,6 @@
 //! Every public type can be logged: this does not compile where one cannot.
 
-use crate::{constants, design, drive, fault, governor, machine, number, observer, sample};
+use crate::{constants, design, drive, fault, fluctuation, governor, machine, number, observer, sample};
 
 const fn is_logged<T: defmt::Format>() {}
 
@@ -14,6 +14,9 @@ macro_rules! all_of_number {
             drive::Limits<$number>,
             drive::Config<$number, observer::TwoMassConfig<$number>, (), governor::SpeedLoopConfig<$number>, ()>,
             drive::Drive<$number, observer::TwoMass<$number>, (), governor::SpeedLoop<$number>, ()>,
+            fluctuation::Extremes<$number>,
+            fluctuation::Waveform<$number, 64>,
+            fluctuation::Window<$number, 64>,
             governor::SpeedLoop<$number>,
             governor::SpeedLoopConfig<$number>,
             observer::Geared<observer::Rigid<$number>>,
@@ -39,6 +42,7 @@ const _: () = {
     all_of_number!(f32, f64, number::Fixed);
     all!(
         constants::Bases,
+        constants::Cycle,
         constants::Error,
         constants::Gear,
         constants::Screening,
@@ -62,6 +66,16 @@ const _: () = {
         design::StepChoice,
         design::TwoMassDesign,
         fault::Faults,
+        fluctuation::Bin,
+        fluctuation::CycleConfig,
+        fluctuation::Edge,
+        fluctuation::Extreme,
+        fluctuation::Fluctuations,
+        fluctuation::Order,
+        fluctuation::Reading,
+        fluctuation::Ripple,
+        fluctuation::Series,
+        fluctuation::WaveformConfig,
         machine::Chain,
         machine::Damping,
         machine::Diameter,
