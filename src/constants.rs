@@ -6,6 +6,7 @@
 
 mod bases;
 mod convert;
+mod fluctuation;
 mod format;
 mod geared;
 mod governor;
@@ -17,6 +18,7 @@ mod settled;
 
 pub use bases::Bases;
 pub use convert::Error;
+pub use fluctuation::Cycle;
 pub use geared::Gear;
 pub use governor::SpeedLoopSettings;
 pub use governor_parts::ModesSettings;

@@ -124,9 +124,9 @@ where
         if self.missed < 0 {
             return self.search(config, sample);
         }
-        let faults = self.observe(config, sample);
+        let (faults, applied) = self.observe(config, sample);
         let estimate = self.estimate(config);
-        self.fluctuation.measure(&config.fluctuation, self.observer.angle(), &estimate);
+        self.fluctuation.measure(&config.fluctuation, self.observer.angle(), applied, &estimate);
         let torque = self.governor.command(&config.governor, &estimate);
         if G::COMMANDS {
             self.commanded = torque;
@@ -146,6 +146,7 @@ where
             command.torque = N::ZERO;
         }
         self.observer = O::at_rest(&config.observer, angle, command.torque);
+        self.fluctuation.disturb();
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;
         self.missed = 0;
@@ -161,6 +162,11 @@ where
     /// The fluctuation's measurement.
     pub fn fluctuation(&self) -> &F {
         &self.fluctuation
+    }
+
+    /// The fluctuation's measurement, to take from it what it has finished.
+    pub fn fluctuation_mut(&mut self) -> &mut F {
+        &mut self.fluctuation
     }
 
     /// The governor.
@@ -195,7 +201,7 @@ where
     }
 
     #[inline(always)]
-    fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Faults {
+    fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> (Faults, N) {
         let limits = &config.limits;
         let (mut torque, mut faults) = (sample.torque, Faults::NONE);
         if torque.exceeds(limits.torque) {
@@ -217,13 +223,14 @@ where
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
             self.missed = if (missed as u32) < limits.missed { missed.wrapping_add(1) } else { NONE_YET };
+            self.fluctuation.disturb();
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
             if missed != 0 {
                 self.missed = missed - 1;
             }
         }
-        faults | Faults::range(self.observer.beyond_base())
+        (faults | Faults::range(self.observer.beyond_base()), torque)
     }
 
     /// The angle is lost: commands no torque, looks for two angles in a row that differ, and goes on from the second.
@@ -232,6 +239,7 @@ where
     #[inline(never)]
     fn search(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let limits = &config.limits;
+        self.fluctuation.disturb();
         let mut faults = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
         let mut torque = sample.torque;
         if torque.exceeds(limits.torque) {

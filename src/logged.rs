@@ -1,6 +1,7 @@
 //! Every public type can be logged: this does not compile where one cannot.
 
 use crate::{balance, constants, design, drive, fault, governor, machine, number, observer, sample};
+use crate::{constants, design, drive, fault, fluctuation, governor, machine, number, observer, sample};
 
 const fn is_logged<T: defmt::Format>() {}
 
@@ -34,6 +35,9 @@ macro_rules! all_of_number {
                 governor::Modes,
             >,
             governor::SpeedGovernorConfig<$number, (), (), governor::BetweenConfig<$number>, ()>,
+            fluctuation::Extremes<$number>,
+            fluctuation::Waveform<$number, 64>,
+            fluctuation::Window<$number, 64>,
             governor::SpeedLoop<$number>,
             governor::SpeedLoopConfig<$number>,
             balance::Phasors<$number, 2, 9>,
@@ -71,6 +75,7 @@ const _: () = {
         balance::Turning,
         balance::TurningConfig,
         constants::Bases,
+        constants::Cycle,
         constants::Error,
         constants::Gear,
         constants::Measured,
@@ -109,6 +114,16 @@ const _: () = {
         governor::RackConfig<64>,
         governor::Request,
         governor::Trip,
+        fluctuation::Bin,
+        fluctuation::CycleConfig,
+        fluctuation::Edge,
+        fluctuation::Extreme,
+        fluctuation::Fluctuations,
+        fluctuation::Order,
+        fluctuation::Reading,
+        fluctuation::Ripple,
+        fluctuation::Series,
+        fluctuation::WaveformConfig,
         machine::Chain,
         machine::Damping,
         machine::Diameter,
