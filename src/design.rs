@@ -14,6 +14,7 @@
 //! | prior, posterior | covariance before and after the measurement of a tick | state squared |
 
 mod approximate;
+mod backlash;
 mod error;
 mod exponential;
 mod kalman;
@@ -28,6 +29,7 @@ mod step;
 mod tuning;
 
 pub use approximate::{ApproximateStep, Fidelity, SemiImplicitStep, StepChoice};
+pub use backlash::{BacklashDesign, BacklashTuning};
 pub use error::Error;
 pub use exponential::{discretise, exponential};
 pub use kalman::Kalman;
