@@ -4,6 +4,7 @@
 //! coefficients have formats of their own. Everything is `const fn`, so a firmware holds nothing but the result; the same functions run
 //! on a machine that is commissioned in the field.
 
+mod backlash;
 mod bases;
 mod convert;
 mod fluctuation;

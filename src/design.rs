@@ -14,6 +14,7 @@
 //! | prior, posterior | covariance before and after the measurement of a tick | state squared |
 
 mod approximate;
+mod backlash;
 mod barred;
 mod error;
 mod exponential;
@@ -31,6 +32,7 @@ mod torque_curve;
 mod tuning;
 
 pub use approximate::{ApproximateStep, Fidelity, SemiImplicitStep, StepChoice};
+pub use backlash::{BacklashDesign, BacklashTuning};
 pub use barred::{BarredSpeeds, USUAL_MARGIN};
 pub use error::Error;
 pub use exponential::{discretise, exponential};

@@ -62,6 +62,14 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// Whether the magnitude is beyond `limit`, which is not negative, or not a number at all.
     fn exceeds(self, limit: Self) -> bool;
 
+    /// `half` with the sign of the number, that of zero being positive: the flank of a backlash that a twist is nearer to.
+    fn flank(self, half: Self) -> Self;
+    /// Whether the signs differ, of two numbers of which neither is zero.
+    fn opposes(self, other: Self) -> bool;
+    /// `self^2/travel`, widened, where `travel` is not zero, of the number's sign and at least as large: how far a motion has passed a flank,
+    /// times the share of the tick that this took. In fixed point the share has 12 binary places, fewer where the travel is below 2^24 units in the last place.
+    fn passed(self, travel: Self) -> Self;
+
     /// The number without its sign; a negative one in fixed point comes out one unit in the last place short.
     fn magnitude(self) -> Self;
 

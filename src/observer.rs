@@ -8,6 +8,7 @@
 //! |---|---|---|
 //! | [`Rigid`] | speed, load torque | shafts that are rigid to the controller |
 //! | [`TwoMass`] | mean speed, twist rate, twist, load torque | any stiffness, any tick rate |
+//! | [`Backlash`] | those of [`TwoMass`], the twist through the gap | shafts with a gap that opens |
 //! | [`SemiImplicit`] | motor speed, load speed, shaft torque, load torque | soft shafts sampled fast |
 //!
 //! [`Geared`] puts any of them behind a gear with losses.
@@ -22,11 +23,13 @@
 //! *Base*: what a fixed-point number is a fraction of. *Coast*: a tick without a usable angle, by prediction
 //! alone. *Innovation*: measured less predicted motor angle [2^-32 turn].
 
+mod backlash;
 mod geared;
 mod rigid;
 mod semi_implicit;
 mod two_mass;
 
+pub use backlash::{Backlash, BacklashConfig, BacklashPrediction, Contact, Correction, FreeFlight};
 pub use geared::{Geared, GearedConfig, GearedPrediction};
 pub use rigid::{Rigid, RigidConfig, RigidPrediction};
 pub use semi_implicit::{SemiImplicit, SemiImplicitConfig, SemiImplicitPrediction};

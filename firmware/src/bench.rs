@@ -49,12 +49,19 @@ impl<'b, B: Board> Bench<'b, B> {
     }
 
     /// Calls an observer's step with one state and fresh angles and torques.
-    pub fn measure_step<C, S, N: Number>(&mut self, name: &str, constants: &C, mut state: S, step: Stepped<C, S, N>) {
+    pub fn measure_step<C, S, N: Number>(
+        &mut self,
+        name: &str,
+        constants: &C,
+        mut state: S,
+        mut input: impl FnMut(&mut Program) -> (u32, N),
+        step: Stepped<C, S, N>,
+    ) {
         let mut inputs = self.inputs.clone();
         let mut counts = [0; CALLS];
         for count in &mut counts {
-            let input = inputs.next_input();
-            *count = self.counter.step(step, constants, &mut state, input.angle, N::from_word(input.torque));
+            let (angle, torque) = input(&mut inputs);
+            *count = self.counter.step(step, constants, &mut state, angle, torque);
         }
         self.print(name, &counts);
     }

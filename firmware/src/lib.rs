@@ -9,6 +9,7 @@ pub mod board;
 pub mod fingerprint;
 pub mod governed;
 pub mod program;
+pub mod rattle;
 pub mod report;
 pub mod scene;
 pub mod scenes;

@@ -8,6 +8,7 @@ use driveline::number::Fixed;
 use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 
 use crate::governed::Governed;
+use crate::scenes::blooming_mill::{self, BloomingMill};
 use crate::scenes::composition::{ByHand, Composed, Of};
 use crate::scenes::empty::Empty;
 use crate::scenes::hoist::{Hoist, with};
@@ -57,4 +58,8 @@ variants! {
     "hoist/fixed/reduced/1000" => Governed<Hoist<Fixed, with::Reduced, 1000>>,
     "hoist/fixed/reduced/4000" => Governed<Hoist<Fixed, with::Reduced, 4000>>,
     "hoist/fixed/reduced/10000" => Governed<Hoist<Fixed, with::Reduced, 10000>>,
+    "blooming-mill/f32/backlash/10000" => Governed<BloomingMill<f32, blooming_mill::with::Backlash, 10000>>,
+    "blooming-mill/f32/exact/10000" => Governed<BloomingMill<f32, blooming_mill::with::Exact, 10000>>,
+    "blooming-mill/fixed/backlash/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Backlash, 10000>>,
+    "blooming-mill/fixed/exact/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Exact, 10000>>,
 }

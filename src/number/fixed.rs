@@ -176,6 +176,25 @@ impl Number for Fixed {
         self.0.wrapping_add(limit.0) as u32 > (limit.0 as u32) << 1
     }
 
+    // The half with the sign of the number, in two instructions.
+    #[inline(always)]
+    fn flank(self, half: Self) -> Self {
+        let sign = self.0 >> 31;
+        Fixed((half.0 ^ sign).wrapping_sub(sign))
+    }
+
+    #[inline(always)]
+    fn opposes(self, other: Self) -> bool {
+        (self.0 ^ other.0) < 0
+    }
+
+    // The divisor's last bit is set, which keeps it from zero; the share is then below 2 for a travel below 2^13.
+    #[inline(always)]
+    fn passed(self, travel: Self) -> Self {
+        let share = self.0.wrapping_div((travel.0 >> 12) | 1);
+        Fixed(((self.0 as i64 * share as i64) >> 10) as i32)
+    }
+
     #[inline(always)]
     fn magnitude(self) -> Self {
         Fixed(self.0 ^ (self.0 >> 31))

@@ -91,6 +91,21 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn flank(self, half: Self) -> Self {
+                if self < 0.0 { -half } else { half }
+            }
+
+            #[inline(always)]
+            fn opposes(self, other: Self) -> bool {
+                self * other < 0.0
+            }
+
+            #[inline(always)]
+            fn passed(self, travel: Self) -> Self {
+                self * (self / travel)
+            }
+
+            #[inline(always)]
             fn magnitude(self) -> Self {
                 self.abs()
             }

@@ -3,13 +3,15 @@
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::number::{Fixed, Number};
-use driveline::observer::{Geared, Observer, Rigid, SemiImplicit, TwoMass};
+use driveline::observer::{Backlash, Geared, Observer, Rigid, SemiImplicit, TwoMass};
 use driveline::sample::{Command, Sample};
 
 use super::Bench;
 use crate::board::Board;
 use crate::governed::Variant;
 use crate::program::Program;
+use crate::rattle::{self, Rattle};
+use crate::scenes::blooming_mill::{self, BASES, BloomingMill};
 use crate::scenes::hoist::{Hoist, with};
 
 /// The steps in `f32`.
@@ -17,6 +19,7 @@ pub fn single<B: Board>(bench: &mut Bench<'_, B>) {
     all::<B, f32, Hoist<f32, with::Exact, 10_000>, Hoist<f32, with::Reduced, 10_000>, Hoist<f32, with::Rigid, 10_000>>(
         bench,
     );
+    backlash::<B, f32, BloomingMill<f32, blooming_mill::with::Backlash, { rattle::RATE_HZ }>>(bench, |torque| torque);
 }
 
 /// The steps in fixed point.
@@ -28,6 +31,36 @@ pub fn fixed<B: Board>(bench: &mut Bench<'_, B>) {
         Hoist<Fixed, with::Reduced, 10_000>,
         Hoist<Fixed, with::Rigid, 10_000>,
     >(bench);
+    // To 2^-24 of the base.
+    let word = |torque: f32| Fixed::from_bits(((torque * (16_777_216.0 / BASES.torque as f32)) as i32) << 4);
+    backlash::<B, Fixed, BloomingMill<Fixed, blooming_mill::with::Backlash, { rattle::RATE_HZ }>>(bench, word);
+}
+
+/// The observer of backlash on a machine that rattles through its gap: every regime, every crossing.
+fn backlash<B: Board, N: Number, V: Variant<Number = N, Observer = Backlash<N>>>(
+    bench: &mut Bench<'_, B>,
+    number: impl Fn(f32) -> N,
+) {
+    let config = &V::CONFIG.observer;
+    let mut rattle = Rattle::new();
+    let input = |_: &mut Program| {
+        let (angle, torque) = rattle.next_input();
+        (angle, number(torque))
+    };
+    bench.measure_step("step/backlash", config, Backlash::at_rest(config, 0, N::ZERO), input, step::<N, Backlash<N>>);
+    let mut rattle = Rattle::new();
+    let input = |inputs: &mut Program| {
+        let (angle, torque) = rattle.next_input();
+        // A bad sample now and then, as the other drives have.
+        let bad = inputs.next_input();
+        let reference = V::Number::from_word(bad.reference);
+        Sample {
+            angle: if bad.torque.is_multiple_of(64) { bad.angle } else { angle },
+            torque: number(torque),
+            reference,
+        }
+    };
+    bench.measure("drive/backlash", (V::CONFIG, Drive::new(V::CONFIG, 0)), input, tick::<V>);
 }
 
 fn all<B, N, E, R, G>(bench: &mut Bench<'_, B>)
@@ -48,7 +81,11 @@ where
 
 /// An observer's step: predict and correct, without the checks that the drive makes.
 fn observer<B: Board, N: Number, O: Observer<N>>(bench: &mut Bench<'_, B>, name: &str, config: &O::Config) {
-    bench.measure_step(name, config, O::at_rest(config, 0, N::ZERO), step::<N, O>);
+    let input = |inputs: &mut Program| {
+        let input = inputs.next_input();
+        (input.angle, N::from_word(input.torque))
+    };
+    bench.measure_step(name, config, O::at_rest(config, 0, N::ZERO), input, step::<N, O>);
 }
 
 #[inline(never)]

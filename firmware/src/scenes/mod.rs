@@ -1,5 +1,6 @@
 //! The scenes: one file each.
 
+pub mod blooming_mill;
 pub mod composition;
 pub mod empty;
 pub mod hoist;

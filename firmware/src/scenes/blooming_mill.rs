@@ -1,0 +1,156 @@
+//! A reversing blooming mill: 7 MW at 50 r/min, direct drive, spindles with a gap of 10 mrad.
+//!
+//! The motor turns a pinion stand, which turns two rolls of 1150 mm by 2800 mm through slipper spindles. The rolls'
+//! inertia follows from their size (steel, 23 t each, two of 3.8 t m2, and as much again for spindles and couplings at
+//! their ends); the spindles' stiffness from two shafts of 0.55 m by 5 m side by side, softened by a quarter in their
+//! heads (G pi d^4/(32 l) [Wang 1989 (1-16)]); the gap is 2 mm of worn slipper at a radius of 0.2 m. The motor's
+//! inertia, its overload of 2.5 times rated torque and the first resonance of 12 to 16 Hz are of the size that is
+//! published for such stands. They are not those of one machine.
+//!
+//! | variant | estimates |
+//! |---|---|
+//! | `backlash` | with the observer of backlash |
+//! | `exact` | with the two-mass observer, which takes the gap for closed |
+
+use core::marker::PhantomData;
+
+use driveline::constants::{Bases, Screening, SpeedLoopSettings};
+use driveline::design::{
+    BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
+};
+use driveline::drive::{Config, ConfigOf, Limits};
+use driveline::governor::{SpeedLoop, SpeedLoopConfig};
+use driveline::machine::{Chain, Damping, Gap, Inertia, Match, Stiffness, TwoMass};
+use driveline::number::Fixed;
+use driveline::observer::{self, BacklashConfig, TwoMassConfig};
+
+use crate::governed::Variant;
+
+/// The gap of the spindles \[rad\].
+pub const GAP: f64 = 10.0e-3;
+
+/// The machine, from the motor to the rolls.
+pub const CHAIN: Chain = Chain::motor(Inertia(1.1e5))
+    .shaft(Stiffness(1.2e9), Damping(3.0e5))
+    .rotor(Inertia(1.0e4))
+    .shaft(Stiffness(2.2e8), Damping(1.0e5))
+    .backlash(Gap(GAP))
+    .rotor(Inertia(2.2e4));
+
+/// Rated speed of the motor [rad/s], 50 r/min.
+pub const RATED_SPEED: f64 = 5.24;
+
+/// Rated torque of the motor [N m].
+pub const RATED_TORQUE: f64 = 1.34e6;
+
+/// Largest torque of the motor [N m].
+pub const TORQUE_LIMIT: f64 = 2.5 * RATED_TORQUE;
+
+/// Two masses, cut at the spindles: what is before the gap, and what is behind it.
+pub const MACHINE: TwoMass = CHAIN.reduce(Match::TextbookCut(1));
+
+/// The encoder: 8192 lines, as direct drives have.
+pub const ENCODER: Encoder = Encoder::lines(8192);
+
+/// How the observer is tuned: the drive knows its torque to 1 % of rated in a tick, and the rolling torque may come and
+/// go by as much as rated within a second.
+pub const DISTURBANCE: Disturbance =
+    Disturbance { torque_accuracy: 0.01 * RATED_TORQUE, load_torque_step: RATED_TORQUE, within: 1.0 };
+
+/// Bases of fixed point: twice the motor's largest torque, and twice rated speed.
+pub const BASES: Bases = Bases::new(&MACHINE, 2.0 * TORQUE_LIMIT, 2.0 * RATED_SPEED);
+
+/// Limits of what a sample can be: two thirds over the largest torque; 1/128 turn; two counts; a quarter of a second,
+/// in which the motor turns by less than half a turn.
+pub const fn screening(rate_hz: u32) -> Screening {
+    Screening {
+        torque: 1.67 * TORQUE_LIMIT,
+        reference: 1.5 * RATED_SPEED,
+        innovation: core::f64::consts::TAU / 128.0,
+        standstill: 2.0 * core::f64::consts::TAU / 32_768.0,
+        missed: rate_hz / 4,
+    }
+}
+
+/// The governor reaches rated speed in half a second, with two thirds of its largest torque.
+pub const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE_LIMIT, ramp: 2.0 * RATED_SPEED };
+
+/// The speed follows within a tenth of a second. The motor outweighs the rolls five times, so its torque can damp the
+/// spindles but little.
+pub const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.12, damping: 1.0, shaft_damping: 0.1 };
+
+/// The speed loop at a rate.
+pub const fn speed_loop(rate_hz: u32) -> SpeedLoopDesign {
+    MACHINE.speed_loop(Rate::hz(rate_hz), TUNING)
+}
+
+/// The observer of two masses at a rate.
+pub const fn two_mass(rate_hz: u32) -> TwoMassDesign {
+    MACHINE.observer(Rate::hz(rate_hz), ENCODER, DISTURBANCE)
+}
+
+/// The observer of backlash at a rate.
+pub const fn backlash(rate_hz: u32) -> BacklashDesign {
+    MACHINE.backlash_observer(Rate::hz(rate_hz), ENCODER, DISTURBANCE, BacklashTuning::USUAL)
+}
+
+/// The observers that the mill is tried with.
+pub mod with {
+    /// Two masses and the gap.
+    pub struct Backlash;
+    /// Two masses, the gap taken for closed.
+    pub struct Exact;
+}
+
+/// The mill with a number, an observer and a rate.
+pub struct BloomingMill<N, O, const RATE_HZ: u32>(PhantomData<(N, O)>);
+
+macro_rules! variant {
+    ($with:ident, $text:literal, $number:ident, $observer:ty, $config:expr, $limits:expr, $governor:expr) => {
+        // Generic over the rate: the compiler designs only those that an image holds.
+        impl<const R: u32> Variant for BloomingMill<$number, with::$with, R> {
+            type Number = $number;
+            type Observer = $observer;
+            const NAME: &'static str = match R {
+                10_000 => concat!("blooming-mill/", $text, "/10000"),
+                _ => panic!("the blooming mill runs at 10000 ticks a second"),
+            };
+            const RATE_HZ: u32 = R;
+            const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), SpeedLoop<$number>> =
+                &Config { limits: $limits, observer: $config, fluctuation: (), governor: $governor, balancer: () };
+        }
+    };
+}
+
+macro_rules! single {
+    ($with:ident, $text:literal, $observer:ident, $config:expr) => {
+        variant!(
+            $with,
+            $text,
+            f32,
+            observer::$observer<f32>,
+            $config,
+            Limits::<f32>::new(&screening(R)),
+            SpeedLoopConfig::<f32>::new(&speed_loop(R), SETTINGS)
+        );
+    };
+}
+
+macro_rules! fixed {
+    ($with:ident, $text:literal, $observer:ident, $config:expr) => {
+        variant!(
+            $with,
+            $text,
+            Fixed,
+            observer::$observer<Fixed>,
+            $config,
+            Limits::<Fixed>::new(&screening(R), BASES),
+            SpeedLoopConfig::<Fixed>::new(&speed_loop(R), SETTINGS, BASES)
+        );
+    };
+}
+
+single!(Backlash, "f32/backlash", Backlash, BacklashConfig::<f32>::new(&backlash(R)));
+single!(Exact, "f32/exact", TwoMass, TwoMassConfig::<f32>::new(&two_mass(R)));
+fixed!(Backlash, "fixed/backlash", Backlash, BacklashConfig::<Fixed>::new(&backlash(R), BASES));
+fixed!(Exact, "fixed/exact", TwoMass, TwoMassConfig::<Fixed>::new(&two_mass(R), BASES));

@@ -1,0 +1,41 @@
+//! The bench's inputs take every path of the observer's step.
+
+use driveline::number::{Fixed, Number};
+use driveline::observer::{Backlash, Observer};
+use driveline_firmware::governed::Variant;
+use driveline_firmware::rattle::{RATE_HZ, Rattle};
+use driveline_firmware::scenes::blooming_mill::{BASES, BloomingMill, with};
+
+type Mill<N> = BloomingMill<N, with::Backlash, { RATE_HZ }>;
+
+/// How often the gap was open or closed before a tick (first) and by its prediction after it (second), over what the
+/// bench runs.
+fn paths<N, V>(number: impl Fn(f32) -> N) -> [[u32; 2]; 2]
+where
+    N: Number,
+    V: Variant<Number = N, Observer = Backlash<N>>,
+{
+    let config = &V::CONFIG.observer;
+    let mut observer: Backlash<N> = Backlash::at_rest(config, 0, N::ZERO);
+    let mut rattle = Rattle::new();
+    let mut counts = [[0; 2]; 2];
+    for _ in 0..1001 {
+        let (angle, torque) = rattle.next_input();
+        let mut predicted = observer;
+        let prediction = observer.predict(config, angle, number(torque));
+        predicted.coast(prediction, angle);
+        counts[usize::from(observer.is_open(config))][usize::from(predicted.is_open(config))] += 1;
+        observer.step(config, angle, number(torque));
+    }
+    counts
+}
+
+#[test]
+fn the_bench_takes_every_path() {
+    let single = paths::<f32, Mill<f32>>(|torque| torque);
+    let fixed = paths::<Fixed, Mill<Fixed>>(|torque| Fixed::from_f64(f64::from(torque) / BASES.torque));
+    for counts in [single, fixed] {
+        // In contact, leaving, meeting, in the gap.
+        assert!(counts.iter().flatten().all(|&count| count > 0), "{single:?} {fixed:?}");
+    }
+}
