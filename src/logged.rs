@@ -1,7 +1,16 @@
 //! Every public type can be logged: this does not compile where one cannot.
 
-use crate::{balance, constants, design, drive, fault, governor, machine, number, observer, sample};
-use crate::{constants, design, drive, fault, fluctuation, governor, machine, number, observer, sample};
+use crate::balance;
+use crate::constants;
+use crate::design;
+use crate::drive;
+use crate::fault;
+use crate::fluctuation;
+use crate::governor;
+use crate::machine;
+use crate::number;
+use crate::observer;
+use crate::sample;
 
 const fn is_logged<T: defmt::Format>() {}
 
@@ -42,10 +51,14 @@ macro_rules! all_of_number {
             governor::SpeedLoopConfig<$number>,
             balance::Phasors<$number, 2, 9>,
             balance::PhasorsConfig<$number, 2>,
+            governor::Symmetric,
             governor::SymmetricConfig<$number>,
             governor::Window<$number>,
             observer::Backlash<$number>,
             observer::BacklashConfig<$number>,
+            observer::Contact<$number>,
+            observer::Correction<$number>,
+            observer::FreeFlight<$number>,
             observer::BacklashPrediction<$number>,
             observer::Geared<observer::Rigid<$number>>,
             observer::GearedConfig<$number, observer::RigidConfig<$number>>,
@@ -129,7 +142,10 @@ const _: () = {
         fluctuation::Ripple,
         fluctuation::Series,
         fluctuation::WaveformConfig,
+        machine::Belt,
         machine::Chain,
+        machine::Combustion,
+        machine::CrankSlider,
         machine::Damping,
         machine::Diameter,
         machine::Efficiency,
@@ -138,24 +154,36 @@ const _: () = {
         machine::Falls,
         machine::Flow,
         machine::Gap,
+        machine::Induction,
         machine::Inertia,
+        machine::Joint,
         machine::Length,
+        machine::Line,
         machine::LinearDamping,
         machine::Mass,
         machine::Match,
+        machine::Mixture,
         machine::Mode,
         machine::Modes,
+        machine::Parabola,
         machine::Part,
         machine::Planetary,
         machine::Ratio,
         machine::ReductionError,
         machine::Rigid,
+        machine::Section,
         machine::Shaft,
+        machine::Shunt,
         machine::Side,
         machine::Speed,
+        machine::StartCondition,
+        machine::StartingLaw,
         machine::Stiffness,
         machine::Torque,
+        machine::Train,
+        machine::Travel,
         machine::TwoMass,
+        machine::VariableInertia,
         machine::Worth,
         number::Coefficient,
         number::Fixed,
