@@ -307,7 +307,7 @@ fn held(turn: f32) -> Phasor {
 
 /// Square root by Newton's iteration from an exponent halved; zero for what is not a positive normal number.
 fn root(x: f32) -> f32 {
-    if !(x >= f32::MIN_POSITIVE && x < f32::INFINITY) {
+    if !(f32::MIN_POSITIVE..f32::INFINITY).contains(&x) {
         return if x > 1.0 { x } else { 0.0 };
     }
     let mut y = f32::from_bits((x.to_bits() >> 1) + 0x1fbd_1df5);
