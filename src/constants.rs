@@ -7,6 +7,7 @@
 mod backlash;
 mod bases;
 mod convert;
+mod cranked;
 mod fluctuation;
 mod format;
 mod geared;

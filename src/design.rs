@@ -16,6 +16,7 @@
 mod approximate;
 mod backlash;
 mod barred;
+mod cranked;
 mod error;
 mod exponential;
 mod governor;
@@ -34,6 +35,7 @@ mod tuning;
 pub use approximate::{ApproximateStep, Fidelity, SemiImplicitStep, StepChoice};
 pub use backlash::{BacklashDesign, BacklashTuning};
 pub use barred::{BarredSpeeds, USUAL_MARGIN};
+pub use cranked::CrankedDesign;
 pub use error::Error;
 pub use exponential::{discretise, exponential};
 pub use governor::{Actuator, GovernorDesign, LoadFeedForward};

@@ -145,7 +145,7 @@ where
         if !self.governor.permits() {
             command.torque = N::ZERO;
         }
-        self.observer = O::at_rest(&config.observer, angle, command.torque);
+        self.observer.restart(&config.observer, angle, command.torque, N::ZERO);
         self.fluctuation.disturb();
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;
@@ -157,6 +157,16 @@ where
     #[inline(always)]
     pub fn estimate(&self, config: &ConfigOf<N, O, F, G, B>) -> Estimate<N> {
         self.observer.estimate(&config.observer)
+    }
+
+    /// The observer.
+    pub fn observer(&self) -> &O {
+        &self.observer
+    }
+
+    /// The observer, to be told what no sample says, as where a crank is.
+    pub fn observer_mut(&mut self) -> &mut O {
+        &mut self.observer
     }
 
     /// The fluctuation's measurement.
@@ -259,7 +269,7 @@ where
             let count = O::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.standstill)).magnitude();
             let known = self.estimate(config).motor_speed;
             if speed.minus(known).exceeds(count) {
-                self.observer = O::steady(&config.observer, sample.angle, torque, speed);
+                self.observer.restart(&config.observer, sample.angle, torque, speed);
             } else {
                 self.observer.synchronise(sample.angle);
             }

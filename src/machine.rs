@@ -32,6 +32,7 @@
 mod belt;
 mod chain;
 mod crank;
+mod cranked;
 mod error;
 mod linear;
 mod modes;
@@ -50,6 +51,7 @@ mod worth;
 pub use belt::Belt;
 pub use chain::{CAPACITY, Chain, Shaft};
 pub use crank::{CrankSlider, Travel, VariableInertia};
+pub use cranked::Cranked;
 pub use error::Error;
 pub use linear::STANDARD_GRAVITY;
 pub use modes::{Mode, Modes};

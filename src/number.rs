@@ -53,6 +53,10 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// The operand of a coefficient that may reach 2 in magnitude: four times the number in fixed point, whose
     /// coefficients end at 1/2, and the number itself in floating point.
     fn widened(self) -> Self;
+    /// `self by`, of numbers that are both within a few bases; wraps in fixed point.
+    fn scaled(self, by: Self) -> Self;
+    /// A part of one, from 2^-32 parts.
+    fn fraction(part: u32) -> Self;
     /// Held within twice the base in fixed point; floats are left alone.
     fn saturated(self) -> Self;
     /// In fixed point 1 where any of three saturated states is beyond its base, 0 where not; always 0 for floats.

@@ -10,6 +10,7 @@
 //! | [`TwoMass`] | mean speed, twist rate, twist, load torque | any stiffness, any tick rate |
 //! | [`Backlash`] | those of [`TwoMass`], the twist through the gap | shafts with a gap that opens |
 //! | [`SemiImplicit`] | motor speed, load speed, shaft torque, load torque | soft shafts sampled fast |
+//! | [`Cranked`] | speed, load torque, crank angle | rigid machines with a crank: an inertia that depends on the angle |
 //!
 //! [`Geared`] puts any of them behind a gear with losses.
 //!
@@ -24,12 +25,14 @@
 //! alone. *Innovation*: measured less predicted motor angle [2^-32 turn].
 
 mod backlash;
+mod cranked;
 mod geared;
 mod rigid;
 mod semi_implicit;
 mod two_mass;
 
 pub use backlash::{Backlash, BacklashConfig, BacklashPrediction, Contact, Correction, FreeFlight};
+pub use cranked::{Cranked, CrankedConfig, CrankedPrediction, PLACES, Place};
 pub use geared::{Geared, GearedConfig, GearedPrediction};
 pub use rigid::{Rigid, RigidConfig, RigidPrediction};
 pub use semi_implicit::{SemiImplicit, SemiImplicitConfig, SemiImplicitPrediction};
@@ -51,6 +54,12 @@ pub trait Observer<N: Number>: Sized {
     /// A machine that stands still at `angle`, its shaft carrying `torque`, as after a brake has been closed on it.
     fn at_rest(config: &Self::Config, angle: u32, torque: N) -> Self {
         Self::steady(config, angle, torque, N::ZERO)
+    }
+
+    /// Starts anew: what [`steady`](Self::steady) says, but for what the observer knows beyond its states.
+    #[inline(always)]
+    fn restart(&mut self, config: &Self::Config, angle: u32, torque: N, speed: N) {
+        *self = Self::steady(config, angle, torque, speed);
     }
 
     /// The speed at which the motor turns by `turned` [2^-32 turn] in a tick.

@@ -40,6 +40,7 @@ sentences! {
     SampleRate => "the sample rate cannot follow the shaft: its resonance lies above half the rate and is hardly damped",
     NotConverged => "the observer's gain was not found: the Riccati equation has no stabilising solution for these disturbances",
     NotStabilising => "the observer's gain does not stabilise the estimate: the disturbances are too small for this machine",
+    CrankedNotStabilising => "the gains for the crank drive's mean inertia do not stabilise the estimate at its least or its largest one: the inertia swings too far, or the disturbances are too small",
     NoGap => "the machine has no backlash: take the observer of two masses",
     Wander => "the wander of the backlash's tuning must be above zero and finite (share of the gap)",
     Hold => "the hold of the backlash's tuning must not be negative, and within 2^32 ticks (periods of the resonance)",

@@ -149,6 +149,16 @@ impl Number for Fixed {
         Fixed(self.0 << 2)
     }
 
+    #[inline(always)]
+    fn scaled(self, by: Self) -> Self {
+        Fixed(((self.0 as i64 * by.0 as i64) >> 28) as i32)
+    }
+
+    #[inline(always)]
+    fn fraction(part: u32) -> Self {
+        Fixed((part >> 4) as i32)
+    }
+
     // Bounds that are powers of two: one SSAT instruction.
     #[inline(always)]
     fn saturated(self) -> Self {

@@ -64,6 +64,17 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn scaled(self, by: Self) -> Self {
+                self * by
+            }
+
+            // Of 24 bits at most, which an f32 holds without rounding.
+            #[inline(always)]
+            fn fraction(part: u32) -> Self {
+                (part >> 8) as $float * (1.0 / 16_777_216.0)
+            }
+
+            #[inline(always)]
             fn saturated(self) -> Self {
                 self
             }

@@ -64,6 +64,10 @@ impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
     type Config = GearedConfig<N, O::Config>;
     type Prediction = GearedPrediction<O::Prediction>;
 
+    fn restart(&mut self, config: &Self::Config, angle: u32, torque: N, speed: N) {
+        self.observer.restart(&config.observer, angle, torque, speed);
+    }
+
     fn steady(config: &Self::Config, angle: u32, torque: N, speed: N) -> Self {
         Geared { observer: O::steady(&config.observer, angle, torque, speed) }
     }

@@ -1,0 +1,75 @@
+//! The observer of a cranked machine: the Kalman filter of its mean inertia, which has to hold at every other one.
+
+use super::tuning::{Disturbance, Encoder, Rate};
+use super::{Error, Matrix, RigidDesign, eigenvalues, spectral_radius};
+use crate::machine::{Cranked, Inertia, Rigid};
+
+/// The observer of a cranked machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CrankedDesign {
+    /// The machine it is for.
+    pub machine: Cranked,
+    /// The observer of the mean inertia, whose gains stand at every angle.
+    pub rigid: RigidDesign,
+    /// Largest size of a pole with the inertia held at its least and at its largest.
+    pub spectral_radii: [f64; 2],
+}
+
+impl Cranked {
+    /// Designs the observer.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer) returns.
+    #[must_use]
+    pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> CrankedDesign {
+        match self.try_observer(rate, encoder, disturbance) {
+            Ok(design) => design,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`observer`](Self::observer), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// As [`Rigid::try_observer`], and [`Error::CrankedNotStabilising`] where the gains of the mean inertia leave a pole on or outside the unit
+    /// circle at the least or the largest one.
+    pub const fn try_observer(
+        &self,
+        rate: Rate,
+        encoder: Encoder,
+        disturbance: Disturbance,
+    ) -> Result<CrankedDesign, Error> {
+        let mean = match Rigid::try_new(Inertia(self.mean_inertia())) {
+            Ok(mean) => mean,
+            Err(error) => return Err(Error::Machine(error)),
+        };
+        let rigid = match mean.try_observer(rate, encoder, disturbance) {
+            Ok(rigid) => rigid,
+            Err(error) => return Err(error),
+        };
+        let [least, most] = self.extremes();
+        let spectral_radii = [held_at(&rigid, least), held_at(&rigid, most)];
+        if !(spectral_radii[0] < 1.0 && spectral_radii[1] < 1.0) {
+            return Err(Error::CrankedNotStabilising);
+        }
+        Ok(CrankedDesign { machine: *self, rigid, spectral_radii })
+    }
+}
+
+/// Largest size of a pole of `(I - K C) F` with the gains of the mean inertia and this one.
+const fn held_at(design: &RigidDesign, inertia: f64) -> f64 {
+    let t = design.period;
+    let (jump, glide) = (t / inertia, 0.5 * t * t / inertia);
+    let transition = Matrix([[1.0, t, -glide], [0.0, 1.0, -jump], [0.0, 0.0, 1.0]]);
+    let [a, b, c] = design.gains;
+    let left = Matrix([[1.0 - a, 0.0, 0.0], [-b, 1.0, 0.0], [-c, 0.0, 1.0]]);
+    // Each state in its own unit, as the gains have them: the poles are the same, and none is lost beside a large one.
+    let units = [1.0, unit(b), unit(c)];
+    let per = [1.0, 1.0 / units[1], 1.0 / units[2]];
+    spectral_radius(&eigenvalues(&left.times(&transition).scaled(&per, &per)))
+}
+
+const fn unit(gain: f64) -> f64 {
+    if gain.abs() > 0.0 { gain.abs() } else { 1.0 }
+}
