@@ -1,5 +1,11 @@
 //! The scenes: one file each.
 
 pub mod composition;
+pub mod crane_travel;
 pub mod empty;
+pub mod fan;
 pub mod hoist;
+pub mod planetary_drive;
+pub mod skip_winch;
+pub mod spindle;
+pub mod strip_mill;

@@ -3,6 +3,7 @@
 mod crank;
 mod need;
 mod prime_mover;
+mod scenes;
 mod section;
 mod starting;
 mod train;
