@@ -10,8 +10,14 @@ use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 use crate::governed::Governed;
 use crate::scenes::blooming_mill::{self, BloomingMill};
 use crate::scenes::composition::{ByHand, Composed, Of};
+use crate::scenes::crane_travel::CraneTravel;
 use crate::scenes::empty::Empty;
+use crate::scenes::fan::Fan;
 use crate::scenes::hoist::{Hoist, with};
+use crate::scenes::planetary_drive::PlanetaryDrive;
+use crate::scenes::skip_winch::SkipWinch;
+use crate::scenes::spindle::Spindle;
+use crate::scenes::strip_mill::StripMill;
 use crate::variants::variants;
 
 variants! {
@@ -62,4 +68,26 @@ variants! {
     "blooming-mill/f32/exact/10000" => Governed<BloomingMill<f32, blooming_mill::with::Exact, 10000>>,
     "blooming-mill/fixed/backlash/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Backlash, 10000>>,
     "blooming-mill/fixed/exact/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Exact, 10000>>,
+    "fan/f32/rigid/1000" => Governed<Fan<f32, Rigid<f32>>>,
+    "fan/fixed/rigid/1000" => Governed<Fan<Fixed, Rigid<Fixed>>>,
+    "spindle/f32/rigid/10000" => Governed<Spindle<f32, Rigid<f32>>>,
+    "spindle/f32/exact/10000" => Governed<Spindle<f32, TwoMass<f32>>>,
+    "spindle/fixed/rigid/10000" => Governed<Spindle<Fixed, Rigid<Fixed>>>,
+    "spindle/fixed/exact/10000" => Governed<Spindle<Fixed, TwoMass<Fixed>>>,
+    "strip-mill/f32/rigid/10000" => Governed<StripMill<f32, Rigid<f32>>>,
+    "strip-mill/f32/semi-implicit/10000" => Governed<StripMill<f32, SemiImplicit<f32>>>,
+    "strip-mill/fixed/rigid/10000" => Governed<StripMill<Fixed, Rigid<Fixed>>>,
+    "strip-mill/fixed/semi-implicit/10000" => Governed<StripMill<Fixed, SemiImplicit<Fixed>>>,
+    "planetary/f32/rigid/4000" => Governed<PlanetaryDrive<f32, Geared<Rigid<f32>>>>,
+    "planetary/f32/exact/4000" => Governed<PlanetaryDrive<f32, Geared<TwoMass<f32>>>>,
+    "planetary/fixed/rigid/4000" => Governed<PlanetaryDrive<Fixed, Geared<Rigid<Fixed>>>>,
+    "planetary/fixed/exact/4000" => Governed<PlanetaryDrive<Fixed, Geared<TwoMass<Fixed>>>>,
+    "crane-travel/f32/rigid/1000" => Governed<CraneTravel<f32, Rigid<f32>>>,
+    "crane-travel/f32/semi-implicit/1000" => Governed<CraneTravel<f32, SemiImplicit<f32>>>,
+    "crane-travel/fixed/rigid/1000" => Governed<CraneTravel<Fixed, Rigid<Fixed>>>,
+    "crane-travel/fixed/semi-implicit/1000" => Governed<CraneTravel<Fixed, SemiImplicit<Fixed>>>,
+    "skip-winch/f32/rigid/2000" => Governed<SkipWinch<f32, Geared<Rigid<f32>>>>,
+    "skip-winch/f32/semi-implicit/2000" => Governed<SkipWinch<f32, Geared<SemiImplicit<f32>>>>,
+    "skip-winch/fixed/rigid/2000" => Governed<SkipWinch<Fixed, Geared<Rigid<Fixed>>>>,
+    "skip-winch/fixed/semi-implicit/2000" => Governed<SkipWinch<Fixed, Geared<SemiImplicit<Fixed>>>>,
 }

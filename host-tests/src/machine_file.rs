@@ -36,6 +36,14 @@
 //! |---|---|
 //! | `motor`, `rotor` | `inertia` \[kg m2\] |
 //! | `shaft` | `stiffness` \[N m/rad\], (`damping` \[N m s/rad\]) |
+//! | `section` | `length` \[m\], `diameter` \[m\], (`end` diameter \[m\]), (`bore` \[m\]), (`modulus` \[Pa\], steel's), (`damping` \[N m s/rad\]); pieces in a row are a stepped shaft |
+//! | `crank` | `inertia`, `radius` \[m\], `rod` \[m\], `slider` \[kg\], (`rod_mass`, `rod_centre` \[m\] from the pin, `rod_inertia`); the mean over a turn |
+//! | `worm` | `ratio`, `efficiency`, `back_efficiency` with the load driving |
+//! | `planetary` | `sun_teeth`, `ring_teeth`, `module` \[m\], `planets`, `sun`, `planet`, `carrier` \[kg m2\], `planet_mass` \[kg\], (`efficiency`) |
+//! | `belt` | `driving`, `driven` \[m\], `stiffness` \[N/m\] of a strand, (`damping` \[N s/m\]), (`efficiency`) |
+//! | `screw` | `lead` \[m\] a turn |
+//! | `swinging` | `mass` \[kg\], `length` \[m\] of the pendulum |
+//! | `slack` | `travel` \[m\] along the load's path |
 //! | `gear` | `ratio` motor speed over load speed, (`efficiency`) |
 //! | `drum` | `diameter` \[m\] |
 //! | `rope` | `falls`, `stiffness` \[N/m\] at the load, (`damping` \[N s/m\]) |

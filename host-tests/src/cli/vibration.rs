@@ -209,11 +209,26 @@ fn names(machine: &MachineFile) -> (Vec<String>, Vec<String>) {
         chain = part.element.follow(chain).unwrap_or(chain);
         let last = chain.masses().len() - 1;
         match part.element {
-            Written::Motor { .. } | Written::Rotor { .. } | Written::Lifted { .. } | Written::Driven { .. } => {
+            Written::Motor { .. }
+            | Written::Rotor { .. }
+            | Written::Crank { .. }
+            | Written::Planetary { .. }
+            | Written::Lifted { .. }
+            | Written::Driven { .. } => join(&mut masses, last, &part.label),
+            Written::Shaft { .. } | Written::Section { .. } | Written::Belt { .. } | Written::Rope { .. } => {
+                join(&mut shafts, last - 1, &part.label);
+            }
+            // A pendulum: its own spring and its own mass.
+            Written::Swinging { .. } => {
+                join(&mut shafts, last - 1, &part.label);
                 join(&mut masses, last, &part.label);
             }
-            Written::Shaft { .. } | Written::Rope { .. } => join(&mut shafts, last - 1, &part.label),
-            Written::Gear { .. } | Written::Drum { .. } | Written::Backlash { .. } => {}
+            Written::Gear { .. }
+            | Written::Worm { .. }
+            | Written::Drum { .. }
+            | Written::Screw { .. }
+            | Written::Slack { .. }
+            | Written::Backlash { .. } => {}
         }
     }
     (masses, shafts)

@@ -47,6 +47,18 @@ impl Quantity {
     pub const MASS: Self = positive("kg");
     /// Diameter; a kilometre is more than any drum has.
     pub const DIAMETER: Self = Quantity { least: 1e-6, most: 1e3, ..positive("m") };
+    /// Length of a shaft, rod or pendulum, or lead of a screw.
+    pub const LENGTH: Self = Quantity { least: 1e-6, most: 1e4, ..positive("m") };
+    /// A length that may be none: a bore, a distance, a slack.
+    pub const BORE: Self = Quantity { least: 1e-6, most: 1e4, ..not_negative("m") };
+    /// Shear modulus: from rubber's to diamond's.
+    pub const MODULUS: Self = Quantity { least: 1e4, most: 1e12, ..positive("Pa") };
+    /// Mass of a part that may be left out.
+    pub const PART_MASS: Self = not_negative("kg");
+    /// Inertia of a part that may be left out.
+    pub const PART_INERTIA: Self = not_negative("kg m²");
+    /// Teeth or planets.
+    pub const TEETH: Self = Quantity { least: 1.0, most: 1e4, whole: true, ..positive("") };
     /// Speed of the motor's side over speed of the load's side.
     pub const RATIO: Self = Quantity { least: 1e-6, most: 1e6, ..positive("") };
     /// Share of the power that passes.
