@@ -1,4 +1,4 @@
-//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `simulate`, `design`, `check`, `setup`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -6,9 +6,11 @@
 //! | 1 | done, and the answer is no: a check failed, a run could not finish |
 //! | 2 | not begun: a wrong argument or a machine file with a fault |
 //!
-//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
+//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the
+//! object
 //! `{"error": ...}`.
 
+mod campbell;
 mod check;
 mod design;
 mod emit;
@@ -18,6 +20,9 @@ mod plan;
 mod progress;
 mod run;
 mod setup;
+mod simulate;
+mod simulation;
+mod train_modes;
 mod vibration;
 mod vibration_page;
 
@@ -26,6 +31,7 @@ pub use failure::Failure;
 pub use plan::Plan;
 pub use progress::Progress;
 pub use vibration::Vibration;
+pub(crate) use vibration::names;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -47,6 +53,7 @@ enum Command {
     Design(design::Design),
     Check(check::Check),
     Setup(setup::Setup),
+    Simulate(simulate::Simulate),
 }
 
 impl Command {
@@ -57,6 +64,7 @@ impl Command {
             Self::Design(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
+            Self::Simulate(command) => command.json,
         }
     }
 
@@ -67,6 +75,7 @@ impl Command {
             Self::Design(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
+            Self::Simulate(command) => command.execute(),
         }
     }
 }

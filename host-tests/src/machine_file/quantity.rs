@@ -20,8 +20,8 @@ pub struct Quantity {
     pub whole: bool,
 }
 
-/// Twelve decades either side of one SI unit: a watch's balance wheel has 1e-9 kg m2, a tanker 3e8 kg; products of four
-/// such numbers stay within the range of `f64`.
+/// Twelve decades either side of one SI unit: a watch's balance wheel has 1e-9 kg m2, a tanker 3e8 kg; products of
+/// four such numbers stay within the range of `f64`.
 const FAR: f64 = 1e12;
 
 const fn positive(unit: &'static str) -> Quantity {
@@ -65,6 +65,21 @@ impl Quantity {
     pub const SPEED: Self = positive("rad/s");
     /// Time.
     pub const TIME: Self = positive("s");
+
+    /// Any number: a torque, a speed, an angle of either sign.
+    pub const ANY: Self = Quantity { least: -FAR, ..positive("") };
+    /// Terms of a Fourier series.
+    pub const TERMS: Self = Quantity { least: 1.0, most: 500.0, whole: true, ..positive("") };
+    /// Order of an excitation: times per turn.
+    pub const ORDER: Self = Quantity { least: 1e-3, most: 1e4, ..positive("") };
+    /// A number that is not negative.
+    pub const SIZE: Self = not_negative("");
+    /// Stiffness of any link, N m/rad or N/m.
+    pub const SPRING: Self = positive("N m/rad or N/m");
+    /// Damping of any link, N m s/rad or N s/m.
+    pub const DAMPER: Self = not_negative("N m s/rad or N s/m");
+    /// Inertia, or mass where the coordinate is a way.
+    pub const INERTIA_OR_MASS: Self = positive("kg m² or kg");
 
     /// Whether a number is one of this quantity's.
     pub fn allows(self, number: f64) -> bool {

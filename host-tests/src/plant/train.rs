@@ -51,6 +51,7 @@ mod motion;
 mod reading;
 mod series;
 mod source;
+mod start;
 mod stretch;
 
 pub use crank::Crank;

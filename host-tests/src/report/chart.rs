@@ -1,18 +1,22 @@
 //! The plots of the report, each from its data to an `<svg>` element.
 
+mod campbell;
 mod compare;
 mod cost;
 mod course;
 mod heat;
 mod label;
+mod lines;
 mod pareto;
 mod response;
 mod shape;
 
+pub use campbell::{Crossing, Ray, campbell};
 pub use compare::step_errors;
 pub use cost::{Cost, Quality, error_against_cost};
 pub use course::course;
 pub use heat::{CLASSES, heat_map};
+pub use lines::{Line, lines};
 pub use pareto::front;
 pub use response::{Response, response};
 pub use shape::{Station, mode_shape};

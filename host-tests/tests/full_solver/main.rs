@@ -3,6 +3,8 @@
 
 mod against_chain;
 mod crank;
+mod critical;
 mod mesh;
 mod proof;
+mod simulate;
 mod transfer;
