@@ -74,8 +74,8 @@ impl Quantity {
     pub const ORDER: Self = Quantity { least: 1e-3, most: 1e4, ..positive("") };
     /// A number that is not negative.
     pub const SIZE: Self = not_negative("");
-    /// Stiffness of any link, N m/rad or N/m.
-    pub const SPRING: Self = positive("N m/rad or N/m");
+    /// Stiffness of any link, N m/rad or N/m; zero leaves a damper alone.
+    pub const SPRING: Self = not_negative("N m/rad or N/m");
     /// Damping of any link, N m s/rad or N s/m.
     pub const DAMPER: Self = not_negative("N m s/rad or N s/m");
     /// Inertia, or mass where the coordinate is a way.

@@ -229,9 +229,33 @@ impl<'a> Table<'a> {
         list.iter().enumerate().map(read).collect()
     }
 
-    /// A fault of the table as a whole, placed at its heading.
-    pub fn fault(&self, found: impl Into<String>, expected: impl Into<String>) -> Diagnostic {
-        Diagnostic::at(self.source, self.place.clone(), self.path.clone(), found, expected)
+    /// A table of numbers, each under a name that `known` finds the place of.
+    ///
+    /// # Errors
+    /// Missing, empty, not a table, a name that is not known, or a number out of range: placed at it.
+    pub fn shares(
+        &mut self,
+        key: &'static str,
+        quantity: Quantity,
+        expected: &str,
+        known: impl Fn(&str) -> Option<usize>,
+    ) -> Result<Vec<(usize, f64)>, Diagnostic> {
+        let Some(value) = self.get(key) else { return Err(self.missing(key, expected)) };
+        let table = value.get_ref().as_table().filter(|table| !table.is_empty());
+        let table = table.ok_or_else(|| self.wrong(key, expected))?;
+        let mut shares = Vec::new();
+        for (name, item) in table.iter() {
+            let path = self.name(&format!("{key}.{}", printable(name.get_ref(), REPEATED)));
+            let Some(at) = known(name.get_ref()) else {
+                return Err(Diagnostic::at(self.source, name.span(), path, "an unknown name", expected));
+            };
+            let Some(share) = number(item.get_ref()).filter(|&n| quantity.allows(n) && n != 0.0) else {
+                let range = format!("{quantity}, not zero");
+                return Err(Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), range));
+            };
+            shares.push((at, share));
+        }
+        Ok(shares)
     }
 
     /// Ends the reading: a key that nobody asked for is a fault.

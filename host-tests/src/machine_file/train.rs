@@ -291,16 +291,9 @@ impl Reading {
         let mut link = if table.has("ground") {
             Link::ground(self.named(&mut table, "ground")?, stiffness)
         } else if table.has("terms") {
-            let expected = "rows of [place of a coordinate from 0, its share of the elongation]";
-            let mut terms = Vec::new();
-            for row in table.rows("terms", 2, expected)? {
-                let at = row[0];
-                let there = at.fract() == 0.0 && at >= 0.0 && at < self.names.len() as f64;
-                if !there || row[1] == 0.0 || terms.iter().any(|term: &(usize, f64)| term.0 == at as usize) {
-                    return Err(table.wrong("terms", expected));
-                }
-                terms.push((at as usize, row[1]));
-            }
+            let expected = format!("shares of the elongation, each under {}", self.known());
+            let place = |text: &str| self.names.iter().position(|known| known == text);
+            let terms = table.shares("terms", Quantity::ANY, &expected, place)?;
             Link::new(&terms, stiffness)
         } else {
             let (one, other) = self.pair(&mut table)?;

@@ -44,6 +44,7 @@ pub mod converge;
 mod crank;
 mod event;
 mod friction;
+mod gear_pair;
 mod link;
 mod mesh;
 mod modes;
@@ -56,6 +57,7 @@ mod stretch;
 
 pub use crank::Crank;
 pub use friction::Friction;
+pub use gear_pair::{GearBody, GearPair};
 pub use link::Link;
 pub use mesh::{Harmonic, Variation, Zone};
 pub use modes::TrainModes;
