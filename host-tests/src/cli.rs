@@ -1,4 +1,5 @@
 //! The command line: `cargo driveline run`, `modes`, `design`, `rotor`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `simulate`, `design`, `check`, `setup`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -6,9 +7,11 @@
 //! | 1 | done, and the answer is no: a check failed, a run could not finish |
 //! | 2 | not begun: a wrong argument or a machine file with a fault |
 //!
-//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
+//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the
+//! object
 //! `{"error": ...}`.
 
+mod campbell;
 mod check;
 mod design;
 mod emit;
@@ -19,6 +22,9 @@ mod progress;
 mod rotor;
 mod run;
 mod setup;
+mod simulate;
+mod simulation;
+mod train_modes;
 mod vibration;
 mod vibration_page;
 
@@ -27,6 +33,7 @@ pub use failure::Failure;
 pub use plan::Plan;
 pub use progress::Progress;
 pub use vibration::Vibration;
+pub(crate) use vibration::names;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -49,6 +56,7 @@ enum Command {
     Rotor(rotor::Rotor),
     Check(check::Check),
     Setup(setup::Setup),
+    Simulate(simulate::Simulate),
 }
 
 impl Command {
@@ -60,6 +68,7 @@ impl Command {
             Self::Rotor(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
+            Self::Simulate(command) => command.json,
         }
     }
 
@@ -71,6 +80,7 @@ impl Command {
             Self::Rotor(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
+            Self::Simulate(command) => command.execute(),
         }
     }
 }

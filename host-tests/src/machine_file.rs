@@ -52,21 +52,32 @@
 //!
 //! A rotor that is to be balanced has a file of its own kind: see [`RotorFile`].
 //!
-//! Every element may have a `label`, which tables and plots then use. Quantities stand on their own shaft, as a data sheet gives them; the library refers them to the motor.
+//! For a diagram of critical speeds, `[running]` gives the speeds `least` and `greatest` of the motor \[rad/s\], and
+//! each
+//! `[[excitation]]` its `name`, its `orders`, and the `ratio` of the motor's speed over that of the shaft that
+//! excites (1 where it is left out). For `simulate` see [`train`].
+//!
+//! Every element may have a `label`, which tables and plots then use. Quantities stand on their own shaft, as a data
+//! sheet gives them; the library refers them to the motor.
 
 mod diagnostic;
 mod element;
+mod excitation;
 mod quantity;
 mod read;
+mod referred;
 mod rotor;
 mod source;
 mod table;
+pub mod train;
 
 pub use diagnostic::{Diagnostic, Fault};
 pub use element::Element;
+pub use excitation::{Excitation, Running};
 pub use quantity::Quantity;
 pub use read::{LARGEST, parse, read};
 pub use rotor::{RotorFile, parse_rotor, read_rotor};
+pub use train::{TrainFile, is_train, parse_train, read_train};
 
 use driveline::machine::Chain;
 use serde::Serialize;
@@ -86,6 +97,10 @@ pub struct MachineFile {
     pub disturbance: Disturbance,
     /// What the machine can do at most.
     pub limits: Limits,
+    /// The speeds it runs at, where the file says so.
+    pub running: Option<Running>,
+    /// What excites it.
+    pub excitations: Vec<Excitation>,
     /// The elements as the library's chain, referred to the motor.
     #[serde(skip)]
     pub chain: Chain,

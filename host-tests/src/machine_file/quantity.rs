@@ -20,8 +20,8 @@ pub struct Quantity {
     pub whole: bool,
 }
 
-/// Twelve decades either side of one SI unit: a watch's balance wheel has 1e-9 kg m2, a tanker 3e8 kg; products of four
-/// such numbers stay within the range of `f64`.
+/// Twelve decades either side of one SI unit: a watch's balance wheel has 1e-9 kg m2, a tanker 3e8 kg; products of
+/// four such numbers stay within the range of `f64`.
 const FAR: f64 = 1e12;
 
 const fn positive(unit: &'static str) -> Quantity {
@@ -81,10 +81,6 @@ impl Quantity {
     pub const YOUNG: Self = Quantity { least: 1e6, most: 1e13, ..positive("Pa") };
     /// Poisson's ratio.
     pub const POISSON: Self = Quantity { least: 1e-6, most: 0.5, zero: true, ..positive("") };
-    /// Length of a shaft element.
-    pub const LENGTH: Self = Quantity { least: 1e-6, most: 1e3, ..positive("m") };
-    /// A bore, zero for none.
-    pub const BORE: Self = Quantity { zero: true, ..Self::DIAMETER };
     /// Equal elements that a piece of shaft is cut into.
     pub const PIECES: Self = Quantity { least: 1.0, most: 64.0, whole: true, ..positive("") };
     /// A node of the shaft.
@@ -101,6 +97,21 @@ impl Quantity {
     pub const DEGREES: Self = Quantity { least: -360.0, most: 360.0, zero: true, whole: false, unit: "degrees" };
     /// Time.
     pub const TIME: Self = positive("s");
+
+    /// Any number: a torque, a speed, an angle of either sign.
+    pub const ANY: Self = Quantity { least: -FAR, ..positive("") };
+    /// Terms of a Fourier series.
+    pub const TERMS: Self = Quantity { least: 1.0, most: 500.0, whole: true, ..positive("") };
+    /// Order of an excitation: times per turn.
+    pub const ORDER: Self = Quantity { least: 1e-3, most: 1e4, ..positive("") };
+    /// A number that is not negative.
+    pub const SIZE: Self = not_negative("");
+    /// Stiffness of any link, N m/rad or N/m; zero leaves a damper alone.
+    pub const SPRING: Self = not_negative("N m/rad or N/m");
+    /// Damping of any link, N m s/rad or N s/m.
+    pub const DAMPER: Self = not_negative("N m s/rad or N s/m");
+    /// Inertia, or mass where the coordinate is a way.
+    pub const INERTIA_OR_MASS: Self = positive("kg m² or kg");
 
     /// Whether a number is one of this quantity's.
     pub fn allows(self, number: f64) -> bool {

@@ -6,9 +6,11 @@ use std::ops::Range;
 use std::path::Path;
 
 use driveline::machine::{Chain, Inertia};
+use toml::Spanned;
 use toml::de::DeTable;
 
 use super::diagnostic::Diagnostic;
+use super::excitation::excitations;
 use super::quantity::Quantity;
 use super::source::{Source, printable};
 use super::table::Table;
@@ -30,6 +32,12 @@ pub fn read(path: &Path) -> Result<MachineFile, Diagnostic> {
 
 /// Reads a file with a parser that is given its name and its text.
 pub(super) fn load<T>(path: &Path, parse: fn(&str, &str) -> Result<T, Diagnostic>) -> Result<T, Diagnostic> {
+    let (name, text) = text_of(path)?;
+    parse(&name, &text)
+}
+
+/// The text of a file and what messages call it.
+pub(super) fn text_of(path: &Path) -> Result<(String, String), Diagnostic> {
     let name = printable(&path.display().to_string(), 200);
     let file =
         |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), "a machine file");
@@ -40,7 +48,7 @@ pub(super) fn load<T>(path: &Path, parse: fn(&str, &str) -> Result<T, Diagnostic
         return Err(Diagnostic::of_file(&name, "more than 1 MiB", "a machine file of at most 1 MiB"));
     }
     match std::str::from_utf8(&bytes) {
-        Ok(text) => parse(&name, text),
+        Ok(text) => Ok((name, text.to_owned())),
         Err(error) => {
             let text = String::from_utf8_lossy(&bytes);
             let at = error.valid_up_to();
@@ -58,14 +66,7 @@ pub(super) fn load<T>(path: &Path, parse: fn(&str, &str) -> Result<T, Diagnostic
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let source = Source { name, text };
-    if text.trim().is_empty() {
-        return Err(Diagnostic::of_file(
-            name,
-            "an empty file",
-            "a machine: `name`, [[element]] tables and the settings",
-        ));
-    }
-    let document = DeTable::parse(text).map_err(|error| not_toml(source, &error))?;
+    let document = document(source, "a machine: `name`, [[element]] tables and the settings")?;
     let mut root = Table::root(source, document.get_ref());
 
     let machine_name = named(&mut root)?;
@@ -87,8 +88,29 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let limits = section(&mut root, "limits", |table| {
         Ok(Limits { torque: table.number("torque", Quantity::TORQUE)?, speed: table.number("speed", Quantity::SPEED)? })
     })?;
+    let (running, excitations) = excitations(&mut root)?;
+    // what a run of it needs is read by `read_train`
+    root.pass(&["link", "torque", "friction", "start", "run"]);
     root.finish()?;
-    Ok(MachineFile { name: machine_name.to_owned(), elements, encoder, control, disturbance, limits, chain })
+    Ok(MachineFile {
+        name: machine_name.to_owned(),
+        elements,
+        encoder,
+        control,
+        disturbance,
+        limits,
+        running,
+        excitations,
+        chain,
+    })
+}
+
+/// The TOML of a text that is not empty.
+pub(super) fn document<'a>(source: Source<'a>, expected: &str) -> Result<Spanned<DeTable<'a>>, Diagnostic> {
+    if source.text.trim().is_empty() {
+        return Err(Diagnostic::of_file(source.name, "an empty file", expected));
+    }
+    DeTable::parse(source.text).map_err(|error| not_toml(source, &error))
 }
 
 /// The name that the file gives.

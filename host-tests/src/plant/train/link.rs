@@ -1,6 +1,6 @@
 //! Links: whatever stretches between coordinates and pulls them together.
 
-use super::super::error::{PlantError, in_range, not_negative, positive};
+use super::super::error::{PlantError, in_range, not_negative};
 use super::super::event::Place;
 use super::mesh::Variation;
 
@@ -20,7 +20,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// Any terms: coordinate and elongation per coordinate, m/rad, rad/rad or 1.
+    /// Any terms: coordinate and elongation per coordinate, m/rad, rad/rad or 1. A stiffness of zero leaves a damper.
     #[must_use]
     pub fn new(terms: &[(usize, f64)], stiffness: f64) -> Self {
         Self {
@@ -138,8 +138,10 @@ impl Link {
         if self.terms.iter().enumerate().any(twice) {
             return Err(PlantError::Count { name: "times that a link names one coordinate", found: 2, expected: 1 });
         }
-        positive("stiffness", place, self.stiffness)?;
+        not_negative("stiffness", place, self.stiffness)?;
         not_negative("damping", place, self.damping)?;
+        let alone = self.is_linear() && self.variation.is_none() && self.damping > 0.0;
+        in_range("stiffness", place, self.stiffness, self.stiffness > 0.0 || alone, "above zero, or damping alone")?;
         not_negative(if self.rope { "slack" } else { "backlash" }, place, self.gap)?;
         let eta = self.efficiency;
         in_range("efficiency", place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;

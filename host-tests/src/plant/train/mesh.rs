@@ -13,7 +13,7 @@ pub struct Zone {
     pub duration: f64,
     /// Of all pairs in contact, N/m, above zero.
     pub stiffness: f64,
-    /// `sum k_i e_i` over the pairs in contact, `e_i` the tooth error (m) that closes the mesh, N.
+    /// `sum k_i e_i` over the pairs in contact, `e_i` the tooth error (m) that opens the mesh, N.
     pub error_force: f64,
 }
 
@@ -33,7 +33,7 @@ pub struct Harmonic {
 pub enum Variation {
     /// Zones that follow each other for ever; the first begins at time zero.
     Zones(Vec<Zone>),
-    /// About the link's stiffness, N/m or N m/rad, and a tooth error, m or rad, that closes the link.
+    /// About the link's stiffness, N/m or N m/rad, and a tooth error, m or rad, that opens the link.
     Harmonics {
         /// Base frequency, Hz, above zero.
         frequency: f64,
@@ -107,7 +107,7 @@ impl Variation {
         }
     }
 
-    /// Stiffness over a stretch, and the error that closes the link.
+    /// Stiffness over a stretch, and the error that opens the link.
     pub(super) fn over(&self, stiffness: f64, t: f64, h: f64) -> (Series, Series) {
         let (mut k, mut e) = (ZERO, ZERO);
         match self {

@@ -183,7 +183,7 @@ impl Stretch {
                     let (mut sum, mut sizes) = (0.0, 0.0);
                     for i in 0..=k {
                         let at = if i == 0 { origin } else { 0.0 };
-                        sum += stiffness[k - i] * (elongation.value[i] - at + error[i]);
+                        sum += stiffness[k - i] * (elongation.value[i] - at - error[i]);
                         sizes += stiffness[k - i].abs() * (elongation.size[i] + at.abs() + error[i].abs());
                     }
                     (sum, sizes)

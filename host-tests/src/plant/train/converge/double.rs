@@ -118,7 +118,7 @@ impl<'a> Double<'a> {
         let reach = if link.rope { link.gap } else { 0.5 * link.gap * self.side[l] };
         let (k, error) = self.law(t, l);
         let rate: f64 = link.terms.iter().map(|&(at, c)| c * self.speed(y, at)).sum();
-        k * (y[l] - reach + error) + link.damping * rate
+        k * (y[l] - reach - error) + link.damping * rate
     }
 
     /// Force that the link carries.
