@@ -9,6 +9,7 @@
 //! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
 //! `{"error": ...}`.
 
+mod backlash;
 mod check;
 mod design;
 mod emit;
@@ -43,6 +44,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Run),
+    Backlash(backlash::Backlash),
     Modes(modes::Modes),
     Design(design::Design),
     Check(check::Check),
@@ -53,6 +55,7 @@ impl Command {
     const fn json(&self) -> bool {
         match self {
             Self::Run(command) => command.json,
+            Self::Backlash(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
             Self::Check(command) => command.json,
@@ -63,6 +66,7 @@ impl Command {
     fn execute(&self) -> Result<(), Failure> {
         match self {
             Self::Run(command) => command.execute(),
+            Self::Backlash(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
             Self::Check(command) => command.execute(),
