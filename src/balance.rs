@@ -1,20 +1,73 @@
-//! Advise: the unbalance of the rotor, from its vibration.
+//! Advise: the unbalance of the rotor from its vibration, and the weights that take it away.
+//!
+//! # On the tick
+//! [`Phasors`] measures the vibration that turns with the rotor, as one complex number for each channel. Several orders, or rotors behind
+//! different gears, are a tuple of them. [`Reading`] is what came of it, with what tells a good reading from a bad one; [`Sensor`] turns it
+//! into displacement, velocity or acceleration and takes the run-out off.
+//!
+//! # Terms
+//! | term | meaning | unit |
+//! |---|---|---|
+//! | phasor | amplitude and phase of what turns with the rotor: `v = Re(X e^{i order theta})`, `theta` the rotor's angle | of the channel |
+//! | order | periods of the vibration on a turn of the rotor | |
+//! | block | a number of whole turns that gives one phasor of its own | |
+//! | run-out | what a displacement sensor sees of a shaft that is not round, and does not vibrate | of the channel |
 
 use crate::number::Number;
+
+mod phasor;
+mod reading;
+mod rotation;
+mod sensor;
+mod turning;
+
+pub use phasor::{Phasors, PhasorsConfig};
+pub use reading::{Doubt, Phasor, Reading, Steadiness};
+pub use rotation::Synchronous;
+pub use sensor::{Motion, Sensor};
+pub use turning::{Turning, TurningConfig};
 
 /// A measurement of the rotor's unbalance, advanced once a tick.
 pub trait Balancer<N: Number>: Default {
     /// Its constants, shared and immutable.
     type Config;
+    /// The samples of a tick, one for each channel.
+    type Vibration: Copy;
 
-    /// Takes one tick's angle [2^-32 turn] and vibration into account.
-    fn measure(&mut self, config: &Self::Config, angle: u32, vibration: N);
+    /// Takes one tick's angle [2^-32 turn of the motor] and vibration into account.
+    fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration);
 }
 
 /// Not balanced.
 impl<N: Number> Balancer<N> for () {
     type Config = ();
+    type Vibration = ();
 
     #[inline(always)]
-    fn measure(&mut self, _config: &(), _angle: u32, _vibration: N) {}
+    fn measure(&mut self, _config: &(), _angle: u32, _vibration: &()) {}
+}
+
+/// Two measurements side by side: two orders, or two rotors.
+impl<N: Number, A: Balancer<N>, B: Balancer<N>> Balancer<N> for (A, B) {
+    type Config = (A::Config, B::Config);
+    type Vibration = (A::Vibration, B::Vibration);
+
+    #[inline(always)]
+    fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration) {
+        self.0.measure(&config.0, angle, &vibration.0);
+        self.1.measure(&config.1, angle, &vibration.1);
+    }
+}
+
+/// Three measurements side by side.
+impl<N: Number, A: Balancer<N>, B: Balancer<N>, C: Balancer<N>> Balancer<N> for (A, B, C) {
+    type Config = (A::Config, B::Config, C::Config);
+    type Vibration = (A::Vibration, B::Vibration, C::Vibration);
+
+    #[inline(always)]
+    fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration) {
+        self.0.measure(&config.0, angle, &vibration.0);
+        self.1.measure(&config.1, angle, &vibration.1);
+        self.2.measure(&config.2, angle, &vibration.2);
+    }
 }

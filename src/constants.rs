@@ -7,17 +7,23 @@
 mod backlash;
 mod bases;
 mod convert;
+mod fluctuation;
 mod format;
 mod geared;
 mod governor;
+mod governor_parts;
 mod limits;
 mod observer;
+mod phasors;
 mod settled;
 
 pub use bases::Bases;
 pub use convert::Error;
+pub use fluctuation::Cycle;
 pub use geared::Gear;
 pub use governor::SpeedLoopSettings;
+pub use governor_parts::ModesSettings;
 pub use limits::Screening;
+pub use phasors::{Measured, MeasuredError};
 
 pub(crate) use format::Format;

@@ -15,8 +15,10 @@
 
 mod approximate;
 mod backlash;
+mod barred;
 mod error;
 mod exponential;
+mod governor;
 mod kalman;
 mod margins;
 mod matrix;
@@ -26,12 +28,15 @@ mod riccati;
 mod rigid;
 mod speed_loop;
 mod step;
+mod torque_curve;
 mod tuning;
 
 pub use approximate::{ApproximateStep, Fidelity, SemiImplicitStep, StepChoice};
 pub use backlash::{BacklashDesign, BacklashTuning};
+pub use barred::{BarredSpeeds, USUAL_MARGIN};
 pub use error::Error;
 pub use exponential::{discretise, exponential};
+pub use governor::{Actuator, GovernorDesign, LoadFeedForward};
 pub use kalman::Kalman;
 pub use margins::Margins;
 pub use matrix::Matrix;
@@ -41,4 +46,5 @@ pub use riccati::{Doubling, doubling};
 pub use rigid::RigidDesign;
 pub use speed_loop::{SpeedLoopDesign, SpeedLoopTuning};
 pub use step::ExactStep;
+pub use torque_curve::TorqueCurve;
 pub use tuning::{Disturbance, Encoder, Rate};

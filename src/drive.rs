@@ -88,8 +88,15 @@ pub struct Drive<N, O, F = (), G = (), B = ()> {
     balancer: B,
     /// What stands in for a torque that cannot be believed.
     commanded: N,
-    missed: u32,
+    /// Ticks without a usable angle, less those with one; while the angle is lost [`NONE_YET`] or [`ONE`].
+    missed: i32,
 }
+
+/// The angle is lost, and none has been seen since.
+const NONE_YET: i32 = i32::MIN;
+
+/// The angle is lost, and one has been seen that differs from the last.
+const ONE: i32 = NONE_YET + 1;
 
 impl<N, O, F, G, B> Drive<N, O, F, G, B>
 where
@@ -114,12 +121,12 @@ where
     /// One tick with the governor at work.
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
-        if self.missed > config.limits.missed {
+        if self.missed < 0 {
             return self.search(config, sample);
         }
-        let faults = self.observe(config, sample);
+        let (faults, applied) = self.observe(config, sample);
         let estimate = self.estimate(config);
-        self.fluctuation.measure(&config.fluctuation, self.observer.angle(), &estimate);
+        self.fluctuation.measure(&config.fluctuation, self.observer.angle(), applied, &estimate);
         let torque = self.governor.command(&config.governor, &estimate);
         if G::COMMANDS {
             self.commanded = torque;
@@ -129,13 +136,17 @@ where
 
     /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken to carry
     /// it, and the next [`Drive::tick`] starts from there, within the governor's limit. A torque that is NaN or beyond what a sample may have counts as zero and raises
-    /// [`Faults::REFERENCE`].
+    /// [`Faults::REFERENCE`]. A governor that has tripped holds with none.
     pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Command<N> {
         let mut command = Command { torque, faults: Faults::NONE };
         if torque.exceeds(config.limits.torque) {
             command = Command { torque: N::ZERO, faults: Faults::REFERENCE };
         }
+        if !self.governor.permits() {
+            command.torque = N::ZERO;
+        }
         self.observer = O::at_rest(&config.observer, angle, command.torque);
+        self.fluctuation.disturb();
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;
         self.missed = 0;
@@ -153,9 +164,19 @@ where
         &self.fluctuation
     }
 
+    /// The fluctuation's measurement, to take from it what it has finished.
+    pub fn fluctuation_mut(&mut self) -> &mut F {
+        &mut self.fluctuation
+    }
+
     /// The governor.
     pub fn governor(&self) -> &G {
         &self.governor
+    }
+
+    /// The governor, to ask for another mode or to switch its constants, between two ticks.
+    pub fn governor_mut(&mut self) -> &mut G {
+        &mut self.governor
     }
 
     /// The balancer.
@@ -163,9 +184,14 @@ where
         &self.balancer
     }
 
-    /// Gives the balancer a sample of the vibration, taken with the last angle.
+    /// The balancer, to begin a reading or to tell it the rotor's angle: between two ticks.
+    pub fn balancer_mut(&mut self) -> &mut B {
+        &mut self.balancer
+    }
+
+    /// Gives the balancer the samples of the vibration, taken with the last angle: once a tick.
     #[inline(always)]
-    pub fn vibration(&mut self, config: &ConfigOf<N, O, F, G, B>, vibration: N) {
+    pub fn vibration(&mut self, config: &ConfigOf<N, O, F, G, B>, vibration: &B::Vibration) {
         self.balancer.measure(&config.balancer, self.observer.angle(), vibration);
     }
 
@@ -175,7 +201,7 @@ where
     }
 
     #[inline(always)]
-    fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Faults {
+    fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> (Faults, N) {
         let limits = &config.limits;
         let (mut torque, mut faults) = (sample.torque, Faults::NONE);
         if torque.exceeds(limits.torque) {
@@ -196,36 +222,39 @@ where
         if frozen || predicted.innovation().exceeds(limits.innovation) {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
-            self.missed = missed.wrapping_add(1);
+            self.missed = if (missed as u32) < limits.missed { missed.wrapping_add(1) } else { NONE_YET };
+            self.fluctuation.disturb();
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
             if missed != 0 {
                 self.missed = missed - 1;
             }
         }
-        faults | Faults::range(self.observer.beyond_base())
+        (faults | Faults::range(self.observer.beyond_base()), torque)
     }
 
     /// The angle is lost: commands no torque, looks for two angles in a row that differ, and goes on from the second.
-    #[inline(always)]
+    // Out of line: it leaves the registers to the tick.
+    #[cold]
+    #[inline(never)]
     fn search(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
         let limits = &config.limits;
+        self.fluctuation.disturb();
         let mut faults = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
         let mut torque = sample.torque;
         if torque.exceeds(limits.torque) {
             torque = N::ZERO;
             faults |= Faults::TORQUE;
         }
-        let (none_yet, one) = (limits.missed.saturating_add(1), limits.missed.saturating_add(2));
         let last = self.observer.angle();
         let turned = N::from_angle(sample.angle.wrapping_sub(last) as i32);
         let speed = O::speed_of_turn(&config.observer, turned);
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
-            self.missed = none_yet;
-        } else if self.missed == none_yet || speed.exceeds(limits.reference.plus(limits.reference)) {
+            self.missed = NONE_YET;
+        } else if self.missed == NONE_YET || speed.exceeds(limits.reference.plus(limits.reference)) {
             self.observer.synchronise(sample.angle);
-            self.missed = one;
+            self.missed = ONE;
         } else {
             let count = O::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.standstill)).magnitude();
             let known = self.estimate(config).motor_speed;
@@ -234,18 +263,18 @@ where
             } else {
                 self.observer.synchronise(sample.angle);
             }
-            self.missed = limits.missed;
+            self.missed = limits.missed as i32 & i32::MAX;
         }
         self.commanded = N::ZERO;
         let estimate = self.estimate(config);
-        self.governor.start(&config.governor, &estimate, N::ZERO);
+        self.governor.lost(&config.governor, &estimate);
         Command { torque: N::ZERO, faults }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Config, Drive, Limits};
+    use super::{Config, Drive, Limits, NONE_YET, ONE};
     use crate::fault::Faults;
     use crate::observer::{Rigid, RigidConfig};
     use crate::sample::Sample;
@@ -266,7 +295,7 @@ mod tests {
         balancer: (),
     };
 
-    fn tick(drive: &mut Drive<f64, Rigid<f64>>, angle: u32) -> (Faults, u32) {
+    fn tick(drive: &mut Drive<f64, Rigid<f64>>, angle: u32) -> (Faults, i32) {
         let faults = drive.tick(&CONFIG, &Sample { angle, torque: 0.0, reference: 0.0 }).faults;
         (faults, drive.missed)
     }
@@ -288,8 +317,8 @@ mod tests {
             assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, missed));
         }
         let lost = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
-        assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, 4));
-        assert_eq!(tick(&mut drive, 70_000), (lost, 5));
+        assert_eq!(tick(&mut drive, 70_000), (Faults::ANGLE_JUMP, NONE_YET));
+        assert_eq!(tick(&mut drive, 70_000), (lost, ONE));
         // The machine stands: the second angle is two counts beside the first.
         assert_eq!(tick(&mut drive, 70_009), (lost, 3));
         assert_eq!(tick(&mut drive, 70_009), (Faults::NONE, 2));

@@ -4,8 +4,29 @@
 //! *Set point*: the motor speed that is wanted. *Anti-windup*: the integral stops where the torque is limited.
 //! *Active damping*: torque against the rate of twist, as a damper between motor and load would give it, by the motor alone.
 
+//! *Droop*: how much the set point yields to the load. *Isochronous*: without droop. *Trip*: a stop that stands until it is reset.
+//!
+//! | governor | for |
+//! |---|---|
+//! | [`SpeedLoop`] | a drive that is always at work: proportional, integral, active damping |
+//! | [`SpeedGovernor`] | anything more, composed of parts: droop, feed-forward, limits by a curve, modes and trips |
+
+mod limit;
+mod modes;
+mod prompt;
+mod rack;
+mod set_point;
+mod speed_governor;
 mod speed_loop;
 
+pub use limit::{
+    Between, BetweenConfig, Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, Symmetric, SymmetricConfig,
+};
+pub use modes::{Duty, Mode, Modes, ModesConfig, Request, Supervisor, Trip};
+pub use prompt::{Damping, DampingConfig, FeedForward, FeedForwardConfig, Prompt};
+pub use rack::{Rack, RackConfig};
+pub use set_point::{Barred, BarredConfig, Droop, DroopConfig, SetPoint, Window};
+pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};
 
 use crate::number::Number;
@@ -28,6 +49,18 @@ pub trait Governor<N: Number>: Default {
     /// Starts anew from the speed that the machine has and the torque that it is given now, so that the first command is no jolt; the set
     /// point is a standstill.
     fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N);
+
+    /// The angle is lost: starts anew without torque, as after every further tick without it.
+    #[inline(always)]
+    fn lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
+        self.start(config, estimate, N::ZERO);
+    }
+
+    /// Whether torque may be commanded at all: a drive that has tripped may not even hold.
+    #[inline(always)]
+    fn permits(&self) -> bool {
+        true
+    }
 }
 
 /// No governor: the drive observes, and commands no torque.

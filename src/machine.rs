@@ -29,28 +29,40 @@
 //! | antiresonance | natural frequency of the chain with the motor held | rad/s |
 //! | residue | square of a mass-normalised mode shape at the motor | 1/(kg m2) |
 
+mod belt;
 mod chain;
+mod crank;
 mod error;
 mod linear;
 mod modes;
 mod planetary;
+mod prime_mover;
 mod quantity;
 mod reduce;
 mod refer;
 mod rigid;
+mod section;
+mod train;
+mod train_reduce;
 mod two_mass;
 mod worth;
 
+pub use belt::Belt;
 pub use chain::{CAPACITY, Chain, Shaft};
+pub use crank::{CrankSlider, Travel, VariableInertia};
 pub use error::Error;
 pub use linear::STANDARD_GRAVITY;
 pub use modes::{Mode, Modes};
 pub use planetary::Planetary;
+pub use prime_mover::{Combustion, Induction, Line, Mixture, Parabola, Series, Shunt, StartCondition, StartingLaw};
 pub use quantity::{
-    Damping, Diameter, Efficiency, Falls, Gap, Inertia, Length, LinearDamping, Mass, Ratio, Speed, Stiffness, Torque,
+    Damping, Density, Diameter, Efficiency, Falls, Gap, Inertia, Length, LinearDamping, Mass, Ratio, ShearModulus,
+    Speed, Stiffness, Torque,
 };
 pub use reduce::{Match, ReductionError};
-pub use refer::{Flow, Side, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};
+pub use refer::{Flow, Side, parallel, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};
 pub use rigid::Rigid;
+pub use section::{Section, stepped, try_stepped};
+pub use train::{Joint, TRAIN_SHAFTS, Train};
 pub use two_mass::TwoMass;
 pub use worth::{Element, Part, Worth};

@@ -89,6 +89,12 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// The speed at which the motor turns by this angle difference in a tick; held within four times the base in fixed point.
     fn speed_of_turn(self, c: Self::Coefficient) -> Self;
 
+    /// A sixteenth of the number, rounded down in fixed point: for a mean that follows.
+    fn sixteenth(self) -> Self;
+
+    /// The value in the SI unit, or per unit of its base: for what is done between the ticks.
+    fn to_real(self) -> f64;
+
     /// The bits, as they travel over a link; an `f64` is rounded to `f32` first.
     fn to_word(self) -> u32;
     /// The number that has these bits.

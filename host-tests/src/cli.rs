@@ -1,4 +1,4 @@
-//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `rotor`, `check`, `setup`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -17,6 +17,7 @@ mod failure;
 mod modes;
 mod plan;
 mod progress;
+mod rotor;
 mod run;
 mod setup;
 mod vibration;
@@ -47,6 +48,7 @@ enum Command {
     Backlash(backlash::Backlash),
     Modes(modes::Modes),
     Design(design::Design),
+    Rotor(rotor::Rotor),
     Check(check::Check),
     Setup(setup::Setup),
 }
@@ -58,6 +60,7 @@ impl Command {
             Self::Backlash(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
+            Self::Rotor(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
         }
@@ -69,6 +72,7 @@ impl Command {
             Self::Backlash(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
+            Self::Rotor(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
         }

@@ -8,6 +8,7 @@ pub mod link;
 pub mod machine_file;
 pub mod plant;
 pub mod report;
+pub mod rotor;
 pub mod run;
 pub mod setup;
 pub mod sweep;

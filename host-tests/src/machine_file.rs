@@ -42,12 +42,15 @@
 //! | `lifted`, `driven` | `mass` \[kg\]; a lifted one has weight |
 //! | `backlash` | `gap` \[rad\], the whole free angle |
 //!
+//! A rotor that is to be balanced has a file of its own kind: see [`RotorFile`].
+//!
 //! Every element may have a `label`, which tables and plots then use. Quantities stand on their own shaft, as a data sheet gives them; the library refers them to the motor.
 
 mod diagnostic;
 mod element;
 mod quantity;
 mod read;
+mod rotor;
 mod source;
 mod table;
 
@@ -55,6 +58,7 @@ pub use diagnostic::{Diagnostic, Fault};
 pub use element::Element;
 pub use quantity::Quantity;
 pub use read::{LARGEST, parse, read};
+pub use rotor::{RotorFile, parse_rotor, read_rotor};
 
 use driveline::machine::Chain;
 use serde::Serialize;

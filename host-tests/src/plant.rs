@@ -1,7 +1,7 @@
 //! The full solver: a drive train of `n` inertias on `n - 1` shafts, solved as exactly as `f64` allows.
 //!
-//! Everything is referred to the motor shaft. Node 0 is the motor, node `n - 1` the far end; shaft `s` joins nodes `s`
-//! and `s + 1`. Terms and units:
+//! Everything is referred to the motor shaft. Node 0 is the motor, node `n - 1` the far end; shaft `s` joins nodes
+//! `s` and `s + 1`. Terms and units:
 //!
 //! | term | meaning | unit |
 //! |---|---|---|
@@ -15,12 +15,12 @@
 //! | efficiency | of a gear at a node, towards the shaft behind it; the driving side pays | 1 |
 //!
 //! Equations: `J_j w_j' = T_(j-1) - m_j T_j - c_j w_j - friction_j - load_j` `[Pfützner 1980 (1.6)]`, with the shaft
-//! torque `T_s = k (theta - G/2) + d dw` for `theta > G/2`, `k (theta + G/2) + d dw` for `theta < -G/2` and zero in the
-//! gap `[Huang 1987 part 2]`, and `m` the loss of the gear, `1/eta` driving and `eta` driven `[Wang 1989 §1-3]`.
+//! torque `T_s = k (theta - G/2) + d dw` for `theta > G/2`, `k (theta + G/2) + d dw` for `theta < -G/2` and zero in
+//! the gap `[Huang 1987 part 2]`, and `m` the loss of the gear, `1/eta` driving and `eta` driven `[Wang 1989 §1-3]`.
 //!
-//! Between events (a flank met or left, a stop, a slip, a reversal of the flow of power, a corner of an excitation) the
-//! equations are linear with constant coefficients and are propagated by their exponential; events are isolated by
-//! bounds on the second derivative, so that a grazing contact is found whatever the length of the tick.
+//! Between events (a flank met or left, a stop, a slip, a reversal of the flow of power, a corner of an excitation)
+//! the equations are linear with constant coefficients and are propagated by their exponential; events are isolated
+//! by bounds on the second derivative, so that a grazing contact is found whatever the length of the tick.
 //!
 //! The module shares no code with the library that it judges.
 //!
@@ -48,6 +48,7 @@
 
 pub mod converge;
 pub mod modes;
+pub mod train;
 
 mod chain;
 mod dense;

@@ -23,6 +23,7 @@ mod figures;
 pub mod format;
 mod modes_page;
 mod page;
+mod sheet;
 pub mod svg;
 mod sweep;
 mod terminal;
@@ -31,6 +32,7 @@ mod trajectory;
 pub use backlash_page::backlash_page;
 pub use figures::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Variant};
 pub use modes_page::{MachinePage, ModeFigure};
+pub use sheet::{Figure, Sheet};
 pub use sweep::{Slice, Sweep, SweepPoint};
 pub use terminal::{Table, variants_table};
 pub use trajectory::{Mark, Signal, Trajectory};
@@ -85,13 +87,29 @@ impl Report {
     }
 }
 
+/// Finds out before a long run whether a page can be written; what stands there is left alone, and the folder is made where it is missing.
+///
+/// # Errors
+/// What the file system says.
+pub fn writable(path: &Path) -> std::io::Result<()> {
+    make_folder_of(path)?;
+    let stood = path.exists();
+    std::fs::OpenOptions::new().append(true).create(true).open(path)?;
+    if stood { Ok(()) } else { std::fs::remove_file(path) }
+}
+
+fn make_folder_of(path: &Path) -> std::io::Result<()> {
+    match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        Some(folder) => std::fs::create_dir_all(folder),
+        None => Ok(()),
+    }
+}
+
 /// Writes a page, and the folder it stands in where that is missing.
 ///
 /// # Errors
 /// What the file system says.
 pub fn write_page(path: &Path, page: &str) -> std::io::Result<()> {
-    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder)?;
-    }
+    make_folder_of(path)?;
     std::fs::write(path, page)
 }

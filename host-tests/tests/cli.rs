@@ -23,7 +23,7 @@ const HOIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/hoist.toml");
 
 #[test]
 fn every_command_explains_itself_with_examples() {
-    for command in ["run", "modes", "design", "check", "setup"] {
+    for command in ["run", "modes", "design", "rotor", "check", "setup"] {
         let output = driveline(&[command, "--help"]);
         assert!(output.status.success());
         let help = out(&output);
@@ -141,4 +141,33 @@ fn wrong_arguments_end_with_2() {
     let output = driveline(&["modes", "--json", "--loud"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(json(&err(&output))["error"].as_str().unwrap().contains("--loud"));
+}
+
+#[test]
+fn a_page_that_cannot_be_written_is_found_before_anything_runs() {
+    // A file stands where the folder should be.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "kept").unwrap();
+    let page = file.join("page.html");
+    let output = driveline(&["run", "--html", page.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("page.html cannot be written") && !err(&output).contains("building"));
+    assert_eq!(std::fs::read_to_string(file).unwrap(), "kept");
+}
+
+#[test]
+fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("three.toml");
+    let text = std::fs::read_to_string(HOIST).unwrap();
+    let settings = &text[text.find("[encoder]").unwrap()..];
+    // A light motor before two heavy masses: ten elevenths of a blow to it go into the second mode.
+    let mass = |kind: &str, inertia: f64| format!("[[element]]\nkind = \"{kind}\"\ninertia = {inertia:?}\n");
+    let shaft = |stiffness: f64| format!("[[element]]\nkind = \"shaft\"\nstiffness = {stiffness:?}\n");
+    let (motor, first, second) = (mass("motor", 0.1), mass("rotor", 1.0), mass("rotor", 1.0));
+    let (stiff, soft) = (shaft(1e5), shaft(10.0));
+    std::fs::write(&file, format!("name = \"three\"\n{motor}{stiff}{first}{soft}{second}{settings}")).unwrap();
+    assert!(out(&driveline(&["design", file.to_str().unwrap()])).contains("warning: two masses are a poor image"));
+    assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
 }

@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use driveline_firmware::board::Facts;
+use driveline_firmware::scene::Scene;
+use driveline_firmware::selected::visit;
+use driveline_firmware::{Visitor, fingerprint};
 use host_tests::image::{Contents, Program, board, build};
 
 const CORES: [(&str, &str); 2] = [("f32", "m4f"), ("fixed", "m3")];
@@ -127,5 +130,26 @@ fn the_table_of_compositions_is_over_the_empty_image() {
             row.rodata_bytes,
             row.ram()
         );
+    }
+}
+
+/// The fingerprint of a scene's run.
+struct Run;
+
+impl Visitor for Run {
+    type Outcome = u64;
+
+    fn visit<S: Scene>(self) -> u64 {
+        fingerprint::of_run::<S>()
+    }
+}
+
+#[test]
+fn a_drive_of_an_observer_alone_has_the_bits_of_the_calls_by_hand() {
+    for number in ["f32", "fixed"] {
+        let run = |parts: &str| visit(&format!("composition/{number}/{parts}/10000"), Run).unwrap();
+        assert_eq!(run("two-mass-observer"), run("two-mass-by-hand"), "{number}");
+        // What the comparison can see: another observer's bits are others.
+        assert_ne!(run("two-mass-observer"), run("semi-implicit-observer"), "{number}");
     }
 }

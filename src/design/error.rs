@@ -46,6 +46,13 @@ sentences! {
     Noise => "the measurement noise must have a positive definite covariance",
     Bandwidth => "the bandwidth of the speed loop must be above zero and below the antiresonance of the machine",
     DampingRatio => "the damping ratios of the speed loop must be above zero and finite",
+    Actuator => "the actuator's delay and lag must be zero or above and finite (s), its engine must have cylinders and turn",
+    Span => "the span of the governor must be above 1 and finite: from 2 (brisk) to 4 (quiet)",
+    FeedForward => "the share of the load torque that is fed forward must be from 0 to 1, the lag of its estimate zero or above and finite (s)",
+    GovernorUnstable => "the governor is unstable with this actuator and shaft: raise its span",
+    Barred => "barred speeds need frequencies and orders above zero and finite, and a margin above 0 and below 1",
+    BarredCount => "there are more barred ranges of speed than the governor has room for: raise K",
+    TorqueCurve => "a torque curve needs points of rising speed from zero on, each with a torque of zero or above, all finite",
     SpeedLoopUnstable => "the speed loop is unstable at this sample rate: lower its bandwidth or raise the rate",
 }
 

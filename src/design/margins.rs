@@ -28,6 +28,26 @@ pub(super) struct Loop {
     pub proportional: f64,
     pub integral: f64,
     pub slip: f64,
+    pub late: Late,
+}
+
+/// What acts later than the tick, in continuous time.
+pub(super) struct Late {
+    /// Dead time and lag of the actuator.
+    pub delay: f64,
+    pub lag: f64,
+    /// Share of the load torque that is fed forward, and the lag of its estimate.
+    pub share: f64,
+    pub estimate: f64,
+}
+
+impl Late {
+    /// Nothing is late.
+    pub(super) const NONE: Self = Late { delay: 0.0, lag: 0.0, share: 0.0, estimate: 0.0 };
+
+    const fn is_none(&self) -> bool {
+        self.delay == 0.0 && self.lag == 0.0 && self.share == 0.0
+    }
 }
 
 type Complex = (f64, f64);
@@ -64,7 +84,52 @@ impl Loop {
         let controller =
             (self.proportional + self.integral * self.period * integral.0, self.integral * self.period * integral.1);
         let speed = times(controller, motor);
-        over((speed.0 + self.slip * slip.0, speed.1 + self.slip * slip.1), z)
+        let prompt = over((speed.0 + self.slip * slip.0, speed.1 + self.slip * slip.1), z);
+        if self.late.is_none() { prompt } else { self.with_late(prompt, z, frequency) }
+    }
+
+    /// The response with what is late: `A (L + g F)/(1 - g F A)`.
+    const fn with_late(&self, prompt: Complex, z: Complex, frequency: f64) -> Complex {
+        let Late { delay, lag, share, estimate } = self.late;
+        let (sine, cosine) = sin_cos(frequency * delay);
+        let actuator = over((cosine, -sine), (1.0, frequency * lag));
+        let filter = over(over((share, 0.0), (1.0, frequency * estimate)), z);
+        let fed = times(filter, actuator);
+        over(times(actuator, (prompt.0 + filter.0, prompt.1 + filter.1)), (1.0 - fed.0, -fed.1))
+    }
+
+    /// Whether the closed loop of a proportional and integral controller on a free mass is stable, by Nyquist's criterion: two poles at the
+    /// origin, none to its right, so the response turns about -1 by half a turn from zero frequency to the Nyquist frequency; by three quarters
+    /// where the whole load torque is fed forward.
+    pub(super) const fn is_stable(&self, bandwidth: f64) -> bool {
+        let nyquist = core::f64::consts::PI / self.period;
+        let (ws, wr) = (self.machine.antiresonance(), self.machine.resonance());
+        // Finer about the resonance, where a hardly damped shaft turns the response quickly.
+        let edges = [1e-3 * bandwidth, 0.8 * ws, 0.99 * wr, 1.01 * wr, 1.25 * wr, nyquist];
+        let mut turned = 0.0;
+        let mut low = edges[0];
+        let first = self.response(low);
+        let mut before = (1.0 + first.0, first.1);
+        let mut edge = 1;
+        while edge < 6 {
+            let high = if edges[edge] < nyquist { edges[edge] } else { nyquist };
+            if high > low {
+                let factor = exp(ln(high / low) / 80.0);
+                let mut point = 0;
+                while point < 80 {
+                    low = if point == 79 { high } else { low * factor };
+                    let response = self.response(low);
+                    let after = (1.0 + response.0, response.1);
+                    let turn = over(after, before);
+                    turned += atan2(turn.1, turn.0);
+                    before = after;
+                    point += 1;
+                }
+            }
+            edge += 1;
+        }
+        // Every unstable pole turns it back by half a turn.
+        turned > 0.75 * core::f64::consts::PI
     }
 
     /// The margins, from a sweep of the whole range and a finer one about the resonance.

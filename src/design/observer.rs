@@ -3,7 +3,7 @@
 //! The state is `[theta_m, omega_m, delta, omega_l, tau_L]` \[rad, rad/s, rad, rad/s, N m\], the input the motor's torque. The
 //! transition is exact: momentum moves as one rigid machine, and the twist by [`ExactStep`].
 
-use super::tuning::{Disturbance, Encoder, Rate};
+use super::tuning::{Disturbance, Encoder, Rate, Variances};
 use super::{Error, ExactStep, Kalman, Matrix, SemiImplicitStep, StepChoice};
 use crate::machine::TwoMass;
 use crate::scalar::{exp, sqrt};
@@ -91,18 +91,11 @@ impl TwoMass {
         if let Err(error) = self.check() {
             return Err(Error::Machine(error));
         }
-        let period = match rate.period() {
-            Ok(period) => period,
+        let variances = match Variances::of(rate, encoder, &disturbance) {
+            Ok(variances) => variances,
             Err(error) => return Err(error),
         };
-        let measurement = match encoder.variance() {
-            Ok(variance) => variance,
-            Err(error) => return Err(error),
-        };
-        let (torque, load) = match (disturbance.torque_variance(), disturbance.load_torque_variance(period)) {
-            (Ok(torque), Ok(load)) => (torque, load),
-            (Err(error), _) | (_, Err(error)) => return Err(error),
-        };
+        let period = variances.period;
         if self.stiffness == 0.0 {
             return Err(Error::Unobservable);
         }
@@ -121,14 +114,14 @@ impl TwoMass {
         while i < 5 {
             let mut j = 0;
             while j < 5 {
-                noise.0[i][j] = input[i] * input[j] * torque;
+                noise.0[i][j] = input[i] * input[j] * variances.torque;
                 j += 1;
             }
             i += 1;
         }
-        noise.0[4][4] += load;
+        noise.0[4][4] += variances.load_torque;
         let seen = Matrix([[1.0, 0.0, 0.0, 0.0, 0.0]]);
-        let filter = match Kalman::<5, 1>::design(&transition, &seen, &noise, &Matrix([[measurement]])) {
+        let filter = match Kalman::<5, 1>::design(&transition, &seen, &noise, &Matrix([[variances.angle]])) {
             Ok(filter) => filter,
             Err(error) => return Err(error),
         };

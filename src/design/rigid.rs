@@ -2,7 +2,7 @@
 //!
 //! The state is `[theta, omega, tau_L]` \[rad, rad/s, N m\], the input the motor's torque.
 
-use super::tuning::{Disturbance, Encoder, Rate};
+use super::tuning::{Disturbance, Encoder, Rate, Variances};
 use super::{Error, Kalman, Matrix};
 use crate::machine::Rigid;
 use crate::scalar::sqrt;
@@ -57,27 +57,20 @@ impl Rigid {
         if !(self.inertia > 0.0 && self.inertia.is_finite()) {
             return Err(Error::Machine(crate::machine::Error::MotorInertia));
         }
-        let t = match rate.period() {
-            Ok(period) => period,
+        let variances = match Variances::of(rate, encoder, &disturbance) {
+            Ok(variances) => variances,
             Err(error) => return Err(error),
         };
-        let measurement = match encoder.variance() {
-            Ok(variance) => variance,
-            Err(error) => return Err(error),
-        };
-        let (torque, load) = match (disturbance.torque_variance(), disturbance.load_torque_variance(t)) {
-            (Ok(torque), Ok(load)) => (torque, load),
-            (Err(error), _) | (_, Err(error)) => return Err(error),
-        };
+        let t = variances.period;
         let (jump, glide) = (t / self.inertia, 0.5 * t * t / self.inertia);
         let transition = Matrix([[1.0, t, -glide], [0.0, 1.0, -jump], [0.0, 0.0, 1.0]]);
         let noise = Matrix([
-            [glide * glide * torque, glide * jump * torque, 0.0],
-            [glide * jump * torque, jump * jump * torque, 0.0],
-            [0.0, 0.0, load],
+            [glide * glide * variances.torque, glide * jump * variances.torque, 0.0],
+            [glide * jump * variances.torque, jump * jump * variances.torque, 0.0],
+            [0.0, 0.0, variances.load_torque],
         ]);
         let seen = Matrix([[1.0, 0.0, 0.0]]);
-        match Kalman::<3, 1>::design(&transition, &seen, &noise, &Matrix([[measurement]])) {
+        match Kalman::<3, 1>::design(&transition, &seen, &noise, &Matrix([[variances.angle]])) {
             Ok(filter) => {
                 let p = &filter.posterior.0;
                 Ok(RigidDesign {

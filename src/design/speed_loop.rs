@@ -10,7 +10,7 @@
 //!
 //! Pole placement by the coefficients, after [Zhang and Furusho 2000, IEEE Trans. Ind. Electron. 47(3)], with the slip added.
 
-use super::margins::{Loop, Margins};
+use super::margins::{Late, Loop, Margins};
 use super::tuning::Rate;
 use super::{Error, ExactStep, Matrix, eigenvalues, spectral_radius};
 use crate::machine::TwoMass;
@@ -108,7 +108,7 @@ impl TwoMass {
         if spectral_radius.is_nan() || spectral_radius >= 1.0 {
             return Err(Error::SpeedLoopUnstable);
         }
-        let open = Loop { step, machine: *self, period, proportional, integral, slip };
+        let open = Loop { step, machine: *self, period, proportional, integral, slip, late: Late::NONE };
         Ok(SpeedLoopDesign {
             period,
             proportional,

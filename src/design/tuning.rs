@@ -116,3 +116,28 @@ impl Disturbance {
         }
     }
 }
+
+/// What a filter is designed from, in SI units.
+#[derive(Clone, Copy)]
+pub(super) struct Variances {
+    pub(super) period: f64,
+    /// Of the measured angle.
+    pub(super) angle: f64,
+    /// Of the motor's torque in a tick.
+    pub(super) torque: f64,
+    /// What the load torque gains in a tick.
+    pub(super) load_torque: f64,
+}
+
+impl Variances {
+    pub(super) const fn of(rate: Rate, encoder: Encoder, disturbance: &Disturbance) -> Result<Self, Error> {
+        let period = match rate.period() {
+            Ok(period) => period,
+            Err(error) => return Err(error),
+        };
+        match (encoder.variance(), disturbance.torque_variance(), disturbance.load_torque_variance(period)) {
+            (Ok(angle), Ok(torque), Ok(load_torque)) => Ok(Variances { period, angle, torque, load_torque }),
+            (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => Err(error),
+        }
+    }
+}

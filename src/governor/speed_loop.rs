@@ -39,10 +39,10 @@ pub struct SpeedLoop<N> {
     reference: N,
 }
 
-impl<N> SpeedLoop<N> {
+impl<N: Copy> SpeedLoop<N> {
     /// Where the ramp stands [rad/s].
-    pub fn set_point(&self) -> &N {
-        &self.set_point
+    pub fn set_point(&self) -> N {
+        self.set_point
     }
 }
 

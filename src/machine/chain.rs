@@ -46,6 +46,8 @@ pub struct Chain {
     /// Travel per motor angle \[m/rad\] once a drum has been passed, 0 before.
     pub(super) travel: f64,
     pub(super) efficiency: f64,
+    /// The same while the load drives.
+    pub(super) back_efficiency: f64,
     pub(super) flow: Flow,
     /// A gap that waits for the next shaft \[rad\].
     pub(super) gap: f64,
@@ -84,6 +86,7 @@ impl Chain {
             ratio: 1.0,
             travel: 0.0,
             efficiency: 1.0,
+            back_efficiency: 1.0,
             flow: Flow::Lossless,
             gap: 0.0,
             gravity: [0.0; 3],
@@ -121,14 +124,14 @@ impl Chain {
         if self.travel != 0.0 {
             return Err(Error::RotaryAfterDrum);
         }
-        let referred = refer_stiffness(stiffness.0, self.ratio, self.efficiency, Side::Load, self.flow);
+        let referred = refer_stiffness(stiffness.0, self.ratio, self.loss(), Side::Load, self.flow);
         if !positive(stiffness.0) || !positive(referred) {
             return Err(Error::ShaftStiffness);
         }
         if !not_negative(damping.0) {
             return Err(Error::ShaftDamping);
         }
-        self.link(referred, refer_stiffness(damping.0, self.ratio, self.efficiency, Side::Load, self.flow))
+        self.link(referred, refer_stiffness(damping.0, self.ratio, self.loss(), Side::Load, self.flow))
     }
 
     /// A rotor on the present mass: inertia \[kg m2\] on its own speed.
@@ -148,7 +151,7 @@ impl Chain {
         if self.travel != 0.0 {
             return Err(Error::RotaryAfterDrum);
         }
-        let referred = refer_inertia(inertia.0, self.ratio, self.efficiency, Side::Load, self.flow);
+        let referred = refer_inertia(inertia.0, self.ratio, self.loss(), Side::Load, self.flow);
         if !positive(inertia.0) || !positive(referred) {
             return Err(Error::RotorInertia);
         }
@@ -181,7 +184,43 @@ impl Chain {
         }
         self.ratio *= ratio.0;
         self.efficiency *= efficiency.0;
+        self.back_efficiency *= efficiency.0;
         Ok(self)
+    }
+
+    /// A gear that loses more while the load drives it, such as a worm: efficiency with the motor driving, then with the load driving. With equal
+    /// losses either way the second is `2 - 1/first`; a worm whose first is one half or less holds its load by itself, which a chain does not show.
+    #[must_use]
+    pub const fn worm(self, ratio: Ratio, driving: Efficiency, driven: Efficiency) -> Self {
+        match self.try_worm(ratio, driving, driven) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`worm`](Self::worm), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// As [`try_gear`](Self::try_gear).
+    pub const fn try_worm(self, ratio: Ratio, driving: Efficiency, driven: Efficiency) -> Result<Self, Error> {
+        if !(driven.0 > 0.0 && driven.0 <= 1.0) {
+            return Err(Error::GearEfficiency);
+        }
+        match self.try_gear(ratio, driving) {
+            Ok(mut chain) => {
+                chain.back_efficiency = self.back_efficiency * driven.0;
+                Ok(chain)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The efficiency that the chain is referred with.
+    pub(super) const fn loss(&self) -> f64 {
+        match self.flow {
+            Flow::Braking => self.back_efficiency,
+            Flow::Starting | Flow::Lossless => self.efficiency,
+        }
     }
 
     /// A backlash: the whole free travel \[rad\] on its own speed. Referred to the motor it is `ratio` times as wide.
@@ -303,10 +342,16 @@ impl Chain {
         self.travel
     }
 
-    /// Product of the efficiencies.
+    /// Product of the efficiencies while the motor drives.
     #[must_use]
     pub const fn efficiency(&self) -> f64 {
         self.efficiency
+    }
+
+    /// Product of the efficiencies while the load drives.
+    #[must_use]
+    pub const fn back_efficiency(&self) -> f64 {
+        self.back_efficiency
     }
 
     /// Whether the chain is complete: it ends in a mass, and every backlash has its shaft.

@@ -105,7 +105,7 @@ impl Chain {
                 let weight = mass.0 * STANDARD_GRAVITY * chain.travel;
                 chain.gravity[0] += weight;
                 chain.gravity[1] += weight / chain.efficiency;
-                chain.gravity[2] += weight * chain.efficiency;
+                chain.gravity[2] += weight * chain.back_efficiency;
                 Ok(chain)
             }
             Err(error) => Err(error),
@@ -137,6 +137,38 @@ impl Chain {
         Ok(self)
     }
 
+    /// A mass \[kg\] that swings on a rope \[m\] under what travels, such as a crane's load: a spring of `m g/l` at the travel and the mass behind it.
+    ///
+    /// For small angles: at an amplitude of theta \[rad\] a pendulum swings slower than this by `theta^2/16`, 0.4 % at 15 degrees.
+    #[must_use]
+    pub const fn swinging(self, mass: Mass, rope: Length) -> Self {
+        match self.try_swinging(mass, rope) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`swinging`](Self::swinging), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::DrumMissing`], [`Error::PendulumLength`], [`Error::LoadMass`], [`Error::TooManyMasses`].
+    pub const fn try_swinging(self, mass: Mass, rope: Length) -> Result<Self, Error> {
+        if self.travel == 0.0 {
+            return Err(Error::DrumMissing);
+        }
+        if !positive(rope.0) {
+            return Err(Error::PendulumLength);
+        }
+        let spring = self.at_motor(mass.0 * STANDARD_GRAVITY / rope.0);
+        if !positive(mass.0) || !positive(spring) {
+            return Err(Error::LoadMass);
+        }
+        match self.link(spring, 0.0) {
+            Ok(chain) => chain.try_driven(mass),
+            Err(error) => Err(error),
+        }
+    }
+
     /// Free travel along the load's path \[m\], such as a slack rope: `2 i n x / D` at the motor.
     #[must_use]
     pub const fn slack(self, travel: Length) -> Self {
@@ -166,7 +198,7 @@ impl Chain {
         match self.flow {
             Flow::Lossless => kept,
             Flow::Starting => kept / self.efficiency,
-            Flow::Braking => kept * self.efficiency,
+            Flow::Braking => kept * self.back_efficiency,
         }
     }
 }

@@ -8,10 +8,10 @@
 use super::chain::{CAPACITY, Chain};
 use crate::scalar::sqrt;
 
-const SHAFTS: usize = CAPACITY - 1;
+pub(super) const SHAFTS: usize = CAPACITY - 1;
 
 /// One column for each shaft, one row for each mass.
-type Columns = [[f64; CAPACITY]; SHAFTS];
+pub(super) type Columns = [[f64; CAPACITY]; SHAFTS];
 
 /// A natural vibration of the free chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub struct Mode {
     pub damping: f64,
 }
 
-/// The natural vibrations of a chain in rising order, without the rigid turning at zero frequency.
+/// The natural vibrations of a chain or train in rising order, without the rigid turning at zero frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Modes {
@@ -37,13 +37,40 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// The vibrations, one for each shaft, lowest first.
+    /// The vibrations, one for each mass but the motor, lowest first.
     #[must_use]
     pub const fn resonances(&self) -> &[Mode] {
         self.mode.split_at(self.count).0
     }
 
-    /// Natural frequencies with the motor held \[rad/s\], one for each shaft, lowest first.
+    /// Modes without damping from the transposes of the scaled stiffness roots of the free machine and of the machine with its motor held.
+    pub(super) const fn of(inertia: &[f64; CAPACITY], count: usize, free: Columns, held: Columns) -> Self {
+        let (free, held) = (singular(free, count), singular(held, count));
+        let mut modes = Self {
+            mode: [Mode { frequency: 0.0, shape: [0.0; CAPACITY], residue: 0.0, damping: 0.0 }; SHAFTS],
+            antiresonance: held.0,
+            count,
+        };
+        let mut i = 0;
+        while i < count {
+            let mode = &mut modes.mode[i];
+            mode.frequency = free.0[i];
+            let mut j = 0;
+            while j <= count {
+                mode.shape[j] = free.1[i][j] / (mode.frequency * sqrt(inertia[j]));
+                j += 1;
+            }
+            mode.residue = mode.shape[0] * mode.shape[0];
+            i += 1;
+        }
+        modes
+    }
+
+    pub(super) const fn mode_mut(&mut self, index: usize) -> &mut Mode {
+        &mut self.mode[index]
+    }
+
+    /// Natural frequencies with the motor held \[rad/s\], one for each mass but the motor, lowest first.
     #[must_use]
     pub const fn antiresonances(&self) -> &[f64] {
         self.antiresonance.split_at(self.count).0
@@ -63,24 +90,12 @@ impl Chain {
             stiffness[j] = self.shaft[j].stiffness;
             j += 1;
         }
-        let free = singular(scaled_incidence(&self.inertia, &stiffness, shafts, false), shafts);
-        let held = singular(scaled_incidence(&self.inertia, &stiffness, shafts, true), shafts);
-
-        let mut modes = Modes {
-            mode: [Mode { frequency: 0.0, shape: [0.0; CAPACITY], residue: 0.0, damping: 0.0 }; SHAFTS],
-            antiresonance: held.0,
-            count: shafts,
-        };
+        let free = scaled_incidence(&self.inertia, &stiffness, shafts, false);
+        let held = scaled_incidence(&self.inertia, &stiffness, shafts, true);
+        let mut modes = Modes::of(&self.inertia, shafts, free, held);
         let mut i = 0;
         while i < shafts {
-            let mode = &mut modes.mode[i];
-            mode.frequency = free.0[i];
-            let mut j = 0;
-            while j <= shafts {
-                mode.shape[j] = free.1[i][j] / (mode.frequency * sqrt(self.inertia[j]));
-                j += 1;
-            }
-            mode.residue = mode.shape[0] * mode.shape[0];
+            let mode = modes.mode_mut(i);
             let mut j = 0;
             while j < shafts {
                 let twist = mode.shape[j] - mode.shape[j + 1];

@@ -53,6 +53,12 @@ impl Planetary {
             self.planet.0 * spin * spin + self.planet_mass.0 * (radius * carrier_speed) * (radius * carrier_speed);
         self.sun.0 + self.planets as f64 * planet + self.carrier.0 * carrier_speed * carrier_speed
     }
+
+    /// Inertia of the whole set at the carrier \[kg m2\], without losses: `ratio^2` of that at the sun.
+    #[must_use]
+    pub const fn inertia_at_carrier(&self) -> f64 {
+        self.inertia_at_sun() * self.ratio() * self.ratio()
+    }
 }
 
 impl Chain {

@@ -22,18 +22,22 @@ quantity! {
     Ratio,
     /// Efficiency, above 0 and at most 1.
     Efficiency,
-    /// Diameter of a drum, pinion or wheel \[m\].
+    /// Diameter of a drum, pinion, wheel or shaft \[m\].
     Diameter,
     /// Mass \[kg\].
     Mass,
     /// Free travel of a backlash \[rad\] on its own shaft: the whole gap, not half of it.
     Gap,
-    /// Free travel along a straight line \[m\].
+    /// Travel along a straight line, or length of a shaft, rod or pendulum \[m\].
     Length,
     /// Torque \[N m\].
     Torque,
     /// Angular speed \[rad/s\].
     Speed,
+    /// Shear modulus of a material \[Pa\].
+    ShearModulus,
+    /// Density of a material \[kg/m3\].
+    Density,
 }
 
 /// Falls of a rope: how many parts carry the load, at least 1. The load travels `1/falls` of what the drum winds.

@@ -1,7 +1,7 @@
 //! Two masses in place of a chain, as the motor sees it, and what that leaves out.
 
 use super::refer::series;
-use super::{Chain, Error, TwoMass};
+use super::{Chain, Error, Mode, TwoMass};
 
 /// How two masses stand in for a chain. Every choice keeps the total inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,21 +94,8 @@ impl Chain {
         let first = modes.resonances()[0];
         let total = self.total_inertia();
         match by {
-            Match::ResonanceAntiresonance => {
-                let held = modes.antiresonances()[0];
-                let ratio = held / first.frequency;
-                machine.motor_inertia = total * ratio * ratio;
-                machine.load_inertia = total * (1.0 - ratio) * (1.0 + ratio);
-                machine.stiffness = held * held * machine.load_inertia;
-                machine.damping = first.damping * machine.reduced_inertia();
-            }
-            Match::ModalTruncation => {
-                let share = first.residue * total;
-                machine.motor_inertia = total / (1.0 + share);
-                machine.load_inertia = total * share / (1.0 + share);
-                machine.stiffness = first.frequency * first.frequency * machine.reduced_inertia();
-                machine.damping = first.damping * machine.reduced_inertia();
-            }
+            Match::ResonanceAntiresonance => matched(&mut machine, total, &first, modes.antiresonances()[0]),
+            Match::ModalTruncation => truncated(&mut machine, total, &first),
             Match::TextbookCut(cut) => {
                 self.lump(&mut machine, cut);
                 let mut k = self.shaft[0].stiffness;
@@ -188,6 +175,24 @@ impl Chain {
         }
         compliance(&self.inertia, &stiffness, self.count - 1)
     }
+}
+
+/// Gives two masses of this total the frequency of a vibration and an antiresonance \[rad/s\].
+pub(super) const fn matched(machine: &mut TwoMass, total: f64, first: &Mode, held: f64) {
+    let ratio = held / first.frequency;
+    machine.motor_inertia = total * ratio * ratio;
+    machine.load_inertia = total * (1.0 - ratio) * (1.0 + ratio);
+    machine.stiffness = held * held * machine.load_inertia;
+    machine.damping = first.damping * machine.reduced_inertia();
+}
+
+/// Gives two masses of this total the frequency of a vibration and its residue at the motor.
+pub(super) const fn truncated(machine: &mut TwoMass, total: f64, first: &Mode) {
+    let share = first.residue * total;
+    machine.motor_inertia = total / (1.0 + share);
+    machine.load_inertia = total * share / (1.0 + share);
+    machine.stiffness = first.frequency * first.frequency * machine.reduced_inertia();
+    machine.damping = first.damping * machine.reduced_inertia();
 }
 
 /// [`Chain::compliance`] of bare inertias and stiffnesses.

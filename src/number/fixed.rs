@@ -232,6 +232,16 @@ impl Number for Fixed {
     }
 
     #[inline(always)]
+    fn sixteenth(self) -> Self {
+        Fixed(self.0 >> 4)
+    }
+
+    #[inline(always)]
+    fn to_real(self) -> f64 {
+        self.to_f64()
+    }
+
+    #[inline(always)]
     fn to_word(self) -> u32 {
         self.0 as u32
     }

@@ -141,6 +141,16 @@ macro_rules! float {
             }
 
             #[inline(always)]
+            fn sixteenth(self) -> Self {
+                self * 0.0625
+            }
+
+            #[inline(always)]
+            fn to_real(self) -> f64 {
+                self.into()
+            }
+
+            #[inline(always)]
             fn to_word(self) -> u32 {
                 (self as f32).to_bits()
             }

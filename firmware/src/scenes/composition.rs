@@ -109,19 +109,23 @@ compositions! {
     );
 }
 
+// As in the drive, which keeps them to itself.
+const NONE_YET: i32 = i32::MIN;
+const ONE: i32 = NONE_YET + 1;
+
 /// An observer called by hand with the screening of [`driveline::drive`], without a drive: what a drive of nothing but an observer is
 /// measured against. It follows `Drive::observe` and `Drive::search` line by line.
 pub struct ByHand<N: Number + 'static, O: Observer<N, Config: 'static> + 'static> {
     config: &'static ConfigOf<N, O>,
     observer: O,
     torque: N,
-    missed: u32,
+    missed: i32,
 }
 
 impl<N: Number, O: Observer<N>> ByHand<N, O> {
     #[inline(always)]
     fn tick(&mut self, sample: &Sample<N>) -> Command<N> {
-        let faults = if self.missed > self.config.limits.missed { self.search(sample) } else { self.observe(sample) };
+        let faults = if self.missed < 0 { self.search(sample) } else { self.observe(sample) };
         Command { torque: N::ZERO, faults }
     }
 
@@ -145,7 +149,7 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
         if frozen || predicted.innovation().exceeds(limits.innovation) {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
-            self.missed = missed.wrapping_add(1);
+            self.missed = if (missed as u32) < limits.missed { missed.wrapping_add(1) } else { NONE_YET };
         } else {
             self.observer.correct(config, predicted, sample.angle);
             if missed != 0 {
@@ -155,7 +159,8 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
         faults | Faults::from_bits(self.observer.beyond_base())
     }
 
-    #[inline(always)]
+    #[cold]
+    #[inline(never)]
     fn search(&mut self, sample: &Sample<N>) -> Faults {
         let limits = &self.config.limits;
         let mut faults = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
@@ -164,16 +169,15 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
             torque = N::ZERO;
             faults |= Faults::TORQUE;
         }
-        let (none_yet, one) = (limits.missed.saturating_add(1), limits.missed.saturating_add(2));
         let last = self.observer.angle();
         let turned = N::from_angle(sample.angle.wrapping_sub(last) as i32);
         let speed = O::speed_of_turn(&self.config.observer, turned);
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
-            self.missed = none_yet;
-        } else if self.missed == none_yet || speed.exceeds(limits.reference.plus(limits.reference)) {
+            self.missed = NONE_YET;
+        } else if self.missed == NONE_YET || speed.exceeds(limits.reference.plus(limits.reference)) {
             self.observer.synchronise(sample.angle);
-            self.missed = one;
+            self.missed = ONE;
         } else {
             let count = O::speed_of_turn(&self.config.observer, N::ZERO.less_turn(limits.standstill)).magnitude();
             let known = self.observer.estimate(&self.config.observer).motor_speed;
@@ -182,7 +186,7 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
             } else {
                 self.observer.synchronise(sample.angle);
             }
-            self.missed = limits.missed;
+            self.missed = limits.missed as i32 & i32::MAX;
         }
         self.torque = N::ZERO;
         faults

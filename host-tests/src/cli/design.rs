@@ -84,6 +84,13 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
     fact("weight", machine.chain.gravity_torque(), "N m");
     text.push_str(&format!("{facts}\n"));
     if let Some(shaft) = &plan.shaft {
+        if shaft.reduction_error > super::plan::Shaft::LARGE_REDUCTION_ERROR {
+            text.push_str(&format!(
+                "warning: two masses are a poor image of this machine: what they leave out may be {} of a jump of the motor's speed; \
+                 see the modes with `cargo driveline modes`\n\n",
+                percent(shaft.reduction_error)
+            ));
+        }
         let bound = match shaft.semi_implicit_error {
             Some(error) => format!("off by {} over a period of the resonance", percent(error)),
             None => "unstable".to_owned(),

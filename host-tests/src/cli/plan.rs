@@ -58,6 +58,11 @@ pub struct Shaft {
     pub torque_standard_deviation: f64,
 }
 
+impl Shaft {
+    /// The reduction error above which `design` warns: a third of what the motor does after a blow is then not in the model.
+    pub const LARGE_REDUCTION_ERROR: f64 = 1.0 / 3.0;
+}
+
 /// A state of the observer.
 #[derive(Clone, Debug, Serialize)]
 pub struct State {

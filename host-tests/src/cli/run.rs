@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{Failure, Progress, say, say_json};
-use crate::report::variants_table;
+use crate::report::{variants_table, writable};
 use crate::run::Plan;
 use crate::setup;
 
@@ -43,15 +43,16 @@ impl Run {
     /// No such scene or variant; what kept a variant from running; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
         let plan = Plan::of(&self.scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
+        let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{}.html", self.scene)));
+        let unwritable = |error| Failure::failed(format!("{} cannot be written: {error}", path.display()));
+        writable(&path).map_err(unwritable)?;
         setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
         let progress = Progress::of(plan.steps());
         let report = plan
             .run(&|text| progress.says(text), &|| progress.step())
             .map_err(|error| Failure::failed(error.to_string()))?;
         drop(progress);
-        let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{}.html", self.scene)));
-        let written = report.write(&path);
-        written.map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
+        report.write(&path).map_err(unwritable)?;
         if self.json {
             return say_json(&report.json());
         }

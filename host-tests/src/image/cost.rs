@@ -85,13 +85,15 @@ impl Cost {
 }
 
 /// Functions that the bench measures and `budgets.toml` may name.
-pub const BENCHES: [&str; 8] = [
+pub const BENCHES: &[&str] = &[
     "bench/step/exact",
     "bench/step/semi-implicit",
     "bench/step/rigid",
     "bench/drive/exact",
     "bench/drive/semi-implicit",
     "bench/drive/rigid",
+    "bench/phasor/1",
+    "bench/phasor/2",
     "bench/step/backlash",
     "bench/drive/backlash",
 ];

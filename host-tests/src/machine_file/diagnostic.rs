@@ -19,9 +19,9 @@ pub struct Diagnostic(Box<Fault>);
 pub struct Fault {
     /// The file as the user named it.
     pub file: String,
-    /// Line, from 1.
+    /// Line, from 1; 0 where the fault is the file as a whole.
     pub line: usize,
-    /// Column in characters, from 1.
+    /// Column in characters, from 1; 0 where the fault is the file as a whole.
     pub column: usize,
     /// The key as a path, as `element[2].inertia`; empty where the fault is the file itself.
     pub key: String,
@@ -67,8 +67,8 @@ impl Diagnostic {
     pub fn of_file(file: &str, found: impl Into<String>, expected: impl Into<String>) -> Self {
         Self(Box::new(Fault {
             file: file.to_owned(),
-            line: 1,
-            column: 1,
+            line: 0,
+            column: 0,
             key: String::new(),
             found: found.into(),
             expected: expected.into(),
@@ -85,7 +85,10 @@ impl Diagnostic {
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Fault { file, line, column, key, found, expected, .. } = &**self;
-        write!(f, "{file}:{line}:{column}: ")?;
+        match line {
+            0 => write!(f, "{file}: ")?,
+            _ => write!(f, "{file}:{line}:{column}: ")?,
+        }
         if !key.is_empty() {
             write!(f, "`{key}`: ")?;
         }

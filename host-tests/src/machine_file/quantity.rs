@@ -63,6 +63,30 @@ impl Quantity {
     pub const TORQUE: Self = positive("N m");
     /// Speed.
     pub const SPEED: Self = positive("rad/s");
+    /// Density; osmium has 22,600.
+    pub const DENSITY: Self = Quantity { least: 1.0, most: 1e5, ..positive("kg/m³") };
+    /// Young's modulus.
+    pub const YOUNG: Self = Quantity { least: 1e6, most: 1e13, ..positive("Pa") };
+    /// Poisson's ratio.
+    pub const POISSON: Self = Quantity { least: 1e-6, most: 0.5, zero: true, ..positive("") };
+    /// Length of a shaft element.
+    pub const LENGTH: Self = Quantity { least: 1e-6, most: 1e3, ..positive("m") };
+    /// A bore, zero for none.
+    pub const BORE: Self = Quantity { zero: true, ..Self::DIAMETER };
+    /// Equal elements that a piece of shaft is cut into.
+    pub const PIECES: Self = Quantity { least: 1.0, most: 64.0, whole: true, ..positive("") };
+    /// A node of the shaft.
+    pub const NODE: Self = Quantity { least: 1.0, most: 64.0, zero: true, whole: true, unit: "" };
+    /// Stiffness of a bearing.
+    pub const BEARING: Self = positive("N/m");
+    /// Coupling of the two directions of a bearing by its stiffness.
+    pub const CROSS: Self = Quantity { least: -FAR, most: FAR, zero: true, whole: false, unit: "N/m" };
+    /// Damping of a bearing.
+    pub const BEARING_DAMPING: Self = not_negative("N s/m");
+    /// Unbalance.
+    pub const UNBALANCE: Self = not_negative("kg m");
+    /// An angle in degrees.
+    pub const DEGREES: Self = Quantity { least: -360.0, most: 360.0, zero: true, whole: false, unit: "degrees" };
     /// Time.
     pub const TIME: Self = positive("s");
 

@@ -25,6 +25,11 @@ const NAME: &str = "a name of 1 to 40 letters, digits, spaces, `-` and `_`, with
 /// # Errors
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn read(path: &Path) -> Result<MachineFile, Diagnostic> {
+    load(path, parse)
+}
+
+/// Reads a file with a parser that is given its name and its text.
+pub(super) fn load<T>(path: &Path, parse: fn(&str, &str) -> Result<T, Diagnostic>) -> Result<T, Diagnostic> {
     let name = printable(&path.display().to_string(), 200);
     let file =
         |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), "a machine file");
@@ -63,13 +68,7 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let document = DeTable::parse(text).map_err(|error| not_toml(source, &error))?;
     let mut root = Table::root(source, document.get_ref());
 
-    let machine_name = root.text("name", NAME)?;
-    let allowed = |c: char| c.is_ascii_alphanumeric() || " -_".contains(c);
-    let named =
-        machine_name.len() <= 40 && machine_name.chars().all(allowed) && machine_name.contains(char::is_alphanumeric);
-    if !named {
-        return Err(root.wrong("name", NAME));
-    }
+    let machine_name = named(&mut root)?;
     let (elements, chain) = elements(source, &mut root)?;
     let encoder = section(&mut root, "encoder", |table| {
         // `LINES` and `RATE` allow whole numbers within `u32` only.
@@ -92,8 +91,16 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     Ok(MachineFile { name: machine_name.to_owned(), elements, encoder, control, disturbance, limits, chain })
 }
 
+/// The name that the file gives.
+pub(super) fn named<'a>(root: &mut Table<'a>) -> Result<&'a str, Diagnostic> {
+    let name = root.text("name", NAME)?;
+    let allowed = |c: char| c.is_ascii_alphanumeric() || " -_".contains(c);
+    let good = name.len() <= 40 && name.chars().all(allowed) && name.contains(char::is_alphanumeric);
+    if good { Ok(name) } else { Err(root.wrong("name", NAME)) }
+}
+
 /// Reads a table of settings, all of its keys.
-fn section<T>(
+pub(super) fn section<T>(
     root: &mut Table<'_>,
     key: &'static str,
     read: impl FnOnce(&mut Table<'_>) -> Result<T, Diagnostic>,
@@ -155,7 +162,7 @@ fn label(table: &mut Table<'_>) -> Result<Option<String>, Diagnostic> {
 }
 
 /// A fault of the TOML itself, with the key of its line where there is one.
-fn not_toml(source: Source<'_>, error: &toml::de::Error) -> Diagnostic {
+pub(super) fn not_toml(source: Source<'_>, error: &toml::de::Error) -> Diagnostic {
     let span = error.span().unwrap_or(0..0);
     let line = source.line(span.start);
     let key = line.split_once('=').map_or("", |(key, _)| key.trim());

@@ -80,6 +80,39 @@ impl<'a> Table<'a> {
             .ok_or_else(|| self.wrong(key, quantity.to_string()))
     }
 
+    /// A number that may be left out.
+    ///
+    /// # Errors
+    /// Not a number, or out of the quantity's range.
+    pub fn number_if(&mut self, key: &'static str, quantity: Quantity) -> Result<Option<f64>, Diagnostic> {
+        let Some(value) = self.get(key) else { return Ok(None) };
+        self.in_range(key, value, quantity).map(Some)
+    }
+
+    /// A table that may be left out.
+    ///
+    /// # Errors
+    /// Not a table.
+    pub fn table_if(&mut self, key: &'static str) -> Result<Option<Table<'a>>, Diagnostic> {
+        if self.table.iter().any(|(name, _)| name.get_ref() == key) {
+            return self.table(key).map(Some);
+        }
+        self.asked.push(key);
+        Ok(None)
+    }
+
+    /// A list of tables that may be left out.
+    ///
+    /// # Errors
+    /// Not a list of tables.
+    pub fn tables_if(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
+        if self.table.iter().any(|(name, _)| name.get_ref() == key) {
+            return self.list(key, of);
+        }
+        self.asked.push(key);
+        Ok(Vec::new())
+    }
+
     /// A text that must be there.
     ///
     /// # Errors
@@ -119,7 +152,15 @@ impl<'a> Table<'a> {
     /// # Errors
     /// Missing, empty, or not a list of tables.
     pub fn tables(&mut self, key: &'static str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
-        let expected = format!("one table [[{key}]] for each part of the machine, the motor first");
+        self.list(key, "part of the machine, the motor first")
+    }
+
+    /// A list of tables that must be there, one for each of something.
+    ///
+    /// # Errors
+    /// Missing, empty, or not a list of tables.
+    pub fn list(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
+        let expected = format!("one table [[{key}]] for each {of}");
         let Some(value) = self.get(key) else {
             return Err(self.missing(key, expected));
         };

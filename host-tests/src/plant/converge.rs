@@ -19,6 +19,7 @@
 
 mod crossing;
 mod machine;
+pub(super) mod pass;
 mod recording;
 mod rerun;
 

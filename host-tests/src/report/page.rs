@@ -10,9 +10,10 @@ use serde::Serialize;
 use super::Report;
 
 /// The page's template and its parts, compiled into the program.
-const TEMPLATES: [(&str, &str); 5] = [
+const TEMPLATES: &[(&str, &str)] = &[
     ("page.html", include_str!("page/page.html")),
     ("machine.html", include_str!("page/machine.html")),
+    ("sheet.html", include_str!("page/sheet.html")),
     ("backlash.html", include_str!("page/backlash.html")),
     ("frame.html", include_str!("page/frame.html")),
     ("style.css", include_str!("page/style.css")),
@@ -29,7 +30,7 @@ pub(super) fn fill(template: &str, values: impl Serialize) -> String {
             if name.ends_with(".html") { AutoEscape::Html } else { AutoEscape::None }
         },
     );
-    for (name, text) in TEMPLATES {
+    for &(name, text) in TEMPLATES {
         environment.add_template(name, text).expect("a template of the report is not well-formed");
     }
     let template = environment.get_template(template).expect("the report's template is compiled in");

@@ -34,7 +34,7 @@ impl Plan {
         let machine = hoist::machine().map_err(|error| format!("the plant of scene `{scene}`: {error}"))?;
         let candidates = candidates(scene, filter);
         if let (true, Some(filter)) = (candidates.is_empty(), filter) {
-            let all = engine_keys(scene);
+            let all = keys(scene);
             return Err(format!("no variant of `{scene}` contains `{filter}`; there are {all}"));
         }
         Ok(Plan { machine, candidates, options: Options { quick }, whole: filter.is_none() })
@@ -134,7 +134,7 @@ impl Plan {
 }
 
 /// The keys of a scene's variants, for a message.
-fn engine_keys(scene: &str) -> String {
+fn keys(scene: &str) -> String {
     let keys: Vec<String> = candidates(scene, None).iter().map(Candidate::key).collect();
     keys.join(", ")
 }

@@ -1,25 +1,22 @@
 //! When the first guard falls, found by integrating to ever closer times.
 
 use super::NotProven;
-use super::machine::{Change, Machine};
-use super::rerun::Pass;
+use super::pass::{Hybrid, Pass};
 
 /// A guard below this share of its size has fallen.
 const FALLEN: f64 = 1e-12;
-/// An event is found within this time, s.
-const CLOSE: f64 = 1e-15;
 
 /// The first guard to fall within `left` seconds, and after how long. `ahead` is the state at the end.
-pub(super) fn first_change(
+pub(super) fn first_change<H: Hybrid>(
     pass: &Pass,
-    machine: &Machine,
+    machine: &H,
     y: &[f64],
     ahead: &[f64],
     now: f64,
     left: f64,
-) -> Result<Option<(f64, Change)>, NotProven> {
+) -> Result<Option<(f64, H::Change)>, NotProven> {
     let (before, after) = (machine.guards(now, y), machine.guards(now + left, ahead));
-    let mut first: Option<(f64, Change)> = None;
+    let mut first: Option<(f64, H::Change)> = None;
     for (index, (start, end)) in before.iter().zip(&after).enumerate() {
         let fallen = -FALLEN * start.1.max(end.1);
         let watch = Watch { pass, machine, y, now, left, index, fallen };
@@ -38,9 +35,9 @@ pub(super) fn first_change(
 }
 
 /// One guard over one piece.
-struct Watch<'a, 'b> {
+struct Watch<'a, H> {
     pass: &'a Pass,
-    machine: &'a Machine<'b>,
+    machine: &'a H,
     y: &'a [f64],
     now: f64,
     left: f64,
@@ -49,7 +46,7 @@ struct Watch<'a, 'b> {
     fallen: f64,
 }
 
-impl Watch<'_, '_> {
+impl<H: Hybrid> Watch<'_, H> {
     fn value(&self, after: f64) -> Result<f64, NotProven> {
         let there = self.pass.integrate(self.machine, self.y, self.now, after)?;
         Ok(self.machine.guards(self.now + after, &there)[self.index].0)
@@ -109,7 +106,7 @@ impl Watch<'_, '_> {
 
     /// The fallen end of the bracket, halved until it is shut.
     fn close_in(&self, mut a: f64, mut b: f64) -> Result<f64, NotProven> {
-        while b - a > CLOSE {
+        while b - a > self.pass.close {
             let middle = 0.5 * (a + b);
             if middle <= a || middle >= b {
                 break;

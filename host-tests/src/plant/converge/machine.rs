@@ -3,6 +3,7 @@
 use super::super::chain::Chain;
 use super::super::excitation::MotorLaw;
 use super::super::solver::Plant;
+use super::pass::Hybrid;
 
 /// How a node stands to its dry friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -152,22 +153,6 @@ impl<'a> Machine<'a> {
         ((torque * eta).min(torque / eta), (torque * eta).max(torque / eta))
     }
 
-    pub fn rate(&self, t: f64, y: &[f64], out: &mut [f64]) {
-        let n = self.n();
-        for (s, twist_rate) in out[..n - 1].iter_mut().enumerate() {
-            *twist_rate = self.speed(y, s) - self.speed(y, s + 1);
-        }
-        for j in 0..n {
-            let net = self.push(t, y, j);
-            out[n - 1 + j] = match self.motion[j] {
-                Motion::Held => 0.0,
-                Motion::Smooth => net - self.reaction(t, y, j),
-                Motion::Sliding(way) => net - self.reaction(t, y, j) - way * self.dry[j],
-            } / self.chain.nodes[j].inertia;
-        }
-        out[2 * n - 1] = self.speed(y, 0);
-    }
-
     /// Sets a node with dry friction or a lossy gear moving, or holds it.
     pub fn judge(&mut self, t: f64, y: &[f64], node: usize) {
         if self.dry[node] == 0.0 && self.chain.nodes[node].efficiency == 1.0 {
@@ -187,9 +172,28 @@ impl<'a> Machine<'a> {
             Motion::Held
         };
     }
+}
 
-    /// Guards that must stay above zero: value, size to measure its rounding by, and what its fall means.
-    pub fn guards(&self, t: f64, y: &[f64]) -> Vec<(f64, f64, Change)> {
+impl Hybrid for Machine<'_> {
+    type Change = Change;
+
+    fn rate(&self, t: f64, y: &[f64], out: &mut [f64]) {
+        let n = self.n();
+        for (s, twist_rate) in out[..n - 1].iter_mut().enumerate() {
+            *twist_rate = self.speed(y, s) - self.speed(y, s + 1);
+        }
+        for j in 0..n {
+            let net = self.push(t, y, j);
+            out[n - 1 + j] = match self.motion[j] {
+                Motion::Held => 0.0,
+                Motion::Smooth => net - self.reaction(t, y, j),
+                Motion::Sliding(way) => net - self.reaction(t, y, j) - way * self.dry[j],
+            } / self.chain.nodes[j].inertia;
+        }
+        out[2 * n - 1] = self.speed(y, 0);
+    }
+
+    fn guards(&self, t: f64, y: &[f64]) -> Vec<(f64, f64, Change)> {
         let mut all = Vec::new();
         for (s, shaft) in self.chain.shafts.iter().enumerate().filter(|(_, shaft)| !shaft.is_linear()) {
             let reach = if shaft.rope { shaft.gap } else { 0.5 * shaft.gap };
@@ -240,7 +244,7 @@ impl<'a> Machine<'a> {
         all
     }
 
-    pub fn change(&mut self, t: f64, y: &mut [f64], change: Change) {
+    fn change(&mut self, t: f64, y: &mut [f64], change: Change) {
         match change {
             Change::Contact(shaft, side) => {
                 self.side[shaft] = side;

@@ -1,24 +1,16 @@
-//! The second integration: DOP853 over short pieces, events found by integrating up to them again and again.
+//! The second integration of a chain, from its recording.
 
-use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
-use differential_equations::prelude::ExplicitRungeKutta;
-
-use super::crossing::first_change;
 use super::machine::Machine;
+use super::pass::{CLOSE, Pass, REACH};
 use super::recording::{Recording, Step};
 use super::{super::solver::Plant, NotProven};
-
-/// Relative tolerance of the integrator; a run of 1e5 pieces may gather 1e-8 of it at the very worst.
-const TOLERANCE: f64 = 1e-13;
-/// Product of the fastest rate and a piece, at most.
-const REACH: f64 = 0.25;
 
 /// Runs the recording again; one sample per tick.
 pub(super) fn rerun(run: &Recording) -> Result<Vec<Vec<f64>>, NotProven> {
     let plant = &run.start;
     let mut y = plant.x.clone();
     let mut machine = Machine::new(plant, &y);
-    let mut pass = Pass { scale: scale(run, plant), longest: REACH / fastest(plant) };
+    let pass = Pass { scale: scale(run, plant), longest: REACH / fastest(plant), close: CLOSE };
     let mut samples = Vec::new();
     let mut start = plant.time();
     let mut fresh = true;
@@ -29,7 +21,7 @@ pub(super) fn rerun(run: &Recording) -> Result<Vec<Vec<f64>>, NotProven> {
                 if std::mem::take(&mut fresh) {
                     (0..plant.nodes()).for_each(|j| machine.judge(start, &y, j));
                 }
-                pass.tick(&mut machine, &mut y, start, dt)?;
+                tick(&pass, &mut machine, &mut y, start, dt)?;
                 start += dt;
                 samples.push(sample(&machine, start, &y));
             }
@@ -73,82 +65,17 @@ fn fastest(plant: &Plant) -> f64 {
     rates.fold(0.0, f64::max)
 }
 
-/// The equations in multiples of the scale, for one error tolerance to fit all.
-struct Scaled<'a, 'b> {
-    machine: &'a Machine<'b>,
-    scale: &'a [f64],
-    /// Where the integrator's time zero lies, s.
-    origin: f64,
-}
-
-impl ODE<f64, Vec<f64>> for Scaled<'_, '_> {
-    fn diff(&self, t: f64, z: &Vec<f64>, dz: &mut Vec<f64>) {
-        let y: Vec<f64> = z.iter().zip(self.scale).map(|(z, s)| z * s).collect();
-        self.machine.rate(self.origin + t, &y, dz);
-        dz.iter_mut().zip(self.scale).for_each(|(d, s)| *d /= s);
+fn tick(pass: &Pass, machine: &mut Machine, y: &mut Vec<f64>, start: f64, dt: f64) -> Result<(), NotProven> {
+    let mut corners = vec![start, start + dt];
+    let within = |t: &f64| *t > start && *t < start + dt;
+    for node in &machine.chain.nodes {
+        let mut from = start;
+        while let Some(corner) = node.program.as_ref().and_then(|p| p.corner_after(from)).filter(within) {
+            corners.push(corner);
+            from = corner;
+        }
     }
-}
-
-/// How a piece is integrated.
-pub(super) struct Pass {
-    scale: Vec<f64>,
-    longest: f64,
-}
-
-impl Pass {
-    fn tick(&mut self, machine: &mut Machine, y: &mut Vec<f64>, start: f64, dt: f64) -> Result<(), NotProven> {
-        let mut corners = vec![start, start + dt];
-        let within = |t: &f64| *t > start && *t < start + dt;
-        for node in &machine.chain.nodes {
-            let mut from = start;
-            while let Some(corner) = node.program.as_ref().and_then(|p| p.corner_after(from)).filter(within) {
-                corners.push(corner);
-                from = corner;
-            }
-        }
-        corners.extend(machine.chain.law.corner_after(start).filter(within));
-        corners.sort_by(f64::total_cmp);
-        for pair in corners.windows(2) {
-            let pieces = ((pair[1] - pair[0]) / self.longest).ceil().max(1.0);
-            for i in 0..pieces as usize {
-                let piece = (pair[1] - pair[0]) / pieces;
-                self.piece(machine, y, pair[0] + i as f64 * piece, piece)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn piece(&self, machine: &mut Machine, y: &mut Vec<f64>, t: f64, length: f64) -> Result<(), NotProven> {
-        let (mut now, mut left) = (t, length);
-        for _ in 0..1000 {
-            let ahead = self.integrate(machine, y, now, left)?;
-            let Some((after, change)) = first_change(self, machine, y, &ahead, now, left)? else {
-                *y = ahead;
-                return Ok(());
-            };
-            *y = self.integrate(machine, y, now, after)?;
-            (now, left) = (now + after, left - after);
-            machine.change(now, y, change);
-        }
-        Err(NotProven::Integrator { time: now, reason: "a thousand events in one piece".into() })
-    }
-
-    /// The state `length` seconds after `t`, with no event on the way.
-    pub fn integrate(&self, machine: &Machine, y: &[f64], t: f64, length: f64) -> Result<Vec<f64>, NotProven> {
-        if length <= 0.0 {
-            return Ok(y.to_vec());
-        }
-        let equations = Scaled { machine, scale: &self.scale, origin: t };
-        let start: Vec<f64> = y.iter().zip(&self.scale).map(|(y, s)| y / s).collect();
-        let failed = |reason: String| NotProven::Integrator { time: t, reason };
-        let mut method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE).h0(length);
-        method.init(&equations, 0.0, length, &start).map_err(|e| failed(format!("{e:?}")))?;
-        // the integrator refuses a step of less than 1e-14 of the one before
-        while length - method.t() > 1e-14 * length {
-            let h = method.h().min(length - method.t());
-            method.set_h(h);
-            method.step(&equations).map_err(|e| failed(format!("{e:?}")))?;
-        }
-        Ok(method.y().iter().zip(&self.scale).map(|(z, s)| z * s).collect())
-    }
+    corners.extend(machine.chain.law.corner_after(start).filter(within));
+    corners.sort_by(f64::total_cmp);
+    corners.windows(2).try_for_each(|pair| pass.between(machine, y, pair[0], pair[1]))
 }

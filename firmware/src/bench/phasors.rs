@@ -1,0 +1,50 @@
+//! The measurement of the rotor's vibration, of one channel and of two.
+
+use driveline::balance::{Balancer, Phasors, PhasorsConfig, Synchronous};
+use driveline::constants::Measured;
+use driveline::number::Fixed;
+
+use super::Bench;
+use crate::board::Board;
+use crate::program::Program;
+
+/// A rotor behind a gear, a block every turn so that the ends of blocks occur among the calls.
+const GEARED: Measured = Measured { rotor_turns: 31, motor_turns: 47, turns: 1, ..Measured::DIRECT };
+
+static SINGLE: (PhasorsConfig<f32, 1>, PhasorsConfig<f32, 2>) =
+    (PhasorsConfig::<f32, 1>::new(&GEARED, [7.5]), PhasorsConfig::<f32, 2>::new(&GEARED, [7.5; 2]));
+static FIXED: (PhasorsConfig<Fixed, 1>, PhasorsConfig<Fixed, 2>) =
+    (PhasorsConfig::<Fixed, 1>::new(&GEARED, [0.45]), PhasorsConfig::<Fixed, 2>::new(&GEARED, [0.45; 2]));
+
+/// In `f32`.
+pub fn single<B: Board>(bench: &mut Bench<'_, B>) {
+    channels::<B, f32, 1>(bench, "phasor/1", &SINGLE.0);
+    channels::<B, f32, 2>(bench, "phasor/2", &SINGLE.1);
+}
+
+/// In fixed point.
+pub fn fixed<B: Board>(bench: &mut Bench<'_, B>) {
+    channels::<B, Fixed, 1>(bench, "phasor/1", &FIXED.0);
+    channels::<B, Fixed, 2>(bench, "phasor/2", &FIXED.1);
+}
+
+type State<N, const C: usize> = (&'static PhasorsConfig<N, C>, Phasors<N, C, 9>);
+
+fn channels<B: Board, N: Synchronous + 'static, const C: usize>(
+    bench: &mut Bench<'_, B>,
+    name: &str,
+    config: &'static PhasorsConfig<N, C>,
+) {
+    let input = |inputs: &mut Program| {
+        let input = inputs.next_input();
+        (input.angle, input.vibration.map(N::from_word))
+    };
+    bench.measure(name, (config, Phasors::default()), input, measure::<N, C>);
+}
+
+#[inline(never)]
+fn measure<N: Synchronous, const C: usize>(state: &mut State<N, C>, input: &(u32, [N; 2]), _: &mut ()) {
+    if let Some(vibration) = input.1.first_chunk() {
+        state.1.measure(state.0, input.0, vibration);
+    }
+}

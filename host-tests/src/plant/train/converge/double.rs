@@ -1,0 +1,378 @@
+//! The train once more, written for an ordinary integrator: forces and torques from the laws as they stand in the
+//! books.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::super::{Source, Train, Variation};
+use crate::plant::converge::pass::Hybrid;
+
+/// What a guard that falls below zero stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Change {
+    Side(usize, f64),
+    Flow(usize),
+    Rest(usize),
+    Loose(usize, f64),
+    Arc(usize, i64),
+}
+
+/// Side of a rope that is stretched but whose damper has stopped pulling.
+const TRAILING: f64 = 0.5;
+
+/// Parameters and discrete state. The continuous state is elongations, speeds, angles.
+pub struct Double<'a> {
+    train: &'a Train,
+    pub held: Vec<f64>,
+    /// A time within the present interval between corners of the torques and stiffnesses, s.
+    pub middle: f64,
+    side: Vec<f64>,
+    flow: Vec<f64>,
+    /// Of each friction: the way it slides, 0 while it sticks.
+    way: Vec<f64>,
+    arcs: Vec<(usize, usize, i64)>,
+}
+
+impl<'a> Double<'a> {
+    pub fn new(train: &'a Train, held: Vec<f64>, arcs: &[(usize, usize, i64)]) -> Self {
+        let side = train.links.iter().map(|link| {
+            let reach = if link.rope { link.gap } else { 0.5 * link.gap };
+            if link.is_linear() || link.elongation > reach {
+                1.0
+            } else if link.elongation < -reach && !link.rope {
+                -1.0
+            } else {
+                0.0
+            }
+        });
+        Self {
+            side: side.collect(),
+            flow: vec![1.0; train.links.len()],
+            way: vec![0.0; train.frictions.len()],
+            arcs: arcs.to_vec(),
+            held,
+            middle: 0.0,
+            train,
+        }
+    }
+
+    /// Directions of the frictions and flows at the start.
+    pub fn settle(&mut self, t: f64, y: &[f64]) {
+        for l in 0..self.train.links.len() {
+            let strain = self.strain(t, y, l);
+            let toward = strain * self.train.links[l].terms[0].1;
+            self.flow[l] = if toward < 0.0 { -1.0 } else { 1.0 };
+            if self.train.links[l].rope && self.side[l] == 1.0 && strain < 0.0 {
+                self.side[l] = TRAILING;
+            }
+        }
+        for s in 0..self.way.len() {
+            let over = self.over(y, s);
+            self.way[s] = if over == 0.0 { 0.0 } else { over.signum() };
+        }
+        for s in 0..self.way.len() {
+            if self.way[s] == 0.0 {
+                self.judge(t, y, s);
+            }
+        }
+    }
+
+    fn speed(&self, y: &[f64], j: usize) -> f64 {
+        y[self.train.links.len() + j]
+    }
+
+    fn angle(&self, y: &[f64], j: usize) -> f64 {
+        y[self.train.links.len() + self.train.coordinates.len() + j]
+    }
+
+    /// Stiffness and error of a link.
+    fn law(&self, t: f64, l: usize) -> (f64, f64) {
+        let link = &self.train.links[l];
+        match &link.variation {
+            None => (link.stiffness, 0.0),
+            Some(Variation::Zones(zones)) => {
+                let cycle: f64 = zones.iter().map(|zone| zone.duration).sum();
+                let mut left = self.middle.rem_euclid(cycle);
+                for zone in zones {
+                    if left < zone.duration {
+                        return (zone.stiffness, zone.error_force / zone.stiffness);
+                    }
+                    left -= zone.duration;
+                }
+                (zones[0].stiffness, zones[0].error_force / zones[0].stiffness)
+            }
+            Some(Variation::Harmonics { frequency, stiffness, error }) => {
+                let turn = |h: &super::super::Harmonic| {
+                    let phase = TAU * frequency * h.order * t;
+                    h.cosine * phase.cos() + h.sine * phase.sin()
+                };
+                (link.stiffness + stiffness.iter().map(turn).sum::<f64>(), error.iter().map(turn).sum())
+            }
+        }
+    }
+
+    /// Force of a link as if it were in contact, on the positive side if it is on none.
+    fn strain(&self, t: f64, y: &[f64], l: usize) -> f64 {
+        let link = &self.train.links[l];
+        let reach = if link.rope { link.gap } else { 0.5 * link.gap * self.side[l] };
+        let (k, error) = self.law(t, l);
+        let rate: f64 = link.terms.iter().map(|&(at, c)| c * self.speed(y, at)).sum();
+        k * (y[l] - reach + error) + link.damping * rate
+    }
+
+    /// Force that the link carries.
+    pub fn carried(&self, t: f64, y: &[f64], l: usize) -> f64 {
+        if self.side[l].abs() == 1.0 { self.strain(t, y, l) } else { 0.0 }
+    }
+
+    fn torque(&self, t: f64, y: &[f64], j: usize, s: usize, source: &Source) -> f64 {
+        let (speed, angle) = (self.speed(y, j), self.angle(y, j));
+        match source {
+            Source::Constant(torque) => *torque,
+            Source::Program(program) => {
+                let (torque, rate) = program.at(self.middle);
+                torque + rate * (t - self.middle)
+            }
+            Source::Starting { torque, time, power } => {
+                if self.middle < *time {
+                    torque * (1.0 - (t / time).powi(i32::from(*power)))
+                } else {
+                    0.0
+                }
+            }
+            Source::Waveform(wave) => wave.at(t),
+            Source::Line { stall, slope } => stall - slope * speed,
+            Source::Parabola(a, b, c) => a + speed * (b + c * speed),
+            Source::Kloss { breakdown, slip, synchronous } => {
+                let at = 1.0 - speed / synchronous;
+                if at == 0.0 { 0.0 } else { 2.0 * breakdown / (at / slip + slip / at) }
+            }
+            Source::Arc { torque, .. } => {
+                let on = self.arcs.iter().any(|arc| arc.0 == j && arc.1 == s && arc.2.rem_euclid(2) == 1);
+                if on { *torque } else { 0.0 }
+            }
+            Source::Orders(orders) => {
+                let turn = |h: &super::super::Harmonic| {
+                    let phase = h.order * angle;
+                    h.cosine * phase.cos() + h.sine * phase.sin()
+                };
+                orders.iter().map(turn).sum()
+            }
+        }
+    }
+
+    fn over(&self, y: &[f64], s: usize) -> f64 {
+        let friction = &self.train.frictions[s];
+        friction.terms.iter().map(|&(at, c)| c * self.speed(y, at)).sum::<f64>() - friction.surface
+    }
+
+    fn loss(&self, l: usize) -> f64 {
+        let eta = self.train.links[l].efficiency;
+        let gear = self.train.frictions.iter().position(|friction| friction.losses.contains(&l));
+        let power = gear.map_or(0.0, |s| self.way[s]) * self.flow[l];
+        if eta == 1.0 || power == 0.0 {
+            1.0
+        } else if power > 0.0 {
+            1.0 / eta
+        } else {
+            eta
+        }
+    }
+
+    /// Torques on the coordinates but for the frictions that stick, and the forces of those.
+    fn balance(&self, t: f64, y: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let train = self.train;
+        let mut net: Vec<f64> = (0..train.coordinates.len())
+            .map(|j| {
+                let coordinate = &train.coordinates[j];
+                let sources = coordinate.sources.iter().enumerate();
+                let torque: f64 = sources.map(|(s, source)| self.torque(t, y, j, s, source)).sum();
+                self.held[j] + torque - coordinate.viscous * self.speed(y, j)
+            })
+            .collect();
+        for (l, link) in train.links.iter().enumerate() {
+            let force = self.carried(t, y, l);
+            for (i, &(at, c)) in link.terms.iter().enumerate() {
+                net[at] -= c * force * if i == 0 { self.loss(l) } else { 1.0 };
+            }
+        }
+        for (friction, way) in train.frictions.iter().zip(&self.way) {
+            for &(at, c) in &friction.terms {
+                net[at] -= c * way * friction.kinetic;
+            }
+        }
+        let stuck: Vec<usize> = (0..self.way.len()).filter(|&s| self.way[s] == 0.0).collect();
+        let mut forces = vec![0.0; self.way.len()];
+        if !stuck.is_empty() {
+            // accelerations of what sticks must vanish: rows scaled by the root of inertia, solved by least squares
+            let n = net.len();
+            let root = |j: usize| train.coordinates[j].inertia.sqrt();
+            let rows = DMatrix::from_fn(stuck.len(), n, |r, j| {
+                let terms = &train.frictions[stuck[r]].terms;
+                terms.iter().find(|term| term.0 == j).map_or(0.0, |term| term.1 / root(j))
+            });
+            let push = DVector::from_fn(n, |j, _| -net[j] / root(j));
+            let svd = rows.transpose().svd(true, true);
+            let size = svd.singular_values.max();
+            if let Ok(solution) = svd.solve(&push, 1e-9 * size) {
+                for (&s, force) in stuck.iter().zip(solution.iter()) {
+                    forces[s] = *force;
+                }
+            }
+        }
+        (net, forces)
+    }
+
+    /// How far a friction that sticks is from slipping to each side.
+    fn margin(&self, t: f64, y: &[f64], s: usize, force: f64, side: f64) -> f64 {
+        let friction = &self.train.frictions[s];
+        let mut room = friction.breakaway + side * force;
+        for &l in &friction.losses {
+            let eta = self.train.links[l].efficiency;
+            let torque = self.carried(t, y, l) * self.train.links[l].terms[0].1;
+            let factor = if side * self.flow[l] > 0.0 { 1.0 / eta } else { eta };
+            room += side * (factor - 1.0) * torque;
+        }
+        room
+    }
+
+    fn judge(&mut self, t: f64, y: &[f64], s: usize) {
+        self.way[s] = 0.0;
+        let force = self.balance(t, y).1[s];
+        for side in [1.0, -1.0] {
+            if self.margin(t, y, s, force, side) < 0.0 {
+                self.way[s] = side;
+                return;
+            }
+        }
+    }
+
+    fn arc_end(&self, arc: usize, passed: i64) -> f64 {
+        let (j, s, _) = self.arcs[arc];
+        let Source::Arc { from, to, .. } = &self.train.coordinates[j].sources[s] else { return f64::INFINITY };
+        TAU * passed.div_euclid(2) as f64 + if passed.rem_euclid(2) == 0 { *from } else { *to }
+    }
+}
+
+impl Hybrid for Double<'_> {
+    type Change = Change;
+
+    fn rate(&self, t: f64, y: &[f64], out: &mut [f64]) {
+        let (links, n) = (self.train.links.len(), self.train.coordinates.len());
+        for (l, link) in self.train.links.iter().enumerate() {
+            out[l] = link.terms.iter().map(|&(at, c)| c * self.speed(y, at)).sum();
+        }
+        let (net, forces) = self.balance(t, y);
+        for (j, coordinate) in self.train.coordinates.iter().enumerate() {
+            let sticking = self.train.frictions.iter().zip(&forces);
+            let share = |(friction, force): (&super::super::Friction, &f64)| {
+                friction.terms.iter().find(|term| term.0 == j).map_or(0.0, |term| term.1 * force)
+            };
+            let torque = net[j] + sticking.map(share).sum::<f64>();
+            let speed = self.speed(y, j);
+            let (inertia, slope) = coordinate.crank.map_or((0.0, 0.0), |crank| whole_inertia(&crank, self.angle(y, j)));
+            out[links + j] = (torque - 0.5 * slope * speed * speed) / (coordinate.inertia + inertia);
+            out[links + n + j] = speed;
+        }
+        for (friction, _) in self.train.frictions.iter().zip(&self.way).filter(|(_, way)| **way == 0.0) {
+            if let [(at, _)] = friction.terms[..] {
+                out[links + at] = 0.0;
+            }
+        }
+    }
+
+    fn guards(&self, t: f64, y: &[f64]) -> Vec<(f64, f64, Change)> {
+        let mut all = Vec::new();
+        for (l, link) in self.train.links.iter().enumerate() {
+            let reach = if link.rope { link.gap } else { 0.5 * link.gap };
+            let (x, size) = (y[l], reach.max(y[l].abs()));
+            let pull = self.law(t, l).0 * size;
+            if link.efficiency < 1.0 && self.side[l].abs() == 1.0 {
+                let toward = self.strain(t, y, l) * link.terms[0].1;
+                all.push((self.flow[l] * toward, pull, Change::Flow(l)));
+            }
+            if link.is_linear() {
+                continue;
+            }
+            if self.side[l] == TRAILING {
+                all.push((-self.strain(t, y, l), pull, Change::Side(l, 1.0)));
+                all.push((x - reach, size, Change::Side(l, 0.0)));
+            } else if self.side[l] != 0.0 && link.rope && link.damping > 0.0 {
+                all.push((self.strain(t, y, l), pull, Change::Side(l, TRAILING)));
+            } else if self.side[l] != 0.0 {
+                all.push((self.side[l] * x - reach, size, Change::Side(l, 0.0)));
+            } else {
+                all.push((reach - x, size, Change::Side(l, 1.0)));
+                if !link.rope {
+                    all.push((x + reach, size, Change::Side(l, -1.0)));
+                }
+            }
+        }
+        let forces = if self.way.contains(&0.0) { self.balance(t, y).1 } else { vec![0.0; self.way.len()] };
+        for (s, friction) in self.train.frictions.iter().enumerate() {
+            let way = self.way[s];
+            if way != 0.0 {
+                let size = friction.terms.iter().map(|&(at, c)| (c * self.speed(y, at)).abs()).fold(0.0, f64::max);
+                all.push((way * self.over(y, s), size.max(friction.surface.abs()), Change::Rest(s)));
+                continue;
+            }
+            for side in [1.0, -1.0] {
+                let size = forces[s].abs().max(friction.breakaway);
+                all.push((self.margin(t, y, s, forces[s], side), size, Change::Loose(s, side)));
+            }
+        }
+        for (arc, &(j, _, passed)) in self.arcs.iter().enumerate() {
+            let (ahead, behind) = (self.arc_end(arc, passed), self.arc_end(arc, passed - 1));
+            all.push((ahead - self.angle(y, j), ahead.abs(), Change::Arc(arc, 1)));
+            all.push((self.angle(y, j) - behind, behind.abs(), Change::Arc(arc, -1)));
+        }
+        all
+    }
+
+    fn change(&mut self, t: f64, y: &mut [f64], change: Change) {
+        match change {
+            Change::Side(l, side) => {
+                self.side[l] = side;
+                if side.abs() == 1.0 {
+                    self.flow[l] = side * self.train.links[l].terms[0].1.signum();
+                }
+            }
+            Change::Flow(l) => self.flow[l] = -self.flow[l],
+            Change::Loose(s, side) => self.way[s] = side,
+            Change::Rest(s) => {
+                let friction = &self.train.frictions[s];
+                if let [(at, _)] = friction.terms[..] {
+                    y[self.train.links.len() + at] = friction.surface;
+                }
+                self.judge(t, y, s);
+            }
+            Change::Arc(arc, step) => self.arcs[arc].2 += step,
+        }
+    }
+}
+
+/// Inertia of slider and rod at an angle, and its derivative, from the squares of speeds written out `[Wang 1989
+/// (1-15)]`.
+fn whole_inertia(crank: &super::super::Crank, angle: f64) -> (f64, f64) {
+    let (r, l, f) = (crank.radius, crank.rod, crank.rod_centre);
+    let (sine, cosine) = angle.sin_cos();
+    let lean = (r * sine / l).asin();
+    let (lean_sine, lean_cosine) = lean.sin_cos();
+    // l sin(lean) = r sin(angle), so the rates of lean follow
+    let rate = r * cosine / (l * lean_cosine);
+    let bend = (l * lean_sine * rate * rate - r * sine) / (l * lean_cosine);
+    let along = |share: f64| {
+        let reach = share * l;
+        (-r * sine - reach * lean_sine * rate, -r * cosine - reach * (lean_cosine * rate * rate + lean_sine * bend))
+    };
+    let (slider, centre) = (along(1.0), along(f));
+    let height = ((1.0 - f) * r * cosine, -(1.0 - f) * r * sine);
+    let inertia = crank.slider_mass * slider.0 * slider.0
+        + crank.rod_mass * (centre.0 * centre.0 + height.0 * height.0)
+        + crank.rod_inertia * rate * rate;
+    let half = crank.slider_mass * slider.0 * slider.1
+        + crank.rod_mass * (centre.0 * centre.1 + height.0 * height.1)
+        + crank.rod_inertia * rate * bend;
+    (inertia, 2.0 * half)
+}

@@ -1,0 +1,251 @@
+//! Events: what ends a stretch, and what then changes.
+
+use super::motion::Motion;
+use super::reading::Watch;
+use super::series::Series;
+use super::stretch::{Stretch, TRAILING};
+use crate::plant::event::{Event, EventKind, Place};
+use crate::plant::root::first_fall;
+
+/// Events in one tick after which the rest of it is run without any.
+const MOST_EVENTS: usize = 1000;
+
+/// What a fallen guard calls for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Action {
+    /// The contact of the link becomes this.
+    Contact(usize, i8),
+    /// The torque of the link changes its sign.
+    Flow(usize),
+    /// The friction has come to rest.
+    Stop(usize),
+    /// The friction breaks loose in this direction.
+    Slip(usize, i8),
+    /// The arc's ends passed become one more or one less.
+    Arc(usize, i64),
+}
+
+impl Motion {
+    /// From event to event until a time, s.
+    pub(super) fn run_to(&mut self, end: f64) {
+        let mut events = 0;
+        while self.now < end {
+            let stretch = self.stretch(self.longest(end - self.now));
+            let found = if events < MOST_EVENTS { self.first_event(&stretch) } else { None };
+            let share = found.map_or(1.0, |(share, _)| share);
+            self.watches(&stretch, share);
+            if share > 0.0 {
+                self.state = stretch.at(share);
+            }
+            let whole = share == 1.0 && stretch.length >= end - self.now;
+            self.now = if whole { end } else { self.now + share * stretch.length };
+            if let Some((_, action)) = found {
+                events += 1;
+                self.fire(action);
+                if events == MOST_EVENTS {
+                    self.log(EventKind::Unresolved, Place::Node(0), 0);
+                }
+            }
+        }
+    }
+
+    fn watches(&mut self, stretch: &Stretch, share: f64) {
+        let mut watches: Vec<Watch> = std::mem::take(&mut self.watches);
+        for watch in &mut watches {
+            watch.look(self, stretch, share);
+        }
+        self.watches = watches;
+    }
+
+    /// The first guard to fall on the stretch, and where, as a share of it.
+    fn first_event(&self, stretch: &Stretch) -> Option<(f64, Action)> {
+        let tolerance = (self.event_tolerance / stretch.length).max(4.0 * f64::EPSILON);
+        let mut first: Option<(f64, Action)> = None;
+        self.guards(stretch, |action, (poly, rounding)| {
+            if let Some(share) = first_fall(&poly, &rounding, tolerance)
+                && first.is_none_or(|(earliest, _)| share < earliest)
+            {
+                first = Some((share, action));
+            }
+        });
+        first
+    }
+
+    /// All quantities that must not fall below zero while the stretch lasts.
+    fn guards(&self, stretch: &Stretch, mut add: impl FnMut(Action, (Series, Series))) {
+        for (l, link) in self.train.links.iter().enumerate().filter(|(_, link)| !link.is_linear()) {
+            let (x, force) = (&stretch.elongation[l], &stretch.strain[l]);
+            let reach = link.origin(1);
+            match (link.rope, self.mode.contact[l]) {
+                (false, 0) => {
+                    add(Action::Contact(l, 1), x.guard(-1.0, reach));
+                    add(Action::Contact(l, -1), x.guard(1.0, reach));
+                }
+                (false, side) => add(Action::Contact(l, 0), x.guard(f64::from(side), -reach)),
+                (true, 0) => add(Action::Contact(l, 1), x.guard(-1.0, reach)),
+                (true, 1) => {
+                    let left = if link.damping > 0.0 { TRAILING } else { 0 };
+                    add(Action::Contact(l, left), force.guard(1.0, 0.0));
+                }
+                (true, _) => {
+                    add(Action::Contact(l, 1), force.guard(-1.0, 0.0));
+                    add(Action::Contact(l, 0), x.guard(1.0, -reach));
+                }
+            }
+        }
+        for (l, link) in self.train.links.iter().enumerate() {
+            if link.efficiency < 1.0 && self.mode.carries(&self.train, l) {
+                let factor = f64::from(self.mode.flow[l]) * link.terms[0].1.signum();
+                add(Action::Flow(l), stretch.strain[l].guard(factor, 0.0));
+            }
+        }
+        for (s, friction) in self.train.frictions.iter().enumerate() {
+            let slip = self.mode.slip[s];
+            if slip != 0 {
+                add(Action::Stop(s), self.relative(stretch, s, f64::from(slip)));
+                continue;
+            }
+            for side in [1, -1] {
+                add(Action::Slip(s, side), self.hold(stretch, s, side, friction.breakaway));
+            }
+        }
+        for arc in 0..self.mode.arcs.len() {
+            let (j, _, passed) = self.mode.arcs[arc];
+            add(Action::Arc(arc, 1), stretch.angle[j].guard(-1.0, self.arcs_end(arc, passed)));
+            add(Action::Arc(arc, -1), stretch.angle[j].guard(1.0, -self.arcs_end(arc, passed - 1)));
+        }
+    }
+
+    /// The speed of a friction over its surface, times a sign.
+    fn relative(&self, stretch: &Stretch, s: usize, sign: f64) -> (Series, Series) {
+        let friction = &self.train.frictions[s];
+        let mut sum = ([0.0; _], [0.0; _]);
+        for &(at, share) in &friction.terms {
+            let (values, rounding) = stretch.speed[at].guard(sign * share, 0.0);
+            add_to(&mut sum, &values, &rounding);
+        }
+        sum.0[0] -= sign * friction.surface;
+        sum
+    }
+
+    /// How far the force that holds a friction is from letting it slip towards `side`.
+    fn hold(&self, stretch: &Stretch, s: usize, side: i8, breakaway: f64) -> (Series, Series) {
+        let mut sum = stretch.friction[s].guard(f64::from(side), breakaway);
+        for &l in &self.train.frictions[s].losses {
+            if self.mode.carries(&self.train, l) {
+                // a gear that would drive asks for 1/eta of the torque, one that is driven leaves eta of it
+                let link = &self.train.links[l];
+                let driving = side * self.mode.flow[l] > 0;
+                let factor = if driving { 1.0 / link.efficiency } else { link.efficiency };
+                let torque = f64::from(side) * (factor - 1.0) * link.terms[0].1;
+                let (values, rounding) = stretch.strain[l].guard(torque, 0.0);
+                add_to(&mut sum, &values, &rounding);
+            }
+        }
+        sum
+    }
+
+    /// Switches the mode as a fallen guard calls for.
+    fn fire(&mut self, action: Action) {
+        match action {
+            Action::Contact(l, new) => {
+                let was = self.mode.contact[l];
+                self.mode.contact[l] = new;
+                if new.abs() == 1 {
+                    self.mode.flow[l] = new * self.train.links[l].terms[0].1.signum() as i8;
+                }
+                // a trailing rope is slack to the outside
+                let shown = |contact: i8| if contact == TRAILING { 0 } else { contact };
+                if shown(was) != shown(new) {
+                    self.log(EventKind::Contact, Place::Shaft(l), shown(new));
+                }
+            }
+            Action::Flow(l) => {
+                self.mode.flow[l] = -self.mode.flow[l];
+                self.log(EventKind::Flow, Place::Shaft(l), self.mode.flow[l]);
+            }
+            Action::Stop(s) => {
+                self.rest(s);
+                self.mode.slip[s] = 0;
+                self.mode.gather(&self.train);
+                self.let_go(s);
+                let new = self.mode.slip[s];
+                let kind = if new == 0 { EventKind::Stop } else { EventKind::Reversal };
+                self.log(kind, Place::Node(self.train.frictions[s].terms[0].0), new);
+            }
+            Action::Slip(s, new) => {
+                self.mode.slip[s] = new;
+                self.mode.gather(&self.train);
+                self.log(EventKind::Slip, Place::Node(self.train.frictions[s].terms[0].0), new);
+            }
+            Action::Arc(arc, step) => self.mode.arcs[arc].2 += step,
+        }
+    }
+
+    /// Takes the last rounding from a speed that has come to rest.
+    fn rest(&mut self, s: usize) {
+        let friction = &self.train.frictions[s];
+        if let [(at, _)] = friction.terms[..] {
+            self.state.speed[at] = friction.surface;
+            return;
+        }
+        let inertia = |at: usize| self.train.coordinates[at].inertia;
+        let (mut over, mut weight) = (-friction.surface, 0.0);
+        for &(at, share) in &friction.terms {
+            over += share * self.state.speed[at];
+            weight += share * share / inertia(at);
+        }
+        let shares: Vec<(usize, f64)> = friction.terms.iter().map(|&(at, c)| (at, c / inertia(at))).collect();
+        for (at, share) in shares {
+            self.state.speed[at] -= share * over / weight;
+        }
+    }
+
+    /// Lets a friction slide that would have to hold more than it can.
+    fn let_go(&mut self, s: usize) {
+        let breakaway = self.train.frictions[s].breakaway;
+        let stretch = self.stretch(self.longest(f64::MAX));
+        for side in [1, -1] {
+            if self.hold(&stretch, s, side, breakaway).0[0] < 0.0 {
+                self.mode.slip[s] = side;
+            }
+        }
+        self.mode.gather(&self.train);
+    }
+
+    /// The mode that belongs to the state at the start.
+    pub(super) fn settle(&mut self) {
+        for s in 0..self.train.frictions.len() {
+            let friction = &self.train.frictions[s];
+            let terms = friction.terms.iter();
+            let over: f64 = terms.map(|&(at, share)| share * self.state.speed[at]).sum::<f64>() - friction.surface;
+            self.mode.slip[s] = if over > 0.0 { 1 } else { -i8::from(over < 0.0) };
+        }
+        self.mode.gather(&self.train);
+        let stretch = self.stretch(self.longest(f64::MAX));
+        for l in 0..self.train.links.len() {
+            let link = &self.train.links[l];
+            let torque = stretch.strain[l].value[0] * link.terms[0].1;
+            self.mode.flow[l] = if torque < 0.0 { -1 } else { 1 };
+            if link.rope && self.mode.contact[l] == 1 && torque < 0.0 {
+                self.mode.contact[l] = TRAILING;
+            }
+        }
+        for s in 0..self.train.frictions.len() {
+            if self.mode.slip[s] == 0 {
+                self.let_go(s);
+            }
+        }
+    }
+
+    fn log(&mut self, kind: EventKind, place: Place, new: i8) {
+        self.events.push(Event { time: self.now, kind, place, new });
+    }
+}
+
+fn add_to(sum: &mut (Series, Series), values: &Series, rounding: &Series) {
+    for k in 0..values.len() {
+        sum.0[k] += values[k];
+        sum.1[k] += rounding[k];
+    }
+}

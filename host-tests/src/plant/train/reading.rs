@@ -1,0 +1,175 @@
+//! What can be read off a train in motion.
+
+use super::motion::Motion;
+use super::series::{Series, ZERO, value};
+use super::stretch::Stretch;
+use crate::plant::event::Event;
+use crate::plant::extremes::Extremes;
+use crate::plant::root::{derivative, sign_changes};
+
+/// A quantity to read or to watch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Signal {
+    /// Of a coordinate, rad or m.
+    Angle(usize),
+    /// Of a coordinate, rad/s or m/s.
+    Speed(usize),
+    /// Of a link, rad or m.
+    Elongation(usize),
+    /// Of a link, N m or N, damping included; zero in its gap.
+    Force(usize),
+    /// Of a link without what its damper adds.
+    Elastic(usize),
+    /// Of a friction, against its motion.
+    Friction(usize),
+}
+
+/// Greatest and least of a signal so far.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Watch {
+    signal: Signal,
+    extremes: Extremes,
+}
+
+impl Watch {
+    /// Looks at the part of the stretch up to `share`: both ends and every place where the rate is zero.
+    pub fn look(&mut self, motion: &Motion, stretch: &Stretch, share: f64) {
+        let Some(series) = motion.series(stretch, self.signal) else { return };
+        let mut places = vec![0.0, share];
+        // near an extreme an error of 1e-12 of the stretch changes the value by the square of that
+        places.extend(sign_changes(&derivative(&series), 1e-12).into_iter().filter(|&p| p < share));
+        for place in places {
+            let (value, time) = (value(&series, place), motion.now + place * stretch.length);
+            let extremes = &mut self.extremes;
+            if value > extremes.peak {
+                (extremes.peak, extremes.peak_time) = (value, time);
+            }
+            if value < extremes.least {
+                (extremes.least, extremes.least_time) = (value, time);
+            }
+        }
+    }
+}
+
+impl Motion {
+    /// Time since the start, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.now
+    }
+
+    /// How many coordinates there are.
+    #[must_use]
+    pub fn coordinates(&self) -> usize {
+        self.train.coordinates.len()
+    }
+
+    /// How many links there are.
+    #[must_use]
+    pub fn links(&self) -> usize {
+        self.train.links.len()
+    }
+
+    /// Angle of a coordinate, rad; NaN for one that is not there.
+    #[must_use]
+    pub fn angle(&self, coordinate: usize) -> f64 {
+        self.state.angle.get(coordinate).copied().unwrap_or(f64::NAN)
+    }
+
+    /// Speed of a coordinate, rad/s; NaN for one that is not there.
+    #[must_use]
+    pub fn speed(&self, coordinate: usize) -> f64 {
+        self.state.speed.get(coordinate).copied().unwrap_or(f64::NAN)
+    }
+
+    /// Elongation of a link, rad or m; NaN for one that is not there.
+    #[must_use]
+    pub fn elongation(&self, link: usize) -> f64 {
+        self.state.elongation.get(link).copied().unwrap_or(f64::NAN)
+    }
+
+    /// Force of a link, N m or N, positive when it is stretched; NaN for one that is not there.
+    #[must_use]
+    pub fn force(&self, link: usize) -> f64 {
+        self.read(Signal::Force(link))
+    }
+
+    /// Contact of a link: +1 drive side, -1 back side, 0 in the gap, slack for a rope.
+    #[must_use]
+    pub fn contact(&self, link: usize) -> i8 {
+        match self.mode.contact.get(link) {
+            Some(_) if self.is_trailing(link) => 0,
+            contact => contact.copied().unwrap_or(0),
+        }
+    }
+
+    /// Any signal; NaN for one that is not there.
+    #[must_use]
+    pub fn read(&self, signal: Signal) -> f64 {
+        // a run of no length: only the coefficients of order zero are looked at
+        let stretch = self.stretch(self.longest(1.0));
+        self.series(&stretch, signal).map_or(f64::NAN, |series| series[0])
+    }
+
+    /// Several signals at once, for less than one by one.
+    #[must_use]
+    pub fn read_all(&self, signals: &[Signal]) -> Vec<f64> {
+        let stretch = self.stretch(self.longest(1.0));
+        signals.iter().map(|&signal| self.series(&stretch, signal).map_or(f64::NAN, |series| series[0])).collect()
+    }
+
+    /// Begins to watch the extremes of a signal, found where its rate is zero and not on a grid of samples.
+    pub fn watch(&mut self, signal: Signal) {
+        let (now, time) = (self.read(signal), self.now);
+        let extremes = Extremes { peak: now, peak_time: time, least: now, least_time: time };
+        self.watches.retain(|watch| watch.signal != signal);
+        self.watches.push(Watch { signal, extremes });
+    }
+
+    /// Extremes of a signal since [`watch`](Self::watch) was called for it.
+    #[must_use]
+    pub fn extremes(&self, signal: Signal) -> Option<Extremes> {
+        self.watches.iter().find(|watch| watch.signal == signal).map(|watch| watch.extremes)
+    }
+
+    /// Every event so far, in order of time. A link is called a shaft, a coordinate a node.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Forgets the events so far, for long runs.
+    pub fn clear_events(&mut self) {
+        self.events.clear();
+    }
+
+    pub(super) fn series(&self, stretch: &Stretch, signal: Signal) -> Option<Series> {
+        let carried = |l: usize| if self.mode.carries(&self.train, l) { 1.0 } else { 0.0 };
+        match signal {
+            Signal::Angle(j) => stretch.angle.get(j).map(|s| s.value),
+            Signal::Speed(j) => stretch.speed.get(j).map(|s| s.value),
+            Signal::Elongation(l) => stretch.elongation.get(l).map(|s| s.value),
+            Signal::Force(l) => stretch.strain.get(l).map(|s| s.value.map(|v| v * carried(l))),
+            Signal::Elastic(l) => {
+                let link = self.train.links.get(l)?;
+                let mut series = stretch.strain[l].value;
+                for &(at, share) in &link.terms {
+                    for (k, v) in series.iter_mut().enumerate() {
+                        *v -= link.damping * share * stretch.speed[at].value[k];
+                    }
+                }
+                let last = series.len() - 1;
+                series[last] = 0.0;
+                Some(series.map(|v| v * carried(l)))
+            }
+            Signal::Friction(s) => {
+                let zero = ZERO;
+                stretch.friction.get(s).map(|s| {
+                    let mut series = zero;
+                    series.iter_mut().zip(s.value).for_each(|(to, v)| *to = -v);
+                    series
+                })
+            }
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Natural whirls over the speed, and where the unbalance meets them.
+
+use nalgebra::{Complex, DMatrix, DVector};
+
+use super::error::RotorError;
+use super::modal::Modal;
+
+/// Which way a whirl goes round.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum WhirlSense {
+    /// With the spin.
+    Forward,
+    /// Against the spin.
+    Backward,
+    /// Along a line, or forward at some places and backward at others.
+    Mixed,
+}
+
+/// A natural whirl at a speed.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Natural {
+    /// Damped frequency [rad/s].
+    pub frequency: f64,
+    /// Size of the eigenvalue [rad/s]: the frequency without its damping.
+    pub undamped: f64,
+    /// Damping ratio; negative where the whirl grows.
+    pub damping_ratio: f64,
+    /// Sense.
+    pub sense: WhirlSense,
+}
+
+/// Natural whirls at some speeds.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Campbell {
+    /// Speeds [rad/s].
+    pub speeds: Vec<f64>,
+    /// The whirls at each speed, lowest first.
+    pub whirls: Vec<Vec<Natural>>,
+}
+
+/// A critical speed without damping.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Critical {
+    /// Speed [rad/s].
+    pub speed: f64,
+    /// Sense of the whirl. On supports that are alike in all directions unbalance excites forward whirls only.
+    pub sense: WhirlSense,
+}
+
+/// Share of the larger of two circles that the smaller one may have before a motion counts as mixed.
+const MIXED: f64 = 0.9;
+
+impl Modal {
+    /// Critical speeds, lowest first: speeds at which the undamped rotor whirls once a turn. The stiffness counts by
+    /// its symmetric part.
+    ///
+    /// From `(w^2 - Omega^2 (1 - i G)) eta = 0` of the whirl `exp(i Omega t)`: with `eta = zeta/w`, the positive
+    /// eigenvalues of the
+    /// Hermitian `(1 - i G)/(w w)` are `1/Omega^2`.
+    #[must_use]
+    pub fn criticals(&self) -> Vec<Critical> {
+        let r = self.count();
+        let w = &self.frequency;
+        let hermitian = DMatrix::from_fn(r, r, |i, j| {
+            let unity = if i == j { 1.0 } else { 0.0 };
+            // skew by its half, so that rounding leaves it Hermitian
+            let skew = 0.5 * (self.gyroscopic[(i, j)] - self.gyroscopic[(j, i)]);
+            Complex::new(unity, -skew) / (w[i] * w[j])
+        });
+        let eigen = hermitian.symmetric_eigen();
+        let mut all: Vec<Critical> = (0..r)
+            .filter(|&k| eigen.eigenvalues[k] > 0.0)
+            .map(|k| {
+                let shape: DVector<Complex<f64>> =
+                    DVector::from_iterator(r, (0..r).map(|i| eigen.eigenvectors[(i, k)] / w[i]));
+                Critical { speed: eigen.eigenvalues[k].sqrt().recip(), sense: self.sense(&shape) }
+            })
+            .collect();
+        all.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        all
+    }
+
+    /// The `count` lowest natural whirls at each of some speeds [rad/s].
+    ///
+    /// # Errors
+    /// A speed that is not finite.
+    pub fn campbell(&self, speeds: &[f64], count: usize) -> Result<Campbell, RotorError> {
+        for (index, &speed) in speeds.iter().enumerate() {
+            super::error::check("speed", || format!("point {index}"), speed, true, "a finite number")?;
+        }
+        let whirls = speeds.iter().map(|&speed| self.naturals(speed, count)).collect();
+        Ok(Campbell { speeds: speeds.to_vec(), whirls })
+    }
+
+    fn naturals(&self, speed: f64, count: usize) -> Vec<Natural> {
+        let a = self.system(speed);
+        let mut values: Vec<Complex<f64>> = a.complex_eigenvalues().iter().copied().collect();
+        // an overdamped motion does not whirl
+        values.retain(|value| value.im > 1e-9 * value.norm());
+        values.sort_by(|a, b| a.im.total_cmp(&b.im));
+        values.truncate(count);
+        let natural = |value: Complex<f64>| Natural {
+            frequency: value.im,
+            undamped: value.norm(),
+            damping_ratio: -value.re / value.norm(),
+            sense: self.shape(&a, value).map_or(WhirlSense::Mixed, |shape| self.sense(&shape)),
+        };
+        values.into_iter().map(natural).collect()
+    }
+
+    /// The deflections of an eigenvalue's whirl, by inverse iteration beside it.
+    fn shape(&self, a: &DMatrix<f64>, value: Complex<f64>) -> Option<DVector<Complex<f64>>> {
+        let n = a.nrows();
+        let beside = value * Complex::new(1.0, 1e-9);
+        let system = DMatrix::from_fn(n, n, |i, j| {
+            Complex::new(a[(i, j)], 0.0) - if i == j { beside } else { Complex::new(0.0, 0.0) }
+        })
+        .lu();
+        let mut vector = DVector::from_fn(n, |i, _| Complex::new(1.0, 0.3 + 0.01 * i as f64));
+        for _ in 0..3 {
+            vector = system.solve(&vector)?;
+            let size = vector.norm();
+            vector = vector.map(|entry| entry / size);
+        }
+        let r = self.count();
+        Some(DVector::from_iterator(r, (0..r).map(|i| vector[i] / self.frequency[i])))
+    }
+
+    /// Which way a whirl `Re(eta exp(i w t))` goes round at most stations.
+    fn sense(&self, shape: &DVector<Complex<f64>>) -> WhirlSense {
+        let (mut forward, mut backward) = (0.0, 0.0);
+        for rows in &self.stations {
+            let [x, y] = [0, 1].map(|axis| {
+                let row = rows[axis].iter().zip(shape.iter());
+                row.map(|(&row, &eta)| eta * row).sum::<Complex<f64>>()
+            });
+            // x + i y = f exp(i w t) + b exp(-i w t), 2 f = X + i Y, 2 b* = X - i Y
+            let i = Complex::new(0.0, 1.0);
+            forward += (x + i * y).norm_sqr();
+            backward += (x - i * y).norm_sqr();
+        }
+        if backward < MIXED * MIXED * forward {
+            WhirlSense::Forward
+        } else if forward < MIXED * MIXED * backward {
+            WhirlSense::Backward
+        } else {
+            WhirlSense::Mixed
+        }
+    }
+}

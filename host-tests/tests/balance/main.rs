@@ -1,0 +1,4 @@
+//! Balancing: phasors on the tick, influence coefficients off it, weights, the procedure, in-run, the command.
+
+mod noise;
+mod phasor;

@@ -1,0 +1,112 @@
+//! A drive with the exact two-mass observer, and the numbers that it can be built in.
+
+use driveline::constants::{Bases, Cycle, Screening};
+use driveline::design::{Disturbance, Encoder, Rate, TwoMassDesign};
+use driveline::drive::{Config, ConfigOf, Drive, Limits};
+use driveline::fault::Faults;
+use driveline::fluctuation::{CycleConfig, Extremes, Waveform, WaveformConfig};
+use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+use driveline::number::{Fixed, Number};
+use driveline::observer::{self, TwoMassConfig};
+use driveline::sample::Sample;
+
+use super::motion::Motion;
+
+/// Bins of the waveform.
+pub const BINS: usize = 64;
+
+/// Inertia of the motor [kg m2].
+pub const MOTOR: f64 = 2.0;
+/// Inertia of the load [kg m2].
+pub const LOAD: f64 = 4.0;
+/// Stiffness between them [N m/rad]: a resonance of 61 Hz.
+pub const STIFFNESS: f64 = 2.0e5;
+/// Rated speed [rad/s], 1500 r/min.
+pub const RATED: f64 = 157.0;
+/// Constant torque of the motor [N m].
+pub const TORQUE: f64 = 300.0;
+/// Time between ticks [s].
+pub const PERIOD: f64 = 1e-4;
+
+const MACHINE: TwoMass = TwoMass::new(Inertia(MOTOR), Inertia(LOAD), Stiffness(STIFFNESS), Damping(0.0));
+/// The load torque may wander by what the largest ripple of these tests takes within a tenth of a second.
+const DESIGN: TwoMassDesign = MACHINE.observer(
+    Rate::hz(10_000),
+    Encoder::lines(2048),
+    Disturbance { torque_accuracy: 3.0, load_torque_step: 3000.0, within: 0.1 },
+);
+pub const BASES: Bases = Bases::of(&DESIGN, 12_000.0, 250.0);
+const SCREENING: Screening =
+    Screening { torque: 3000.0, reference: 200.0, innovation: 0.05, standstill: 1.5e-3, missed: 150 };
+
+pub type Parts<N> = (Extremes<N>, Waveform<N, BINS>);
+pub type Measured<N> = Drive<N, observer::TwoMass<N>, Parts<N>>;
+pub type Constants<N> = ConfigOf<N, observer::TwoMass<N>, Parts<N>>;
+
+/// A number that the drive can be built in.
+pub trait Built: Number {
+    const NAME: &'static str;
+    fn constants(cycle: Cycle, cycles: u32) -> Constants<Self>;
+    fn of_torque(torque: f64) -> Self;
+}
+
+macro_rules! float {
+    ($float:ident) => {
+        impl Built for $float {
+            const NAME: &'static str = stringify!($float);
+            fn constants(cycle: Cycle, cycles: u32) -> Constants<Self> {
+                let cycle = CycleConfig::new(cycle, PERIOD, Bases::SI);
+                Config {
+                    limits: Limits::<$float>::new(&SCREENING),
+                    observer: TwoMassConfig::<$float>::new(&DESIGN),
+                    fluctuation: (cycle, WaveformConfig::new::<BINS>(cycle, cycles)),
+                    governor: (),
+                    balancer: (),
+                }
+            }
+            fn of_torque(torque: f64) -> Self {
+                torque as $float
+            }
+        }
+    };
+}
+float!(f32);
+float!(f64);
+
+impl Built for Fixed {
+    const NAME: &'static str = "fixed";
+    fn constants(cycle: Cycle, cycles: u32) -> Constants<Self> {
+        let cycle = CycleConfig::new(cycle, PERIOD, BASES);
+        Config {
+            limits: Limits::<Fixed>::new(&SCREENING, BASES),
+            observer: TwoMassConfig::<Fixed>::new(&DESIGN, BASES),
+            fluctuation: (cycle, WaveformConfig::new::<BINS>(cycle, cycles)),
+            governor: (),
+            balancer: (),
+        }
+    }
+    fn of_torque(torque: f64) -> Self {
+        Fixed::from_f64(torque / BASES.torque)
+    }
+}
+
+/// Runs a drive along a motion, at least until `done`, and gives it back; no tick may be faulty after the first 0.3 s, in which the observer
+/// is caught.
+pub fn run<N: Built>(
+    config: &Constants<N>,
+    motion: &mut Motion,
+    ticks: u32,
+    mut done: impl FnMut(&mut Measured<N>) -> bool,
+) -> Measured<N> {
+    let mut drive = Measured::<N>::new(config, motion.encoder());
+    for tick in 0..ticks {
+        motion.advance(PERIOD);
+        let sample = Sample { angle: motion.encoder(), torque: N::of_torque(TORQUE), reference: N::ZERO };
+        let faults = drive.tick(config, &sample).faults;
+        assert!(tick < 3000 || faults == Faults::NONE, "{}: {faults} in tick {tick}", N::NAME);
+        if done(&mut drive) {
+            return drive;
+        }
+    }
+    drive
+}

@@ -1,0 +1,96 @@
+//! Barred speeds: where they lie, and that no set point stays in one.
+
+use driveline::design::{Actuator, BarredSpeeds, Error, LoadFeedForward, Rate, USUAL_MARGIN};
+use driveline::governor::{Barred, BarredConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, SymmetricConfig};
+use driveline::machine::{Chain, Damping, Inertia, Stiffness};
+use driveline::sample::Estimate;
+use proptest::prelude::*;
+
+const PERIOD: f64 = 1e-3;
+
+/// The critical speeds of a chain whose frequencies are known: 0.6 and 0.4 kg m2 on 240 N m/rad have 1000 (rad/s)^2 as
+/// 240/(0.24).
+#[test]
+fn ranges_lie_about_frequency_over_order() {
+    let chain = Chain::motor(Inertia(0.6)).shaft(Stiffness(240.0), Damping(0.0)).rotor(Inertia(0.4));
+    let frequency = chain.modes().resonances()[0].frequency;
+    assert!((frequency - 1000.0_f64.sqrt()).abs() < 1e-9);
+    let barred = BarredSpeeds::<3>::new(&[frequency], &[0.5, 1.0, 3.0], USUAL_MARGIN, 100.0);
+    let expected: Vec<f64> = [3.0, 1.0, 0.5].iter().map(|order| 1000.0_f64.sqrt() / order).collect();
+    for (range, critical) in barred.ranges().iter().zip(expected) {
+        assert!((range[0] - 0.9 * critical).abs() < 1e-9 && (range[1] - 1.1 * critical).abs() < 1e-9, "{range:?}");
+    }
+}
+
+proptest! {
+    /// Ranges rise, lie apart, cover every critical speed with its margin, and nothing that no critical speed accounts
+    /// for.
+    #[test]
+    fn ranges_are_the_union(
+        frequencies in prop::collection::vec(10.0..200.0_f64, 1..5),
+        orders in prop::collection::vec(0.5..6.0_f64, 1..5),
+    ) {
+        let barred = BarredSpeeds::<16>::new(&frequencies, &orders, USUAL_MARGIN, 1000.0);
+        for pair in barred.ranges().windows(2) {
+            prop_assert!(pair[0][1] < pair[1][0]);
+        }
+        for speed in (1..4000).map(|step| 0.11 * f64::from(step)) {
+            let critical = frequencies.iter().any(|f| orders.iter().any(|o| (speed * o / f - 1.0).abs() <= USUAL_MARGIN));
+            let inside = barred.ranges().iter().any(|range| (range[0]..=range[1]).contains(&speed));
+            // The edges themselves are a rounding either way.
+            let at_an_edge = barred.ranges().iter().flatten().any(|edge| (edge / speed - 1.0).abs() < 1e-12);
+            prop_assert!(critical == inside || at_an_edge, "{speed} {critical} {inside}");
+        }
+    }
+}
+
+#[test]
+fn too_many_ranges_and_wrong_numbers_are_refused() {
+    assert_eq!(BarredSpeeds::<1>::try_new(&[10.0, 100.0], &[1.0], 0.1, 1e3), Err(Error::BarredCount));
+    assert_eq!(BarredSpeeds::<1>::try_new(&[10.0], &[0.0], 0.1, 1e3), Err(Error::Barred));
+    assert_eq!(BarredSpeeds::<1>::try_new(&[f64::NAN], &[1.0], 0.1, 1e3), Err(Error::Barred));
+    assert_eq!(BarredSpeeds::<1>::try_new(&[10.0], &[1.0], 1.0, 1e3), Err(Error::Barred));
+    // Those that touch are one, and what begins beyond the highest speed is none.
+    assert_eq!(BarredSpeeds::<1>::new(&[10.0, 10.5, 500.0], &[1.0], 0.1, 100.0).ranges().len(), 1);
+}
+
+/// A set point on its way through a range moves four times as fast; asked to stop inside, it stops at the edge that it
+/// came from.
+#[test]
+fn a_range_is_passed_quickly_and_never_stayed_in() {
+    let barred = BarredSpeeds::<2>::new(&[40.0, 80.0], &[1.0], USUAL_MARGIN, 200.0);
+    let machine = Chain::motor(Inertia(0.6)).shaft(Stiffness(2.4e4), Damping(1.0)).rotor(Inertia(0.4));
+    let design = machine.reduce(driveline::machine::Match::ResonanceAntiresonance).governor(
+        Rate::every(PERIOD),
+        Actuator { delay: 0.0, lag: 0.05 },
+        3.0,
+        LoadFeedForward::NONE,
+    );
+    let config = SpeedGovernorConfig {
+        gains: Gains::<f64>::new(&design, 10.0),
+        set_point: BarredConfig::<f64, 2>::new(&barred, 40.0, PERIOD),
+        prompt: (),
+        limit: SymmetricConfig::<f64>::new(100.0),
+        supervisor: (),
+    };
+    let mut governor = SpeedGovernor::<f64, Barred<2>>::default();
+    let inside = |speed: f64| barred.ranges().iter().any(|r| speed > r[0] + 1e-9 && speed < r[1] - 1e-9);
+    let mut go = |reference: f64, ticks: usize| {
+        let mut dwelt = 0;
+        for _ in 0..ticks {
+            governor.refer(reference);
+            let now = Estimate { motor_speed: governor.set_point(), ..Estimate::default() };
+            governor.command(&config, &now);
+            dwelt += usize::from(inside(governor.set_point()));
+        }
+        (governor.set_point(), dwelt)
+    };
+    // 36 to 44 rad/s and 72 to 88 at 40 rad/s2: 0.2 s and 0.4 s inside, the first tick of each by the slow ramp.
+    let (reached, dwelt) = go(120.0, 20_000);
+    assert!((reached - 120.0).abs() < 1e-9 && (590..=610).contains(&dwelt), "{reached} {dwelt}");
+    // From above and from below: stops at the edge on its side.
+    assert!((go(75.0, 20_000).0 - 88.0).abs() < 1e-9);
+    assert!((go(50.0, 20_000).0 - 50.0).abs() < 1e-9);
+    assert!((go(85.0, 20_000).0 - 72.0).abs() < 1e-9);
+    assert_eq!(go(85.0, 100).1, 0);
+}

@@ -1,0 +1,231 @@
+//! The governor's law in all its numbers, and the limits.
+
+use driveline::constants::Bases;
+use driveline::design::{Actuator, GovernorDesign, LoadFeedForward, Rate, TorqueCurve};
+use driveline::governor::{
+    Between, BetweenConfig, Curve, CurveConfig, Damping as ActiveDamping, DampingConfig, Droop, DroopConfig,
+    FeedForward, FeedForwardConfig, Gains, Governor, Limit, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig,
+    SpeedGovernorConfigOf, Symmetric, SymmetricConfig,
+};
+use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+use driveline::number::{Fixed, Number};
+use driveline::sample::Estimate;
+use proptest::prelude::*;
+
+const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
+const TORQUE: f64 = 2500.0;
+const SPEED: f64 = 157.0;
+const BASES: Bases = Bases::new(&MACHINE, 2.5 * TORQUE, 1.34 * SPEED);
+const PERIOD: f64 = 5e-4;
+const DESIGN: GovernorDesign =
+    MACHINE.governor(Rate::every(PERIOD), Actuator { delay: 0.02, lag: 0.02 }, 2.5, LoadFeedForward::NONE);
+const RAMP: f64 = 40.0;
+
+/// Droop, feed-forward, a curve: a governor of every kind of part.
+type Whole<N> = SpeedGovernor<N, Droop, FeedForward, Curve<3>>;
+
+const CURVE: TorqueCurve<3> = TorqueCurve::through([[0.0, 1500.0], [80.0, TORQUE], [170.0, 2000.0]]);
+
+/// The law once more, by the formulas, in `f64`.
+#[derive(Default)]
+struct Law {
+    integral: f64,
+    set_point: f64,
+}
+
+impl Law {
+    fn command(&mut self, reference: f64, speed: f64, load: f64) -> f64 {
+        self.set_point += (reference - self.set_point).clamp(-RAMP * PERIOD, RAMP * PERIOD);
+        let target = self.set_point - 0.04 * SPEED / TORQUE * (self.integral + 0.9 * load);
+        let error = target - speed;
+        let integral = self.integral + DESIGN.integral * PERIOD * error;
+        let wanted = integral + DESIGN.proportional * error + 0.9 * load;
+        let most = match speed.abs() {
+            w if w < 80.0 => 1500.0 + 1000.0 * w / 80.0,
+            w if w < 170.0 => 2500.0 - 500.0 * (w - 80.0) / 90.0,
+            _ => 2000.0,
+        };
+        let torque = wanted.clamp(-100.0, most);
+        self.integral = integral + DESIGN.integral * PERIOD / DESIGN.proportional * (torque - wanted);
+        torque
+    }
+}
+
+fn single() -> SpeedGovernorConfigOf<f32, Droop, FeedForward, Curve<3>> {
+    SpeedGovernorConfig {
+        gains: Gains::<f32>::new(&DESIGN, RAMP),
+        set_point: DroopConfig::<f32>::new(0.04, SPEED, TORQUE),
+        prompt: FeedForwardConfig::<f32>::new(0.9),
+        limit: CurveConfig::<f32, 3>::new(&CURVE, -100.0),
+        supervisor: (),
+    }
+}
+
+fn fixed() -> SpeedGovernorConfigOf<Fixed, Droop, FeedForward, Curve<3>> {
+    SpeedGovernorConfig {
+        gains: Gains::<Fixed>::new(&DESIGN, RAMP, BASES),
+        set_point: DroopConfig::<Fixed>::new(0.04, SPEED, TORQUE, BASES),
+        prompt: FeedForwardConfig::<Fixed>::new(0.9, BASES),
+        limit: CurveConfig::<Fixed, 3>::new(&CURVE, -100.0, BASES),
+        supervisor: (),
+    }
+}
+
+proptest! {
+    /// Any speed in the machine's range and any load: the torque is the law's, to what `f32` and fixed point resolve,
+    /// and within the curve.
+    #[test]
+    fn the_torque_is_the_laws(
+        samples in prop::collection::vec((-20.0..180.0_f64, -2500.0..2500.0_f64, 0.0..160.0_f64), 1..200)
+    ) {
+        let (mut law, mut by_single, mut by_fixed) = (Law::default(), Whole::<f32>::default(), Whole::<Fixed>::default());
+        let (single, fixed) = (single(), fixed());
+        for (speed, load, reference) in samples {
+            // In fixed point an operand of a gain ends at a quarter of the base.
+            let held = (law.set_point - speed).abs() < 0.2 * BASES.speed;
+            let speed = if held { speed } else { law.set_point };
+            let wanted = law.command(reference, speed, load);
+            by_single.refer(reference as f32);
+            let now = Estimate { motor_speed: speed as f32, load_torque: load as f32, ..Estimate::default() };
+            let torque = f64::from(by_single.command(&single, &now));
+            // 24 bits of 200 rad/s, 0.00001, times a gain of 130, and of 5000 N m, over 200 ticks at worst.
+            prop_assert!((torque - wanted).abs() < 0.1, "{torque} {wanted}");
+            by_fixed.refer(Fixed::from_f64(reference / BASES.speed));
+            let now = Estimate {
+                motor_speed: Fixed::from_f64(speed / BASES.speed),
+                load_torque: Fixed::from_f64(load / BASES.torque),
+                ..Estimate::default()
+            };
+            let torque = by_fixed.command(&fixed, &now).to_f64() * BASES.torque;
+            // 2^-28 of 210 rad/s and of 6250 N m, times a gain of 4.5 per unit, over 200 ticks at worst.
+            prop_assert!((torque - wanted).abs() < 0.02, "{torque} {wanted}");
+        }
+    }
+
+    /// In fixed point, whatever the bits of the estimates: within the limits, no wrap.
+    #[test]
+    fn no_bits_leave_the_limits(words in prop::collection::vec(any::<[i32; 4]>(), 1..100)) {
+        let config = fixed();
+        let mut governor = Whole::<Fixed>::default();
+        let least = Fixed::from_f64(-100.0 / BASES.torque);
+        let most = Fixed::from_f64(TORQUE / BASES.torque);
+        for [motor, load, reference, torque] in words {
+            let state = |word: i32| Fixed::from_bits(word).saturated();
+            governor.refer(state(reference));
+            let now = Estimate {
+                motor_speed: state(motor),
+                shaft_torque: Fixed::ZERO,
+                load_speed: state(load),
+                load_torque: state(torque),
+            };
+            let torque = governor.command(&config, &now);
+            prop_assert!(torque >= least && torque <= most, "{torque:?}");
+        }
+    }
+}
+
+/// Ten seconds against a limit with an error of 157 rad/s would wind the integral up by 890 kN m. By back-calculation
+/// it ends where the limit is, so that the torque leaves the limit in the first tick of an error of the other sign.
+#[test]
+fn the_integral_does_not_wind_up_behind_any_limit() {
+    fn leaves<L: Limit<f64>>(limit: L::Config) -> f64 {
+        let config = SpeedGovernorConfig {
+            gains: Gains::<f64>::new(&DESIGN, 1e9),
+            set_point: (),
+            prompt: (),
+            limit,
+            supervisor: (),
+        };
+        let mut governor = SpeedGovernor::<f64, (), (), L>::default();
+        governor.refer(SPEED);
+        for _ in 0..20_000 {
+            governor.command(&config, &Estimate::default());
+        }
+        // What its own last tick adds: k_i T e, 45 N m.
+        assert!((governor.integral() - TORQUE).abs() < 45.0, "{}", governor.integral());
+        let now = Estimate { motor_speed: SPEED + 5.0, ..Estimate::default() };
+        TORQUE - governor.command(&config, &now)
+    }
+    // 5 rad/s at k_p, and within 45 N m the integral's tick.
+    let prompt = 5.0 * DESIGN.proportional;
+    let flat = TorqueCurve::through([[0.0, TORQUE], [1.0, TORQUE], [2.0, TORQUE]]);
+    for fall in [
+        leaves::<Symmetric>(SymmetricConfig::<f64>::new(TORQUE)),
+        leaves::<Between>(BetweenConfig::<f64>::new(0.0, TORQUE)),
+        leaves::<Curve<3>>(CurveConfig::<f64, 3>::new(&flat, 0.0)),
+    ] {
+        assert!((fall - prompt).abs() < 45.0, "{fall} {prompt}");
+    }
+    // At 100 kN m/s a tick is 50 N m.
+    let slew = SlewConfig::<f64, _>::new(1e5, SymmetricConfig::<f64>::new(TORQUE), PERIOD);
+    assert!((leaves::<Slew<f64, Symmetric>>(slew) - 50.0).abs() < 1e-9);
+}
+
+#[test]
+fn slew_and_limit_hold_in_every_tick() {
+    let slew = SlewConfig::<f64, _>::new(1e5, BetweenConfig::<f64>::new(0.0, TORQUE), PERIOD);
+    let config = SpeedGovernorConfig {
+        gains: Gains::<f64>::new(&DESIGN, 1e9),
+        set_point: (),
+        prompt: (),
+        limit: slew,
+        supervisor: (),
+    };
+    let mut governor = SpeedGovernor::<f64, (), (), Slew<f64, Between>>::default();
+    let mut last = 0.0;
+    for tick in 0..5000 {
+        governor.refer(if tick / 500 % 2 == 0 { SPEED } else { -SPEED });
+        let torque = governor.command(&config, &Estimate::default());
+        // 50 N m a tick, and the rounding of a difference of 2500 N m.
+        assert!((torque - last).abs() <= 50.0 + 1e-9 && (0.0..=TORQUE).contains(&torque), "{last} {torque}");
+        last = torque;
+    }
+}
+
+/// The damping alone, with the gains of a speed loop, is the speed loop.
+#[test]
+fn with_damping_and_nothing_else_it_is_the_speed_loop() {
+    use driveline::constants::SpeedLoopSettings;
+    use driveline::design::SpeedLoopTuning;
+    use driveline::governor::{SpeedLoop, SpeedLoopConfig};
+    let design = MACHINE.speed_loop(Rate::hz(2000), SpeedLoopTuning::USUAL);
+    let config = SpeedGovernorConfig {
+        gains: Gains::<f32>::of_speed_loop(&design, RAMP),
+        set_point: (),
+        prompt: DampingConfig::<f32>::new(&design),
+        limit: SymmetricConfig::<f32>::new(TORQUE),
+        supervisor: (),
+    };
+    let loop_config = SpeedLoopConfig::<f32>::new(&design, SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP });
+    let mut governor = SpeedGovernor::<f32, (), ActiveDamping>::default();
+    let mut speed_loop = SpeedLoop::default();
+    for tick in 0..4000 {
+        let swing = (f64::from(tick) * 0.05).sin() as f32;
+        let now =
+            Estimate { motor_speed: 0.02 * tick as f32 + swing, load_speed: 0.02 * tick as f32, ..Estimate::default() };
+        governor.refer(SPEED as f32);
+        speed_loop.refer(SPEED as f32);
+        let (a, b) = (governor.command(&config, &now), speed_loop.command(&loop_config, &now));
+        // The sums are taken in another order: a few roundings of 2500 N m.
+        assert!((a - b).abs() < 0.01, "{tick}: {a} {b}");
+    }
+}
+
+/// With a power limit the curve gives no more than the power at its points, and the stated excess between.
+#[test]
+fn a_power_limit_is_kept() {
+    let power = 300e3;
+    let points =
+        [[0.0, 2500.0], [110.0, 2500.0], [121.0, 2500.0], [133.1, 2500.0], [146.41, 2500.0], [161.051, 2500.0]];
+    let config = CurveConfig::<f64, 6>::new(&TorqueCurve::through(points).with_power_limit(power), 0.0);
+    for step in 0..=1610 {
+        let speed = 0.1 * f64::from(step);
+        let most = config.most(speed);
+        assert!(most <= 2500.0);
+        // From the first point that is limited (133.1 rad/s) on: a chord over a ratio of 1.1 lies 0.23 % above the
+        // hyperbola at most.
+        if speed >= 133.1 {
+            assert!(most * speed <= power * 1.0023, "{speed} {most}");
+        }
+    }
+}

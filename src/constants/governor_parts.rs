@@ -1,0 +1,523 @@
+//! Constants of the composed governor's parts.
+
+use super::convert::{fixed, get, or_stop};
+use super::{Bases, Error, Format};
+use crate::design::{BarredSpeeds, GovernorDesign, SpeedLoopDesign, TorqueCurve};
+use crate::governor::{
+    BarredConfig, BetweenConfig, CurveConfig, CurvePiece, DampingConfig, DroopConfig, FeedForwardConfig, Gains,
+    ModesConfig, RackConfig, SlewConfig, SymmetricConfig, Window,
+};
+use crate::number::{Coefficient, Fixed};
+
+const GAIN: &str =
+    "a gain of the governor is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
+const RAMP: &str =
+    "the ramp of the governor must be positive and finite, and within a tick at most twice the base of the speed";
+const DROOP: &str = "the droop must be zero or above and finite, for a rated speed and torque above zero, and below half a base of the speed per base of the torque in fixed point";
+const SHARE: &str = "the share of the load torque that is fed forward must be from 0 to 1";
+const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, and both within twice the base of the torque in fixed point";
+const SLEW: &str =
+    "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
+const CURVE: &str = "the torque curve must lie within twice the bases in fixed point, and its slopes within 2 bases of the torque per base of the speed";
+const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
+const MODES: &str = "the speeds of the modes must be standstill < underspeed < overspeed, none of them negative, the shaft's torque positive, all finite and within twice their bases in fixed point";
+const TIMES: &str =
+    "the times of the modes must be zero or above and below 2^31 ticks, and the period of a tick positive";
+const DELAY: &str = "the delay of the rack must be zero or above and less than its ring of ticks";
+
+/// The limits of [`Modes`](crate::governor::Modes), in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ModesSettings {
+    /// Overspeed limit [rad/s].
+    pub overspeed: f64,
+    /// Underspeed limit of a running machine [rad/s]; below zero for a machine that runs both ways, which has none.
+    pub underspeed: f64,
+    /// Largest speed backwards [rad/s]; the overspeed limit for a machine that runs both ways.
+    pub reverse: f64,
+    /// Largest torque of the shaft, either way [N m].
+    pub shaft_torque: f64,
+    /// The speed below which a braking machine has stopped [rad/s].
+    pub standstill: f64,
+    /// Time beyond a limit, other than underspeed's, that does not trip yet [s].
+    pub prompt: f64,
+    /// Time of underspeed that does not trip yet [s].
+    pub patient: f64,
+    /// Time that a start may take [s].
+    pub start: f64,
+}
+
+/// Numbers and coefficients of a part, per unit of a format.
+type Values<const N: usize, const C: usize> = Result<([f64; N], [f64; C]), Error>;
+
+const fn all_finite(values: &[f64]) -> bool {
+    let mut k = 0;
+    while k < values.len() {
+        if !(values[k] as f32).is_finite() {
+            return false;
+        }
+        k += 1;
+    }
+    true
+}
+
+const fn gains(design: &[f64; 4], ramp: f64, format: &Format) -> Values<1, 3> {
+    let [proportional, integral, slip, period] = *design;
+    let Bases { torque, speed, .. } = format.bases;
+    let scale = speed / (torque * format.gain);
+    let step = ramp * period / speed;
+    // Operands are held within 8 bases and the integral and what is fed forward within 2: the sum must stay within 8.
+    let sum = 8.0 * scale * (proportional + integral * period + slip.abs());
+    if !(step > 0.0 && step.is_finite()) {
+        Err(Error::Value(RAMP))
+    } else if format.unit != 1.0 && !(sum <= 3.99) {
+        Err(Error::Coefficient(GAIN))
+    } else {
+        Ok(([step], [proportional * scale, integral * period * scale, integral * period / proportional]))
+    }
+}
+
+const fn droop(droop: f64, rated_speed: f64, rated_torque: f64, format: &Format) -> Values<0, 1> {
+    let value = droop * rated_speed / rated_torque * format.bases.torque / format.bases.speed;
+    if droop >= 0.0 && rated_speed > 0.0 && rated_torque > 0.0 && all_finite(&[value]) {
+        Ok(([], [value]))
+    } else {
+        Err(Error::Value(DROOP))
+    }
+}
+
+const fn feed_forward(share: f64, format: &Format) -> Values<0, 1> {
+    if share >= 0.0 && share <= 1.0 { Ok(([], [share / format.widened])) } else { Err(Error::Value(SHARE)) }
+}
+
+const fn damping(slip: f64, format: &Format) -> Values<0, 1> {
+    Ok(([], [-slip * format.bases.speed / (format.bases.torque * format.gain)]))
+}
+
+const fn between(least: f64, most: f64, format: &Format) -> Values<2, 0> {
+    if least <= 0.0 && most > 0.0 && all_finite(&[least, most]) {
+        Ok(([least / format.bases.torque, most / format.bases.torque], []))
+    } else {
+        Err(Error::Value(LIMIT))
+    }
+}
+
+const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
+    let step = rate * period / format.bases.torque;
+    if step > 0.0 && all_finite(&[step]) { Ok(([step], [])) } else { Err(Error::Value(SLEW)) }
+}
+
+const fn piece<const K: usize>(curve: &TorqueCurve<K>, k: usize, format: &Format) -> Values<2, 1> {
+    let points = curve.points();
+    let Bases { torque, speed, .. } = format.bases;
+    let [at, most] = points[k];
+    let slope = if k + 1 < K {
+        let [next, then] = points[k + 1];
+        (then - most) / (next - at)
+    } else {
+        0.0
+    };
+    Ok(([at / speed, most / torque], [slope * speed / (torque * format.widened)]))
+}
+
+const fn windows(settings: &ModesSettings, format: &Format) -> Values<6, 0> {
+    let ModesSettings { overspeed, underspeed, reverse, shaft_torque, standstill, .. } = *settings;
+    let both_ways = underspeed < 0.0;
+    let ordered = standstill > 0.0 && (both_ways || standstill < underspeed && underspeed < overspeed);
+    let positive = overspeed > standstill && reverse >= 0.0 && shaft_torque > 0.0;
+    if !(ordered && positive && all_finite(&[overspeed, underspeed, reverse, shaft_torque])) {
+        return Err(Error::Value(MODES));
+    }
+    let speed = format.bases.speed;
+    let lowest = if both_ways { -reverse } else { underspeed };
+    Ok((
+        [
+            0.5 * (lowest + overspeed) / speed,
+            0.5 * (overspeed - lowest) / speed,
+            0.5 * (overspeed - reverse) / speed,
+            0.5 * (overspeed + reverse) / speed,
+            shaft_torque / format.bases.torque,
+            standstill / speed,
+        ],
+        [],
+    ))
+}
+
+const fn ticks(time: f64, period: f64) -> Result<u32, Error> {
+    let ticks = time / period + 0.5;
+    if time >= 0.0 && period > 0.0 && ticks < 2_147_483_648.0 { Ok(ticks as u32) } else { Err(Error::Value(TIMES)) }
+}
+
+/// Numbers in fixed point, each within twice its base.
+const fn numbers<const K: usize>(values: [f64; K], sentence: &'static str) -> Result<[Fixed; K], Error> {
+    let mut out = [Fixed::from_bits(0); K];
+    let mut k = 0;
+    while k < K {
+        if !(values[k].abs() <= 2.0) {
+            return Err(Error::Value(sentence));
+        }
+        out[k] = Fixed::from_f64(values[k]);
+        k += 1;
+    }
+    Ok(out)
+}
+
+/// Nothing, where a part has no numbers or no coefficients.
+const fn in_fixed<const N: usize, const C: usize>(
+    values: Values<N, C>,
+    sentence: &'static str,
+) -> Result<([Fixed; N], [Coefficient; C]), Error> {
+    let (n, c) = get!(values);
+    Ok((get!(numbers(n, sentence)), get!(fixed(c, sentence))))
+}
+
+/// `new` and `try_new` of a part for floats and for fixed point, from its values in a format.
+macro_rules! part {
+    (
+        $name:ident, ($($argument:ident: $type:ty),*), $sentence:ident, $errors:literal,
+        |$format:ident| $values:expr, |$cast:ident, $n:pat_param, $c:pat_param| $build:expr
+    ) => {
+        part!(@float f32, $name, ($($argument: $type),*), $errors, |$format| $values, |$cast, $n, $c| $build);
+        part!(@float f64, $name, ($($argument: $type),*), $errors, |$format| $values, |$cast, $n, $c| $build);
+
+        impl $name<Fixed> {
+            /// The constants in fixed point.
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
+            pub const fn new($($argument: $type,)* bases: Bases) -> Self {
+                or_stop!(Self::try_new($($argument,)* bases))
+            }
+
+            /// The constants in fixed point.
+            ///
+            /// # Errors
+            #[doc = $errors]
+            pub const fn try_new($($argument: $type,)* bases: Bases) -> Result<Self, Error> {
+                macro_rules! $cast { ($value:expr) => { core::convert::identity($value) }; }
+                get!(bases.check());
+                let $format = Format::fixed(bases);
+                let ($n, $c) = get!(in_fixed($values, $sentence));
+                Ok($build)
+            }
+        }
+    };
+    (
+        @float $float:ident, $name:ident, ($($argument:ident: $type:ty),*), $errors:literal,
+        |$format:ident| $values:expr, |$cast:ident, $n:pat_param, $c:pat_param| $build:expr
+    ) => {
+        impl $name<$float> {
+            /// The constants as floats.
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
+            pub const fn new($($argument: $type),*) -> Self {
+                or_stop!(Self::try_new($($argument),*))
+            }
+
+            /// The constants as floats.
+            ///
+            /// # Errors
+            #[doc = $errors]
+            pub const fn try_new($($argument: $type),*) -> Result<Self, Error> {
+                macro_rules! $cast { ($value:expr) => { $value as $float }; }
+                let $format = Format::FLOAT;
+                let ($n, $c) = get!($values);
+                Ok($build)
+            }
+        }
+    };
+}
+
+part!(
+    Gains, (design: &GovernorDesign, ramp: f64), GAIN,
+    "[`Error::Value`] for a ramp [rad/s2] that is not positive and finite, [`Error::Coefficient`] for a gain beyond fixed point.",
+    |format| gains(&[design.proportional, design.integral, 0.0, design.period], ramp, &format),
+    |cast, [ramp], [proportional, integral, unwinding]| Gains {
+        proportional: cast!(proportional),
+        integral: cast!(integral),
+        unwinding: cast!(unwinding),
+        ramp: cast!(ramp),
+    }
+);
+
+part!(
+    DroopConfig, (fraction: f64, rated_speed: f64, rated_torque: f64), DROOP,
+    "[`Error`] for a droop (a fraction of the rated speed [rad/s] at the rated torque [N m]) that is out of range.",
+    |format| droop(fraction, rated_speed, rated_torque, &format),
+    |cast, [], [droop]| DroopConfig { droop: cast!(droop) }
+);
+
+part!(
+    FeedForwardConfig, (share: f64), SHARE,
+    "[`Error::Value`] for a share that is not from 0 to 1.",
+    |format| feed_forward(share, &format),
+    |cast, [], [share]| FeedForwardConfig { share: cast!(share) }
+);
+
+part!(
+    DampingConfig, (design: &SpeedLoopDesign), GAIN,
+    "[`Error::Coefficient`] for a gain beyond fixed point.",
+    |format| damping(design.slip, &format),
+    |cast, [], [damping]| DampingConfig { damping: cast!(damping) }
+);
+
+part!(
+    SymmetricConfig, (torque: f64), LIMIT,
+    "[`Error::Value`] for a torque [N m] that is not positive and finite, or beyond twice its base.",
+    |format| between(0.0, torque, &format),
+    |cast, [_, torque], []| SymmetricConfig { torque: cast!(torque) }
+);
+
+part!(
+    BetweenConfig, (least: f64, most: f64), LIMIT,
+    "[`Error::Value`] for torques [N m] that are not at most and above zero and finite, or beyond twice their base.",
+    |format| between(least, most, &format),
+    |cast, [least, most], []| BetweenConfig { least: cast!(least), most: cast!(most) }
+);
+
+part!(
+    ModesConfig, (settings: &ModesSettings, period: f64), MODES,
+    "[`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` [s] or more.",
+    |format| windows(settings, &format),
+    |cast, [middle, half, centre, reach, shaft, standstill], []| ModesConfig {
+        running: Window { middle: cast!(middle), half: cast!(half) },
+        allowed: Window { middle: cast!(centre), half: cast!(reach) },
+        shaft_torque: cast!(shaft),
+        standstill: cast!(standstill),
+        prompt: get!(ticks(settings.prompt, period)),
+        patient: get!(ticks(settings.patient, period)),
+        start: get!(ticks(settings.start, period)),
+    }
+);
+
+const fn range<const K: usize>(barred: &BarredSpeeds<K>, k: usize, format: &Format) -> Values<2, 0> {
+    let ranges = barred.ranges();
+    if k >= ranges.len() {
+        return Err(Error::Value(BARRED));
+    }
+    let ([low, high], speed) = (ranges[k], format.bases.speed);
+    Ok(([0.5 * (low + high) / speed, 0.5 * (high - low) / speed], []))
+}
+
+const fn quick(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
+    let step = rate * period / format.bases.speed;
+    if step > 0.0 && all_finite(&[step]) { Ok(([step], [])) } else { Err(Error::Value(RAMP)) }
+}
+
+macro_rules! float_arrays {
+    ($float:ident) => {
+        impl<const K: usize> BarredConfig<$float, K> {
+            /// The constants as floats.
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
+            pub const fn new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64) -> Self {
+                or_stop!(Self::try_new(barred, quick_ramp, period))
+            }
+
+            /// The constants as floats.
+            ///
+            /// # Errors
+            /// [`Error::Value`] for other than `K` ranges, or a quick ramp [rad/s2] that is not positive and finite.
+            pub const fn try_new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64) -> Result<Self, Error> {
+                let format = Format::FLOAT;
+                let ([step], []) = get!(quick(quick_ramp, period, &format));
+                let mut ranges = [Window { middle: 0.0, half: 0.0 }; K];
+                let mut k = 0;
+                while k < K {
+                    let ([middle, half], []) = get!(range(barred, k, &format));
+                    ranges[k] = Window { middle: middle as $float, half: half as $float };
+                    k += 1;
+                }
+                Ok(BarredConfig { ranges, quick: step as $float })
+            }
+        }
+
+        impl<const K: usize> CurveConfig<$float, K> {
+            /// The constants as floats; `least` is the smallest torque, zero or below [N m].
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
+            pub const fn new(curve: &TorqueCurve<K>, least: f64) -> Self {
+                or_stop!(Self::try_new(curve, least))
+            }
+
+            /// The constants as floats; `least` is the smallest torque, zero or below [N m].
+            ///
+            /// # Errors
+            /// [`Error::Value`] for a least torque above zero or not finite.
+            pub const fn try_new(curve: &TorqueCurve<K>, least: f64) -> Result<Self, Error> {
+                let format = Format::FLOAT;
+                let ([least, _], []) = get!(between(least, 1.0, &format));
+                let mut pieces = [CurvePiece::<$float> { speed: 0.0, torque: 0.0, slope: 0.0 }; K];
+                let mut k = 0;
+                while k < K {
+                    let ([speed, torque], [slope]) = get!(piece(curve, k, &format));
+                    pieces[k] = CurvePiece { speed: speed as $float, torque: torque as $float, slope: slope as $float };
+                    k += 1;
+                }
+                Ok(CurveConfig { pieces, least: least as $float })
+            }
+        }
+
+        impl<L: Copy> SlewConfig<$float, L> {
+            /// The constants as floats: torque per time [N m/s], the other limit, and the period of a tick [s].
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
+            pub const fn new(rate: f64, limit: L, period: f64) -> Self {
+                or_stop!(Self::try_new(rate, limit, period))
+            }
+
+            /// The constants as floats.
+            ///
+            /// # Errors
+            /// [`Error::Value`] for a rate that is not positive and finite.
+            pub const fn try_new(rate: f64, limit: L, period: f64) -> Result<Self, Error> {
+                let ([step], []) = get!(slew(rate, period, &Format::FLOAT));
+                Ok(SlewConfig { step: step as $float, limit })
+            }
+        }
+    };
+}
+
+float_arrays!(f32);
+float_arrays!(f64);
+
+impl<const K: usize> BarredConfig<Fixed, K> {
+    /// The constants in fixed point.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+    pub const fn new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64, bases: Bases) -> Self {
+        or_stop!(Self::try_new(barred, quick_ramp, period, bases))
+    }
+
+    /// The constants in fixed point.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for other than `K` ranges, one beyond twice the base of the speed, or a quick ramp [rad/s2]
+    /// that is not positive and finite.
+    pub const fn try_new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64, bases: Bases) -> Result<Self, Error> {
+        get!(bases.check());
+        let format = Format::fixed(bases);
+        let ([quick], []) = get!(in_fixed(quick(quick_ramp, period, &format), RAMP));
+        let mut ranges = [Window { middle: Fixed::from_bits(0), half: Fixed::from_bits(0) }; K];
+        let mut k = 0;
+        while k < K {
+            let ([middle, half], []) = get!(in_fixed(range(barred, k, &format), BARRED));
+            ranges[k] = Window { middle, half };
+            k += 1;
+        }
+        Ok(BarredConfig { ranges, quick })
+    }
+}
+
+impl<const K: usize> CurveConfig<Fixed, K> {
+    /// The constants in fixed point; `least` is the smallest torque, zero or below [N m].
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+    pub const fn new(curve: &TorqueCurve<K>, least: f64, bases: Bases) -> Self {
+        or_stop!(Self::try_new(curve, least, bases))
+    }
+
+    /// The constants in fixed point; `least` is the smallest torque, zero or below [N m].
+    ///
+    /// # Errors
+    /// [`Error`] for a least torque above zero, a point beyond twice its base, or a slope of 2 bases of the torque per
+    /// base of the speed or more.
+    pub const fn try_new(curve: &TorqueCurve<K>, least: f64, bases: Bases) -> Result<Self, Error> {
+        get!(bases.check());
+        let format = Format::fixed(bases);
+        let ([least, _], []) = get!(in_fixed(between(least, bases.torque, &format), LIMIT));
+        let mut pieces =
+            [CurvePiece { speed: Fixed::from_bits(0), torque: Fixed::from_bits(0), slope: Coefficient::ZERO }; K];
+        let mut k = 0;
+        while k < K {
+            let ([speed, torque], [slope]) = get!(in_fixed(piece(curve, k, &format), CURVE));
+            pieces[k] = CurvePiece { speed, torque, slope };
+            k += 1;
+        }
+        Ok(CurveConfig { pieces, least })
+    }
+}
+
+impl<L: Copy> SlewConfig<Fixed, L> {
+    /// The constants in fixed point: torque per time [N m/s], the other limit, and the period of a tick [s].
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+    pub const fn new(rate: f64, limit: L, period: f64, bases: Bases) -> Self {
+        or_stop!(Self::try_new(rate, limit, period, bases))
+    }
+
+    /// The constants in fixed point.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a rate that is not positive and finite, or twice the base of the torque in a tick.
+    pub const fn try_new(rate: f64, limit: L, period: f64, bases: Bases) -> Result<Self, Error> {
+        get!(bases.check());
+        let ([step], []) = get!(in_fixed(slew(rate, period, &Format::fixed(bases)), SLEW));
+        Ok(SlewConfig { step, limit })
+    }
+}
+
+impl Gains<f32> {
+    /// The gains of a speed loop, for a torque-controlled drive, as floats; [`DampingConfig`] takes the rest of it.
+    ///
+    /// # Panics
+    /// At compile time in a constant, where the ramp [rad/s2] is not positive and finite.
+    pub const fn of_speed_loop(design: &SpeedLoopDesign, ramp: f64) -> Self {
+        let design = [design.proportional, design.integral, design.slip, design.period];
+        let ([ramp], [proportional, integral, unwinding]) = or_stop!(gains(&design, ramp, &Format::FLOAT));
+        Gains {
+            proportional: proportional as f32,
+            integral: integral as f32,
+            unwinding: unwinding as f32,
+            ramp: ramp as f32,
+        }
+    }
+}
+
+impl Gains<Fixed> {
+    /// The gains of a speed loop, for a torque-controlled drive, in fixed point; [`DampingConfig`] takes the rest of
+    /// it.
+    ///
+    /// # Panics
+    /// At compile time in a constant, where a gain or the ramp [rad/s2] is beyond fixed point.
+    pub const fn of_speed_loop(design: &SpeedLoopDesign, ramp: f64, bases: Bases) -> Self {
+        let design = [design.proportional, design.integral, design.slip, design.period];
+        let values = gains(&design, ramp, &Format::fixed(bases));
+        let ([ramp], [proportional, integral, unwinding]) = or_stop!(in_fixed(values, GAIN));
+        Gains { proportional, integral, unwinding, ramp }
+    }
+}
+
+impl<const K: usize> RackConfig<K> {
+    /// A delay [s] in ticks of `period` [s].
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+    pub const fn new(delay: f64, period: f64) -> Self {
+        or_stop!(Self::try_new(delay, period))
+    }
+
+    /// A delay [s] in ticks of `period` [s], to the nearest.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a delay that is negative or does not fit the ring.
+    pub const fn try_new(delay: f64, period: f64) -> Result<Self, Error> {
+        let ticks = match ticks(delay, period) {
+            Ok(ticks) => ticks,
+            Err(_) => return Err(Error::Value(DELAY)),
+        };
+        if (ticks as usize) < K { Ok(RackConfig { ticks }) } else { Err(Error::Value(DELAY)) }
+    }
+}

@@ -1,0 +1,110 @@
+//! Speeds that a machine must not dwell at: where an order of its excitation meets a torsional frequency.
+
+use super::Error;
+
+/// The share of a critical speed, either way, within which a machine should not dwell: 10 %.
+pub const USUAL_MARGIN: f64 = 0.1;
+
+/// Barred ranges of speed, rising and apart, at most `K`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BarredSpeeds<const K: usize> {
+    ranges: [[f64; 2]; K],
+    count: usize,
+}
+
+impl<const K: usize> BarredSpeeds<K> {
+    /// The ranges about the critical speeds `frequency/order` [Pfützner 1980 ch. 1], as wide as `margin` of them either
+    /// way, as far as they begin below `up_to` [rad/s]. Ranges that touch are one.
+    ///
+    /// `frequencies` [rad/s] of the torsional vibration, `orders` in multiples of a turn (a four-stroke engine has 1/2,
+    /// 1, 3/2 ...).
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+    #[must_use]
+    pub const fn new(frequencies: &[f64], orders: &[f64], margin: f64, up_to: f64) -> Self {
+        match Self::try_new(frequencies, orders, margin, up_to) {
+            Ok(ranges) => ranges,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`new`](Self::new), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// [`Error::Barred`] for a frequency or order that is not positive and finite, or a margin that is not above 0 and
+    /// below 1; [`Error::BarredCount`] for more ranges than `K`.
+    pub const fn try_new(frequencies: &[f64], orders: &[f64], margin: f64, up_to: f64) -> Result<Self, Error> {
+        if !(margin > 0.0 && margin < 1.0) {
+            return Err(Error::Barred);
+        }
+        let mut barred = BarredSpeeds { ranges: [[0.0; 2]; K], count: 0 };
+        let mut f = 0;
+        while f < frequencies.len() {
+            let mut o = 0;
+            while o < orders.len() {
+                let (frequency, order) = (frequencies[f], orders[o]);
+                if !(frequency > 0.0 && frequency.is_finite() && order > 0.0 && order.is_finite()) {
+                    return Err(Error::Barred);
+                }
+                let critical = frequency / order;
+                let range = [critical * (1.0 - margin), critical * (1.0 + margin)];
+                if range[0] < up_to && !barred.take(range) {
+                    return Err(Error::BarredCount);
+                }
+                o += 1;
+            }
+            f += 1;
+        }
+        Ok(barred)
+    }
+
+    /// The ranges, lower and upper edge [rad/s].
+    #[must_use]
+    pub const fn ranges(&self) -> &[[f64; 2]] {
+        self.ranges.split_at(self.count).0
+    }
+
+    /// Adds a range, joined with those that it touches; whether there was room.
+    const fn take(&mut self, mut range: [f64; 2]) -> bool {
+        let (mut kept, mut count, mut k) = ([[0.0; 2]; K], 0, 0);
+        let mut placed = false;
+        while k < self.count {
+            let other = self.ranges[k];
+            if other[1] < range[0] || placed && other[0] > range[1] {
+                kept[count] = other;
+                count += 1;
+            } else if other[0] > range[1] {
+                if count + 1 >= K {
+                    return false;
+                }
+                kept[count] = range;
+                kept[count + 1] = other;
+                count += 2;
+                placed = true;
+            } else {
+                range = [min(other[0], range[0]), max(other[1], range[1])];
+            }
+            k += 1;
+        }
+        if !placed {
+            if count >= K {
+                return false;
+            }
+            kept[count] = range;
+            count += 1;
+        }
+        self.ranges = kept;
+        self.count = count;
+        true
+    }
+}
+
+const fn min(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+const fn max(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}

@@ -1,0 +1,169 @@
+//! Gains of a governor whose actuator is late: a fuel rack, a valve.
+//!
+//! To a governor that is slower than the shaft's vibration the machine is one mass of the total inertia J, and
+//! everything that is late, the dead time and lag of the actuator and the tick, acts as one lag T_s, their sum. With
+//! `a` the span of the loop,
+//!
+//! - `k_p = J/(a T_s)`, `k_i = k_p/(a^2 T_s)`
+//!
+//! put the crossover at `1/(a T_s)`, in the middle of a range of `a^2` over which the phase stays above -180 degrees:
+//! the symmetrical optimum [Kessler 1958, Regelungstechnik 6(11); Föllinger, Regelungstechnik, ch. 7]. For a true
+//! first-order lag the phase margin is `atan(a) - atan(1/a)`: 37 degrees at 2, 53 at 3.
+//!
+//! Margins are those of the loop as it is: two masses, sampled, dead time and lag apart, and what is fed forward. With
+//! P the machine, A the actuator, C the controller, F the lag of the estimated load torque and g its share, the
+//! observer finds the load from the machine's motion and from the torque that acts, so the loop cut at the actuator is
+//! `A (C P + g F)/(1 - g F A)`. The closed loop is that of `A C P` alone, as long as the actuator is what the observer
+//! is told it is; the margins say how far it may be something else. At g = 1 the feed-forward integrates by itself.
+
+use super::margins::{Late, Loop, Margins};
+use super::tuning::Rate;
+use super::{Error, ExactStep};
+use crate::machine::TwoMass;
+
+/// How late the torque acts after its command.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Actuator {
+    /// Dead time \[s\].
+    pub delay: f64,
+    /// Time constant of the first-order lag \[s\].
+    pub lag: f64,
+}
+
+impl Actuator {
+    /// A torque-controlled drive: within a tick.
+    pub const DIRECT: Self = Self { delay: 0.0, lag: 0.0 };
+
+    /// The mean dead time of a combustion engine's torque \[s\] at a speed \[rad/s\]: half the interval between two
+    /// firings until the next cylinder takes the new amount of fuel, and a quarter of a turn until its pressure has
+    /// become torque. A four-stroke engine fires `cylinders/2` times a turn.
+    ///
+    /// The usual estimate of the literature on diesel governing [Haddad and Watson 1984, Principles and Performance in
+    /// Diesel Engineering, §11].
+    ///
+    /// # Errors
+    /// [`Error::Actuator`] for a speed that is not positive, or no cylinder.
+    pub const fn try_firing_delay(cylinders: u32, four_stroke: bool, speed: f64) -> Result<f64, Error> {
+        if cylinders == 0 || !(speed > 0.0 && speed.is_finite()) {
+            return Err(Error::Actuator);
+        }
+        let turn = core::f64::consts::TAU / speed;
+        let cycle = if four_stroke { 2.0 * turn } else { turn };
+        Ok(0.5 * cycle / cylinders as f64 + 0.25 * turn)
+    }
+
+    /// [`try_firing_delay`](Self::try_firing_delay).
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the error's sentence.
+    pub const fn firing_delay(cylinders: u32, four_stroke: bool, speed: f64) -> f64 {
+        match Self::try_firing_delay(cylinders, four_stroke, speed) {
+            Ok(delay) => delay,
+            Err(error) => error.stop(),
+        }
+    }
+}
+
+/// What is fed forward of the estimated load torque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadFeedForward {
+    /// The share, from 0 to 1.
+    pub share: f64,
+    /// By how much the estimate is late, as a first-order lag \[s\].
+    pub lag: f64,
+}
+
+impl LoadFeedForward {
+    /// Nothing is fed forward.
+    pub const NONE: Self = Self { share: 0.0, lag: 0.0 };
+}
+
+/// A finished governor for a late actuator.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct GovernorDesign {
+    /// Time between two ticks \[s\].
+    pub period: f64,
+    /// Proportional gain \[N m s/rad\].
+    pub proportional: f64,
+    /// Integral gain \[N m/rad\].
+    pub integral: f64,
+    /// Sum of all that is late \[s\].
+    pub lateness: f64,
+    /// Share of the load torque that is fed forward.
+    pub share: f64,
+    /// Margins of the loop, cut at the actuator.
+    pub margins: Margins,
+}
+
+impl TwoMass {
+    /// Designs a governor for a late actuator. `span` is a of the symmetrical optimum, above 1; from 2 (brisk) to 4
+    /// (quiet).
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_governor`](Self::try_governor)
+    /// returns.
+    #[must_use]
+    pub const fn governor(
+        &self,
+        rate: Rate,
+        actuator: Actuator,
+        span: f64,
+        forward: LoadFeedForward,
+    ) -> GovernorDesign {
+        match self.try_governor(rate, actuator, span, forward) {
+            Ok(design) => design,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`governor`](Self::governor), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// A value out of range, or [`Error::GovernorUnstable`].
+    pub const fn try_governor(
+        &self,
+        rate: Rate,
+        actuator: Actuator,
+        span: f64,
+        forward: LoadFeedForward,
+    ) -> Result<GovernorDesign, Error> {
+        if let Err(error) = self.check() {
+            return Err(Error::Machine(error));
+        }
+        let period = match rate.period() {
+            Ok(period) => period,
+            Err(error) => return Err(error),
+        };
+        let Actuator { delay, lag } = actuator;
+        if !(delay >= 0.0 && delay.is_finite() && lag >= 0.0 && lag.is_finite()) {
+            return Err(Error::Actuator);
+        }
+        if !(span > 1.0 && span.is_finite()) {
+            return Err(Error::Span);
+        }
+        if !(forward.share >= 0.0 && forward.share <= 1.0 && forward.lag >= 0.0 && forward.lag.is_finite()) {
+            return Err(Error::FeedForward);
+        }
+        // The torque acts in the tick after its sample, and is held for a tick: half of one more in the mean.
+        let lateness = delay + lag + 1.5 * period;
+        let proportional = self.total_inertia() / (span * lateness);
+        let integral = proportional / (span * span * lateness);
+        let open = Loop {
+            step: ExactStep::new(self, period),
+            machine: *self,
+            period,
+            proportional,
+            integral,
+            slip: 0.0,
+            late: Late { delay, lag, share: forward.share, estimate: forward.lag },
+        };
+        if !open.is_stable(1.0 / (span * lateness)) {
+            return Err(Error::GovernorUnstable);
+        }
+        let margins = open.margins(1.0 / (span * lateness));
+        Ok(GovernorDesign { period, proportional, integral, lateness, share: forward.share, margins })
+    }
+}

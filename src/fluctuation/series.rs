@@ -1,0 +1,130 @@
+//! A quantity over the angle of a cycle as a Fourier series.
+
+use crate::scalar::{atan2, hypot, sin_cos};
+
+/// The highest order of a cycle that is looked at.
+pub const MAX_ORDER: usize = 16;
+
+/// One order: `cos cos(n theta) + sin sin(n theta)`, with theta the angle of the cycle from 0 to 2 pi.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Order {
+    /// What goes with the cosine.
+    pub cos: f64,
+    /// What goes with the sine.
+    pub sin: f64,
+}
+
+impl Order {
+    /// Half of what it swings from peak to peak.
+    pub fn amplitude(&self) -> f64 {
+        hypot(self.cos, self.sin)
+    }
+
+    /// Phase \[rad\], in (-pi, pi]: the order is `amplitude cos(n theta - phase)`.
+    pub fn phase(&self) -> f64 {
+        atan2(self.sin, self.cos)
+    }
+
+    /// Its derivative by theta, for the `n`th order.
+    pub(super) fn derivative(&self, n: f64) -> Order {
+        Order { cos: n * self.sin, sin: -n * self.cos }
+    }
+}
+
+/// Mean over the angle, and the orders from the first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Series {
+    /// The mean over the angle.
+    pub mean: f64,
+    /// Order 1 first.
+    pub orders: [Order; MAX_ORDER],
+}
+
+impl Series {
+    /// The `n`th order, counted from 1; nothing beyond the last.
+    pub fn order(&self, n: usize) -> Order {
+        n.checked_sub(1).and_then(|index| self.orders.get(index)).copied().unwrap_or_default()
+    }
+
+    /// Value at the angle theta of the cycle \[rad\], 2 pi to the cycle whatever its turns.
+    pub fn at(&self, theta: f64) -> f64 {
+        let (sin, cos) = sin_cos(theta);
+        self.along(cos, sin)
+    }
+
+    /// Value where the first order's cosine and sine are these.
+    pub(super) fn along(&self, cos: f64, sin: f64) -> f64 {
+        let (mut c, mut s) = (1.0, 0.0);
+        let mut sum = self.mean;
+        for order in &self.orders {
+            (c, s) = (c * cos - s * sin, s * cos + c * sin);
+            sum += order.cos * c + order.sin * s;
+        }
+        sum
+    }
+
+    /// The derivative by theta.
+    pub fn derivative(&self) -> Series {
+        let mut derived = Series::default();
+        for ((n, order), out) in (1_u32..).zip(&self.orders).zip(&mut derived.orders) {
+            *out = order.derivative(f64::from(n));
+        }
+        derived
+    }
+
+    /// Of values at evenly spaced angles from theta = 0, with orders up to `highest`.
+    pub(super) fn of(values: &Grid, circle: &Circle, highest: usize) -> Series {
+        let mut series = Series { mean: values.iter().sum::<f64>() / GRID as f64, ..Series::default() };
+        for (value, &(cos, sin)) in values.iter().zip(circle) {
+            let (mut c, mut s) = (1.0, 0.0);
+            let part = 2.0 * value / GRID as f64;
+            for order in series.orders.iter_mut().take(highest) {
+                (c, s) = (c * cos - s * sin, s * cos + c * sin);
+                order.cos += part * c;
+                order.sin += part * s;
+            }
+        }
+        series
+    }
+
+    /// Values at evenly spaced angles from theta = 0.
+    pub(super) fn grid(&self, circle: &Circle) -> Grid {
+        circle.map(|(cos, sin)| self.along(cos, sin))
+    }
+
+    /// Where a stationary value near `theta` is, by Newton's method; `theta` itself where that leads further than half a period of the
+    /// highest order.
+    pub(super) fn stationary(&self, theta: f64) -> f64 {
+        let (slope, curvature) = (self.derivative(), self.derivative().derivative());
+        let mut found = theta;
+        for _ in 0..8 {
+            let bend = curvature.at(found);
+            if bend == 0.0 {
+                return theta;
+            }
+            found -= slope.at(found) / bend;
+        }
+        if (found - theta).abs() <= core::f64::consts::TAU / GRID as f64 { found } else { theta }
+    }
+}
+
+/// Points of a grid over the cycle: eight to the highest order's period.
+pub(super) const GRID: usize = 8 * MAX_ORDER;
+
+/// Values at evenly spaced angles.
+pub(super) type Grid = [f64; GRID];
+
+/// Cosine and sine at evenly spaced angles.
+pub(super) type Circle = [(f64, f64); GRID];
+
+/// The circle of the grid.
+pub(super) fn circle() -> Circle {
+    let mut points = [(1.0, 0.0); GRID];
+    for (index, point) in (0_u32..).zip(&mut points) {
+        let (sin, cos) = sin_cos(core::f64::consts::TAU * f64::from(index) / GRID as f64);
+        *point = (cos, sin);
+    }
+    points
+}

@@ -1,0 +1,162 @@
+//! Limits of the torque: constant, by the prime mover's curve, and by slew.
+
+use crate::number::Number;
+use crate::sample::Estimate;
+
+/// A limit of the torque.
+pub trait Limit<N: Number>: Default {
+    /// Its constants.
+    type Config;
+
+    /// The torque nearest to `wanted` that is allowed.
+    fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N;
+
+    /// The machine is given this torque now.
+    #[inline(always)]
+    fn start(&mut self, _torque: N) {}
+}
+
+/// As much either way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Symmetric;
+
+/// Constants of [`Symmetric`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SymmetricConfig<N> {
+    /// Largest torque, either way [N m].
+    pub torque: N,
+}
+
+impl<N: Number> Limit<N> for Symmetric {
+    type Config = SymmetricConfig<N>;
+
+    #[inline(always)]
+    fn limit(&mut self, config: &Self::Config, _estimate: &Estimate<N>, wanted: N) -> N {
+        wanted.limited(config.torque)
+    }
+}
+
+/// Between two torques: an engine or a turbine, which drives and does not brake.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Between;
+
+/// Constants of [`Between`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BetweenConfig<N> {
+    /// Smallest torque, zero or below [N m].
+    pub least: N,
+    /// Largest torque, above zero [N m].
+    pub most: N,
+}
+
+/// Written so that a NaN comes out as the least.
+#[inline(always)]
+fn between<N: Number>(wanted: N, least: N, most: N) -> N {
+    if wanted > most {
+        most
+    } else if wanted > least {
+        wanted
+    } else {
+        least
+    }
+}
+
+impl<N: Number> Limit<N> for Between {
+    type Config = BetweenConfig<N>;
+
+    #[inline(always)]
+    fn limit(&mut self, config: &Self::Config, _estimate: &Estimate<N>, wanted: N) -> N {
+        between(wanted, config.least, config.most)
+    }
+}
+
+/// The prime mover's curve of torque against speed, by `K` straight lines; a power limit is part of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Curve<const K: usize>;
+
+/// A straight piece of a [`Curve`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CurvePiece<N: Number> {
+    /// Where it begins [rad/s].
+    pub speed: N,
+    /// The largest torque there [N m].
+    pub torque: N,
+    /// Its slope [N m s/rad], on the [widened](Number::widened) speed.
+    pub slope: N::Coefficient,
+}
+
+/// Constants of [`Curve`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CurveConfig<N: Number, const K: usize> {
+    /// The pieces, speeds rising from zero; the last one is level.
+    pub pieces: [CurvePiece<N>; K],
+    /// Smallest torque, zero or below [N m].
+    pub least: N,
+}
+
+impl<N: Number, const K: usize> CurveConfig<N, K> {
+    /// The largest torque at a speed, either way.
+    #[inline(always)]
+    pub fn most(&self, speed: N) -> N {
+        let speed = speed.magnitude();
+        let (mut torque, mut slope, mut from) = (N::ZERO, N::Coefficient::default(), N::ZERO);
+        for piece in &self.pieces {
+            if speed >= piece.speed {
+                (torque, slope, from) = (piece.torque, piece.slope, piece.speed);
+            }
+        }
+        torque.plus(speed.minus(from).saturated().widened().times(slope))
+    }
+}
+
+impl<N: Number, const K: usize> Limit<N> for Curve<K> {
+    type Config = CurveConfig<N, K>;
+
+    #[inline(always)]
+    fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
+        between(wanted, config.least, config.most(estimate.motor_speed))
+    }
+}
+
+/// Another limit, and the torque moves by at most a step in a tick. Where the other limit falls faster than that, it
+/// prevails.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Slew<N, L> {
+    last: N,
+    limit: L,
+}
+
+/// Constants of [`Slew`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SlewConfig<N, L> {
+    /// Largest change of the torque in a tick [N m].
+    pub step: N,
+    /// Constants of the other limit.
+    pub limit: L,
+}
+
+impl<N: Number, L: Limit<N>> Limit<N> for Slew<N, L> {
+    type Config = SlewConfig<N, L::Config>;
+
+    #[inline(always)]
+    fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
+        let slewed = self.last.plus(wanted.minus(self.last).limited(config.step));
+        self.last = self.limit.limit(&config.limit, estimate, slewed);
+        self.last
+    }
+
+    #[inline(always)]
+    fn start(&mut self, torque: N) {
+        self.last = torque;
+        self.limit.start(torque);
+    }
+}

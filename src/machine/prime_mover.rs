@@ -1,0 +1,33 @@
+//! What drives a machine: the torque of a prime mover against its speed, and against time while it starts.
+//!
+//! | prime mover | shape | source |
+//! |---|---|---|
+//! | [`Line`] | straight line through two points; a shunt motor, any motor near its rated point | [Wang 1989 (1-6)] |
+//! | [`Parabola`] | through three points of a measured curve | [Wang 1989 (1-7)] |
+//! | [`Induction`] | with breakdown torque; with rotor resistance for cranes | [Wang 1989 (1-8)], Kloss 1909 |
+//! | [`Combustion`] | full-load curve, with a governor above rated speed | Leiderman; Jazar, Vehicle Dynamics, ch. 4 |
+//! | [`Shunt`], [`Series`] | direct-current motors from voltage, resistance and flux | [Wang 1989 §1-2] |
+//! | [`StartingLaw`] | `tau`, `tau (1 - t/T)`, `tau (1 - t^2/T^2)` | [Huang 1987 §2.2] |
+//!
+//! Torques are in N m, speeds in rad/s, at the motor's shaft. The stiffness of a characteristic is `|d tau/d omega|` \[N m s/rad\]: it damps the
+//! machine where the torque falls with the speed. The overload capacity is the largest torque over the rated one.
+//!
+//! ```
+//! use driveline::machine::{Induction, Speed, Torque};
+//! // 1480 r/min, 750 N m, breakdown at 2.5 times that; 1500 r/min without load
+//! const MOTOR: Induction = Induction::new(Speed(154.99), Torque(750.0), Speed(157.08), 2.5);
+//! assert!((MOTOR.torque(Speed(154.99)).0 - 750.0).abs() < 1e-9);
+//! assert!((MOTOR.torque(MOTOR.breakdown_speed()).0 - 2.5 * 750.0).abs() < 1e-9);
+//! ```
+
+mod combustion;
+mod curve;
+mod direct_current;
+mod induction;
+mod starting;
+
+pub use combustion::{Combustion, Mixture};
+pub use curve::{Line, Parabola};
+pub use direct_current::{Series, Shunt};
+pub use induction::Induction;
+pub use starting::{StartCondition, StartingLaw};

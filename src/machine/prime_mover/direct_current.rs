@@ -1,0 +1,118 @@
+//! Direct-current motors, unsaturated, brushes and iron without loss.
+
+use crate::machine::error::{Error, not_negative, positive};
+use crate::machine::{Speed, Torque};
+
+/// A shunt or separately excited motor: `tau = c (U - c omega)/R` [Wang 1989 §1-2].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Shunt {
+    /// Armature voltage \[V\].
+    pub voltage: f64,
+    /// Resistance of the armature's circuit \[ohm\].
+    pub resistance: f64,
+    /// Torque over current, and voltage over speed \[V s\]: less in a weakened field.
+    pub flux: f64,
+}
+
+impl Shunt {
+    /// From voltage \[V\], resistance \[ohm\] and flux \[V s\].
+    ///
+    /// # Panics
+    /// At compile time in a constant, where a value is out of range.
+    #[must_use]
+    pub const fn new(voltage: f64, resistance: f64, flux: f64) -> Self {
+        match Self::try_new(voltage, resistance, flux) {
+            Ok(motor) => motor,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`new`](Self::new), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::DirectCurrent`].
+    pub const fn try_new(voltage: f64, resistance: f64, flux: f64) -> Result<Self, Error> {
+        if positive(voltage) && positive(resistance) && positive(flux) {
+            Ok(Self { voltage, resistance, flux })
+        } else {
+            Err(Error::DirectCurrent)
+        }
+    }
+
+    /// Torque at a speed.
+    #[must_use]
+    pub const fn torque(&self, speed: Speed) -> Torque {
+        Torque(self.flux * (self.voltage - self.flux * speed.0) / self.resistance)
+    }
+
+    /// Speed without load.
+    #[must_use]
+    pub const fn no_load_speed(&self) -> Speed {
+        Speed(self.voltage / self.flux)
+    }
+
+    /// Stiffness of the characteristic \[N m s/rad\].
+    #[must_use]
+    pub const fn stiffness(&self) -> f64 {
+        self.flux * self.flux / self.resistance
+    }
+}
+
+/// A series motor: `tau = c I^2`, `I = U/(R + c omega)` [Wang 1989 §1-2]. Without load it runs away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Series {
+    /// Voltage \[V\].
+    pub voltage: f64,
+    /// Resistance of armature, field and starter \[ohm\].
+    pub resistance: f64,
+    /// Torque over the square of the current \[H\].
+    pub flux: f64,
+}
+
+impl Series {
+    /// From voltage \[V\], resistance \[ohm\] and torque over the square of the current \[H\].
+    ///
+    /// # Panics
+    /// At compile time in a constant, where a value is out of range.
+    #[must_use]
+    pub const fn new(voltage: f64, resistance: f64, flux: f64) -> Self {
+        match Self::try_new(voltage, resistance, flux) {
+            Ok(motor) => motor,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`new`](Self::new), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::DirectCurrent`].
+    pub const fn try_new(voltage: f64, resistance: f64, flux: f64) -> Result<Self, Error> {
+        if positive(voltage) && not_negative(resistance) && positive(flux) {
+            Ok(Self { voltage, resistance, flux })
+        } else {
+            Err(Error::DirectCurrent)
+        }
+    }
+
+    /// Current at a speed \[A\], for speeds above `-R/c`: driven backward faster than that it feeds its own field without bound.
+    #[must_use]
+    pub const fn current(&self, speed: Speed) -> f64 {
+        self.voltage / (self.resistance + self.flux * speed.0)
+    }
+
+    /// Torque at a speed above `-R/c`.
+    #[must_use]
+    pub const fn torque(&self, speed: Speed) -> Torque {
+        let current = self.current(speed);
+        Torque(self.flux * current * current)
+    }
+
+    /// Stiffness of the characteristic at a speed above `-R/c` \[N m s/rad\].
+    #[must_use]
+    pub const fn stiffness(&self, speed: Speed) -> f64 {
+        let current = self.current(speed);
+        (2.0 * self.flux * self.flux * current * current * current / self.voltage).abs()
+    }
+}

@@ -1,0 +1,107 @@
+//! The three-phase induction motor, with the resistance of its rotor where it has slip rings.
+
+use crate::machine::error::{Error, positive};
+use crate::machine::{Speed, Torque};
+use crate::scalar::sqrt;
+
+/// An induction motor on a stiff supply, stator resistance neglected: `tau = 2 tau_A/(s/s_A + s_A/s)` with the slip
+/// `s = 1 - omega/omega_0` (Kloss's formula).
+///
+/// It passes through the rated point where the breakdown speed is that of Wang 1989 (1-8). Above synchronous speed it brakes; driven backward it
+/// brakes too, which is how a crane lowers against the current.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Induction {
+    /// Synchronous speed \[rad/s\].
+    pub synchronous: f64,
+    /// Largest torque \[N m\].
+    pub breakdown: f64,
+    /// Slip of the largest torque: with much resistance in the rotor above 1.
+    pub breakdown_slip: f64,
+}
+
+impl Induction {
+    /// From the rated point, the synchronous speed and the overload capacity (breakdown torque over rated torque).
+    ///
+    /// # Panics
+    /// At compile time in a constant, where a value is out of range.
+    #[must_use]
+    pub const fn new(rated_speed: Speed, rated: Torque, synchronous: Speed, overload: f64) -> Self {
+        match Self::try_new(rated_speed, rated, synchronous, overload) {
+            Ok(motor) => motor,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`new`](Self::new), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::InductionSpeed`], [`Error::CharacteristicPoints`], [`Error::Overload`].
+    pub const fn try_new(rated_speed: Speed, rated: Torque, synchronous: Speed, overload: f64) -> Result<Self, Error> {
+        if !(positive(rated_speed.0) && positive(synchronous.0) && rated_speed.0 < synchronous.0) {
+            return Err(Error::InductionSpeed);
+        }
+        if !positive(rated.0) {
+            return Err(Error::CharacteristicPoints);
+        }
+        if !(overload > 1.0 && overload.is_finite()) {
+            return Err(Error::Overload);
+        }
+        let slip = (synchronous.0 - rated_speed.0) / synchronous.0;
+        let steepness = overload + sqrt((overload - 1.0) * (overload + 1.0));
+        Ok(Self { synchronous: synchronous.0, breakdown: overload * rated.0, breakdown_slip: slip * steepness })
+    }
+
+    /// The same motor with resistors at its slip rings: the rotor's whole resistance over its own. The breakdown torque stays, its slip grows by
+    /// that factor [Wang 1989 §1-2].
+    ///
+    /// # Panics
+    /// At compile time in a constant, where the factor is not positive and finite.
+    #[must_use]
+    pub const fn rotor_resistance(self, factor: f64) -> Self {
+        match self.try_rotor_resistance(factor) {
+            Ok(motor) => motor,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`rotor_resistance`](Self::rotor_resistance), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::RotorResistance`].
+    pub const fn try_rotor_resistance(mut self, factor: f64) -> Result<Self, Error> {
+        if !positive(factor) {
+            return Err(Error::RotorResistance);
+        }
+        self.breakdown_slip *= factor;
+        Ok(self)
+    }
+
+    /// Torque at a speed.
+    #[must_use]
+    pub const fn torque(&self, speed: Speed) -> Torque {
+        let (s, a) = (1.0 - speed.0 / self.synchronous, self.breakdown_slip);
+        Torque(2.0 * self.breakdown * s * a / (s * s + a * a))
+    }
+
+    /// Stiffness of the characteristic at a speed \[N m s/rad\], without regard to its sign: below the breakdown speed the torque rises with the
+    /// speed, and the machine is driven off that branch.
+    #[must_use]
+    pub const fn stiffness(&self, speed: Speed) -> f64 {
+        let (s, a) = (1.0 - speed.0 / self.synchronous, self.breakdown_slip);
+        let sum = s * s + a * a;
+        (2.0 * self.breakdown * a * (a - s) * (a + s) / (sum * sum) / self.synchronous).abs()
+    }
+
+    /// Speed of the largest torque [Wang 1989 (1-8)]; negative where the rotor's resistance puts it beyond standstill.
+    #[must_use]
+    pub const fn breakdown_speed(&self) -> Speed {
+        Speed(self.synchronous * (1.0 - self.breakdown_slip))
+    }
+
+    /// Torque at standstill.
+    #[must_use]
+    pub const fn starting_torque(&self) -> Torque {
+        self.torque(Speed(0.0))
+    }
+}

@@ -1,0 +1,347 @@
+//! Branched and closed drive trains: chains that stand on one another's masses, and shafts that close loops.
+//!
+//! ```
+//! use driveline::machine::{Chain, Damping, Efficiency, Inertia, Match, Ratio, Stiffness, Train, TwoMass};
+//!
+//! // An engine on a common gear wheel, which drives two propellers through gears of 1.6.
+//! const PROPELLER: Chain = Chain::motor(Inertia(800.0)).shaft(Stiffness(7.45e6), Damping(0.0)).rotor(Inertia(450.0));
+//! const ENGINE: Chain = Chain::motor(Inertia(3200.0)).shaft(Stiffness(4.27e6), Damping(0.0)).rotor(Inertia(400.0));
+//! const SHIP: Train = Train::of(ENGINE)
+//!     .branch(1, Ratio(1.6), PROPELLER)
+//!     .branch(1, Ratio(1.6), PROPELLER);
+//! const TWO: TwoMass = SHIP.reduce(Match::ResonanceAntiresonance);
+//! assert!((TWO.total_inertia() / SHIP.total_inertia() - 1.0).abs() < 1e-14);
+//! ```
+//!
+//! Everything is referred to the motor, the mass of index 0. Twists of the shafts of a tree are independent; a shaft that closes a loop is twisted by the sum
+//! of those round the loop, with signs and no other factors. So the strain energy is `|R delta|^2`, R from the tree's shafts and, where there are
+//! loops, from a triangulation of all shafts by Householder's reflections, and frequencies are the singular values of `R B / sqrt(J)`. `inv(J) K` is
+//! never formed; without loops R is diagonal, and the accuracy is that of a chain [Pfützner 1980 ch. 1, Demmel and Veselić 1992].
+
+use super::chain::{CAPACITY, Chain, Shaft};
+use super::error::not_negative;
+use super::error::positive;
+use super::modes::{Columns, Modes, SHAFTS};
+use super::{Damping, Error, Ratio, Rigid, Stiffness};
+use crate::scalar::sqrt;
+
+/// The most shafts that a train can hold, those that close loops included.
+pub const TRAIN_SHAFTS: usize = 2 * SHAFTS;
+
+/// A shaft of a train and the masses that it joins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Joint {
+    /// Index of the mass nearer the motor.
+    pub from: usize,
+    /// Index of the other mass.
+    pub to: usize,
+    /// The shaft, referred to the motor.
+    pub shaft: Shaft,
+}
+
+/// A train of masses and shafts with branches and loops, referred to the motor's shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Train {
+    pub(super) inertia: [f64; CAPACITY],
+    count: usize,
+    /// The shafts of the tree, each the only one towards the motor of the mass `to = index + 1`; the others follow.
+    joint: [Joint; TRAIN_SHAFTS],
+    /// Shafts that close loops.
+    closing: usize,
+    gravity: f64,
+}
+
+impl Train {
+    /// A train of one chain.
+    ///
+    /// # Panics
+    /// At compile time in a constant, where the chain is incomplete; so do all methods that have a `try_` form, which returns the [`Error`].
+    #[must_use]
+    pub const fn of(chain: Chain) -> Self {
+        match Self::try_of(chain) {
+            Ok(train) => train,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`of`](Self::of), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// As [`Chain::check`].
+    pub const fn try_of(chain: Chain) -> Result<Self, Error> {
+        if let Err(error) = chain.check() {
+            return Err(error);
+        }
+        let mut joint = [Joint { from: 0, to: 0, shaft: Shaft::NONE }; TRAIN_SHAFTS];
+        let mut j = 0;
+        while j + 1 < chain.count {
+            joint[j] = Joint { from: j, to: j + 1, shaft: chain.shaft[j] };
+            j += 1;
+        }
+        Ok(Self { inertia: chain.inertia, count: chain.count, joint, closing: 0, gravity: chain.gravity[0] })
+    }
+
+    /// A chain on a mass of the train: its first inertia is added to the mass of index `at`, which turns `ratio` times as fast (the motor's speed over
+    /// that of the branch's first inertia). Its masses follow those that are there, in their order. Its weight counts as well.
+    #[must_use]
+    pub const fn branch(self, at: usize, ratio: Ratio, branch: Chain) -> Self {
+        match self.try_branch(at, ratio, branch) {
+            Ok(train) => train,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`branch`](Self::branch), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::BranchNode`], [`Error::GearRatio`], [`Error::TooManyMasses`], as [`Chain::check`].
+    pub const fn try_branch(mut self, at: usize, ratio: Ratio, branch: Chain) -> Result<Self, Error> {
+        if at >= self.count || self.closing > 0 {
+            return Err(Error::BranchNode);
+        }
+        let square = ratio.0 * ratio.0;
+        if !positive(ratio.0) || !positive(square) {
+            return Err(Error::GearRatio);
+        }
+        if let Err(error) = branch.check() {
+            return Err(error);
+        }
+        if self.count + branch.count - 1 > CAPACITY {
+            return Err(Error::TooManyMasses);
+        }
+        self.inertia[at] += branch.inertia[0] / square;
+        self.gravity += branch.gravity[0] / ratio.0;
+        let first = self.count;
+        let mut j = 1;
+        while j < branch.count {
+            let own = branch.shaft[j - 1];
+            let shaft =
+                Shaft { stiffness: own.stiffness / square, damping: own.damping / square, gap: own.gap * ratio.0 };
+            self.inertia[self.count] = branch.inertia[j] / square;
+            self.joint[self.count - 1] = Joint { from: if j == 1 { at } else { first + j - 2 }, to: self.count, shaft };
+            self.count += 1;
+            j += 1;
+        }
+        Ok(self)
+    }
+
+    /// A shaft between two masses that are there already: it closes a loop. Stiffness and damping on its own speed, the motor's over which is `ratio`.
+    /// The ratios of a train that can turn agree round each loop, which is taken as given: ends of the shaft turn alike when nothing twists.
+    #[must_use]
+    pub const fn close(self, from: usize, to: usize, ratio: Ratio, stiffness: Stiffness, damping: Damping) -> Self {
+        match self.try_close(from, to, ratio, stiffness, damping) {
+            Ok(train) => train,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`close`](Self::close), with an error for a value out of range. Branches come before it.
+    ///
+    /// # Errors
+    /// [`Error::BranchNode`], [`Error::GearRatio`], [`Error::ShaftStiffness`], [`Error::ShaftDamping`], [`Error::TooManyShafts`].
+    pub const fn try_close(
+        mut self,
+        from: usize,
+        to: usize,
+        ratio: Ratio,
+        stiffness: Stiffness,
+        damping: Damping,
+    ) -> Result<Self, Error> {
+        if from >= self.count || to >= self.count || from == to {
+            return Err(Error::BranchNode);
+        }
+        if !positive(ratio.0) {
+            return Err(Error::GearRatio);
+        }
+        let square = ratio.0 * ratio.0;
+        if !positive(stiffness.0 / square) {
+            return Err(Error::ShaftStiffness);
+        }
+        if !not_negative(damping.0 / square) {
+            return Err(Error::ShaftDamping);
+        }
+        let at = self.count - 1 + self.closing;
+        if at >= TRAIN_SHAFTS {
+            return Err(Error::TooManyShafts);
+        }
+        let shaft = Shaft { stiffness: stiffness.0 / square, damping: damping.0 / square, gap: 0.0 };
+        self.joint[at] = Joint { from, to, shaft };
+        self.closing += 1;
+        Ok(self)
+    }
+
+    /// Inertias \[kg m2\], the motor first, then those of its chain, then those of the branches in their order.
+    #[must_use]
+    pub const fn masses(&self) -> &[f64] {
+        self.inertia.split_at(self.count).0
+    }
+
+    /// The shafts: those of chain and branches, then those that close loops.
+    #[must_use]
+    pub const fn joints(&self) -> &[Joint] {
+        self.joint.split_at(self.count - 1 + self.closing).0
+    }
+
+    /// Sum of the inertias \[kg m2\].
+    #[must_use]
+    pub const fn total_inertia(&self) -> f64 {
+        let mut sum = 0.0;
+        let mut j = 0;
+        while j < self.count {
+            sum += self.inertia[j];
+            j += 1;
+        }
+        sum
+    }
+
+    /// Largest sum of gaps \[rad\] between the motor and an end of the train, loops left out.
+    #[must_use]
+    pub const fn total_gap(&self) -> f64 {
+        let mut gap = [0.0; CAPACITY];
+        let mut largest = 0.0;
+        let mut j = 0;
+        while j + 1 < self.count {
+            gap[j + 1] = gap[self.joint[j].from] + self.joint[j].shaft.gap;
+            if gap[j + 1] > largest {
+                largest = gap[j + 1];
+            }
+            j += 1;
+        }
+        largest
+    }
+
+    /// Torque of the weights at the motor \[N m\], without losses.
+    #[must_use]
+    pub const fn gravity_torque(&self) -> f64 {
+        self.gravity
+    }
+
+    /// The whole train as one mass.
+    #[must_use]
+    pub const fn rigid(&self) -> Rigid {
+        Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity }
+    }
+
+    /// Natural frequencies and shapes of the free train, and its antiresonances with the motor held; gaps count as closed.
+    #[must_use]
+    pub const fn modes(&self) -> Modes {
+        let free = self.scaled(false);
+        let held = self.scaled(true);
+        let mut modes = Modes::of(&self.inertia, self.count - 1, free, held);
+        let mut i = 0;
+        while i + 1 < self.count {
+            let mode = modes.mode_mut(i);
+            let mut j = 0;
+            while j + 1 < self.count + self.closing {
+                let Joint { from, to, shaft } = self.joint[j];
+                let twist = mode.shape[from] - mode.shape[to];
+                mode.damping += shaft.damping * twist * twist;
+                j += 1;
+            }
+            i += 1;
+        }
+        modes
+    }
+
+    /// The transpose of `R B / sqrt(J)`, by columns; without the motor's row where it is held.
+    const fn scaled(&self, held: bool) -> Columns {
+        let edges = self.count - 1;
+        let root = self.triangle();
+        let mut columns = [[0.0; CAPACITY]; SHAFTS];
+        let mut row = 0;
+        while row < edges {
+            let mut edge = row;
+            while edge < edges {
+                let factor = root[row][edge];
+                if factor != 0.0 {
+                    let Joint { from, to, .. } = self.joint[edge];
+                    if !(held && from == 0) {
+                        columns[row][from] += factor / sqrt(self.inertia[from]);
+                    }
+                    columns[row][to] -= factor / sqrt(self.inertia[to]);
+                }
+                edge += 1;
+            }
+            row += 1;
+        }
+        columns
+    }
+
+    /// R with `R^T R` the stiffness of the tree's twists: diagonal without loops, upper triangular with them.
+    const fn triangle(&self) -> [[f64; SHAFTS]; TRAIN_SHAFTS] {
+        let edges = self.count - 1;
+        let mut root = [[0.0; SHAFTS]; TRAIN_SHAFTS];
+        let mut j = 0;
+        while j < edges {
+            root[j][j] = sqrt(self.joint[j].shaft.stiffness);
+            j += 1;
+        }
+        let mut j = edges;
+        while j < edges + self.closing {
+            // From either end up to the motor: what both ends pass cancels exactly.
+            let Joint { from, to, shaft } = self.joint[j];
+            let stiff = sqrt(shaft.stiffness);
+            let mut node = to;
+            while node != 0 {
+                root[j][node - 1] += stiff;
+                node = self.joint[node - 1].from;
+            }
+            let mut node = from;
+            while node != 0 {
+                root[j][node - 1] -= stiff;
+                node = self.joint[node - 1].from;
+            }
+            j += 1;
+        }
+        if self.closing > 0 {
+            triangulate(&mut root, edges + self.closing, edges);
+        }
+        root
+    }
+}
+
+/// Householder's reflections: rows above the diagonal of the first `columns` columns, nothing below.
+const fn triangulate(matrix: &mut [[f64; SHAFTS]; TRAIN_SHAFTS], rows: usize, columns: usize) {
+    let mut c = 0;
+    while c < columns {
+        let mut below = 0.0;
+        let mut r = c + 1;
+        while r < rows {
+            below += matrix[r][c] * matrix[r][c];
+            r += 1;
+        }
+        if below > 0.0 {
+            let top = matrix[c][c];
+            let size = sqrt(top * top + below);
+            // Away from the diagonal, so that nothing cancels.
+            let lead = if top < 0.0 { top - size } else { top + size };
+            let norm = 2.0 / (lead * lead + below);
+            let mut k = c + 1;
+            while k < columns {
+                let mut product = lead * matrix[c][k];
+                let mut r = c + 1;
+                while r < rows {
+                    product += matrix[r][c] * matrix[r][k];
+                    r += 1;
+                }
+                product *= norm;
+                matrix[c][k] -= product * lead;
+                let mut r = c + 1;
+                while r < rows {
+                    matrix[r][k] -= product * matrix[r][c];
+                    r += 1;
+                }
+                k += 1;
+            }
+            matrix[c][c] = if top < 0.0 { size } else { -size };
+            let mut r = c + 1;
+            while r < rows {
+                matrix[r][c] = 0.0;
+                r += 1;
+            }
+        }
+        c += 1;
+    }
+}
