@@ -12,6 +12,7 @@
 //! `{"error": ...}`.
 
 mod campbell;
+mod backlash;
 mod check;
 mod design;
 mod emit;
@@ -51,6 +52,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Run),
+    Backlash(backlash::Backlash),
     Modes(modes::Modes),
     Design(design::Design),
     Rotor(rotor::Rotor),
@@ -63,6 +65,7 @@ impl Command {
     const fn json(&self) -> bool {
         match self {
             Self::Run(command) => command.json,
+            Self::Backlash(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
             Self::Rotor(command) => command.json,
@@ -75,6 +78,7 @@ impl Command {
     fn execute(&self) -> Result<(), Failure> {
         match self {
             Self::Run(command) => command.execute(),
+            Self::Backlash(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
             Self::Rotor(command) => command.execute(),

@@ -17,6 +17,7 @@
 //! assert!(page.starts_with("<!doctype html>"));
 //! ```
 
+mod backlash_page;
 pub mod chart;
 mod figures;
 pub mod format;
@@ -29,6 +30,7 @@ mod sweep;
 mod terminal;
 mod trajectory;
 
+pub use backlash_page::backlash_page;
 pub use figures::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Variant};
 pub use modes_page::{MachinePage, ModeFigure};
 pub use sheet::{Figure, Sheet};

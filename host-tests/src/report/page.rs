@@ -15,6 +15,7 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("machine.html", include_str!("page/machine.html")),
     ("sheet.html", include_str!("page/sheet.html")),
     ("simulation.html", include_str!("page/simulation.html")),
+    ("backlash.html", include_str!("page/backlash.html")),
     ("frame.html", include_str!("page/frame.html")),
     ("style.css", include_str!("page/style.css")),
 ];

@@ -1,6 +1,7 @@
 //! The observer of backlash: its step against the full solver, the gap's two sides, random reversals, and what it
 //! refuses.
 
+mod comparison;
 mod paths;
 mod reversals;
 mod sentences;
