@@ -1,4 +1,4 @@
-//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `balance`, `check`, `setup`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -9,6 +9,7 @@
 //! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
 //! `{"error": ...}`.
 
+mod balance;
 mod check;
 mod design;
 mod emit;
@@ -45,6 +46,7 @@ enum Command {
     Run(run::Run),
     Modes(modes::Modes),
     Design(design::Design),
+    Balance(balance::Balance),
     Check(check::Check),
     Setup(setup::Setup),
 }
@@ -55,6 +57,7 @@ impl Command {
             Self::Run(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
+            Self::Balance(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
         }
@@ -65,6 +68,7 @@ impl Command {
             Self::Run(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
+            Self::Balance(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
         }

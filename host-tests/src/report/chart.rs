@@ -6,6 +6,7 @@ mod course;
 mod heat;
 mod label;
 mod pareto;
+mod polar;
 mod response;
 mod shape;
 
@@ -14,5 +15,6 @@ pub use cost::{Cost, Quality, error_against_cost};
 pub use course::course;
 pub use heat::{CLASSES, heat_map};
 pub use pareto::front;
+pub use polar::{Arrow, polar};
 pub use response::{Response, response};
 pub use shape::{Station, mode_shape};
