@@ -1,5 +1,6 @@
 //! The command line: `cargo driveline run`, `modes`, `design`, `rotor`, `check`, `setup`.
 //! The command line: `cargo driveline run`, `modes`, `simulate`, `design`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `balance`, `check`, `setup`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -11,8 +12,9 @@
 //! object
 //! `{"error": ...}`.
 
-mod campbell;
 mod backlash;
+mod balance;
+mod campbell;
 mod check;
 mod design;
 mod emit;
@@ -56,6 +58,7 @@ enum Command {
     Modes(modes::Modes),
     Design(design::Design),
     Rotor(rotor::Rotor),
+    Balance(balance::Balance),
     Check(check::Check),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
@@ -69,6 +72,7 @@ impl Command {
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
             Self::Rotor(command) => command.json,
+            Self::Balance(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
@@ -82,6 +86,7 @@ impl Command {
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
             Self::Rotor(command) => command.execute(),
+            Self::Balance(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),

@@ -75,8 +75,10 @@ pub use diagnostic::{Diagnostic, Fault};
 pub use element::Element;
 pub use excitation::{Excitation, Running};
 pub use quantity::Quantity;
-pub use read::{LARGEST, parse, read};
+pub use read::{LARGEST, not_toml, parse, read, text};
 pub use rotor::{RotorFile, parse_rotor, read_rotor};
+pub use source::Source;
+pub use table::{Item, Table};
 pub use train::{TrainFile, is_train, parse_train, read_train};
 
 use driveline::machine::Chain;

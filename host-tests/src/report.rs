@@ -18,6 +18,7 @@
 //! ```
 
 mod backlash_page;
+mod balance_page;
 pub mod chart;
 mod figures;
 pub mod format;
@@ -31,6 +32,7 @@ mod terminal;
 mod trajectory;
 
 pub use backlash_page::backlash_page;
+pub use balance_page::{BalancePage, PolarFigure, PolarKey};
 pub use figures::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Variant};
 pub use modes_page::{MachinePage, ModeFigure};
 pub use sheet::{Figure, Sheet};

@@ -176,9 +176,9 @@ impl<'a> Table<'a> {
         list.iter().enumerate().map(read).collect()
     }
 
-    /// Whether a key is there.
-    pub fn has(&self, key: &str) -> bool {
-        self.table.iter().any(|(name, _)| name.get_ref() == key)
+    /// Whether a key is there; it counts as asked for.
+    pub fn has(&mut self, key: &'static str) -> bool {
+        self.get(key).is_some()
     }
 
     /// Lets keys stand that somebody else reads.
@@ -278,6 +278,53 @@ impl<'a> Table<'a> {
         Ok(shares)
     }
 
+    /// A list of values that must be there, each with its place.
+    ///
+    /// # Errors
+    /// Missing or not a list.
+    pub fn items(&mut self, key: &'static str, expected: &str) -> Result<Vec<Item<'a>>, Diagnostic> {
+        let Some(value) = self.get(key) else {
+            return Err(self.missing(key, expected));
+        };
+        let list = value.get_ref().as_array().ok_or_else(|| self.wrong(key, expected))?;
+        let item = |(index, value): (usize, &'a Spanned<DeValue<'a>>)| Item {
+            source: self.source,
+            path: format!("{}[{index}]", self.name(key)),
+            value,
+        };
+        Ok(list.iter().enumerate().map(item).collect())
+    }
+
+    /// A truth that must be there.
+    ///
+    /// # Errors
+    /// Missing, or neither `true` nor `false`.
+    pub fn truth(&mut self, key: &'static str) -> Result<bool, Diagnostic> {
+        let expected = "true or false";
+        match self.get(key) {
+            Some(value) => value.get_ref().as_bool().ok_or_else(|| self.wrong(key, expected)),
+            None => Err(self.missing(key, expected)),
+        }
+    }
+
+    /// A list of tables that may be left out.
+    ///
+    /// # Errors
+    /// Not a list of tables.
+    pub fn tables_of(&mut self, key: &'static str) -> Result<Vec<Table<'a>>, Diagnostic> {
+        if !self.has(key) {
+            return Ok(Vec::new());
+        }
+        let expected = format!("tables [[{key}]]");
+        let table = |item: Item<'a>| match item.value.get_ref().as_table() {
+            Some(table) => {
+                Ok(Table { source: item.source, table, place: item.value.span(), path: item.path, asked: Vec::new() })
+            }
+            None => Err(item.wrong(&expected)),
+        };
+        self.items(key, &expected)?.into_iter().map(table).collect()
+    }
+
     /// Ends the reading: a key that nobody asked for is a fault.
     ///
     /// # Errors
@@ -291,6 +338,52 @@ impl<'a> Table<'a> {
         let known: Vec<String> = self.asked.iter().map(|key| format!("`{key}`")).collect();
         let expected = format!("only {}", known.join(", "));
         Err(Diagnostic::at(self.source, first.span(), self.name(&key), "an unknown key", expected))
+    }
+}
+
+/// A value of a list, and where it stands.
+pub struct Item<'a> {
+    source: Source<'a>,
+    path: String,
+    value: &'a Spanned<DeValue<'a>>,
+}
+
+impl<'a> Item<'a> {
+    /// The diagnostic for a value that is not what was expected.
+    pub fn wrong(&self, expected: &str) -> Diagnostic {
+        Diagnostic::at(self.source, self.value.span(), self.path.clone(), describe(self.value.get_ref()), expected)
+    }
+
+    /// The value as a number.
+    ///
+    /// # Errors
+    /// Not a number, or out of the quantity's range.
+    pub fn number(&self, quantity: Quantity) -> Result<f64, Diagnostic> {
+        number(self.value.get_ref())
+            .filter(|&number| quantity.allows(number))
+            .ok_or_else(|| self.wrong(&quantity.to_string()))
+    }
+
+    /// The value as a text.
+    ///
+    /// # Errors
+    /// Not a text.
+    pub fn text(&self, expected: &str) -> Result<&'a str, Diagnostic> {
+        self.value.get_ref().as_str().ok_or_else(|| self.wrong(expected))
+    }
+
+    /// The value as a pair of numbers.
+    ///
+    /// # Errors
+    /// Not a list of two numbers within these ranges.
+    pub fn pair(&self, first: Quantity, second: Quantity, expected: &str) -> Result<(f64, f64), Diagnostic> {
+        let list =
+            self.value.get_ref().as_array().filter(|list| list.len() == 2).ok_or_else(|| self.wrong(expected))?;
+        let at = |index: usize, quantity: Quantity| {
+            let value = &list[index];
+            Item { source: self.source, path: format!("{}[{index}]", self.path), value }.number(quantity)
+        };
+        Ok((at(0, first)?, at(1, second)?))
     }
 }
 

@@ -58,7 +58,7 @@ use toml::de::DeTable;
 use super::diagnostic::Diagnostic;
 use super::excitation::{Excitation, Running, excitations};
 use super::quantity::Quantity;
-use super::read::{document, named, parse, text_of};
+use super::read::{document, named, parse, text};
 use super::referred::referred;
 use super::source::Source;
 use super::table::Table;
@@ -106,7 +106,7 @@ impl TrainFile {
 
 /// Whether a file holds coordinates and links, and not elements. What cannot be read holds neither.
 pub fn is_train(path: &Path) -> bool {
-    let Ok((_, text)) = text_of(path) else { return false };
+    let Ok((_, text)) = text(path, "a machine file") else { return false };
     DeTable::parse(&text).is_ok_and(|table| table.get_ref().iter().any(|(name, _)| name.get_ref() == "coordinate"))
 }
 
@@ -115,7 +115,7 @@ pub fn is_train(path: &Path) -> bool {
 /// # Errors
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn read_train(path: &Path) -> Result<TrainFile, Diagnostic> {
-    let (name, text) = text_of(path)?;
+    let (name, text) = text(path, "a machine file")?;
     parse_train(&name, &text)
 }
 

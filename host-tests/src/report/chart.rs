@@ -8,6 +8,7 @@ mod heat;
 mod label;
 mod lines;
 mod pareto;
+mod polar;
 mod response;
 mod shape;
 
@@ -18,5 +19,6 @@ pub use course::course;
 pub use heat::{CLASSES, heat_map};
 pub use lines::{Curve, Line, Lines, over_time};
 pub use pareto::front;
+pub use polar::{Arrow, polar};
 pub use response::{Response, response};
 pub use shape::{Station, mode_shape};
