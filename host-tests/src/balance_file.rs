@@ -326,12 +326,11 @@ fn refused(table: &Table<'_>, refusal: Refusal) -> Diagnostic {
     table.wrong(key, format!("{expected} ({refusal})"))
 }
 
+/// A run, its readings, and the speed of each [rpm].
+type Typed = (Run<f64, ROWS>, Vec<Complex<f64>>, Vec<f64>);
+
 /// Readings and their speeds.
-fn run(
-    table: &mut Table<'_>,
-    rows: usize,
-    entry: &mut Entry,
-) -> Result<(Run<f64, ROWS>, Vec<Complex<f64>>, Vec<f64>), Diagnostic> {
+fn run(table: &mut Table<'_>, rows: usize, entry: &mut Entry) -> Result<Typed, Diagnostic> {
     let readings = pairs(table, "readings", rows, entry)?;
     // one speed for all, or one for each
     let rpm = match table.number("rpm", Quantity::RPM) {

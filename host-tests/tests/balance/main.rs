@@ -8,4 +8,5 @@ mod left_out;
 mod noise;
 mod phasor;
 mod procedure;
+mod target;
 mod tolerance;
