@@ -59,7 +59,7 @@ pub use crank::Crank;
 pub use friction::Friction;
 pub use gear_pair::{GearBody, GearPair};
 pub use link::Link;
-pub use mesh::{Harmonic, Variation, Zone};
+pub use mesh::{Harmonic, Teeth, Variation, Zone};
 pub use modes::TrainModes;
 pub use motion::Motion;
 pub use reading::Signal;

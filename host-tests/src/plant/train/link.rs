@@ -146,6 +146,13 @@ impl Link {
         let eta = self.efficiency;
         in_range("efficiency", place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
         in_range("elongation at the start", place, self.elongation, true, "a finite number")?;
-        self.variation.as_ref().map_or(Ok(()), |variation| variation.validate(place, self.stiffness))
+        let Some(variation) = &self.variation else { return Ok(()) };
+        if let Variation::Teeth(teeth) = variation
+            && teeth.coordinate >= coordinates
+        {
+            let (name, found) = ("coordinate of teeth", teeth.coordinate);
+            return Err(PlantError::Count { name, found, expected: coordinates });
+        }
+        variation.validate(place, self.stiffness)
     }
 }

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::reading::Watch;
 use super::stretch::{Stretch, TRAILING};
-use super::{Source, Train};
+use super::{Source, Train, Variation};
 use crate::plant::event::Event;
 
 /// Product of the fastest rate and a stretch: `1.5^24/24!` = 3e-20 is left out.
@@ -33,6 +33,8 @@ pub(super) struct Mode {
     pub flow: Vec<i8>,
     /// Arcs as coordinate and source, and how many of their ends have been passed; odd on the arc.
     pub arcs: Vec<(usize, usize, i64)>,
+    /// Links whose teeth follow an angle, and the edge ahead of each.
+    pub teeth: Vec<(usize, i64)>,
     /// The frictions that stick, and what turns the accelerations they must stop into their forces.
     pub stuck: Vec<usize>,
     pub holding: DMatrix<f64>,
@@ -60,6 +62,11 @@ impl Mode {
 
     pub fn on_arc(&self, coordinate: usize, source: usize) -> bool {
         self.arcs.iter().any(|&(j, s, passed)| j == coordinate && s == source && passed.rem_euclid(2) == 1)
+    }
+
+    /// The tooth edge ahead of a link.
+    pub fn edge(&self, link: usize) -> i64 {
+        self.teeth.iter().find(|tooth| tooth.0 == link).map_or(0, |tooth| tooth.1)
     }
 
     /// Gathers what sticks.
@@ -132,6 +139,7 @@ impl Motion {
             slip: vec![0; train.frictions.len()],
             flow: vec![1; train.links.len()],
             arcs,
+            teeth: teeth_of(&train),
             stuck: Vec::new(),
             holding: DMatrix::zeros(0, 0),
         };
@@ -224,6 +232,15 @@ impl Motion {
         let within = if passed.rem_euclid(2) == 0 { from } else { to };
         passed.div_euclid(2) as f64 * TAU + within
     }
+}
+
+/// The edge ahead of every link whose teeth follow an angle, at the start.
+pub(super) fn teeth_of(train: &Train) -> Vec<(usize, i64)> {
+    let edge = |(l, link): (usize, &super::Link)| match &link.variation {
+        Some(Variation::Teeth(teeth)) => Some((l, teeth.next_edge(train.coordinates[teeth.coordinate].angle))),
+        _ => None,
+    };
+    train.links.iter().enumerate().filter_map(edge).collect()
 }
 
 /// Bound of the rates of a train, 1/s: the highest natural frequency with every link in contact at its stiffest, the
