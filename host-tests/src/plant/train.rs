@@ -10,7 +10,8 @@
 //! `[Wang 1989 (1-15)]`.
 //!
 //! Between events (a flank met or left, a stop, a slip, a switch of stiffness, a corner of a torque) the motion is
-//! the sum of its Taylor series, which for a linear train is the series of the matrix exponential. A stretch is made
+//! the sum of its Taylor series, which for a linear train is the series of the matrix exponential; a linear train
+//! without events goes through a whole tick by the exponential itself. A stretch is made
 //! so short that what is left out lies below rounding: nothing is approximated but by the last digit of `f64`, not
 //! with a stiffness that swings nor with a motor's curve either. Events are the roots of those polynomials, isolated
 //! by bounds, so that a grazing contact is found whatever the length of the tick.
@@ -45,6 +46,7 @@ mod crank;
 mod event;
 mod friction;
 mod gear_pair;
+mod leap;
 mod link;
 mod mesh;
 mod modes;
