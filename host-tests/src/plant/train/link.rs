@@ -4,9 +4,8 @@ use super::super::error::{PlantError, in_range, not_negative};
 use super::super::event::Place;
 use super::mesh::Variation;
 
-/// An elastic link. Its elongation is `sum c_j q_j` over its terms, less nothing: a shaft has the terms 1 and -1, a
-/// mesh the base radii, a bearing a single 1. Its force `k x + d dx/dt` acts on coordinate `j` as `-c_j` times
-/// itself.
+/// An elastic link. Its elongation is `sum c_j q_j` over its terms: a shaft has the terms 1 and -1, a mesh the base
+/// radii, a bearing a single 1. Its force `k x + d dx/dt` acts on coordinate `j` as `-c_j` times itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     pub(super) terms: Vec<(usize, f64)>,

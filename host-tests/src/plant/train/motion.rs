@@ -248,7 +248,7 @@ impl Motion {
         self.mode.contact[link] == TRAILING
     }
 
-    /// Where the cyclic coordinates and the mesh stand is not part of it: elongations, then speeds.
+    /// The angle, rad, of an end of an arc; even numbers begin it, odd ones end it.
     pub(super) fn arcs_end(&self, arc: usize, passed: i64) -> f64 {
         let (j, s, _) = self.mode.arcs[arc];
         let Source::Arc { from, to, .. } = &self.train.coordinates[j].sources[s] else { return f64::INFINITY };
