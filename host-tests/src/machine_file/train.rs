@@ -42,6 +42,7 @@
 //! | `[[link]]` | `name`, `stiffness`, and `between` with (`ratio`), or `ground`, or `terms` as `[[share, ...]]` in
 //! the order of `of`; (`damping`, `gap`, `rope`, `efficiency`, `elongation`, `static`) |
 //! | `[link.spur]` | `frequency` Hz, `contact_ratio`, `double`, `single` N/m, (`error` m) |
+//! | `[link.teeth]` | as `spur`, by the angle of the coordinate `of` with `count` teeth, instead of the frequency |
 //! | `[link.harmonics]` | `frequency` Hz, (`stiffness`, `error`) as rows of order, cosine, sine |
 //! | `[[friction]]` | `on` or `between`, `torque`, (`breakaway`, `surface`) |
 //! | `[[torque]]` | `on`, `kind` and its keys: `constant` `torque`; `line` `stall` `slope`; `parabola` `a` `b` `c`;
@@ -62,8 +63,8 @@ use super::read::{document, named, parse, text};
 use super::referred::referred;
 use super::source::Source;
 use super::table::Table;
-use crate::plant::train::Waveform;
 use crate::plant::train::{Coordinate, Crank, Friction, Harmonic, Link, Motion, Source as Torque, Train, Variation};
+use crate::plant::train::{Teeth, Waveform};
 use crate::plant::{LoadProgram, Place, PlantError};
 
 /// Most lines that a run may have.
@@ -214,7 +215,8 @@ pub fn parse_train(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
 }
 
 const STARTS: &str = "\"rest\", \"slack\" or \"pretensioned\"";
-const KINDS: &str = "\"constant\", \"line\", \"parabola\", \"kloss\", \"starting\", \"steps\", \"table\", \"triangle\", \
+const KINDS: &str = "\"constant\", \"line\", \"parabola\", \"kloss\", \"starting\", \"steps\", \"table\", \
+                     \"triangle\", \
                      \"square\", \"sawtooth up\", \"sawtooth down\", \"rectified\", \"arc\" or \"orders\"";
 
 /// A refusal of the solver as what was found and what was expected.
@@ -318,6 +320,21 @@ impl Reading {
             let error = spur.number_or("error", Quantity::ANY, 0.0)?;
             link = link.varying(Variation::spur(contact, frequency, double, single, error));
             spur.finish()?;
+        }
+        if let Some(mut mesh) = table.table_if("teeth")? {
+            let ratio = mesh.number("contact_ratio", Quantity { least: 1.0, most: 2.0, ..Quantity::RATIO })?;
+            if ratio <= 1.0 || ratio >= 2.0 {
+                return Err(mesh.wrong("contact_ratio", "a number between 1 and 2"));
+            }
+            link = link.varying(Variation::Teeth(Teeth {
+                coordinate: self.named(&mut mesh, "of")?,
+                count: mesh.number("count", Quantity { whole: true, least: 1.0, ..Quantity::ORDER })?,
+                contact_ratio: ratio,
+                double: mesh.number("double", Quantity::SPRING)?,
+                single: mesh.number("single", Quantity::SPRING)?,
+                error: mesh.number_or("error", Quantity::ANY, 0.0)?,
+            }));
+            mesh.finish()?;
         }
         if let Some(mut swing) = table.table_if("harmonics")? {
             let frequency = swing.number("frequency", Quantity::TIME)?;

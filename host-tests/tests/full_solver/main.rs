@@ -6,6 +6,7 @@ mod against_chain;
 mod crank;
 mod critical;
 mod gear_pair;
+mod linear;
 mod mesh;
 mod mover;
 mod proof;

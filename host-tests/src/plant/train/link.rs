@@ -4,9 +4,8 @@ use super::super::error::{PlantError, in_range, not_negative};
 use super::super::event::Place;
 use super::mesh::Variation;
 
-/// An elastic link. Its elongation is `sum c_j q_j` over its terms, less nothing: a shaft has the terms 1 and -1, a
-/// mesh the base radii, a bearing a single 1. Its force `k x + d dx/dt` acts on coordinate `j` as `-c_j` times
-/// itself.
+/// An elastic link. Its elongation is `sum c_j q_j` over its terms: a shaft has the terms 1 and -1, a mesh the base
+/// radii, a bearing a single 1. Its force `k x + d dx/dt` acts on coordinate `j` as `-c_j` times itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     pub(super) terms: Vec<(usize, f64)>,
@@ -146,6 +145,13 @@ impl Link {
         let eta = self.efficiency;
         in_range("efficiency", place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
         in_range("elongation at the start", place, self.elongation, true, "a finite number")?;
-        self.variation.as_ref().map_or(Ok(()), |variation| variation.validate(place, self.stiffness))
+        let Some(variation) = &self.variation else { return Ok(()) };
+        if let Variation::Teeth(teeth) = variation
+            && teeth.coordinate >= coordinates
+        {
+            let (name, found) = ("coordinate of teeth", teeth.coordinate);
+            return Err(PlantError::Count { name, found, expected: coordinates });
+        }
+        variation.validate(place, self.stiffness)
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::stretch::Stretch;
-use super::{Motion, Train};
+use super::{Motion, Train, Variation};
 use crate::plant::error::PlantError;
 use crate::plant::event::Place;
 
@@ -90,6 +90,10 @@ impl Train {
     /// Stiffness at time zero.
     fn stiffness_at_start(&self, link: usize) -> f64 {
         let link = &self.links[link];
-        link.variation.as_ref().map_or(link.stiffness, |variation| variation.over(link.stiffness, 0.0, 1e-6).0[0])
+        match &link.variation {
+            None => link.stiffness,
+            Some(Variation::Teeth(teeth)) => teeth.before(teeth.next_edge(self.coordinates[teeth.coordinate].angle)).0,
+            Some(variation) => variation.over(link.stiffness, 0.0, 1e-6, 0).0[0],
+        }
     }
 }

@@ -83,10 +83,11 @@ impl Stretch {
         let laws: Vec<Law> = train
             .links
             .iter()
-            .map(|link| match &link.variation {
+            .enumerate()
+            .map(|(l, link)| match &link.variation {
                 None => Law::Fixed(link.stiffness),
                 Some(variation) => {
-                    let (k, e) = variation.over(link.stiffness, t, h);
+                    let (k, e) = variation.over(link.stiffness, t, h, mode.edge(l));
                     Law::Varying(Box::new([k, e]))
                 }
             })
