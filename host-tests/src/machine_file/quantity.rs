@@ -77,6 +77,8 @@ impl Quantity {
     pub const SPEED: Self = positive("rad/s");
     /// Time.
     pub const TIME: Self = positive("s");
+    /// Time in which something comes about, none for a step.
+    pub const RISE: Self = not_negative("s");
 
     /// Whether a number is one of this quantity's.
     pub fn allows(self, number: f64) -> bool {

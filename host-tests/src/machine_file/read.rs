@@ -12,7 +12,7 @@ use super::diagnostic::Diagnostic;
 use super::quantity::Quantity;
 use super::source::{Source, printable};
 use super::table::Table;
-use super::{Control, Disturbance, Element, Encoder, Limits, MachineFile, Part};
+use super::{Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
 
 /// Largest machine file in bytes: a thousand times what the longest chain needs.
 pub const LARGEST: u64 = 1 << 20;
@@ -88,8 +88,20 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let limits = section(&mut root, "limits", |table| {
         Ok(Limits { torque: table.number("torque", Quantity::TORQUE)?, speed: table.number("speed", Quantity::SPEED)? })
     })?;
+    let duty = match root.table_if("duty")? {
+        Some(mut table) => {
+            let duty = Duty {
+                change: table.number("change", Quantity::TORQUE)?,
+                rise: table.number("rise", Quantity::RISE)?,
+                every: table.number("every", Quantity::TIME)?,
+            };
+            table.finish()?;
+            Some(duty)
+        }
+        None => None,
+    };
     root.finish()?;
-    Ok(MachineFile { name: machine_name.to_owned(), elements, encoder, control, disturbance, limits, chain })
+    Ok(MachineFile { name: machine_name.to_owned(), elements, encoder, control, disturbance, limits, duty, chain })
 }
 
 /// Reads a table of settings, all of its keys.
