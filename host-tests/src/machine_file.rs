@@ -30,6 +30,11 @@
 //! [limits]
 //! torque = 400.0           # N m, largest motor torque
 //! speed = 160.0            # rad/s, largest motor speed
+//!
+//! [duty]                   # may be left out: which observer the machine needs
+//! change = 150.0           # N m at the motor: the largest change of torque ...
+//! rise = 0.1               # s ... comes about in this time
+//! every = 2.0              # s from one to the next
 //! ```
 //!
 //! | kind | keys (those in brackets may be left out) |
@@ -103,6 +108,8 @@ pub struct MachineFile {
     pub running: Option<Running>,
     /// What excites it.
     pub excitations: Vec<Excitation>,
+    /// How the machine is shaken, if the file says.
+    pub duty: Option<Duty>,
     /// The elements as the library's chain, referred to the motor.
     #[serde(skip)]
     pub chain: Chain,
@@ -150,6 +157,17 @@ pub struct Limits {
     pub torque: f64,
     /// Speed \[rad/s\].
     pub speed: f64,
+}
+
+/// How the machine is shaken: what decides which observer it needs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Duty {
+    /// Largest change of torque that comes about at once, at the motor \[N m\].
+    pub change: f64,
+    /// How long it takes \[s\].
+    pub rise: f64,
+    /// Time between two of them \[s\].
+    pub every: f64,
 }
 
 impl MachineFile {

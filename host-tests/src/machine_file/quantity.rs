@@ -97,6 +97,8 @@ impl Quantity {
     pub const DEGREES: Self = Quantity { unit: "degrees", least: -3600.0, most: 3600.0, zero: true, whole: false };
     /// Time.
     pub const TIME: Self = positive("s");
+    /// Time in which something comes about, none for a step.
+    pub const RISE: Self = not_negative("s");
 
     /// Any number: a torque, a speed, an angle of either sign.
     pub const ANY: Self = Quantity { least: -FAR, ..positive("") };

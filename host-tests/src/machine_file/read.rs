@@ -14,7 +14,7 @@ use super::excitation::excitations;
 use super::quantity::Quantity;
 use super::source::{Source, printable};
 use super::table::Table;
-use super::{Control, Disturbance, Element, Encoder, Limits, MachineFile, Part};
+use super::{Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
 
 /// Largest machine file in bytes: a thousand times what the longest chain needs.
 pub const LARGEST: u64 = 1 << 20;
@@ -98,6 +98,18 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let (running, excitations) = excitations(&mut root)?;
     // what a run of it needs is read by `read_train`
     root.pass(&["link", "torque", "friction", "start", "run"]);
+    let duty = match root.table_if("duty")? {
+        Some(mut table) => {
+            let duty = Duty {
+                change: table.number("change", Quantity::TORQUE)?,
+                rise: table.number("rise", Quantity::RISE)?,
+                every: table.number("every", Quantity::TIME)?,
+            };
+            table.finish()?;
+            Some(duty)
+        }
+        None => None,
+    };
     root.finish()?;
     Ok(MachineFile {
         name: machine_name.to_owned(),
@@ -108,6 +120,7 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         limits,
         running,
         excitations,
+        duty,
         chain,
     })
 }

@@ -46,7 +46,11 @@ pub fn machine() -> Result<Machine, PlantError> {
         name: "planetary",
         summary: "A conveyor's drum behind a planetary set: a start under load, more load, a stop.",
         facts: facts::of_design(&scene::OBSERVER, scene::COUNTS, torque_noise),
-        notes: vec!["The shaft torque is that behind the set's loss, at the motor."],
+        notes: vec![
+            "The shaft torque is that behind the set's loss, at the motor.",
+            "By the swings that a rigid observer would miss it would do here; it has to be tuned so lively, lest the speed loop excite the shaft, that its \
+             noise costs more.",
+        ],
         chosen: ("exact", scene::RATE_HZ),
         scenarios: vec![Scenario {
             name: "start under load, more load, slower",

@@ -105,6 +105,23 @@ fn elements_that_travel() {
     assert_eq!(read, Ok(built));
 }
 
+/// A file that says how its machine is shaken is told which observer that needs, as the library says.
+#[test]
+fn the_observer_that_is_needed() {
+    let with = |duty: &str| {
+        let shaft = "[[element]]\nkind = \"shaft\"\nstiffness = 850.0\ndamping = 0.3\n[[element]]\nkind = \"rotor\"\ninertia = 0.35\n";
+        let text = format!("name = \"x\"\n[[element]]\nkind = \"motor\"\ninertia = 1.2\n{shaft}{SETTINGS}{duty}");
+        parse("x.toml", &text)
+    };
+    let need = |duty: &str| host_tests::cli::Plan::of(&with(duty).unwrap()).unwrap().need;
+    assert!(need("").is_none());
+    let soft = need("[duty]\nchange = 60.0\nrise = 0.0\nevery = 0.7\n").unwrap();
+    assert_eq!((soft.observer, soft.without_gap), ("semi-implicit", [0.0; 2]));
+    assert_eq!(need("[duty]\nchange = 60.0\nrise = 10.0\nevery = 0.7\n").unwrap().observer, "rigid");
+    assert_eq!(with("[duty]\nchange = 60.0\nrise = -1.0\nevery = 0.7\n").unwrap_err().key, "duty.rise");
+    assert_eq!(with("[duty]\nchange = 60.0\nrise = 1.0\nevery = 0.0\n").unwrap_err().key, "duty.every");
+}
+
 /// What no element can be is told at its key, what cannot stand there at the element.
 #[test]
 fn faults_are_told_with_their_place() {
