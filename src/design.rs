@@ -16,6 +16,7 @@
 mod approximate;
 mod error;
 mod exponential;
+mod flywheel;
 mod kalman;
 mod margins;
 mod matrix;
@@ -30,6 +31,7 @@ mod tuning;
 pub use approximate::{ApproximateStep, Fidelity, SemiImplicitStep, StepChoice};
 pub use error::Error;
 pub use exponential::{discretise, exponential};
+pub use flywheel::{energy_swing, flywheel_inertia};
 pub use kalman::Kalman;
 pub use margins::Margins;
 pub use matrix::Matrix;
