@@ -1,13 +1,17 @@
 //! What the bench measures: a line a function, with its state, its inputs and the function.
 
+use driveline::constants::Bases;
+use driveline::number::Fixed;
+
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
-use super::steps;
+use super::{fluctuation, steps};
 use crate::Words;
 use crate::board::Board;
 use crate::measure::driveline_tick;
 use crate::program::Program;
 use crate::scene::Scene;
+use crate::scenes::hoist::BASES;
 use crate::selected::Selected;
 
 /// Measures everything.
@@ -16,7 +20,13 @@ pub fn run<B: Board>(bench: &mut Bench<'_, B>) {
     bench.measure("nops/1000", (), |_| (), thousand_nops);
     bench.measure("tick", Selected::new(), Program::next_input, driveline_tick);
     match const { Words::of::<Selected>() } {
-        Words::Single => steps::single(bench),
-        Words::Fixed => steps::fixed(bench),
+        Words::Single => {
+            steps::single(bench);
+            fluctuation::all::<B, f32>(bench, Bases::SI);
+        }
+        Words::Fixed => {
+            steps::fixed(bench);
+            fluctuation::all::<B, Fixed>(bench, BASES);
+        }
     }
 }
