@@ -167,17 +167,22 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
 
     /// The end of a cycle.
     fn end(&mut self, config: &WaveformConfig, edge: Edge<N>, forward: bool) {
-        let [first, second, _, last] = self.edges;
+        let [first, second, last_but_one, last] = &mut self.edges;
         match self.stage {
             Stage::Waiting => {
                 self.stage = Stage::Filling;
                 self.forward = forward;
                 self.cycles = 0;
-                self.edges = [edge; 4];
+                *first = edge;
+                *last = edge;
             }
             Stage::Filling if forward == self.forward => {
-                self.edges = [first, if self.cycles == 0 { edge } else { second }, last, edge];
-                self.cycles += 1;
+                if self.cycles == 0 {
+                    *second = edge;
+                }
+                *last_but_one = *last;
+                *last = edge;
+                self.cycles = self.cycles.wrapping_add(1);
                 let ticks = edge.tick.wrapping_sub(first.tick);
                 if ticks > LONGEST {
                     self.stage = Stage::Void;
