@@ -2,6 +2,7 @@
 
 mod calibration;
 mod correction;
+mod fluctuation;
 mod phasors;
 mod steps;
 mod table;

@@ -3,6 +3,7 @@
 //! One line a variant: its name (the scene's [`Scene::NAME`](crate::scene::Scene::NAME): scene, number, observer,
 //! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line at build time; [`Selected`] is the type.
 
+use driveline::fluctuation::{Extremes, Waveform};
 use driveline::governor::SpeedLoop;
 use driveline::number::Fixed;
 use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
@@ -30,6 +31,8 @@ variants! {
     "composition/f32/two-mass-governed/10000" => Composed<Of<f32, TwoMass<f32>, SpeedLoop<f32>>>,
     "composition/f32/two-mass-geared-observer/10000" => Composed<Of<f32, Geared<TwoMass<f32>>, ()>>,
     "composition/f32/two-mass-geared-governed/10000" => Composed<Of<f32, Geared<TwoMass<f32>>, SpeedLoop<f32>>>,
+    "composition/f32/two-mass-extremes/10000" => Composed<Of<f32, TwoMass<f32>, (), Extremes<f32>>>,
+    "composition/f32/two-mass-waveform/10000" => Composed<Of<f32, TwoMass<f32>, (), Waveform<f32, 64>>>,
     "composition/f32/two-mass-by-hand/10000" => ByHand<f32, TwoMass<f32>>,
     "composition/fixed/rigid-observer/10000" => Composed<Of<Fixed, Rigid<Fixed>, ()>>,
     "composition/fixed/rigid-governed/10000" => Composed<Of<Fixed, Rigid<Fixed>, SpeedLoop<Fixed>>>,
@@ -39,6 +42,8 @@ variants! {
     "composition/fixed/two-mass-governed/10000" => Composed<Of<Fixed, TwoMass<Fixed>, SpeedLoop<Fixed>>>,
     "composition/fixed/two-mass-geared-observer/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, ()>>,
     "composition/fixed/two-mass-geared-governed/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, SpeedLoop<Fixed>>>,
+    "composition/fixed/two-mass-extremes/10000" => Composed<Of<Fixed, TwoMass<Fixed>, (), Extremes<Fixed>>>,
+    "composition/fixed/two-mass-waveform/10000" => Composed<Of<Fixed, TwoMass<Fixed>, (), Waveform<Fixed, 64>>>,
     "composition/fixed/two-mass-by-hand/10000" => ByHand<Fixed, TwoMass<Fixed>>,
     "hoist/f32/rigid/1000" => Governed<Hoist<f32, with::Rigid, 1000>>,
     "hoist/f32/rigid/4000" => Governed<Hoist<f32, with::Rigid, 4000>>,

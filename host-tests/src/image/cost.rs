@@ -98,6 +98,9 @@ pub const BENCHES: &[&str] = &[
     "bench/drive/backlash",
     "bench/balance/least-squares",
     "bench/balance/min-max",
+    "bench/fluctuation/extremes",
+    "bench/fluctuation/waveform",
+    "bench/fluctuation/both",
 ];
 
 impl Cost {
