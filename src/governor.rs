@@ -18,6 +18,7 @@ mod rack;
 mod set_point;
 mod speed_governor;
 mod speed_loop;
+mod view;
 
 pub use limit::{
     Between, BetweenConfig, Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, Symmetric, SymmetricConfig,
@@ -28,6 +29,7 @@ pub use rack::{Rack, RackConfig};
 pub use set_point::{Barred, BarredConfig, Droop, DroopConfig, SetPoint, Window};
 pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};
+pub use view::{Mean, MeanConfig, View};
 
 use crate::number::Number;
 use crate::sample::Estimate;

@@ -5,7 +5,7 @@ use super::{Bases, Error, Format};
 use crate::design::{BarredSpeeds, GovernorDesign, SpeedLoopDesign, TorqueCurve};
 use crate::governor::{
     BarredConfig, BetweenConfig, CurveConfig, CurvePiece, DampingConfig, DroopConfig, FeedForwardConfig, Gains,
-    ModesConfig, RackConfig, SlewConfig, SymmetricConfig, Window,
+    MeanConfig, ModesConfig, RackConfig, SlewConfig, SymmetricConfig, Window,
 };
 use crate::number::{Coefficient, Fixed};
 
@@ -519,5 +519,30 @@ impl<const K: usize> RackConfig<K> {
             Err(_) => return Err(Error::Value(DELAY)),
         };
         if (ticks as usize) < K { Ok(RackConfig { ticks }) } else { Err(Error::Value(DELAY)) }
+    }
+}
+
+impl<const K: usize> MeanConfig<f32, K> {
+    /// The constants of a mean over `K` ticks, as floats.
+    pub const fn of_ticks() -> Self {
+        MeanConfig { share: 1.0 / K as f32 }
+    }
+}
+
+impl<const K: usize> MeanConfig<f64, K> {
+    /// The constants of a mean over `K` ticks, as floats.
+    pub const fn of_ticks() -> Self {
+        MeanConfig { share: 1.0 / K as f64 }
+    }
+}
+
+impl<const K: usize> MeanConfig<Fixed, K> {
+    /// The constants in fixed point.
+    ///
+    /// # Panics
+    /// At compile time in a constant, for a mean over two ticks or one.
+    pub const fn of_ticks() -> Self {
+        let [share] = or_stop!(fixed([1.0 / K as f64], GAIN));
+        MeanConfig { share }
     }
 }
