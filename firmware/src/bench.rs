@@ -1,6 +1,7 @@
 //! The bench: instructions of single functions, each over many inputs, one line of JSON a function.
 
 mod calibration;
+mod governors;
 mod steps;
 mod table;
 

@@ -10,6 +10,7 @@ use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 use crate::governed::Governed;
 use crate::scenes::composition::{ByHand, Composed, Of};
 use crate::scenes::empty::Empty;
+use crate::scenes::generator::{self, Generator};
 use crate::scenes::hoist::{Hoist, with};
 use crate::variants::variants;
 
@@ -33,6 +34,10 @@ variants! {
     "composition/fixed/two-mass-geared-observer/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, ()>>,
     "composition/fixed/two-mass-geared-governed/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, SpeedLoop<Fixed>>>,
     "composition/fixed/two-mass-by-hand/10000" => ByHand<Fixed, TwoMass<Fixed>>,
+    "generator/f32/diesel/2400" => Generator<generator::Of<f32, generator::with::Diesel>>,
+    "generator/f32/turbine/2400" => Generator<generator::Of<f32, generator::with::Turbine>>,
+    "generator/fixed/diesel/2400" => Generator<generator::Of<Fixed, generator::with::Diesel>>,
+    "generator/fixed/turbine/2400" => Generator<generator::Of<Fixed, generator::with::Turbine>>,
     "hoist/f32/rigid/1000" => Governed<Hoist<f32, with::Rigid, 1000>>,
     "hoist/f32/rigid/4000" => Governed<Hoist<f32, with::Rigid, 4000>>,
     "hoist/f32/rigid/10000" => Governed<Hoist<f32, with::Rigid, 10000>>,

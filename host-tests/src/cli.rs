@@ -1,4 +1,4 @@
-//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `generator`, `check`, `setup`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -13,6 +13,7 @@ mod check;
 mod design;
 mod emit;
 mod failure;
+mod generator;
 mod modes;
 mod plan;
 mod progress;
@@ -45,6 +46,7 @@ enum Command {
     Run(run::Run),
     Modes(modes::Modes),
     Design(design::Design),
+    Generator(generator::Generator),
     Check(check::Check),
     Setup(setup::Setup),
 }
@@ -55,6 +57,7 @@ impl Command {
             Self::Run(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
+            Self::Generator(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
         }
@@ -65,6 +68,7 @@ impl Command {
             Self::Run(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
+            Self::Generator(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
         }

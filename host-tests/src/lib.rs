@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod cli;
+pub mod generator;
 pub mod image;
 pub mod link;
 pub mod machine_file;

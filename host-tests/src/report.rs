@@ -22,6 +22,7 @@ mod figures;
 pub mod format;
 mod modes_page;
 mod page;
+mod plots_page;
 pub mod svg;
 mod sweep;
 mod terminal;
@@ -29,6 +30,7 @@ mod trajectory;
 
 pub use figures::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Variant};
 pub use modes_page::{MachinePage, ModeFigure};
+pub use plots_page::PlotsPage;
 pub use sweep::{Slice, Sweep, SweepPoint};
 pub use terminal::{Table, variants_table};
 pub use trajectory::{Mark, Signal, Trajectory};

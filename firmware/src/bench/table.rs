@@ -2,7 +2,7 @@
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
-use super::steps;
+use super::{governors, steps};
 use crate::Words;
 use crate::board::Board;
 use crate::measure::driveline_tick;
@@ -16,7 +16,13 @@ pub fn run<B: Board>(bench: &mut Bench<'_, B>) {
     bench.measure("nops/1000", (), |_| (), thousand_nops);
     bench.measure("tick", Selected::new(), Program::next_input, driveline_tick);
     match const { Words::of::<Selected>() } {
-        Words::Single => steps::single(bench),
-        Words::Fixed => steps::fixed(bench),
+        Words::Single => {
+            steps::single(bench);
+            governors::single(bench);
+        }
+        Words::Fixed => {
+            steps::fixed(bench);
+            governors::fixed(bench);
+        }
     }
 }

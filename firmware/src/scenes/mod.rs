@@ -2,4 +2,5 @@
 
 pub mod composition;
 pub mod empty;
+pub mod generator;
 pub mod hoist;

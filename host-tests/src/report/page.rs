@@ -10,9 +10,10 @@ use serde::Serialize;
 use super::Report;
 
 /// The page's template and its parts, compiled into the program.
-const TEMPLATES: [(&str, &str); 4] = [
+const TEMPLATES: [(&str, &str); 5] = [
     ("page.html", include_str!("page/page.html")),
     ("machine.html", include_str!("page/machine.html")),
+    ("plots.html", include_str!("page/plots.html")),
     ("frame.html", include_str!("page/frame.html")),
     ("style.css", include_str!("page/style.css")),
 ];
