@@ -3,7 +3,6 @@
 //! # Terms
 //! *Set point*: the motor speed that is wanted. *Anti-windup*: the integral stops where the torque is limited.
 //! *Active damping*: torque against the rate of twist, as a damper between motor and load would give it, by the motor alone.
-
 //! *Droop*: how much the set point yields to the load. *Isochronous*: without droop. *Trip*: a stop that stands until it is reset.
 //!
 //! | governor | for |

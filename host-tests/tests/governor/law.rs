@@ -234,3 +234,13 @@ fn a_power_limit_is_kept() {
         }
     }
 }
+
+/// What is left out takes no room: integral, set point and reference, and of the modes a mode, a mark and two counters.
+#[test]
+fn what_is_left_out_takes_no_room() {
+    use driveline::governor::Modes;
+    assert_eq!(size_of::<SpeedGovernor<f32>>(), 12);
+    assert_eq!(size_of::<SpeedGovernor<f32, Droop, (FeedForward, ActiveDamping), Curve<4>>>(), 12);
+    assert!(size_of::<SpeedGovernor<f32, (), (), Symmetric, Modes>>() <= 12 + 12);
+    assert_eq!(size_of::<SpeedGovernorConfigOf<f32>>(), 4 * 4 + 4);
+}

@@ -5,6 +5,7 @@ mod design;
 mod engine;
 mod law;
 mod modes;
+mod page;
 mod sets;
 mod sharing;
 mod switch;
