@@ -187,7 +187,8 @@ impl Set {
         self.machine.observer(RATE, ENCODER, self.disturbance)
     }
 
-    /// Bases of fixed point: twice the rated torque, so that gas forces and gains fit, and a third over rated speed.
+    /// Bases of fixed point: two and a half times the rated torque, so that the estimates' swing and the gains fit, and
+    /// a third over rated speed.
     pub const fn bases(&self) -> Bases {
         Bases::new(&self.machine, 2.5 * self.rated_torque, 1.34 * RATED_SPEED)
     }

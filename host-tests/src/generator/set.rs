@@ -1,9 +1,9 @@
 //! A set's plant: prime mover, crank, coupling and generator in the full solver, a load of constant power, an encoder
 //! on the flywheel.
 //!
-//! The solver's chain is exact for torques held over a step; the prime mover's and the load's are those of the step's
-//! middle, for eight steps a tick, so that they are right to the square of a step, 62 us. `tests/generator` halves the
-//! step and has the chain proven.
+//! The solver's chain is exact for torques held over a step. The prime mover's are those of the step's middle, the
+//! load's that of its beginning, for eight steps a tick, 52 us. `tests/governor` makes the steps finer and has the
+//! chain proven.
 
 use driveline_firmware::scenes::generator::{
     CHEST_LAG, DIESEL, RACK_LAG, RATED_SPEED, Set as Constants, TURBINE, TURBINE_INERTIA, VALVE_LAG,
@@ -166,8 +166,7 @@ impl Set {
                 self.held.push((0, torque));
             }
         }
-        // At the middle of the step, by the speed's rate over the last one: the load changes by less than 1e-4 of
-        // itself in a step.
+        // The load changes by less than 1e-4 of itself in a step.
         self.held.push((self.flywheel + 1, -self.load_torque()));
         for &(node, torque) in self.held.iter().filter(|(node, _)| *node > 0) {
             self.plant.set_load_torque(node, -torque);
