@@ -12,6 +12,7 @@ mod format;
 mod geared;
 mod governor;
 mod governor_parts;
+mod governor_shapes;
 mod limits;
 mod observer;
 mod phasors;

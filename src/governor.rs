@@ -3,7 +3,6 @@
 //! # Terms
 //! *Set point*: the motor speed that is wanted. *Anti-windup*: the integral stops where the torque is limited.
 //! *Active damping*: torque against the rate of twist, as a damper between motor and load would give it, by the motor alone.
-
 //! *Droop*: how much the set point yields to the load. *Isochronous*: without droop. *Trip*: a stop that stands until it is reset.
 //!
 //! | governor | for |
@@ -18,6 +17,7 @@ mod rack;
 mod set_point;
 mod speed_governor;
 mod speed_loop;
+mod view;
 
 pub use limit::{
     Between, BetweenConfig, Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, Symmetric, SymmetricConfig,
@@ -28,6 +28,7 @@ pub use rack::{Rack, RackConfig};
 pub use set_point::{Barred, BarredConfig, Droop, DroopConfig, SetPoint, Window};
 pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};
+pub use view::{Mean, MeanConfig, View};
 
 use crate::number::Number;
 use crate::sample::Estimate;

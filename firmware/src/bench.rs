@@ -3,6 +3,7 @@
 mod calibration;
 mod correction;
 mod fluctuation;
+mod governors;
 mod phasors;
 mod steps;
 mod table;

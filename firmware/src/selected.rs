@@ -14,6 +14,7 @@ use crate::scenes::composition::{ByHand, Composed, Of};
 use crate::scenes::crane_travel::CraneTravel;
 use crate::scenes::empty::Empty;
 use crate::scenes::fan::Fan;
+use crate::scenes::generator::{self, Generator};
 use crate::scenes::hoist::{Hoist, with};
 use crate::scenes::planetary_drive::PlanetaryDrive;
 use crate::scenes::skip_winch::SkipWinch;
@@ -45,6 +46,10 @@ variants! {
     "composition/fixed/two-mass-extremes/10000" => Composed<Of<Fixed, TwoMass<Fixed>, (), Extremes<Fixed>>>,
     "composition/fixed/two-mass-waveform/10000" => Composed<Of<Fixed, TwoMass<Fixed>, (), Waveform<Fixed, 64>>>,
     "composition/fixed/two-mass-by-hand/10000" => ByHand<Fixed, TwoMass<Fixed>>,
+    "generator/f32/diesel/2400" => Generator<generator::Of<f32, generator::with::Diesel>>,
+    "generator/f32/turbine/2400" => Generator<generator::Of<f32, generator::with::Turbine>>,
+    "generator/fixed/diesel/2400" => Generator<generator::Of<Fixed, generator::with::Diesel>>,
+    "generator/fixed/turbine/2400" => Generator<generator::Of<Fixed, generator::with::Turbine>>,
     "hoist/f32/rigid/1000" => Governed<Hoist<f32, with::Rigid, 1000>>,
     "hoist/f32/rigid/4000" => Governed<Hoist<f32, with::Rigid, 4000>>,
     "hoist/f32/rigid/10000" => Governed<Hoist<f32, with::Rigid, 10000>>,

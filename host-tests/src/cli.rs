@@ -1,6 +1,7 @@
 //! The command line: `cargo driveline run`, `modes`, `design`, `rotor`, `check`, `setup`.
 //! The command line: `cargo driveline run`, `modes`, `simulate`, `design`, `check`, `setup`.
 //! The command line: `cargo driveline run`, `modes`, `design`, `balance`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `generator`, `check`, `setup`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -19,6 +20,7 @@ mod check;
 mod design;
 mod emit;
 mod failure;
+mod generator;
 mod modes;
 mod plan;
 mod progress;
@@ -59,6 +61,7 @@ enum Command {
     Design(design::Design),
     Rotor(rotor::Rotor),
     Balance(balance::Balance),
+    Generator(generator::Generator),
     Check(check::Check),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
@@ -73,6 +76,7 @@ impl Command {
             Self::Design(command) => command.json,
             Self::Rotor(command) => command.json,
             Self::Balance(command) => command.json,
+            Self::Generator(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
@@ -87,6 +91,7 @@ impl Command {
             Self::Design(command) => command.execute(),
             Self::Rotor(command) => command.execute(),
             Self::Balance(command) => command.execute(),
+            Self::Generator(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),

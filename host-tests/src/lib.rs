@@ -4,6 +4,7 @@ pub mod backlash;
 pub mod balance_file;
 pub mod check;
 pub mod cli;
+pub mod generator;
 pub mod image;
 pub mod link;
 pub mod machine_file;

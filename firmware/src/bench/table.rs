@@ -5,7 +5,7 @@ use driveline::number::Fixed;
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
-use super::{correction, fluctuation, phasors, steps};
+use super::{correction, fluctuation, governors, phasors, steps};
 use crate::Words;
 use crate::board::Board;
 use crate::measure::driveline_tick;
@@ -24,11 +24,13 @@ pub fn run<B: Board>(bench: &mut Bench<'_, B>) {
             steps::single(bench);
             phasors::single(bench);
             fluctuation::all::<B, f32>(bench, Bases::SI);
+            governors::single(bench);
         }
         Words::Fixed => {
             steps::fixed(bench);
             phasors::fixed(bench);
             fluctuation::all::<B, Fixed>(bench, BASES);
+            governors::fixed(bench);
         }
     }
     correction::solves(bench);

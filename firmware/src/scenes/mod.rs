@@ -5,6 +5,7 @@ pub mod composition;
 pub mod crane_travel;
 pub mod empty;
 pub mod fan;
+pub mod generator;
 pub mod hoist;
 pub mod planetary_drive;
 pub mod skip_winch;

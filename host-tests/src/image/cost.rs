@@ -101,6 +101,8 @@ pub const BENCHES: &[&str] = &[
     "bench/fluctuation/extremes",
     "bench/fluctuation/waveform",
     "bench/fluctuation/both",
+    "bench/governor/core",
+    "bench/governor/whole",
 ];
 
 impl Cost {

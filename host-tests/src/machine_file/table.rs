@@ -147,14 +147,6 @@ impl<'a> Table<'a> {
         Ok(Table { source, table, place: value.span(), path, asked: Vec::new() })
     }
 
-    /// A table that may be left out.
-    ///
-    /// # Errors
-    /// Not a table.
-    pub fn table_if(&mut self, key: &'static str) -> Result<Option<Table<'a>>, Diagnostic> {
-        if self.get(key).is_some() { self.table(key).map(Some) } else { Ok(None) }
-    }
-
     /// A list of tables that must be there: each with the span of its heading.
     ///
     /// # Errors

@@ -17,6 +17,7 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("simulation.html", include_str!("page/simulation.html")),
     ("backlash.html", include_str!("page/backlash.html")),
     ("balance.html", include_str!("page/balance.html")),
+    ("plots.html", include_str!("page/plots.html")),
     ("frame.html", include_str!("page/frame.html")),
     ("style.css", include_str!("page/style.css")),
 ];
