@@ -82,7 +82,7 @@
 //! | base | what a fixed-point number is a fraction of | |
 //!
 //! # Features
-//! `defmt`: `defmt::Format` for every public type.
+//! `defmt`: `defmt::Format` for every public type. `hal`: adapters to `embedded-hal` 1.0 (`driveline::hal`).
 
 pub mod balance;
 pub mod constants;
@@ -91,6 +91,8 @@ pub mod drive;
 pub mod fault;
 pub mod fluctuation;
 pub mod governor;
+#[cfg(feature = "hal")]
+pub mod hal;
 #[cfg(feature = "defmt")]
 mod logged;
 pub mod machine;
