@@ -49,6 +49,46 @@
 //! ```
 //!
 //! The timer's interrupt then calls [`Axis::tick`].
+//!
+//! # From `cargo add driveline --features hal` to a governed motor
+//! Twenty lines, on any board; the timer's wait here stands for its interrupt:
+//!
+//! ```
+//! # use driveline::fault::Faults;
+//! # struct MyBoard(u32);
+//! # impl driveline::hal::Board<f32> for MyBoard {
+//! #     fn angle(&mut self) -> Result<u32, Faults> { Ok(0) }
+//! #     fn set_torque(&mut self, torque: f32, _: u32) -> Result<(), Faults> { self.0 += (torque > 0.0) as u32; Ok(()) }
+//! #     fn set_enabled(&mut self, _: bool) -> Result<(), Faults> { Ok(()) }
+//! # }
+//! # impl MyBoard { fn wait_for_timer(&mut self) -> bool { self.0 < 3 } }
+//! use driveline::{constants::*, design::*, drive::*, governor::*, hal::*, machine::*, observer};
+//!
+//! const TWO: TwoMass = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.35))
+//!     .reduce(Match::ResonanceAntiresonance);
+//! const RATE: Rate = Rate::hz(10_000);
+//! const LOAD: Disturbance = Disturbance { torque_accuracy: 2.0, load_torque_step: 100.0, within: 1.0 };
+//! const CONFIG: ConfigOf<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>> = Config {
+//!     limits: Limits::<f32>::new(&Screening {
+//!         torque: 500.0, reference: 180.0, innovation: 0.05, standstill: 0.0015, missed: 150,
+//!     }),
+//!     observer: observer::TwoMassConfig::<f32>::new(&TWO.observer(RATE, Encoder::lines(2048), LOAD)),
+//!     fluctuation: (),
+//!     governor: SpeedLoopConfig::<f32>::new(
+//!         &TWO.speed_loop(RATE, SpeedLoopTuning::USUAL), SpeedLoopSettings { torque_limit: 300.0, ramp: 75.0 }),
+//!     balancer: (),
+//! };
+//!
+//! fn run(board: MyBoard) -> Result<(), Faults> {
+//!     let mut mill = Axis::<_, f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>::new(board, &CONFIG, TRIPPING);
+//!     mill.start(&CONFIG)?;
+//!     while mill.board().wait_for_timer() {
+//!         mill.tick(&CONFIG, 150.0);
+//!     }
+//!     Ok(())
+//! }
+//! # assert_eq!(run(MyBoard(0)), Ok(()));
+//! ```
 
 mod adc;
 mod adxl355;

@@ -82,7 +82,8 @@
 //! | base | what a fixed-point number is a fraction of | |
 //!
 //! # Features
-//! `defmt`: `defmt::Format` for every public type. `hal`: adapters to `embedded-hal` 1.0 (`driveline::hal`).
+//! `defmt`: `defmt::Format` for every public type. `hal`: adapters to `embedded-hal` 1.0 (`driveline::hal`). `telemetry`: records of the ticks as
+//! frames over `embedded-io` (`driveline::telemetry`).
 
 pub mod balance;
 pub mod constants;
@@ -100,3 +101,5 @@ pub mod number;
 pub mod observer;
 pub mod sample;
 pub mod scalar;
+#[cfg(feature = "telemetry")]
+pub mod telemetry;

@@ -10,6 +10,8 @@ pub mod mps2_an386;
 mod cmsdk_timer;
 #[cfg(all(feature = "target", target_os = "none"))]
 pub(crate) mod semihosting;
+#[cfg(all(feature = "target", target_os = "none"))]
+pub use semihosting::Sink;
 
 #[cfg(all(feature = "target", target_os = "none", driveline_board = "mps2-an385"))]
 pub use mps2_an385::Mps2An385 as ThisBoard;

@@ -1,4 +1,4 @@
-//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`, `watch`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -20,6 +20,7 @@ mod run;
 mod setup;
 mod vibration;
 mod vibration_page;
+mod watch;
 
 pub use emit::rust;
 pub use failure::Failure;
@@ -47,6 +48,7 @@ enum Command {
     Design(design::Design),
     Check(check::Check),
     Setup(setup::Setup),
+    Watch(watch::Watch),
 }
 
 impl Command {
@@ -57,6 +59,7 @@ impl Command {
             Self::Design(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
+            Self::Watch(command) => command.json,
         }
     }
 
@@ -67,6 +70,7 @@ impl Command {
             Self::Design(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
+            Self::Watch(command) => command.execute(),
         }
     }
 }

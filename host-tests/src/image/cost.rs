@@ -85,13 +85,14 @@ impl Cost {
 }
 
 /// Functions that the bench measures and `budgets.toml` may name.
-pub const BENCHES: [&str; 6] = [
+pub const BENCHES: [&str; 7] = [
     "bench/step/exact",
     "bench/step/semi-implicit",
     "bench/step/rigid",
     "bench/drive/exact",
     "bench/drive/semi-implicit",
     "bench/drive/rigid",
+    "bench/telemetry/record",
 ];
 
 impl Cost {
