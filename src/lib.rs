@@ -83,7 +83,7 @@
 //!
 //! # Features
 //! `defmt`: `defmt::Format` for every public type. `hal`: adapters to `embedded-hal` 1.0 (`driveline::hal`). `telemetry`: records of the ticks as
-//! frames over `embedded-io` (`driveline::telemetry`).
+//! frames over `embedded-io` (`driveline::telemetry`). `parameters`: a versioned record in flash (`driveline::parameters`).
 
 pub mod balance;
 pub mod constants;
@@ -99,6 +99,8 @@ mod logged;
 pub mod machine;
 pub mod number;
 pub mod observer;
+#[cfg(feature = "parameters")]
+pub mod parameters;
 pub mod sample;
 pub mod scalar;
 #[cfg(feature = "telemetry")]
