@@ -36,12 +36,12 @@ fn default_board(target: &str) -> &'static str {
     if target.ends_with("eabihf") { "mps2-an386" } else { "mps2-an385" }
 }
 
-/// Puts `memory.x` where the linker finds it: the board's own beside its source, else the default board's at the root
-/// of the workspace.
+/// Puts `memory.x` where the linker finds it: the board's own beside its source, else the default board's. There must be none at the root of the
+/// workspace, for the linker looks there first.
 fn memory_map(board: &str) {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
     let own = root.join(format!("src/board/{}.x", board.replace('-', "_")));
-    let map = if own.exists() { own } else { root.join("../memory.x") };
+    let map = if own.exists() { own } else { root.join("memory.x") };
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     copy(&map, &out.join("memory.x"));
     println!("cargo::rerun-if-changed={}", map.display());

@@ -2,6 +2,7 @@
 
 mod angle;
 mod axis;
+mod boards;
 mod bus;
 mod enable;
 mod parameters;
