@@ -85,7 +85,8 @@
 //! | base | what a fixed-point number is a fraction of | |
 //!
 //! # Features
-//! `defmt`: `defmt::Format` for every public type.
+//! `defmt`: `defmt::Format` for every public type. `hal`: adapters to `embedded-hal` 1.0 (`driveline::hal`). `telemetry`: records of the ticks as
+//! frames over `embedded-io` (`driveline::telemetry`). `parameters`: a versioned record in flash (`driveline::parameters`).
 
 pub mod balance;
 pub mod constants;
@@ -94,10 +95,16 @@ pub mod drive;
 pub mod fault;
 pub mod fluctuation;
 pub mod governor;
+#[cfg(feature = "hal")]
+pub mod hal;
 #[cfg(feature = "defmt")]
 mod logged;
 pub mod machine;
 pub mod number;
 pub mod observer;
+#[cfg(feature = "parameters")]
+pub mod parameters;
 pub mod sample;
 pub mod scalar;
+#[cfg(feature = "telemetry")]
+pub mod telemetry;

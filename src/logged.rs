@@ -227,3 +227,13 @@ const _: () = {
         balance::Verdict<f32>,
     );
 };
+
+#[cfg(feature = "hal")]
+const _: () = {
+    use crate::hal;
+
+    all!(hal::Along, hal::Chip, hal::Dac, hal::Range, hal::ToothedWheel, hal::Wheel);
+    all!(hal::AdcVibration<f32>, hal::FullScale<f32>, hal::PerCount<f32>, hal::PhaseConfig<f32>);
+    all!(hal::MagneticEncoder<()>, hal::Quadrature<()>, hal::Adxl355<(), f32>);
+    all!(hal::PwmTorque<(), f32>, hal::SpiDac<(), f32>, hal::ThreePhase<(), (), (), f32>, hal::Tmc4671<(), f32>);
+};

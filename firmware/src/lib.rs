@@ -14,6 +14,7 @@ pub mod report;
 pub mod scene;
 pub mod scenes;
 pub mod selected;
+pub mod told;
 mod variants;
 
 #[cfg(all(feature = "target", target_os = "none"))]

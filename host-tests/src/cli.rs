@@ -2,6 +2,7 @@
 //! The command line: `cargo driveline run`, `modes`, `simulate`, `design`, `check`, `setup`.
 //! The command line: `cargo driveline run`, `modes`, `design`, `balance`, `check`, `setup`.
 //! The command line: `cargo driveline run`, `modes`, `design`, `generator`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`, `watch`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -32,6 +33,7 @@ mod simulation;
 mod train_modes;
 mod vibration;
 mod vibration_page;
+mod watch;
 
 pub use emit::rust;
 pub use failure::Failure;
@@ -65,6 +67,7 @@ enum Command {
     Check(check::Check),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
+    Watch(watch::Watch),
 }
 
 impl Command {
@@ -80,6 +83,7 @@ impl Command {
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
+            Self::Watch(command) => command.json,
         }
     }
 
@@ -95,6 +99,7 @@ impl Command {
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),
+            Self::Watch(command) => command.execute(),
         }
     }
 }

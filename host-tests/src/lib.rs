@@ -14,3 +14,4 @@ pub mod rotor;
 pub mod run;
 pub mod setup;
 pub mod sweep;
+pub mod telemetry;

@@ -103,6 +103,7 @@ pub const BENCHES: &[&str] = &[
     "bench/fluctuation/both",
     "bench/governor/core",
     "bench/governor/whole",
+    "bench/telemetry/record",
 ];
 
 impl Cost {
