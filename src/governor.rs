@@ -16,6 +16,7 @@ mod modes;
 mod prompt;
 mod rack;
 mod set_point;
+mod slack;
 mod speed_governor;
 mod speed_loop;
 
@@ -26,6 +27,7 @@ pub use modes::{Duty, Mode, Modes, ModesConfig, Request, Supervisor, Trip};
 pub use prompt::{Damping, DampingConfig, FeedForward, FeedForwardConfig, Prompt};
 pub use rack::{Rack, RackConfig};
 pub use set_point::{Barred, BarredConfig, Droop, DroopConfig, SetPoint, Window};
+pub use slack::{Slack, SlackConfig};
 pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};
 

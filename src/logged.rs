@@ -1,7 +1,16 @@
 //! Every public type can be logged: this does not compile where one cannot.
 
-use crate::{balance, constants, design, drive, fault, governor, machine, number, observer, sample};
-use crate::{constants, design, drive, fault, fluctuation, governor, machine, number, observer, sample};
+use crate::balance;
+use crate::constants;
+use crate::design;
+use crate::drive;
+use crate::fault;
+use crate::fluctuation;
+use crate::governor;
+use crate::machine;
+use crate::number;
+use crate::observer;
+use crate::sample;
 
 const fn is_logged<T: defmt::Format>() {}
 
@@ -38,6 +47,8 @@ macro_rules! all_of_number {
             fluctuation::Extremes<$number>,
             fluctuation::Waveform<$number, 64>,
             fluctuation::Window<$number, 64>,
+            governor::Slack<$number, governor::Symmetric>,
+            governor::SlackConfig<$number, governor::SymmetricConfig<$number>>,
             governor::SpeedLoop<$number>,
             governor::SpeedLoopConfig<$number>,
             balance::Phasors<$number, 2, 9>,
@@ -105,6 +116,8 @@ const _: () = {
         design::Rate,
         design::RigidDesign,
         design::SemiImplicitStep,
+        design::SlackDesign,
+        design::SlackTuning,
         design::SpeedLoopDesign,
         design::SpeedLoopTuning,
         design::StandardDeviation,

@@ -7,9 +7,11 @@ use driveline::governor::SpeedLoop;
 use driveline::number::Fixed;
 use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 
+use crate::assembled::Assembled;
 use crate::governed::Governed;
 use crate::scenes::blooming_mill::{self, BloomingMill};
 use crate::scenes::composition::{ByHand, Composed, Of};
+use crate::scenes::converter::{self, Converter};
 use crate::scenes::empty::Empty;
 use crate::scenes::hoist::{Hoist, with};
 use crate::variants::variants;
@@ -62,4 +64,10 @@ variants! {
     "blooming-mill/f32/exact/10000" => Governed<BloomingMill<f32, blooming_mill::with::Exact, 10000>>,
     "blooming-mill/fixed/backlash/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Backlash, 10000>>,
     "blooming-mill/fixed/exact/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Exact, 10000>>,
+    "blooming-mill/f32/slack/10000" => Assembled<BloomingMill<f32, blooming_mill::with::Slack, 10000>>,
+    "blooming-mill/fixed/slack/10000" => Assembled<BloomingMill<Fixed, blooming_mill::with::Slack, 10000>>,
+    "converter/f32/plain/10000" => Assembled<Converter<f32, converter::with::Plain>>,
+    "converter/f32/slack/10000" => Assembled<Converter<f32, converter::with::Slack>>,
+    "converter/fixed/plain/10000" => Assembled<Converter<Fixed, converter::with::Plain>>,
+    "converter/fixed/slack/10000" => Assembled<Converter<Fixed, converter::with::Slack>>,
 }

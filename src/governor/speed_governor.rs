@@ -12,7 +12,7 @@
 //! |---|---|
 //! | `S`, the set point | `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred) |
 //! | `F`, added torque | `()`, [`FeedForward`](super::FeedForward), [`Damping`](super::Damping) |
-//! | `L`, the limit | [`Symmetric`], [`Between`](super::Between), [`Curve`](super::Curve), [`Slew`](super::Slew) round any of them |
+//! | `L`, the limit | [`Symmetric`], [`Between`](super::Between), [`Curve`](super::Curve), [`Slew`](super::Slew) or [`Slack`](super::Slack) round any of them |
 //! | `M`, the modes | `()` always at work, [`Modes`](super::Modes) |
 //!
 //! Two parts of one kind are a tuple: `(Droop, Barred<f32, 2>)`. What is left out costs nothing.

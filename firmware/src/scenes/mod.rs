@@ -2,5 +2,6 @@
 
 pub mod blooming_mill;
 pub mod composition;
+pub mod converter;
 pub mod empty;
 pub mod hoist;

@@ -92,7 +92,7 @@ impl Budgets {
         for (variant, cores) in tables {
             let name = variant.get_ref().as_str();
             if !VARIANTS.contains(&name) && !BENCHES.contains(&name) {
-                return Err(unknown(&variant, "variant", [VARIANTS, &BENCHES].concat()));
+                return Err(unknown(&variant, "variant", [VARIANTS, BENCHES].concat()));
             }
             for (core, budget) in cores {
                 if !BOARDS.iter().any(|board| board.core == core.get_ref()) {
