@@ -20,7 +20,7 @@ mod slack;
 
 pub use bases::Bases;
 pub use convert::Error;
-pub use fluctuation::Cycle;
+pub use fluctuation::{Cycle, Wheel};
 pub use geared::Gear;
 pub use governor::SpeedLoopSettings;
 pub use governor_parts::ModesSettings;

@@ -77,6 +77,9 @@
 //! | resonance, antiresonance | natural frequency of the free machine; of the machine with its motor held | rad/s |
 //! | reduction | two masses that stand for a longer chain | |
 //! | innovation | measured less predicted motor angle | 2^-32 turn |
+//! | cycle | what repeats: a turn of the motor, two of a four-stroke engine, or any ratio | |
+//! | order | multiple of the cycle's frequency | |
+//! | delta | largest less least speed of a cycle, over its mean | |
 //! | tick | one run of the controller, at a fixed rate | |
 //! | coast | a tick by prediction alone, since the angle cannot be used | |
 //! | base | what a fixed-point number is a fraction of | |

@@ -1,4 +1,6 @@
 //! The command line: `cargo driveline run`, `modes`, `design`, `rotor`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `simulate`, `design`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `balance`, `check`, `setup`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -6,10 +8,13 @@
 //! | 1 | done, and the answer is no: a check failed, a run could not finish |
 //! | 2 | not begun: a wrong argument or a machine file with a fault |
 //!
-//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
+//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the
+//! object
 //! `{"error": ...}`.
 
 mod backlash;
+mod balance;
+mod campbell;
 mod check;
 mod design;
 mod emit;
@@ -20,6 +25,9 @@ mod progress;
 mod rotor;
 mod run;
 mod setup;
+mod simulate;
+mod simulation;
+mod train_modes;
 mod vibration;
 mod vibration_page;
 
@@ -28,6 +36,7 @@ pub use failure::Failure;
 pub use plan::Plan;
 pub use progress::Progress;
 pub use vibration::Vibration;
+pub(crate) use vibration::names;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -49,8 +58,10 @@ enum Command {
     Modes(modes::Modes),
     Design(design::Design),
     Rotor(rotor::Rotor),
+    Balance(balance::Balance),
     Check(check::Check),
     Setup(setup::Setup),
+    Simulate(simulate::Simulate),
 }
 
 impl Command {
@@ -61,8 +72,10 @@ impl Command {
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
             Self::Rotor(command) => command.json,
+            Self::Balance(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
+            Self::Simulate(command) => command.json,
         }
     }
 
@@ -73,8 +86,10 @@ impl Command {
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
             Self::Rotor(command) => command.execute(),
+            Self::Balance(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
+            Self::Simulate(command) => command.execute(),
         }
     }
 }

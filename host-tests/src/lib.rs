@@ -1,6 +1,7 @@
 //! The full solver, the link to QEMU, the command line, the report.
 
 pub mod backlash;
+pub mod balance_file;
 pub mod check;
 pub mod cli;
 pub mod image;

@@ -3,5 +3,11 @@
 pub mod blooming_mill;
 pub mod composition;
 pub mod converter;
+pub mod crane_travel;
 pub mod empty;
+pub mod fan;
 pub mod hoist;
+pub mod planetary_drive;
+pub mod skip_winch;
+pub mod spindle;
+pub mod strip_mill;

@@ -22,6 +22,9 @@ pub struct Run {
     /// The scene
     #[arg(default_value = "hoist")]
     scene: String,
+    /// The scene, as an option
+    #[arg(long = "scene", value_name = "NAME", conflicts_with = "scene")]
+    named: Option<String>,
     /// Print {scene, variants: [...]} and no table
     #[arg(long)]
     pub json: bool,
@@ -42,8 +45,9 @@ impl Run {
     /// # Errors
     /// No such scene or variant; what kept a variant from running; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
-        let plan = Plan::of(&self.scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
-        let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{}.html", self.scene)));
+        let scene = self.named.as_deref().unwrap_or(&self.scene);
+        let plan = Plan::of(scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
+        let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{scene}.html")));
         let unwritable = |error| Failure::failed(format!("{} cannot be written: {error}", path.display()));
         writable(&path).map_err(unwritable)?;
         setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;

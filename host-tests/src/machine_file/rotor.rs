@@ -113,7 +113,7 @@ impl RotorFile {
 /// # Errors
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn read_rotor(path: &Path) -> Result<RotorFile, Diagnostic> {
-    load(path, parse_rotor)
+    load(path, "a rotor file", parse_rotor)
 }
 
 /// Reads a rotor from a text; `name` is what messages call it.

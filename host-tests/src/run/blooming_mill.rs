@@ -64,14 +64,22 @@ pub fn machine() -> Result<Machine, PlantError> {
         duration: 6.0,
         counted: true,
         marks: vec![(1.2, "bite"), (2.2, "out"), (2.5, "reversal"), (3.6, "bite"), (4.6, "out"), (4.9, "reversal")],
+        law: None,
     };
     Ok(Machine {
         name: "blooming-mill",
+        summary: "A reversing blooming mill with a gap in its spindles: two passes, and reversals as fast as the motor can.",
+        facts: Vec::new(),
+        notes: vec!["The shaft torque is that of the spindles."],
+        chosen: ("slack", 10_000),
         scenarios: vec![passes],
         encoder: Encoder::new(32_768),
         torque_noise: 0.01 * scene::RATED_TORQUE,
         load: LOAD,
         shaft_torque: spindle_torque,
+        load_torque: |plant| plant.load_torque(LOAD),
+        told_brake: None,
+        told_friction: 0.0,
         rated_speed: scene::RATED_SPEED,
         bases: scene::BASES,
     })

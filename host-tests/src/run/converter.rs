@@ -48,14 +48,22 @@ pub fn machine() -> Result<Machine, PlantError> {
         duration: 11.0,
         counted: true,
         marks: vec![(0.1, "tilting"), (4.0, "dead centre"), (5.5, "back"), (9.0, "stop")],
+        law: None,
     };
     Ok(Machine {
         name: "converter",
+        summary: "A converter's tilting drive, four motors as one, with slack in its gear.",
+        facts: Vec::new(),
+        notes: vec!["The shaft torque is that of the trunnion, at the motors."],
+        chosen: ("slack", 10_000),
         scenarios: vec![tilting],
         encoder: Encoder::new(8192),
         torque_noise: 0.01 * scene::RATED_TORQUE,
         load: LOAD,
         shaft_torque: trunnion_torque,
+        load_torque: |plant| plant.load_torque(LOAD),
+        told_brake: None,
+        told_friction: 0.0,
         rated_speed: scene::RATED_SPEED,
         bases: scene::BASES,
     })

@@ -81,5 +81,5 @@ fn no_cut_of_a_file_panics() {
 #[test]
 fn a_file_that_is_not_there_is_a_fault_of_the_file() {
     let fault = read_rotor(std::path::Path::new("no/such.toml")).unwrap_err();
-    assert_eq!((fault.line, fault.key.as_str()), (1, ""));
+    assert_eq!((fault.line, fault.key.as_str()), (0, ""));
 }
