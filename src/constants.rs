@@ -17,6 +17,7 @@ mod limits;
 mod observer;
 mod phasors;
 mod settled;
+mod slack;
 
 pub use bases::Bases;
 pub use convert::Error;

@@ -5,6 +5,7 @@
 //! The same scenes build for the host, where the tests drive them, and for the target, where feature `target` adds
 //! the start-up code, the board and the panic handler. [`selected`] lists the variants and says which one an image holds.
 
+pub mod assembled;
 pub mod board;
 pub mod fingerprint;
 pub mod governed;

@@ -8,9 +8,11 @@ use driveline::governor::SpeedLoop;
 use driveline::number::Fixed;
 use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 
+use crate::assembled::Assembled;
 use crate::governed::Governed;
 use crate::scenes::blooming_mill::{self, BloomingMill};
 use crate::scenes::composition::{ByHand, Composed, Of};
+use crate::scenes::converter::{self, Converter};
 use crate::scenes::crane_travel::CraneTravel;
 use crate::scenes::empty::Empty;
 use crate::scenes::fan::Fan;
@@ -78,6 +80,12 @@ variants! {
     "blooming-mill/f32/exact/10000" => Governed<BloomingMill<f32, blooming_mill::with::Exact, 10000>>,
     "blooming-mill/fixed/backlash/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Backlash, 10000>>,
     "blooming-mill/fixed/exact/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Exact, 10000>>,
+    "blooming-mill/f32/slack/10000" => Assembled<BloomingMill<f32, blooming_mill::with::Slack, 10000>>,
+    "blooming-mill/fixed/slack/10000" => Assembled<BloomingMill<Fixed, blooming_mill::with::Slack, 10000>>,
+    "converter/f32/plain/10000" => Assembled<Converter<f32, converter::with::Plain>>,
+    "converter/f32/slack/10000" => Assembled<Converter<f32, converter::with::Slack>>,
+    "converter/fixed/plain/10000" => Assembled<Converter<Fixed, converter::with::Plain>>,
+    "converter/fixed/slack/10000" => Assembled<Converter<Fixed, converter::with::Slack>>,
     "fan/f32/rigid/1000" => Governed<Fan<f32, Rigid<f32>>>,
     "fan/fixed/rigid/1000" => Governed<Fan<Fixed, Rigid<Fixed>>>,
     "spindle/f32/rigid/10000" => Governed<Spindle<f32, Rigid<f32>>>,

@@ -1,8 +1,10 @@
 //! A scene's firmware in closed loop with the full solver of its machine: how wrong the estimates are, and what they cost.
 
 mod assemble;
+pub mod blooming_mill;
 pub mod closed_loop;
 mod comparison;
+pub mod converter;
 mod crane_travel;
 pub mod engine;
 mod facts;
@@ -35,4 +37,6 @@ pub const SCENES: &[(&str, Build)] = &[
     ("planetary", planetary_drive::machine),
     ("crane-travel", crane_travel::machine),
     ("skip-winch", skip_winch::machine),
+    ("blooming-mill", blooming_mill::machine),
+    ("converter", converter::machine),
 ];

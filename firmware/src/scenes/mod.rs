@@ -2,6 +2,7 @@
 
 pub mod blooming_mill;
 pub mod composition;
+pub mod converter;
 pub mod crane_travel;
 pub mod empty;
 pub mod fan;

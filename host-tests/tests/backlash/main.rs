@@ -4,6 +4,7 @@
 mod comparison;
 mod paths;
 mod reversals;
+mod scenes;
 mod sentences;
 mod sides;
 mod step;
