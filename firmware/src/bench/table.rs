@@ -2,7 +2,7 @@
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
-use super::{phasors, steps};
+use super::{correction, phasors, steps};
 use crate::Words;
 use crate::board::Board;
 use crate::measure::driveline_tick;
@@ -25,4 +25,5 @@ pub fn run<B: Board>(bench: &mut Bench<'_, B>) {
             phasors::fixed(bench);
         }
     }
+    correction::solves(bench);
 }

@@ -85,7 +85,7 @@ impl Cost {
 }
 
 /// Functions that the bench measures and `budgets.toml` may name.
-pub const BENCHES: [&str; 8] = [
+pub const BENCHES: [&str; 10] = [
     "bench/step/exact",
     "bench/step/semi-implicit",
     "bench/step/rigid",
@@ -94,6 +94,8 @@ pub const BENCHES: [&str; 8] = [
     "bench/drive/rigid",
     "bench/phasor/1",
     "bench/phasor/2",
+    "bench/balance/least-squares",
+    "bench/balance/min-max",
 ];
 
 impl Cost {
@@ -113,7 +115,8 @@ impl Cost {
                 return Err(format!("{name} was not measured on {}", board.name).into());
             };
             let instructions = Spread { min, median, max };
-            Ok((name.into(), Cost { instructions, sizes: Sizes::default(), tick_code: 0, state: 0, stack: 0 }))
+            let stack = figure("stack").unwrap_or(0);
+            Ok((name.into(), Cost { instructions, sizes: Sizes::default(), tick_code: 0, state: 0, stack }))
         };
         BENCHES.iter().map(|name| cost(name)).collect()
     }
