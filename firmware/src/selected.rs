@@ -7,10 +7,14 @@ use driveline::governor::SpeedLoop;
 use driveline::number::Fixed;
 use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 
+use crate::balanced::Balanced;
 use crate::governed::Governed;
 use crate::scenes::composition::{ByHand, Composed, Of};
 use crate::scenes::empty::Empty;
+use crate::scenes::fan::Fan;
+use crate::scenes::flexible::Flexible;
 use crate::scenes::hoist::{Hoist, with};
+use crate::scenes::spindle::Spindle;
 use crate::variants::variants;
 
 variants! {
@@ -33,6 +37,10 @@ variants! {
     "composition/fixed/two-mass-geared-observer/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, ()>>,
     "composition/fixed/two-mass-geared-governed/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, SpeedLoop<Fixed>>>,
     "composition/fixed/two-mass-by-hand/10000" => ByHand<Fixed, TwoMass<Fixed>>,
+    "fan/f32/two-mass/4000" => Balanced<Fan<f32>>,
+    "fan/fixed/two-mass/4000" => Balanced<Fan<Fixed>>,
+    "flexible/f32/two-mass/4000" => Balanced<Flexible<f32>>,
+    "flexible/fixed/two-mass/4000" => Balanced<Flexible<Fixed>>,
     "hoist/f32/rigid/1000" => Governed<Hoist<f32, with::Rigid, 1000>>,
     "hoist/f32/rigid/4000" => Governed<Hoist<f32, with::Rigid, 4000>>,
     "hoist/f32/rigid/10000" => Governed<Hoist<f32, with::Rigid, 10000>>,
@@ -57,4 +65,6 @@ variants! {
     "hoist/fixed/reduced/1000" => Governed<Hoist<Fixed, with::Reduced, 1000>>,
     "hoist/fixed/reduced/4000" => Governed<Hoist<Fixed, with::Reduced, 4000>>,
     "hoist/fixed/reduced/10000" => Governed<Hoist<Fixed, with::Reduced, 10000>>,
+    "spindle/f32/two-mass/4000" => Balanced<Spindle<f32>>,
+    "spindle/fixed/two-mass/4000" => Balanced<Spindle<Fixed>>,
 }

@@ -9,6 +9,7 @@
 //! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
 //! `{"error": ...}`.
 
+mod balancing;
 mod check;
 mod design;
 mod emit;

@@ -2,4 +2,7 @@
 
 pub mod composition;
 pub mod empty;
+pub mod fan;
+pub mod flexible;
 pub mod hoist;
+pub mod spindle;

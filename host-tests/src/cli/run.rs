@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::balancing::{self, Wanted};
 use super::{Failure, Progress, say, say_json};
+use crate::balancing::Scene;
 use crate::report::variants_table;
 use crate::run::Plan;
 use crate::setup;
@@ -17,9 +19,10 @@ use crate::setup;
 #[command(after_help = "Examples:
   cargo driveline run
   cargo driveline run hoist --variants f32/m4f --quick
+  cargo driveline run fan
   cargo driveline run --json > hoist.json")]
 pub struct Run {
-    /// The scene
+    /// The scene: hoist; or fan, flexible, spindle, whose rotors are balanced
     #[arg(default_value = "hoist")]
     scene: String,
     /// Print {scene, variants: [...]} and no table
@@ -42,6 +45,10 @@ impl Run {
     /// # Errors
     /// No such scene or variant; what kept a variant from running; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
+        if let Some(scene) = Scene::named(&self.scene) {
+            let (filter, html) = (self.variants.as_deref(), self.html.as_deref());
+            return balancing::run(&scene, Wanted { filter, html, json: self.json });
+        }
         let plan = Plan::of(&self.scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
         setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
         let progress = Progress::of(plan.steps());

@@ -9,6 +9,7 @@ mod lines;
 mod pareto;
 mod response;
 mod shape;
+mod vectors;
 
 pub use compare::step_errors;
 pub use cost::{Cost, Quality, error_against_cost};
@@ -18,3 +19,4 @@ pub use lines::{Curve, Lines};
 pub use pareto::front;
 pub use response::{Response, response};
 pub use shape::{Station, mode_shape};
+pub use vectors::{Arrow, vectors};

@@ -29,7 +29,7 @@ impl Plan {
     /// A sentence: no such scene, or no such variant.
     pub fn of(scene: &str, filter: Option<&str>, quick: bool) -> Result<Self, String> {
         if scene != "hoist" {
-            return Err(format!("there is no scene `{scene}`; there is `hoist`"));
+            return Err(format!("there is no scene `{scene}`; there are `hoist`, `fan`, `flexible` and `spindle`"));
         }
         let machine = hoist::machine().map_err(|error| format!("the plant of scene `{scene}`: {error}"))?;
         let candidates = candidates(scene, filter);
