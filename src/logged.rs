@@ -106,3 +106,18 @@ const _: () = {
         number::Fixed,
     );
 };
+
+#[cfg(feature = "balancing")]
+const _: () = {
+    all!(
+        balance::Entry,
+        balance::Halt,
+        balance::InRunConfig<f32, 1>,
+        balance::Mode,
+        balance::Objective,
+        balance::Refusal,
+        balance::Step,
+        balance::Tolerance<f32>,
+        balance::Verdict<f32>,
+    );
+};

@@ -6,14 +6,38 @@ use nalgebra::{ComplexField, RealField};
 pub trait Real: RealField + Copy {
     /// How close to the optimum a search ends, relative: what is left of the digits after a search.
     const CLOSE: f64;
+    /// Words that a number takes in a record, one or two.
+    const WORDS: usize;
+    /// The number as words; what is not used is zero.
+    fn to_words(self) -> [u32; 2];
+    /// The number that has these words.
+    fn from_words(words: [u32; 2]) -> Self;
 }
 
 impl Real for f32 {
     const CLOSE: f64 = 1e-4;
+    const WORDS: usize = 1;
+
+    fn to_words(self) -> [u32; 2] {
+        [self.to_bits(), 0]
+    }
+
+    fn from_words([word, _]: [u32; 2]) -> Self {
+        f32::from_bits(word)
+    }
 }
 
 impl Real for f64 {
     const CLOSE: f64 = 1e-10;
+    const WORDS: usize = 2;
+
+    fn to_words(self) -> [u32; 2] {
+        [(self.to_bits() >> 32) as u32, self.to_bits() as u32]
+    }
+
+    fn from_words([high, low]: [u32; 2]) -> Self {
+        f64::from_bits(u64::from(high) << 32 | u64::from(low))
+    }
 }
 
 /// A vibration, a weight or an influence coefficient: amplitude and phase as a complex number.

@@ -69,8 +69,8 @@ pub enum Refusal {
     TooEarly,
     /// A record that was not written by this procedure, or is damaged.
     Record {
-        /// Its line, from 1.
-        line: usize,
+        /// The word at which that shows.
+        word: usize,
     },
     /// There are no holes, or no weights, to choose from.
     NothingToFit,
@@ -113,7 +113,7 @@ impl fmt::Display for Refusal {
                 f.write_str("all phases are below 2 pi: they seem to be in radians, and degrees are expected")
             }
             Refusal::TooEarly => f.write_str("a step before this one is still missing"),
-            Refusal::Record { line } => write!(f, "line {line} of the record cannot be read"),
+            Refusal::Record { word } => write!(f, "the record is damaged, or of another plan, at word {word}"),
             Refusal::NothingToFit => f.write_str("there are no holes or no weights to choose from"),
             Refusal::TooHeavy { plane } => {
                 write!(f, "the weight in plane {} is more than its holes can take", plane + 1)
