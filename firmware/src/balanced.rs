@@ -43,13 +43,22 @@ pub trait Variant: 'static {
     const CONFIG: &'static Constants<Self::Number, Self::Observer>;
 }
 
+/// A complete reading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// Of both channels, in the unit of the sensors.
+    pub readings: [Reading; CHANNELS],
+    /// Speed of the rotor over it \[rad/s\].
+    pub speed: f32,
+}
+
 /// What makes weights of readings.
 pub trait Adviser {
     /// Nothing known yet.
     fn new() -> Self;
-    /// Answers a key that is not about the measurement itself; `reading` is the last complete one of both channels, in
-    /// the unit of the sensors.
-    fn ask(&mut self, key: Key, value: u32, reading: Option<[Reading; CHANNELS]>) -> u32;
+    /// Answers a key that is not about the measurement itself; `measured` is the last reading, where it is complete
+    /// and good.
+    fn ask(&mut self, key: Key, value: u32, measured: Option<Measured>) -> u32;
 }
 
 /// A drive with its constants, and its panel.
@@ -102,13 +111,16 @@ impl<V: Variant> Scene for Balanced<V> {
 }
 
 impl<V: Variant> Balanced<V> {
-    fn reading(&self) -> Result<[Reading; CHANNELS], Doubt> {
+    fn reading(&self) -> Result<Measured, Doubt> {
         let read = |channel| {
             let reading = self.drive.balancer().reading(&self.config.balancer, channel)?;
             let (phasor, variance) = (reading.phasor.scaled(V::UNIT), reading.variance * V::UNIT * V::UNIT);
             Ok(Reading { phasor, variance, ..reading })
         };
-        Ok([read(0)?, read(1)?])
+        let readings: [Reading; CHANNELS] = [read(0)?, read(1)?];
+        // a reading has eight ticks on a turn at least
+        let speed = core::f32::consts::TAU * V::RATE_HZ as f32 / readings[0].ticks;
+        Ok(Measured { readings, speed })
     }
 }
 

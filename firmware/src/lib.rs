@@ -9,7 +9,7 @@ pub mod balanced;
 pub mod board;
 pub mod fingerprint;
 pub mod governed;
-pub mod in_run;
+pub mod head;
 pub mod panel;
 pub mod program;
 pub mod report;

@@ -6,7 +6,7 @@
 
 use core::marker::PhantomData;
 
-use driveline::balance::{PhasorsConfig, Steadiness};
+use driveline::balance::{InRunConfig, PhasorsConfig, Steadiness};
 use driveline::constants::{Bases, Measured, Screening, SpeedLoopSettings};
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
 use driveline::drive::{Config, Limits};
@@ -16,7 +16,7 @@ use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
 
 use crate::balanced::{Constants, Variant};
-use crate::in_run::{HasHead, Head, InRun};
+use crate::head::{Head, HeadPanel};
 
 /// Motor, belt, spindle.
 pub const CHAIN: Chain = Chain::motor(Inertia(0.02)).shaft(Stiffness(1.5e3), Damping(0.2)).rotor(Inertia(0.18));
@@ -75,10 +75,19 @@ const MEASURED: Measured = Measured {
 /// The balancing head.
 pub struct TheHead;
 
-impl HasHead for TheHead {
+impl Head for TheHead {
     /// The first step is a fiftieth of the capacity: an unbalance worth balancing is five times that, and so never
-    /// grows by a fifth.
-    const HEAD: Head = Head { capacity: CAPACITY as f32, probe: CAPACITY as f32 / 50.0, forgetting: 0.5, bound: 1.25 };
+    /// grows by
+    /// a fifth.
+    const CONFIG: InRunConfig<f32, 1> = InRunConfig {
+        probe: CAPACITY as f32 / 50.0,
+        limits: [CAPACITY as f32],
+        step: 2.0 * CAPACITY as f32,
+        bound: 1.3,
+        target: 0.01,
+        forgetting: 0.7,
+        noise: 0.005,
+    };
 }
 
 /// The spindle with a number.
@@ -87,7 +96,7 @@ pub struct Spindle<N>(PhantomData<N>);
 impl Variant for Spindle<f32> {
     type Number = f32;
     type Observer = observer::TwoMass<f32>;
-    type Adviser = InRun<TheHead>;
+    type Adviser = HeadPanel<TheHead>;
     const NAME: &'static str = "spindle/f32/two-mass/4000";
     const RATE_HZ: u32 = RATE_HZ;
     const UNIT: f32 = 1.0;
@@ -103,7 +112,7 @@ impl Variant for Spindle<f32> {
 impl Variant for Spindle<Fixed> {
     type Number = Fixed;
     type Observer = observer::TwoMass<Fixed>;
-    type Adviser = InRun<TheHead>;
+    type Adviser = HeadPanel<TheHead>;
     const NAME: &'static str = "spindle/fixed/two-mass/4000";
     const RATE_HZ: u32 = RATE_HZ;
     const UNIT: f32 = VIBRATION_BASE as f32;

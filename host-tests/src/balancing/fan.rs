@@ -1,7 +1,7 @@
 //! The fan: two planes, trial weights, one correction and one trim.
 
 use driveline_firmware::Words;
-use driveline_firmware::panel::Key;
+use driveline_firmware::panel::{Key, next};
 use driveline_firmware::scenes::fan as scene;
 use nalgebra::Complex;
 
@@ -88,29 +88,42 @@ pub fn run(words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outcome, Ba
     let mut now = found;
     let mut stages = Vec::new();
 
-    measure(&mut operator)?;
-    operator.press(Key::Baseline, 0)?;
-    stages.push(stage("as found", &mut operator, &model, &now)?);
-    for plane in 0..2_u32 {
-        let trial = Polar::degrees(TRIAL, 45.0);
-        let mut with = now;
-        with[plane as usize] += hand.set(trial);
-        set(&mut operator, &with)?;
-        measure(&mut operator)?;
-        operator.tell_weight(trial)?;
-        operator.press(Key::Trial, plane)?;
-    }
-    // The trial weights are off: the run that is solved for is the baseline again.
-    set(&mut operator, &now)?;
-    measure(&mut operator)?;
-    for name in ["corrected", "trimmed"] {
-        operator.press(Key::Solve, 0)?;
-        for (plane, u) in now.iter_mut().enumerate() {
-            *u += hand.set(operator.complex([Key::AddRe, Key::AddIm], plane as u32)?);
+    loop {
+        match operator.ask(Key::Next, 0)? {
+            next::BASELINE => {
+                measure(&mut operator)?;
+                operator.press(Key::Baseline, 0)?;
+                stages.push(stage("as found", &mut operator, &model, &now)?);
+            }
+            step @ (next::CORRECTION | next::TRIM) => {
+                // one correction and one trim, whatever the procedure would go on to
+                if stages.len() == 3 {
+                    break;
+                }
+                operator.press(Key::Solve, 0)?;
+                for (plane, u) in now.iter_mut().enumerate() {
+                    *u += hand.set(operator.complex([Key::AddRe, Key::AddIm], plane as u32)?);
+                }
+                set(&mut operator, &now)?;
+                operator.press(Key::Placed, 0)?;
+                measure(&mut operator)?;
+                operator.press(Key::Verified, 0)?;
+                let name = if step == next::TRIM { "trimmed" } else { "corrected" };
+                stages.push(stage(name, &mut operator, &model, &now)?);
+            }
+            trial @ next::TRIAL.. => {
+                let (plane, weight) = (trial - next::TRIAL, Polar::degrees(TRIAL, 45.0));
+                let mut with = now;
+                if let Some(u) = with.get_mut(plane as usize) {
+                    *u += hand.set(weight);
+                }
+                set(&mut operator, &with)?;
+                measure(&mut operator)?;
+                operator.tell_weight(weight)?;
+                operator.press(Key::Trial, plane)?;
+            }
+            _ => break,
         }
-        set(&mut operator, &now)?;
-        measure(&mut operator)?;
-        stages.push(stage(name, &mut operator, &model, &now)?);
     }
     let claim = |name: &str, stage: usize, limit: f64| {
         let measured = stages.get(stage).map_or(f64::NAN, |stage: &Stage| stage.measure);

@@ -1,7 +1,7 @@
 //! The flexible rotor: three planes, two speeds, one correction.
 
 use driveline_firmware::Words;
-use driveline_firmware::panel::Key;
+use driveline_firmware::panel::{Key, next};
 use driveline_firmware::scenes::flexible as scene;
 use nalgebra::Complex;
 
@@ -84,27 +84,40 @@ pub fn run(words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outcome, Ba
     operator.bring_to(scene::SLOW_ROLL, SETTLE)?;
     operator.read()?;
     operator.press(Key::RunOut, 0)?;
-    measure(&mut operator)?;
-    operator.press(Key::Baseline, 0)?;
-    stages.push(stage("as found", &mut operator, &model, &now, &found)?);
-    for plane in 0..3 {
-        let mut with = now;
-        with[plane] += trial[plane];
-        set(&mut operator, &with)?;
-        measure(&mut operator)?;
-        operator.tell_weight(trial[plane])?;
-        operator.press(Key::Trial, plane as u32)?;
+    // one correction, whatever the procedure would go on to
+    while stages.len() < 2 {
+        match operator.ask(Key::Next, 0)? {
+            next::BASELINE => {
+                measure(&mut operator)?;
+                operator.press(Key::Baseline, 0)?;
+                stages.push(stage("as found", &mut operator, &model, &now, &found)?);
+            }
+            next::CORRECTION => {
+                operator.press(Key::Solve, 0)?;
+                for (plane, u) in now.iter_mut().enumerate() {
+                    *u += operator.complex([Key::AddRe, Key::AddIm], plane as u32)?;
+                }
+                set(&mut operator, &now)?;
+                operator.press(Key::Placed, 0)?;
+                measure(&mut operator)?;
+                operator.press(Key::Verified, 0)?;
+                stages.push(stage("corrected", &mut operator, &model, &now, &found)?);
+            }
+            step @ next::TRIAL.. => {
+                let plane = step - next::TRIAL;
+                let mut with = now;
+                let weight = trial.get(plane as usize).copied().unwrap_or_default();
+                if let Some(u) = with.get_mut(plane as usize) {
+                    *u += weight;
+                }
+                set(&mut operator, &with)?;
+                measure(&mut operator)?;
+                operator.tell_weight(weight)?;
+                operator.press(Key::Trial, plane)?;
+            }
+            _ => break,
+        }
     }
-    // The trial weights are off: the run that is solved for is the baseline again.
-    set(&mut operator, &now)?;
-    measure(&mut operator)?;
-    operator.press(Key::Solve, 0)?;
-    for (plane, u) in now.iter_mut().enumerate() {
-        *u += operator.complex([Key::AddRe, Key::AddIm], plane as u32)?;
-    }
-    set(&mut operator, &now)?;
-    measure(&mut operator)?;
-    stages.push(stage("corrected", &mut operator, &model, &now, &found)?);
     let claims = scene::SPEEDS
         .iter()
         .map(|&speed| {
