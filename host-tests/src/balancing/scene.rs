@@ -118,20 +118,21 @@ impl Scene {
         visit(variant, HostRun { scene: *self, seed }).expect("a variant of the firmware's table")
     }
 
-    /// Balances a variant in QEMU; the same scene on the host is given the same inputs beside it.
+    /// Balances a variant in QEMU; the same scene on the host is given the same inputs beside it. `seed` is that of everything
+    /// that is left to chance.
     ///
     /// # Errors
     /// A build or a link that failed; why it could not be balanced.
     ///
     /// # Panics
     /// For a variant that is not in the firmware's table.
-    pub fn in_qemu(&self, variant: &str, board: Facts, says: &dyn Fn(&str)) -> Result<Ran, Box<dyn Error>> {
+    pub fn in_qemu(&self, variant: &str, board: Facts, seed: u64, says: &dyn Fn(&str)) -> Result<Ran, Box<dyn Error>> {
         let name = key(variant, &board);
         says(&format!("{name}: building"));
         let image = build(variant, board, Program::ControlLoop, |_| {})?;
         let sizes = Contents::read(&image.path)?.sizes;
         says(&format!("{name}: balancing in QEMU"));
-        let run = QemuRun { scene: *self, link: Link::start(&image)? };
+        let run = QemuRun { scene: *self, link: Link::start(&image)?, seed };
         let (outcome, stack, same_on_host) = visit(variant, run)
             .expect("a variant of the firmware's table")
             .map_err(|error| format!("{name}: {error}"))?;
@@ -181,6 +182,7 @@ impl<S: scene::Scene> Ticks for Beside<S> {
 struct QemuRun {
     scene: Scene,
     link: Link,
+    seed: u64,
 }
 
 impl Visitor for QemuRun {
@@ -188,7 +190,7 @@ impl Visitor for QemuRun {
 
     fn visit<S: scene::Scene>(self) -> Self::Outcome {
         let mut beside = Beside { link: self.link, host: S::new(), same: true };
-        let outcome = (self.scene.balance)(Words::of::<S>(), &mut beside, 1)?;
+        let outcome = (self.scene.balance)(Words::of::<S>(), &mut beside, self.seed)?;
         let stack = beside.link.finish()?.stack;
         Ok((outcome, stack, beside.same))
     }
