@@ -84,6 +84,12 @@ impl<'b, B: Board> Bench<'b, B> {
         self.board.print(self.line(name, &counts).number("stack", used).finish());
     }
 
+    /// Prints something else than instructions: what it is, of what, its unit and the number.
+    pub fn print_number(&self, what: &str, of: &str, unit: &str, number: u32) {
+        let mut line = Line::new().text(what, of).text("board", B::FACTS.name).number(unit, number);
+        self.board.print(line.finish());
+    }
+
     fn print(&self, name: &str, counts: &[u32]) {
         self.board.print(self.line(name, counts).finish());
     }

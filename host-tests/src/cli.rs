@@ -1,4 +1,5 @@
 //! The command line: `cargo driveline run`, `modes`, `design`, `rotor`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `balance`, `check`, `setup`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -9,6 +10,7 @@
 //! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
 //! `{"error": ...}`.
 
+mod balance;
 mod balancing;
 mod check;
 mod design;
@@ -48,6 +50,7 @@ enum Command {
     Modes(modes::Modes),
     Design(design::Design),
     Rotor(rotor::Rotor),
+    Balance(balance::Balance),
     Check(check::Check),
     Setup(setup::Setup),
 }
@@ -59,6 +62,7 @@ impl Command {
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
             Self::Rotor(command) => command.json,
+            Self::Balance(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
         }
@@ -70,6 +74,7 @@ impl Command {
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
             Self::Rotor(command) => command.execute(),
+            Self::Balance(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
         }

@@ -1,5 +1,6 @@
 //! The full solver, the link to QEMU, the command line, the report.
 
+pub mod balance_file;
 pub mod balancing;
 pub mod check;
 pub mod cli;

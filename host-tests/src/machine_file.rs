@@ -57,8 +57,10 @@ mod table;
 pub use diagnostic::{Diagnostic, Fault};
 pub use element::Element;
 pub use quantity::Quantity;
-pub use read::{LARGEST, parse, read};
+pub use read::{LARGEST, not_toml, parse, read, text};
 pub use rotor::{RotorFile, parse_rotor, read_rotor};
+pub use source::Source;
+pub use table::{Item, Table};
 
 use driveline::machine::Chain;
 use serde::Serialize;

@@ -17,6 +17,7 @@
 //! assert!(page.starts_with("<!doctype html>"));
 //! ```
 
+mod balance_page;
 pub mod chart;
 mod figures;
 pub mod format;
@@ -28,6 +29,7 @@ mod sweep;
 mod terminal;
 mod trajectory;
 
+pub use balance_page::{BalancePage, PolarFigure, PolarKey};
 pub use figures::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Variant};
 pub use modes_page::{MachinePage, ModeFigure};
 pub use sheet::{Figure, Sheet};

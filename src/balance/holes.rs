@@ -36,7 +36,7 @@ pub struct Fitted<T: Real> {
 }
 
 impl<T: Real> Holes<'_, T> {
-    /// The two holes and weights that come nearest to a weight.
+    /// The two holes and weights that come nearest to a weight; of more than four holes, two within a quarter turn.
     ///
     /// # Errors
     /// [`Refusal::NothingToFit`]; [`Refusal::Setting`] with the place of a weight that is not positive or an angle that is no number;
@@ -73,7 +73,9 @@ impl<T: Real> Holes<'_, T> {
                 let other = self.way(second);
                 // target = x along + y other
                 let across = along.re * other.im - along.im * other.re;
-                if across.abs() < real(1e-6) {
+                // Holes further apart than a quarter turn pull against each other; only where there are few it takes them.
+                let apart = along.re * other.re + along.im * other.im < real(-1e-6) && self.angles.len() > 4;
+                if apart || across.abs() < real(1e-6) {
                     continue;
                 }
                 let x = (target.re * other.im - target.im * other.re) / across;

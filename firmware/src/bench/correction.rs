@@ -1,6 +1,6 @@
 //! What is off the tick: a full solve of three planes and six readings in `f32`, trial runs included.
 
-use driveline::balance::{Aim, Complex, Influence, Objective};
+use driveline::balance::{Aim, Complex, Entry, Influence, Objective};
 
 use super::Bench;
 use crate::Words;
@@ -46,4 +46,42 @@ fn solve(runs: &Runs, weights: &mut [Complex<f32>; 3], objective: Objective, lim
     if let Ok(correction) = influence.correct(&runs.0, &aim) {
         *weights = correction.weights;
     }
+}
+
+/// Darlow 1982, case 1: influence coefficients of four readings by three planes, amplitude and phase \[degrees\].
+const DARLOW: [[[f32; 2]; 3]; 4] = [
+    [[1.41, 45.0], [2.24, 27.0], [3.61, 34.0]],
+    [[3.16, 72.0], [4.47, 27.0], [2.24, 27.0]],
+    [[2.83, 45.0], [2.24, 27.0], [5.0, 37.0]],
+    [[3.16, 18.0], [3.61, 34.0], [4.47, 27.0]],
+];
+/// Its vibration.
+const DARLOW_VIBRATION: [[f32; 2]; 4] = [[3.16, 72.0], [3.16, 18.0], [4.12, 14.0], [5.39, 68.0]];
+/// Its least-squares weights, to 50 digits by another program.
+const DARLOW_WEIGHTS: [[f32; 2]; 3] = [[1.374_525_8, 356.499_13], [1.226_678_1, 215.876_56], [0.977_266_7, 167.724_45]];
+
+/// Prints how far the weights of a published case are off on this core, in billionths of the largest.
+pub fn accuracy<B: Board>(bench: &mut Bench<'_, B>) {
+    bench.print_number("accuracy", "balance/darlow", "billionths", darlow().unwrap_or(u32::MAX));
+}
+
+fn darlow() -> Option<u32> {
+    let mut entry = Entry::new();
+    let mut polar = |[amplitude, degrees]: [f32; 2]| entry.polar(amplitude, degrees);
+    let mut influence = Influence::<f32, 4, 3>::new(4, 3).ok()?;
+    for plane in 0..3 {
+        let mut column = [Complex { re: 0.0, im: 0.0 }; 4];
+        for (value, row) in column.iter_mut().zip(&DARLOW) {
+            *value = polar(*row.get(plane)?);
+        }
+        influence.set(plane, &column).ok()?;
+    }
+    let found = influence.correct(&DARLOW_VIBRATION.map(&mut polar), &Aim::default()).ok()?;
+    let mut worst = 0.0;
+    for (weight, expected) in found.weights.iter().zip(DARLOW_WEIGHTS) {
+        let off = *weight - polar(expected);
+        let off = off.re.abs() + off.im.abs();
+        worst = if off > worst || off.is_nan() { off } else { worst };
+    }
+    Some((worst / 1.374_525_8 * 1e9) as u32)
 }

@@ -26,4 +26,5 @@ pub fn run<B: Board>(bench: &mut Bench<'_, B>) {
         }
     }
     correction::solves(bench);
+    correction::accuracy(bench);
 }

@@ -2,7 +2,7 @@
 
 use super::outcome::{Outcome, Stage, Vector};
 use super::scene::{Ran, Scene};
-use crate::report::chart::{Arrow, Curve, Lines, vectors};
+use crate::report::chart::{Arrow, Curve, Lines, polar};
 use crate::report::format::significant;
 use crate::report::{Fact, Figure, Sheet, Table};
 
@@ -91,9 +91,9 @@ pub fn page(scene: &Scene, ran: &[Ran]) -> String {
         Fact { name: "readings refused".to_owned(), value: outcome.doubts.len().to_string() },
     ];
     let legend: Vec<(String, String)> =
-        outcome.stages.iter().enumerate().map(|(index, stage)| (stage.name.clone(), class(index))).collect();
+        outcome.stages.iter().enumerate().map(|(index, stage)| (stage.name.clone(), class(index).to_owned())).collect();
     let rows = outcome.rows.iter().enumerate();
-    let vibration = rows.map(|(row, name)| polar(name, "µm", outcome, |stage| stage.vibration.get(row).copied()));
+    let vibration = rows.map(|(row, name)| plot(name, "µm", outcome, |stage| stage.vibration.get(row).copied()));
     sheet.figures.push(Figure {
         title: "Vibration, stage by stage".to_owned(),
         text: "Steady displacement of each sensor by the full solver; angles from the rotor's zero.".to_owned(),
@@ -103,7 +103,7 @@ pub fn page(scene: &Scene, ran: &[Ran]) -> String {
     });
     let planes = outcome.stages.first().map_or(0, |stage| stage.unbalance.len());
     let unbalance = (0..planes).map(|plane| {
-        polar(&format!("plane {}", plane + 1), "g mm", outcome, |stage| stage.unbalance.get(plane).copied())
+        plot(&format!("plane {}", plane + 1), "g mm", outcome, |stage| stage.unbalance.get(plane).copied())
     });
     sheet.figures.push(Figure {
         title: "Unbalance, stage by stage".to_owned(),
@@ -116,25 +116,25 @@ pub fn page(scene: &Scene, ran: &[Ran]) -> String {
     sheet.page()
 }
 
-fn class(index: usize) -> String {
-    format!("s{}", index % 6)
+const fn class(index: usize) -> &'static str {
+    ["s0", "s1", "s2", "s3", "s4", "s5"][index % 6]
 }
 
-fn polar(title: &str, unit: &str, outcome: &Outcome, of: impl Fn(&Stage) -> Option<Vector>) -> String {
+fn plot(title: &str, unit: &str, outcome: &Outcome, of: impl Fn(&Stage) -> Option<Vector>) -> String {
     let arrow = |(index, stage): (usize, &Stage)| {
         let vector = of(stage)?;
-        let title = format!("{}: {} {unit} at {:.0}°", stage.name, significant(vector.size * 1e6), vector.angle);
-        Some(Arrow { size: vector.size, angle: vector.angle, class: class(index), title })
+        // m to µm and kg m to g mm alike
+        let amplitude = vector.size * 1e6;
+        Some(Arrow { class: class(index), name: stage.name.clone(), amplitude, degrees: vector.angle })
     };
     let arrows: Vec<Arrow> = outcome.stages.iter().enumerate().filter_map(arrow).collect();
-    // m to µm and kg m to g mm alike
-    vectors(title, unit, 1e6, &arrows)
+    polar(title, unit, &arrows)
 }
 
 fn over_speed(outcome: &Outcome, legend: Vec<(String, String)>) -> Figure {
     let (speeds, amplitudes) = &outcome.over_speed;
     let curve = |(index, amplitudes): (usize, &Vec<f64>)| Curve {
-        class: class(index),
+        class: class(index).to_owned(),
         values: amplitudes.iter().map(|amplitude| amplitude * 1e6).collect(),
     };
     let lines = Lines {

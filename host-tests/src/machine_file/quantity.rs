@@ -85,10 +85,23 @@ impl Quantity {
     pub const BEARING_DAMPING: Self = not_negative("N s/m");
     /// Unbalance.
     pub const UNBALANCE: Self = not_negative("kg m");
-    /// An angle in degrees.
-    pub const DEGREES: Self = Quantity { least: -360.0, most: 360.0, zero: true, whole: false, unit: "degrees" };
     /// Time.
     pub const TIME: Self = positive("s");
+
+    /// Amplitude of a vibration, in whatever unit.
+    pub const AMPLITUDE: Self = not_negative("");
+    /// A weight of balancing, in whatever unit.
+    pub const WEIGHT: Self = not_negative("");
+    /// Phase or angle in degrees; ten turns either way are more than anybody writes.
+    pub const DEGREES: Self = Quantity { unit: "degrees", least: -3600.0, most: 3600.0, zero: true, whole: false };
+    /// Speed in turns a minute.
+    pub const RPM: Self = positive("rpm");
+    /// Balance quality grade.
+    pub const GRADE: Self = positive("mm/s");
+    /// Number of something on a rotor.
+    pub const COUNT: Self = Quantity { least: 1.0, most: 360.0, whole: true, ..positive("") };
+    /// A share of a whole.
+    pub const SHARE: Self = Quantity { least: 1e-9, most: 1.0, ..not_negative("") };
 
     /// Whether a number is one of this quantity's.
     pub fn allows(self, number: f64) -> bool {

@@ -25,25 +25,29 @@ const NAME: &str = "a name of 1 to 40 letters, digits, spaces, `-` and `_`, with
 /// # Errors
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn read(path: &Path) -> Result<MachineFile, Diagnostic> {
-    load(path, parse)
+    let (name, text) = text(path, "a machine file")?;
+    parse(&name, &text)
 }
 
-/// Reads a file with a parser that is given its name and its text.
-pub(super) fn load<T>(path: &Path, parse: fn(&str, &str) -> Result<T, Diagnostic>) -> Result<T, Diagnostic> {
+/// Reads a file as text: its name as messages call it, and what stands in it. `what` is the kind of file that was expected.
+///
+/// # Errors
+/// A file that cannot be read, is too long, or is not text.
+pub fn text(path: &Path, what: &str) -> Result<(String, String), Diagnostic> {
     let name = printable(&path.display().to_string(), 200);
-    let file =
-        |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), "a machine file");
+    let file = |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), what);
     let mut bytes = Vec::new();
     // The limit holds for what has no length too, a device or a pipe.
     File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes)).map_err(file)?;
     if bytes.len() as u64 > LARGEST {
-        return Err(Diagnostic::of_file(&name, "more than 1 MiB", "a machine file of at most 1 MiB"));
+        return Err(Diagnostic::of_file(&name, "more than 1 MiB", format!("{what} of at most 1 MiB")));
     }
-    match std::str::from_utf8(&bytes) {
-        Ok(text) => parse(&name, text),
+    match String::from_utf8(bytes) {
+        Ok(text) => Ok((name, text)),
         Err(error) => {
+            let at = error.utf8_error().valid_up_to();
+            let bytes = error.into_bytes();
             let text = String::from_utf8_lossy(&bytes);
-            let at = error.valid_up_to();
             // Up to the first bad byte the lossy text is the same as the bytes.
             let source = Source { name: &name, text: &text };
             let found = format!("the byte 0x{:02x}, which is not UTF-8", bytes[at]);
@@ -162,7 +166,7 @@ fn label(table: &mut Table<'_>) -> Result<Option<String>, Diagnostic> {
 }
 
 /// A fault of the TOML itself, with the key of its line where there is one.
-pub(super) fn not_toml(source: Source<'_>, error: &toml::de::Error) -> Diagnostic {
+pub fn not_toml(source: Source<'_>, error: &toml::de::Error) -> Diagnostic {
     let span = error.span().unwrap_or(0..0);
     let line = source.line(span.start);
     let key = line.split_once('=').map_or("", |(key, _)| key.trim());

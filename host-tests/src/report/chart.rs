@@ -7,9 +7,9 @@ mod heat;
 mod label;
 mod lines;
 mod pareto;
+mod polar;
 mod response;
 mod shape;
-mod vectors;
 
 pub use compare::step_errors;
 pub use cost::{Cost, Quality, error_against_cost};
@@ -17,6 +17,6 @@ pub use course::course;
 pub use heat::{CLASSES, heat_map};
 pub use lines::{Curve, Lines};
 pub use pareto::front;
+pub use polar::{Arrow, polar};
 pub use response::{Response, response};
 pub use shape::{Station, mode_shape};
-pub use vectors::{Arrow, vectors};

@@ -14,6 +14,7 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("page.html", include_str!("page/page.html")),
     ("machine.html", include_str!("page/machine.html")),
     ("sheet.html", include_str!("page/sheet.html")),
+    ("balance.html", include_str!("page/balance.html")),
     ("frame.html", include_str!("page/frame.html")),
     ("style.css", include_str!("page/style.css")),
 ];

@@ -6,13 +6,13 @@ use driveline::balance::{Complex, Holes, Mode, Refusal};
 
 use crate::noise::Noise;
 
-/// The best of every pair of holes with every pair of weights.
+/// The best of every pair of holes within a quarter turn, with every pair of weights.
 fn exhaustive(angles: &[f64], weights: &[f64], target: Complex<f64>) -> f64 {
     let mut all = weights.to_vec();
     all.push(0.0);
     let mut best = target.norm();
     for a in angles {
-        for b in angles {
+        for b in angles.iter().filter(|b| (a - *b).cos() > -1e-6) {
             for x in &all {
                 // one hole takes one weight
                 for y in all.iter().filter(|_| a != b) {
