@@ -33,7 +33,8 @@ pub struct InRunConfig<T, const PLANES: usize> {
     pub target: T,
     /// What a move's knowledge is worth at the next, 0 to 1: what was learnt loses weight by this factor.
     pub forgetting: T,
-    /// Standard deviation of a reading, where the reading does not say more, as a share of the vibration that it began with.
+    /// Standard deviation of a reading, where the reading does not say more, as a share of the vibration that it began with. What the influence
+    /// drifts by from move to move counts too: told too little, one start in several thousand goes beyond the bound.
     pub noise: T,
 }
 
