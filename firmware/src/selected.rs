@@ -9,12 +9,12 @@ use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 
 use crate::balanced::Balanced;
 use crate::governed::Governed;
+use crate::scenes::balanced_fan::BalancedFan;
 use crate::scenes::composition::{ByHand, Composed, Of};
 use crate::scenes::empty::Empty;
-use crate::scenes::fan::Fan;
 use crate::scenes::flexible::Flexible;
+use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
-use crate::scenes::spindle::Spindle;
 use crate::variants::variants;
 
 variants! {
@@ -37,8 +37,8 @@ variants! {
     "composition/fixed/two-mass-geared-observer/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, ()>>,
     "composition/fixed/two-mass-geared-governed/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, SpeedLoop<Fixed>>>,
     "composition/fixed/two-mass-by-hand/10000" => ByHand<Fixed, TwoMass<Fixed>>,
-    "fan/f32/two-mass/4000" => Balanced<Fan<f32>>,
-    "fan/fixed/two-mass/4000" => Balanced<Fan<Fixed>>,
+    "balanced-fan/f32/two-mass/4000" => Balanced<BalancedFan<f32>>,
+    "balanced-fan/fixed/two-mass/4000" => Balanced<BalancedFan<Fixed>>,
     "flexible/f32/two-mass/4000" => Balanced<Flexible<f32>>,
     "flexible/fixed/two-mass/4000" => Balanced<Flexible<Fixed>>,
     "hoist/f32/rigid/1000" => Governed<Hoist<f32, with::Rigid, 1000>>,
@@ -65,6 +65,6 @@ variants! {
     "hoist/fixed/reduced/1000" => Governed<Hoist<Fixed, with::Reduced, 1000>>,
     "hoist/fixed/reduced/4000" => Governed<Hoist<Fixed, with::Reduced, 4000>>,
     "hoist/fixed/reduced/10000" => Governed<Hoist<Fixed, with::Reduced, 10000>>,
-    "spindle/f32/two-mass/4000" => Balanced<Spindle<f32>>,
-    "spindle/fixed/two-mass/4000" => Balanced<Spindle<Fixed>>,
+    "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
+    "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
 }

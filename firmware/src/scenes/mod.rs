@@ -1,8 +1,8 @@
 //! The scenes: one file each.
 
+pub mod balanced_fan;
 pub mod composition;
 pub mod empty;
-pub mod fan;
 pub mod flexible;
+pub mod grinding_spindle;
 pub mod hoist;
-pub mod spindle;

@@ -2,7 +2,7 @@
 
 use driveline_firmware::Words;
 use driveline_firmware::panel::{Key, next};
-use driveline_firmware::scenes::fan as scene;
+use driveline_firmware::scenes::balanced_fan as scene;
 use nalgebra::Complex;
 
 use super::error::BalancingError;
@@ -130,7 +130,16 @@ pub fn run(words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outcome, Ba
         Claim { name: name.to_owned(), measured, limit }
     };
     let claims = vec![claim("grade after one correction, from G 16", 1, 2.5), claim("grade after one trim", 2, 1.0)];
-    super::scene::outcome("fan", "grade G, mm/s", rows(), stages, claims, operator, &model, 1.25 * scene::RATED_SPEED)
+    super::scene::outcome(
+        "balanced-fan",
+        "grade G, mm/s",
+        rows(),
+        stages,
+        claims,
+        operator,
+        &model,
+        1.25 * scene::RATED_SPEED,
+    )
 }
 
 fn rows() -> Vec<String> {

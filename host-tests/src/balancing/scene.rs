@@ -34,7 +34,7 @@ pub struct Scene {
 pub const fn scenes() -> [Scene; 3] {
     [
         Scene {
-            name: "fan",
+            name: "balanced-fan",
             summary: "A fan of 180 kg at 1480 r/min, found in grade G 16, balanced in two planes with trial weights. Its sensors are off by \
                       5 % and 10 degrees, its noise is 20 dB below the vibration, weights are set to 3 % and 2 degrees.",
             balance: super::fan::run,
@@ -46,7 +46,7 @@ pub const fn scenes() -> [Scene; 3] {
             balance: super::flexible::run,
         },
         Scene {
-            name: "spindle",
+            name: "grinding-spindle",
             summary: "A grinding spindle with a balancing head that moves two masses while it turns at 3000 r/min: balanced in-run, from \
                       nothing known.",
             balance: super::spindle::run,

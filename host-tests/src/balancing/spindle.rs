@@ -2,7 +2,7 @@
 
 use driveline_firmware::Words;
 use driveline_firmware::panel::Key;
-use driveline_firmware::scenes::spindle as scene;
+use driveline_firmware::scenes::grinding_spindle as scene;
 use nalgebra::Complex;
 use serde::Serialize;
 
@@ -126,7 +126,7 @@ pub fn spindle(words: Words, drive: &mut dyn Ticks, start: &SpindleStart) -> Res
     let rows = ["front bearing", "rear bearing"].map(str::to_owned).to_vec();
     let measure = "share of the vibration that is left";
     let highest = 1.25 * scene::RATED_SPEED;
-    let outcome = super::scene::outcome("spindle", measure, rows, stages, claims, operator, &model, highest)?;
+    let outcome = super::scene::outcome("grinding-spindle", measure, rows, stages, claims, operator, &model, highest)?;
     Ok((Course { left, worst }, outcome))
 }
 

@@ -19,7 +19,7 @@ use crate::setup;
 #[command(after_help = "Examples:
   cargo driveline run
   cargo driveline run hoist --variants f32/m4f --quick
-  cargo driveline run fan
+  cargo driveline run balanced-fan
   cargo driveline run --json > hoist.json")]
 pub struct Run {
     /// The scene: hoist; or fan, flexible, spindle, whose rotors are balanced

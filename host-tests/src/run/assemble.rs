@@ -29,7 +29,9 @@ impl Plan {
     /// A sentence: no such scene, or no such variant.
     pub fn of(scene: &str, filter: Option<&str>, quick: bool) -> Result<Self, String> {
         if scene != "hoist" {
-            return Err(format!("there is no scene `{scene}`; there are `hoist`, `fan`, `flexible` and `spindle`"));
+            return Err(format!(
+                "there is no scene `{scene}`; there are `hoist`, `balanced-fan`, `flexible` and `grinding-spindle`"
+            ));
         }
         let machine = hoist::machine().map_err(|error| format!("the plant of scene `{scene}`: {error}"))?;
         let candidates = candidates(scene, filter);

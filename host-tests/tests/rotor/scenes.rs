@@ -16,9 +16,9 @@ fn balanced(scene: &str, variant: &str, seed: u64) -> Outcome {
 
 #[test]
 fn a_fan_comes_from_g_16_to_g_1() {
-    let single = balanced("fan", "fan/f32/two-mass/4000", 1);
+    let single = balanced("balanced-fan", "balanced-fan/f32/two-mass/4000", 1);
     assert!((single.stages[0].measure - 16.0).abs() < 1e-9);
-    balanced("fan", "fan/fixed/two-mass/4000", 2);
+    balanced("balanced-fan", "balanced-fan/fixed/two-mass/4000", 2);
 }
 
 #[test]
@@ -57,7 +57,8 @@ impl Visitor for From<'_> {
 #[test]
 fn a_spindle_is_balanced_in_five_steps_from_nothing() {
     for number in 1..=12 {
-        let variant = if number % 2 == 0 { "spindle/f32/two-mass/4000" } else { "spindle/fixed/two-mass/4000" };
+        let variant =
+            if number % 2 == 0 { "grinding-spindle/f32/two-mass/4000" } else { "grinding-spindle/fixed/two-mass/4000" };
         let start = SpindleStart::random(number);
         let course = visit(variant, From(&start)).unwrap();
         assert!(course.left[5] <= 0.05 && course.worst <= 1.3, "{start:?} {course:?}");
@@ -68,7 +69,10 @@ fn a_spindle_is_balanced_in_five_steps_from_nothing() {
 fn a_spindle_is_balanced_in_qemu_with_the_host_s_bits() {
     let core = board("m3").unwrap();
     for seed in 1..=3 {
-        let ran = Scene::named("spindle").unwrap().in_qemu("spindle/fixed/two-mass/4000", core, seed, &|_| {}).unwrap();
+        let ran = Scene::named("grinding-spindle")
+            .unwrap()
+            .in_qemu("grinding-spindle/fixed/two-mass/4000", core, seed, &|_| {})
+            .unwrap();
         assert!(ran.same_on_host);
         assert!(ran.outcome.claims.iter().all(|claim| claim.holds()), "{:?}", ran.outcome.claims);
         assert!(ran.outcome.instructions.0 > 0);
