@@ -9,14 +9,18 @@ use driveline::number::Fixed;
 use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 
 use crate::assembled::Assembled;
+use crate::balanced::Balanced;
 use crate::governed::Governed;
+use crate::scenes::balanced_fan::BalancedFan;
 use crate::scenes::blooming_mill::{self, BloomingMill};
 use crate::scenes::composition::{ByHand, Composed, Of};
 use crate::scenes::converter::{self, Converter};
 use crate::scenes::crane_travel::CraneTravel;
 use crate::scenes::empty::Empty;
 use crate::scenes::fan::Fan;
+use crate::scenes::flexible::Flexible;
 use crate::scenes::generator::{self, Generator};
+use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
 use crate::scenes::planetary_drive::PlanetaryDrive;
 use crate::scenes::skip_winch::SkipWinch;
@@ -52,6 +56,10 @@ variants! {
     "generator/f32/turbine/2400" => Generator<generator::Of<f32, generator::with::Turbine>>,
     "generator/fixed/diesel/2400" => Generator<generator::Of<Fixed, generator::with::Diesel>>,
     "generator/fixed/turbine/2400" => Generator<generator::Of<Fixed, generator::with::Turbine>>,
+    "balanced-fan/f32/two-mass/4000" => Balanced<BalancedFan<f32>>,
+    "balanced-fan/fixed/two-mass/4000" => Balanced<BalancedFan<Fixed>>,
+    "flexible/f32/two-mass/4000" => Balanced<Flexible<f32>>,
+    "flexible/fixed/two-mass/4000" => Balanced<Flexible<Fixed>>,
     "hoist/f32/rigid/1000" => Governed<Hoist<f32, with::Rigid, 1000>>,
     "hoist/f32/rigid/4000" => Governed<Hoist<f32, with::Rigid, 4000>>,
     "hoist/f32/rigid/10000" => Governed<Hoist<f32, with::Rigid, 10000>>,
@@ -108,4 +116,6 @@ variants! {
     "skip-winch/f32/semi-implicit/2000" => Governed<SkipWinch<f32, Geared<SemiImplicit<f32>>>>,
     "skip-winch/fixed/rigid/2000" => Governed<SkipWinch<Fixed, Geared<Rigid<Fixed>>>>,
     "skip-winch/fixed/semi-implicit/2000" => Governed<SkipWinch<Fixed, Geared<SemiImplicit<Fixed>>>>,
+    "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
+    "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
 }

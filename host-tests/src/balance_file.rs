@@ -196,7 +196,7 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
         rotor: None,
         planes,
     };
-    for mut table in root.tables_of("holes")? {
+    for mut table in root.optional_tables("holes")? {
         file.holes.push(holes(&mut table, &file.planes)?);
         table.finish()?;
     }
@@ -256,7 +256,7 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
     table.finish()?;
     let mut last = baseline.clone();
 
-    let known = root.tables_of("influence")?;
+    let known = root.optional_tables("influence")?;
     if !known.is_empty() {
         let mut influence = Influence::<f64, ROWS, PLANES>::new(rows, planes.len())
             .map_err(|refusal| root.wrong("influence", refusal.to_string()))?;
@@ -270,7 +270,7 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
             .with_coefficients(influence)
             .map_err(|refusal| root.wrong("influence", format!("a table for each plane: {}", said(refusal, planes))))?;
     }
-    for mut table in root.tables_of("trial")? {
+    for mut table in root.optional_tables("trial")? {
         let plane = plane(&mut table, planes)?;
         let [weight] = weights(&mut table, "weight")?;
         let (run, readings, _) = self::run(&mut table, rows, &mut entry)?;
@@ -281,7 +281,7 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         table.finish()?;
     }
     let mut corrections = 0;
-    for mut table in root.tables_of("correction")? {
+    for mut table in root.optional_tables("correction")? {
         let placed = pairs(&mut table, "weights", planes.len(), &mut Entry::new())?;
         let mut all = [Complex::new(0.0, 0.0); PLANES];
         all[..placed.len()].copy_from_slice(&placed);

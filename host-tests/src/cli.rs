@@ -16,6 +16,7 @@
 
 mod backlash;
 mod balance;
+mod balancing;
 mod campbell;
 mod check;
 mod design;

@@ -2,6 +2,7 @@
 
 pub mod backlash;
 pub mod balance_file;
+pub mod balancing;
 pub mod check;
 pub mod cli;
 pub mod generator;

@@ -195,6 +195,7 @@ macro_rules! slack {
                 observer: BacklashConfig::<$number>::new(&backlash(10_000) $(, $bases)?),
                 fluctuation: (),
                 governor: SpeedGovernorConfig {
+                    view: (),
                     gains: Gains::<$number>::of_speed_loop(&speed_loop(10_000), SETTINGS.ramp $(, $bases)?),
                     set_point: (),
                     prompt: (),

@@ -126,6 +126,7 @@ macro_rules! variant {
                 observer: BacklashConfig::<$number>::new(&OBSERVER $(, $bases)?),
                 fluctuation: (),
                 governor: SpeedGovernorConfig {
+                    view: (),
                     gains: Gains::<$number>::of_speed_loop(&SPEED_LOOP, RAMP $(, $bases)?),
                     set_point: (),
                     prompt: (),

@@ -17,7 +17,7 @@ use crate::report::{BalancePage, Fact, PolarFigure, PolarKey, Table, write_page}
 /// The file says the planes, the sensors, a baseline and a trial run for each plane, with phases in degrees.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  cargo driveline balance host-tests/machines/fan-balance.toml
+  cargo driveline balance host-tests/rotors/fan-balance.toml
   cargo driveline balance my.toml --html my.html
   cargo driveline balance my.toml --json")]
 pub struct Balance {

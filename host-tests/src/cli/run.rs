@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::balancing::{self, Wanted};
 use super::{Failure, Progress, say, say_json};
+use crate::balancing::Scene;
 use crate::report::{variants_table, writable};
 use crate::run::Plan;
 use crate::setup;
@@ -17,9 +19,10 @@ use crate::setup;
 #[command(after_help = "Examples:
   cargo driveline run
   cargo driveline run hoist --variants f32/m4f --quick
+  cargo driveline run balanced-fan
   cargo driveline run --json > hoist.json")]
 pub struct Run {
-    /// The scene
+    /// The scene: hoist or another drivetrain; or balanced-fan, flexible, grinding-spindle, whose rotors are balanced
     #[arg(default_value = "hoist")]
     scene: String,
     /// The scene, as an option
@@ -46,6 +49,10 @@ impl Run {
     /// No such scene or variant; what kept a variant from running; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
         let scene = self.named.as_deref().unwrap_or(&self.scene);
+        if let Some(scene) = Scene::named(scene) {
+            let (filter, html) = (self.variants.as_deref(), self.html.as_deref());
+            return balancing::run(&scene, Wanted { filter, html, json: self.json });
+        }
         let plan = Plan::of(scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
         let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{scene}.html")));
         let unwritable = |error| Failure::failed(format!("{} cannot be written: {error}", path.display()));

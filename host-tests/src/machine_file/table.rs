@@ -107,7 +107,7 @@ impl<'a> Table<'a> {
     /// Not a list of tables.
     pub fn tables_if(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
         if self.has(key) {
-            return self.list(key, of);
+            return self.tables_of(key, of);
         }
         self.asked.push(key);
         Ok(Vec::new())
@@ -152,14 +152,14 @@ impl<'a> Table<'a> {
     /// # Errors
     /// Missing, empty, or not a list of tables.
     pub fn tables(&mut self, key: &'static str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
-        self.list(key, "part of the machine, the motor first")
+        self.tables_of(key, "part of the machine, the motor first")
     }
 
     /// A list of tables that must be there, one for each of something.
     ///
     /// # Errors
     /// Missing, empty, or not a list of tables.
-    pub fn list(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
+    pub fn tables_of(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
         let expected = format!("one table [[{key}]] for each {of}");
         let Some(value) = self.get(key) else {
             return Err(self.missing(key, expected));
@@ -311,7 +311,7 @@ impl<'a> Table<'a> {
     ///
     /// # Errors
     /// Not a list of tables.
-    pub fn tables_of(&mut self, key: &'static str) -> Result<Vec<Table<'a>>, Diagnostic> {
+    pub fn optional_tables(&mut self, key: &'static str) -> Result<Vec<Table<'a>>, Diagnostic> {
         if !self.has(key) {
             return Ok(Vec::new());
         }

@@ -4,7 +4,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-const FAN: &str = include_str!("../../machines/fan-balance.toml");
+const FAN: &str = include_str!("../../rotors/fan-balance.toml");
 
 fn balance(text: &str, arguments: &[&str]) -> Output {
     let folder = tempfile::tempdir().unwrap();
