@@ -241,3 +241,17 @@ const _: () = {
     all!(hal::MagneticEncoder<()>, hal::Quadrature<()>, hal::Adxl355<(), f32>);
     all!(hal::PwmTorque<(), f32>, hal::SpiDac<(), f32>, hal::ThreePhase<(), (), (), f32>, hal::Tmc4671<(), f32>);
 };
+
+#[cfg(feature = "telemetry")]
+const _: () = {
+    use crate::telemetry;
+
+    all!(telemetry::Channel<'static>, telemetry::Kind, telemetry::Record<8>);
+};
+
+#[cfg(feature = "parameters")]
+const _: () = {
+    use crate::parameters;
+
+    all!(parameters::Loaded<u32>);
+};

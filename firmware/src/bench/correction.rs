@@ -58,7 +58,7 @@ const DARLOW: [[[f32; 2]; 3]; 4] = [
 /// Its vibration.
 const DARLOW_VIBRATION: [[f32; 2]; 4] = [[3.16, 72.0], [3.16, 18.0], [4.12, 14.0], [5.39, 68.0]];
 /// Its least-squares weights, to 50 digits by another program.
-const DARLOW_WEIGHTS: [[f32; 2]; 3] = [[1.374_525_8, 356.499_13], [1.226_678_1, 215.876_56], [0.977_266_7, 167.724_45]];
+const DARLOW_WEIGHTS: [[f32; 2]; 3] = [[1.374_525_8, 356.499_1], [1.226_678_1, 215.876_56], [0.977_266_7, 167.724_45]];
 
 /// Prints how far the weights of a published case are off on this core, in billionths of the largest.
 pub fn accuracy<B: Board>(bench: &mut Bench<'_, B>) {
