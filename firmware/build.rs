@@ -36,15 +36,18 @@ fn default_board(target: &str) -> &'static str {
     if target.ends_with("eabihf") { "mps2-an386" } else { "mps2-an385" }
 }
 
-/// Puts `memory.x` where the linker finds it: the board's own beside its source, else the default board's at the root
-/// of the workspace.
+/// Puts the board's memory map where the linker finds it as `board.x`, which the `memory.x` at the root of the workspace includes.
 fn memory_map(board: &str) {
-    let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
-    let own = root.join(format!("src/board/{}.x", board.replace('-', "_")));
-    let map = if own.exists() { own } else { root.join("../memory.x") };
+    let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
+    let boards = package.join("src/board");
+    let own = boards.join(format!("{}.x", board.replace('-', "_")));
+    let map = if own.exists() { own } else { boards.join("mps2.x") };
+    let root = package.join("..");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    copy(&map, &out.join("memory.x"));
+    copy(&map, &out.join("board.x"));
+    copy(&root.join("memory.x"), &out.join("memory.x"));
     println!("cargo::rerun-if-changed={}", map.display());
+    println!("cargo::rerun-if-changed={}", root.join("memory.x").display());
     println!("cargo::rustc-link-search={}", out.display());
 }
 

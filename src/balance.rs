@@ -5,26 +5,83 @@
 //! different gears, are a tuple of them. [`Reading`] is what came of it, with what tells a good reading from a bad one; [`Sensor`] turns it
 //! into displacement, velocity or acceleration and takes the run-out off.
 //!
+//! # Off the tick
+//! With the feature `balancing`. [`Influence`] learns from trial runs what a weight in each plane does to each reading, and gives the
+//! [`Correction`]: by least squares, weighted, min-max or within limits, with planes that only repeat others found and left out.
+//!
+//! [`Holes`] fits a weight to what is at hand, [`Tolerance`] judges what is left (ISO 21940-11), [`from_amplitudes`] does without a phase.
+//! [`Procedure`] leads through the runs, refuses what cannot be, and goes on after a power cut from a record.
+//! [`InRun`] does without trial runs, by a balancing head or an actuator while the machine turns.
+//!
 //! # Terms
 //! | term | meaning | unit |
 //! |---|---|---|
 //! | phasor | amplitude and phase of what turns with the rotor: `v = Re(X e^{i order theta})`, `theta` the rotor's angle | of the channel |
 //! | order | periods of the vibration on a turn of the rotor | |
 //! | block | a number of whole turns that gives one phasor of its own | |
+//! | row | a reading of a run: a sensor at a speed | |
+//! | plane | where a weight can be put; a weight is its mass, or mass times radius, at an angle | kg, kg m |
+//! | influence coefficient | what a weight in a plane does to a row | row per weight |
 //! | run-out | what a displacement sensor sees of a shaft that is not round, and does not vibrate | of the channel |
 
 use crate::number::Number;
 
+#[cfg(feature = "balancing")]
+mod amplitude_only;
+#[cfg(feature = "balancing")]
+mod cone;
+#[cfg(feature = "balancing")]
+mod correction;
+#[cfg(feature = "balancing")]
+mod entry;
+#[cfg(feature = "balancing")]
+mod grid;
+#[cfg(feature = "balancing")]
+mod holes;
+#[cfg(feature = "balancing")]
+mod in_run;
+#[cfg(feature = "balancing")]
+mod influence;
 mod phasor;
+#[cfg(feature = "balancing")]
+mod procedure;
 mod reading;
+#[cfg(feature = "balancing")]
+mod real;
+#[cfg(feature = "balancing")]
+mod refusal;
 mod rotation;
 mod sensor;
+#[cfg(feature = "balancing")]
+mod tolerance;
+#[cfg(feature = "balancing")]
+mod triangle;
 mod turning;
 
+#[cfg(feature = "balancing")]
+pub use amplitude_only::{FromAmplitudes, from_amplitudes};
+#[cfg(feature = "balancing")]
+pub use correction::{Aim, Correction, LeftOut, Objective};
+#[cfg(feature = "balancing")]
+pub use entry::{Entry, degrees};
+#[cfg(feature = "balancing")]
+pub use holes::{Fitted, Holes, Mode};
+#[cfg(feature = "balancing")]
+pub use in_run::{Advice, Halt, InRun, InRunConfig};
+#[cfg(feature = "balancing")]
+pub use influence::Influence;
 pub use phasor::{Phasors, PhasorsConfig};
+#[cfg(feature = "balancing")]
+pub use procedure::{CORRECTIONS, Plan, Procedure, Run, Step};
 pub use reading::{Doubt, Phasor, Reading, Steadiness};
+#[cfg(feature = "balancing")]
+pub use real::{Complex, Real};
+#[cfg(feature = "balancing")]
+pub use refusal::Refusal;
 pub use rotation::Synchronous;
 pub use sensor::{Motion, Sensor};
+#[cfg(feature = "balancing")]
+pub use tolerance::{GRADES, Tolerance, Verdict, resultant, two_planes};
 pub use turning::{Turning, TurningConfig};
 
 /// A measurement of the rotor's unbalance, advanced once a tick.

@@ -13,14 +13,16 @@ mod format;
 mod geared;
 mod governor;
 mod governor_parts;
+mod governor_shapes;
 mod limits;
 mod observer;
 mod phasors;
 mod settled;
+mod slack;
 
 pub use bases::Bases;
 pub use convert::Error;
-pub use fluctuation::Cycle;
+pub use fluctuation::{Cycle, Wheel};
 pub use geared::Gear;
 pub use governor::SpeedLoopSettings;
 pub use governor_parts::ModesSettings;

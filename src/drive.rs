@@ -12,6 +12,7 @@
 //! | set point NaN, infinite, beyond its limit | [`Faults::REFERENCE`] | keeps the last good one |
 //! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
 //! | angle unchanged though the motor should have turned by more than the standstill limit, or far from the prediction | [`Faults::ANGLE_FROZEN`] | coasts |
+//! | no angle at all ([`Drive::tick_blind`]) | [`Faults::ANGLE_MISSING`] | coasts |
 //! | after more than the limit of such ticks | [`Faults::ANGLE_LOST`] as well | keeps the estimates and commands no torque until there are two angles in a row that differ |
 //!
 //! Without an angle the drive is blind: it gives no torque, and what holds the machine then is for its brake. The governor starts anew when the angle
@@ -24,6 +25,8 @@
 //!
 //! Below the speed at which the motor turns by the standstill limit in a tick, a frozen encoder and a machine that something holds
 //! look alike from the motor's side; the estimate of the load torque then shows what it would take to hold it.
+
+mod axis;
 
 use crate::balance::Balancer;
 use crate::fault::Faults;

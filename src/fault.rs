@@ -1,7 +1,7 @@
 //! What can be wrong with a tick, as flags: the tick never fails, it returns a value and says what it thinks of it.
 
 use core::fmt;
-use core::ops::{BitOr, BitOrAssign};
+use core::ops::{BitAnd, BitOr, BitOrAssign};
 
 /// A set of faults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -26,15 +26,31 @@ impl Faults {
     pub const ANGLE_LOST: Faults = Faults(1 << 4);
     /// A state of the observer is beyond its fixed-point base, which is beyond the machine's limits; at twice the base it is held.
     pub const RANGE: Faults = Faults(1 << 0);
+    /// The angle's sensor gave none that is new and sound: its bus, a parity or an error bit of its own, a tooth that is overdue. The tick went by
+    /// the prediction alone.
+    pub const ANGLE_MISSING: Faults = Faults(1 << 24);
+    /// The vibration's sensor gave no sample that is new and sound; none was taken.
+    pub const VIBRATION_MISSING: Faults = Faults(1 << 25);
+    /// The torque could not be handed to what produces it.
+    pub const TORQUE_OUTPUT: Faults = Faults(1 << 26);
+    /// A line of the enable chain or the trip output could not be set.
+    pub const ENABLE: Faults = Faults(1 << 27);
+    /// The axis has tripped: no torque, its enable chain taken back, until it is started again.
+    pub const TRIPPED: Faults = Faults(1 << 28);
 
     /// Every flag with its name.
-    pub const NAMES: [(Faults, &'static str); 6] = [
+    pub const NAMES: [(Faults, &'static str); 11] = [
         (Faults::TORQUE, "torque"),
         (Faults::REFERENCE, "reference"),
         (Faults::ANGLE_JUMP, "angle jump"),
         (Faults::ANGLE_FROZEN, "angle frozen"),
         (Faults::ANGLE_LOST, "angle lost"),
         (Faults::RANGE, "range"),
+        (Faults::ANGLE_MISSING, "angle missing"),
+        (Faults::VIBRATION_MISSING, "vibration missing"),
+        (Faults::TORQUE_OUTPUT, "torque output"),
+        (Faults::ENABLE, "enable"),
+        (Faults::TRIPPED, "tripped"),
     ];
 
     /// Whether there is none.
@@ -49,10 +65,22 @@ impl Faults {
         self.0 & other.0 == other.0
     }
 
+    /// Whether any fault of `other` is among these.
+    #[inline(always)]
+    pub const fn intersects(self, other: Faults) -> bool {
+        self.0 & other.0 != 0
+    }
+
     /// The bits.
     #[inline(always)]
     pub const fn bits(self) -> u32 {
         self.0
+    }
+
+    /// These and those of `other`; `|` for constants.
+    #[inline(always)]
+    pub const fn with(self, other: Faults) -> Faults {
+        Faults(self.0 | other.0)
     }
 
     /// [`Faults::RANGE`] where `beyond` is 1, none where it is 0.
@@ -63,7 +91,7 @@ impl Faults {
 
     /// The faults with these bits; bits that mean nothing are dropped.
     pub const fn from_bits(bits: u32) -> Faults {
-        Faults(bits & 0x3f)
+        Faults(bits & 0x1f00_003f)
     }
 }
 
@@ -73,6 +101,15 @@ impl BitOr for Faults {
     #[inline(always)]
     fn bitor(self, other: Faults) -> Faults {
         Faults(self.0 | other.0)
+    }
+}
+
+impl BitAnd for Faults {
+    type Output = Faults;
+
+    #[inline(always)]
+    fn bitand(self, other: Faults) -> Faults {
+        Faults(self.0 & other.0)
     }
 }
 

@@ -3,7 +3,6 @@
 //! # Terms
 //! *Set point*: the motor speed that is wanted. *Anti-windup*: the integral stops where the torque is limited.
 //! *Active damping*: torque against the rate of twist, as a damper between motor and load would give it, by the motor alone.
-
 //! *Droop*: how much the set point yields to the load. *Isochronous*: without droop. *Trip*: a stop that stands until it is reset.
 //!
 //! | governor | for |
@@ -16,8 +15,10 @@ mod modes;
 mod prompt;
 mod rack;
 mod set_point;
+mod slack;
 mod speed_governor;
 mod speed_loop;
+mod view;
 
 pub use limit::{
     Between, BetweenConfig, Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, Symmetric, SymmetricConfig,
@@ -26,8 +27,10 @@ pub use modes::{Duty, Mode, Modes, ModesConfig, Request, Supervisor, Trip};
 pub use prompt::{Damping, DampingConfig, FeedForward, FeedForwardConfig, Prompt};
 pub use rack::{Rack, RackConfig};
 pub use set_point::{Barred, BarredConfig, Droop, DroopConfig, SetPoint, Window};
+pub use slack::{Slack, SlackConfig};
 pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};
+pub use view::{Mean, MeanConfig, View};
 
 use crate::number::Number;
 use crate::sample::Estimate;

@@ -77,12 +77,16 @@
 //! | resonance, antiresonance | natural frequency of the free machine; of the machine with its motor held | rad/s |
 //! | reduction | two masses that stand for a longer chain | |
 //! | innovation | measured less predicted motor angle | 2^-32 turn |
+//! | cycle | what repeats: a turn of the motor, two of a four-stroke engine, or any ratio | |
+//! | order | multiple of the cycle's frequency | |
+//! | delta | largest less least speed of a cycle, over its mean | |
 //! | tick | one run of the controller, at a fixed rate | |
 //! | coast | a tick by prediction alone, since the angle cannot be used | |
 //! | base | what a fixed-point number is a fraction of | |
 //!
 //! # Features
-//! `defmt`: `defmt::Format` for every public type.
+//! `defmt`: `defmt::Format` for every public type. `hal`: adapters to `embedded-hal` 1.0 (`driveline::hal`). `telemetry`: records of the ticks as
+//! frames over `embedded-io` (`driveline::telemetry`). `parameters`: a versioned record in flash (`driveline::parameters`).
 
 pub mod balance;
 pub mod constants;
@@ -91,10 +95,16 @@ pub mod drive;
 pub mod fault;
 pub mod fluctuation;
 pub mod governor;
+#[cfg(feature = "hal")]
+pub mod hal;
 #[cfg(feature = "defmt")]
 mod logged;
 pub mod machine;
 pub mod number;
 pub mod observer;
+#[cfg(feature = "parameters")]
+pub mod parameters;
 pub mod sample;
 pub mod scalar;
+#[cfg(feature = "telemetry")]
+pub mod telemetry;

@@ -43,10 +43,14 @@ macro_rules! all_of_number {
                 governor::Curve<4>,
                 governor::Modes,
             >,
-            governor::SpeedGovernorConfig<$number, (), (), governor::BetweenConfig<$number>, ()>,
             fluctuation::Extremes<$number>,
             fluctuation::Waveform<$number, 64>,
             fluctuation::Window<$number, 64>,
+            governor::Mean<$number, 32>,
+            governor::MeanConfig<$number, 32>,
+            governor::SpeedGovernorConfig<$number, (), (), governor::BetweenConfig<$number>, (), ()>,
+            governor::Slack<$number, governor::Symmetric>,
+            governor::SlackConfig<$number, governor::SymmetricConfig<$number>>,
             governor::SpeedLoop<$number>,
             governor::SpeedLoopConfig<$number>,
             balance::Phasors<$number, 2, 9>,
@@ -100,12 +104,17 @@ const _: () = {
         constants::Screening,
         constants::SpeedLoopSettings,
         design::Actuator,
+        constants::Wheel,
         design::ApproximateStep,
         design::BarredSpeeds<2>,
         design::BacklashDesign,
         design::BacklashTuning,
+        design::Aim,
+        design::ApproximateStep,
+        design::Cost,
         design::Disturbance,
         design::Doubling<5>,
+        design::Duty,
         design::Encoder,
         design::Error,
         design::ExactStep,
@@ -115,9 +124,13 @@ const _: () = {
         design::LoadFeedForward,
         design::Margins,
         design::Matrix<5, 5>,
+        design::Need,
+        design::ObserverChoice,
         design::Rate,
         design::RigidDesign,
         design::SemiImplicitStep,
+        design::SlackDesign,
+        design::SlackTuning,
         design::SpeedLoopDesign,
         design::SpeedLoopTuning,
         design::StandardDeviation,
@@ -132,21 +145,32 @@ const _: () = {
         governor::RackConfig<64>,
         governor::Request,
         governor::Trip,
+        fluctuation::Balance,
+        fluctuation::Behind,
         fluctuation::Bin,
         fluctuation::CycleConfig,
-        fluctuation::Edge,
+        fluctuation::Drivetrain,
+        fluctuation::Edge<f32>,
         fluctuation::Extreme,
         fluctuation::Fluctuations,
+        fluctuation::Flywheel,
+        fluctuation::MachineClass,
         fluctuation::Order,
         fluctuation::Reading,
+        fluctuation::Remedy,
         fluctuation::Ripple,
         fluctuation::Series,
+        fluctuation::ToothErrors<60>,
+        fluctuation::ToothWindow<60>,
+        fluctuation::ToothedWheel<60>,
+        fluctuation::ToothedWheelConfig,
         fluctuation::WaveformConfig,
         machine::Belt,
         machine::Chain,
         machine::Combustion,
         machine::CrankSlider,
         machine::Damping,
+        machine::Density,
         machine::Diameter,
         machine::Efficiency,
         machine::Element,
@@ -173,6 +197,9 @@ const _: () = {
         machine::Rigid,
         machine::Section,
         machine::Shaft,
+        machine::Series,
+        machine::Shaft,
+        machine::ShearModulus,
         machine::Shunt,
         machine::Side,
         machine::Speed,
@@ -188,4 +215,43 @@ const _: () = {
         number::Coefficient,
         number::Fixed,
     );
+};
+
+#[cfg(feature = "balancing")]
+const _: () = {
+    all!(
+        balance::Entry,
+        balance::Halt,
+        balance::InRunConfig<f32, 1>,
+        balance::Mode,
+        balance::Objective,
+        balance::Refusal,
+        balance::Step,
+        balance::Tolerance<f32>,
+        balance::Verdict<f32>,
+    );
+};
+
+#[cfg(feature = "hal")]
+const _: () = {
+    use crate::hal;
+
+    all!(hal::Along, hal::Chip, hal::Dac, hal::Range, hal::ToothedWheel, hal::Wheel);
+    all!(hal::AdcVibration<f32>, hal::FullScale<f32>, hal::PerCount<f32>, hal::PhaseConfig<f32>);
+    all!(hal::MagneticEncoder<()>, hal::Quadrature<()>, hal::Adxl355<(), f32>);
+    all!(hal::PwmTorque<(), f32>, hal::SpiDac<(), f32>, hal::ThreePhase<(), (), (), f32>, hal::Tmc4671<(), f32>);
+};
+
+#[cfg(feature = "telemetry")]
+const _: () = {
+    use crate::telemetry;
+
+    all!(telemetry::Channel<'static>, telemetry::Kind, telemetry::Record<8>);
+};
+
+#[cfg(feature = "parameters")]
+const _: () = {
+    use crate::parameters;
+
+    all!(parameters::Loaded<u32>);
 };

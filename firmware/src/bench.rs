@@ -1,6 +1,9 @@
 //! The bench: instructions of single functions, each over many inputs, one line of JSON a function.
 
 mod calibration;
+mod correction;
+mod fluctuation;
+mod governors;
 mod phasors;
 mod steps;
 mod table;
@@ -9,13 +12,18 @@ pub use table::run;
 
 use driveline::number::Number;
 
+use crate::Words;
 use crate::board::Board;
+use crate::fingerprint::SEED;
 use crate::measure::count::{Counter, Measured, Stepped};
+use crate::measure::stack;
 use crate::program::Program;
 use crate::report::Line;
 
 /// Calls of each function; odd, so that the median is one of them.
 const CALLS: usize = 1001;
+/// Calls of what takes long; odd too.
+const LONG_CALLS: usize = 15;
 
 /// Measures functions one by one.
 pub struct Bench<'b, B> {
@@ -66,24 +74,52 @@ impl<'b, B: Board> Bench<'b, B> {
         self.print(name, &counts);
     }
 
-    fn print(&self, name: &str, counts: &[u32; CALLS]) {
+    /// Calls what takes long a few times, with inputs of the given number, and prints its stack too.
+    pub fn measure_long<I, O: Default>(
+        &mut self,
+        name: &str,
+        words: Words,
+        mut input: impl FnMut(&mut Program) -> I,
+        function: Measured<(), I, O>,
+    ) {
+        let mut inputs = Program::new(SEED, words);
+        let mut output = O::default();
+        let mut counts = [0; LONG_CALLS];
+        stack::paint();
+        for count in &mut counts {
+            *count = self.counter.call(function, &mut (), &input(&mut inputs), &mut output);
+        }
+        let used = stack::used();
+        self.board.print(self.line(name, &counts).number("stack", used).finish());
+    }
+
+    /// Prints something else than instructions: what it is, of what, its unit and the number.
+    pub fn print_number(&self, what: &str, of: &str, unit: &str, number: u32) {
+        let mut line = Line::new().text(what, of).text("board", B::FACTS.name).number(unit, number);
+        self.board.print(line.finish());
+    }
+
+    fn print(&self, name: &str, counts: &[u32]) {
+        self.board.print(self.line(name, counts).finish());
+    }
+
+    fn line(&self, name: &str, counts: &[u32]) -> Line {
         let least = counts.iter().fold(u32::MAX, |least, &count| least.min(count));
         let most = counts.iter().fold(0, |most, &count| most.max(count));
-        let mut line = Line::new()
+        Line::new()
             .text("bench", name)
             .text("variant", self.variant)
             .text("board", B::FACTS.name)
             .number("min", least)
             .number("median", median(counts))
             .number("max", most)
-            .number("calls", CALLS as u32);
-        self.board.print(line.finish());
+            .number("calls", counts.len() as u32)
     }
 }
 
 /// The middle value: at most half of the values are smaller, and at most half greater.
-fn median(counts: &[u32; CALLS]) -> u32 {
-    let half = CALLS / 2;
+fn median(counts: &[u32]) -> u32 {
+    let half = counts.len() / 2;
     let is_middle = |&&value: &&u32| {
         let smaller = counts.iter().filter(|&&other| other < value).count();
         let greater = counts.iter().filter(|&&other| other > value).count();

@@ -1,20 +1,28 @@
 //! The boards: what the binaries need of one, and what the host needs to know to run it.
 //!
 //! A new board is one file beside [`mps2_an386`] with its [`Facts`] and its [`Board`], a line in [`BOARDS`] and one in
-//! the choice below, and, where its memory differs from the `memory.x` at the root, a `.x` file of the same name.
+//! the choice below, and, where its memory is not that of `mps2.x`, a `.x` file of the same name.
 
 pub mod mps2_an385;
 pub mod mps2_an386;
+pub mod mps2_an500;
+pub mod mps2_an505;
 
 #[cfg(all(feature = "target", target_os = "none"))]
 mod cmsdk_timer;
 #[cfg(all(feature = "target", target_os = "none"))]
 pub(crate) mod semihosting;
+#[cfg(all(feature = "target", target_os = "none"))]
+pub use semihosting::Sink;
 
 #[cfg(all(feature = "target", target_os = "none", driveline_board = "mps2-an385"))]
 pub use mps2_an385::Mps2An385 as ThisBoard;
 #[cfg(all(feature = "target", target_os = "none", driveline_board = "mps2-an386"))]
 pub use mps2_an386::Mps2An386 as ThisBoard;
+#[cfg(all(feature = "target", target_os = "none", driveline_board = "mps2-an500"))]
+pub use mps2_an500::Mps2An500 as ThisBoard;
+#[cfg(all(feature = "target", target_os = "none", driveline_board = "mps2-an505"))]
+pub use mps2_an505::Mps2An505 as ThisBoard;
 
 use crate::scene::{Input, Output};
 
@@ -29,8 +37,15 @@ pub struct Facts {
     pub target: &'static str,
 }
 
-/// All boards.
+/// The boards whose cores have budgets.
 pub const BOARDS: &[Facts] = &[mps2_an386::FACTS, mps2_an385::FACTS];
+
+/// Further cores, on which the self-test gives the same bits. The M0+ is code for it on the M3, which runs it: QEMU has no board of that core.
+pub const FURTHER: &[Facts] = &[
+    mps2_an500::FACTS,
+    mps2_an505::FACTS,
+    Facts { core: "m0plus", target: "thumbv6m-none-eabi", ..mps2_an385::FACTS },
+];
 
 /// What the binaries need of a board.
 pub trait Board {

@@ -22,6 +22,50 @@ pub trait Variant: 'static {
     const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), SpeedLoop<Self::Number>>;
 }
 
+/// Implements [`Variant`] for a scene, in `f32` and in fixed point, with each of the observers that are named.
+///
+/// The scene's module has `SCREENING`, `LOOP` (the speed loop's design), `SETTINGS`, `BASES` and `RATE_HZ`; `behind GEAR` puts each observer behind a gear
+/// with losses.
+macro_rules! governed {
+    ($scene:ident, $name:literal, $rate:literal; $($text:literal: $observer:ident, $config:ident($($design:expr),+);)+) => {
+        $(
+            $crate::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
+                observer::$observer<f32>, $config::<f32>::new($($design),+););
+            $crate::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
+                observer::$observer<Fixed>, $config::<Fixed>::new($($design),+, BASES); BASES);
+        )+
+    };
+    ($scene:ident, $name:literal, $rate:literal, behind $gear:ident;
+     $($text:literal: $observer:ident, $config:ident($($design:expr),+);)+) => {
+        $(
+            $crate::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
+                observer::Geared<observer::$observer<f32>>,
+                GearedConfig::<f32, _>::new($config::<f32>::new($($design),+), &$gear, 1.0 / $rate as f64););
+            $crate::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
+                observer::Geared<observer::$observer<Fixed>>,
+                GearedConfig::<Fixed, _>::new($config::<Fixed>::new($($design),+, BASES), &$gear, 1.0 / $rate as f64, BASES);
+                BASES);
+        )+
+    };
+    (@variant $scene:ident, $name:literal, $rate:literal, $text:literal, $words:literal, $number:ident,
+     $observer:ty, $config:expr; $($bases:ident)?) => {
+        impl $crate::governed::Variant for $scene<$number, $observer> {
+            type Number = $number;
+            type Observer = $observer;
+            const NAME: &'static str = concat!($name, "/", $words, "/", $text, "/", $rate);
+            const RATE_HZ: u32 = $rate;
+            const CONFIG: &'static ConfigOf<$number, $observer, (), SpeedLoop<$number>> = &Config {
+                limits: Limits::<$number>::new(&SCREENING $(, $bases)?),
+                observer: $config,
+                fluctuation: (),
+                governor: SpeedLoopConfig::<$number>::new(&LOOP, SETTINGS $(, $bases)?),
+                balancer: (),
+            };
+        }
+    };
+}
+pub(crate) use governed;
+
 /// A drive with its constants.
 ///
 /// While the governor is not released, [`Input::reference`] is the torque that the drive holds.

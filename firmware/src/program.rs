@@ -29,6 +29,11 @@ impl Program {
         Program { random, words, tick: 0, angle: 0, seen: 0, speed: 0 }
     }
 
+    /// Inputs given so far; wraps.
+    pub fn ticks(&self) -> u32 {
+        self.tick
+    }
+
     /// The next input.
     pub fn next_input(&mut self) -> Input {
         let walk = self.next_signed() >> 13;

@@ -3,15 +3,29 @@
 //! One line a variant: its name (the scene's [`Scene::NAME`](crate::scene::Scene::NAME): scene, number, observer,
 //! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line at build time; [`Selected`] is the type.
 
+use driveline::fluctuation::{Extremes, Waveform};
 use driveline::governor::SpeedLoop;
 use driveline::number::Fixed;
 use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 
+use crate::assembled::Assembled;
+use crate::balanced::Balanced;
 use crate::governed::Governed;
+use crate::scenes::balanced_fan::BalancedFan;
 use crate::scenes::blooming_mill::{self, BloomingMill};
 use crate::scenes::composition::{ByHand, Composed, Of};
+use crate::scenes::converter::{self, Converter};
+use crate::scenes::crane_travel::CraneTravel;
 use crate::scenes::empty::Empty;
+use crate::scenes::fan::Fan;
+use crate::scenes::flexible::Flexible;
+use crate::scenes::generator::{self, Generator};
+use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
+use crate::scenes::planetary_drive::PlanetaryDrive;
+use crate::scenes::skip_winch::SkipWinch;
+use crate::scenes::spindle::Spindle;
+use crate::scenes::strip_mill::StripMill;
 use crate::variants::variants;
 
 variants! {
@@ -24,6 +38,8 @@ variants! {
     "composition/f32/two-mass-governed/10000" => Composed<Of<f32, TwoMass<f32>, SpeedLoop<f32>>>,
     "composition/f32/two-mass-geared-observer/10000" => Composed<Of<f32, Geared<TwoMass<f32>>, ()>>,
     "composition/f32/two-mass-geared-governed/10000" => Composed<Of<f32, Geared<TwoMass<f32>>, SpeedLoop<f32>>>,
+    "composition/f32/two-mass-extremes/10000" => Composed<Of<f32, TwoMass<f32>, (), Extremes<f32>>>,
+    "composition/f32/two-mass-waveform/10000" => Composed<Of<f32, TwoMass<f32>, (), Waveform<f32, 64>>>,
     "composition/f32/two-mass-by-hand/10000" => ByHand<f32, TwoMass<f32>>,
     "composition/fixed/rigid-observer/10000" => Composed<Of<Fixed, Rigid<Fixed>, ()>>,
     "composition/fixed/rigid-governed/10000" => Composed<Of<Fixed, Rigid<Fixed>, SpeedLoop<Fixed>>>,
@@ -33,7 +49,17 @@ variants! {
     "composition/fixed/two-mass-governed/10000" => Composed<Of<Fixed, TwoMass<Fixed>, SpeedLoop<Fixed>>>,
     "composition/fixed/two-mass-geared-observer/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, ()>>,
     "composition/fixed/two-mass-geared-governed/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, SpeedLoop<Fixed>>>,
+    "composition/fixed/two-mass-extremes/10000" => Composed<Of<Fixed, TwoMass<Fixed>, (), Extremes<Fixed>>>,
+    "composition/fixed/two-mass-waveform/10000" => Composed<Of<Fixed, TwoMass<Fixed>, (), Waveform<Fixed, 64>>>,
     "composition/fixed/two-mass-by-hand/10000" => ByHand<Fixed, TwoMass<Fixed>>,
+    "generator/f32/diesel/2400" => Generator<generator::Of<f32, generator::with::Diesel>>,
+    "generator/f32/turbine/2400" => Generator<generator::Of<f32, generator::with::Turbine>>,
+    "generator/fixed/diesel/2400" => Generator<generator::Of<Fixed, generator::with::Diesel>>,
+    "generator/fixed/turbine/2400" => Generator<generator::Of<Fixed, generator::with::Turbine>>,
+    "balanced-fan/f32/two-mass/4000" => Balanced<BalancedFan<f32>>,
+    "balanced-fan/fixed/two-mass/4000" => Balanced<BalancedFan<Fixed>>,
+    "flexible/f32/two-mass/4000" => Balanced<Flexible<f32>>,
+    "flexible/fixed/two-mass/4000" => Balanced<Flexible<Fixed>>,
     "hoist/f32/rigid/1000" => Governed<Hoist<f32, with::Rigid, 1000>>,
     "hoist/f32/rigid/4000" => Governed<Hoist<f32, with::Rigid, 4000>>,
     "hoist/f32/rigid/10000" => Governed<Hoist<f32, with::Rigid, 10000>>,
@@ -62,4 +88,34 @@ variants! {
     "blooming-mill/f32/exact/10000" => Governed<BloomingMill<f32, blooming_mill::with::Exact, 10000>>,
     "blooming-mill/fixed/backlash/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Backlash, 10000>>,
     "blooming-mill/fixed/exact/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Exact, 10000>>,
+    "blooming-mill/f32/slack/10000" => Assembled<BloomingMill<f32, blooming_mill::with::Slack, 10000>>,
+    "blooming-mill/fixed/slack/10000" => Assembled<BloomingMill<Fixed, blooming_mill::with::Slack, 10000>>,
+    "converter/f32/plain/10000" => Assembled<Converter<f32, converter::with::Plain>>,
+    "converter/f32/slack/10000" => Assembled<Converter<f32, converter::with::Slack>>,
+    "converter/fixed/plain/10000" => Assembled<Converter<Fixed, converter::with::Plain>>,
+    "converter/fixed/slack/10000" => Assembled<Converter<Fixed, converter::with::Slack>>,
+    "fan/f32/rigid/1000" => Governed<Fan<f32, Rigid<f32>>>,
+    "fan/fixed/rigid/1000" => Governed<Fan<Fixed, Rigid<Fixed>>>,
+    "spindle/f32/rigid/10000" => Governed<Spindle<f32, Rigid<f32>>>,
+    "spindle/f32/exact/10000" => Governed<Spindle<f32, TwoMass<f32>>>,
+    "spindle/fixed/rigid/10000" => Governed<Spindle<Fixed, Rigid<Fixed>>>,
+    "spindle/fixed/exact/10000" => Governed<Spindle<Fixed, TwoMass<Fixed>>>,
+    "strip-mill/f32/rigid/10000" => Governed<StripMill<f32, Rigid<f32>>>,
+    "strip-mill/f32/semi-implicit/10000" => Governed<StripMill<f32, SemiImplicit<f32>>>,
+    "strip-mill/fixed/rigid/10000" => Governed<StripMill<Fixed, Rigid<Fixed>>>,
+    "strip-mill/fixed/semi-implicit/10000" => Governed<StripMill<Fixed, SemiImplicit<Fixed>>>,
+    "planetary/f32/rigid/4000" => Governed<PlanetaryDrive<f32, Geared<Rigid<f32>>>>,
+    "planetary/f32/exact/4000" => Governed<PlanetaryDrive<f32, Geared<TwoMass<f32>>>>,
+    "planetary/fixed/rigid/4000" => Governed<PlanetaryDrive<Fixed, Geared<Rigid<Fixed>>>>,
+    "planetary/fixed/exact/4000" => Governed<PlanetaryDrive<Fixed, Geared<TwoMass<Fixed>>>>,
+    "crane-travel/f32/rigid/1000" => Governed<CraneTravel<f32, Rigid<f32>>>,
+    "crane-travel/f32/semi-implicit/1000" => Governed<CraneTravel<f32, SemiImplicit<f32>>>,
+    "crane-travel/fixed/rigid/1000" => Governed<CraneTravel<Fixed, Rigid<Fixed>>>,
+    "crane-travel/fixed/semi-implicit/1000" => Governed<CraneTravel<Fixed, SemiImplicit<Fixed>>>,
+    "skip-winch/f32/rigid/2000" => Governed<SkipWinch<f32, Geared<Rigid<f32>>>>,
+    "skip-winch/f32/semi-implicit/2000" => Governed<SkipWinch<f32, Geared<SemiImplicit<f32>>>>,
+    "skip-winch/fixed/rigid/2000" => Governed<SkipWinch<Fixed, Geared<Rigid<Fixed>>>>,
+    "skip-winch/fixed/semi-implicit/2000" => Governed<SkipWinch<Fixed, Geared<SemiImplicit<Fixed>>>>,
+    "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
+    "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
 }

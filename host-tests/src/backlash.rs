@@ -9,10 +9,14 @@
 //!
 //! Sensors: 2048 lines read as 8192 counts, a torque that is known to 1 % of rated in a tick, 10,000 ticks a second.
 
+mod approach;
 mod case;
+mod comparison;
 mod course;
 mod score;
 
+pub use approach::Approach;
 pub use case::{Case, GAP, LINES, RATE_HZ, cases};
+pub use comparison::{Comparison, Row, Stretch};
 pub use course::{Course, Drawn, Kind, Rig};
 pub use score::{Estimator, Library, Score};

@@ -1,4 +1,8 @@
 //! The command line: `cargo driveline run`, `modes`, `design`, `rotor`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `simulate`, `design`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `balance`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `generator`, `check`, `setup`.
+//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`, `watch`.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -6,27 +10,38 @@
 //! | 1 | done, and the answer is no: a check failed, a run could not finish |
 //! | 2 | not begun: a wrong argument or a machine file with a fault |
 //!
-//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
+//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the
+//! object
 //! `{"error": ...}`.
 
+mod backlash;
+mod balance;
+mod balancing;
+mod campbell;
 mod check;
 mod design;
 mod emit;
 mod failure;
+mod generator;
 mod modes;
 mod plan;
 mod progress;
 mod rotor;
 mod run;
 mod setup;
+mod simulate;
+mod simulation;
+mod train_modes;
 mod vibration;
 mod vibration_page;
+mod watch;
 
 pub use emit::rust;
 pub use failure::Failure;
 pub use plan::Plan;
 pub use progress::Progress;
 pub use vibration::Vibration;
+pub(crate) use vibration::names;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -44,33 +59,48 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Run),
+    Backlash(backlash::Backlash),
     Modes(modes::Modes),
     Design(design::Design),
     Rotor(rotor::Rotor),
+    Balance(balance::Balance),
+    Generator(generator::Generator),
     Check(check::Check),
     Setup(setup::Setup),
+    Simulate(simulate::Simulate),
+    Watch(watch::Watch),
 }
 
 impl Command {
     const fn json(&self) -> bool {
         match self {
             Self::Run(command) => command.json,
+            Self::Backlash(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
             Self::Rotor(command) => command.json,
+            Self::Balance(command) => command.json,
+            Self::Generator(command) => command.json,
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
+            Self::Simulate(command) => command.json,
+            Self::Watch(command) => command.json,
         }
     }
 
     fn execute(&self) -> Result<(), Failure> {
         match self {
             Self::Run(command) => command.execute(),
+            Self::Backlash(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
             Self::Rotor(command) => command.execute(),
+            Self::Balance(command) => command.execute(),
+            Self::Generator(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
+            Self::Simulate(command) => command.execute(),
+            Self::Watch(command) => command.execute(),
         }
     }
 }

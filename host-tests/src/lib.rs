@@ -1,8 +1,11 @@
 //! The full solver, the link to QEMU, the command line, the report.
 
 pub mod backlash;
+pub mod balance_file;
+pub mod balancing;
 pub mod check;
 pub mod cli;
+pub mod generator;
 pub mod image;
 pub mod link;
 pub mod machine_file;
@@ -12,3 +15,4 @@ pub mod rotor;
 pub mod run;
 pub mod setup;
 pub mod sweep;
+pub mod telemetry;

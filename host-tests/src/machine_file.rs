@@ -30,12 +30,25 @@
 //! [limits]
 //! torque = 400.0           # N m, largest motor torque
 //! speed = 160.0            # rad/s, largest motor speed
+//!
+//! [duty]                   # may be left out: which observer the machine needs
+//! change = 150.0           # N m at the motor: the largest change of torque ...
+//! rise = 0.1               # s ... comes about in this time
+//! every = 2.0              # s from one to the next
 //! ```
 //!
 //! | kind | keys (those in brackets may be left out) |
 //! |---|---|
 //! | `motor`, `rotor` | `inertia` \[kg m2\] |
 //! | `shaft` | `stiffness` \[N m/rad\], (`damping` \[N m s/rad\]) |
+//! | `section` | `length` \[m\], `diameter` \[m\], (`end` diameter \[m\]), (`bore` \[m\]), (`modulus` \[Pa\], steel's), (`damping` \[N m s/rad\]); pieces in a row are a stepped shaft |
+//! | `crank` | `inertia`, `radius` \[m\], `rod` \[m\], `slider` \[kg\], (`rod_mass`, `rod_centre` \[m\] from the pin, `rod_inertia`); the mean over a turn |
+//! | `worm` | `ratio`, `efficiency`, `back_efficiency` with the load driving |
+//! | `planetary` | `sun_teeth`, `ring_teeth`, `module` \[m\], `planets`, `sun`, `planet`, `carrier` \[kg m2\], `planet_mass` \[kg\], (`efficiency`) |
+//! | `belt` | `driving`, `driven` \[m\], `stiffness` \[N/m\] of a strand, (`damping` \[N s/m\]), (`efficiency`) |
+//! | `screw` | `lead` \[m\] a turn |
+//! | `swinging` | `mass` \[kg\], `length` \[m\] of the pendulum |
+//! | `slack` | `travel` \[m\] along the load's path |
 //! | `gear` | `ratio` motor speed over load speed, (`efficiency`) |
 //! | `drum` | `diameter` \[m\] |
 //! | `rope` | `falls`, `stiffness` \[N/m\] at the load, (`damping` \[N s/m\]) |
@@ -44,21 +57,34 @@
 //!
 //! A rotor that is to be balanced has a file of its own kind: see [`RotorFile`].
 //!
-//! Every element may have a `label`, which tables and plots then use. Quantities stand on their own shaft, as a data sheet gives them; the library refers them to the motor.
+//! For a diagram of critical speeds, `[running]` gives the speeds `least` and `greatest` of the motor \[rad/s\], and
+//! each
+//! `[[excitation]]` its `name`, its `orders`, and the `ratio` of the motor's speed over that of the shaft that
+//! excites (1 where it is left out). For `simulate` see [`train`].
+//!
+//! Every element may have a `label`, which tables and plots then use. Quantities stand on their own shaft, as a data
+//! sheet gives them; the library refers them to the motor.
 
 mod diagnostic;
 mod element;
+mod excitation;
 mod quantity;
 mod read;
+mod referred;
 mod rotor;
 mod source;
 mod table;
+pub mod train;
 
 pub use diagnostic::{Diagnostic, Fault};
 pub use element::Element;
+pub use excitation::{Excitation, Running};
 pub use quantity::Quantity;
-pub use read::{LARGEST, parse, read};
+pub use read::{LARGEST, not_toml, parse, read, text};
 pub use rotor::{RotorFile, parse_rotor, read_rotor};
+pub use source::Source;
+pub use table::{Item, Table};
+pub use train::{TrainFile, is_train, parse_train, read_train};
 
 use driveline::machine::Chain;
 use serde::Serialize;
@@ -78,6 +104,12 @@ pub struct MachineFile {
     pub disturbance: Disturbance,
     /// What the machine can do at most.
     pub limits: Limits,
+    /// The speeds it runs at, where the file says so.
+    pub running: Option<Running>,
+    /// What excites it.
+    pub excitations: Vec<Excitation>,
+    /// How the machine is shaken, if the file says.
+    pub duty: Option<Duty>,
     /// The elements as the library's chain, referred to the motor.
     #[serde(skip)]
     pub chain: Chain,
@@ -125,6 +157,17 @@ pub struct Limits {
     pub torque: f64,
     /// Speed \[rad/s\].
     pub speed: f64,
+}
+
+/// How the machine is shaken: what decides which observer it needs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Duty {
+    /// Largest change of torque that comes about at once, at the motor \[N m\].
+    pub change: f64,
+    /// How long it takes \[s\].
+    pub rise: f64,
+    /// Time between two of them \[s\].
+    pub every: f64,
 }
 
 impl MachineFile {

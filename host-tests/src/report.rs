@@ -1,7 +1,7 @@
 //! The report of a run: a page with plots for people, a table for the terminal, JSON for programs.
 //!
-//! The page is one file that opens from the disk: style and plots stand in it, and nothing is fetched. Plots are SVG written
-//! by [`svg`], coloured by the page's style, so that they follow the reader's light or dark theme.
+//! The page is one file that opens from the disk: style and plots stand in it, and nothing is fetched. Plots are SVG
+//! written by [`svg`], coloured by the page's style, so that they follow the reader's light or dark theme.
 //!
 //! | term | meaning |
 //! |---|---|
@@ -17,20 +17,28 @@
 //! assert!(page.starts_with("<!doctype html>"));
 //! ```
 
+mod backlash_page;
+mod balance_page;
 pub mod chart;
 mod figures;
 pub mod format;
 mod modes_page;
 mod page;
+mod plots_page;
 mod sheet;
+mod simulation_page;
 pub mod svg;
 mod sweep;
 mod terminal;
 mod trajectory;
 
+pub use backlash_page::backlash_page;
+pub use balance_page::{BalancePage, PolarFigure, PolarKey};
 pub use figures::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Variant};
 pub use modes_page::{MachinePage, ModeFigure};
+pub use plots_page::PlotsPage;
 pub use sheet::{Figure, Sheet};
+pub use simulation_page::SimulationPage;
 pub use sweep::{Slice, Sweep, SweepPoint};
 pub use terminal::{Table, variants_table};
 pub use trajectory::{Mark, Signal, Trajectory};

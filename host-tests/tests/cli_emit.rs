@@ -15,6 +15,10 @@ mod hoist;
 #[path = "cli_emit/mill.rs"]
 mod mill;
 
+#[rustfmt::skip]
+#[path = "cli_emit/axis.rs"]
+mod axis;
+
 /// Reads a machine and holds what is printed for it against the file that was compiled.
 fn printed(name: &str, compiled: &str) -> (MachineFile, Plan) {
     let root = env!("CARGO_MANIFEST_DIR");
@@ -53,6 +57,17 @@ fn the_hoist_compiles_to_the_same_bits() {
         &[governor.proportional, governor.integral, governor.slip],
     );
     same_bits(&[hoist::HOIST_TORQUE, hoist::HOIST_SPEED], &[machine.limits.torque, machine.limits.speed]);
+}
+
+#[test]
+fn the_axis_compiles_to_the_same_bits() {
+    let (machine, plan) = printed("axis", include_str!("cli_emit/axis.rs"));
+    same_chain(&axis::FEED_AXIS, &machine);
+    let gains = plan.states.iter().map(|state| state.gain).collect::<Vec<_>>();
+    same_bits(&axis::FEED_AXIS_OBSERVER.gains, &gains);
+    let (compiled, governor) = (axis::FEED_AXIS_SPEED_LOOP, plan.speed_loop.unwrap());
+    same_bits(&[compiled.proportional, compiled.slip], &[governor.proportional, governor.slip]);
+    same_bits(&[axis::FEED_AXIS_TORQUE, axis::FEED_AXIS_SPEED], &[machine.limits.torque, machine.limits.speed]);
 }
 
 #[test]

@@ -58,6 +58,23 @@ fn a_governor_that_is_left_out_is_not_there() {
 }
 
 #[test]
+fn a_measurement_of_the_fluctuation_that_is_left_out_is_not_there() {
+    for (number, core) in CORES {
+        let board = board(core).unwrap();
+        let without = read(number, "two-mass-observer", board);
+        assert!(!has(&without, "fluctuation"), "{core}");
+        // A bin is three words, and there is a torque to it: 64 of them, 256 words, and some twenty for where it stands.
+        for (part, state) in [("extremes", 128..=256), ("waveform", 1024..=1024 + 96)] {
+            let with = read(number, &format!("two-mass-{part}"), board);
+            let what = format!("{part} on {core}: {:?} and {:?}", without.sizes, with.sizes);
+            assert!(has(&with, "fluctuation"), "{what}");
+            assert!(state.contains(&(with.sizes.ram() - without.sizes.ram())), "{what}");
+            assert!(with.tick_code > without.tick_code && with.sizes.constants > without.sizes.constants, "{what}");
+        }
+    }
+}
+
+#[test]
 fn a_gear_that_is_left_out_is_not_there() {
     for (number, core) in CORES {
         let board = board(core).unwrap();

@@ -22,6 +22,13 @@ fn public_types(folder: &Path, names: &mut Vec<String>) {
     }
 }
 
+/// What holds complex numbers or matrices of `nalgebra`, which cannot be logged as they are.
+const OF_NALGEBRA: [&str; 10] =
+    ["Advice", "Fitted", "FromAmplitudes", "Holes", "InRun", "Influence", "LeftOut", "Plan", "Procedure", "Run"];
+
+/// What owns the parts of a board, or memory that a tick writes.
+const OWNERS: [&str; 5] = ["Axis", "EnableChain", "Parts", "Ring", "Store"];
+
 #[test]
 fn every_public_type_is_in_the_list() {
     let source = host_tests::image::workspace().join("src");
@@ -29,7 +36,8 @@ fn every_public_type_is_in_the_list() {
     let mut names = Vec::new();
     public_types(&source, &mut names);
     assert!(names.len() > 40, "{names:?}");
-    for name in names {
+    let excepted = [&OF_NALGEBRA[..], &OWNERS].concat();
+    for name in names.into_iter().filter(|name| !excepted.contains(&name.as_str())) {
         let end = [",", "<", ";"].map(|end| format!("::{name}{end}"));
         assert!(end.iter().any(|entry| list.contains(entry)), "{name} is not in src/logged.rs");
     }

@@ -77,7 +77,7 @@ fn absurd_values_are_refused_at_their_key() {
         ("rate_hz = 10000", "rate_hz = 1e9", "control.rate_hz", "1e9"),
         ("within = 50.0 ", "within = 0.0 ", "disturbance.within", "0.0"),
         ("speed = 155.0", "speed = -155.0", "limits.speed", "-155.0"),
-        ("kind = \"gear\"", "kind = \"belt\"", "element[3].kind", "the text \"belt\""),
+        ("kind = \"gear\"", "kind = \"pulley\"", "element[3].kind", "the text \"pulley\""),
         ("name = \"hoist\"", "name = \"../../etc\"", "name", "the text \"../../etc\""),
         ("label = \"load\"", "label = \"\"", "element[6].label", "the text \"\""),
     ];

@@ -2,24 +2,20 @@
 
 use super::convert::{fixed, get, or_stop};
 use super::{Bases, Error, Format};
-use crate::design::{BarredSpeeds, GovernorDesign, SpeedLoopDesign, TorqueCurve};
+use crate::design::{GovernorDesign, SpeedLoopDesign};
 use crate::governor::{
-    BarredConfig, BetweenConfig, CurveConfig, CurvePiece, DampingConfig, DroopConfig, FeedForwardConfig, Gains,
-    ModesConfig, RackConfig, SlewConfig, SymmetricConfig, Window,
+    BetweenConfig, DampingConfig, DroopConfig, FeedForwardConfig, Gains, MeanConfig, ModesConfig, RackConfig,
+    SymmetricConfig, Window,
 };
 use crate::number::{Coefficient, Fixed};
 
 const GAIN: &str =
     "a gain of the governor is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
-const RAMP: &str =
+pub(super) const RAMP: &str =
     "the ramp of the governor must be positive and finite, and within a tick at most twice the base of the speed";
 const DROOP: &str = "the droop must be zero or above and finite, for a rated speed and torque above zero, and below half a base of the speed per base of the torque in fixed point";
 const SHARE: &str = "the share of the load torque that is fed forward must be from 0 to 1";
-const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, and both within twice the base of the torque in fixed point";
-const SLEW: &str =
-    "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
-const CURVE: &str = "the torque curve must lie within twice the bases in fixed point, and its slopes within 2 bases of the torque per base of the speed";
-const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
+pub(super) const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, and both within twice the base of the torque in fixed point";
 const MODES: &str = "the speeds of the modes must be standstill < underspeed < overspeed, none of them negative, the shaft's torque positive, all finite and within twice their bases in fixed point";
 const TIMES: &str =
     "the times of the modes must be zero or above and below 2^31 ticks, and the period of a tick positive";
@@ -48,9 +44,9 @@ pub struct ModesSettings {
 }
 
 /// Numbers and coefficients of a part, per unit of a format.
-type Values<const N: usize, const C: usize> = Result<([f64; N], [f64; C]), Error>;
+pub(super) type Values<const N: usize, const C: usize> = Result<([f64; N], [f64; C]), Error>;
 
-const fn all_finite(values: &[f64]) -> bool {
+pub(super) const fn all_finite(values: &[f64]) -> bool {
     let mut k = 0;
     while k < values.len() {
         if !(values[k] as f32).is_finite() {
@@ -94,30 +90,12 @@ const fn damping(slip: f64, format: &Format) -> Values<0, 1> {
     Ok(([], [-slip * format.bases.speed / (format.bases.torque * format.gain)]))
 }
 
-const fn between(least: f64, most: f64, format: &Format) -> Values<2, 0> {
+pub(super) const fn between(least: f64, most: f64, format: &Format) -> Values<2, 0> {
     if least <= 0.0 && most > 0.0 && all_finite(&[least, most]) {
         Ok(([least / format.bases.torque, most / format.bases.torque], []))
     } else {
         Err(Error::Value(LIMIT))
     }
-}
-
-const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
-    let step = rate * period / format.bases.torque;
-    if step > 0.0 && all_finite(&[step]) { Ok(([step], [])) } else { Err(Error::Value(SLEW)) }
-}
-
-const fn piece<const K: usize>(curve: &TorqueCurve<K>, k: usize, format: &Format) -> Values<2, 1> {
-    let points = curve.points();
-    let Bases { torque, speed, .. } = format.bases;
-    let [at, most] = points[k];
-    let slope = if k + 1 < K {
-        let [next, then] = points[k + 1];
-        (then - most) / (next - at)
-    } else {
-        0.0
-    };
-    Ok(([at / speed, most / torque], [slope * speed / (torque * format.widened)]))
 }
 
 const fn windows(settings: &ModesSettings, format: &Format) -> Values<6, 0> {
@@ -163,7 +141,7 @@ const fn numbers<const K: usize>(values: [f64; K], sentence: &'static str) -> Re
 }
 
 /// Nothing, where a part has no numbers or no coefficients.
-const fn in_fixed<const N: usize, const C: usize>(
+pub(super) const fn in_fixed<const N: usize, const C: usize>(
     values: Values<N, C>,
     sentence: &'static str,
 ) -> Result<([Fixed; N], [Coefficient; C]), Error> {
@@ -293,182 +271,6 @@ part!(
     }
 );
 
-const fn range<const K: usize>(barred: &BarredSpeeds<K>, k: usize, format: &Format) -> Values<2, 0> {
-    let ranges = barred.ranges();
-    if k >= ranges.len() {
-        return Err(Error::Value(BARRED));
-    }
-    let ([low, high], speed) = (ranges[k], format.bases.speed);
-    Ok(([0.5 * (low + high) / speed, 0.5 * (high - low) / speed], []))
-}
-
-const fn quick(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
-    let step = rate * period / format.bases.speed;
-    if step > 0.0 && all_finite(&[step]) { Ok(([step], [])) } else { Err(Error::Value(RAMP)) }
-}
-
-macro_rules! float_arrays {
-    ($float:ident) => {
-        impl<const K: usize> BarredConfig<$float, K> {
-            /// The constants as floats.
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64) -> Self {
-                or_stop!(Self::try_new(barred, quick_ramp, period))
-            }
-
-            /// The constants as floats.
-            ///
-            /// # Errors
-            /// [`Error::Value`] for other than `K` ranges, or a quick ramp [rad/s2] that is not positive and finite.
-            pub const fn try_new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64) -> Result<Self, Error> {
-                let format = Format::FLOAT;
-                let ([step], []) = get!(quick(quick_ramp, period, &format));
-                let mut ranges = [Window { middle: 0.0, half: 0.0 }; K];
-                let mut k = 0;
-                while k < K {
-                    let ([middle, half], []) = get!(range(barred, k, &format));
-                    ranges[k] = Window { middle: middle as $float, half: half as $float };
-                    k += 1;
-                }
-                Ok(BarredConfig { ranges, quick: step as $float })
-            }
-        }
-
-        impl<const K: usize> CurveConfig<$float, K> {
-            /// The constants as floats; `least` is the smallest torque, zero or below [N m].
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(curve: &TorqueCurve<K>, least: f64) -> Self {
-                or_stop!(Self::try_new(curve, least))
-            }
-
-            /// The constants as floats; `least` is the smallest torque, zero or below [N m].
-            ///
-            /// # Errors
-            /// [`Error::Value`] for a least torque above zero or not finite.
-            pub const fn try_new(curve: &TorqueCurve<K>, least: f64) -> Result<Self, Error> {
-                let format = Format::FLOAT;
-                let ([least, _], []) = get!(between(least, 1.0, &format));
-                let mut pieces = [CurvePiece::<$float> { speed: 0.0, torque: 0.0, slope: 0.0 }; K];
-                let mut k = 0;
-                while k < K {
-                    let ([speed, torque], [slope]) = get!(piece(curve, k, &format));
-                    pieces[k] = CurvePiece { speed: speed as $float, torque: torque as $float, slope: slope as $float };
-                    k += 1;
-                }
-                Ok(CurveConfig { pieces, least: least as $float })
-            }
-        }
-
-        impl<L: Copy> SlewConfig<$float, L> {
-            /// The constants as floats: torque per time [N m/s], the other limit, and the period of a tick [s].
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(rate: f64, limit: L, period: f64) -> Self {
-                or_stop!(Self::try_new(rate, limit, period))
-            }
-
-            /// The constants as floats.
-            ///
-            /// # Errors
-            /// [`Error::Value`] for a rate that is not positive and finite.
-            pub const fn try_new(rate: f64, limit: L, period: f64) -> Result<Self, Error> {
-                let ([step], []) = get!(slew(rate, period, &Format::FLOAT));
-                Ok(SlewConfig { step: step as $float, limit })
-            }
-        }
-    };
-}
-
-float_arrays!(f32);
-float_arrays!(f64);
-
-impl<const K: usize> BarredConfig<Fixed, K> {
-    /// The constants in fixed point.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(barred, quick_ramp, period, bases))
-    }
-
-    /// The constants in fixed point.
-    ///
-    /// # Errors
-    /// [`Error::Value`] for other than `K` ranges, one beyond twice the base of the speed, or a quick ramp [rad/s2]
-    /// that is not positive and finite.
-    pub const fn try_new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
-        let format = Format::fixed(bases);
-        let ([quick], []) = get!(in_fixed(quick(quick_ramp, period, &format), RAMP));
-        let mut ranges = [Window { middle: Fixed::from_bits(0), half: Fixed::from_bits(0) }; K];
-        let mut k = 0;
-        while k < K {
-            let ([middle, half], []) = get!(in_fixed(range(barred, k, &format), BARRED));
-            ranges[k] = Window { middle, half };
-            k += 1;
-        }
-        Ok(BarredConfig { ranges, quick })
-    }
-}
-
-impl<const K: usize> CurveConfig<Fixed, K> {
-    /// The constants in fixed point; `least` is the smallest torque, zero or below [N m].
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(curve: &TorqueCurve<K>, least: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(curve, least, bases))
-    }
-
-    /// The constants in fixed point; `least` is the smallest torque, zero or below [N m].
-    ///
-    /// # Errors
-    /// [`Error`] for a least torque above zero, a point beyond twice its base, or a slope of 2 bases of the torque per
-    /// base of the speed or more.
-    pub const fn try_new(curve: &TorqueCurve<K>, least: f64, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
-        let format = Format::fixed(bases);
-        let ([least, _], []) = get!(in_fixed(between(least, bases.torque, &format), LIMIT));
-        let mut pieces =
-            [CurvePiece { speed: Fixed::from_bits(0), torque: Fixed::from_bits(0), slope: Coefficient::ZERO }; K];
-        let mut k = 0;
-        while k < K {
-            let ([speed, torque], [slope]) = get!(in_fixed(piece(curve, k, &format), CURVE));
-            pieces[k] = CurvePiece { speed, torque, slope };
-            k += 1;
-        }
-        Ok(CurveConfig { pieces, least })
-    }
-}
-
-impl<L: Copy> SlewConfig<Fixed, L> {
-    /// The constants in fixed point: torque per time [N m/s], the other limit, and the period of a tick [s].
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(rate: f64, limit: L, period: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(rate, limit, period, bases))
-    }
-
-    /// The constants in fixed point.
-    ///
-    /// # Errors
-    /// [`Error::Value`] for a rate that is not positive and finite, or twice the base of the torque in a tick.
-    pub const fn try_new(rate: f64, limit: L, period: f64, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
-        let ([step], []) = get!(in_fixed(slew(rate, period, &Format::fixed(bases)), SLEW));
-        Ok(SlewConfig { step, limit })
-    }
-}
-
 impl Gains<f32> {
     /// The gains of a speed loop, for a torque-controlled drive, as floats; [`DampingConfig`] takes the rest of it.
     ///
@@ -519,5 +321,30 @@ impl<const K: usize> RackConfig<K> {
             Err(_) => return Err(Error::Value(DELAY)),
         };
         if (ticks as usize) < K { Ok(RackConfig { ticks }) } else { Err(Error::Value(DELAY)) }
+    }
+}
+
+impl<const K: usize> MeanConfig<f32, K> {
+    /// The constants of a mean over `K` ticks, as floats.
+    pub const fn of_ticks() -> Self {
+        MeanConfig { share: 1.0 / K as f32 }
+    }
+}
+
+impl<const K: usize> MeanConfig<f64, K> {
+    /// The constants of a mean over `K` ticks, as floats.
+    pub const fn of_ticks() -> Self {
+        MeanConfig { share: 1.0 / K as f64 }
+    }
+}
+
+impl<const K: usize> MeanConfig<Fixed, K> {
+    /// The constants in fixed point.
+    ///
+    /// # Panics
+    /// At compile time in a constant, for a mean over two ticks or one.
+    pub const fn of_ticks() -> Self {
+        let [share] = or_stop!(fixed([1.0 / K as f64], GAIN));
+        MeanConfig { share }
     }
 }

@@ -35,12 +35,12 @@ impl Actuator {
     /// A torque-controlled drive: within a tick.
     pub const DIRECT: Self = Self { delay: 0.0, lag: 0.0 };
 
-    /// The mean dead time of a combustion engine's torque \[s\] at a speed \[rad/s\]: half the interval between two
-    /// firings until the next cylinder takes the new amount of fuel, and a quarter of a turn until its pressure has
+    /// The dead time to allow for with a combustion engine \[s\] at a speed \[rad/s\]: half the interval between two
+    /// firings, until the next cylinder takes the new amount of fuel, and a quarter of a turn until its pressure has
     /// become torque. A four-stroke engine fires `cylinders/2` times a turn.
     ///
-    /// The usual estimate of the literature on diesel governing [Haddad and Watson 1984, Principles and Performance in
-    /// Diesel Engineering, §11].
+    /// The form of the usual estimate of the literature on diesel governing. Torque that is delivered in pulses follows
+    /// the fuel sooner in the mean, by the pulse's centre alone; the rule leaves room for an unlucky phase.
     ///
     /// # Errors
     /// [`Error::Actuator`] for a speed that is not positive, or no cylinder.

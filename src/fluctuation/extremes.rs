@@ -17,17 +17,11 @@ use crate::sample::Estimate;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Peak<N> {
     value: N,
+    /// The extreme before: on the way to a peak, the sample before.
     before: N,
     after: N,
     /// Segment in the upper six bits, [2^-28 turn] into it in the others.
     place: u32,
-}
-
-impl<N: Copy> Peak<N> {
-    #[inline(always)]
-    fn flat(value: N, place: u32) -> Self {
-        Peak { value, before: value, after: value, place }
-    }
 }
 
 /// The extremes of one speed.
@@ -35,7 +29,6 @@ impl<N: Copy> Peak<N> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Speed<N> {
     last: N,
-    before: N,
     max: Peak<N>,
     min: Peak<N>,
 }
@@ -43,38 +36,23 @@ struct Speed<N> {
 impl<N: Number> Speed<N> {
     #[inline(always)]
     fn follow(&mut self, value: N, place: impl Fn() -> u32) {
-        let (middle, before) = (self.last, self.before);
-        self.before = middle;
-        self.last = value;
+        let middle = core::mem::replace(&mut self.last, value);
         if middle > self.max.value {
-            self.max = Peak { value: middle, before, after: value, place: place() };
+            self.max = Peak { value: middle, before: self.max.value, after: value, place: place() };
         } else if middle < self.min.value {
-            self.min = Peak { value: middle, before, after: value, place: place() };
+            self.min = Peak { value: middle, before: self.min.value, after: value, place: place() };
         }
     }
 
-    #[inline(always)]
     fn anew(&mut self, place: u32) {
-        self.max = Peak::flat(self.last, place);
+        let value = self.last;
+        self.max = Peak { value, before: value, after: value, place };
         self.min = self.max;
     }
 }
 
-/// A finished cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-struct Finished<N> {
-    from: Edge,
-    to: Edge,
-    /// Maximum and minimum of the motor's speed, then of the load's.
-    peaks: [Peak<N>; 4],
-    forward: bool,
-    /// The end of the cycle before, where there was one.
-    before: Option<Edge>,
-}
-
 /// Cycle by cycle: mean, extremes and delta of the motor's and of the load's speed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Extremes<N> {
     position: Position,
@@ -82,24 +60,12 @@ pub struct Extremes<N> {
     motor: Speed<N>,
     load: Speed<N>,
     forward: bool,
-    edge: Option<Edge>,
-    finished: Option<Finished<N>>,
+    /// The last ends of a cycle, the latest last, and how many of them are good.
+    edges: [Edge<N>; 3],
+    good: u32,
+    /// Maximum and minimum of the motor's speed in the finished cycle, then of the load's.
+    peaks: [Peak<N>; 4],
     cycles: u32,
-}
-
-impl<N: Number> Default for Extremes<N> {
-    fn default() -> Self {
-        Extremes {
-            position: Position::default(),
-            tick: 0,
-            motor: Speed::default(),
-            load: Speed::default(),
-            forward: true,
-            edge: None,
-            finished: None,
-            cycles: 0,
-        }
-    }
 }
 
 impl<N: Number> Fluctuation<N> for Extremes<N> {
@@ -107,14 +73,15 @@ impl<N: Number> Fluctuation<N> for Extremes<N> {
 
     #[inline(always)]
     fn measure(&mut self, config: &CycleConfig, angle: u32, _torque: N, estimate: &Estimate<N>) {
-        let tick = self.tick;
-        self.tick = tick.wrapping_add(1);
-        if let Some(crossing) = self.position.advance(config, angle, tick) {
-            self.cross(crossing, estimate, angle);
+        let tick = self.tick.wrapping_add(1);
+        self.tick = tick;
+        let within = self.position.within(angle);
+        if within >= config.length {
+            self.pass(config, angle, estimate.motor_speed);
             return;
         }
-        let position = self.position;
-        let place = || position.segment << 26 | position.within(angle) >> 4;
+        let position = &self.position;
+        let place = || position.segment << 26 | within >> 4;
         if tick & 1 == 0 {
             self.motor.follow(estimate.motor_speed, place);
         } else {
@@ -130,42 +97,40 @@ impl<N: Number> Fluctuation<N> for Extremes<N> {
 
 impl<N: Number> Extremes<N> {
     fn give_up(&mut self) {
-        self.edge = None;
-        self.finished = None;
+        self.good = 0;
     }
 
+    /// A tick that ends a segment or a cycle; its speeds are not looked at.
+    #[cold]
     #[inline(never)]
-    fn cross(&mut self, crossing: Crossing, estimate: &Estimate<N>, angle: u32) {
-        let place = self.position.segment << 26 | self.position.within(angle) >> 4;
-        match crossing {
-            Crossing::Segment => {}
+    fn pass(&mut self, config: &CycleConfig, angle: u32, speed: N) {
+        match self.position.pass(config, angle) {
+            Crossing::Within => {}
             Crossing::Lost => self.give_up(),
-            Crossing::Cycle { edge, forward } => {
+            Crossing::Cycle { beyond, forward } => {
+                let to = Edge { tick: self.tick, beyond, speed };
                 if forward != self.forward {
                     self.give_up();
                     self.forward = forward;
                 }
-                if let Some(from) = self.edge {
-                    let before = self.finished.map(|finished| finished.from);
-                    let peaks = [self.motor.max, self.motor.min, self.load.max, self.load.min];
-                    self.finished = Some(Finished { from, to: edge, peaks, forward, before });
+                if self.good > 0 {
+                    let [motor_max, motor_min, load_max, load_min] = &mut self.peaks;
+                    *motor_max = self.motor.max;
+                    *motor_min = self.motor.min;
+                    *load_max = self.load.max;
+                    *load_min = self.load.min;
                     self.cycles = self.cycles.wrapping_add(1);
                 }
-                self.edge = Some(edge);
-                // The cycle begins with what the speeds are now.
-                self.motor.last = estimate.motor_speed;
-                self.load.last = estimate.load_speed;
-                self.motor.before = estimate.motor_speed;
-                self.load.before = estimate.load_speed;
+                let [first, second, third] = &mut self.edges;
+                *first = *second;
+                *second = *third;
+                *third = to;
+                self.good = (self.good + 1).min(3);
+                // The next cycle begins with what the speeds were last.
+                let place = self.position.segment << 26 | self.position.within(angle) >> 4;
                 self.motor.anew(place);
                 self.load.anew(place);
-                return;
             }
-        }
-        if self.tick & 1 == 1 {
-            self.motor.follow(estimate.motor_speed, || place);
-        } else {
-            self.load.follow(estimate.load_speed, || place);
         }
     }
 
@@ -178,18 +143,18 @@ impl<N: Number> Extremes<N> {
     ///
     /// Not for the tick: it divides, in `f64`.
     pub fn reading(&self, config: &CycleConfig) -> Option<Reading> {
-        let finished = self.finished?;
-        let ticks = finished.to.since(&finished.from);
-        let sign = if finished.forward { 1.0 } else { -1.0 };
+        if self.good < 2 {
+            return None;
+        }
+        let [before, from, to] = &self.edges;
+        let ticks = to.since(from, config);
+        let sign = if self.forward { 1.0 } else { -1.0 };
         let mean = sign * config.angle / (ticks * config.period);
-        let previous = finished.before.map(|before| {
-            let ticks = finished.from.since(&before);
-            sign * config.angle / (ticks * config.period)
-        });
-        let [motor_max, motor_min, load_max, load_min] = finished.peaks.map(|peak| vertex(config, &peak));
+        let previous = sign * config.angle / (from.since(before, config) * config.period);
+        let [motor_max, motor_min, load_max, load_min] = self.peaks.map(|peak| vertex(config, &peak));
         Some(Reading {
             mean,
-            change: previous.map(|previous| mean - previous),
+            change: if self.good < 3 { None } else { Some(mean - previous) },
             duration: ticks * config.period,
             motor: Fluctuations::of(motor_max, motor_min, mean),
             load: Fluctuations::of(load_max, load_min, mean),

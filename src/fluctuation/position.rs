@@ -1,5 +1,9 @@
 //! Where in its cycle the motor is, in integers, and when it passed the cycle's end.
 
+use core::f64::consts::TAU;
+
+use crate::number::Number;
+
 /// A cycle as the tick needs it. Made by [`crate::constants`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -22,38 +26,42 @@ pub struct CycleConfig {
     pub torque: f64,
 }
 
-/// When the motor passed the cycle's end: between the tick before and this one, `beyond/turned` of a tick ago.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// When the motor passed the cycle's end: the time to the tick that found it beyond, from how far and how fast.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Edge {
+pub struct Edge<N> {
     /// The first tick beyond it; wraps.
     pub tick: u32,
     /// How far that tick was beyond it [2^-32 turn].
     pub beyond: u32,
-    /// How far the motor turned in the tick [2^-32 turn].
-    pub turned: u32,
+    /// The motor's estimated speed.
+    pub speed: N,
 }
 
-impl Edge {
-    /// How long before its tick the end was passed, 0 to 1 tick.
-    pub fn fraction(&self) -> f64 {
-        if self.turned > self.beyond { f64::from(self.beyond) / f64::from(self.turned) } else { 1.0 }
+impl<N: Number> Edge<N> {
+    /// How long before its tick the end was passed [ticks], where the motor turned by `turned` in a tick \[rad\]; half a tick where that says nothing
+    /// of it.
+    pub fn fraction(&self, turned: f64) -> f64 {
+        let fraction = f64::from(self.beyond) * (TAU / 4_294_967_296.0) / turned;
+        // A speed that is a little too low may say a little more than one.
+        if fraction < 2.0 { fraction } else { 0.5 }
     }
 
-    /// Ticks from an earlier edge to this one.
-    pub fn since(&self, earlier: &Edge) -> f64 {
-        f64::from(self.tick.wrapping_sub(earlier.tick)) + (earlier.fraction() - self.fraction())
+    /// Ticks from an earlier edge to this one, by the estimated speeds.
+    pub fn since(&self, earlier: &Edge<N>, cycle: &CycleConfig) -> f64 {
+        let fraction = |edge: &Edge<N>| edge.fraction((edge.speed.to_real() * cycle.speed * cycle.period).abs());
+        f64::from(self.tick.wrapping_sub(earlier.tick)) + (fraction(earlier) - fraction(self))
     }
 }
 
 /// What a tick has passed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Crossing {
-    /// Nothing but the end of a segment.
-    Segment,
-    /// The end of the cycle, forwards or backwards.
-    Cycle { edge: Edge, forward: bool },
-    /// More than a segment: the angle was elsewhere, and the turn within the cycle is no longer known.
+    /// Nothing, or the end of a segment.
+    Within,
+    /// The end of the cycle, forwards or backwards, and how far the motor is beyond it [2^-32 turn].
+    Cycle { beyond: u32, forward: bool },
+    /// More than a segment, or nobody knows when: the angle was elsewhere.
     Lost,
 }
 
@@ -63,8 +71,6 @@ pub(super) enum Crossing {
 pub(super) struct Position {
     /// Where the segment begins [2^-32 turn].
     start: u32,
-    /// The last angle.
-    last: u32,
     /// The segment's number.
     pub segment: u32,
     /// What whole units of 2^-32 turn have left over, in `divisor`s of one.
@@ -79,77 +85,72 @@ impl Position {
         self.unsure = true;
     }
 
-    /// Goes to `angle` and calls `crossed` if a segment's end was passed.
-    #[inline(always)]
-    pub fn advance(&mut self, cycle: &CycleConfig, angle: u32, tick: u32) -> Option<Crossing> {
-        let last = core::mem::replace(&mut self.last, angle);
-        if angle.wrapping_sub(self.start) < cycle.length { None } else { self.cross(cycle, angle, last, tick) }
-    }
-
-    /// How far the motor is into the segment [2^-32 turn].
+    /// How far the motor is into the segment [2^-32 turn]; from the segment's length on it is in another, and [`Position::pass`] is due.
     #[inline(always)]
     pub fn within(&self, angle: u32) -> u32 {
         angle.wrapping_sub(self.start)
     }
 
-    #[cold]
-    fn cross(&mut self, cycle: &CycleConfig, angle: u32, last: u32, tick: u32) -> Option<Crossing> {
-        let crossing = self.step(cycle, angle, last, tick)?;
-        let unsure = core::mem::replace(&mut self.unsure, false);
-        Some(if unsure { Crossing::Lost } else { crossing })
+    /// Goes to the segment of `angle`.
+    pub fn pass(&mut self, cycle: &CycleConfig, angle: u32) -> Crossing {
+        let crossing = self.step(cycle, angle);
+        if core::mem::replace(&mut self.unsure, false) { Crossing::Lost } else { crossing }
     }
 
-    /// To the segment of `angle`.
-    fn step(&mut self, cycle: &CycleConfig, angle: u32, last: u32, tick: u32) -> Option<Crossing> {
+    fn step(&mut self, cycle: &CycleConfig, angle: u32) -> Crossing {
         // A segment is at most a quarter of a turn, so twice its length is within a `u32`.
         let into = angle.wrapping_sub(self.start);
         let back = self.start.wrapping_sub(angle);
         if into >= cycle.length && into.wrapping_sub(cycle.length) < cycle.length {
-            let end = self.segment == cycle.last_segment;
-            let mut start = self.start.wrapping_add(cycle.length);
-            let mut carry = self.carry;
-            if end {
-                carry = carry.wrapping_add(cycle.remainder);
-                let whole = carry >= cycle.divisor;
-                // `divisor` is never zero; a remainder is less than as many divisors as there are segments.
-                if whole {
-                    start = start.wrapping_add(carry / cycle.divisor.max(1));
-                    carry %= cycle.divisor.max(1);
-                }
-            }
-            let beyond = angle.wrapping_sub(start);
+            self.forward(cycle, angle)
+        } else if back <= cycle.length {
+            self.backward(cycle, back)
+        } else {
+            // The length is never zero.
+            let steps = (into as i32).div_euclid((cycle.length as i32).max(1));
+            self.start = self.start.wrapping_add((steps as u32).wrapping_mul(cycle.length));
+            self.segment = self.segment.wrapping_add(steps as u32) & cycle.last_segment;
+            Crossing::Lost
+        }
+    }
+
+    #[inline(always)]
+    fn forward(&mut self, cycle: &CycleConfig, angle: u32) -> Crossing {
+        let mut start = self.start.wrapping_add(cycle.length);
+        let mut carry = self.carry;
+        let end = self.segment == cycle.last_segment;
+        if end {
+            // The divisor is never zero.
+            carry = carry.wrapping_add(cycle.remainder);
+            start = start.wrapping_add(carry / cycle.divisor.max(1));
+            carry %= cycle.divisor.max(1);
+        }
+        let beyond = angle.wrapping_sub(start);
+        if (beyond as i32) < 0 {
             // Between the last segment's end and the cycle's.
-            if (beyond as i32) < 0 {
-                return None;
-            }
-            self.start = start;
-            self.carry = carry;
-            self.segment = (self.segment + 1) & cycle.last_segment;
-            let edge = Edge { tick, beyond, turned: angle.wrapping_sub(last) };
-            return Some(if end { Crossing::Cycle { edge, forward: true } } else { Crossing::Segment });
+            return Crossing::Within;
         }
-        if back <= cycle.length {
-            let beginning = self.segment == 0;
-            let beyond = back;
-            let turned = last.wrapping_sub(angle);
-            if beginning {
-                let mut whole = cycle.remainder / cycle.divisor.max(1);
-                let part = cycle.remainder % cycle.divisor.max(1);
-                if self.carry < part {
-                    self.carry = self.carry.wrapping_add(cycle.divisor);
-                    whole += 1;
-                }
-                self.carry = self.carry.wrapping_sub(part);
-                self.start = self.start.wrapping_sub(whole);
+        self.start = start;
+        self.segment = self.segment.wrapping_add(1) & cycle.last_segment;
+        self.carry = carry;
+        if end { Crossing::Cycle { beyond, forward: true } } else { Crossing::Within }
+    }
+
+    #[inline(always)]
+    fn backward(&mut self, cycle: &CycleConfig, beyond: u32) -> Crossing {
+        let beginning = self.segment == 0;
+        if beginning {
+            let divisor = cycle.divisor.max(1);
+            let (mut whole, part) = (cycle.remainder / divisor, cycle.remainder % divisor);
+            if self.carry < part {
+                self.carry = self.carry.wrapping_add(divisor);
+                whole = whole.wrapping_add(1);
             }
-            self.start = self.start.wrapping_sub(cycle.length);
-            self.segment = self.segment.wrapping_sub(1) & cycle.last_segment;
-            let edge = Edge { tick, beyond, turned };
-            return Some(if beginning { Crossing::Cycle { edge, forward: false } } else { Crossing::Segment });
+            self.carry = self.carry.wrapping_sub(part);
+            self.start = self.start.wrapping_sub(whole);
         }
-        let steps = (into as i32).div_euclid((cycle.length as i32).max(1));
-        self.start = self.start.wrapping_add((steps as u32).wrapping_mul(cycle.length));
-        self.segment = self.segment.wrapping_add(steps as u32) & cycle.last_segment;
-        Some(Crossing::Lost)
+        self.start = self.start.wrapping_sub(cycle.length);
+        self.segment = self.segment.wrapping_sub(1) & cycle.last_segment;
+        if beginning { Crossing::Cycle { beyond, forward: false } } else { Crossing::Within }
     }
 }

@@ -1,5 +1,6 @@
 //! A quantity over the angle of a cycle as a Fourier series.
 
+use super::extremes::{Extreme, Fluctuations};
 use crate::scalar::{atan2, hypot, sin_cos};
 
 /// The highest order of a cycle that is looked at.
@@ -43,6 +44,58 @@ pub struct Series {
 }
 
 impl Series {
+    /// The same at every angle.
+    pub fn constant(value: f64) -> Series {
+        Series { mean: value, ..Series::default() }
+    }
+
+    /// Of a table of values at evenly spaced angles over the cycle, the first at theta = 0 and the last one step before 2 pi; orders up to less than half
+    /// of what the table has.
+    pub fn from_samples(values: &[f64]) -> Series {
+        Series::sampled(values.iter().copied(), values.len(), 0.0, values.len().saturating_sub(1) / 2)
+    }
+
+    /// Of `count` values at evenly spaced angles, the first `offset` steps from theta = 0.
+    pub(super) fn sampled(values: impl Iterator<Item = f64>, count: usize, offset: f64, highest: usize) -> Series {
+        let mut series = Series::default();
+        let share = 1.0 / count.max(1) as f64;
+        for (index, value) in (0_u32..).zip(values) {
+            let (sin, cos) = sin_cos(core::f64::consts::TAU * share * (f64::from(index) + offset));
+            let (mut c, mut s) = (1.0, 0.0);
+            series.mean += share * value;
+            for order in series.orders.iter_mut().take(highest) {
+                (c, s) = (c * cos - s * sin, s * cos + c * sin);
+                order.cos += 2.0 * share * value * c;
+                order.sin += 2.0 * share * value * s;
+            }
+        }
+        series
+    }
+
+    /// The highest order that is not zero.
+    pub(super) fn highest(&self) -> usize {
+        self.orders.iter().rposition(|order| order.cos != 0.0 || order.sin != 0.0).map_or(0, |last| last + 1)
+    }
+
+    /// Its extremes as those of a speed whose mean by time is `mean`, over a cycle of `angle` \[rad\].
+    pub(super) fn fluctuations(&self, mean: f64, angle: f64, circle: &Circle) -> Fluctuations {
+        let (mut least, mut most) = ((0, f64::INFINITY), (0, f64::NEG_INFINITY));
+        for (index, value) in (0_u32..).zip(self.grid(circle)) {
+            if value < least.1 {
+                least = (index, value);
+            }
+            if value > most.1 {
+                most = (index, value);
+            }
+        }
+        let [max, min] = [most, least].map(|(index, _)| {
+            let theta = self.stationary(core::f64::consts::TAU * f64::from(index) / GRID as f64);
+            let within = if theta < 0.0 { theta + core::f64::consts::TAU } else { theta };
+            Extreme { speed: self.at(theta), angle: within / core::f64::consts::TAU * angle }
+        });
+        Fluctuations::of(max, min, mean)
+    }
+
     /// The `n`th order, counted from 1; nothing beyond the last.
     pub fn order(&self, n: usize) -> Order {
         n.checked_sub(1).and_then(|index| self.orders.get(index)).copied().unwrap_or_default()

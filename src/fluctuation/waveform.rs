@@ -68,7 +68,7 @@ pub struct Waveform<N, const BINS: usize> {
     forward: bool,
     cycles: u32,
     /// The window's first end of a cycle, the second, the last but one, the last.
-    edges: [Edge; 4],
+    edges: [Edge<N>; 4],
     bins: [Bin; BINS],
     torque: [N; BINS],
 }
@@ -93,23 +93,19 @@ impl<N: Number, const BINS: usize> Fluctuation<N> for Waveform<N, BINS> {
     type Config = WaveformConfig;
 
     #[inline(always)]
-    fn measure(&mut self, config: &WaveformConfig, angle: u32, torque: N, _estimate: &Estimate<N>) {
-        let tick = self.tick;
-        self.tick = tick.wrapping_add(1);
-        if let Some(crossing) = self.position.advance(&config.cycle, angle, tick) {
-            self.cross(config, crossing);
+    fn measure(&mut self, config: &WaveformConfig, angle: u32, torque: N, estimate: &Estimate<N>) {
+        self.tick = self.tick.wrapping_add(1);
+        let within = self.position.within(angle);
+        if within >= config.cycle.length {
+            self.pass(config, angle, estimate.motor_speed);
+            return;
         }
-        let place = u64::from(self.position.within(angle)) * u64::from(config.scale);
-        let index = self.base.wrapping_add((place >> 32) as usize);
-        let distance = (place as u32 ^ 1 << 31) as i32;
+        let (index, distance) = self.place(config, within);
         if let (Some(bin), Some(mean)) = (self.bins.get_mut(index), self.torque.get_mut(index)) {
-            let coarse = distance >> 26;
             if bin.ticks == 0 {
                 *mean = torque;
             }
-            bin.ticks = bin.ticks.wrapping_add(1);
-            bin.first = bin.first.wrapping_add(distance >> 22);
-            bin.second = bin.second.wrapping_add((coarse * coarse) as u32);
+            bin.count(distance);
             *mean = mean.plus(torque.minus(*mean).sixteenth());
         }
     }
@@ -127,33 +123,66 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
         }
         self.base = BINS;
     }
+}
 
+impl Bin {
+    /// A tick at this distance from the bin's middle [2^-32 bin].
+    #[inline(always)]
+    fn count(&mut self, distance: i32) {
+        let coarse = distance >> 26;
+        self.ticks = self.ticks.wrapping_add(1);
+        self.first = self.first.wrapping_add(distance >> 22);
+        self.second = self.second.wrapping_add((coarse * coarse) as u32);
+    }
+}
+
+impl<N: Number, const BINS: usize> Waveform<N, BINS> {
+    /// The bin, and the distance from its middle [2^-32 bin], so far within the segment.
+    #[inline(always)]
+    fn place(&self, config: &WaveformConfig, within: u32) -> (usize, i32) {
+        let place = u64::from(within) * u64::from(config.scale);
+        (self.base.wrapping_add((place >> 32) as usize), (place as u32 ^ 1 << 31) as i32)
+    }
+
+    /// A tick that ends a segment or a cycle; its torque is not looked at.
     #[cold]
-    fn cross(&mut self, config: &WaveformConfig, crossing: Crossing) {
-        match crossing {
-            Crossing::Segment => {}
+    #[inline(never)]
+    fn pass(&mut self, config: &WaveformConfig, angle: u32, speed: N) {
+        match self.position.pass(&config.cycle, angle) {
+            Crossing::Within => {}
             Crossing::Lost => self.give_up(),
-            Crossing::Cycle { edge, forward } => self.end(config, edge, forward),
+            Crossing::Cycle { beyond, forward } => {
+                self.end(config, Edge { tick: self.tick, beyond, speed }, forward);
+            }
         }
         self.base = match self.stage {
             Stage::Filling => (self.position.segment * config.per_segment) as usize,
             Stage::Waiting | Stage::Full | Stage::Void => BINS,
         };
+        let (index, distance) = self.place(config, self.position.within(angle));
+        if let Some(bin) = self.bins.get_mut(index) {
+            bin.count(distance);
+        }
     }
 
     /// The end of a cycle.
-    fn end(&mut self, config: &WaveformConfig, edge: Edge, forward: bool) {
-        let [first, second, _, last] = self.edges;
+    fn end(&mut self, config: &WaveformConfig, edge: Edge<N>, forward: bool) {
+        let [first, second, last_but_one, last] = &mut self.edges;
         match self.stage {
             Stage::Waiting => {
                 self.stage = Stage::Filling;
                 self.forward = forward;
                 self.cycles = 0;
-                self.edges = [edge; 4];
+                *first = edge;
+                *last = edge;
             }
             Stage::Filling if forward == self.forward => {
-                self.edges = [first, if self.cycles == 0 { edge } else { second }, last, edge];
-                self.cycles += 1;
+                if self.cycles == 0 {
+                    *second = edge;
+                }
+                *last_but_one = *last;
+                *last = edge;
+                self.cycles = self.cycles.wrapping_add(1);
                 let ticks = edge.tick.wrapping_sub(first.tick);
                 if ticks > LONGEST {
                     self.stage = Stage::Void;

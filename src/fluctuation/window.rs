@@ -5,6 +5,7 @@ use core::f64::consts::TAU;
 use super::extremes::{Extreme, Fluctuations};
 use super::series::{GRID, Order, Series, circle};
 use super::{Bin, Edge, WaveformConfig};
+use crate::number::Number;
 use crate::scalar::sin_cos;
 
 pub use super::series::MAX_ORDER;
@@ -15,7 +16,7 @@ pub use super::series::MAX_ORDER;
 pub struct Window<N, const BINS: usize> {
     pub(super) bins: [Bin; BINS],
     pub(super) torque: [N; BINS],
-    pub(super) edges: [Edge; 4],
+    pub(super) edges: [Edge<N>; 4],
     pub(super) cycles: u32,
     pub(super) forward: bool,
 }
@@ -35,11 +36,9 @@ pub struct Ripple {
     pub motor: Fluctuations,
     /// Cycles that it is the mean of.
     pub cycles: u32,
-    /// The slowness over its mean.
-    pub(super) slowness: Series,
 }
 
-impl<N, const BINS: usize> Window<N, BINS> {
+impl<N: Number, const BINS: usize> Window<N, BINS> {
     /// The bins, the first one beginning where the cycle does.
     pub fn bins(&self) -> &[Bin; BINS] {
         &self.bins
@@ -53,47 +52,47 @@ impl<N, const BINS: usize> Window<N, BINS> {
     /// Not for the tick: some thousand operations in `f64`, and sines.
     pub fn ripple(&self, config: &WaveformConfig, highest: usize) -> Ripple {
         let highest = highest.min(MAX_ORDER).min(BINS / 4);
-        let [first, second, last_but_one, last] = self.edges;
-        let ticks = last.since(&first);
         let cycles = f64::from(self.cycles.max(1));
         let sign = if self.forward { 1.0 } else { -1.0 };
-        let mean = sign * cycles * config.cycle.angle / (ticks * config.cycle.period);
-
-        let ramp = Ramp::of(ticks, second.since(&first), last.since(&last_but_one), self.cycles);
-        let mut slowness = Series { mean: 1.0, ..Series::default() };
-        for (n, order) in (1_u32..).zip(slowness.orders.iter_mut().take(highest)) {
-            *order = self.integral(config, f64::from(n), sign);
+        let mut counted = Series::default();
+        for (n, order) in (1_u32..).zip(counted.orders.iter_mut().take(highest)) {
+            *order = self.counted(f64::from(n));
             order.sin *= sign;
         }
-        ramp.take_off(&mut slowness, ticks, highest);
+        // How far the motor turns in a tick at both ends, which the parts of a tick there need, is known from the waveform that they belong to.
+        let [first, _, _, last] = self.edges;
+        let whole = f64::from(last.tick.wrapping_sub(first.tick).max(1));
+        let mut turned = [cycles * config.cycle.angle / whole; 2];
+        let mut ticks = whole;
+        let mut slowness = Series { mean: 1.0, ..Series::default() };
+        let mut ramp = Ramp::default();
+        for _ in 0..ROUNDS {
+            let ends = self.ends(turned);
+            ticks = ends.ticks;
+            ramp = Ramp::of(ends.ticks, ends.opening, ends.closing, self.cycles);
+            let mut integrals = counted;
+            for (n, order) in (1_u32..).zip(integrals.orders.iter_mut().take(highest)) {
+                for (part, weight, turned) in [(ends.parts[0], 1.0, turned[0]), (ends.parts[1], -1.0, turned[1])] {
+                    let (s, c) = sin_cos(f64::from(n) * 0.5 * part * turned * (TAU / config.cycle.angle));
+                    order.cos += weight * part * c;
+                    order.sin += weight * part * s;
+                }
+            }
+            slowness = ramp.taken_off(&slowness, &integrals, ticks, highest);
+            let edge = slowness.at(0.0);
+            turned = ramp.ends.map(|speed| speed / edge * (config.cycle.angle / TAU));
+        }
         for order in &mut slowness.orders {
             order.sin *= sign;
         }
-        let circle = circle();
-        let fast = slowness.grid(&circle).map(|slowness| mean / slowness);
-        let speed = Series::of(&fast, &circle, highest);
-        let (mut least, mut most) = ((0, f64::INFINITY), (0, f64::NEG_INFINITY));
-        for (index, &value) in (0_u32..).zip(&fast) {
-            if value < least.1 {
-                least = (index, value);
-            }
-            if value > most.1 {
-                most = (index, value);
-            }
-        }
-        let extreme = |(index, _): (u32, f64)| {
-            let theta = slowness.stationary(TAU * f64::from(index) / GRID as f64);
-            let within = if theta < 0.0 { theta + TAU } else { theta };
-            Extreme { speed: mean / slowness.at(theta), angle: within / TAU * config.cycle.angle }
-        };
-        let motor = Fluctuations::of(extreme(most), extreme(least), mean);
-        let radians = sign * config.cycle.angle / TAU;
-        let acceleration = radians * ramp.acceleration / (config.cycle.period * config.cycle.period);
-        Ripple { mean, acceleration, speed, motor, cycles: self.cycles, slowness }
+        let mean = sign * cycles * config.cycle.angle / (ticks * config.cycle.period);
+        let per_tick = config.cycle.angle / TAU / config.cycle.period;
+        let acceleration = sign * per_tick * ramp.acceleration / config.cycle.period;
+        Ripple::of(slowness, mean, acceleration, config.cycle.angle, highest, self.cycles)
     }
 
-    /// Integral of cos(n theta) and sin(n theta) over the window's time, in ticks.
-    fn integral(&self, config: &WaveformConfig, n: f64, sign: f64) -> Order {
+    /// Integral of cos(n theta) and sin(n theta) over the ticks that were counted.
+    fn counted(&self, n: f64) -> Order {
         let width = TAU / BINS as f64;
         let h = n * width;
         // sin(n e) = n e (1 - h^2/40) and cos(n e) = constant + slope (n e)^2, the polynomials nearest over a bin.
@@ -112,45 +111,97 @@ impl<N, const BINS: usize> Window<N, BINS> {
             sum.cos += c * even - s * odd;
             sum.sin += s * even + c * odd;
         }
-        // From the first end of a cycle to half a tick before the first tick, and from half a tick before the first that is not counted back
-        // to the last end.
-        let [first, _, _, last] = self.edges;
-        for (edge, weight) in [(first, 1.0), (last, -1.0)] {
-            let part = edge.fraction() - 0.5;
-            let turned = TAU * f64::from(edge.turned) / 4_294_967_296.0 * (TAU / config.cycle.angle);
-            let (s, c) = sin_cos(n * sign * 0.5 * part * turned);
-            sum.cos += weight * part * c;
-            sum.sin += weight * part * s;
-        }
         sum
+    }
+
+    /// The two ends of the window where the motor turns by so much in a tick there \[rad\].
+    fn ends(&self, turned: [f64; 2]) -> Ends {
+        let [first, second, last_but_one, last] = self.edges;
+        let [from, to] = turned;
+        let between = |early: &Edge<N>, late: &Edge<N>, from: f64, to: f64| {
+            f64::from(late.tick.wrapping_sub(early.tick)) + (early.fraction(from) - late.fraction(to))
+        };
+        Ends {
+            ticks: between(&first, &last, from, to),
+            opening: between(&first, &second, from, from),
+            closing: between(&last_but_one, &last, to, to),
+            parts: [first.fraction(from) - 0.5, last.fraction(to) - 0.5],
+        }
     }
 }
 
-/// How often the trend is taken off anew, with the ripple that is then known.
+impl Ripple {
+    /// From the slowness over its mean.
+    pub(super) fn of(
+        slowness: Series,
+        mean: f64,
+        acceleration: f64,
+        angle: f64,
+        highest: usize,
+        cycles: u32,
+    ) -> Ripple {
+        let circle = circle();
+        let fast = slowness.grid(&circle).map(|slowness| mean / slowness);
+        let speed = Series::of(&fast, &circle, highest);
+        let (mut least, mut most) = ((0, f64::INFINITY), (0, f64::NEG_INFINITY));
+        for (index, &value) in (0_u32..).zip(&fast) {
+            if value < least.1 {
+                least = (index, value);
+            }
+            if value > most.1 {
+                most = (index, value);
+            }
+        }
+        let extreme = |(index, _): (u32, f64)| {
+            let theta = slowness.stationary(TAU * f64::from(index) / GRID as f64);
+            let within = if theta < 0.0 { theta + TAU } else { theta };
+            Extreme { speed: mean / slowness.at(theta), angle: within / TAU * angle }
+        };
+        let motor = Fluctuations::of(extreme(most), extreme(least), mean);
+        Ripple { mean, acceleration, speed, motor, cycles }
+    }
+}
+
+/// How long a window was, in ticks.
+struct Ends {
+    /// The whole of it.
+    ticks: f64,
+    /// Its first cycle.
+    opening: f64,
+    /// Its last cycle.
+    closing: f64,
+    /// From the first end of a cycle to half a tick before the first tick that was counted; from the last end to half a tick before the first that was not.
+    parts: [f64; 2],
+}
+
+/// How often the trend and the ends are put right anew, by the ripple that is then known; each round is closer by the ratio of trend and mean.
 const ROUNDS: u32 = 4;
 
 /// What a steady acceleration changes from one end of a window to the other, angles in 2 pi to the cycle and times in ticks.
 ///
 /// The integral of the slowness sigma times e^(j n theta) over whole cycles is, by parts, `[sigma]/(j n) + [sigma']/n^2 + ...`: a trend shows in every order.
-struct Ramp {
+#[derive(Clone, Copy, Default)]
+pub(super) struct Ramp {
     /// Of the speed.
-    acceleration: f64,
+    pub acceleration: f64,
     /// Change of the slowness.
-    slowness: f64,
+    pub slowness: f64,
     /// Change of the slowness's derivative by the angle.
-    slope: f64,
+    pub slope: f64,
+    /// The speed at both ends.
+    ends: [f64; 2],
 }
 
 impl Ramp {
     /// From the lengths of the window, of its first cycle and of its last: the mean speed of a cycle is that of its middle.
-    fn of(ticks: f64, first: f64, last: f64, cycles: u32) -> Ramp {
+    pub fn of(ticks: f64, first: f64, last: f64, cycles: u32) -> Ramp {
         if cycles < 2 {
-            return Ramp { acceleration: 0.0, slowness: 0.0, slope: 0.0 };
+            return Ramp { ends: [TAU / ticks; 2], ..Ramp::default() };
         }
         let acceleration = (TAU / last - TAU / first) / (ticks - 0.5 * (first + last));
-        let from = 1.0 / (TAU / first - 0.5 * acceleration * first);
-        let to = 1.0 / (TAU / last + 0.5 * acceleration * last);
-        Ramp { acceleration, slowness: to - from, slope: acceleration * (from * from * from - to * to * to) }
+        let ends = [TAU / first - 0.5 * acceleration * first, TAU / last + 0.5 * acceleration * last];
+        let [from, to] = ends.map(|speed| 1.0 / speed);
+        Ramp { acceleration, slowness: to - from, slope: acceleration * (from * from * from - to * to * to), ends }
     }
 
     /// Integral of the trend times e^(j k theta), without that of its mean.
@@ -158,34 +209,31 @@ impl Ramp {
         (self.slope / (k * k), -self.slowness / k)
     }
 
-    /// From the integrals of slowness times cos(n theta) and sin(n theta) over a window of so many ticks, in its direction of travel, to the orders of the
-    /// ripple over its mean: the slowness is the trend times the ripple, so that each order of the ripple also shows in the others.
-    fn take_off(&self, orders: &mut Series, ticks: f64, highest: usize) {
-        let measured = *orders;
-        *orders = Series { mean: 1.0, ..Series::default() };
-        // The trend of a cycle is small beside its mean: each round is closer by their ratio.
-        for _ in 0..ROUNDS {
-            let known = *orders;
-            // What each order n, and the mean, gets from the orders m and -m of the ripple; half of an order belongs to each.
-            let leaked = |n: f64| {
-                let mut sum = if n == 0.0 { (0.0, 0.0) } else { self.integral(n) };
-                for (m, order) in (1_u32..).zip(known.orders.iter().take(highest)) {
-                    let m = f64::from(m);
-                    for (k, re, im) in [(n - m, order.cos, order.sin), (n + m, order.cos, -order.sin)] {
-                        if k != 0.0 {
-                            let (a, b) = self.integral(k);
-                            sum.0 += 0.5 * (re * a - im * b);
-                            sum.1 += 0.5 * (re * b + im * a);
-                        }
+    /// The orders of the ripple over its mean, from the integrals of slowness times cos(n theta) and sin(n theta) over a window of so many ticks, in
+    /// its direction of travel, and from the ripple as it was `known` before: the slowness is the trend times the ripple, so that each order of the
+    /// ripple also shows in the others.
+    fn taken_off(&self, known: &Series, integrals: &Series, ticks: f64, highest: usize) -> Series {
+        // What order n, and the mean, gets from the orders m and -m of the ripple; half of an order belongs to each.
+        let leaked = |n: f64| {
+            let mut sum = if n == 0.0 { (0.0, 0.0) } else { self.integral(n) };
+            for (m, order) in (1_u32..).zip(known.orders.iter().take(highest)) {
+                let m = f64::from(m);
+                for (k, re, im) in [(n - m, order.cos, order.sin), (n + m, order.cos, -order.sin)] {
+                    if k != 0.0 {
+                        let (a, b) = self.integral(k);
+                        sum.0 += 0.5 * (re * a - im * b);
+                        sum.1 += 0.5 * (re * b + im * a);
                     }
                 }
-                sum
-            };
-            let whole = ticks - leaked(0.0).0;
-            for ((n, out), order) in (1_u32..).zip(orders.orders.iter_mut().take(highest)).zip(&measured.orders) {
-                let (cos, sin) = leaked(f64::from(n));
-                *out = Order { cos: 2.0 * (order.cos - cos) / whole, sin: 2.0 * (order.sin - sin) / whole };
             }
+            sum
+        };
+        let whole = ticks - leaked(0.0).0;
+        let mut ripple = Series { mean: 1.0, ..Series::default() };
+        for ((n, out), order) in (1_u32..).zip(ripple.orders.iter_mut().take(highest)).zip(&integrals.orders) {
+            let (cos, sin) = leaked(f64::from(n));
+            *out = Order { cos: 2.0 * (order.cos - cos) / whole, sin: 2.0 * (order.sin - sin) / whole };
         }
+        ripple
     }
 }

@@ -12,12 +12,13 @@
 //! |---|---|
 //! | `S`, the set point | `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred) |
 //! | `F`, added torque | `()`, [`FeedForward`](super::FeedForward), [`Damping`](super::Damping) |
-//! | `L`, the limit | [`Symmetric`], [`Between`](super::Between), [`Curve`](super::Curve), [`Slew`](super::Slew) round any of them |
+//! | `L`, the limit | [`Symmetric`], [`Between`](super::Between), [`Curve`](super::Curve), [`Slew`](super::Slew) or [`Slack`](super::Slack) round any of them |
 //! | `M`, the modes | `()` always at work, [`Modes`](super::Modes) |
+//! | `V`, the view | `()` the estimates as they are, [`Mean`](super::Mean) over an engine's firing interval |
 //!
 //! Two parts of one kind are a tuple: `(Droop, Barred<f32, 2>)`. What is left out costs nothing.
 
-use super::{Duty, Governor, Limit, Prompt, SetPoint, Supervisor, Symmetric};
+use super::{Duty, Governor, Limit, Prompt, SetPoint, Supervisor, Symmetric, View};
 use crate::number::Number;
 use crate::sample::Estimate;
 
@@ -38,7 +39,7 @@ pub struct Gains<N: Number> {
 /// Constants of [`SpeedGovernor`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SpeedGovernorConfig<N: Number, S, F, L, M> {
+pub struct SpeedGovernorConfig<N: Number, S, F, L, M, V> {
     /// Gains and ramp.
     pub gains: Gains<N>,
     /// Constants of what shapes the set point.
@@ -49,21 +50,24 @@ pub struct SpeedGovernorConfig<N: Number, S, F, L, M> {
     pub limit: L,
     /// Constants of the modes.
     pub supervisor: M,
+    /// Constants of the view.
+    pub view: V,
 }
 
 /// The constants of a governor composed of these parts.
-pub type SpeedGovernorConfigOf<N, S = (), F = (), L = Symmetric, M = ()> = SpeedGovernorConfig<
+pub type SpeedGovernorConfigOf<N, S = (), F = (), L = Symmetric, M = (), V = ()> = SpeedGovernorConfig<
     N,
     <S as SetPoint<N>>::Config,
     <F as Prompt<N>>::Config,
     <L as Limit<N>>::Config,
     <M as Supervisor<N>>::Config,
+    <V as View<N>>::Config,
 >;
 
 /// State of the governor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SpeedGovernor<N, S = (), F = (), L = Symmetric, M = ()> {
+pub struct SpeedGovernor<N, S = (), F = (), L = Symmetric, M = (), V = ()> {
     integral: N,
     set_point: N,
     reference: N,
@@ -71,15 +75,17 @@ pub struct SpeedGovernor<N, S = (), F = (), L = Symmetric, M = ()> {
     prompt: F,
     limit: L,
     supervisor: M,
+    view: V,
 }
 
-impl<N, S, F, L, M> SpeedGovernor<N, S, F, L, M>
+impl<N, S, F, L, M, V> SpeedGovernor<N, S, F, L, M, V>
 where
     N: Number,
     S: SetPoint<N>,
     F: Prompt<N>,
     L: Limit<N>,
     M: Supervisor<N>,
+    V: View<N>,
 {
     /// Where the ramp stands, before the droop [rad/s].
     pub fn set_point(&self) -> N {
@@ -107,8 +113,8 @@ where
     /// integral ends at twice the base.
     pub fn switch(
         &mut self,
-        from: &SpeedGovernorConfigOf<N, S, F, L, M>,
-        to: &SpeedGovernorConfigOf<N, S, F, L, M>,
+        from: &SpeedGovernorConfigOf<N, S, F, L, M, V>,
+        to: &SpeedGovernorConfigOf<N, S, F, L, M, V>,
         estimate: &Estimate<N>,
     ) {
         let target = self.target(from, estimate);
@@ -121,7 +127,7 @@ where
 
     /// The set point after the droop.
     #[inline(always)]
-    fn target(&self, config: &SpeedGovernorConfigOf<N, S, F, L, M>, estimate: &Estimate<N>) -> N {
+    fn target(&self, config: &SpeedGovernorConfigOf<N, S, F, L, M, V>, estimate: &Estimate<N>) -> N {
         let standing = self.prompt.stand(&config.prompt, estimate, self.integral);
         self.shape.lower(&config.set_point, self.set_point, standing)
     }
@@ -129,7 +135,7 @@ where
     #[inline(always)]
     fn wanted(
         &self,
-        config: &SpeedGovernorConfigOf<N, S, F, L, M>,
+        config: &SpeedGovernorConfigOf<N, S, F, L, M, V>,
         estimate: &Estimate<N>,
         integral: N,
         error: N,
@@ -139,7 +145,7 @@ where
     }
 
     /// Starts from the speed that the machine has, with a standing torque, so that the first command is no jolt.
-    fn begin(&mut self, config: &SpeedGovernorConfigOf<N, S, F, L, M>, estimate: &Estimate<N>, torque: N) {
+    fn begin(&mut self, config: &SpeedGovernorConfigOf<N, S, F, L, M, V>, estimate: &Estimate<N>, torque: N) {
         let speed = estimate.motor_speed;
         let lowered = self.shape.lower(&config.set_point, speed, torque);
         self.set_point = speed.plus(speed.minus(lowered));
@@ -149,15 +155,16 @@ where
     }
 }
 
-impl<N, S, F, L, M> Governor<N> for SpeedGovernor<N, S, F, L, M>
+impl<N, S, F, L, M, V> Governor<N> for SpeedGovernor<N, S, F, L, M, V>
 where
     N: Number,
     S: SetPoint<N>,
     F: Prompt<N>,
     L: Limit<N>,
     M: Supervisor<N>,
+    V: View<N>,
 {
-    type Config = SpeedGovernorConfigOf<N, S, F, L, M>;
+    type Config = SpeedGovernorConfigOf<N, S, F, L, M, V>;
 
     const COMMANDS: bool = true;
 
@@ -169,6 +176,7 @@ where
     #[inline(always)]
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N {
         let mut carry = N::CARRY;
+        let estimate = &self.view.see(&config.view, estimate);
         let mut reference = self.reference;
         match self.supervisor.duty(&config.supervisor, estimate) {
             Duty::Govern => {}
@@ -189,11 +197,13 @@ where
 
     fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) {
         self.supervisor.start();
+        self.view.start(&config.view, estimate);
         self.begin(config, estimate, torque);
         self.reference = N::ZERO;
     }
 
     fn lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
+        self.view.start(&config.view, estimate);
         self.begin(config, estimate, N::ZERO);
         self.reference = N::ZERO;
         self.supervisor.lose();

@@ -13,6 +13,7 @@ use crate::program::Program;
 use crate::rattle::{self, Rattle};
 use crate::scenes::blooming_mill::{self, BASES, BloomingMill};
 use crate::scenes::hoist::{Hoist, with};
+use crate::told::{Told, VALUES};
 
 /// The steps in `f32`.
 pub fn single<B: Board>(bench: &mut Bench<'_, B>) {
@@ -77,6 +78,22 @@ where
     drive::<B, E>(bench, "drive/exact");
     drive::<B, R>(bench, "drive/semi-implicit");
     drive::<B, G>(bench, "drive/rigid");
+    // emptied after every hundredth record: kept and dropped ones alike
+    let emptied = |inputs: &mut Program| {
+        let input = inputs.next_input();
+        if inputs.ticks().is_multiple_of(100) {
+            while TOLD.take().is_some() {}
+        }
+        [input.angle, input.torque, input.reference, input.flags, 1, 2, 3, 4]
+    };
+    bench.measure("telemetry/record", (), emptied, told);
+}
+
+static TOLD: Told = Told::new();
+
+#[inline(never)]
+fn told(_: &mut (), values: &[u32; VALUES], _: &mut ()) {
+    TOLD.record(values);
 }
 
 /// An observer's step: predict and correct, without the checks that the drive makes.

@@ -7,7 +7,7 @@ pub const FACTS: Facts = Facts { name: "mps2-an386", core: "m4f", target: "thumb
 
 /// The board, as QEMU models it.
 #[cfg(all(feature = "target", target_os = "none"))]
-pub struct Mps2An386(super::cmsdk_timer::Timer);
+pub struct Mps2An386(super::cmsdk_timer::Timer0);
 
 #[cfg(all(feature = "target", target_os = "none"))]
-super::cmsdk_timer::qemu_mps2!(Mps2An386);
+super::cmsdk_timer::qemu_mps2!(Mps2An386, Timer0);

@@ -58,21 +58,51 @@ pub fn print(line: &[u8]) {
 }
 
 /// A file that is written.
-#[cfg(feature = "defmt")]
 pub struct Sink(usize);
 
-#[cfg(feature = "defmt")]
 impl Sink {
-    /// Opens a file of the host, emptied.
+    /// Opens a file of the host, emptied; a pipe waits for its other end.
     pub fn open(path: &CStr) -> Option<Self> {
         open(path, WRITE).map(Sink)
     }
 
-    /// Appends bytes; what the host does not take is lost.
-    pub fn write(&self, bytes: &[u8]) {
+    /// Appends bytes; whether the host took them all.
+    pub fn write(&self, bytes: &[u8]) -> bool {
         let arguments = [self.0, bytes.as_ptr() as usize, bytes.len()];
         // SAFETY: SYS_WRITE reads the given bytes, which the slice has.
-        unsafe { syscall(nr::WRITE, &arguments) };
+        (unsafe { syscall(nr::WRITE, &arguments) }) == 0
+    }
+}
+
+/// The host did not take what was written.
+#[derive(Clone, Copy, Debug)]
+pub struct Closed;
+
+impl core::fmt::Display for Closed {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("the host has closed the file")
+    }
+}
+
+impl core::error::Error for Closed {}
+
+impl embedded_io::Error for Closed {
+    fn kind(&self) -> embedded_io::ErrorKind {
+        embedded_io::ErrorKind::BrokenPipe
+    }
+}
+
+impl embedded_io::ErrorType for Sink {
+    type Error = Closed;
+}
+
+impl embedded_io::Write for Sink {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize, Closed> {
+        if Sink::write(self, bytes) { Ok(bytes.len()) } else { Err(Closed) }
+    }
+
+    fn flush(&mut self) -> Result<(), Closed> {
+        Ok(())
     }
 }
 

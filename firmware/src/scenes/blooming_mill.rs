@@ -7,23 +7,29 @@
 //! inertia, its overload of 2.5 times rated torque and the first resonance of 12 to 16 Hz are of the size that is
 //! published for such stands. They are not those of one machine.
 //!
-//! | variant | estimates |
-//! |---|---|
-//! | `backlash` | with the observer of backlash |
-//! | `exact` | with the two-mass observer, which takes the gap for closed |
+//! | variant | estimates | governs |
+//! |---|---|---|
+//! | `slack` | with the observer of backlash | takes up slack gently and damps the spindles |
+//! | `backlash` | with the observer of backlash | by a plain speed loop |
+//! | `exact` | with the two-mass observer, which takes the gap for closed | by a plain speed loop |
 
 use core::marker::PhantomData;
 
 use driveline::constants::{Bases, Screening, SpeedLoopSettings};
 use driveline::design::{
-    BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
+    BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, SlackDesign, SlackTuning, SpeedLoopDesign,
+    SpeedLoopTuning, TwoMassDesign,
 };
 use driveline::drive::{Config, ConfigOf, Limits};
-use driveline::governor::{SpeedLoop, SpeedLoopConfig};
+use driveline::governor::{
+    Gains, Slack, SlackConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, Symmetric,
+    SymmetricConfig,
+};
 use driveline::machine::{Chain, Damping, Gap, Inertia, Match, Stiffness, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, BacklashConfig, TwoMassConfig};
 
+use crate::assembled::Parts;
 use crate::governed::Variant;
 
 /// The gap of the spindles \[rad\].
@@ -55,7 +61,7 @@ pub const ENCODER: Encoder = Encoder::lines(8192);
 /// How the observer is tuned: the drive knows its torque to 1 % of rated in a tick, and the rolling torque may come and
 /// go by as much as rated within a second.
 pub const DISTURBANCE: Disturbance =
-    Disturbance { torque_accuracy: 0.01 * RATED_TORQUE, load_torque_step: RATED_TORQUE, within: 1.0 };
+    Disturbance { torque_accuracy: 0.01 * RATED_TORQUE, load_torque_step: RATED_TORQUE, within: 5.0 };
 
 /// Bases of fixed point: twice the motor's largest torque, and twice rated speed.
 pub const BASES: Bases = Bases::new(&MACHINE, 2.0 * TORQUE_LIMIT, 2.0 * RATED_SPEED);
@@ -72,16 +78,32 @@ pub const fn screening(rate_hz: u32) -> Screening {
     }
 }
 
-/// The governor reaches rated speed in half a second, with two thirds of its largest torque.
-pub const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE_LIMIT, ramp: 2.0 * RATED_SPEED };
+/// The governor reverses as fast as the motor can: rated speed in a quarter of a second takes nine tenths of its
+/// largest torque.
+pub const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE_LIMIT, ramp: 4.0 * RATED_SPEED };
 
 /// The speed follows within a tenth of a second. The motor outweighs the rolls five times, so its torque can damp the
 /// spindles but little.
 pub const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.12, damping: 1.0, shaft_damping: 0.1 };
 
-/// The speed loop at a rate.
+/// The plain speed loop at a rate: the design's proportional and integral gains, without its damping.
 pub const fn speed_loop(rate_hz: u32) -> SpeedLoopDesign {
-    MACHINE.speed_loop(Rate::hz(rate_hz), TUNING)
+    SpeedLoopDesign { slip: 0.0, ..MACHINE.speed_loop(Rate::hz(rate_hz), TUNING) }
+}
+
+/// How slack is taken up: half of rated torque in the gap, and three times rated torque within a period of the
+/// spindles, which is as much as their swing allows.
+pub const TAKING_UP: SlackTuning = SlackTuning {
+    impact: 0.9 * RATED_TORQUE,
+    torque: 0.5 * RATED_TORQUE,
+    rise: 3.0 * RATED_TORQUE,
+    most: TORQUE_LIMIT,
+    damping: 0.1,
+};
+
+/// The taking up of slack at a rate.
+pub const fn take_up(rate_hz: u32) -> SlackDesign {
+    MACHINE.take_up(Rate::hz(rate_hz), TAKING_UP)
 }
 
 /// The observer of two masses at a rate.
@@ -94,8 +116,10 @@ pub const fn backlash(rate_hz: u32) -> BacklashDesign {
     MACHINE.backlash_observer(Rate::hz(rate_hz), ENCODER, DISTURBANCE, BacklashTuning::USUAL)
 }
 
-/// The observers that the mill is tried with.
+/// What the mill is tried with.
 pub mod with {
+    /// Two masses and the gap, slack taken up.
+    pub struct Slack;
     /// Two masses and the gap.
     pub struct Backlash;
     /// Two masses, the gap taken for closed.
@@ -154,3 +178,39 @@ single!(Backlash, "f32/backlash", Backlash, BacklashConfig::<f32>::new(&backlash
 single!(Exact, "f32/exact", TwoMass, TwoMassConfig::<f32>::new(&two_mass(R)));
 fixed!(Backlash, "fixed/backlash", Backlash, BacklashConfig::<Fixed>::new(&backlash(R), BASES));
 fixed!(Exact, "fixed/exact", TwoMass, TwoMassConfig::<Fixed>::new(&two_mass(R), BASES));
+
+/// The governor that takes up slack.
+pub type Governor<N> = SpeedGovernor<N, (), (), Slack<N, Symmetric>>;
+
+macro_rules! slack {
+    ($number:ident, $text:literal $(, $bases:ident)?) => {
+        impl Parts for BloomingMill<$number, with::Slack, 10_000> {
+            type Number = $number;
+            type Observer = observer::Backlash<$number>;
+            type Governor = Governor<$number>;
+            const NAME: &'static str = concat!("blooming-mill/", $text, "/slack/10000");
+            const RATE_HZ: u32 = 10_000;
+            const CONFIG: &'static ConfigOf<$number, Self::Observer, (), Self::Governor> = &Config {
+                limits: Limits::<$number>::new(&screening(10_000) $(, $bases)?),
+                observer: BacklashConfig::<$number>::new(&backlash(10_000) $(, $bases)?),
+                fluctuation: (),
+                governor: SpeedGovernorConfig {
+                    view: (),
+                    gains: Gains::<$number>::of_speed_loop(&speed_loop(10_000), SETTINGS.ramp $(, $bases)?),
+                    set_point: (),
+                    prompt: (),
+                    limit: SlackConfig::<$number, _>::new(
+                        &take_up(10_000),
+                        SymmetricConfig::<$number>::new(SETTINGS.torque_limit $(, $bases)?)
+                        $(, $bases)?
+                    ),
+                    supervisor: (),
+                },
+                balancer: (),
+            };
+        }
+    };
+}
+
+slack!(f32, "f32");
+slack!(Fixed, "fixed", BASES);

@@ -1,10 +1,12 @@
-//! The hoist's drive with parts left out, to measure what each costs: an observer alone, an observer and a governor, and an observer that is
-//! called by hand, without a drive.
+//! The hoist's drive with parts left out, to measure what each costs: an observer alone, with a governor, with a measurement of the fluctuation,
+//! and an observer that is called by hand, without a drive.
 
 use core::marker::PhantomData;
 
+use driveline::constants::{Bases, Cycle};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::fault::Faults;
+use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Waveform, WaveformConfig};
 use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
 use driveline::number::{Fixed, Number};
 use driveline::observer::{
@@ -25,22 +27,24 @@ pub trait Composition: 'static {
     type Number: Number + 'static;
     /// What it estimates with.
     type Observer: Observer<Self::Number>;
+    /// What it measures the speed's fluctuation with, `()` for nothing.
+    type Fluctuation: Fluctuation<Self::Number>;
     /// What it governs with, `()` for nothing.
     type Governor: Governor<Self::Number>;
     /// Scene, number, parts and rate.
     const NAME: &'static str;
     /// The constants.
-    const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), Self::Governor>;
+    const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, Self::Fluctuation, Self::Governor>;
 }
 
-/// A number, an observer and a governor, with the hoist's constants.
-pub struct Of<N, O, G>(PhantomData<(N, O, G)>);
+/// A number, an observer, a governor and a measurement of the fluctuation, with the hoist's constants.
+pub struct Of<N, O, G, F = ()>(PhantomData<(N, O, G, F)>);
 
 /// A drive of these parts.
 pub struct Composed<C: Composition> {
     // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static ConfigOf<C::Number, C::Observer, (), C::Governor>,
-    drive: Drive<C::Number, C::Observer, (), C::Governor>,
+    config: &'static ConfigOf<C::Number, C::Observer, C::Fluctuation, C::Governor>,
+    drive: Drive<C::Number, C::Observer, C::Fluctuation, C::Governor>,
 }
 
 impl<C: Composition> Scene for Composed<C> {
@@ -69,6 +73,7 @@ macro_rules! compositions {
         impl Composition for Of<$number, $observer, ()> {
             type Number = $number;
             type Observer = $observer;
+            type Fluctuation = ();
             type Governor = ();
             const NAME: &'static str = concat!("composition/", $text, "/", $name, "-observer/10000");
             const CONFIG: &'static ConfigOf<$number, $observer> =
@@ -78,6 +83,7 @@ macro_rules! compositions {
         impl Composition for Of<$number, $observer, SpeedLoop<$number>> {
             type Number = $number;
             type Observer = $observer;
+            type Fluctuation = ();
             type Governor = SpeedLoop<$number>;
             const NAME: &'static str = concat!("composition/", $text, "/", $name, "-governed/10000");
             const CONFIG: &'static ConfigOf<$number, $observer, (), SpeedLoop<$number>> =
@@ -87,6 +93,44 @@ macro_rules! compositions {
 }
 
 const PERIOD: f64 = 1.0 / RATE_HZ as f64;
+
+/// A turn of the motor, and a waveform over 16 of them.
+const fn waveform(bases: Bases) -> WaveformConfig {
+    WaveformConfig::new::<64>(CycleConfig::new(Cycle::TURN, PERIOD, bases), 16)
+}
+
+macro_rules! measured {
+    ($number:ident, $text:literal, $limits:expr, $observer:expr;
+        $($name:literal: $fluctuation:ty = $config:expr;)+) => {$(
+        impl Composition for Of<$number, TwoMass<$number>, (), $fluctuation> {
+            type Number = $number;
+            type Observer = TwoMass<$number>;
+            type Fluctuation = $fluctuation;
+            type Governor = ();
+            const NAME: &'static str = concat!("composition/", $text, "/two-mass-", $name, "/10000");
+            const CONFIG: &'static ConfigOf<$number, TwoMass<$number>, $fluctuation> = &Config {
+                limits: $limits,
+                observer: $observer,
+                fluctuation: $config,
+                governor: (),
+                balancer: (),
+            };
+        }
+    )+};
+}
+
+measured! {
+    f32, "f32", Limits::<f32>::new(&screening(RATE_HZ)), TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ));
+    "extremes": Extremes<f32> = waveform(Bases::SI).cycle;
+    "waveform": Waveform<f32, 64> = waveform(Bases::SI);
+}
+
+measured! {
+    Fixed, "fixed", Limits::<Fixed>::new(&screening(RATE_HZ), BASES),
+    TwoMassConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES);
+    "extremes": Extremes<Fixed> = waveform(BASES).cycle;
+    "waveform": Waveform<Fixed, 64> = waveform(BASES);
+}
 
 compositions! {
     f32, "f32", Limits::<f32>::new(&screening(RATE_HZ)), SpeedLoopConfig::<f32>::new(&speed_loop(RATE_HZ), SETTINGS),

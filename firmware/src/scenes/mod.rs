@@ -1,6 +1,17 @@
 //! The scenes: one file each.
 
+pub mod balanced_fan;
 pub mod blooming_mill;
 pub mod composition;
+pub mod converter;
+pub mod crane_travel;
 pub mod empty;
+pub mod fan;
+pub mod flexible;
+pub mod generator;
+pub mod grinding_spindle;
 pub mod hoist;
+pub mod planetary_drive;
+pub mod skip_winch;
+pub mod spindle;
+pub mod strip_mill;

@@ -36,6 +36,8 @@ fn format(voice: &Voice) -> Result<Count, Failed> {
 fn clippy(voice: &Voice) -> Result<Count, Failed> {
     let host = ["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"];
     let mut count = cargo::passes(&host, voice)?;
+    let features = ["clippy", "--package=driveline", "--all-features", "--", "-D", "warnings"];
+    count.passed += cargo::passes(&features, voice)?.passed;
     for board in BOARDS {
         let (target, directory) = (format!("--target={}", board.target), cargo::firmware_directory());
         let package = ["clippy", "--package=driveline-firmware", "--features=target,defmt"];

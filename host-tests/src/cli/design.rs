@@ -98,6 +98,20 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
         let limit = percent(shaft.semi_implicit_threshold);
         text.push_str(&format!("step: {}, for the semi-implicit one is {bound} (taken up to {limit})\n\n", shaft.step));
     }
+    if let Some(need) = &plan.need {
+        let missed = |[torque, speed]: [f64; 2]| {
+            format!("{} of the largest torque and {} of the largest speed", percent(torque), percent(speed))
+        };
+        text.push_str(&format!(
+            "needed: the {} observer; without the shaft it would miss {}",
+            need.observer,
+            missed(need.without_shaft)
+        ));
+        if need.without_gap != [0.0; 2] {
+            text.push_str(&format!(", without the gap {}", missed(need.without_gap)));
+        }
+        text.push_str(" (rms; 1 % and 0.15 % are allowed)\n\n");
+    }
     let mut states = Table::new(["state", "unit", "gain per rad of innovation", "predicted standard deviation"]);
     for state in &plan.states {
         states.row([

@@ -5,16 +5,21 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::campbell::critical;
+use super::train_modes::TrainVibration;
 use super::vibration::{Leaving, Reduction, WORTH};
 use super::vibration_page::page;
 use super::{Failure, Vibration, say, say_json};
-use crate::machine_file::read;
+use crate::machine_file::{is_train, read, read_train};
 use crate::report::format::{DIVERGED, percent, significant};
 use crate::report::{Table, write_page};
 
 /// Natural frequencies and shapes of a machine, the two masses that can stand for it, the parts not worth keeping.
 ///
-/// Everything is referred to the motor's shaft. The page with the plots opens in any browser.
+/// A chain of elements is referred to the motor's shaft; a train of coordinates and links stays as it is. With
+/// `[running]` and
+/// `[[excitation]]` in the file, critical speeds are listed and drawn, and those within 10 % of the running range
+/// flagged. The page with the plots opens in any browser.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline modes host-tests/machines/hoist.toml
@@ -37,18 +42,33 @@ impl Modes {
     /// # Errors
     /// A machine file with a fault; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
+        if is_train(&self.file) {
+            let file = read_train(&self.file)?;
+            let vibration = TrainVibration::of(&file)?;
+            return self.show(&file.slug(), || vibration.page(&file), &vibration, vibration.tables());
+        }
         let machine = read(&self.file)?;
         let vibration = Vibration::of(&machine);
-        let usual = (!self.json).then(|| PathBuf::from(format!("report/{}-modes.html", machine.slug())));
+        self.show(&machine.slug(), || page(&machine, &vibration), &vibration, tables(&vibration))
+    }
+
+    fn show(
+        &self,
+        slug: &str,
+        page: impl FnOnce() -> String,
+        vibration: &impl serde::Serialize,
+        tables: Vec<(String, String, Table)>,
+    ) -> Result<(), Failure> {
+        let usual = (!self.json).then(|| PathBuf::from(format!("report/{slug}-modes.html")));
         let path = self.html.clone().or(usual);
         if let Some(path) = &path {
-            write_page(path, &page(&machine, &vibration))
+            write_page(path, &page())
                 .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
         }
         if self.json {
-            return say_json(&vibration);
+            return say_json(vibration);
         }
-        for (title, _, table) in tables(&vibration) {
+        for (title, _, table) in tables {
             say(format_args!("{title}\n{table}"));
         }
         if let Some(path) = path {
@@ -87,6 +107,7 @@ pub fn tables(vibration: &Vibration) -> Vec<(String, String, Table)> {
     }
     let text = "Frequencies of the free machine, and with the motor held; amplitudes of the masses, the largest 1.";
     all.push(("Frequencies and shapes".to_owned(), text.to_owned(), modes));
+    all.extend(critical(&vibration.critical));
     all.push(reductions(&vibration.reductions));
     all.push(worth(&vibration.worth));
     all

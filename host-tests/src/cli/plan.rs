@@ -1,12 +1,13 @@
 //! What `design` finds for a machine: the step, the observer, the governor.
 
 use driveline::design::{
-    Disturbance, Encoder, Error, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, StepChoice, TwoMassDesign,
+    Aim, Cost, Disturbance, Encoder, Error, ObserverChoice, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
+    StepChoice, TwoMassDesign,
 };
 use driveline::machine::{Match, TwoMass};
 use serde::Serialize;
 
-use crate::machine_file::MachineFile;
+use crate::machine_file::{Duty, MachineFile};
 
 /// The controller of a machine, in SI units at the motor.
 #[derive(Clone, Debug, Serialize)]
@@ -31,6 +32,19 @@ pub struct Plan {
     pub innovation: f64,
     /// The speed loop, for two masses.
     pub speed_loop: Option<SpeedLoop>,
+    /// Which observer it needs, for two masses whose file says how they are shaken.
+    pub need: Option<Needed>,
+}
+
+/// Which observer a machine needs.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Needed {
+    /// `rigid`, `semi-implicit`, `exact` or `backlash`.
+    pub observer: &'static str,
+    /// What leaving out the shaft costs: rms errors of shaft torque and load's speed, over the limits.
+    pub without_shaft: [f64; 2],
+    /// What leaving out the gap costs.
+    pub without_gap: [f64; 2],
 }
 
 /// The shaft between the two masses.
@@ -160,6 +174,7 @@ impl Plan {
         let margins = &governor.margins;
         Self {
             name: machine.name.clone(),
+            need: machine.duty.map(|duty| needed(machine, two, duty)),
             observer: "two-mass",
             rate_hz: machine.control.rate_hz,
             inertias: vec![two.motor_inertia, two.load_inertia],
@@ -197,6 +212,7 @@ impl Plan {
         let names = [("motor angle", "rad"), ("motor speed", "rad/s"), ("load torque", "N m")];
         Self {
             name: machine.name.clone(),
+            need: None,
             observer: "rigid",
             rate_hz: machine.control.rate_hz,
             inertias: vec![observer.machine.inertia],
@@ -207,6 +223,26 @@ impl Plan {
             innovation: observer.innovation,
             speed_loop: None,
         }
+    }
+}
+
+/// Which observer two masses need. A weight that is heavier than the change keeps a gap closed.
+fn needed(machine: &MachineFile, two: &TwoMass, duty: Duty) -> Needed {
+    let Duty { change, rise, every } = duty;
+    let reverses = two.gravity_torque.abs() < change;
+    let (speed, torque) = (machine.limits.speed, machine.limits.torque);
+    let duty = driveline::design::Duty { speed, torque, change, rise, every, reverses };
+    let need = two.need(&duty, &Aim::USUAL, 1.0 / f64::from(machine.control.rate_hz));
+    let cost = |cost: Cost| [cost.shaft_torque, cost.load_speed];
+    Needed {
+        observer: match need.chosen {
+            ObserverChoice::Rigid => "rigid",
+            ObserverChoice::SemiImplicit => "semi-implicit",
+            ObserverChoice::Exact => "exact",
+            ObserverChoice::Backlash => "backlash",
+        },
+        without_shaft: cost(need.without_shaft),
+        without_gap: cost(need.without_gap),
     }
 }
 

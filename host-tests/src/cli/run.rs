@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::balancing::{self, Wanted};
 use super::{Failure, Progress, say, say_json};
+use crate::balancing::Scene;
 use crate::report::{variants_table, writable};
 use crate::run::Plan;
 use crate::setup;
@@ -17,11 +19,15 @@ use crate::setup;
 #[command(after_help = "Examples:
   cargo driveline run
   cargo driveline run hoist --variants f32/m4f --quick
+  cargo driveline run balanced-fan
   cargo driveline run --json > hoist.json")]
 pub struct Run {
-    /// The scene
+    /// The scene: hoist or another drivetrain; or balanced-fan, flexible, grinding-spindle, whose rotors are balanced
     #[arg(default_value = "hoist")]
     scene: String,
+    /// The scene, as an option
+    #[arg(long = "scene", value_name = "NAME", conflicts_with = "scene")]
+    named: Option<String>,
     /// Print {scene, variants: [...]} and no table
     #[arg(long)]
     pub json: bool,
@@ -42,8 +48,13 @@ impl Run {
     /// # Errors
     /// No such scene or variant; what kept a variant from running; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
-        let plan = Plan::of(&self.scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
-        let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{}.html", self.scene)));
+        let scene = self.named.as_deref().unwrap_or(&self.scene);
+        if let Some(scene) = Scene::named(scene) {
+            let (filter, html) = (self.variants.as_deref(), self.html.as_deref());
+            return balancing::run(&scene, Wanted { filter, html, json: self.json });
+        }
+        let plan = Plan::of(scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
+        let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{scene}.html")));
         let unwritable = |error| Failure::failed(format!("{} cannot be written: {error}", path.display()));
         writable(&path).map_err(unwritable)?;
         setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use driveline::machine::{Element, Match, Shaft};
 use serde::Serialize;
 
+use super::campbell::{Critical, critical_speeds};
 use crate::machine_file::{Element as Written, MachineFile};
 
 /// Change below which a part is not worth keeping: 1 %, less than a stiffness is ever known to.
@@ -25,6 +26,8 @@ pub struct Vibration {
     pub antiresonances: Vec<f64>,
     /// The two masses that can stand for it.
     pub reductions: Vec<Reduction>,
+    /// Speeds of the motor at which an excitation meets a natural frequency, the lowest first.
+    pub critical: Vec<Critical>,
     /// What leaving out each part would change, the least first.
     pub worth: Vec<Leaving>,
 }
@@ -146,8 +149,10 @@ impl Vibration {
             compliance: finite(part.compliance),
             worth_keeping: part.worst() >= WORTH,
         };
+        let frequencies: Vec<f64> = modes.resonances().iter().map(|mode| mode.frequency).collect();
         Self {
             name: machine.name.clone(),
+            critical: critical_speeds(&frequencies, machine.running.as_ref(), &machine.excitations),
             resonances: modes.resonances().iter().map(resonance).collect(),
             antiresonances: modes.antiresonances().to_vec(),
             reductions: reductions(machine, &shafts),
@@ -191,7 +196,7 @@ fn reductions(machine: &MachineFile, shafts: &[String]) -> Vec<Reduction> {
 }
 
 /// Names of the masses and of the shafts between them, from the labels of the elements.
-fn names(machine: &MachineFile) -> (Vec<String>, Vec<String>) {
+pub(crate) fn names(machine: &MachineFile) -> (Vec<String>, Vec<String>) {
     let (mut masses, mut shafts): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     let join = |names: &mut Vec<String>, index: usize, label: &str| {
         if names.len() <= index {
@@ -209,11 +214,26 @@ fn names(machine: &MachineFile) -> (Vec<String>, Vec<String>) {
         chain = part.element.follow(chain).unwrap_or(chain);
         let last = chain.masses().len() - 1;
         match part.element {
-            Written::Motor { .. } | Written::Rotor { .. } | Written::Lifted { .. } | Written::Driven { .. } => {
+            Written::Motor { .. }
+            | Written::Rotor { .. }
+            | Written::Crank { .. }
+            | Written::Planetary { .. }
+            | Written::Lifted { .. }
+            | Written::Driven { .. } => join(&mut masses, last, &part.label),
+            Written::Shaft { .. } | Written::Section { .. } | Written::Belt { .. } | Written::Rope { .. } => {
+                join(&mut shafts, last - 1, &part.label);
+            }
+            // A pendulum: its own spring and its own mass.
+            Written::Swinging { .. } => {
+                join(&mut shafts, last - 1, &part.label);
                 join(&mut masses, last, &part.label);
             }
-            Written::Shaft { .. } | Written::Rope { .. } => join(&mut shafts, last - 1, &part.label),
-            Written::Gear { .. } | Written::Drum { .. } | Written::Backlash { .. } => {}
+            Written::Gear { .. }
+            | Written::Worm { .. }
+            | Written::Drum { .. }
+            | Written::Screw { .. }
+            | Written::Slack { .. }
+            | Written::Backlash { .. } => {}
         }
     }
     (masses, shafts)

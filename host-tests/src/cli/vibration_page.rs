@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use driveline::machine::{Match, TwoMass};
 
 use super::Vibration;
+use super::campbell::diagram;
 use super::modes::tables;
 use crate::machine_file::MachineFile;
 use crate::report::chart::{Response, Station};
@@ -52,6 +53,12 @@ pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
         modes: vibration.resonances.iter().enumerate().map(figure).collect(),
         responses: responses(machine, vibration, &frequency, total),
         frequency,
+        campbell: diagram(
+            &vibration.resonances.iter().map(|mode| mode.hz).collect::<Vec<_>>(),
+            machine.running.as_ref(),
+            &machine.excitations,
+            &vibration.critical,
+        ),
         tables: tables(vibration),
     }
     .page()

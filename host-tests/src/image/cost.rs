@@ -96,6 +96,14 @@ pub const BENCHES: &[&str] = &[
     "bench/phasor/2",
     "bench/step/backlash",
     "bench/drive/backlash",
+    "bench/balance/least-squares",
+    "bench/balance/min-max",
+    "bench/fluctuation/extremes",
+    "bench/fluctuation/waveform",
+    "bench/fluctuation/both",
+    "bench/governor/core",
+    "bench/governor/whole",
+    "bench/telemetry/record",
 ];
 
 impl Cost {
@@ -115,7 +123,8 @@ impl Cost {
                 return Err(format!("{name} was not measured on {}", board.name).into());
             };
             let instructions = Spread { min, median, max };
-            Ok((name.into(), Cost { instructions, sizes: Sizes::default(), tick_code: 0, state: 0, stack: 0 }))
+            let stack = figure("stack").unwrap_or(0);
+            Ok((name.into(), Cost { instructions, sizes: Sizes::default(), tick_code: 0, state: 0, stack }))
         };
         BENCHES.iter().map(|name| cost(name)).collect()
     }

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// What goes into an image, from the workspace's root.
-const SOURCES: [&str; 6] = ["Cargo.toml", "Cargo.lock", "memory.x", ".cargo/config.toml", "src", "firmware"];
+const SOURCES: [&str; 5] = ["Cargo.toml", "Cargo.lock", ".cargo/config.toml", "src", "firmware"];
 
 /// Fingerprint of the sources, the compiler and the command.
 ///
@@ -56,7 +56,7 @@ mod tests {
         let first = fingerprint(root.path(), "build").unwrap();
         assert_eq!(fingerprint(root.path(), "build").unwrap(), first);
         assert_ne!(fingerprint(root.path(), "build --release").unwrap(), first);
-        fs::write(root.path().join("memory.x"), "b").unwrap();
+        fs::write(root.path().join("firmware"), "b").unwrap();
         assert_ne!(fingerprint(root.path(), "build").unwrap(), first);
     }
 }

@@ -30,6 +30,8 @@ pub enum Program {
     SelfTest,
     /// What a run logs, through `defmt`.
     Log,
+    /// Tells each tick of a run as frames of telemetry.
+    Told,
     /// Has a reachable panic: must not link.
     Panics,
 }
@@ -42,6 +44,7 @@ impl Program {
             Program::Bench => "bench",
             Program::SelfTest => "self_test",
             Program::Log => "log",
+            Program::Told => "told",
             Program::Panics => "panics",
         }
     }

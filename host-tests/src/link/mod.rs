@@ -9,6 +9,7 @@
 mod affinity;
 mod pipes;
 mod qemu;
+mod telling;
 mod words;
 
 use std::io;
@@ -24,6 +25,7 @@ use pipes::Pipes;
 use qemu::Qemu;
 
 pub use qemu::PROGRAM as QEMU;
+pub use telling::Telling;
 
 /// Longest wait for one output: a tick takes microseconds, a stalled machine some seconds.
 const TICK_LIMIT: Duration = Duration::from_secs(20);

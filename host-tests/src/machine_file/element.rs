@@ -1,7 +1,8 @@
 //! The elements of a machine as a file names them, and the keys of each.
 
 use driveline::machine::{
-    Chain, Damping, Diameter, Efficiency, Error, Falls, Gap, Inertia, LinearDamping, Mass, Ratio, Stiffness,
+    Belt, Chain, CrankSlider, Damping, Diameter, Efficiency, Error, Falls, Gap, Inertia, Length, LinearDamping, Mass,
+    Planetary, Ratio, Section, ShearModulus, Stiffness, try_stepped,
 };
 use serde::Serialize;
 
@@ -10,8 +11,8 @@ use super::quantity::Quantity;
 use super::table::Table;
 
 /// The kinds of elements, as a message lists them.
-pub const KINDS: &str =
-    "\"motor\", \"shaft\", \"rotor\", \"gear\", \"drum\", \"rope\", \"lifted\", \"driven\" or \"backlash\"";
+pub const KINDS: &str = "\"motor\", \"shaft\", \"section\", \"rotor\", \"crank\", \"gear\", \"worm\", \"planetary\", \"belt\", \"drum\", \"screw\", \
+                         \"rope\", \"lifted\", \"driven\", \"swinging\", \"slack\" or \"backlash\"";
 
 /// One element of a machine, in SI units, each on its own shaft or along the travel of the load.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -34,6 +35,38 @@ pub enum Element {
         /// Damping \[N m s/rad\]; 0 where the file is silent.
         damping: f64,
     },
+    /// A piece of a shaft from its dimensions; pieces in a row are a stepped shaft.
+    Section {
+        /// Length \[m\].
+        length: f64,
+        /// Outer diameter, where it begins \[m\].
+        diameter: f64,
+        /// Outer diameter where it ends \[m\]; the same where the file is silent.
+        end: f64,
+        /// Diameter of the bore \[m\]; 0 where the file is silent.
+        bore: f64,
+        /// Shear modulus \[Pa\]; steel's where the file is silent.
+        modulus: f64,
+        /// Damping \[N m s/rad\]; 0 where the file is silent.
+        damping: f64,
+    },
+    /// A crank drive on the present shaft, as the mean of its inertia.
+    Crank {
+        /// Inertia of the crank \[kg m2\].
+        inertia: f64,
+        /// Radius of the crank \[m\].
+        radius: f64,
+        /// Length of the rod \[m\].
+        rod: f64,
+        /// Mass of the rod \[kg\]; 0 where the file is silent, as the next two.
+        rod_mass: f64,
+        /// Distance of the rod's centre of mass from the crank's pin \[m\].
+        rod_centre: f64,
+        /// Inertia of the rod about its centre of mass \[kg m2\].
+        rod_inertia: f64,
+        /// Mass of the slider \[kg\].
+        slider: f64,
+    },
     /// A gear; what follows turns `ratio` times slower.
     Gear {
         /// Speed of the motor's side over speed of the load's side.
@@ -41,10 +74,58 @@ pub enum Element {
         /// Efficiency; 1 where the file is silent.
         efficiency: f64,
     },
+    /// A gear that loses more while the load drives it.
+    Worm {
+        /// Speed of the motor's side over speed of the load's side.
+        ratio: f64,
+        /// Efficiency while the motor drives.
+        efficiency: f64,
+        /// Efficiency while the load drives.
+        back_efficiency: f64,
+    },
+    /// A planetary set, its ring held: sun on the present shaft, what follows turns with the carrier.
+    Planetary {
+        /// Teeth of the sun.
+        sun_teeth: u32,
+        /// Teeth of the ring.
+        ring_teeth: u32,
+        /// Module \[m\].
+        module: f64,
+        /// Number of planets.
+        planets: u32,
+        /// Inertia of the sun \[kg m2\].
+        sun: f64,
+        /// Inertia of a planet about its own axis \[kg m2\].
+        planet: f64,
+        /// Mass of a planet \[kg\].
+        planet_mass: f64,
+        /// Inertia of the carrier \[kg m2\].
+        carrier: f64,
+        /// Efficiency; 1 where the file is silent.
+        efficiency: f64,
+    },
+    /// A belt to the next mass.
+    Belt {
+        /// Diameter of the pulley on the motor's side \[m\].
+        driving: f64,
+        /// Diameter of the pulley on the load's side \[m\].
+        driven: f64,
+        /// Stiffness of one strand \[N/m\].
+        stiffness: f64,
+        /// Damping of one strand \[N s/m\]; 0 where the file is silent.
+        damping: f64,
+        /// Efficiency; 1 where the file is silent.
+        efficiency: f64,
+    },
     /// A drum or a pinion: turning becomes travel.
     Drum {
         /// Diameter \[m\].
         diameter: f64,
+    },
+    /// A screw: turning becomes travel.
+    Screw {
+        /// Travel a turn \[m\].
+        lead: f64,
     },
     /// A rope from the drum to the load.
     Rope {
@@ -64,6 +145,18 @@ pub enum Element {
     Driven {
         /// Mass \[kg\].
         mass: f64,
+    },
+    /// A mass that swings under what travels.
+    Swinging {
+        /// Mass \[kg\].
+        mass: f64,
+        /// Length of the pendulum \[m\].
+        length: f64,
+    },
+    /// Free travel along the load's path.
+    Slack {
+        /// Travel \[m\].
+        travel: f64,
     },
     /// A backlash in series with the shaft beside it.
     Backlash {
@@ -90,6 +183,56 @@ impl Element {
                 ratio: table.number("ratio", Quantity::RATIO)?,
                 efficiency: table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?,
             },
+            "section" => {
+                let diameter = table.number("diameter", Quantity::DIAMETER)?;
+                Self::Section {
+                    length: table.number("length", Quantity::LENGTH)?,
+                    diameter,
+                    end: table.number_or("end", Quantity::DIAMETER, diameter)?,
+                    bore: table.number_or("bore", Quantity::BORE, 0.0)?,
+                    modulus: table.number_or("modulus", Quantity::MODULUS, ShearModulus::STEEL.0)?,
+                    damping: table.number_or("damping", Quantity::DAMPING, 0.0)?,
+                }
+            }
+            "crank" => Self::Crank {
+                inertia: table.number("inertia", Quantity::INERTIA)?,
+                radius: table.number("radius", Quantity::LENGTH)?,
+                rod: table.number("rod", Quantity::LENGTH)?,
+                rod_mass: table.number_or("rod_mass", Quantity::PART_MASS, 0.0)?,
+                rod_centre: table.number_or("rod_centre", Quantity::BORE, 0.0)?,
+                rod_inertia: table.number_or("rod_inertia", Quantity::PART_INERTIA, 0.0)?,
+                slider: table.number("slider", Quantity::PART_MASS)?,
+            },
+            "worm" => Self::Worm {
+                ratio: table.number("ratio", Quantity::RATIO)?,
+                efficiency: table.number("efficiency", Quantity::EFFICIENCY)?,
+                back_efficiency: table.number("back_efficiency", Quantity::EFFICIENCY)?,
+            },
+            "planetary" => Self::Planetary {
+                // `TEETH` allows whole numbers up to 10000 only.
+                sun_teeth: table.number("sun_teeth", Quantity::TEETH)? as u32,
+                ring_teeth: table.number("ring_teeth", Quantity::TEETH)? as u32,
+                module: table.number("module", Quantity::DIAMETER)?,
+                planets: table.number("planets", Quantity::TEETH)? as u32,
+                sun: table.number("sun", Quantity::PART_INERTIA)?,
+                planet: table.number("planet", Quantity::PART_INERTIA)?,
+                planet_mass: table.number("planet_mass", Quantity::PART_MASS)?,
+                carrier: table.number("carrier", Quantity::PART_INERTIA)?,
+                efficiency: table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?,
+            },
+            "belt" => Self::Belt {
+                driving: table.number("driving", Quantity::DIAMETER)?,
+                driven: table.number("driven", Quantity::DIAMETER)?,
+                stiffness: table.number("stiffness", Quantity::ROPE_STIFFNESS)?,
+                damping: table.number_or("damping", Quantity::ROPE_DAMPING, 0.0)?,
+                efficiency: table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?,
+            },
+            "screw" => Self::Screw { lead: table.number("lead", Quantity::LENGTH)? },
+            "swinging" => Self::Swinging {
+                mass: table.number("mass", Quantity::MASS)?,
+                length: table.number("length", Quantity::LENGTH)?,
+            },
+            "slack" => Self::Slack { travel: table.number("travel", Quantity::BORE)? },
             "drum" => Self::Drum { diameter: table.number("diameter", Quantity::DIAMETER)? },
             "rope" => Self::Rope {
                 // `FALLS` allows whole numbers up to 64 only.
@@ -112,6 +255,14 @@ impl Element {
             Self::Motor { .. } => "motor",
             Self::Rotor { .. } => "rotor",
             Self::Shaft { .. } => "shaft",
+            Self::Section { .. } => "section",
+            Self::Crank { .. } => "crank",
+            Self::Worm { .. } => "worm",
+            Self::Planetary { .. } => "planetary",
+            Self::Belt { .. } => "belt",
+            Self::Screw { .. } => "screw",
+            Self::Swinging { .. } => "swinging",
+            Self::Slack { .. } => "slack",
             Self::Gear { .. } => "gear",
             Self::Drum { .. } => "drum",
             Self::Rope { .. } => "rope",
@@ -131,6 +282,61 @@ impl Element {
             Self::Rotor { inertia } => chain.try_rotor(Inertia(inertia)),
             Self::Shaft { stiffness, damping } => chain.try_shaft(Stiffness(stiffness), Damping(damping)),
             Self::Gear { ratio, efficiency } => chain.try_gear(Ratio(ratio), Efficiency(efficiency)),
+            Self::Section { length, diameter, end, bore, modulus, damping } => {
+                let section = Section {
+                    length: Length(length),
+                    diameter: [Diameter(diameter), Diameter(end)],
+                    bore: Diameter(bore),
+                };
+                chain.try_shaft(try_stepped(&[section], ShearModulus(modulus))?, Damping(damping))
+            }
+            Self::Crank { inertia, radius, rod, rod_mass, rod_centre, rod_inertia, slider } => {
+                let crank = CrankSlider {
+                    radius: Length(radius),
+                    rod: Length(rod),
+                    crank: Inertia(inertia),
+                    rod_mass: Mass(rod_mass),
+                    rod_centre: Length(rod_centre),
+                    rod_inertia: Inertia(rod_inertia),
+                    slider: Mass(slider),
+                };
+                crank.check()?;
+                chain.try_rotor(crank.mean_inertia())
+            }
+            Self::Worm { ratio, efficiency, back_efficiency } => {
+                chain.try_worm(Ratio(ratio), Efficiency(efficiency), Efficiency(back_efficiency))
+            }
+            Self::Planetary {
+                sun_teeth,
+                ring_teeth,
+                module,
+                planets,
+                sun,
+                planet,
+                planet_mass,
+                carrier,
+                efficiency,
+            } => chain.try_planetary(Planetary {
+                sun_teeth,
+                ring_teeth,
+                module,
+                planets,
+                sun: Inertia(sun),
+                planet: Inertia(planet),
+                planet_mass: Mass(planet_mass),
+                carrier: Inertia(carrier),
+                efficiency: Efficiency(efficiency),
+            }),
+            Self::Belt { driving, driven, stiffness, damping, efficiency } => chain.try_belt(Belt {
+                driving: Diameter(driving),
+                driven: Diameter(driven),
+                strand: Stiffness(stiffness),
+                damping: LinearDamping(damping),
+                efficiency: Efficiency(efficiency),
+            }),
+            Self::Screw { lead } => chain.try_screw(Length(lead)),
+            Self::Swinging { mass, length } => chain.try_swinging(Mass(mass), Length(length)),
+            Self::Slack { travel } => chain.try_slack(Length(travel)),
             Self::Drum { diameter } => chain.try_drum(Diameter(diameter)),
             Self::Rope { falls, stiffness, damping } => {
                 chain.try_damped_rope(Falls(falls), Stiffness(stiffness), LinearDamping(damping))
@@ -152,6 +358,38 @@ impl Element {
             Self::Gear { ratio, efficiency } => {
                 format!(".gear(Ratio({ratio:?}), Efficiency({efficiency:?}))")
             }
+            Self::Section { length, diameter, end, bore, modulus, damping } => format!(
+                ".shaft(Section::tapered(Length({length:?}), Diameter({diameter:?}), Diameter({end:?})).bored(Diameter({bore:?})).stiffness(ShearModulus({modulus:?})), Damping({damping:?}))"
+            ),
+            Self::Crank { inertia, radius, rod, rod_mass, rod_centre, rod_inertia, slider } => format!(
+                ".rotor(CrankSlider {{ radius: Length({radius:?}), rod: Length({rod:?}), crank: Inertia({inertia:?}), rod_mass: Mass({rod_mass:?}), \
+                 rod_centre: Length({rod_centre:?}), rod_inertia: Inertia({rod_inertia:?}), slider: Mass({slider:?}) }}.mean_inertia())"
+            ),
+            Self::Worm { ratio, efficiency, back_efficiency } => {
+                format!(".worm(Ratio({ratio:?}), Efficiency({efficiency:?}), Efficiency({back_efficiency:?}))")
+            }
+            Self::Planetary {
+                sun_teeth,
+                ring_teeth,
+                module,
+                planets,
+                sun,
+                planet,
+                planet_mass,
+                carrier,
+                efficiency,
+            } => format!(
+                ".planetary(Planetary {{ sun_teeth: {sun_teeth}, ring_teeth: {ring_teeth}, module: {module:?}, planets: {planets}, \
+                 sun: Inertia({sun:?}), planet: Inertia({planet:?}), planet_mass: Mass({planet_mass:?}), carrier: Inertia({carrier:?}), \
+                 efficiency: Efficiency({efficiency:?}) }})"
+            ),
+            Self::Belt { driving, driven, stiffness, damping, efficiency } => format!(
+                ".belt(Belt {{ driving: Diameter({driving:?}), driven: Diameter({driven:?}), strand: Stiffness({stiffness:?}), \
+                 damping: LinearDamping({damping:?}), efficiency: Efficiency({efficiency:?}) }})"
+            ),
+            Self::Screw { lead } => format!(".screw(Length({lead:?}))"),
+            Self::Swinging { mass, length } => format!(".swinging(Mass({mass:?}), Length({length:?}))"),
+            Self::Slack { travel } => format!(".slack(Length({travel:?}))"),
             Self::Drum { diameter } => format!(".drum(Diameter({diameter:?}))"),
             Self::Rope { falls, stiffness, damping: 0.0 } => format!(".rope(Falls({falls}), Stiffness({stiffness:?}))"),
             Self::Rope { falls, stiffness, damping } => {

@@ -20,8 +20,8 @@ pub struct Quantity {
     pub whole: bool,
 }
 
-/// Twelve decades either side of one SI unit: a watch's balance wheel has 1e-9 kg m2, a tanker 3e8 kg; products of four
-/// such numbers stay within the range of `f64`.
+/// Twelve decades either side of one SI unit: a watch's balance wheel has 1e-9 kg m2, a tanker 3e8 kg; products of
+/// four such numbers stay within the range of `f64`.
 const FAR: f64 = 1e12;
 
 const fn positive(unit: &'static str) -> Quantity {
@@ -47,6 +47,18 @@ impl Quantity {
     pub const MASS: Self = positive("kg");
     /// Diameter; a kilometre is more than any drum has.
     pub const DIAMETER: Self = Quantity { least: 1e-6, most: 1e3, ..positive("m") };
+    /// Length of a shaft, rod or pendulum, or lead of a screw.
+    pub const LENGTH: Self = Quantity { least: 1e-6, most: 1e4, ..positive("m") };
+    /// A length that may be none: a bore, a distance, a slack.
+    pub const BORE: Self = Quantity { least: 1e-6, most: 1e4, ..not_negative("m") };
+    /// Shear modulus: from rubber's to diamond's.
+    pub const MODULUS: Self = Quantity { least: 1e4, most: 1e12, ..positive("Pa") };
+    /// Mass of a part that may be left out.
+    pub const PART_MASS: Self = not_negative("kg");
+    /// Inertia of a part that may be left out.
+    pub const PART_INERTIA: Self = not_negative("kg m²");
+    /// Teeth or planets.
+    pub const TEETH: Self = Quantity { least: 1.0, most: 1e4, whole: true, ..positive("") };
     /// Speed of the motor's side over speed of the load's side.
     pub const RATIO: Self = Quantity { least: 1e-6, most: 1e6, ..positive("") };
     /// Share of the power that passes.
@@ -69,10 +81,6 @@ impl Quantity {
     pub const YOUNG: Self = Quantity { least: 1e6, most: 1e13, ..positive("Pa") };
     /// Poisson's ratio.
     pub const POISSON: Self = Quantity { least: 1e-6, most: 0.5, zero: true, ..positive("") };
-    /// Length of a shaft element.
-    pub const LENGTH: Self = Quantity { least: 1e-6, most: 1e3, ..positive("m") };
-    /// A bore, zero for none.
-    pub const BORE: Self = Quantity { zero: true, ..Self::DIAMETER };
     /// Equal elements that a piece of shaft is cut into.
     pub const PIECES: Self = Quantity { least: 1.0, most: 64.0, whole: true, ..positive("") };
     /// A node of the shaft.
@@ -85,10 +93,39 @@ impl Quantity {
     pub const BEARING_DAMPING: Self = not_negative("N s/m");
     /// Unbalance.
     pub const UNBALANCE: Self = not_negative("kg m");
-    /// An angle in degrees.
-    pub const DEGREES: Self = Quantity { least: -360.0, most: 360.0, zero: true, whole: false, unit: "degrees" };
+    /// Phase or angle in degrees; ten turns either way are more than anybody writes.
+    pub const DEGREES: Self = Quantity { unit: "degrees", least: -3600.0, most: 3600.0, zero: true, whole: false };
     /// Time.
     pub const TIME: Self = positive("s");
+    /// Time in which something comes about, none for a step.
+    pub const RISE: Self = not_negative("s");
+
+    /// Any number: a torque, a speed, an angle of either sign.
+    pub const ANY: Self = Quantity { least: -FAR, ..positive("") };
+    /// Terms of a Fourier series.
+    pub const TERMS: Self = Quantity { least: 1.0, most: 500.0, whole: true, ..positive("") };
+    /// Order of an excitation: times per turn.
+    pub const ORDER: Self = Quantity { least: 1e-3, most: 1e4, ..positive("") };
+    /// A number that is not negative.
+    pub const SIZE: Self = not_negative("");
+    /// Stiffness of any link, N m/rad or N/m; zero leaves a damper alone.
+    pub const SPRING: Self = not_negative("N m/rad or N/m");
+    /// Damping of any link, N m s/rad or N s/m.
+    pub const DAMPER: Self = not_negative("N m s/rad or N s/m");
+    /// Inertia, or mass where the coordinate is a way.
+    pub const INERTIA_OR_MASS: Self = positive("kg m² or kg");
+    /// Amplitude of a vibration, in whatever unit.
+    pub const AMPLITUDE: Self = not_negative("");
+    /// A weight of balancing, in whatever unit.
+    pub const WEIGHT: Self = not_negative("");
+    /// Speed in turns a minute.
+    pub const RPM: Self = positive("rpm");
+    /// Balance quality grade.
+    pub const GRADE: Self = positive("mm/s");
+    /// Number of something on a rotor.
+    pub const COUNT: Self = Quantity { least: 1.0, most: 360.0, whole: true, ..positive("") };
+    /// A share of a whole.
+    pub const SHARE: Self = Quantity { least: 1e-9, most: 1.0, ..not_negative("") };
 
     /// Whether a number is one of this quantity's.
     pub fn allows(self, number: f64) -> bool {

@@ -6,13 +6,15 @@ use std::ops::Range;
 use std::path::Path;
 
 use driveline::machine::{Chain, Inertia};
+use toml::Spanned;
 use toml::de::DeTable;
 
 use super::diagnostic::Diagnostic;
+use super::excitation::excitations;
 use super::quantity::Quantity;
 use super::source::{Source, printable};
 use super::table::Table;
-use super::{Control, Disturbance, Element, Encoder, Limits, MachineFile, Part};
+use super::{Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
 
 /// Largest machine file in bytes: a thousand times what the longest chain needs.
 pub const LARGEST: u64 = 1 << 20;
@@ -25,25 +27,38 @@ const NAME: &str = "a name of 1 to 40 letters, digits, spaces, `-` and `_`, with
 /// # Errors
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn read(path: &Path) -> Result<MachineFile, Diagnostic> {
-    load(path, parse)
+    load(path, "a machine file", parse)
 }
 
-/// Reads a file with a parser that is given its name and its text.
-pub(super) fn load<T>(path: &Path, parse: fn(&str, &str) -> Result<T, Diagnostic>) -> Result<T, Diagnostic> {
+/// Reads a file of this kind with a parser that is given its name and its text.
+pub(super) fn load<T>(
+    path: &Path,
+    what: &str,
+    parse: fn(&str, &str) -> Result<T, Diagnostic>,
+) -> Result<T, Diagnostic> {
+    let (name, text) = text(path, what)?;
+    parse(&name, &text)
+}
+
+/// Reads a file as text: its name as messages call it, and what stands in it. `what` is the kind of file that was expected.
+///
+/// # Errors
+/// A file that cannot be read, is too long, or is not text.
+pub fn text(path: &Path, what: &str) -> Result<(String, String), Diagnostic> {
     let name = printable(&path.display().to_string(), 200);
-    let file =
-        |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), "a machine file");
+    let file = |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), what);
     let mut bytes = Vec::new();
     // The limit holds for what has no length too, a device or a pipe.
     File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes)).map_err(file)?;
     if bytes.len() as u64 > LARGEST {
-        return Err(Diagnostic::of_file(&name, "more than 1 MiB", "a machine file of at most 1 MiB"));
+        return Err(Diagnostic::of_file(&name, "more than 1 MiB", format!("{what} of at most 1 MiB")));
     }
-    match std::str::from_utf8(&bytes) {
-        Ok(text) => parse(&name, text),
+    match String::from_utf8(bytes) {
+        Ok(text) => Ok((name, text)),
         Err(error) => {
+            let at = error.utf8_error().valid_up_to();
+            let bytes = error.into_bytes();
             let text = String::from_utf8_lossy(&bytes);
-            let at = error.valid_up_to();
             // Up to the first bad byte the lossy text is the same as the bytes.
             let source = Source { name: &name, text: &text };
             let found = format!("the byte 0x{:02x}, which is not UTF-8", bytes[at]);
@@ -58,14 +73,7 @@ pub(super) fn load<T>(path: &Path, parse: fn(&str, &str) -> Result<T, Diagnostic
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let source = Source { name, text };
-    if text.trim().is_empty() {
-        return Err(Diagnostic::of_file(
-            name,
-            "an empty file",
-            "a machine: `name`, [[element]] tables and the settings",
-        ));
-    }
-    let document = DeTable::parse(text).map_err(|error| not_toml(source, &error))?;
+    let document = document(source, "a machine: `name`, [[element]] tables and the settings")?;
     let mut root = Table::root(source, document.get_ref());
 
     let machine_name = named(&mut root)?;
@@ -87,8 +95,42 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let limits = section(&mut root, "limits", |table| {
         Ok(Limits { torque: table.number("torque", Quantity::TORQUE)?, speed: table.number("speed", Quantity::SPEED)? })
     })?;
+    let (running, excitations) = excitations(&mut root)?;
+    // what a run of it needs is read by `read_train`
+    root.pass(&["link", "torque", "friction", "start", "run"]);
+    let duty = match root.table_if("duty")? {
+        Some(mut table) => {
+            let duty = Duty {
+                change: table.number("change", Quantity::TORQUE)?,
+                rise: table.number("rise", Quantity::RISE)?,
+                every: table.number("every", Quantity::TIME)?,
+            };
+            table.finish()?;
+            Some(duty)
+        }
+        None => None,
+    };
     root.finish()?;
-    Ok(MachineFile { name: machine_name.to_owned(), elements, encoder, control, disturbance, limits, chain })
+    Ok(MachineFile {
+        name: machine_name.to_owned(),
+        elements,
+        encoder,
+        control,
+        disturbance,
+        limits,
+        running,
+        excitations,
+        duty,
+        chain,
+    })
+}
+
+/// The TOML of a text that is not empty.
+pub(super) fn document<'a>(source: Source<'a>, expected: &str) -> Result<Spanned<DeTable<'a>>, Diagnostic> {
+    if source.text.trim().is_empty() {
+        return Err(Diagnostic::of_file(source.name, "an empty file", expected));
+    }
+    DeTable::parse(source.text).map_err(|error| not_toml(source, &error))
 }
 
 /// The name that the file gives.
@@ -162,7 +204,7 @@ fn label(table: &mut Table<'_>) -> Result<Option<String>, Diagnostic> {
 }
 
 /// A fault of the TOML itself, with the key of its line where there is one.
-pub(super) fn not_toml(source: Source<'_>, error: &toml::de::Error) -> Diagnostic {
+pub fn not_toml(source: Source<'_>, error: &toml::de::Error) -> Diagnostic {
     let span = error.span().unwrap_or(0..0);
     let line = source.line(span.start);
     let key = line.split_once('=').map_or("", |(key, _)| key.trim());

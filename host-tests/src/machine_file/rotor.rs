@@ -113,7 +113,7 @@ impl RotorFile {
 /// # Errors
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn read_rotor(path: &Path) -> Result<RotorFile, Diagnostic> {
-    load(path, parse_rotor)
+    load(path, "a rotor file", parse_rotor)
 }
 
 /// Reads a rotor from a text; `name` is what messages call it.
@@ -133,7 +133,7 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
     let mut rotor = shaft(source, &mut root, material)?;
     let last = rotor.places().len() - 1;
     let mut discs = Vec::new();
-    for (_, mut table) in root.tables_if("disc", "disc")? {
+    for mut table in root.optional_tables("disc")? {
         let node = node(&mut table, last)?;
         let disc = disc(&mut table, material)?;
         table.finish()?;
@@ -142,7 +142,7 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
     }
     let mut bearings = Vec::new();
     let mut span: Range<usize> = 0..0;
-    for (at, mut table) in root.list("bearing", "bearing")? {
+    for (at, mut table) in root.tables_of("bearing", "bearing")? {
         let node = node(&mut table, last)?;
         rotor = rotor.bearing(node, bearing(&mut table)?);
         table.finish()?;
@@ -150,7 +150,7 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
         span = at;
     }
     let mut unbalance = Vec::new();
-    for (_, mut table) in root.tables_if("unbalance", "unbalance")? {
+    for mut table in root.optional_tables("unbalance")? {
         let node = node(&mut table, last)?;
         let amount = table.number("amount", Quantity::UNBALANCE)?;
         let angle = table.number_or("angle", Quantity::DEGREES, 0.0)?;
@@ -158,7 +158,7 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
         unbalance.push((node, Polar::degrees(amount, angle)));
     }
     let mut sensors = Vec::new();
-    for (_, mut table) in root.tables_if("sensor", "sensor")? {
+    for mut table in root.optional_tables("sensor")? {
         let node = node(&mut table, last)?;
         let angle = table.number_or("angle", Quantity::DEGREES, 0.0)?;
         table.finish()?;
@@ -200,7 +200,7 @@ fn material(root: &mut Table<'_>) -> Result<Material, Diagnostic> {
 fn shaft(source: Source<'_>, root: &mut Table<'_>, material: Material) -> Result<FlexibleRotor, Diagnostic> {
     let mut rotor = FlexibleRotor::new();
     let mut count = 0;
-    for (index, (span, mut table)) in root.list("element", "piece of the shaft")?.into_iter().enumerate() {
+    for (index, (span, mut table)) in root.tables_of("element", "piece of the shaft")?.into_iter().enumerate() {
         let length = table.number("length", Quantity::LENGTH)?;
         let outer = table.number("diameter", Quantity::DIAMETER)?;
         let bore = table.number_or("bore", Quantity::BORE, 0.0)?;

@@ -94,7 +94,7 @@ impl<'a> Table<'a> {
     /// # Errors
     /// Not a table.
     pub fn table_if(&mut self, key: &'static str) -> Result<Option<Table<'a>>, Diagnostic> {
-        if self.table.iter().any(|(name, _)| name.get_ref() == key) {
+        if self.has(key) {
             return self.table(key).map(Some);
         }
         self.asked.push(key);
@@ -106,8 +106,8 @@ impl<'a> Table<'a> {
     /// # Errors
     /// Not a list of tables.
     pub fn tables_if(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
-        if self.table.iter().any(|(name, _)| name.get_ref() == key) {
-            return self.list(key, of);
+        if self.has(key) {
+            return self.tables_of(key, of);
         }
         self.asked.push(key);
         Ok(Vec::new())
@@ -152,14 +152,14 @@ impl<'a> Table<'a> {
     /// # Errors
     /// Missing, empty, or not a list of tables.
     pub fn tables(&mut self, key: &'static str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
-        self.list(key, "part of the machine, the motor first")
+        self.tables_of(key, "part of the machine, the motor first")
     }
 
     /// A list of tables that must be there, one for each of something.
     ///
     /// # Errors
     /// Missing, empty, or not a list of tables.
-    pub fn list(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
+    pub fn tables_of(&mut self, key: &'static str, of: &str) -> Result<Vec<(Range<usize>, Table<'a>)>, Diagnostic> {
         let expected = format!("one table [[{key}]] for each {of}");
         let Some(value) = self.get(key) else {
             return Err(self.missing(key, expected));
@@ -176,6 +176,155 @@ impl<'a> Table<'a> {
         list.iter().enumerate().map(read).collect()
     }
 
+    /// Whether a key is there; it counts as asked for.
+    pub fn has(&mut self, key: &'static str) -> bool {
+        self.get(key).is_some()
+    }
+
+    /// Lets keys stand that somebody else reads.
+    pub fn pass(&mut self, keys: &[&'static str]) {
+        self.asked.extend(keys);
+    }
+
+    /// A truth with a default where the key is missing.
+    ///
+    /// # Errors
+    /// Neither true nor false.
+    pub fn flag_or(&mut self, key: &'static str, default: bool) -> Result<bool, Diagnostic> {
+        let Some(value) = self.get(key) else { return Ok(default) };
+        match value.get_ref() {
+            DeValue::Boolean(truth) => Ok(*truth),
+            _ => Err(self.wrong(key, "true or false")),
+        }
+    }
+
+    /// A list of exactly `count` texts.
+    ///
+    /// # Errors
+    /// Missing, of another length, or not of texts.
+    pub fn texts(&mut self, key: &'static str, count: usize, expected: &str) -> Result<Vec<&'a str>, Diagnostic> {
+        let Some(value) = self.get(key) else { return Err(self.missing(key, expected)) };
+        let list = value.get_ref().as_array().filter(|list| list.len() == count);
+        let texts = list.and_then(|list| list.iter().map(|item| item.get_ref().as_str()).collect());
+        texts.ok_or_else(|| self.wrong(key, expected))
+    }
+
+    /// A list of rows of `width` numbers each.
+    ///
+    /// # Errors
+    /// Missing, empty, or a row that is not of so many finite numbers: placed at that row.
+    pub fn rows(&mut self, key: &'static str, width: usize, expected: &str) -> Result<Vec<Vec<f64>>, Diagnostic> {
+        let Some(value) = self.get(key) else { return Err(self.missing(key, expected)) };
+        let list = value.get_ref().as_array().filter(|list| !list.is_empty());
+        let list = list.ok_or_else(|| self.wrong(key, expected))?;
+        let mut rows = Vec::new();
+        for (index, item) in list.iter().enumerate() {
+            let row = item.get_ref().as_array().filter(|row| row.len() == width);
+            let numbers: Option<Vec<f64>> =
+                row.and_then(|row| row.iter().map(|v| number(v.get_ref()).filter(|n| n.is_finite())).collect());
+            let Some(numbers) = numbers else {
+                let path = self.name(&format!("{key}[{index}]"));
+                return Err(Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), expected));
+            };
+            rows.push(numbers);
+        }
+        Ok(rows)
+    }
+
+    /// A list of numbers, each of a quantity.
+    ///
+    /// # Errors
+    /// Missing, empty, or a number that is not of the quantity's range: placed at that number.
+    pub fn numbers(&mut self, key: &'static str, quantity: Quantity) -> Result<Vec<f64>, Diagnostic> {
+        let expected = format!("a list of numbers, each {quantity}");
+        let Some(value) = self.get(key) else { return Err(self.missing(key, expected)) };
+        let list = value.get_ref().as_array().filter(|list| !list.is_empty());
+        let list = list.ok_or_else(|| self.wrong(key, expected))?;
+        let read = |(index, item): (usize, &Spanned<DeValue<'_>>)| {
+            number(item.get_ref()).filter(|&n| quantity.allows(n)).ok_or_else(|| {
+                let path = self.name(&format!("{key}[{index}]"));
+                Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), quantity.to_string())
+            })
+        };
+        list.iter().enumerate().map(read).collect()
+    }
+
+    /// A table of numbers, each under a name that `known` finds the place of.
+    ///
+    /// # Errors
+    /// Missing, empty, not a table, a name that is not known, or a number out of range: placed at it.
+    pub fn shares(
+        &mut self,
+        key: &'static str,
+        quantity: Quantity,
+        expected: &str,
+        known: impl Fn(&str) -> Option<usize>,
+    ) -> Result<Vec<(usize, f64)>, Diagnostic> {
+        let Some(value) = self.get(key) else { return Err(self.missing(key, expected)) };
+        let table = value.get_ref().as_table().filter(|table| !table.is_empty());
+        let table = table.ok_or_else(|| self.wrong(key, expected))?;
+        let mut shares = Vec::new();
+        for (name, item) in table.iter() {
+            let path = self.name(&format!("{key}.{}", printable(name.get_ref(), REPEATED)));
+            let Some(at) = known(name.get_ref()) else {
+                return Err(Diagnostic::at(self.source, name.span(), path, "an unknown name", expected));
+            };
+            let Some(share) = number(item.get_ref()).filter(|&n| quantity.allows(n) && n != 0.0) else {
+                let range = format!("{quantity}, not zero");
+                return Err(Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), range));
+            };
+            shares.push((at, share));
+        }
+        Ok(shares)
+    }
+
+    /// A list of values that must be there, each with its place.
+    ///
+    /// # Errors
+    /// Missing or not a list.
+    pub fn items(&mut self, key: &'static str, expected: &str) -> Result<Vec<Item<'a>>, Diagnostic> {
+        let Some(value) = self.get(key) else {
+            return Err(self.missing(key, expected));
+        };
+        let list = value.get_ref().as_array().ok_or_else(|| self.wrong(key, expected))?;
+        let item = |(index, value): (usize, &'a Spanned<DeValue<'a>>)| Item {
+            source: self.source,
+            path: format!("{}[{index}]", self.name(key)),
+            value,
+        };
+        Ok(list.iter().enumerate().map(item).collect())
+    }
+
+    /// A truth that must be there.
+    ///
+    /// # Errors
+    /// Missing, or neither `true` nor `false`.
+    pub fn truth(&mut self, key: &'static str) -> Result<bool, Diagnostic> {
+        let expected = "true or false";
+        match self.get(key) {
+            Some(value) => value.get_ref().as_bool().ok_or_else(|| self.wrong(key, expected)),
+            None => Err(self.missing(key, expected)),
+        }
+    }
+
+    /// A list of tables that may be left out.
+    ///
+    /// # Errors
+    /// Not a list of tables.
+    pub fn optional_tables(&mut self, key: &'static str) -> Result<Vec<Table<'a>>, Diagnostic> {
+        if !self.has(key) {
+            return Ok(Vec::new());
+        }
+        let expected = format!("tables [[{key}]]");
+        let table = |item: Item<'a>| match item.value.get_ref().as_table() {
+            Some(table) => {
+                Ok(Table { source: item.source, table, place: item.value.span(), path: item.path, asked: Vec::new() })
+            }
+            None => Err(item.wrong(&expected)),
+        };
+        self.items(key, &expected)?.into_iter().map(table).collect()
+    }
+
     /// Ends the reading: a key that nobody asked for is a fault.
     ///
     /// # Errors
@@ -189,6 +338,52 @@ impl<'a> Table<'a> {
         let known: Vec<String> = self.asked.iter().map(|key| format!("`{key}`")).collect();
         let expected = format!("only {}", known.join(", "));
         Err(Diagnostic::at(self.source, first.span(), self.name(&key), "an unknown key", expected))
+    }
+}
+
+/// A value of a list, and where it stands.
+pub struct Item<'a> {
+    source: Source<'a>,
+    path: String,
+    value: &'a Spanned<DeValue<'a>>,
+}
+
+impl<'a> Item<'a> {
+    /// The diagnostic for a value that is not what was expected.
+    pub fn wrong(&self, expected: &str) -> Diagnostic {
+        Diagnostic::at(self.source, self.value.span(), self.path.clone(), describe(self.value.get_ref()), expected)
+    }
+
+    /// The value as a number.
+    ///
+    /// # Errors
+    /// Not a number, or out of the quantity's range.
+    pub fn number(&self, quantity: Quantity) -> Result<f64, Diagnostic> {
+        number(self.value.get_ref())
+            .filter(|&number| quantity.allows(number))
+            .ok_or_else(|| self.wrong(&quantity.to_string()))
+    }
+
+    /// The value as a text.
+    ///
+    /// # Errors
+    /// Not a text.
+    pub fn text(&self, expected: &str) -> Result<&'a str, Diagnostic> {
+        self.value.get_ref().as_str().ok_or_else(|| self.wrong(expected))
+    }
+
+    /// The value as a pair of numbers.
+    ///
+    /// # Errors
+    /// Not a list of two numbers within these ranges.
+    pub fn pair(&self, first: Quantity, second: Quantity, expected: &str) -> Result<(f64, f64), Diagnostic> {
+        let list =
+            self.value.get_ref().as_array().filter(|list| list.len() == 2).ok_or_else(|| self.wrong(expected))?;
+        let at = |index: usize, quantity: Quantity| {
+            let value = &list[index];
+            Item { source: self.source, path: format!("{}[{index}]", self.path), value }.number(quantity)
+        };
+        Ok((at(0, first)?, at(1, second)?))
     }
 }
 

@@ -6,14 +6,14 @@
 //!
 //! `J_j v_j' = torques_j - viscous_j v_j - sum_l c_lj F_l`, `F_l = k_l(t) x_l + d_l dx_l/dt`, `x_l = sum_j c_lj q_j -
 //! error - half the gap` `[Pfützner 1980 (1.6)]`, `[Tang 1994 ch. 1]`; with a crank `J w' + J'(phi) w^2/2` stands on
-//! the left
-//! `[Wang 1989 (1-15)]`.
+//! the left `[Wang 1989 (1-15)]`.
 //!
 //! Between events (a flank met or left, a stop, a slip, a switch of stiffness, a corner of a torque) the motion is
-//! the sum of its Taylor series, which for a linear train is the series of the matrix exponential. A stretch is made
-//! so short that what is left out lies below rounding: nothing is approximated but by the last digit of `f64`, not
-//! with a stiffness that swings nor with a motor's curve either. Events are the roots of those polynomials, isolated
-//! by bounds, so that a grazing contact is found whatever the length of the tick.
+//! the sum of its Taylor series, which for a linear train is the series of the matrix exponential; a linear train
+//! without events goes through a whole tick by the exponential itself. A stretch is made so short that what is left
+//! out lies below rounding: nothing is approximated but by the last digit of `f64`, not with a stiffness that swings
+//! nor with a motor's curve either. Events are the roots of those polynomials, isolated by bounds, so that a grazing
+//! contact is found whatever the length of the tick.
 //!
 //! | term | meaning | unit |
 //! |---|---|---|
@@ -44,6 +44,8 @@ pub mod converge;
 mod crank;
 mod event;
 mod friction;
+mod gear_pair;
+mod leap;
 mod link;
 mod mesh;
 mod modes;
@@ -51,12 +53,14 @@ mod motion;
 mod reading;
 mod series;
 mod source;
+mod start;
 mod stretch;
 
 pub use crank::Crank;
 pub use friction::Friction;
+pub use gear_pair::{GearBody, GearPair};
 pub use link::Link;
-pub use mesh::{Harmonic, Variation, Zone};
+pub use mesh::{Harmonic, Teeth, Variation, Zone};
 pub use modes::TrainModes;
 pub use motion::Motion;
 pub use reading::Signal;

@@ -24,6 +24,8 @@ pub struct MachinePage {
     pub frequency: Vec<f64>,
     /// What the motor feels: the whole chain and its reductions.
     pub responses: Vec<Response>,
+    /// The Campbell diagram as an `<svg>` element, where there is one.
+    pub campbell: Option<String>,
     /// Tables as title, text and table.
     pub tables: Vec<(String, String, Table)>,
 }
@@ -46,6 +48,7 @@ struct View<'a> {
     modes: Vec<String>,
     legend: Vec<Curve<'a>>,
     response: Option<String>,
+    campbell: &'a Option<String>,
     tables: Vec<Section<'a>>,
 }
 
@@ -74,6 +77,7 @@ impl MachinePage {
             modes: self.modes.iter().map(drawn).collect(),
             legend: self.responses.iter().map(|item| Curve { name: &item.name, class: &item.class }).collect(),
             response: (!self.responses.is_empty()).then(|| response(&self.frequency, &self.responses)),
+            campbell: &self.campbell,
             tables: self
                 .tables
                 .iter()

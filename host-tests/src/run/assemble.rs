@@ -7,7 +7,7 @@ use driveline_firmware::board::Facts;
 use super::engine::{self, Options, Ran};
 use super::plan::{Candidate, candidates};
 use super::scenario::Machine;
-use super::{comparison, facts, hoist};
+use super::{SCENES, comparison, facts};
 use crate::check::budgets::Budgets;
 use crate::image::{compositions, workspace};
 use crate::report::{Budget, Report};
@@ -18,7 +18,7 @@ pub struct Plan {
     machine: Machine,
     candidates: Vec<Candidate>,
     options: Options,
-    /// Whether the sweep and the sizes belong to it: a run of all variants.
+    /// Whether the sweep and the sizes belong to it: a run of all variants of the first scene.
     whole: bool,
 }
 
@@ -28,16 +28,18 @@ impl Plan {
     /// # Errors
     /// A sentence: no such scene, or no such variant.
     pub fn of(scene: &str, filter: Option<&str>, quick: bool) -> Result<Self, String> {
-        if scene != "hoist" {
-            return Err(format!("there is no scene `{scene}`; there is `hoist`"));
-        }
-        let machine = hoist::machine().map_err(|error| format!("the plant of scene `{scene}`: {error}"))?;
+        let Some((_, machine)) = SCENES.iter().find(|(name, _)| *name == scene) else {
+            let balanced = crate::balancing::scenes().map(|scene| scene.name);
+            let names = SCENES.iter().map(|(name, _)| *name).chain(balanced).map(|name| format!("`{name}`"));
+            return Err(format!("there is no scene `{scene}`; there are {}", names.collect::<Vec<_>>().join(", ")));
+        };
+        let machine = machine().map_err(|error| format!("the plant of scene `{scene}`: {error}"))?;
         let candidates = candidates(scene, filter);
         if let (true, Some(filter)) = (candidates.is_empty(), filter) {
             let all = keys(scene);
             return Err(format!("no variant of `{scene}` contains `{filter}`; there are {all}"));
         }
-        Ok(Plan { machine, candidates, options: Options { quick }, whole: filter.is_none() })
+        Ok(Plan { machine, candidates, options: Options { quick }, whole: filter.is_none() && scene == SCENES[0].0 })
     }
 
     /// Steps of the run, for its progress.
@@ -52,9 +54,9 @@ impl Plan {
     pub fn run(&self, says: &dyn Fn(&str), step: &dyn Fn()) -> Result<Report, Box<dyn Error>> {
         let mut report = Report {
             scene: self.machine.name.into(),
-            summary: facts::SUMMARY.into(),
-            facts: facts::of_hoist(&self.machine),
-            notes: facts::notes(self.options.quick),
+            summary: self.machine.summary.into(),
+            facts: self.machine.facts.clone(),
+            notes: facts::notes(&self.machine, self.options.quick),
             ..Report::default()
         };
         let mut bases: Vec<(Facts, (u64, u64))> = Vec::new();
@@ -73,6 +75,7 @@ impl Plan {
             step();
         }
         self.budgets(&mut report)?;
+        // The sweep and the compositions are not the scene's own; they stand with the first one.
         if self.whole {
             says("flash and RAM of what a drive is composed of");
             report.compositions = compositions(|text| says(text))?;
@@ -89,20 +92,18 @@ impl Plan {
     /// A variant's figures, its courses where they are worth a plot, and the other steps on its inputs.
     fn add(&self, report: &mut Report, candidate: &Candidate, ran: &Ran) -> Result<(), Box<dyn Error>> {
         report.variants.push(ran.variant.clone());
-        if candidate.rate_hz() == 10_000 && candidate.part(2) != "cut" {
+        let (chosen, rate_hz) = self.machine.chosen;
+        if candidate.rate_hz() == rate_hz && candidate.part(2) != "cut" {
             let courses = engine::trajectories(&self.machine, ran);
             // The first is shown first: the design's choice.
-            let at = if candidate.part(2) == "reduced" && candidate.part(1) == "f32" {
-                0
-            } else {
-                report.trajectories.len()
-            };
+            let at =
+                if candidate.part(2) == chosen && candidate.part(1) == "f32" { 0 } else { report.trajectories.len() };
             report.trajectories.splice(at..at, courses);
         }
-        if candidate.part(1) == "f32" && candidate.part(2) == "reduced" {
+        if candidate.part(0) == "hoist" && candidate.part(1) == "f32" && candidate.part(2) == chosen {
             report.comparisons.extend(comparison::of_hoist(&self.machine, candidate.rate_hz(), ran)?);
         }
-        if candidate.part(2) == "reduced" && candidate.rate_hz() == 10_000 {
+        if candidate.part(2) == chosen && candidate.rate_hz() == rate_hz {
             report.facts.extend(facts::of_sudden(&self.machine, &ran.variant, &ran.traces));
         }
         Ok(())

@@ -88,7 +88,8 @@ pub fn run(
     let mut recording = Recording::new(scenario.plant.clone());
     let mut noise = Noise::new(1);
     let mut actions = scenario.actions.iter().peekable();
-    let (mut reference, mut released, mut applied) = (0.0, false, 0.0);
+    let (mut reference, mut released, mut applied) = (0.0, false, 0.0_f64);
+    let (mut tripped, mut brake) = (false, 0.0);
     let mut moments = Vec::with_capacity(ticks);
     let mut words = Vec::with_capacity(ticks);
     for tick in 0..ticks {
@@ -99,24 +100,40 @@ pub fn run(
                 Action::Reference(speed) => reference = speed,
                 Action::Release => released = true,
                 Action::Load(node, torque) => recording.set_load_torque(node, torque),
-                Action::Brake(node, torque) => recording.set_brake(node, torque),
+                Action::Brake(node, torque) => {
+                    recording.set_brake(node, torque);
+                    if machine.told_brake == Some(node) {
+                        brake = torque;
+                    }
+                }
+                Action::Trip => tripped = true,
             }
         }
+        if let Some(law) = scenario.law {
+            let torque = (law.torque)(recording.plant().speed(law.node));
+            recording.set_load_torque(law.node, torque);
+        }
         let plant = recording.plant();
+        // What the drive is told of a brake and of friction in the tick that has ended; at rest they take what the motor gives.
+        let friction = if released { brake + machine.told_friction } else { 0.0 };
+        let slipping = match plant.motor_speed() {
+            0.0 => -applied.clamp(-friction, friction),
+            speed => -friction * speed.signum(),
+        };
         let input = Input {
             angle: machine.encoder.read(plant.motor_angle() - scenario.plant.motor_angle()),
-            torque: units.torque_word(applied + machine.torque_noise * noise.normal()),
+            torque: units.torque_word(applied + slipping + machine.torque_noise * noise.normal()),
             reference: if released { units.speed_word(reference) } else { units.torque_word(scenario.held) },
             flags: if released { Input::RELEASED } else { 0 },
             ..Input::default()
         };
         let output = drive.tick(&input)?;
-        applied = units.torque(output.torque);
+        applied = if tripped { 0.0 } else { units.torque(output.torque) };
         moments.push(Moment {
             time,
             torque: applied,
             motor_speed: plant.motor_speed(),
-            truth: [(machine.shaft_torque)(plant), plant.speed(node), plant.load_torque(node)],
+            truth: [(machine.shaft_torque)(plant), plant.speed(node), (machine.load_torque)(plant)],
             estimate: [
                 units.torque(output.shaft_torque),
                 units.speed(output.load_speed),

@@ -1,5 +1,6 @@
 //! What the report says in words and single figures.
 
+use driveline::design::TwoMassDesign;
 use driveline::machine::{Chain, Match};
 use driveline_firmware::scenes::hoist;
 
@@ -8,12 +9,8 @@ use super::figures::{deviations, peaks};
 use super::scenario::Machine;
 use crate::report::{Fact, Variant};
 
-/// What was run.
-pub const SUMMARY: &str = "A 12 t crane hoist, observed and governed from the motor's angle and torque alone: the firmware \
-    of every variant runs in QEMU, tick by tick against a full solver of the whole machine.";
-
 /// The machine and its reduction.
-pub fn of_hoist(machine: &Machine) -> Vec<Fact> {
+pub fn of_hoist(torque_noise: f64) -> Vec<Fact> {
     let (two, cut) = (hoist::REDUCED, hoist::CUT);
     let modal = Chain::reduce(&hoist::CHAIN, Match::ModalTruncation);
     let hertz = |rate: f64| rate / core::f64::consts::TAU;
@@ -61,8 +58,54 @@ pub fn of_hoist(machine: &Machine) -> Vec<Fact> {
                 sd.shaft_torque, sd.load_speed, sd.load_torque
             ),
         ),
-        fact("torque noise", format!("{:.1} N m rms in every tick, white", machine.torque_noise)),
+        fact("torque noise", format!("{:.1} N m rms in every tick, white", torque_noise)),
         fact("encoder", "2048 lines, 8192 counts a turn".into()),
+    ]
+}
+
+/// A machine as its observer has it, and what the design says of it.
+pub fn of_design(design: &TwoMassDesign, counts: u32, torque_noise: f64) -> Vec<Fact> {
+    let two = &design.machine;
+    let hertz = |rate: f64| rate / core::f64::consts::TAU;
+    let left_out = if two.error.next_mode.is_finite() {
+        format!(
+            "{:.1} Hz, with {:.2} % of the rigid motion's share at the motor",
+            hertz(two.error.next_mode),
+            100.0 * two.error.next_share
+        )
+    } else {
+        "none".to_owned()
+    };
+    let sd = design.standard_deviation;
+    vec![
+        fact(
+            "two masses",
+            format!(
+                "{:.4} and {:.4} kg m², {:.4e} N m/rad, at the motor",
+                two.motor_inertia, two.load_inertia, two.stiffness
+            ),
+        ),
+        fact(
+            "antiresonance, resonance",
+            format!("{:.2} Hz, {:.2} Hz", hertz(two.antiresonance()), hertz(two.resonance())),
+        ),
+        fact("mode left out", left_out),
+        fact(
+            "error of the semi-implicit step",
+            format!(
+                "{:.2} % over a period of the resonance; the design takes it below 1 %",
+                100.0 * design.semi_implicit.fidelity.error_bound
+            ),
+        ),
+        fact(
+            "predicted standard deviations",
+            format!(
+                "shaft torque {:.3} N m, load speed {:.4} rad/s, load torque {:.2} N m",
+                sd.shaft_torque, sd.load_speed, sd.load_torque
+            ),
+        ),
+        fact("torque noise", format!("{torque_noise:.2} N m rms in every tick, white")),
+        fact("encoder", format!("{counts} counts a turn")),
     ]
 }
 
@@ -87,19 +130,15 @@ pub fn of_sudden(machine: &Machine, variant: &Variant, traces: &[Trace]) -> Vec<
 }
 
 /// What is measured and what is not.
-pub fn notes(quick: bool) -> Vec<String> {
-    let mut notes: Vec<String> = [
+pub fn notes(machine: &Machine, quick: bool) -> Vec<String> {
+    let general = [
         "Measured in QEMU 7.2 or later: instructions, to the instruction; stack, by painting it; bits, against the host. No real board has run this.",
         "Cycles are an estimate: instructions times the mean of the cores' manuals over the tick's instruction mix, without wait states.",
         "Flash and RAM are those of the image with the drive less those of the image without one.",
-        "Errors are estimate less truth over the counted runs: of the peak for torques, of rated speed for speeds. The shaft torque is the rope's pull at the motor, \
-         behind the gear's loss.",
+        "Errors are estimate less truth over the counted runs: of the peak for torques, of rated speed for speeds.",
         "Every run of the solver was integrated again by another integrator (DOP853) and with tenfold tighter events, and agreed within 1e-8.",
-        "The textbook cut, the modal truncation and the match of resonance and antiresonance estimate this hoist alike within the noise: its motor shaft is stiff and its rope soft. \
-         Machines with shafts of like stiffness differ; `cargo driveline modes` says by how much.",
-    ]
-    .map(String::from)
-    .into();
+    ];
+    let mut notes: Vec<String> = general.iter().chain(&machine.notes).map(|note| (*note).to_owned()).collect();
     if quick {
         notes
             .insert(0, "A quick run: two seconds of the first situation, not proven. Not for figures to quote.".into());
@@ -107,6 +146,7 @@ pub fn notes(quick: bool) -> Vec<String> {
     notes
 }
 
-fn fact(name: &str, value: String) -> Fact {
+/// A fact by its name.
+pub fn fact(name: &str, value: String) -> Fact {
     Fact { name: name.into(), value }
 }

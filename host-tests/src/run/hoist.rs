@@ -5,6 +5,7 @@
 
 use driveline_firmware::scenes::hoist;
 
+use super::facts;
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
 use crate::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
@@ -79,6 +80,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         duration: 12.0,
         counted: true,
         marks: vec![(0.2, "brake opens"), (4.0, "half a load more"), (6.0, "reversal")],
+        law: None,
     };
     let slack = Scenario {
         name: "slack-rope start",
@@ -93,6 +95,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         duration: 8.0,
         counted: true,
         marks: vec![(0.1, "creep"), (4.0, "hoist")],
+        law: None,
     };
     let sudden = Scenario {
         name: "half a load more at once",
@@ -102,14 +105,29 @@ pub fn machine() -> Result<Machine, PlantError> {
         duration: 6.0,
         counted: false,
         marks: vec![(0.2, "brake opens"), (4.0, "half a load more")],
+        law: None,
     };
+    let torque_noise = 0.01 * hoist::RATED_TORQUE;
     Ok(Machine {
         name: "hoist",
+        summary: "A 12 t crane hoist, observed and governed from the motor's angle and torque alone: the firmware \
+                  of every variant runs in QEMU, tick by tick against a full solver of the whole machine.",
+        facts: facts::of_hoist(torque_noise),
+        notes: vec![
+            "The shaft torque is the rope's pull at the motor, behind the gear's loss.",
+            "The textbook cut, the modal truncation and the match of resonance and antiresonance estimate this hoist alike \
+             within the noise: its motor shaft is stiff and its rope soft. Machines with shafts of like stiffness differ; \
+             `cargo driveline modes` says by how much.",
+        ],
+        chosen: ("reduced", 10_000),
         scenarios: vec![pretensioned, slack, sudden],
         encoder: Encoder::new(8192),
-        torque_noise: 0.01 * hoist::RATED_TORQUE,
+        torque_noise,
         load: LOAD,
         shaft_torque: rope_torque,
+        load_torque: |plant| plant.load_torque(LOAD),
+        told_brake: None,
+        told_friction: 0.0,
         rated_speed: hoist::RATED_SPEED,
         bases: hoist::BASES,
     })

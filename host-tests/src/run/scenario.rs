@@ -4,6 +4,7 @@ use driveline::constants::Bases;
 
 use super::sensors::Encoder;
 use crate::plant::Plant;
+use crate::report::Fact;
 
 /// Something that happens at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,17 @@ pub enum Action {
     Load(usize, f64),
     /// A node's brake closes with this torque [N m]; 0 opens it.
     Brake(usize, f64),
+    /// The inverter is switched off: from now on the motor gives no torque, whatever the drive commands.
+    Trip,
+}
+
+/// A load torque that follows its node's speed.
+#[derive(Clone, Copy)]
+pub struct Law {
+    /// The node.
+    pub node: usize,
+    /// Torque [N m] at a speed [rad/s].
+    pub torque: fn(f64) -> f64,
 }
 
 /// One run of a scene's machine.
@@ -35,12 +47,22 @@ pub struct Scenario {
     pub counted: bool,
     /// What the plot says happened when [s].
     pub marks: Vec<(f64, &'static str)>,
+    /// A load torque that follows the speed, as a fan's does; held over each tick.
+    pub law: Option<Law>,
 }
 
 /// A scene's machine, as the report sees it.
 pub struct Machine {
     /// The scene's name.
     pub name: &'static str,
+    /// What the report says of it first.
+    pub summary: &'static str,
+    /// The machine in single figures.
+    pub facts: Vec<Fact>,
+    /// What the report has to say of this machine's figures.
+    pub notes: Vec<&'static str>,
+    /// The observer that the design chooses, and the rate whose courses are drawn, as the variants' names have them.
+    pub chosen: (&'static str, u32),
     /// The runs.
     pub scenarios: Vec<Scenario>,
     /// Its encoder.
@@ -51,6 +73,13 @@ pub struct Machine {
     pub load: usize,
     /// The torque that the drive calls the shaft's [N m].
     pub shaft_torque: fn(&Plant) -> f64,
+    /// The torque that the drive calls the load's [N m].
+    pub load_torque: fn(&Plant) -> f64,
+    /// A brake on the motor's side whose torque the drive is told with the motor's while it slips, as [`Action::Brake`] sets it.
+    pub told_brake: Option<usize>,
+    /// Dry friction on the motor's side that the drive is told with the motor's torque while it turns, as it was found when the machine was
+    /// commissioned [N m].
+    pub told_friction: f64,
     /// Rated speed of the motor [rad/s].
     pub rated_speed: f64,
     /// Bases of its fixed-point variants.

@@ -37,7 +37,8 @@ impl Units {
         self.value(word, self.bases.speed)
     }
 
-    fn word(&self, value: f64, base: f64) -> u32 {
+    /// A quantity with a base of its own as a word; floats leave the base alone.
+    pub fn word(&self, value: f64, base: f64) -> u32 {
         match self.words {
             Words::Single => (value as f32).to_bits(),
             Words::Fixed => Fixed::from_f64(value / base).to_bits() as u32,

@@ -6,11 +6,12 @@
 
 mod packages;
 
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use driveline_firmware::board::BOARDS;
+use driveline_firmware::board::{BOARDS, FURTHER};
 
 use crate::link::QEMU;
 use packages::{Manager, Rights};
@@ -41,7 +42,8 @@ pub struct SetupError {
 impl Need {
     /// All that is needed.
     pub fn all() -> Vec<Need> {
-        let targets = BOARDS.iter().map(|board| Need::Target(board.target));
+        let targets: BTreeSet<_> = BOARDS.iter().chain(FURTHER).map(|board| board.target).collect();
+        let targets = targets.into_iter().map(Need::Target);
         targets.chain([Need::Component("rustfmt", "fmt"), Need::Component("clippy", "clippy"), Need::Qemu]).collect()
     }
 

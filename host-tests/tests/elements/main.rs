@@ -1,7 +1,10 @@
 //! The elements of machines against textbooks, published machines and closed forms.
 
 mod crank;
+mod files;
+mod need;
 mod prime_mover;
+mod scenes;
 mod section;
 mod starting;
 mod train;

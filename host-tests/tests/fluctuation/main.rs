@@ -1,6 +1,10 @@
 //! The speed's fluctuation: cycles, waveforms and orders against motions in closed form, through the real drive.
 
 mod extremes;
+mod flywheel;
 mod motion;
+mod numerics;
+mod press;
 mod rig;
+mod toothed_wheel;
 mod waveform;

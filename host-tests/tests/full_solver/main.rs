@@ -1,8 +1,15 @@
 //! The full solver beyond chains: branches, loops, meshes, cranks, friction, absorbers, each held to a closed form or
 //! a case.
 
+mod absorber;
 mod against_chain;
 mod crank;
+mod critical;
+mod gear_pair;
+mod linear;
 mod mesh;
+mod mover;
 mod proof;
+mod simulate;
+mod start;
 mod transfer;

@@ -72,6 +72,7 @@ fn a_range_is_passed_quickly_and_never_stayed_in() {
         prompt: (),
         limit: SymmetricConfig::<f64>::new(100.0),
         supervisor: (),
+        view: (),
     };
     let mut governor = SpeedGovernor::<f64, Barred<2>>::default();
     let inside = |speed: f64| barred.ranges().iter().any(|r| speed > r[0] + 1e-9 && speed < r[1] - 1e-9);

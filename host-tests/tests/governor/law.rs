@@ -58,6 +58,7 @@ fn single() -> SpeedGovernorConfigOf<f32, Droop, FeedForward, Curve<3>> {
         prompt: FeedForwardConfig::<f32>::new(0.9),
         limit: CurveConfig::<f32, 3>::new(&CURVE, -100.0),
         supervisor: (),
+        view: (),
     }
 }
 
@@ -68,6 +69,7 @@ fn fixed() -> SpeedGovernorConfigOf<Fixed, Droop, FeedForward, Curve<3>> {
         prompt: FeedForwardConfig::<Fixed>::new(0.9, BASES),
         limit: CurveConfig::<Fixed, 3>::new(&CURVE, -100.0, BASES),
         supervisor: (),
+        view: (),
     }
 }
 
@@ -135,6 +137,7 @@ fn the_integral_does_not_wind_up_behind_any_limit() {
             prompt: (),
             limit,
             supervisor: (),
+            view: (),
         };
         let mut governor = SpeedGovernor::<f64, (), (), L>::default();
         governor.refer(SPEED);
@@ -170,6 +173,7 @@ fn slew_and_limit_hold_in_every_tick() {
         prompt: (),
         limit: slew,
         supervisor: (),
+        view: (),
     };
     let mut governor = SpeedGovernor::<f64, (), (), Slew<f64, Between>>::default();
     let mut last = 0.0;
@@ -195,6 +199,7 @@ fn with_damping_and_nothing_else_it_is_the_speed_loop() {
         prompt: DampingConfig::<f32>::new(&design),
         limit: SymmetricConfig::<f32>::new(TORQUE),
         supervisor: (),
+        view: (),
     };
     let loop_config = SpeedLoopConfig::<f32>::new(&design, SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP });
     let mut governor = SpeedGovernor::<f32, (), ActiveDamping>::default();
@@ -228,4 +233,14 @@ fn a_power_limit_is_kept() {
             assert!(most * speed <= power * 1.0023, "{speed} {most}");
         }
     }
+}
+
+/// What is left out takes no room: integral, set point and reference, and of the modes a mode, a mark and two counters.
+#[test]
+fn what_is_left_out_takes_no_room() {
+    use driveline::governor::Modes;
+    assert_eq!(size_of::<SpeedGovernor<f32>>(), 12);
+    assert_eq!(size_of::<SpeedGovernor<f32, Droop, (FeedForward, ActiveDamping), Curve<4>>>(), 12);
+    assert!(size_of::<SpeedGovernor<f32, (), (), Symmetric, Modes>>() <= 12 + 12);
+    assert_eq!(size_of::<SpeedGovernorConfigOf<f32>>(), 4 * 4 + 4);
 }

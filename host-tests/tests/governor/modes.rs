@@ -34,6 +34,7 @@ fn config() -> SpeedGovernorConfigOf<f64, (), (), Symmetric, Modes> {
         prompt: (),
         limit: SymmetricConfig::<f64>::new(400.0),
         supervisor: ModesConfig::<f64>::new(&LIMITS, PERIOD),
+        view: (),
     }
 }
 

@@ -25,6 +25,7 @@ fn settled(rated: [f64; 2], droop: [f64; 2], load: f64) -> (f64, [f64; 2]) {
         prompt: (),
         limit: BetweenConfig::<f64>::new(0.0, 1.1 * rated[k]),
         supervisor: (),
+        view: (),
     });
     let reduced = inertia[0] * inertia[1] / (inertia[0] + inertia[1]);
     let stiffness = reduced * (2.0 * core::f64::consts::TAU).powi(2);

@@ -21,6 +21,7 @@ fn config(span: f64, droop: f64, share: f64) -> SpeedGovernorConfigOf<f64, Droop
         prompt: FeedForwardConfig::<f64>::new(share),
         limit: SymmetricConfig::<f64>::new(3000.0),
         supervisor: (),
+        view: (),
     }
 }
 

@@ -83,3 +83,14 @@ fn a_file_that_is_not_there_is_a_fault_of_the_file() {
     let fault = read_rotor(std::path::Path::new("no/such.toml")).unwrap_err();
     assert_eq!((fault.line, fault.key.as_str()), (0, ""));
 }
+
+#[test]
+fn a_scene_or_a_variant_that_is_not_there_is_refused() {
+    let output = driveline(&["run", "balanced-fan", "--variants", "nonsense"]);
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text.contains("no variant of `balanced-fan` contains `nonsense`"), "{text}");
+    let output = driveline(&["run", "turbine"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("`flexible`"));
+}

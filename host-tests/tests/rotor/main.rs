@@ -5,4 +5,5 @@ mod closed_forms;
 mod command;
 mod rig;
 mod run_up;
+mod scenes;
 mod speeds;

@@ -1,5 +1,6 @@
 //! Events: what ends a stretch, and what then changes.
 
+use super::Variation;
 use super::motion::Motion;
 use super::reading::Watch;
 use super::series::Series;
@@ -23,6 +24,8 @@ enum Action {
     Slip(usize, i8),
     /// The arc's ends passed become one more or one less.
     Arc(usize, i64),
+    /// The tooth edge ahead becomes the next or the one before.
+    Tooth(usize, i64),
 }
 
 impl Motion {
@@ -114,6 +117,13 @@ impl Motion {
             add(Action::Arc(arc, 1), stretch.angle[j].guard(-1.0, self.arcs_end(arc, passed)));
             add(Action::Arc(arc, -1), stretch.angle[j].guard(1.0, -self.arcs_end(arc, passed - 1)));
         }
+        for (i, &(l, edge)) in self.mode.teeth.iter().enumerate() {
+            if let Some(Variation::Teeth(teeth)) = &self.train.links[l].variation {
+                let angle = &stretch.angle[teeth.coordinate];
+                add(Action::Tooth(i, 1), angle.guard(-1.0, teeth.edge(edge)));
+                add(Action::Tooth(i, -1), angle.guard(1.0, -teeth.edge(edge - 1)));
+            }
+        }
     }
 
     /// The speed of a friction over its surface, times a sign.
@@ -179,6 +189,7 @@ impl Motion {
                 self.log(EventKind::Slip, Place::Node(self.train.frictions[s].terms[0].0), new);
             }
             Action::Arc(arc, step) => self.mode.arcs[arc].2 += step,
+            Action::Tooth(i, step) => self.mode.teeth[i].1 += step,
         }
     }
 

@@ -1,12 +1,11 @@
 //! Links: whatever stretches between coordinates and pulls them together.
 
-use super::super::error::{PlantError, in_range, not_negative, positive};
+use super::super::error::{PlantError, in_range, not_negative};
 use super::super::event::Place;
 use super::mesh::Variation;
 
-/// An elastic link. Its elongation is `sum c_j q_j` over its terms, less nothing: a shaft has the terms 1 and -1, a
-/// mesh the base radii, a bearing a single 1. Its force `k x + d dx/dt` acts on coordinate `j` as `-c_j` times
-/// itself.
+/// An elastic link. Its elongation is `sum c_j q_j` over its terms: a shaft has the terms 1 and -1, a mesh the base
+/// radii, a bearing a single 1. Its force `k x + d dx/dt` acts on coordinate `j` as `-c_j` times itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     pub(super) terms: Vec<(usize, f64)>,
@@ -20,7 +19,7 @@ pub struct Link {
 }
 
 impl Link {
-    /// Any terms: coordinate and elongation per coordinate, m/rad, rad/rad or 1.
+    /// Any terms: coordinate and elongation per coordinate, m/rad, rad/rad or 1. A stiffness of zero leaves a damper.
     #[must_use]
     pub fn new(terms: &[(usize, f64)], stiffness: f64) -> Self {
         Self {
@@ -138,12 +137,21 @@ impl Link {
         if self.terms.iter().enumerate().any(twice) {
             return Err(PlantError::Count { name: "times that a link names one coordinate", found: 2, expected: 1 });
         }
-        positive("stiffness", place, self.stiffness)?;
+        not_negative("stiffness", place, self.stiffness)?;
         not_negative("damping", place, self.damping)?;
+        let alone = self.is_linear() && self.variation.is_none() && self.damping > 0.0;
+        in_range("stiffness", place, self.stiffness, self.stiffness > 0.0 || alone, "above zero, or damping alone")?;
         not_negative(if self.rope { "slack" } else { "backlash" }, place, self.gap)?;
         let eta = self.efficiency;
         in_range("efficiency", place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
         in_range("elongation at the start", place, self.elongation, true, "a finite number")?;
-        self.variation.as_ref().map_or(Ok(()), |variation| variation.validate(place, self.stiffness))
+        let Some(variation) = &self.variation else { return Ok(()) };
+        if let Variation::Teeth(teeth) = variation
+            && teeth.coordinate >= coordinates
+        {
+            let (name, found) = ("coordinate of teeth", teeth.coordinate);
+            return Err(PlantError::Count { name, found, expected: coordinates });
+        }
+        variation.validate(place, self.stiffness)
     }
 }

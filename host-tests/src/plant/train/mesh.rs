@@ -13,7 +13,7 @@ pub struct Zone {
     pub duration: f64,
     /// Of all pairs in contact, N/m, above zero.
     pub stiffness: f64,
-    /// `sum k_i e_i` over the pairs in contact, `e_i` the tooth error (m) that closes the mesh, N.
+    /// `sum k_i e_i` over the pairs in contact, `e_i` the tooth error (m) that opens the mesh, N.
     pub error_force: f64,
 }
 
@@ -28,12 +28,60 @@ pub struct Harmonic {
     pub sine: f64,
 }
 
+/// A spur pair with rectangular stiffness by the angle of its pinion; see [`Variation::spur`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Teeth {
+    /// The coordinate whose angle counts.
+    pub coordinate: usize,
+    /// Teeth on a turn of it, above zero.
+    pub count: f64,
+    /// Between 1 and 2.
+    pub contact_ratio: f64,
+    /// Stiffness with two pairs in contact, N/m.
+    pub double: f64,
+    /// Stiffness with one pair in contact, N/m.
+    pub single: f64,
+    /// Error of every second pair, m.
+    pub error: f64,
+}
+
+impl Teeth {
+    /// The angle, rad, at which a zone begins: double contact at even numbers, single at odd ones.
+    pub(super) fn edge(&self, number: i64) -> f64 {
+        let within = if number.rem_euclid(2) == 0 { 0.0 } else { self.contact_ratio - 1.0 };
+        (number.div_euclid(2) as f64 + within) * TAU / self.count
+    }
+
+    /// The number of the zone that comes next after an angle.
+    pub(super) fn next_edge(&self, angle: f64) -> i64 {
+        let mut number = 2 * (angle * self.count / TAU).floor() as i64 - 1;
+        while self.edge(number) <= angle {
+            number += 1;
+        }
+        number
+    }
+
+    /// Stiffness and error in front of an edge.
+    pub(super) fn before(&self, edge: i64) -> (f64, f64) {
+        let zone = edge - 1;
+        let odd_pitch = zone.div_euclid(2).rem_euclid(2) == 1;
+        match (zone.rem_euclid(2) == 0, odd_pitch) {
+            (true, _) => (self.double, 0.5 * self.error),
+            (false, false) => (self.single, self.error),
+            (false, true) => (self.single, 0.0),
+        }
+    }
+}
+
 /// How the stiffness of a link goes with time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Variation {
     /// Zones that follow each other for ever; the first begins at time zero.
     Zones(Vec<Zone>),
-    /// About the link's stiffness, N/m or N m/rad, and a tooth error, m or rad, that closes the link.
+    /// Zones of a spur pair that the angle of a coordinate goes through pitch by pitch, forwards or backwards; the
+    /// first pitch begins at the angle zero. The mesh frequency follows the speed.
+    Teeth(Teeth),
+    /// About the link's stiffness, N/m or N m/rad, and a tooth error, m or rad, that opens the link.
     Harmonics {
         /// Base frequency, Hz, above zero.
         frequency: f64,
@@ -62,20 +110,15 @@ impl Variation {
         ])
     }
 
-    /// Length of a cycle, s.
-    #[must_use]
-    pub fn period(&self) -> f64 {
-        match self {
-            Self::Zones(zones) => zones.iter().map(|zone| zone.duration).sum(),
-            Self::Harmonics { frequency, .. } => 1.0 / frequency,
-        }
-    }
-
     /// Mean stiffness over a cycle.
     #[must_use]
     pub fn mean(&self, stiffness: f64) -> f64 {
         match self {
-            Self::Zones(zones) => zones.iter().map(|zone| zone.duration * zone.stiffness).sum::<f64>() / self.period(),
+            Self::Zones(zones) => {
+                let cycle: f64 = zones.iter().map(|zone| zone.duration).sum();
+                zones.iter().map(|zone| zone.duration * zone.stiffness).sum::<f64>() / cycle
+            }
+            Self::Teeth(teeth) => (teeth.contact_ratio - 1.0) * (teeth.double - teeth.single) + teeth.single,
             Self::Harmonics { .. } => stiffness,
         }
     }
@@ -103,12 +146,12 @@ impl Variation {
     pub(super) fn corner_after(&self, time: f64) -> Option<f64> {
         match self {
             Self::Zones(zones) => Some(Self::zone_at(zones, time).1),
-            Self::Harmonics { .. } => None,
+            Self::Teeth(_) | Self::Harmonics { .. } => None,
         }
     }
 
-    /// Stiffness over a stretch, and the error that closes the link.
-    pub(super) fn over(&self, stiffness: f64, t: f64, h: f64) -> (Series, Series) {
+    /// Stiffness over a stretch, and the error that opens the link; `edge` is the tooth edge ahead.
+    pub(super) fn over(&self, stiffness: f64, t: f64, h: f64, edge: i64) -> (Series, Series) {
         let (mut k, mut e) = (ZERO, ZERO);
         match self {
             Self::Zones(zones) => {
@@ -116,6 +159,7 @@ impl Variation {
                 k[0] = zone.stiffness;
                 e[0] = zone.error_force / zone.stiffness;
             }
+            Self::Teeth(teeth) => (k[0], e[0]) = teeth.before(edge),
             Self::Harmonics { frequency, stiffness: swings, error } => {
                 k[0] = stiffness;
                 for (into, harmonics) in [(&mut k, swings), (&mut e, error)] {
@@ -133,6 +177,7 @@ impl Variation {
     pub(super) fn bounds(&self, stiffness: f64) -> (f64, f64) {
         match self {
             Self::Zones(zones) => (zones.iter().map(|zone| zone.stiffness).fold(0.0, f64::max), 0.0),
+            Self::Teeth(teeth) => (teeth.double.max(teeth.single), 0.0),
             Self::Harmonics { frequency, stiffness: swings, error } => {
                 let rise: f64 = swings.iter().map(|h| h.cosine.hypot(h.sine)).sum();
                 let order = swings.iter().chain(error).map(|h| h.order.abs()).fold(0.0, f64::max);
@@ -153,6 +198,14 @@ impl Variation {
                     finite("error of a zone", place, zone.error_force)?;
                 }
                 Ok(())
+            }
+            Self::Teeth(teeth) => {
+                positive("number of teeth", place, teeth.count)?;
+                positive("stiffness of double contact", place, teeth.double)?;
+                positive("stiffness of single contact", place, teeth.single)?;
+                finite("tooth error", place, teeth.error)?;
+                let ratio = teeth.contact_ratio;
+                in_range("contact ratio", place, ratio, ratio > 1.0 && ratio < 2.0, "between 1 and 2")
             }
             Self::Harmonics { frequency, stiffness: swings, error } => {
                 positive("mesh frequency", place, *frequency)?;

@@ -22,8 +22,7 @@ impl Train {
     pub fn modes(&self) -> Result<TrainModes, PlantError> {
         self.validate()?;
         let n = self.coordinates.len();
-        let inertia: Vec<f64> =
-            self.coordinates.iter().map(|c| c.inertia + c.crank.map_or(0.0, |k| k.inertia(c.angle).0)).collect();
+        let inertia = self.inertias();
         let mut incidence = DMatrix::zeros(self.links.len(), n);
         for (l, link) in self.links.iter().enumerate() {
             for &(at, share) in &link.terms {
@@ -36,5 +35,11 @@ impl Train {
         let omega = order.iter().map(|&i| eigen.eigenvalues[i].max(0.0).sqrt());
         let shape = |&i: &usize| (0..n).map(|j| eigen.eigenvectors[(j, i)] / inertia[j].sqrt()).collect();
         Ok(TrainModes { omega: omega.collect(), shapes: order.iter().map(shape).collect() })
+    }
+
+    /// Inertia of every coordinate, kg m2 or kg, with what a crank adds at its starting angle.
+    #[must_use]
+    pub fn inertias(&self) -> Vec<f64> {
+        self.coordinates.iter().map(|c| c.inertia + c.crank.map_or(0.0, |k| k.inertia(c.angle).0)).collect()
     }
 }

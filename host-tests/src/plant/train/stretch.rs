@@ -83,10 +83,11 @@ impl Stretch {
         let laws: Vec<Law> = train
             .links
             .iter()
-            .map(|link| match &link.variation {
+            .enumerate()
+            .map(|(l, link)| match &link.variation {
                 None => Law::Fixed(link.stiffness),
                 Some(variation) => {
-                    let (k, e) = variation.over(link.stiffness, t, h);
+                    let (k, e) = variation.over(link.stiffness, t, h, mode.edge(l));
                     Law::Varying(Box::new([k, e]))
                 }
             })
@@ -183,7 +184,7 @@ impl Stretch {
                     let (mut sum, mut sizes) = (0.0, 0.0);
                     for i in 0..=k {
                         let at = if i == 0 { origin } else { 0.0 };
-                        sum += stiffness[k - i] * (elongation.value[i] - at + error[i]);
+                        sum += stiffness[k - i] * (elongation.value[i] - at - error[i]);
                         sizes += stiffness[k - i].abs() * (elongation.size[i] + at.abs() + error[i].abs());
                     }
                     (sum, sizes)

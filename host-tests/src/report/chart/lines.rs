@@ -90,3 +90,29 @@ impl Lines {
         }
     }
 }
+
+/// A curve over time that a legend names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Name.
+    pub name: String,
+    /// Style class, `s0` and on.
+    pub class: String,
+    /// Values at the common times.
+    pub values: Vec<f64>,
+}
+
+/// Draws lines over time \[s\]; `quantity` is what stands at the axis. `marks` are times of events.
+pub fn over_time(time: &[f64], drawn: &[Line], quantity: &str, marks: &[f64]) -> String {
+    let curve = |line: &Line| Curve { class: line.class.clone(), values: line.values.clone() };
+    Lines {
+        label: format!("{quantity} over time"),
+        along: "time, s".to_owned(),
+        across: quantity.to_owned(),
+        places: time.to_vec(),
+        curves: drawn.iter().map(curve).collect(),
+        marks: marks.iter().map(|&mark| (mark, String::new())).collect(),
+        ..Lines::default()
+    }
+    .draw()
+}

@@ -16,6 +16,7 @@ pub enum Change {
     Rest(usize),
     Loose(usize, f64),
     Arc(usize, i64),
+    Tooth(usize, i64),
 }
 
 /// Side of a rope that is stretched but whose damper has stopped pulling.
@@ -32,6 +33,8 @@ pub struct Double<'a> {
     /// Of each friction: the way it slides, 0 while it sticks.
     way: Vec<f64>,
     arcs: Vec<(usize, usize, i64)>,
+    /// Links whose teeth follow an angle, and the edge ahead of each.
+    teeth: Vec<(usize, i64)>,
 }
 
 impl<'a> Double<'a> {
@@ -51,6 +54,7 @@ impl<'a> Double<'a> {
             flow: vec![1.0; train.links.len()],
             way: vec![0.0; train.frictions.len()],
             arcs: arcs.to_vec(),
+            teeth: super::super::motion::teeth_of(train),
             held,
             middle: 0.0,
             train,
@@ -102,6 +106,17 @@ impl<'a> Double<'a> {
                 }
                 (zones[0].stiffness, zones[0].error_force / zones[0].stiffness)
             }
+            Some(Variation::Teeth(teeth)) => {
+                // the middle of the zone says how many pairs share the load
+                let ahead = self.teeth.iter().find(|tooth| tooth.0 == l).map_or(0, |tooth| tooth.1);
+                let pitches = 0.5 * (teeth.edge(ahead - 1) + teeth.edge(ahead)) * teeth.count / TAU;
+                let faulty = pitches.floor().rem_euclid(2.0) == 0.0;
+                if pitches - pitches.floor() < teeth.contact_ratio - 1.0 {
+                    (teeth.double, 0.5 * teeth.error)
+                } else {
+                    (teeth.single, if faulty { teeth.error } else { 0.0 })
+                }
+            }
             Some(Variation::Harmonics { frequency, stiffness, error }) => {
                 let turn = |h: &super::super::Harmonic| {
                     let phase = TAU * frequency * h.order * t;
@@ -118,7 +133,7 @@ impl<'a> Double<'a> {
         let reach = if link.rope { link.gap } else { 0.5 * link.gap * self.side[l] };
         let (k, error) = self.law(t, l);
         let rate: f64 = link.terms.iter().map(|&(at, c)| c * self.speed(y, at)).sum();
-        k * (y[l] - reach + error) + link.damping * rate
+        k * (y[l] - reach - error) + link.damping * rate
     }
 
     /// Force that the link carries.
@@ -327,6 +342,13 @@ impl Hybrid for Double<'_> {
             all.push((ahead - self.angle(y, j), ahead.abs(), Change::Arc(arc, 1)));
             all.push((self.angle(y, j) - behind, behind.abs(), Change::Arc(arc, -1)));
         }
+        for (i, &(l, edge)) in self.teeth.iter().enumerate() {
+            if let Some(Variation::Teeth(teeth)) = &self.train.links[l].variation {
+                let (angle, ahead, behind) = (self.angle(y, teeth.coordinate), teeth.edge(edge), teeth.edge(edge - 1));
+                all.push((ahead - angle, ahead.abs(), Change::Tooth(i, 1)));
+                all.push((angle - behind, behind.abs(), Change::Tooth(i, -1)));
+            }
+        }
         all
     }
 
@@ -348,6 +370,7 @@ impl Hybrid for Double<'_> {
                 self.judge(t, y, s);
             }
             Change::Arc(arc, step) => self.arcs[arc].2 += step,
+            Change::Tooth(i, step) => self.teeth[i].1 += step,
         }
     }
 }

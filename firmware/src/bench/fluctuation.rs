@@ -1,0 +1,49 @@
+//! The measurement of the speed's fluctuation, on a motor that turns at 1425 r/min, a little faster and slower by turns.
+
+use driveline::constants::{Bases, Cycle};
+use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Waveform, WaveformConfig};
+use driveline::number::Number;
+use driveline::sample::Estimate;
+
+use super::Bench;
+use crate::board::Board;
+use crate::program::Program;
+
+/// Bins of the waveform.
+const BINS: usize = 64;
+
+/// One tick's angle, torque and estimate.
+struct Tick<N> {
+    angle: u32,
+    torque: N,
+    estimate: Estimate<N>,
+}
+
+/// Every part alone, and both.
+pub fn all<B: Board, N: Number + 'static>(bench: &mut Bench<'_, B>, bases: Bases) {
+    // A quarter of a turn, so that there are many ends; a window of six, which is most of the calls.
+    let cycle = CycleConfig::new(Cycle { turns: 1, cycles: 4 }, 1e-4, bases);
+    let waveform = WaveformConfig::new::<BINS>(cycle, 6);
+    part::<B, N, Extremes<N>>(bench, "fluctuation/extremes", cycle);
+    part::<B, N, Waveform<N, BINS>>(bench, "fluctuation/waveform", waveform);
+    part::<B, N, (Extremes<N>, Waveform<N, BINS>)>(bench, "fluctuation/both", (cycle, waveform));
+}
+
+fn part<B: Board, N: Number, F: Fluctuation<N>>(bench: &mut Bench<'_, B>, name: &str, config: F::Config) {
+    let mut angle = 0_u32;
+    let mut speed = 10_200_000_u32;
+    let input = move |inputs: &mut Program| {
+        // The ripple: up for an eighth of a turn, down for the next.
+        speed = if angle >> 29 & 1 == 0 { speed.wrapping_add(1_000) } else { speed.wrapping_sub(1_000) };
+        angle = angle.wrapping_add(speed);
+        let speed = N::from_angle(speed as i32);
+        let estimate = Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() };
+        Tick { angle, torque: N::from_word(inputs.next_word()), estimate }
+    };
+    bench.measure(name, (config, F::default()), input, measure::<N, F>);
+}
+
+#[inline(never)]
+fn measure<N: Number, F: Fluctuation<N>>(state: &mut (F::Config, F), tick: &Tick<N>, _: &mut ()) {
+    state.1.measure(&state.0, tick.angle, tick.torque, &tick.estimate);
+}

@@ -1,0 +1,93 @@
+//! The governor alone, and what each of its parts adds, on the diesel set's constants.
+
+use driveline::governor::{
+    Barred, Between, Curve, Damping, Droop, FeedForward, Governor, Mean, Modes, Request, Slew, SpeedGovernor,
+    SpeedGovernorConfig, SpeedLoop, Symmetric,
+};
+use driveline::number::{Fixed, Number};
+use driveline::sample::{Command, Estimate};
+
+use super::Bench;
+use crate::board::Board;
+use crate::governed::Variant;
+use crate::program::Program;
+use crate::scenes::generator::{self, parts};
+use crate::scenes::hoist::{Hoist, with};
+
+/// One call's state: the constants and the governor.
+type Governed<'c, N, G> = (&'c <G as Governor<N>>::Config, G);
+
+fn input<N: Number>(inputs: &mut Program) -> (Estimate<N>, N) {
+    let mut number = || N::from_word(inputs.next_word());
+    let estimate =
+        Estimate { motor_speed: number(), shaft_torque: number(), load_speed: number(), load_torque: number() };
+    (estimate, number())
+}
+
+#[inline(never)]
+fn command<N: Number, G: Governor<N>>(
+    state: &mut Governed<'_, N, G>,
+    (estimate, reference): &(Estimate<N>, N),
+    command: &mut Command<N>,
+) {
+    state.1.refer(*reference);
+    command.torque = state.1.command(state.0, estimate);
+}
+
+macro_rules! governors {
+    ($run:ident, $number:ident) => {
+        /// The governors with this number.
+        pub fn $run<B: Board>(bench: &mut Bench<'_, B>) {
+            type N = $number;
+            const GAINS: driveline::governor::Gains<N> = parts::$run::GAINS;
+            macro_rules! one {
+                ($name:literal, $set_point:ty, $prompt:ty, $limit:ty, $modes:ty, $s:expr, $f:expr, $l:expr, $m:expr) => {
+                    let config =
+                        SpeedGovernorConfig { gains: GAINS, set_point: $s, prompt: $f, limit: $l, supervisor: $m, view: () };
+                    let governor = SpeedGovernor::<N, $set_point, $prompt, $limit, $modes>::default();
+                    bench.measure($name, (&config, governor), input::<N>, command);
+                };
+            }
+            use parts::$run as p;
+            let hoist = &<Hoist<N, with::Reduced, 10_000> as Variant>::CONFIG.governor;
+            bench.measure("governor/speed-loop", (hoist, SpeedLoop::default()), input::<N>, command);
+            one!("governor/core", (), (), Symmetric, (), (), (), p::SYMMETRIC, ());
+            one!("governor/between", (), (), Between, (), (), (), p::BETWEEN, ());
+            one!("governor/droop", Droop, (), Symmetric, (), p::DROOP, (), p::SYMMETRIC, ());
+            one!("governor/barred", Barred<1>, (), Symmetric, (), p::BARRED, (), p::SYMMETRIC, ());
+            one!("governor/feed-forward", (), FeedForward, Symmetric, (), (), p::FORWARD, p::SYMMETRIC, ());
+            one!("governor/damping", (), Damping, Symmetric, (), (), p::DAMPING, p::SYMMETRIC, ());
+            one!("governor/curve", (), (), Curve<4>, (), (), (), p::CURVE, ());
+            one!("governor/slew", (), (), Slew<N, Symmetric>, (), (), (), p::SLEW, ());
+            let config =
+                SpeedGovernorConfig { gains: GAINS, set_point: (), prompt: (), limit: p::SYMMETRIC, supervisor: (), view: p::MEAN };
+            let governor = SpeedGovernor::<N, (), (), Symmetric, (), Mean<N, { generator::FIRING }>>::default();
+            bench.measure("governor/mean", (&config, governor), input::<N>, command);
+            let mut modes = SpeedGovernor::<N, (), (), Symmetric, Modes>::default();
+            modes.supervisor_mut().ask(Request::Start);
+            let config = SpeedGovernorConfig {
+                gains: GAINS,
+                set_point: (),
+                prompt: (),
+                limit: p::SYMMETRIC,
+                supervisor: p::WIDE,
+view: (),
+            };
+            bench.measure("governor/modes", (&config, modes), input::<N>, command);
+            let mut whole = generator::Governor::<N>::default();
+            whole.supervisor_mut().ask(Request::Start);
+            let config = SpeedGovernorConfig {
+                gains: GAINS,
+                set_point: (p::DROOP, p::BARRED),
+                prompt: p::FORWARD,
+                limit: p::CURVE,
+                supervisor: p::WIDE,
+                view: p::MEAN,
+            };
+            bench.measure("governor/whole", (&config, whole), input::<N>, command);
+        }
+    };
+}
+
+governors!(single, f32);
+governors!(fixed, Fixed);

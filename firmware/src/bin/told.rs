@@ -1,0 +1,38 @@
+#![no_std]
+#![no_main]
+//! The selected scene over the built-in inputs, told as frames of telemetry to the host's pipe `told` until nobody listens.
+
+use cortex_m_rt::entry;
+use driveline::telemetry::Channel;
+use driveline_firmware::Words;
+use driveline_firmware::board::{Board, Sink, ThisBoard};
+use driveline_firmware::fingerprint::SEED;
+use driveline_firmware::program::Program;
+use driveline_firmware::scene::Scene;
+use driveline_firmware::selected::Selected;
+use driveline_firmware::told::{Told, channels, values};
+
+/// Ticks told: a minute of the drive's time.
+const TICKS: u32 = 60 * Selected::RATE_HZ;
+/// Ticks between two turns of the main loop, and between two descriptions of the channels.
+const TURN: u32 = 16;
+const DESCRIBED: u32 = 1024;
+
+#[entry]
+fn main() -> ! {
+    static RING: Told = Told::new();
+
+    let board = ThisBoard::start();
+    let Some(mut sink) = Sink::open(c"told") else { board.exit(false) };
+    let mut drive = Selected::new();
+    let mut inputs = Program::new(SEED, const { Words::of::<Selected>() });
+    for tick in 0..TICKS {
+        let input = inputs.next_input();
+        RING.record(&values(&input, &drive.tick(&input)));
+        let described = !tick.is_multiple_of(DESCRIBED) || Channel::send(&channels::<Selected>(), &mut sink).is_ok();
+        if !described || (tick.is_multiple_of(TURN) && RING.send(&mut sink).is_err()) {
+            break;
+        }
+    }
+    board.exit(true)
+}

@@ -1,0 +1,13 @@
+//! Arm MPS2 with the AN505 image: a Cortex-M33 with an FPU of single precision, in its secure state, at 20 MHz.
+
+use super::Facts;
+
+/// What the host knows of it.
+pub const FACTS: Facts = Facts { name: "mps2-an505", core: "m33", target: "thumbv8m.main-none-eabihf" };
+
+/// The board, as QEMU models it.
+#[cfg(all(feature = "target", target_os = "none"))]
+pub struct Mps2An505(super::cmsdk_timer::SecureTimer0);
+
+#[cfg(all(feature = "target", target_os = "none"))]
+super::cmsdk_timer::qemu_mps2!(Mps2An505, SecureTimer0);

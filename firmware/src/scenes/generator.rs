@@ -1,0 +1,388 @@
+//! Generator sets of 50 Hz: a diesel engine of 400 kW, and a geared steam turbine of 2 MW.
+//!
+//! The diesel: six cylinders, four-stroke, turbocharged, 1500 r/min, a rubber coupling, a four-pole generator. Engine
+//! with flywheel 4.4 kg m2, generator 8 kg m2, coupling 50 kN m/rad at a relative damping of 1.1: of the size that
+//! makers' tables give for such parts, not those of one set. The rack follows its command with a lag of 20 ms, an
+//! electric actuator's, and the engine's torque follows the rack when the next cylinder has fired.
+//!
+//! The turbine, at the generator's shaft: 1500 r/min, acceleration time 8 s (twice the stored energy over the rated
+//! power: 4 s of inertia constant, as is usual for such sets), a stiff coupling; the valve has a lag of 0.1 s and the
+//! steam chest one of 0.25 s, the values that are usual for the model TGOV1 without reheat [IEEE PES-TR1 2013 §2.1].
+//! What the observer is told is the torque that the chest's pressure stands for.
+
+pub mod parts;
+
+use core::marker::PhantomData;
+
+use driveline::constants::{Bases, ModesSettings, Screening};
+use driveline::design::{
+    Actuator, BarredSpeeds, Disturbance, Encoder, GovernorDesign, LoadFeedForward, Rate, TorqueCurve, TwoMassDesign,
+    USUAL_MARGIN,
+};
+use driveline::drive::{Config, ConfigOf, Drive, Limits};
+use driveline::governor::{
+    Barred, BarredConfig, Curve, CurveConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Mean,
+    MeanConfig, Mode, Modes, ModesConfig, Rack, RackConfig, Request, SpeedGovernor, SpeedGovernorConfig,
+};
+use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass as Machine};
+use driveline::number::{Fixed, Number};
+use driveline::observer::{TwoMass, TwoMassConfig};
+use driveline::sample::Sample;
+
+use crate::governed::output;
+use crate::scene::{Input, Output, Scene};
+
+/// Ticks a second: 32 to the firing interval of the diesel at rated speed.
+pub const RATE_HZ: u32 = 2_400;
+const PERIOD: f64 = 1.0 / RATE_HZ as f64;
+const RATE: Rate = Rate::hz(RATE_HZ);
+
+/// Rated speed of both sets [rad/s], 1500 r/min.
+pub const RATED_SPEED: f64 = 157.079_632_679_489_66;
+
+/// The encoder on the flywheel.
+pub const ENCODER: Encoder = Encoder::lines(2048);
+
+/// What a set is made of.
+pub struct Set {
+    /// Rated torque [N m].
+    pub rated_torque: f64,
+    /// Engine or turbine, coupling, generator.
+    pub machine: Machine,
+    /// The actuator.
+    pub actuator: Actuator,
+    /// Delay of the rack's torque for the observer [s].
+    pub delay: f64,
+    /// How the observer is tuned.
+    pub disturbance: Disturbance,
+    /// Lag of the estimated load torque [s], as measured on a step.
+    pub estimate_lag: f64,
+    /// Span of the governor's loop, with feed-forward and without.
+    pub span: [f64; 2],
+    /// Share of the load torque that is fed forward.
+    pub share: f64,
+    /// Largest torque against speed.
+    pub curve: TorqueCurve<4>,
+    /// Acceleration of the set point [rad/s2].
+    pub ramp: f64,
+    /// Barred speeds.
+    pub barred: BarredSpeeds<1>,
+}
+
+/// The parts of the diesel: engine with flywheel, coupling, generator.
+pub const DIESEL_CHAIN: Chain = Chain::motor(Inertia(4.4)).shaft(Stiffness(5.0e4), Damping(66.0)).rotor(Inertia(8.0));
+
+const DIESEL_MACHINE: Machine = DIESEL_CHAIN.reduce(Match::ResonanceAntiresonance);
+
+/// Rated torque of the diesel [N m]: 400 kW.
+pub const DIESEL_TORQUE: f64 = 4.0e5 / RATED_SPEED;
+
+/// Lag of the rack [s].
+pub const RACK_LAG: f64 = 0.02;
+
+/// Mean time from an injection to its torque [s]: what the observer is told, since it follows the torque in the mean.
+pub const TORQUE_DELAY: f64 = 0.0065;
+
+/// Dead time that the governor allows for [s], which has to bear with every phase of the firing.
+pub const FIRING_DELAY: f64 = Actuator::firing_delay(6, true, RATED_SPEED);
+
+/// By how much the governor's view is late [s]: half of what it is the mean of.
+const VIEW_DELAY: f64 = 0.5 * FIRING as f64 * PERIOD;
+
+/// The diesel set. Its critical speed is that of the engine's order 1.5 on the coupling, 844 r/min; order 3, the
+/// firing's, is passed under the starter.
+pub const DIESEL: Set = Set {
+    rated_torque: DIESEL_TORQUE,
+    machine: DIESEL_MACHINE,
+    actuator: Actuator { delay: FIRING_DELAY + VIEW_DELAY, lag: RACK_LAG },
+    delay: TORQUE_DELAY,
+    disturbance: Disturbance { torque_accuracy: 0.25 * DIESEL_TORQUE, load_torque_step: DIESEL_TORQUE, within: 1.0 },
+    estimate_lag: 0.018,
+    span: [2.5, 2.0],
+    share: 0.9,
+    curve: TorqueCurve::through([
+        [0.0, 0.5 * DIESEL_TORQUE],
+        [0.4 * RATED_SPEED, 0.7 * DIESEL_TORQUE],
+        [0.8 * RATED_SPEED, 1.2 * DIESEL_TORQUE],
+        [1.05 * RATED_SPEED, 1.2 * DIESEL_TORQUE],
+    ]),
+    ramp: 0.25 * RATED_SPEED,
+    barred: BarredSpeeds::new(&[DIESEL_MACHINE.resonance()], &[1.5], USUAL_MARGIN, 0.9 * RATED_SPEED),
+};
+
+/// Rated torque of the turbine at the generator's shaft [N m]: 2 MW.
+pub const TURBINE_TORQUE: f64 = 2.0e6 / RATED_SPEED;
+
+/// Lags of the turbine's valve and of its steam chest [s].
+pub const VALVE_LAG: f64 = 0.1;
+/// See [`VALVE_LAG`].
+pub const CHEST_LAG: f64 = 0.25;
+
+/// Sum of the turbine set's inertias [kg m2], from its acceleration time of 8 s.
+pub const TURBINE_INERTIA: f64 = 8.0 * TURBINE_TORQUE / RATED_SPEED;
+
+const TURBINE_MACHINE: Machine = Chain::motor(Inertia(0.4 * TURBINE_INERTIA))
+    .shaft(Stiffness(6.0e6), Damping(600.0))
+    .rotor(Inertia(0.6 * TURBINE_INERTIA))
+    .reduce(Match::ResonanceAntiresonance);
+
+/// The turbine set. Of its two lags the shorter counts as a dead time; no order excites its coupling, so what is barred
+/// lies below its turning gear.
+pub const TURBINE: Set = Set {
+    rated_torque: TURBINE_TORQUE,
+    machine: TURBINE_MACHINE,
+    actuator: Actuator { delay: VALVE_LAG + VIEW_DELAY, lag: CHEST_LAG },
+    delay: 0.0,
+    disturbance: Disturbance { torque_accuracy: 0.01 * TURBINE_TORQUE, load_torque_step: TURBINE_TORQUE, within: 2.0 },
+    estimate_lag: 0.05,
+    span: [3.0, 2.5],
+    share: 0.5,
+    curve: TorqueCurve::through([
+        [0.0, 1.2 * TURBINE_TORQUE],
+        [0.5 * RATED_SPEED, 1.15 * TURBINE_TORQUE],
+        [RATED_SPEED, 1.1 * TURBINE_TORQUE],
+        [1.1 * RATED_SPEED, TURBINE_TORQUE],
+    ])
+    .with_power_limit(1.1 * TURBINE_TORQUE * RATED_SPEED),
+    ramp: 0.05 * RATED_SPEED,
+    barred: BarredSpeeds::new(&[0.01], &[1.0], USUAL_MARGIN, RATED_SPEED),
+};
+
+/// Slope of the droop that may be switched to: 4 % at rated torque.
+pub const DROOP: f64 = 0.04;
+
+/// The designs of a set: governor with feed-forward, governor without, observer. Constants of their own, so that each
+/// is evaluated once.
+pub struct Designs {
+    /// With feed-forward, and without.
+    pub governors: [GovernorDesign; 2],
+    /// The observer.
+    pub observer: TwoMassDesign,
+}
+
+const DIESEL_FED: GovernorDesign = DIESEL.governor(true);
+const DIESEL_PLAIN: GovernorDesign = DIESEL.governor(false);
+const TURBINE_FED: GovernorDesign = TURBINE.governor(true);
+const TURBINE_PLAIN: GovernorDesign = TURBINE.governor(false);
+
+/// The diesel's designs.
+pub const DIESEL_DESIGNS: Designs = Designs { governors: [DIESEL_FED, DIESEL_PLAIN], observer: DIESEL.observer() };
+
+/// The turbine's designs.
+pub const TURBINE_DESIGNS: Designs = Designs { governors: [TURBINE_FED, TURBINE_PLAIN], observer: TURBINE.observer() };
+
+impl Set {
+    /// The governor, with feed-forward or without.
+    pub const fn governor(&self, forward: bool) -> GovernorDesign {
+        let (span, forward) = if forward {
+            (self.span[0], LoadFeedForward { share: self.share, lag: self.estimate_lag })
+        } else {
+            (self.span[1], LoadFeedForward::NONE)
+        };
+        self.machine.governor(RATE, self.actuator, span, forward)
+    }
+
+    /// The observer.
+    pub const fn observer(&self) -> TwoMassDesign {
+        self.machine.observer(RATE, ENCODER, self.disturbance)
+    }
+
+    /// Bases of fixed point: two and a half times the rated torque, so that the estimates' swing and the gains fit, and
+    /// a third over rated speed.
+    pub const fn bases(&self) -> Bases {
+        Bases::new(&self.machine, 2.5 * self.rated_torque, 1.34 * RATED_SPEED)
+    }
+
+    /// Limits of what a sample can be: the torque to a sixth over its limit, half over rated speed, 1/128 turn, two
+    /// counts, 15 ms, in which the set turns by less than half a turn.
+    pub const fn screening(&self) -> Screening {
+        Screening {
+            torque: 1.4 * self.rated_torque,
+            reference: 1.2 * RATED_SPEED,
+            innovation: core::f64::consts::TAU / 128.0,
+            standstill: 2.0 * core::f64::consts::TAU / 8192.0,
+            missed: RATE_HZ * 3 / 200,
+        }
+    }
+
+    /// Limits of the modes: overspeed 110 %; underspeed 80 % for 3 s; no turning backwards; three times the rated
+    /// torque in the coupling, for 10 ms; 30 s for a start.
+    pub const fn modes(&self) -> ModesSettings {
+        ModesSettings {
+            overspeed: 1.1 * RATED_SPEED,
+            underspeed: 0.8 * RATED_SPEED,
+            reverse: 0.02 * RATED_SPEED,
+            shaft_torque: 3.0 * self.rated_torque,
+            standstill: 0.01 * RATED_SPEED,
+            prompt: 0.01,
+            patient: 3.0,
+            start: 30.0,
+        }
+    }
+}
+
+/// The ring of the rack [ticks].
+pub const RING: usize = 32;
+
+/// Ticks of the firing interval, over which the governor sees the mean.
+pub const FIRING: usize = 32;
+
+/// The governor of a set.
+pub type Governor<N> = SpeedGovernor<N, (Droop, Barred<1>), FeedForward, Curve<4>, Modes, Mean<N, FIRING>>;
+type Constants<N> = ConfigOf<N, TwoMass<N>, (), Governor<N>>;
+/// The drive of a set.
+pub type DriveOf<N> = Drive<N, TwoMass<N>, (), Governor<N>>;
+
+/// A set and a number.
+pub trait Variant: 'static {
+    /// What it calculates with.
+    type Number: Number + 'static;
+    /// Scene, number, set and rate.
+    const NAME: &'static str;
+    /// With feed-forward and isochronous, without feed-forward, with droop.
+    const CONFIGS: &'static [Constants<Self::Number>; 3];
+    /// The rack.
+    const RACK: RackConfig<RING>;
+}
+
+/// The set points and switches of the panel, as keys of what it asks.
+pub mod panel {
+    /// Chooses the constants: 0 with feed-forward, 1 without, 2 with droop.
+    pub const CONSTANTS: u32 = 1;
+    /// Asks for the mode; see [`super::mode_word`].
+    pub const MODE: u32 = 2;
+}
+
+/// A mode as a word: 0 stopped, 1 starting, 2 running, 3 braking, from 16 on tripped, in the order of
+/// [`Trip::NAMES`](driveline::governor::Trip::NAMES).
+pub fn mode_word(mode: Mode) -> u32 {
+    match mode {
+        Mode::Stopped => 0,
+        Mode::Starting => 1,
+        Mode::Running => 2,
+        Mode::Braking => 3,
+        Mode::Tripped(trip) => 16 + trip as u32,
+    }
+}
+
+/// A generator set's drive. [`Input::RELEASED`] is its run switch: on it starts, off it brakes, and off resets a trip.
+pub struct Generator<V: Variant> {
+    configs: &'static [Constants<V::Number>; 3],
+    // By reference: folded into the code, the constants cost more instructions than loaded from a table.
+    config: &'static Constants<V::Number>,
+    drive: DriveOf<V::Number>,
+    rack: Rack<V::Number, RING>,
+    released: bool,
+}
+
+impl<V: Variant> Generator<V> {
+    /// The drive, to look at.
+    pub fn drive(&self) -> &DriveOf<V::Number> {
+        &self.drive
+    }
+
+    #[cold]
+    fn switched(&mut self, released: bool) {
+        self.released = released;
+        let modes = self.drive.governor_mut().supervisor_mut();
+        if released {
+            modes.ask(Request::Start);
+        } else if !modes.ask(Request::Stop) {
+            modes.ask(Request::Reset);
+        }
+    }
+}
+
+impl<V: Variant> Scene for Generator<V> {
+    const NAME: &'static str = V::NAME;
+    const RATE_HZ: u32 = RATE_HZ;
+
+    fn new() -> Self {
+        let [config, ..] = V::CONFIGS;
+        Generator { configs: V::CONFIGS, config, drive: Drive::new(config, 0), rack: Rack::new(), released: false }
+    }
+
+    #[inline(always)]
+    fn tick(&mut self, input: &Input) -> Output {
+        let word = V::Number::from_word;
+        let released = input.flags & Input::RELEASED != 0;
+        if released != self.released {
+            self.switched(released);
+        }
+        let torque = self.rack.delayed(&V::RACK, word(input.torque));
+        let sample = Sample { angle: input.angle, torque, reference: word(input.reference) };
+        let command = self.drive.tick(self.config, &sample);
+        output(&command, &self.drive.estimate(self.config))
+    }
+
+    fn panel(&mut self, [key, value]: [u32; 2]) -> u32 {
+        match key {
+            panel::CONSTANTS => {
+                if let Some(to) = self.configs.get(value as usize) {
+                    let estimate = self.drive.estimate(self.config);
+                    self.drive.governor_mut().switch(&self.config.governor, &to.governor, &estimate);
+                    self.config = to;
+                }
+                value
+            }
+            panel::MODE => mode_word(self.drive.governor().supervisor().mode()),
+            _ => 0,
+        }
+    }
+}
+
+/// The sets.
+pub mod with {
+    /// The diesel engine.
+    pub struct Diesel;
+    /// The steam turbine.
+    pub struct Turbine;
+}
+
+/// A set with a number.
+pub struct Of<N, S>(PhantomData<(N, S)>);
+
+macro_rules! variant {
+    ($set:ident, $constants:ident, $designs:ident, $number:ident, $name:literal $(, $bases:expr)?) => {
+        impl Of<$number, with::$set> {
+            const fn config(design: &GovernorDesign, droop: f64) -> Constants<$number> {
+                Config {
+                    limits: Limits::<$number>::new(&$constants.screening() $(, $bases)?),
+                    observer: TwoMassConfig::<$number>::new(&$designs.observer $(, $bases)?),
+                    fluctuation: (),
+                    governor: SpeedGovernorConfig {
+                        gains: Gains::<$number>::new(design, $constants.ramp $(, $bases)?),
+                        set_point: (
+                            DroopConfig::<$number>::new(droop, RATED_SPEED, $constants.rated_torque $(, $bases)?),
+                            BarredConfig::<$number, 1>::new(
+                                &$constants.barred, 4.0 * $constants.ramp, PERIOD $(, $bases)?
+                            ),
+                        ),
+                        prompt: FeedForwardConfig::<$number>::new(design.share $(, $bases)?),
+                        limit: CurveConfig::<$number, 4>::new(&$constants.curve, 0.0 $(, $bases)?),
+                        supervisor: ModesConfig::<$number>::new(&$constants.modes(), PERIOD $(, $bases)?),
+                        view: MeanConfig::<$number, FIRING>::of_ticks(),
+                    },
+                    balancer: (),
+                }
+            }
+        }
+
+        impl Variant for Of<$number, with::$set> {
+            type Number = $number;
+            const NAME: &'static str = $name;
+            const CONFIGS: &'static [Constants<$number>; 3] =
+                &[
+                    Self::config(&$designs.governors[0], 0.0),
+                    Self::config(&$designs.governors[1], 0.0),
+                    Self::config(&$designs.governors[1], DROOP),
+                ];
+            const RACK: RackConfig<RING> = RackConfig::new($constants.delay, PERIOD);
+        }
+    };
+}
+
+variant!(Diesel, DIESEL, DIESEL_DESIGNS, f32, "generator/f32/diesel/2400");
+variant!(Diesel, DIESEL, DIESEL_DESIGNS, Fixed, "generator/fixed/diesel/2400", DIESEL.bases());
+variant!(Turbine, TURBINE, TURBINE_DESIGNS, f32, "generator/f32/turbine/2400");
+variant!(Turbine, TURBINE, TURBINE_DESIGNS, Fixed, "generator/fixed/turbine/2400", TURBINE.bases());

@@ -1,0 +1,57 @@
+//! The constants of the diesel's parts one by one, for the bench.
+
+macro_rules! parts {
+    ($module:ident, $number:ident $(, $bases:expr)?) => {
+        /// The parts with this number.
+        pub mod $module {
+            use super::super::*;
+            use driveline::governor::{BetweenConfig, DampingConfig, SlewConfig, SymmetricConfig};
+            use crate::scenes::hoist;
+
+            /// Gains and ramp.
+            pub const GAINS: Gains<$number> = Gains::<$number>::new(&DIESEL_PLAIN, DIESEL.ramp $(, $bases)?);
+            /// Droop.
+            pub const DROOP: DroopConfig<$number> =
+                DroopConfig::<$number>::new(super::super::DROOP, RATED_SPEED, DIESEL_TORQUE $(, $bases)?);
+            /// Barred speeds.
+            pub const BARRED: BarredConfig<$number, 1> =
+                BarredConfig::<$number, 1>::new(&DIESEL.barred, 4.0 * DIESEL.ramp, PERIOD $(, $bases)?);
+            /// Feed-forward.
+            pub const FORWARD: FeedForwardConfig<$number> =
+                FeedForwardConfig::<$number>::new(DIESEL.share $(, $bases)?);
+            /// Active damping, the hoist's.
+            pub const DAMPING: DampingConfig<$number> =
+                DampingConfig::<$number>::new(&hoist::speed_loop(10_000) $(, $bases)?);
+            /// A limit either way.
+            pub const SYMMETRIC: SymmetricConfig<$number> =
+                SymmetricConfig::<$number>::new(DIESEL_TORQUE $(, $bases)?);
+            /// A limit from zero on.
+            pub const BETWEEN: BetweenConfig<$number> =
+                BetweenConfig::<$number>::new(0.0, DIESEL_TORQUE $(, $bases)?);
+            /// The curve.
+            pub const CURVE: CurveConfig<$number, 4> =
+                CurveConfig::<$number, 4>::new(&DIESEL.curve, 0.0 $(, $bases)?);
+            /// The mean over a firing interval.
+            pub const MEAN: MeanConfig<$number, FIRING> = MeanConfig::<$number, FIRING>::of_ticks();
+            /// Slew, from nothing to the rated torque in 50 ms.
+            pub const SLEW: SlewConfig<$number, SymmetricConfig<$number>> = SlewConfig::<$number, _>::new(
+                20.0 * DIESEL_TORQUE, SYMMETRIC, PERIOD $(, $bases)?
+            );
+            /// Modes that the bench's wandering inputs do not trip.
+            pub const WIDE: ModesConfig<$number> = ModesConfig::<$number>::new(
+                &ModesSettings {
+                    overspeed: 1.9 * RATED_SPEED,
+                    underspeed: -1.0,
+                    reverse: 1.9 * RATED_SPEED,
+                    shaft_torque: 3.0 * DIESEL_TORQUE,
+                    ..DIESEL.modes()
+                },
+                PERIOD
+                $(, $bases)?
+            );
+        }
+    };
+}
+
+parts!(single, f32);
+parts!(fixed, Fixed, DIESEL.bases());

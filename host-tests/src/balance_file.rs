@@ -1,0 +1,445 @@
+//! Readings of a balancing that an engineer typed in: a TOML file, read with every fault placed.
+//!
+//! ```toml
+//! name = "fan"
+//! unit = "mm/s"                                  # of the readings, as they are shown
+//! planes = ["drive end", "free end"]
+//! sensors = ["bearing A", "bearing B"]           # one for each reading of a run
+//!
+//! [baseline]
+//! rpm = 1480                                     # or one for each reading
+//! readings = [[7.2, 238], [13.5, 296]]           # amplitude, phase in degrees
+//!
+//! [[trial]]
+//! plane = "drive end"
+//! weight = [2.5, 0]                              # amount, angle in degrees
+//! rpm = 1480
+//! readings = [[4.9, 114], [9.2, 347]]
+//! ```
+//!
+//! | key | what (all may be left out) |
+//! |---|---|
+//! | `weight_unit` | `"g"` (as without it), `"kg"`, `"g mm"` or `"kg m"` |
+//! | `trials` | `"removed"` before the next run (as without it), or `"stay"` |
+//! | `aim` | `"least squares"` (as without it) or `"min-max"` |
+//! | `good` | the largest residual that is good enough |
+//! | `independence` | the least share of a plane's effect that must be its own, 0.01 |
+//! | `weighting` | a number for each reading |
+//! | `limits` | the largest weight of each plane |
+//! | `[[correction]]` | `weights` that were put on, an amount and an angle for each plane, then `rpm` and `readings` with them |
+//! | `[[influence]]` | `plane` and `coefficients`, an amplitude and phase for each reading, instead of a trial run |
+//! | `[[holes]]` | `plane`, `angles` or `count` (and `first`), `weights` to choose from, `removing = true` for drilling |
+//! | `[rotor]` | `mass` \[kg\], `rpm` in service, `grade` \[mm/s\], `radius` \[m\] of the weights |
+//! | `[amplitudes]` | instead of `[baseline]`, without phases: `baseline`, `weight`, `runs` of an angle and an amplitude |
+
+use std::path::Path;
+
+use driveline::balance::{Aim, Complex, Entry, Influence, Mode, Objective, Plan, Procedure, Refusal, Run};
+use toml::de::DeTable;
+
+use crate::machine_file::{Diagnostic, Item, Quantity, Source, Table, not_toml, text};
+
+/// Most readings of a run.
+pub const ROWS: usize = 24;
+/// Most planes.
+pub const PLANES: usize = 8;
+
+/// A balancing as its file describes it.
+#[derive(Clone, Debug)]
+pub struct BalanceFile {
+    /// Name.
+    pub name: String,
+    /// Unit of the readings.
+    pub unit: String,
+    /// Unit of the weights.
+    pub weight_unit: WeightUnit,
+    /// Names of the planes.
+    pub planes: Vec<String>,
+    /// Names of the readings.
+    pub sensors: Vec<String>,
+    /// What was measured.
+    pub measured: Measured,
+    /// Holes of the planes that have some.
+    pub holes: Vec<PlaneHoles>,
+    /// The rotor, for its grade.
+    pub rotor: Option<Rotor>,
+}
+
+/// What was measured.
+#[derive(Clone, Debug)]
+pub enum Measured {
+    /// Amplitudes and phases.
+    Phasors {
+        /// The procedure, as far as the runs go.
+        procedure: Box<Procedure<f64, ROWS, PLANES>>,
+        /// The first run.
+        baseline: Vec<Complex<f64>>,
+        /// The last run.
+        last: Vec<Complex<f64>>,
+        /// Speed of each reading \[rpm\].
+        rpm: Vec<f64>,
+        /// Corrections that were put on.
+        corrections: usize,
+    },
+    /// Amplitudes alone.
+    Amplitudes {
+        /// Without a trial weight.
+        baseline: f64,
+        /// The trial weight.
+        weight: f64,
+        /// Angle \[degrees\] of the weight and amplitude of each run.
+        runs: Vec<(f64, f64)>,
+    },
+}
+
+/// Unit of the weights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WeightUnit {
+    /// g.
+    Gram,
+    /// kg.
+    Kilogram,
+    /// g mm.
+    GramMillimetre,
+    /// kg m.
+    KilogramMetre,
+}
+
+impl WeightUnit {
+    /// As it is written.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Gram => "g",
+            Self::Kilogram => "kg",
+            Self::GramMillimetre => "g mm",
+            Self::KilogramMetre => "kg m",
+        }
+    }
+
+    /// Unbalance of a weight of one \[kg m\]; none where that takes a radius which is not given.
+    pub fn unbalance(self, radius: Option<f64>) -> Option<f64> {
+        match self {
+            Self::Gram => radius.map(|radius| radius * 1e-3),
+            Self::Kilogram => radius,
+            Self::GramMillimetre => Some(1e-6),
+            Self::KilogramMetre => Some(1.0),
+        }
+    }
+}
+
+/// The holes of a plane.
+#[derive(Clone, Debug)]
+pub struct PlaneHoles {
+    /// The plane.
+    pub plane: usize,
+    /// Angles \[degrees\].
+    pub degrees: Vec<f64>,
+    /// Weights to choose from.
+    pub weights: Vec<f64>,
+    /// Whether weight is added or removed.
+    pub mode: Mode,
+}
+
+/// The rotor.
+#[derive(Clone, Copy, Debug)]
+pub struct Rotor {
+    /// Mass \[kg\].
+    pub mass: f64,
+    /// Highest service speed \[rpm\].
+    pub rpm: f64,
+    /// Balance quality grade \[mm/s\].
+    pub grade: f64,
+    /// Radius of the weights \[m\].
+    pub radius: Option<f64>,
+}
+
+const PAIR: &str = "a list of two numbers, [amplitude, phase in degrees]";
+const NAMES: &str = "a list of names";
+
+/// Reads a balancing from a file.
+///
+/// # Errors
+/// A [`Diagnostic`] with the place, the key, what was found and what was expected.
+pub fn read(path: &Path) -> Result<BalanceFile, Diagnostic> {
+    let (name, text) = text(path, "a file of balancing")?;
+    parse(&name, &text)
+}
+
+/// Reads a balancing from a text; `name` is what messages call it.
+///
+/// # Errors
+/// A [`Diagnostic`] with the place, the key, what was found and what was expected.
+pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
+    let source = Source { name, text };
+    let document = DeTable::parse(text).map_err(|error| not_toml(source, &error))?;
+    let mut root = Table::root(source, document.get_ref());
+    let rotor_name = root.text("name", "the rotor's name")?.to_owned();
+    let unit = root.text_if("unit", "the unit of the readings")?.unwrap_or("").to_owned();
+    let weight_unit = choice(
+        &mut root,
+        "weight_unit",
+        &[
+            ("g", WeightUnit::Gram),
+            ("kg", WeightUnit::Kilogram),
+            ("g mm", WeightUnit::GramMillimetre),
+            ("kg m", WeightUnit::KilogramMetre),
+        ],
+    )?;
+    let planes = names(&mut root, "planes", PLANES)?;
+    let mut file = BalanceFile {
+        name: rotor_name,
+        unit,
+        weight_unit,
+        sensors: Vec::new(),
+        measured: Measured::Amplitudes { baseline: 0.0, weight: 0.0, runs: Vec::new() },
+        holes: Vec::new(),
+        rotor: None,
+        planes,
+    };
+    for mut table in root.optional_tables("holes")? {
+        file.holes.push(holes(&mut table, &file.planes)?);
+        table.finish()?;
+    }
+    if root.has("rotor") {
+        let mut table = root.table("rotor")?;
+        let radius = if table.has("radius") { Some(table.number("radius", Quantity::DIAMETER)?) } else { None };
+        file.rotor = Some(Rotor {
+            mass: table.number("mass", Quantity::MASS)?,
+            rpm: table.number("rpm", Quantity::RPM)?,
+            grade: table.number("grade", Quantity::GRADE)?,
+            radius,
+        });
+        table.finish()?;
+    }
+    if root.has("amplitudes") {
+        let mut table = root.table("amplitudes")?;
+        let expected = "a list of two numbers, [angle in degrees, amplitude]";
+        let runs = table.items("runs", expected)?;
+        let run = |item: &Item<'_>| item.pair(Quantity::DEGREES, Quantity::AMPLITUDE, expected);
+        file.measured = Measured::Amplitudes {
+            baseline: table.number("baseline", Quantity::AMPLITUDE)?,
+            weight: table.number("weight", Quantity::WEIGHT)?,
+            runs: runs.iter().map(run).collect::<Result<_, _>>()?,
+        };
+        table.finish()?;
+    } else {
+        file.sensors = names(&mut root, "sensors", ROWS)?;
+        file.measured = phasors(&mut root, &file.planes, file.sensors.len())?;
+    }
+    root.finish()?;
+    Ok(file)
+}
+
+/// The runs, given to the procedure one by one.
+fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measured, Diagnostic> {
+    let mut aim = Aim::<f64, ROWS, PLANES> {
+        objective: choice(root, "aim", &[("least squares", Objective::LeastSquares), ("min-max", Objective::MinMax)])?,
+        independence: root.number_or("independence", Quantity::SHARE, 0.01)?,
+        ..Aim::default()
+    };
+    let trials_stay = choice(root, "trials", &[("removed", false), ("stay", true)])?;
+    let good = root.number_or("good", Quantity::AMPLITUDE, f64::MIN_POSITIVE)?;
+    for (value, weighting) in list(root, "weighting", rows, Quantity::WEIGHT)?.into_iter().zip(&mut aim.weighting) {
+        *weighting = value;
+    }
+    for (value, limit) in list(root, "limits", planes.len(), Quantity::WEIGHT)?.into_iter().zip(&mut aim.limits) {
+        *limit = Some(value);
+    }
+    let plan = Plan { trials_stay, aim, ..Plan::usual(rows, planes.len(), good) };
+    let mut procedure =
+        Procedure::new(plan).map_err(|refusal| root.wrong("planes", format!("other settings: {refusal}")))?;
+    let mut entry = Entry::new();
+
+    let mut table = root.table("baseline")?;
+    let (run, baseline, rpm) = run(&mut table, rows, &mut entry)?;
+    procedure.baseline(&run).map_err(|refusal| refused(&table, refusal))?;
+    table.finish()?;
+    let mut last = baseline.clone();
+
+    let known = root.optional_tables("influence")?;
+    if !known.is_empty() {
+        let mut influence = Influence::<f64, ROWS, PLANES>::new(rows, planes.len())
+            .map_err(|refusal| root.wrong("influence", refusal.to_string()))?;
+        for mut table in known {
+            let plane = plane(&mut table, planes)?;
+            let column = pairs(&mut table, "coefficients", rows, &mut Entry::new())?;
+            influence.set(plane, &column).map_err(|refusal| table.wrong("coefficients", refusal.to_string()))?;
+            table.finish()?;
+        }
+        procedure = procedure
+            .with_coefficients(influence)
+            .map_err(|refusal| root.wrong("influence", format!("a table for each plane: {}", said(refusal, planes))))?;
+    }
+    for mut table in root.optional_tables("trial")? {
+        let plane = plane(&mut table, planes)?;
+        let [weight] = weights(&mut table, "weight")?;
+        let (run, readings, _) = self::run(&mut table, rows, &mut entry)?;
+        procedure.trial(plane, weight, &run).map_err(|refusal| refused(&table, refusal))?;
+        if trials_stay {
+            last = readings;
+        }
+        table.finish()?;
+    }
+    let mut corrections = 0;
+    for mut table in root.optional_tables("correction")? {
+        let placed = pairs(&mut table, "weights", planes.len(), &mut Entry::new())?;
+        let mut all = [Complex::new(0.0, 0.0); PLANES];
+        all[..placed.len()].copy_from_slice(&placed);
+        procedure.placed(&all).map_err(|refusal| table.wrong("weights", said(refusal, planes)))?;
+        let (run, readings, _) = self::run(&mut table, rows, &mut entry)?;
+        procedure.verified(&run).map_err(|refusal| refused(&table, refusal))?;
+        last = readings;
+        corrections += 1;
+        table.finish()?;
+    }
+    if let Err(refusal) = entry.check() {
+        let mut table = root.table("baseline")?;
+        let _ = table.has("readings");
+        return Err(table.wrong("readings", format!("phases in degrees: {refusal}")));
+    }
+    if let Some(plane) = procedure.influence().ok().and_then(|influence| influence.unknown()) {
+        let expected = format!("a [[trial]] of plane \"{}\": its influence is not known", planes[plane]);
+        let key = if root.has("trial") { "trial" } else { "planes" };
+        return Err(root.wrong(key, expected));
+    }
+    Ok(Measured::Phasors { procedure: Box::new(procedure), baseline, last, rpm, corrections })
+}
+
+/// A refusal with the planes by their names.
+fn said(refusal: Refusal, planes: &[String]) -> String {
+    match refusal {
+        Refusal::PlaneUnknown { plane } => match planes.get(plane) {
+            Some(name) => format!("the influence of plane \"{name}\" is not known: make its trial run"),
+            None => refusal.to_string(),
+        },
+        _ => refusal.to_string(),
+    }
+}
+
+/// A refusal at the key that it is about.
+fn refused(table: &Table<'_>, refusal: Refusal) -> Diagnostic {
+    let (key, expected) = match refusal {
+        Refusal::TrialWeightZero { .. } | Refusal::Weight { .. } => ("weight", "a weight above zero"),
+        Refusal::SpeedDiffers { .. } => ("rpm", "the speed of the baseline, within 1 %"),
+        _ => ("readings", "other readings"),
+    };
+    table.wrong(key, format!("{expected} ({refusal})"))
+}
+
+/// A run, its readings, and the speed of each [rpm].
+type Typed = (Run<f64, ROWS>, Vec<Complex<f64>>, Vec<f64>);
+
+/// Readings and their speeds.
+fn run(table: &mut Table<'_>, rows: usize, entry: &mut Entry) -> Result<Typed, Diagnostic> {
+    let readings = pairs(table, "readings", rows, entry)?;
+    // one speed for all, or one for each
+    let rpm = match table.number("rpm", Quantity::RPM) {
+        Ok(rpm) => vec![rpm; rows],
+        Err(fault) => match table.items("rpm", "") {
+            Ok(_) => list(table, "rpm", rows, Quantity::RPM)?,
+            Err(_) => return Err(fault),
+        },
+    };
+    let speeds: Vec<f64> = rpm.iter().map(|rpm| rpm * std::f64::consts::TAU / 60.0).collect();
+    let run = Run::new(&readings, &speeds).map_err(|refusal| refused(table, refusal))?;
+    Ok((run, readings, rpm))
+}
+
+/// Pairs of amplitude and degrees, as many as there must be.
+fn pairs(
+    table: &mut Table<'_>,
+    key: &'static str,
+    count: usize,
+    entry: &mut Entry,
+) -> Result<Vec<Complex<f64>>, Diagnostic> {
+    let expected = format!("{count} pairs [amplitude, phase in degrees], one for each");
+    let items = table.items(key, &expected)?;
+    if items.len() < count {
+        let missing = format!("{expected}: {} of them are missing", count - items.len());
+        return Err(table.wrong(key, missing));
+    }
+    if items.len() > count {
+        return Err(items[count].wrong(&format!("only {count} pairs, one for each")));
+    }
+    let pair = |item: &Item<'_>| {
+        let (amplitude, degrees) = item.pair(Quantity::AMPLITUDE, Quantity::DEGREES, PAIR)?;
+        Ok(entry.polar(amplitude, degrees))
+    };
+    items.iter().map(pair).collect()
+}
+
+/// One weight: an amount and an angle.
+fn weights(table: &mut Table<'_>, key: &'static str) -> Result<[Complex<f64>; 1], Diagnostic> {
+    let expected = "an amount and an angle in degrees, [2.5, 90]";
+    let items = table.items(key, expected)?;
+    let [amount, angle] = items.as_slice() else { return Err(table.wrong(key, expected)) };
+    let (amount, angle) = (amount.number(Quantity::WEIGHT)?, angle.number(Quantity::DEGREES)?);
+    Ok([Entry::new().polar(amount, angle)])
+}
+
+/// Numbers, none or as many as there must be.
+fn list(table: &mut Table<'_>, key: &'static str, count: usize, quantity: Quantity) -> Result<Vec<f64>, Diagnostic> {
+    if !table.has(key) {
+        return Ok(Vec::new());
+    }
+    let expected = format!("a list of {count} numbers");
+    let items = table.items(key, &expected)?;
+    if items.len() != count {
+        return Err(table.wrong(key, format!("{expected}, and not {}", items.len())));
+    }
+    items.iter().map(|item| item.number(quantity)).collect()
+}
+
+/// Names, one at least and none twice.
+fn names(table: &mut Table<'_>, key: &'static str, most: usize) -> Result<Vec<String>, Diagnostic> {
+    let items = table.items(key, NAMES)?;
+    if items.is_empty() || items.len() > most {
+        return Err(table.wrong(key, format!("{NAMES}, 1 to {most} of them")));
+    }
+    let mut names: Vec<String> = Vec::new();
+    for item in &items {
+        let name = item.text("a name")?;
+        if name.trim().is_empty() || names.iter().any(|known| known == name) {
+            return Err(item.wrong("a name of its own"));
+        }
+        names.push(name.to_owned());
+    }
+    Ok(names)
+}
+
+/// One of some words; the first where the key is left out.
+fn choice<T: Copy>(table: &mut Table<'_>, key: &'static str, words: &[(&str, T)]) -> Result<T, Diagnostic> {
+    let expected = words.iter().map(|(word, _)| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ");
+    let Some(word) = table.text_if(key, &expected)? else { return Ok(words[0].1) };
+    match words.iter().find(|(known, _)| *known == word) {
+        Some((_, value)) => Ok(*value),
+        None => Err(table.wrong(key, expected)),
+    }
+}
+
+/// A plane by its name.
+fn plane(table: &mut Table<'_>, planes: &[String]) -> Result<usize, Diagnostic> {
+    let expected = planes.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
+    let name = table.text("plane", &expected)?;
+    planes.iter().position(|known| known == name).ok_or_else(|| table.wrong("plane", expected))
+}
+
+fn holes(table: &mut Table<'_>, planes: &[String]) -> Result<PlaneHoles, Diagnostic> {
+    let plane = plane(table, planes)?;
+    let degrees = if table.has("angles") {
+        let items = table.items("angles", "angles in degrees")?;
+        items.iter().map(|item| item.number(Quantity::DEGREES)).collect::<Result<Vec<_>, _>>()?
+    } else {
+        let count = table.number("count", Quantity::COUNT)? as u32;
+        let first = table.number_or("first", Quantity::DEGREES, 0.0)?;
+        (0..count).map(|hole| first + 360.0 * f64::from(hole) / f64::from(count)).collect()
+    };
+    let positive = Quantity { zero: false, ..Quantity::WEIGHT };
+    let items = table.items("weights", "weights to choose from")?;
+    let weights = items.iter().map(|item| item.number(positive)).collect::<Result<Vec<_>, _>>()?;
+    let removing = match table.has("removing") {
+        false => false,
+        true => table.truth("removing")?,
+    };
+    Ok(PlaneHoles { plane, degrees, weights, mode: if removing { Mode::Removing } else { Mode::Adding } })
+}

@@ -1,0 +1,33 @@
+//! Scenes whose rotor is balanced: the machine with its unbalance, who operates it, and what came of it.
+//!
+//! The drive in the firmware governs the speed of a drivetrain; the drivetrain's turning, with its ripple, turns a
+//! whirling rotor; the rotor's
+//! vibration goes back into the firmware, whose panel says which weights to set. The operator here does what a person
+//! does at the machine:
+//! starts, waits, presses a key, stops, sets a weight.
+//!
+//! | term | meaning |
+//! |---|---|
+//! | run | from standstill to standstill, with the readings that were taken |
+//! | grade | balance quality grade G of what unbalance is left, `e Omega` in mm/s [ISO 21940-11] |
+//! | setting | a weight as it was set: off by a few percent and degrees from what was asked for |
+
+mod error;
+mod fan;
+mod flexible;
+mod hand;
+mod machine;
+mod operator;
+mod outcome;
+mod page;
+mod scene;
+mod spindle;
+
+pub use error::BalancingError;
+pub use hand::Hand;
+pub use machine::{Drivetrain, Machine};
+pub use operator::Operator;
+pub use outcome::{Claim, Outcome, Stage, Vector};
+pub use page::{page, tables};
+pub use scene::{Cost, Ran, Scene, scenes};
+pub use spindle::{Course, SpindleStart, spindle};

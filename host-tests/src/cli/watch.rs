@@ -1,0 +1,216 @@
+//! `cargo driveline watch`: a running drive's telemetry, live in the terminal and as CSV.
+
+use std::fs::File;
+use std::io::{self, BufWriter, IsTerminal, Read, Write};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use clap::Args;
+
+use super::{Failure, say, say_json};
+use crate::image::{Program, belongs, board, build};
+use crate::link::Telling;
+use crate::report::format::significant;
+use crate::telemetry::{Decoder, Described, Told};
+
+/// Watch a running drive: its telemetry from QEMU, a serial port, a file or standard input.
+///
+/// Shows each channel's last value, least and most while frames come, and how many records the drive dropped. A serial port is set up beforehand,
+/// as by `stty -F /dev/ttyACM0 raw 921600`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline watch --qemu hoist/f32/reduced/10000 --records 20000
+  cargo driveline watch /dev/ttyACM0 --csv run.csv
+  cargo driveline watch - --json < recorded.bin")]
+pub struct Watch {
+    /// A serial port or a file; `-` is standard input
+    #[arg(required_unless_present = "qemu", conflicts_with = "qemu")]
+    source: Option<PathBuf>,
+    /// Run this variant in QEMU over its built-in inputs
+    #[arg(long, value_name = "VARIANT")]
+    qemu: Option<String>,
+    /// The core for QEMU: m4f, m3
+    #[arg(long, default_value = "m4f", requires = "qemu")]
+    core: String,
+    /// Record every tick
+    #[arg(long, value_name = "PATH")]
+    csv: Option<PathBuf>,
+    /// Stop after so many records
+    #[arg(long, value_name = "COUNT")]
+    records: Option<u64>,
+    /// Print {records, dropped, damaged, channels: [...]} at the end, and nothing before
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How often the picture is drawn.
+const DRAWN: Duration = Duration::from_millis(100);
+
+/// Records that wait for the channels' descriptions: four of their periods in our firmware.
+const PATIENCE: usize = 4096;
+
+/// A channel and its course.
+#[derive(Debug, serde::Serialize)]
+struct Course {
+    #[serde(flatten)]
+    channel: Described,
+    last: f64,
+    least: f64,
+    most: f64,
+}
+
+/// All that has been seen.
+#[derive(Debug, Default, serde::Serialize)]
+struct Seen {
+    records: u64,
+    dropped: u32,
+    damaged: u64,
+    channels: Vec<Course>,
+}
+
+impl Seen {
+    fn add(&mut self, decoder: &Decoder, told: &Told) {
+        self.records += 1;
+        self.dropped = told.dropped;
+        for (index, &word) in told.words.iter().enumerate() {
+            let channel = decoder.channel(index);
+            let value = channel.value(word);
+            match self.channels.get_mut(index) {
+                // one that was not described when it was first seen begins anew
+                Some(course) if course.channel == channel => {
+                    course.last = value;
+                    course.least = course.least.min(value);
+                    course.most = course.most.max(value);
+                }
+                Some(course) => *course = Course { channel, last: value, least: value, most: value },
+                None => self.channels.push(Course { channel, last: value, least: value, most: value }),
+            }
+        }
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let head = format!("  {:<16} {:<6} {:>12} {:>12} {:>12}", "channel", "unit", "now", "least", "most");
+        let row = |course: &Course| {
+            let [last, least, most] = [course.last, course.least, course.most].map(significant);
+            format!("  {:<16} {:<6} {last:>12} {least:>12} {most:>12}", course.channel.name, course.channel.unit)
+        };
+        let foot =
+            format!("{} records, {} dropped by the drive, {} frames damaged", self.records, self.dropped, self.damaged);
+        [head].into_iter().chain(self.channels.iter().map(row)).chain([foot]).collect()
+    }
+}
+
+impl Watch {
+    /// Watches until the source ends.
+    ///
+    /// # Errors
+    /// A source that cannot be opened or read, a variant that is not there, a file that cannot be written.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let mut source = self.open()?;
+        let failed = |path: &PathBuf, error: io::Error| Failure::failed(format!("{}: {error}", path.display()));
+        let mut csv = match &self.csv {
+            Some(path) => Some((path, BufWriter::new(File::create(path).map_err(|error| failed(path, error))?))),
+            None => None,
+        };
+        let mut seen = Seen::default();
+        let mut decoder = Decoder::default();
+        // what comes before the channels have described themselves waits for its column's names
+        let mut waiting = Vec::new();
+        let (mut drawn, mut lines, mut headed) = (Instant::now(), 0, false);
+        let live = io::stderr().is_terminal() && !self.json;
+        let mut bytes = vec![0; 65_536];
+        loop {
+            let length = source.read(&mut bytes).map_err(|error| Failure::failed(format!("the source: {error}")))?;
+            decoder.take(&bytes[..length], |decoder, told| {
+                if self.records.is_none_or(|most| seen.records < most) {
+                    seen.add(decoder, &told);
+                    if self.csv.is_some() {
+                        waiting.push(told);
+                    }
+                }
+            });
+            seen.damaged = decoder.damaged;
+            let ended = length == 0 || self.records.is_some_and(|most| seen.records >= most);
+            let described = waiting.first().is_some_and(|told| decoder.describes(told.words.len()));
+            if let Some((path, file)) = csv.as_mut().filter(|_| described || ended || waiting.len() >= PATIENCE) {
+                let written = waiting.drain(..).try_for_each(|told| {
+                    let told = &told;
+                    if !headed {
+                        headed = true;
+                        writeln!(file, "{}", header(&decoder, told))?;
+                    }
+                    writeln!(file, "{}", line(&decoder, told))
+                });
+                written.map_err(|error| failed(path, error))?;
+            }
+            if live && (ended || drawn.elapsed() >= DRAWN) {
+                lines = draw(&seen.lines(), lines);
+                drawn = Instant::now();
+            }
+            if ended {
+                break;
+            }
+        }
+        if let Some((path, mut file)) = csv {
+            file.flush().map_err(|error| failed(path, error))?;
+        }
+        if self.json {
+            say_json(&seen)
+        } else {
+            if !live {
+                seen.lines().iter().for_each(say);
+            }
+            Ok(())
+        }
+    }
+
+    fn open(&self) -> Result<Box<dyn Read>, Failure> {
+        if let Some(variant) = &self.qemu {
+            let board = board(&self.core).filter(|board| belongs(variant, board));
+            let board = board.ok_or_else(|| Failure::usage(format!("{variant} does not run on `{}`", self.core)))?;
+            if !driveline_firmware::selected::VARIANTS.contains(&variant.as_str()) {
+                return Err(Failure::usage(format!("no variant is called `{variant}`")));
+            }
+            let image = build(variant, board, Program::Told, |line| eprintln!("{line}"));
+            let image = image.map_err(|error| Failure::failed(error.to_string()))?;
+            return Ok(Box::new(Telling::start(&image).map_err(|error| Failure::failed(error.to_string()))?));
+        }
+        match self.source.as_deref() {
+            None => Err(Failure::usage("a source is missing")),
+            Some(path) if path.as_os_str() == "-" => Ok(Box::new(io::stdin().lock())),
+            Some(path) => {
+                let file = File::open(path).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))?;
+                Ok(Box::new(file))
+            }
+        }
+    }
+}
+
+/// The first line of the CSV: `tick,dropped,torque [N m],...`.
+fn header(decoder: &Decoder, told: &Told) -> String {
+    let mut text = String::from("tick,dropped");
+    for index in 0..told.words.len() {
+        let Described { name, unit, .. } = decoder.channel(index);
+        let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
+        text.push_str(&format!(",{name}{unit}"));
+    }
+    text
+}
+
+fn line(decoder: &Decoder, told: &Told) -> String {
+    let mut text = format!("{},{}", told.tick, told.dropped);
+    for (index, &word) in told.words.iter().enumerate() {
+        text.push_str(&format!(",{}", decoder.channel(index).value(word)));
+    }
+    text
+}
+
+/// Draws over the lines of the last picture; gives how many there are now.
+fn draw(lines: &[String], last: usize) -> usize {
+    let mut text = if last > 0 { format!("\x1b[{last}A") } else { String::new() };
+    for line in lines {
+        text.push_str(&format!("\x1b[2K{line}\n"));
+    }
+    eprint!("{text}");
+    lines.len()
+}

@@ -1,0 +1,179 @@
+//! What the standards allow, and how a run is measured against them.
+//!
+//! ISO 8528-5:2013 table 4, performance classes of reciprocating sets: width of the steady-state frequency band, drop
+//! on a sudden increase of power, rise on its sudden decrease from 100 %, recovery time to the tolerance band.
+//! "Precise" is no class of the standard, but what is asked for where class G4 is agreed: +-0.10 % at constant load,
+//! and back within that in 1.5 s.
+//!
+//! NEMA SM 23, class D, of steam turbines' governors: regulation 0.5 %, variation 0.25 %, rise 7 % on the loss of the
+//! rated load, trip at 110 % [Bloch and Singh 2009, Steam Turbines, table 8.1].
+
+use serde::Serialize;
+
+use super::run::Moment;
+
+/// What a class allows, as fractions of the rated frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Class {
+    /// Its name.
+    pub name: &'static str,
+    /// Width of the steady-state band.
+    pub band: f64,
+    /// Drop on a load step up.
+    pub drop: f64,
+    /// Rise on the loss of the whole load.
+    pub rise: f64,
+    /// Recovery time [s].
+    pub recovery: f64,
+    /// Width of the band that counts as recovered.
+    pub tolerance: f64,
+}
+
+/// The classes of ISO 8528-5 that have figures, the best last, and precise power beyond them.
+pub const CLASSES: [Class; 4] = [
+    Class { name: "G1", band: 0.025, drop: 0.15, rise: 0.18, recovery: 10.0, tolerance: 0.035 },
+    Class { name: "G2", band: 0.015, drop: 0.10, rise: 0.12, recovery: 5.0, tolerance: 0.02 },
+    Class { name: "G3", band: 0.005, drop: 0.07, rise: 0.10, recovery: 3.0, tolerance: 0.02 },
+    Class { name: "precise", band: 0.002, drop: 0.07, rise: 0.10, recovery: 1.5, tolerance: 0.002 },
+];
+
+/// NEMA SM 23 class D, of the rated speed: steady-state regulation, variation either way, rise on the loss of the rated
+/// load.
+pub const CLASS_D: [f64; 3] = [0.005, 0.0025, 0.07];
+
+/// The speed at which both standards' protection trips, of rated.
+pub const TRIP: f64 = 1.1;
+
+/// A load that came or went.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Step {
+    /// When [s].
+    pub time: f64,
+    /// Load before and after, of rated.
+    pub load: [f64; 2],
+    /// How far the frequency fell below what it was, of rated.
+    pub drop: f64,
+    /// How far it rose above.
+    pub rise: f64,
+    /// Time until it stays within +-1 % of rated [s], the band of classes G2 and G3.
+    pub recovery: f64,
+    /// Time until it stays within +-0.10 % of rated [s].
+    pub precise: f64,
+}
+
+/// What a run shows at constant load.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Steady {
+    /// Load, of rated.
+    pub load: f64,
+    /// Mean frequency, of rated.
+    pub mean: f64,
+    /// Width of the frequency's swing, of rated.
+    pub band: f64,
+    /// Largest deviation from the mean of the flywheel's speed within a turn, of rated: its swing by the firing, for
+    /// comparison.
+    pub swing: f64,
+}
+
+/// The figures of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Figures {
+    /// Every load step.
+    pub steps: Vec<Step>,
+    /// The end of every stretch of constant load.
+    pub steady: Vec<Steady>,
+    /// Highest speed of the flywheel over the steps, of rated.
+    pub top: f64,
+}
+
+impl Figures {
+    /// The largest of the steps' figures.
+    fn largest(&self, of: impl Fn(&Step) -> f64) -> f64 {
+        self.steps.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// The largest drop on a load that came.
+    pub fn drop(&self) -> f64 {
+        self.steps.iter().filter(|step| step.load[1] > step.load[0]).map(|step| step.drop).fold(0.0, f64::max)
+    }
+
+    /// The rise on the largest load that went.
+    pub fn rise(&self) -> f64 {
+        self.largest(|step| step.rise)
+    }
+
+    /// The longest recovery, to a band of that width.
+    pub fn recovery(&self, tolerance: f64) -> f64 {
+        if tolerance < 0.01 { self.largest(|step| step.precise) } else { self.largest(|step| step.recovery) }
+    }
+
+    /// The widest band at constant load.
+    pub fn band(&self) -> f64 {
+        self.steady.iter().map(|steady| steady.band).fold(0.0, f64::max)
+    }
+
+    /// Difference of the steady frequencies without load and at full load.
+    pub fn regulation(&self) -> f64 {
+        let means = || self.steady.iter().map(|steady| steady.mean);
+        means().fold(f64::NEG_INFINITY, f64::max) - means().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether a class is met.
+    pub fn meets(&self, class: &Class) -> bool {
+        self.band() <= class.band
+            && self.drop() <= class.drop
+            && self.rise() <= class.rise
+            && self.recovery(class.tolerance) <= class.recovery
+    }
+
+    /// The best class that is met with all below it.
+    pub fn class(&self) -> Option<&'static str> {
+        CLASSES.iter().take_while(|class| self.meets(class)).last().map(|class| class.name)
+    }
+
+    /// Whether NEMA SM 23 class D is met; half the band is the variation either way.
+    pub fn meets_class_d(&self) -> bool {
+        let [regulation, variation, rise] = CLASS_D;
+        self.regulation() <= regulation && 0.5 * self.band() <= variation && self.rise() <= rise
+    }
+}
+
+/// How much of a stretch's end counts as steady [s].
+const SETTLED: f64 = 2.0;
+
+/// The figures of a run whose loads changed at these times, the first of them the load it had before.
+pub fn figures(moments: &[Moment], loads: &[(f64, f64)], end: f64) -> Figures {
+    let within = |from: f64, to: f64| moments.iter().filter(move |moment| moment.time >= from && moment.time < to);
+    let mut figures = Figures::default();
+    for (index, &(time, load)) in loads.iter().enumerate() {
+        let next = loads.get(index + 1).map_or(end, |(time, _)| *time);
+        let steady = || within(next - SETTLED, next);
+        let count = steady().count().max(1) as f64;
+        let mean = steady().map(|moment| moment.frequency).sum::<f64>() / count;
+        let extremes = |of: &dyn Fn(&Moment) -> f64, from: f64| {
+            within(from, next)
+                .map(of)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+        };
+        let (low, high) = extremes(&|moment| moment.frequency, next - SETTLED);
+        let (least, most) = extremes(&|moment| moment.speed, next - SETTLED);
+        figures.steady.push(Steady { load, mean, band: high - low, swing: 0.5 * (most - least) });
+        let Some(before) = index.checked_sub(1) else { continue };
+        let was = figures.steady[before].mean;
+        let (low, high) = extremes(&|moment| moment.frequency, time);
+        let back = |tolerance: f64| {
+            let outside = |moment: &&Moment| (moment.frequency - mean).abs() > tolerance;
+            within(time, next).rfind(outside).map_or(0.0, |moment| moment.time - time)
+        };
+        figures.steps.push(Step {
+            time,
+            load: [loads[before].1, load],
+            drop: (was - low).max(0.0),
+            rise: (high - was).max(0.0),
+            recovery: back(0.01),
+            precise: back(0.001),
+        });
+        figures.top = within(time, next).map(|moment| moment.speed).fold(figures.top, f64::max);
+    }
+    figures
+}

@@ -1,0 +1,197 @@
+//! The procedure on a rotor: step by step, back and again, cut off and resumed, and used wrongly.
+
+use driveline::balance::{Complex, Influence, Plan, Procedure, Refusal, Run, Step};
+
+use crate::noise::Noise;
+
+type Field = Procedure<f64, 4, 2>;
+type Model = Influence<f64, 4, 2>;
+
+/// A fan: two planes, two sensors.
+struct Fan {
+    influence: Model,
+    vibration: Vec<Complex<f64>>,
+    on: [Complex<f64>; 2],
+}
+
+const SPEED: f64 = 157.0;
+
+impl Fan {
+    fn new() -> Self {
+        let mut noise = Noise::new(31);
+        let mut z = |size: f64| Complex::new(size * noise.normal(), size * noise.normal());
+        let mut influence = Model::new(2, 2).unwrap();
+        for plane in 0..2 {
+            influence.set(plane, &[z(1.0), z(1.0)]).unwrap();
+        }
+        Fan { influence, vibration: vec![z(7.0), z(7.0)], on: [Complex::new(0.0, 0.0); 2] }
+    }
+
+    fn run(&self) -> Run<f64, 4> {
+        let readings = self.influence.predict(&self.vibration, &self.on).unwrap();
+        Run::new(&readings[..2], &[SPEED; 2]).unwrap()
+    }
+}
+
+fn plan(trials_stay: bool) -> Plan<f64, 4, 2> {
+    Plan { trials_stay, ..Plan::usual(2, 2, 1e-9) }
+}
+
+/// Does what the procedure asks for until it is done, putting on weights that are off by a hundredth; after each step it is cut off.
+fn field(trials_stay: bool) -> (Fan, Field, Vec<Step>) {
+    let mut fan = Fan::new();
+    let mut field = Field::new(plan(trials_stay)).unwrap();
+    let mut steps = Vec::new();
+    let mut words = [0_u32; 300];
+    loop {
+        let step = field.next();
+        steps.push(step);
+        match step {
+            Step::Baseline => field.baseline(&fan.run()).unwrap(),
+            Step::Trial { plane } => {
+                let trial = Complex::new(1.5, 0.5);
+                fan.on[plane] += trial;
+                field.trial(plane, trial, &fan.run()).unwrap();
+                if !trials_stay {
+                    fan.on[plane] -= trial;
+                }
+            }
+            Step::Correction | Step::Trim => {
+                let weights = field.correction().unwrap().weights;
+                let off = if step == Step::Trim { 1.0 } else { 1.01 };
+                let put = weights.map(|w| w * off);
+                for (on, put) in fan.on.iter_mut().zip(&put) {
+                    *on += put;
+                }
+                field.placed(&put).unwrap();
+            }
+            Step::Verify => field.verified(&fan.run()).unwrap(),
+            Step::Done => return (fan, field, steps),
+        }
+        let length = field.record(&mut words).unwrap();
+        let resumed = Field::resume(plan(trials_stay), &words[..length]).unwrap();
+        assert_eq!(resumed, field);
+        field = resumed;
+        assert!(steps.len() < 20);
+    }
+}
+
+#[test]
+fn through_all_steps_and_every_power_cut() {
+    for trials_stay in [false, true] {
+        let (fan, field, steps) = self::field(trials_stay);
+        let expected = [
+            Step::Baseline,
+            Step::Trial { plane: 0 },
+            Step::Trial { plane: 1 },
+            Step::Correction,
+            Step::Verify,
+            Step::Trim,
+            Step::Verify,
+            Step::Done,
+        ];
+        assert_eq!(steps, expected);
+        assert!(fan.run().readings().iter().all(|reading| reading.norm() < 1e-9));
+        let trials = if trials_stay { Complex::new(1.5, 0.5) } else { Complex::new(0.0, 0.0) };
+        for (on, corrected) in fan.on.iter().zip(field.weights()) {
+            assert!((on - corrected - trials).norm() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn steps_are_taken_back_and_given_again() {
+    let (_, mut field, steps) = self::field(false);
+    let whole = field.clone();
+    let mut back = Vec::new();
+    while let Some(step) = field.take_back() {
+        // what was taken back is what comes next
+        assert_eq!(field.next(), step);
+        back.push(step);
+    }
+    back.reverse();
+    assert_eq!(back, steps[..steps.len() - 1]);
+    assert_eq!(field, Field::new(plan(false)).unwrap());
+
+    // a trial run given again counts, and the coefficients follow
+    let mut again = whole.clone();
+    let fan = Fan::new();
+    let mut with = fan.influence;
+    with.set(0, &[Complex::new(2.0, 0.0), Complex::new(0.0, 1.0)]).unwrap();
+    let readings = with.predict(&fan.vibration, &[Complex::new(3.0, 0.0), Complex::new(0.0, 0.0)]).unwrap();
+    again.trial(0, Complex::new(3.0, 0.0), &Run::new(&readings[..2], &[SPEED; 2]).unwrap()).unwrap();
+    assert!((again.influence().unwrap().get(0, 0).unwrap() - Complex::new(2.0, 0.0)).norm() < 1e-12);
+    assert_eq!(again.influence().unwrap().get(1, 1), whole.influence().unwrap().get(1, 1));
+}
+
+#[test]
+fn known_coefficients_need_no_trial_runs() {
+    let mut fan = Fan::new();
+    let mut field = Field::new(plan(false)).unwrap().with_coefficients(fan.influence).unwrap();
+    field.baseline(&fan.run()).unwrap();
+    assert_eq!(field.next(), Step::Correction);
+    fan.on = field.correction().unwrap().weights[..2].try_into().unwrap();
+    field.placed(&fan.on).unwrap();
+    field.verified(&fan.run()).unwrap();
+    assert_eq!(field.next(), Step::Done);
+    let unknown = Model::new(2, 2).unwrap();
+    assert!(Field::new(plan(false)).unwrap().with_coefficients(unknown).is_err());
+    assert!(Field::new(plan(false)).unwrap().with_coefficients(Model::new(3, 2).unwrap()).is_err());
+}
+
+#[test]
+fn wrong_use_is_refused_and_loses_nothing() {
+    let (fan, whole, _) = self::field(false);
+    let mut field = whole.clone();
+    let run = fan.run();
+    let w = Complex::new(1.0, 0.0);
+    let readings = &run.readings()[..2];
+    assert_eq!(field.trial(0, w * 0.0, &run), Err(Refusal::TrialWeightZero { plane: 0 }));
+    assert_eq!(field.trial(5, w, &run), Err(Refusal::NoPlane { plane: 5 }));
+    let faster = Run::new(readings, &[SPEED, SPEED * 1.02]).unwrap();
+    assert_eq!(field.trial(0, w, &faster), Err(Refusal::SpeedDiffers { row: 1 }));
+    assert_eq!(field.baseline(&faster), Err(Refusal::SpeedDiffers { row: 1 }));
+    assert_eq!(field.verified(&faster), Err(Refusal::SpeedDiffers { row: 1 }));
+    let short = Run::new(&readings[..1], &[SPEED]).unwrap();
+    assert_eq!(field.verified(&short), Err(Refusal::ReadingMissing { row: 1 }));
+    assert_eq!(Run::<f64, 4>::new(readings, &[SPEED]), Err(Refusal::ReadingMissing { row: 1 }));
+    assert_eq!(Run::<f64, 4>::new(&[w, w * f64::NAN], &[SPEED; 2]), Err(Refusal::Reading { row: 1 }));
+    assert_eq!(field.placed(&[w, w * f64::NAN]), Err(Refusal::Weight { plane: 1 }));
+    assert_eq!(field, whole);
+
+    let mut empty = Field::new(plan(false)).unwrap();
+    assert_eq!(empty.trial(0, w, &run), Err(Refusal::TooEarly));
+    assert_eq!(empty.verified(&run), Err(Refusal::TooEarly));
+    assert_eq!(empty.correction(), Err(Refusal::TooEarly));
+    assert_eq!(empty.placed(&[w; 2]), Err(Refusal::TooEarly));
+    empty.baseline(&run).unwrap();
+    assert_eq!(empty.correction(), Err(Refusal::PlaneUnknown { plane: 0 }));
+    assert_eq!(
+        Field::new(Plan { planes: 2, ..Plan::usual(1, 2, 1.0) }),
+        Err(Refusal::MorePlanesThanReadings { planes: 2, readings: 1 })
+    );
+    assert_eq!(Field::new(Plan::usual(2, 2, f64::NAN)), Err(Refusal::Setting { index: 1 }));
+}
+
+/// Any single word changed, and any end cut off, is noticed; nothing is made of it.
+#[test]
+fn a_damaged_record_is_noticed() {
+    let (_, field, _) = self::field(true);
+    let mut words = [0_u32; 300];
+    let length = field.record(&mut words).unwrap();
+    for at in 0..length {
+        for change in [1, 0x8000_0000, 0x0010_0000] {
+            let mut damaged = words;
+            damaged[at] ^= change;
+            assert!(matches!(Field::resume(plan(true), &damaged[..length]), Err(Refusal::Record { .. })), "word {at}");
+        }
+        assert!(Field::resume(plan(true), &words[..at]).is_err());
+    }
+    assert!(Field::resume(plan(false), &words[..length]).is_err());
+    assert_eq!(field.record(&mut [0; 20]), Err(Refusal::Size));
+    let mut noise = Noise::new(6);
+    for _ in 0..2000 {
+        let garbage: Vec<u32> = (0..100).map(|_| (noise.even() * 4e9) as u32).collect();
+        assert!(Field::resume(plan(true), &garbage).is_err());
+    }
+}

@@ -1,0 +1,217 @@
+//! That nothing drifts, and what standing still, turning back and a lost angle do.
+
+use core::f64::consts::TAU;
+
+use driveline::constants::{Bases, Cycle, Error};
+use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Waveform, WaveformConfig};
+use driveline::number::{Fixed, Number};
+use driveline::sample::Estimate;
+use proptest::prelude::*;
+
+use super::rig::{BINS, PERIOD};
+
+fn at<N: Number>(speed: N) -> Estimate<N> {
+    Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() }
+}
+
+proptest! {
+    /// Cycles are counted in whole numbers: after any run of steps forwards, whatever the ratio, there are as many as the turned angle has, exactly.
+    #[test]
+    fn cycles_are_counted_exactly(turns in 1..200_u32, cycles in 1..200_u32, seed in 1..u32::MAX, share in 0.01..0.99_f64) {
+        prop_assume!(turns <= 16 * cycles);
+        let cycle = CycleConfig::new(Cycle { turns, cycles }, PERIOD, Bases::SI);
+        let mut extremes = Extremes::<f32>::default();
+        // The first tick finds the place, at the beginning of the cycle; the first end begins the first cycle.
+        let (mut total, mut random) = (0_u128, seed);
+        extremes.measure(&cycle, 0, 0.0, &at(1.0));
+        for _ in 0..20_000 {
+            random ^= random << 13;
+            random ^= random >> 17;
+            random ^= random << 5;
+            let step = (f64::from(cycle.length) * share * f64::from(random) / 4_294_967_296.0) as u32;
+            total += u128::from(step);
+            extremes.measure(&cycle, total as u32, 0.0, &at(1.0));
+        }
+        let passed = total * u128::from(cycles) / (u128::from(turns) << 32);
+        prop_assert_eq!(u128::from(extremes.cycles()), passed.saturating_sub(1));
+    }
+
+    /// Any angles at all: no panic, and every reading is finite or none.
+    #[test]
+    fn any_angle_is_taken(angles in prop::collection::vec(any::<u32>(), 1..400), ratio in (1..40_u32, 1..40_u32)) {
+        prop_assume!(ratio.0 <= 16 * ratio.1);
+        let cycle = CycleConfig::new(Cycle { turns: ratio.0, cycles: ratio.1 }, PERIOD, Bases::SI);
+        let config = WaveformConfig::new::<BINS>(cycle, 1);
+        let mut parts = <(Extremes<Fixed>, Waveform<Fixed, BINS>)>::default();
+        for angle in angles {
+            parts.measure(&(cycle, config), angle, Fixed::ONE, &at(Fixed::from_bits(angle as i32 >> 4)));
+            if let Some(window) = parts.1.take() {
+                let _ = window.ripple(&config, 16);
+            }
+            let _ = parts.0.reading(&cycle);
+        }
+    }
+}
+
+/// A motor that turns by a fixed part of 2^-64 turn a tick, with a ripple of its own in the angle.
+struct Turning {
+    phase: u64,
+    step: u64,
+    ripple: Vec<u32>,
+}
+
+impl Turning {
+    fn new(speed: f64) -> Self {
+        let ripple = |k: u32| {
+            let angle = 0.002 * (TAU * f64::from(k) / 4096.0 - 0.4).sin();
+            (angle / TAU * 4_294_967_296.0).round() as i64 as u32
+        };
+        Turning {
+            phase: 0,
+            step: (speed * PERIOD / TAU * 18_446_744_073_709_551_616.0) as u64,
+            ripple: (0..4096).map(ripple).collect(),
+        }
+    }
+
+    fn next(&mut self) -> u32 {
+        self.phase = self.phase.wrapping_add(self.step);
+        ((self.phase >> 32) as u32).wrapping_add(self.ripple[(self.phase >> 52) as usize])
+    }
+
+    /// The mean speed, exactly [rad/s].
+    fn speed(&self) -> f64 {
+        self.step as f64 / 18_446_744_073_709_551_616.0 * TAU / PERIOD
+    }
+}
+
+/// Mean and phase of one window before and one after so many ticks. The mean is what the step is, and the phase has not moved: what differs is the rounding of one
+/// window of 16 turns, 6,700 ticks.
+fn drift(ticks: u64) -> ([f64; 2], [f64; 2]) {
+    let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
+    let config = (cycle, WaveformConfig::new::<BINS>(cycle, 16));
+    let mut turning = Turning::new(150.0);
+    let speed = turning.speed();
+    let mut parts = <(Extremes<f32>, Waveform<f32, BINS>)>::default();
+    let mut ends = Vec::new();
+    for tick in 0..ticks {
+        let angle = turning.next();
+        parts.measure(&config, angle, 100.0, &at(150.0));
+        if let Some(window) = parts.1.take()
+            && (tick < 10_000 || tick > ticks - 10_000)
+        {
+            ends.push(window.ripple(&config.1, 4));
+        }
+    }
+    let (first, last) = (ends.first().unwrap(), ends.last().unwrap());
+    let of = |ripple: &driveline::fluctuation::Ripple| [ripple.mean / speed - 1.0, ripple.speed.order(1).phase()];
+    let reading = parts.0.reading(&cycle).unwrap();
+    assert!((reading.mean / speed - 1.0).abs() < 1e-6, "{reading:?}");
+    (of(first), of(last))
+}
+
+fn no_drift(ticks: u64) {
+    let (first, last) = drift(ticks);
+    // The ripple's table has 4096 steps to the turn, each of 3 urad at most: of a turn of 16 that is 3e-8.
+    assert!(first[0].abs() < 1e-6 && last[0].abs() < 1e-6, "{first:?} {last:?}");
+    assert!((first[1] - last[1]).abs() < 1e-3, "{first:?} {last:?}");
+}
+
+#[test]
+fn nothing_drifts_in_a_million_ticks() {
+    no_drift(1_000_000);
+}
+
+/// A day and four hours at 10 kHz; half a minute of a host.
+#[test]
+#[ignore = "half a minute"]
+fn nothing_drifts_in_a_thousand_million_ticks() {
+    no_drift(1_000_000_000);
+}
+
+#[test]
+fn at_a_standstill_and_to_and_fro_there_is_no_cycle() {
+    let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
+    let config = (cycle, WaveformConfig::new::<BINS>(cycle, 1));
+    let mut parts = <(Extremes<f64>, Waveform<f64, BINS>)>::default();
+    let mut feed = |angle: u32, speed: f64| {
+        parts.measure(&config, angle, 0.0, &at(speed));
+        (parts.0.reading(&cycle), parts.1.take())
+    };
+    for _ in 0..20_000 {
+        assert_eq!(feed(5, 0.0), (None, None));
+    }
+    // Across the end of the cycle and back, a thousand times: ends are passed, but never a cycle.
+    for k in 0..100_000_u32 {
+        let swing = (TAU * f64::from(k) / 100.0).sin();
+        let (reading, window) = feed((swing * 5e8) as i64 as u32, 10.0 * swing);
+        assert!(reading.is_none() && window.is_none(), "{k}");
+    }
+    // Forwards, and then backwards: the first cycle in the new direction is the first whole one.
+    let mut seen = Vec::new();
+    for k in 0..3000_i64 {
+        let angle = if k < 1500 { k } else { 3000 - k } * 10_000_000;
+        let speed = if k < 1500 { 1.0 } else { -1.0 } * 10_000_000.0 / 4_294_967_296.0 * TAU / PERIOD;
+        let (reading, window) = feed(angle as u32, speed);
+        if let Some(window) = window {
+            seen.push(window.ripple(&config.1, 4).mean / speed);
+        }
+        if let Some(reading) = reading {
+            let sign = if k < 1500 || reading.mean > 0.0 { 1.0 } else { -1.0 };
+            assert!((reading.mean * sign / speed.abs() - 1.0).abs() < 1e-6, "{k}: {reading:?}");
+        }
+    }
+    // One each way: the cycle in which a window is taken is left out, and the one that is turned back in.
+    assert!(seen.len() == 2 && seen.iter().all(|relative| (relative - 1.0).abs() < 1e-6), "{seen:?}");
+}
+
+/// An angle that could not be used voids what it fell into, and the next whole cycle is good.
+#[test]
+fn a_disturbance_costs_what_it_falls_into() {
+    let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
+    let config = (cycle, WaveformConfig::new::<BINS>(cycle, 2));
+    let mut parts = <(Extremes<f64>, Waveform<f64, BINS>)>::default();
+    let speed = 1e7 / 4_294_967_296.0 * TAU / PERIOD;
+    let mut good = 0;
+    for k in 0..20_000_u32 {
+        if k % 5_000 > 4_950 {
+            // Fifty ticks without an angle.
+            Fluctuation::<f64>::disturb(&mut parts);
+            assert!(parts.0.reading(&cycle).is_none());
+            continue;
+        }
+        parts.measure(&config, k.wrapping_mul(10_000_000), 0.0, &at(speed));
+        if let Some(reading) = parts.0.reading(&cycle) {
+            assert!((reading.mean / speed - 1.0).abs() < 1e-6, "{k}: {reading:?}");
+        }
+        if let Some(window) = parts.1.take() {
+            let ripple = window.ripple(&config.1, 4);
+            // Between a parabola over a bin and a sine of the fourth order some 1e-5 of a bin's time is left.
+            assert!((ripple.mean / speed - 1.0).abs() < 1e-6 && ripple.motor.delta < 5e-5, "{k}: {ripple:?}");
+            good += 1;
+        }
+    }
+    // Eleven turns between two disturbances: three windows of two, a turn lost before each.
+    assert!(good >= 12, "{good}");
+}
+
+/// Every refusal names what was wrong.
+#[test]
+fn a_cycle_that_cannot_be_is_refused() {
+    let new = |turns, cycles, period| CycleConfig::try_new(Cycle { turns, cycles }, period, Bases::SI);
+    for (config, names) in [
+        (new(0, 1, 1e-4), "at least 1"),
+        (new(1, 0, 1e-4), "at least 1"),
+        (new(17, 1, 1e-4), "16 turns"),
+        (new(1, 1, 0.0), "time between two ticks"),
+        (new(1, 1, f64::NAN), "time between two ticks"),
+    ] {
+        let error: Error = config.unwrap_err();
+        assert!(error.to_string().contains(names), "{error}");
+    }
+    let cycle = new(1, 1, 1e-4).unwrap();
+    assert!(WaveformConfig::try_new::<48>(cycle, 1).unwrap_err().to_string().contains("power of two"));
+    assert!(WaveformConfig::try_new::<64>(cycle, 0).unwrap_err().to_string().contains("at least 1 cycle"));
+    assert!(WaveformConfig::try_new::<32>(new(16, 1, 1e-4).unwrap(), 1).is_err());
+    // A cycle of a 65,535th of a turn has bins of less than a unit of the angle, and still works or is refused.
+    let _ = WaveformConfig::try_new::<1024>(new(1, 65_535, 1e-4).unwrap(), 1);
+}

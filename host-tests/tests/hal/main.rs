@@ -1,0 +1,13 @@
+//! Adapters to `embedded-hal`: what goes over the bus, and what becomes of every fault. Telemetry: what is told, and what is lost. Parameters: what a power cut leaves.
+
+mod angle;
+mod axis;
+mod boards;
+mod bus;
+mod enable;
+mod parameters;
+mod table;
+mod telemetry;
+mod torque;
+mod vibration;
+mod wheel;

@@ -1,0 +1,273 @@
+//! Parameters in a flash whose power is cut anywhere.
+
+use driveline::parameters::{Error, Loaded, Parameters, Refusal, Store};
+use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
+use serde::{Deserialize, Serialize};
+
+const PAGE: usize = 2048;
+/// Bytes that are programmed at once, as in an STM32G4.
+const WORD: usize = 8;
+const PAGES: usize = 2;
+const RANGE: std::ops::Range<u32> = 0..(PAGES * PAGE) as u32;
+
+/// A flash that loses its power after so many bytes; what was being written or erased then is any bits.
+#[derive(Clone)]
+struct Flash {
+    bytes: Vec<u8>,
+    written: Vec<bool>,
+    /// Bytes until the power is cut.
+    left: usize,
+    random: u32,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Cut;
+
+impl NorFlashError for Cut {
+    fn kind(&self) -> NorFlashErrorKind {
+        NorFlashErrorKind::Other
+    }
+}
+
+impl Flash {
+    fn new() -> Self {
+        let length = PAGES * PAGE;
+        Flash {
+            bytes: vec![0xff; length],
+            written: vec![false; length / WORD],
+            left: usize::MAX,
+            random: 2_463_534_242,
+        }
+    }
+
+    fn any(&mut self) -> u8 {
+        self.random ^= self.random << 13;
+        self.random ^= self.random >> 17;
+        self.random ^= self.random << 5;
+        self.random as u8
+    }
+}
+
+impl ErrorType for Flash {
+    type Error = Cut;
+}
+
+impl ReadNorFlash for Flash {
+    const READ_SIZE: usize = 1;
+    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Cut> {
+        if self.left == 0 {
+            return Err(Cut);
+        }
+        bytes.copy_from_slice(&self.bytes[offset as usize..offset as usize + bytes.len()]);
+        Ok(())
+    }
+    fn capacity(&self) -> usize {
+        self.bytes.len()
+    }
+}
+
+impl NorFlash for Flash {
+    const WRITE_SIZE: usize = WORD;
+    const ERASE_SIZE: usize = PAGE;
+
+    fn erase(&mut self, from: u32, to: u32) -> Result<(), Cut> {
+        // a word's worth of time for each word
+        for word in from as usize / WORD..to as usize / WORD {
+            if self.left < WORD {
+                // the pages are left at any bits
+                for byte in from as usize..to as usize {
+                    self.bytes[byte] |= self.any();
+                }
+                self.left = 0;
+                return Err(Cut);
+            }
+            self.left -= WORD;
+            self.bytes[word * WORD..(word + 1) * WORD].fill(0xff);
+            self.written[word] = false;
+        }
+        Ok(())
+    }
+
+    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Cut> {
+        assert!((offset as usize).is_multiple_of(WORD) && bytes.len().is_multiple_of(WORD));
+        for (word, bytes) in (offset as usize / WORD..).zip(bytes.chunks(WORD)) {
+            assert!(!self.written[word], "word {word} is written twice");
+            self.written[word] = true;
+            for (place, &byte) in (word * WORD..).zip(bytes) {
+                if self.left == 0 {
+                    // part of the word is programmed
+                    for rest in place..(word + 1) * WORD {
+                        self.bytes[rest] &= self.any();
+                    }
+                    return Err(Cut);
+                }
+                self.left -= 1;
+                self.bytes[place] = byte;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What a drive keeps, a run of the balancing among it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Kept {
+    inertia: f32,
+    stiffness: f32,
+    influence: Vec<f32>,
+}
+
+impl Parameters for Kept {
+    const IDENTITY: u32 = 0x4857_0001;
+    const VERSION: u16 = 3;
+}
+
+fn kept(number: u32) -> Kept {
+    let influence = (0..200).map(|at| (number * 1000 + at) as f32).collect();
+    Kept { inertia: number as f32, stiffness: 0.5, influence }
+}
+
+fn save(flash: &mut Flash, parameters: &Kept) -> Result<(), Error<Cut>> {
+    let mut store = Store::new(flash.clone(), RANGE).unwrap();
+    let saved = store.save(parameters, &mut [0; 4096]);
+    *flash = store.release();
+    saved
+}
+
+/// Power on again, and read.
+fn load<P: Parameters>(flash: &mut Flash) -> Loaded<P> {
+    flash.left = usize::MAX;
+    let mut store = Store::new(flash.clone(), RANGE).unwrap();
+    let loaded = store.load(&mut [0; 4096]).unwrap();
+    *flash = store.release();
+    loaded
+}
+
+#[test]
+fn an_empty_flash_has_nothing_and_what_is_saved_is_there() {
+    let mut flash = Flash::new();
+    assert_eq!(load::<Kept>(&mut flash), Loaded { parameters: None, refused: None });
+    for number in 0..50 {
+        save(&mut flash, &kept(number)).unwrap();
+        assert_eq!(load(&mut flash), Loaded { parameters: Some(kept(number)), refused: None });
+    }
+}
+
+#[test]
+fn a_power_cut_at_any_byte_leaves_the_old_or_the_new() {
+    let mut flash = Flash::new();
+    save(&mut flash, &kept(0)).unwrap();
+    let (mut points, mut old, mut new, mut erasing) = (0, 0, 0, 0);
+    for number in 1..6 {
+        flash.left = usize::MAX;
+        let before = flash.clone();
+        save(&mut flash, &kept(number)).unwrap();
+        let whole = usize::MAX - flash.left;
+        let erases = whole > PAGE;
+        erasing += usize::from(erases);
+        for point in 0..whole {
+            let mut cut = before.clone();
+            cut.left = point;
+            cut.random ^= point as u32;
+            assert_eq!(save(&mut cut, &kept(number)), Err(Error::Flash(Cut)), "{number}, {point}");
+            let Loaded { parameters, refused } = load::<Kept>(&mut cut);
+            // a record that is half there is told
+            assert!(matches!(refused, None | Some(Refusal::Damaged)), "{refused:?}");
+            match parameters {
+                Some(found) if found == kept(number) => new += 1,
+                Some(found) if found == kept(number - 1) => old += 1,
+                other => panic!("save {number}, cut after {point} of {whole} bytes: {other:?}"),
+            }
+            points += 1;
+            // and it goes on
+            save(&mut cut, &kept(100)).unwrap();
+            assert_eq!(load(&mut cut).parameters, Some(kept(100)), "save {number}, cut after {point}");
+        }
+    }
+    println!("{points} cuts, {erasing} saves that erase: {old} times the old parameters, {new} times the new ones");
+    assert!(points >= 1000 && erasing > 0, "{points} {erasing}");
+}
+
+#[test]
+fn any_damaged_byte_is_no_other_parameters() {
+    let mut flash = Flash::new();
+    save(&mut flash, &kept(1)).unwrap();
+    save(&mut flash, &kept(2)).unwrap();
+    for place in (0..2 * PAGE).step_by(3) {
+        let mut damaged = flash.clone();
+        damaged.bytes[place] ^= 0x10;
+        let mut store = Store::new(damaged, RANGE).unwrap();
+        let found = store.load::<Kept>(&mut [0; 4096]).unwrap().parameters.unwrap();
+        assert!(found == kept(1) || found == kept(2), "{place}");
+    }
+}
+
+/// The same form from another firmware, and another form from this one.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Foreign(Kept);
+
+impl Parameters for Foreign {
+    const IDENTITY: u32 = 0x4857_0002;
+    const VERSION: u16 = 3;
+}
+
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Older(f32);
+
+impl Parameters for Older {
+    const IDENTITY: u32 = Kept::IDENTITY;
+    const VERSION: u16 = 2;
+}
+
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Longer(Kept, u8);
+
+impl Parameters for Longer {
+    const IDENTITY: u32 = Kept::IDENTITY;
+    const VERSION: u16 = Kept::VERSION;
+}
+
+fn save_other(flash: &mut Flash, other: &impl Parameters) {
+    let mut store = Store::new(flash.clone(), RANGE).unwrap();
+    store.save(other, &mut [0; 4096]).unwrap();
+    *flash = store.release();
+}
+
+#[test]
+fn records_of_others_are_refused_with_the_reason() {
+    let mut flash = Flash::new();
+    save_other(&mut flash, &Foreign(kept(7)));
+    let refused = load::<Kept>(&mut flash);
+    assert_eq!(refused, Loaded { parameters: None, refused: Some(Refusal::Foreign(0x4857_0002)) });
+    assert_eq!(refused.refused.unwrap().to_string(), "the record is another firmware's, 0x48570002");
+    let mut flash = Flash::new();
+    save_other(&mut flash, &Older(1.0));
+    assert_eq!(load::<Kept>(&mut flash).refused, Some(Refusal::Version(2)));
+    let mut flash = Flash::new();
+    save_other(&mut flash, &Longer(kept(7), 1));
+    assert_eq!(load::<Kept>(&mut flash).refused, Some(Refusal::Content));
+}
+
+#[test]
+fn the_last_good_one_is_kept_beside_one_that_is_refused() {
+    let mut flash = Flash::new();
+    save(&mut flash, &kept(1)).unwrap();
+    save(&mut flash, &kept(2)).unwrap();
+    // an older firmware finds nothing of its own, and takes one of the two places
+    save_other(&mut flash, &Older(1.0));
+    let Loaded { parameters, refused } = load::<Kept>(&mut flash);
+    assert_eq!((parameters, refused), (Some(kept(2)), Some(Refusal::Version(2))));
+}
+
+#[test]
+fn what_does_not_fit_is_said_and_nothing_is_lost() {
+    let mut flash = Flash::new();
+    save(&mut flash, &kept(1)).unwrap();
+    let large = Kept { influence: vec![1.0; 3000], ..kept(2) };
+    let mut store = Store::new(flash.clone(), RANGE).unwrap();
+    assert_eq!(store.save(&large, &mut [0; 65_536]), Err(Error::TooLarge));
+    assert_eq!(store.save(&kept(2), &mut [0; 300]), Err(Error::TooLarge));
+    assert_eq!(store.load(&mut [0; 4096]).unwrap().parameters, Some(kept(1)));
+    assert!(Store::new(Flash::new(), 0..PAGE as u32).is_err_and(|error| error == Error::Range));
+    assert!(Store::new(Flash::new(), 7..3 * PAGE as u32).is_err_and(|error| error == Error::Range));
+}

@@ -1,0 +1,182 @@
+//! Records through the ring, the frames and the host's decoder, which was written from their description.
+
+use std::thread;
+
+use driveline::telemetry::{Channel, Kind, Ring};
+use driveline_firmware::Words;
+use driveline_firmware::fingerprint::SEED;
+use driveline_firmware::program::Program as Inputs;
+use driveline_firmware::scene::Scene;
+use driveline_firmware::selected::visit;
+use driveline_firmware::told::{VALUES, values};
+use host_tests::image::{Program, board, build};
+use host_tests::link::Telling;
+use host_tests::telemetry::{Decoder, Told};
+
+fn decoded(bytes: &[u8]) -> (Vec<Told>, Decoder) {
+    let (mut records, mut decoder) = (Vec::new(), Decoder::default());
+    decoder.take(bytes, |_, told| records.push(told));
+    (records, decoder)
+}
+
+/// Values with zeros, ones and everything else in every byte.
+fn awkward(tick: u32) -> [u32; 3] {
+    [tick.wrapping_mul(0x9e37_79b9), tick & 0x00ff_00ff, [0, u32::MAX, 0x0100, 1][tick as usize % 4]]
+}
+
+#[test]
+fn what_is_recorded_arrives() {
+    let ring = Ring::<3, 16>::new();
+    let mut bytes = Vec::new();
+    for tick in 0..10_000 {
+        ring.record(&awkward(tick));
+        if tick % 10 == 9 {
+            assert_eq!(ring.send(&mut bytes), Ok(10));
+        }
+    }
+    let (records, decoder) = decoded(&bytes);
+    assert_eq!((records.len(), decoder.damaged, ring.dropped()), (10_000, 0, 0));
+    for (tick, told) in (0..).zip(records) {
+        assert_eq!(told, Told { tick, dropped: 0, words: awkward(tick).to_vec() });
+    }
+}
+
+#[test]
+fn a_full_ring_drops_and_counts_and_the_gap_is_as_long() {
+    let ring = Ring::<3, 8>::new();
+    (0..10).for_each(|tick| ring.record(&awkward(tick)));
+    assert_eq!(ring.dropped(), 3);
+    let kept: Vec<_> = std::iter::from_fn(|| ring.take()).collect();
+    assert_eq!(
+        kept.iter().map(|record| (record.tick, record.dropped)).collect::<Vec<_>>(),
+        (0..7).map(|tick| (tick, 0)).collect::<Vec<_>>()
+    );
+    ring.record(&awkward(10));
+    let next = ring.take().unwrap();
+    assert_eq!((next.tick, next.dropped, next.values), (10, 3, awkward(10)));
+}
+
+#[test]
+fn channels_describe_themselves() {
+    let channels = [
+        Channel { name: "motor speed", unit: "rad/s", kind: Kind::Single },
+        Channel { name: "angle", unit: "turn", kind: Kind::Integer(1.0 / 4_294_967_296.0) },
+    ];
+    let mut bytes = Vec::new();
+    Channel::send(&channels, &mut bytes).unwrap();
+    let (_, decoder) = decoded(&bytes);
+    let [speed, angle] = [decoder.channel(0), decoder.channel(1)];
+    assert_eq!(
+        (speed.name.as_str(), speed.unit.as_str(), speed.value(1.5_f32.to_bits())),
+        ("motor speed", "rad/s", 1.5)
+    );
+    assert_eq!((angle.name.as_str(), angle.unit.as_str(), angle.value(1 << 30)), ("angle", "turn", 0.25));
+    assert_eq!(decoder.channel(2).name, "value 2");
+}
+
+#[test]
+fn no_damaged_byte_makes_a_record_that_was_not_sent() {
+    let ring = Ring::<3, 8>::new();
+    let mut bytes = Vec::new();
+    (0..5).for_each(|tick| ring.record(&awkward(tick + 100)));
+    ring.send(&mut bytes).unwrap();
+    let (sound, _) = decoded(&bytes);
+    assert_eq!(sound.len(), 5);
+    for place in 0..bytes.len() {
+        for flip in 1..=255 {
+            let mut damaged = bytes.clone();
+            damaged[place] ^= flip;
+            let (records, _) = decoded(&damaged);
+            // a CRC of 16 bits sees every error within 16 of them; a zero that comes or goes parts a frame or joins two
+            assert!(records.iter().all(|told| sound.contains(told)), "{place} {flip:#x}");
+            assert!(records.len() >= 3, "{place} {flip:#x}");
+        }
+    }
+}
+
+#[test]
+fn a_listener_that_comes_late_begins_with_the_next_frame() {
+    let ring = Ring::<3, 8>::new();
+    let mut bytes = Vec::new();
+    (0..5).for_each(|tick| ring.record(&awkward(tick)));
+    ring.send(&mut bytes).unwrap();
+    let (records, decoder) = decoded(&bytes[10..]);
+    assert_eq!((records.len(), decoder.damaged), (4, 0));
+}
+
+#[test]
+fn the_tick_and_the_main_loop_may_run_at_the_same_time() {
+    const TICKS: u32 = 50_000;
+    let ring = Ring::<3, 8>::new();
+    thread::scope(|scope| {
+        scope.spawn(|| (0..TICKS).for_each(|tick| ring.record(&awkward(tick))));
+        let (mut taken, mut last) = (0, None);
+        while last.is_none_or(|last| last < TICKS - 1) && taken + ring.dropped() < TICKS {
+            if let Some(record) = ring.take() {
+                // whole records, in order, with all that was dropped before them
+                assert_eq!(record.values, awkward(record.tick));
+                assert_eq!(record.dropped, record.tick - taken);
+                assert!(last.is_none_or(|last| last < record.tick));
+                last = Some(record.tick);
+                taken += 1;
+            }
+        }
+    });
+}
+
+struct OnHost<'r>(&'r [Told]);
+
+impl driveline_firmware::Visitor for OnHost<'_> {
+    type Outcome = ();
+
+    fn visit<S: Scene>(self) {
+        let mut scene = S::new();
+        let mut inputs = Inputs::new(SEED, const { Words::of::<S>() });
+        for (tick, told) in (0..).zip(self.0) {
+            let input = inputs.next_input();
+            let words = values(&input, &scene.tick(&input)).to_vec();
+            assert_eq!(*told, Told { tick, dropped: 0, words }, "tick {tick}");
+        }
+    }
+}
+
+#[test]
+fn qemu_tells_what_the_host_calculates() {
+    use std::io::Read;
+
+    let variant = "hoist/fixed/reduced/10000";
+    let image = build(variant, board("m3").unwrap(), Program::Told, |_| {}).unwrap();
+    let mut telling = Telling::start(&image).unwrap();
+    let (mut records, mut decoder) = (Vec::new(), Decoder::default());
+    let mut bytes = [0; 4096];
+    while records.len() < 3_000 {
+        let length = telling.read(&mut bytes).unwrap();
+        assert!(length > 0, "QEMU ended after {} records", records.len());
+        decoder.take(&bytes[..length], |_, told| records.push(told));
+    }
+    assert_eq!(decoder.damaged, 0);
+    assert!(decoder.describes(VALUES));
+    visit(variant, OnHost(&records)).unwrap();
+}
+
+#[test]
+fn a_recorded_file_becomes_csv() {
+    let directory = tempfile::tempdir().unwrap();
+    let (recorded, csv) = (directory.path().join("recorded.bin"), directory.path().join("run.csv"));
+    let ring = Ring::<2, 8>::new();
+    let mut bytes = Vec::new();
+    // a record that comes before its columns have names waits for them
+    ring.record(&[2.5_f32.to_bits(), 1 << 31]);
+    ring.send(&mut bytes).unwrap();
+    let kind = Kind::Integer(1.0 / 4_294_967_296.0);
+    let channels =
+        [Channel { name: "torque", unit: "N m", kind: Kind::Single }, Channel { name: "angle", unit: "turn", kind }];
+    Channel::send(&channels, &mut bytes).unwrap();
+    ring.record(&[(-0.125_f32).to_bits(), 1 << 30]);
+    ring.send(&mut bytes).unwrap();
+    std::fs::write(&recorded, &bytes).unwrap();
+    let arguments = ["driveline", "watch", recorded.to_str().unwrap(), "--json", "--csv", csv.to_str().unwrap()];
+    host_tests::cli::main(arguments.map(Into::into));
+    let written = std::fs::read_to_string(csv).unwrap();
+    assert_eq!(written, "tick,dropped,torque [N m],angle [turn]\n0,0,2.5,-0.5\n1,0,-0.125,0.25\n");
+}

@@ -1,0 +1,509 @@
+//! The procedure of balancing in the field, step by step: baseline, a trial run for each plane, correction, verification, trim.
+//!
+//! What is known decides what comes next; any step can be given again, and the last one taken back. Everything entered goes into a record of
+//! words that a firmware can store, and from which the procedure goes on after a power cut.
+
+use heapless::Vec;
+
+use super::correction::{Aim, Correction};
+use super::grid::pick;
+use super::influence::Influence;
+use super::real::{Complex, Real, real, size, zero};
+use super::refusal::Refusal;
+
+/// Corrections and trims that are kept.
+pub const CORRECTIONS: usize = 6;
+
+/// A run: a reading for each row, and the speed it was taken at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run<T: Real, const ROWS: usize> {
+    /// The readings.
+    pub(crate) readings: [Complex<T>; ROWS],
+    /// Speed of each \[rad/s\].
+    pub(crate) speeds: [T; ROWS],
+}
+
+impl<T: Real, const ROWS: usize> Run<T, ROWS> {
+    /// A run of readings, each with its speed \[rad/s\].
+    ///
+    /// # Errors
+    /// [`Refusal::Size`], [`Refusal::ReadingMissing`] where there are fewer readings than speeds or the other way round,
+    /// [`Refusal::Reading`] for what is not a number.
+    pub fn new(readings: &[Complex<T>], speeds: &[T]) -> Result<Self, Refusal> {
+        if readings.len() != speeds.len() {
+            return Err(Refusal::ReadingMissing { row: readings.len().min(speeds.len()) });
+        }
+        if readings.is_empty() || readings.len() > ROWS {
+            return Err(Refusal::Size);
+        }
+        let mut run = Run { readings: [zero(); ROWS], speeds: [T::zero(); ROWS] };
+        let places = run.readings.iter_mut().zip(&mut run.speeds);
+        for (row, ((to, at), (reading, speed))) in places.zip(readings.iter().zip(speeds)).enumerate() {
+            if !(super::real::given(*reading) && *speed > T::zero() && speed.is_finite()) {
+                return Err(Refusal::Reading { row });
+            }
+            (*to, *at) = (*reading, *speed);
+        }
+        Ok(run)
+    }
+
+    /// The readings, zeros behind the last.
+    pub fn readings(&self) -> &[Complex<T>; ROWS] {
+        &self.readings
+    }
+}
+
+/// How a procedure goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan<T: Real, const ROWS: usize, const PLANES: usize> {
+    /// Readings of a run.
+    pub rows: usize,
+    /// Correction planes.
+    pub planes: usize,
+    /// Whether trial weights stay on when the next one comes.
+    pub trials_stay: bool,
+    /// How far a speed may be from the baseline's, relative.
+    pub speed: T,
+    /// The largest residual that is good enough, in the unit of the readings.
+    pub good: T,
+    /// How weights are chosen.
+    pub aim: Aim<T, ROWS, PLANES>,
+}
+
+impl<T: Real, const ROWS: usize, const PLANES: usize> Plan<T, ROWS, PLANES> {
+    /// Trial weights taken off again, speeds within a hundredth, least squares, and `good` as the largest residual that is good enough.
+    ///
+    /// A hundredth is as near as a drive holds its speed; away from a resonance the influence stays the same over it.
+    pub fn usual(rows: usize, planes: usize, good: T) -> Self {
+        Plan { rows, planes, trials_stay: false, speed: real(0.01), good, aim: Aim::default() }
+    }
+}
+
+/// What is to be done next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Step {
+    /// Run as the rotor is, and give [`Procedure::baseline`].
+    Baseline,
+    /// Put a trial weight in this plane, run, and give [`Procedure::trial`].
+    Trial {
+        /// The plane.
+        plane: usize,
+    },
+    /// Ask for [`Procedure::correction`], put the weights on, and say with [`Procedure::placed`] what was put on.
+    Correction,
+    /// Run with them, and give [`Procedure::verified`].
+    Verify,
+    /// As the correction, with the coefficients that are known.
+    Trim,
+    /// Good enough.
+    Done,
+}
+
+/// Weights that were put on, and the run with them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Placed<T: Real, const ROWS: usize, const PLANES: usize> {
+    weights: [Complex<T>; PLANES],
+    run: Option<Run<T, ROWS>>,
+}
+
+/// A trial run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Trial<T: Real, const ROWS: usize> {
+    plane: usize,
+    weight: Complex<T>,
+    run: Run<T, ROWS>,
+}
+
+/// A procedure under way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Procedure<T: Real, const ROWS: usize, const PLANES: usize> {
+    plan: Plan<T, ROWS, PLANES>,
+    /// Coefficients that were known before.
+    before: Option<Influence<T, ROWS, PLANES>>,
+    baseline: Option<Run<T, ROWS>>,
+    trials: Vec<Trial<T, ROWS>, PLANES>,
+    placed: Vec<Placed<T, ROWS, PLANES>, CORRECTIONS>,
+}
+
+impl<T: Real, const ROWS: usize, const PLANES: usize> Procedure<T, ROWS, PLANES> {
+    /// A procedure at its beginning.
+    ///
+    /// # Errors
+    /// [`Refusal::Size`], [`Refusal::MorePlanesThanReadings`], [`Refusal::Setting`] for the tolerance of the speed (0) or what is good (1).
+    pub fn new(plan: Plan<T, ROWS, PLANES>) -> Result<Self, Refusal> {
+        Influence::<T, ROWS, PLANES>::new(plan.rows, plan.planes)?;
+        for (index, value) in [plan.speed, plan.good].into_iter().enumerate() {
+            if !(value > T::zero() && value.is_finite()) {
+                return Err(Refusal::Setting { index });
+            }
+        }
+        Ok(Procedure { plan, before: None, baseline: None, trials: Vec::new(), placed: Vec::new() })
+    }
+
+    /// With coefficients that are known already: no trial runs.
+    ///
+    /// # Errors
+    /// [`Refusal::Size`] where they are of other planes or rows, [`Refusal::PlaneUnknown`].
+    pub fn with_coefficients(mut self, known: Influence<T, ROWS, PLANES>) -> Result<Self, Refusal> {
+        if known.rows() != self.plan.rows || known.planes() != self.plan.planes {
+            return Err(Refusal::Size);
+        }
+        if let Some(plane) = known.unknown() {
+            return Err(Refusal::PlaneUnknown { plane });
+        }
+        self.before = Some(known);
+        Ok(self)
+    }
+
+    /// What is to be done next.
+    pub fn next(&self) -> Step {
+        if self.baseline.is_none() {
+            return Step::Baseline;
+        }
+        if let Some(plane) = self.influence().ok().and_then(|influence| influence.unknown()) {
+            return Step::Trial { plane };
+        }
+        match self.placed.last() {
+            None => Step::Correction,
+            Some(Placed { run: None, .. }) => Step::Verify,
+            Some(Placed { run: Some(run), .. }) => {
+                let largest =
+                    run.readings.iter().take(self.plan.rows).fold(T::zero(), |most, reading| most.max(size(*reading)));
+                if largest <= self.plan.good { Step::Done } else { Step::Trim }
+            }
+        }
+    }
+
+    /// Gives the baseline, or gives it again.
+    ///
+    /// # Errors
+    /// A run that is not complete; [`Refusal::SpeedDiffers`] where trial runs at other speeds exist.
+    pub fn baseline(&mut self, run: &Run<T, ROWS>) -> Result<(), Refusal> {
+        self.complete(run)?;
+        for other in self
+            .trials
+            .iter()
+            .map(|trial| &trial.run)
+            .chain(self.placed.iter().filter_map(|placed| placed.run.as_ref()))
+        {
+            self.same_speed(run, other)?;
+        }
+        let old = self.baseline.replace(*run);
+        let learnt = self.influence();
+        if let Err(refusal) = learnt {
+            self.baseline = old;
+            return Err(refusal);
+        }
+        Ok(())
+    }
+
+    /// Gives the trial run of a plane, or gives it again.
+    ///
+    /// # Errors
+    /// [`Refusal::TooEarly`] without a baseline; what is wrong with the plane, the weight or the run. What was entered before stays.
+    pub fn trial(&mut self, plane: usize, weight: Complex<T>, run: &Run<T, ROWS>) -> Result<(), Refusal> {
+        self.at_baseline_speed(run)?;
+        let old = self.trials.clone();
+        let trial = Trial { plane, weight, run: *run };
+        match self.trials.iter_mut().find(|trial| trial.plane == plane) {
+            Some(known) => *known = trial,
+            None => self.trials.push(trial).map_err(|_| Refusal::NoPlane { plane })?,
+        }
+        if let Err(refusal) = self.influence() {
+            self.trials = old;
+            return Err(refusal);
+        }
+        Ok(())
+    }
+
+    /// The coefficients, as far as they are known.
+    ///
+    /// # Errors
+    /// [`Refusal::TooEarly`] without a baseline; what is wrong with a trial run.
+    pub fn influence(&self) -> Result<Influence<T, ROWS, PLANES>, Refusal> {
+        let mut influence = match self.before {
+            Some(known) => known,
+            None => Influence::new(self.plan.rows, self.plan.planes)?,
+        };
+        let Some(baseline) = &self.baseline else {
+            return if self.before.is_some() { Ok(influence) } else { Err(Refusal::TooEarly) };
+        };
+        let mut before = baseline;
+        for trial in &self.trials {
+            influence.learn(trial.plane, &before.readings, &trial.run.readings, trial.weight)?;
+            if self.plan.trials_stay {
+                before = &trial.run;
+            }
+        }
+        Ok(influence)
+    }
+
+    /// The vibration as it is now: the last verification, or the last trial run where the trial weights stay, or the baseline.
+    fn now(&self) -> Option<&Run<T, ROWS>> {
+        let verified = self.placed.iter().rev().find_map(|placed| placed.run.as_ref());
+        let trial = self.trials.last().filter(|_| self.plan.trials_stay).map(|trial| &trial.run);
+        verified.or(trial).or(self.baseline.as_ref())
+    }
+
+    /// The weights to add to what is on the rotor now, for the correction and for each trim.
+    ///
+    /// # Errors
+    /// [`Refusal::TooEarly`] before the baseline or while a correction is not verified; [`Refusal::PlaneUnknown`]; see [`Influence::correct`].
+    pub fn correction(&self) -> Result<Correction<T, ROWS, PLANES>, Refusal> {
+        if self.placed.last().is_some_and(|placed| placed.run.is_none()) {
+            return Err(Refusal::TooEarly);
+        }
+        let now = self.now().ok_or(Refusal::TooEarly)?;
+        self.influence()?.correct(&now.readings, &self.plan.aim)
+    }
+
+    /// Says what weights were put on, which may not be quite those that were asked for. Given again before the run, it replaces what was said.
+    ///
+    /// # Errors
+    /// [`Refusal::TooEarly`], [`Refusal::Weight`], [`Refusal::Size`] after the last correction there is room for.
+    pub fn placed(&mut self, weights: &[Complex<T>; PLANES]) -> Result<(), Refusal> {
+        if let Some(plane) = weights.iter().position(|weight| !super::real::given(*weight)) {
+            return Err(Refusal::Weight { plane });
+        }
+        if let Some(plane) = self.influence()?.unknown() {
+            return Err(Refusal::PlaneUnknown { plane });
+        }
+        if self.baseline.is_none() {
+            return Err(Refusal::TooEarly);
+        }
+        if let Some(last) = self.placed.last_mut().filter(|last| last.run.is_none()) {
+            last.weights = *weights;
+            return Ok(());
+        }
+        self.placed.push(Placed { weights: *weights, run: None }).map_err(|_| Refusal::Size)
+    }
+
+    /// Gives the run with the weights that were put on last, or gives it again.
+    ///
+    /// # Errors
+    /// [`Refusal::TooEarly`] where none were; what is wrong with the run.
+    pub fn verified(&mut self, run: &Run<T, ROWS>) -> Result<(), Refusal> {
+        self.at_baseline_speed(run)?;
+        let last = self.placed.last_mut().ok_or(Refusal::TooEarly)?;
+        last.run = Some(*run);
+        Ok(())
+    }
+
+    /// Takes the last entry back, and says which step it was; none where nothing was entered.
+    pub fn take_back(&mut self) -> Option<Step> {
+        if let Some(last) = self.placed.last_mut() {
+            if last.run.take().is_some() {
+                return Some(Step::Verify);
+            }
+            self.placed.pop();
+            return Some(if self.placed.is_empty() { Step::Correction } else { Step::Trim });
+        }
+        if let Some(trial) = self.trials.pop() {
+            return Some(Step::Trial { plane: trial.plane });
+        }
+        self.baseline.take().map(|_| Step::Baseline)
+    }
+
+    /// The sum of the weights that corrections and trims have put on.
+    pub fn weights(&self) -> [Complex<T>; PLANES] {
+        let mut sum = [zero(); PLANES];
+        for placed in &self.placed {
+            for (sum, weight) in sum.iter_mut().zip(&placed.weights) {
+                *sum += *weight;
+            }
+        }
+        sum
+    }
+
+    fn complete(&self, run: &Run<T, ROWS>) -> Result<(), Refusal> {
+        let speeds = run.speeds.iter().take(self.plan.rows);
+        match speeds.enumerate().find(|(_, speed)| !(**speed > T::zero())) {
+            Some((row, _)) => Err(Refusal::ReadingMissing { row }),
+            None => Ok(()),
+        }
+    }
+
+    fn at_baseline_speed(&self, run: &Run<T, ROWS>) -> Result<(), Refusal> {
+        self.complete(run)?;
+        self.same_speed(self.baseline.as_ref().ok_or(Refusal::TooEarly)?, run)
+    }
+
+    fn same_speed(&self, one: &Run<T, ROWS>, other: &Run<T, ROWS>) -> Result<(), Refusal> {
+        for row in 0..self.plan.rows {
+            let (a, b) = (pick(&one.speeds, row, T::zero()), pick(&other.speeds, row, T::zero()));
+            if !((a - b).abs() <= a * self.plan.speed) {
+                return Err(Refusal::SpeedDiffers { row });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// First word of a record: "BAL" and its version.
+const MARK: u32 = 0x4241_4c01;
+
+impl<T: Real, const ROWS: usize, const PLANES: usize> Procedure<T, ROWS, PLANES> {
+    /// Writes everything that was entered as words, and says how many. The plan and coefficients that were known before are not in it.
+    ///
+    /// # Errors
+    /// [`Refusal::Size`] where there are not enough words.
+    pub fn record(&self, words: &mut [u32]) -> Result<usize, Refusal> {
+        let mut to = Writer { words, at: 0 };
+        to.word(MARK)?;
+        to.word(0)?;
+        for number in [self.plan.rows, self.plan.planes, usize::from(self.plan.trials_stay), T::WORDS] {
+            to.word(number as u32)?;
+        }
+        to.word(u32::from(self.baseline.is_some()))?;
+        if let Some(run) = &self.baseline {
+            to.run(run, self.plan.rows)?;
+        }
+        to.word(self.trials.len() as u32)?;
+        for trial in &self.trials {
+            to.word(trial.plane as u32)?;
+            to.complex(trial.weight)?;
+            to.run(&trial.run, self.plan.rows)?;
+        }
+        to.word(self.placed.len() as u32)?;
+        for placed in &self.placed {
+            for weight in placed.weights.iter().take(self.plan.planes) {
+                to.complex(*weight)?;
+            }
+            to.word(u32::from(placed.run.is_some()))?;
+            if let Some(run) = &placed.run {
+                to.run(run, self.plan.rows)?;
+            }
+        }
+        let length = to.at;
+        let sum = sum_of(words.get(2..length).unwrap_or(&[]));
+        super::grid::put(words, 1, sum);
+        Ok(length)
+    }
+
+    /// Goes on from a record: a procedure of the same plan with everything entered.
+    ///
+    /// # Errors
+    /// [`Refusal::Record`] with the word at which it is not one of this plan, or damaged.
+    pub fn resume(plan: Plan<T, ROWS, PLANES>, words: &[u32]) -> Result<Self, Refusal> {
+        let mut procedure = Procedure::new(plan)?;
+        let mut from = Reader { words, at: 0 };
+        from.expect(MARK)?;
+        let sum = from.word()?;
+        for number in [plan.rows, plan.planes, usize::from(plan.trials_stay), T::WORDS] {
+            from.expect(number as u32)?;
+        }
+        if from.flag()? {
+            procedure.baseline = Some(from.run(plan.rows)?);
+        }
+        for _ in 0..from.count(PLANES)? {
+            let plane = from.count(PLANES)?;
+            let trial = Trial { plane, weight: from.complex()?, run: from.run(plan.rows)? };
+            procedure.trials.push(trial).map_err(|_| from.wrong())?;
+        }
+        for _ in 0..from.count(CORRECTIONS)? {
+            let mut weights = [zero(); PLANES];
+            for weight in weights.iter_mut().take(plan.planes) {
+                *weight = from.complex()?;
+            }
+            let run = if from.flag()? { Some(from.run(plan.rows)?) } else { None };
+            procedure.placed.push(Placed { weights, run }).map_err(|_| from.wrong())?;
+        }
+        if sum_of(words.get(2..from.at).unwrap_or(&[])) != sum {
+            return Err(Refusal::Record { word: 1 });
+        }
+        Ok(procedure)
+    }
+}
+
+/// FNV-1a over words.
+fn sum_of(words: &[u32]) -> u32 {
+    words.iter().fold(0x811c_9dc5, |sum, word| (sum ^ word).wrapping_mul(0x0100_0193).rotate_left(5))
+}
+
+struct Writer<'w> {
+    words: &'w mut [u32],
+    at: usize,
+}
+
+impl Writer<'_> {
+    fn word(&mut self, word: u32) -> Result<(), Refusal> {
+        *self.words.get_mut(self.at).ok_or(Refusal::Size)? = word;
+        self.at += 1;
+        Ok(())
+    }
+
+    fn number<T: Real>(&mut self, value: T) -> Result<(), Refusal> {
+        let words = value.to_words();
+        for word in words.into_iter().take(T::WORDS) {
+            self.word(word)?;
+        }
+        Ok(())
+    }
+
+    fn complex<T: Real>(&mut self, value: Complex<T>) -> Result<(), Refusal> {
+        self.number(value.re)?;
+        self.number(value.im)
+    }
+
+    fn run<T: Real, const ROWS: usize>(&mut self, run: &Run<T, ROWS>, rows: usize) -> Result<(), Refusal> {
+        for (reading, speed) in run.readings.iter().zip(&run.speeds).take(rows) {
+            self.complex(*reading)?;
+            self.number(*speed)?;
+        }
+        Ok(())
+    }
+}
+
+struct Reader<'w> {
+    words: &'w [u32],
+    at: usize,
+}
+
+impl Reader<'_> {
+    /// The word read last is wrong.
+    fn wrong(&self) -> Refusal {
+        Refusal::Record { word: self.at.saturating_sub(1) }
+    }
+
+    fn word(&mut self) -> Result<u32, Refusal> {
+        let word = self.words.get(self.at).copied();
+        self.at += 1;
+        word.ok_or(self.wrong())
+    }
+
+    fn expect(&mut self, expected: u32) -> Result<(), Refusal> {
+        if self.word()? == expected { Ok(()) } else { Err(self.wrong()) }
+    }
+
+    fn flag(&mut self) -> Result<bool, Refusal> {
+        Ok(self.count(1)? == 1)
+    }
+
+    fn count(&mut self, most: usize) -> Result<usize, Refusal> {
+        let count = self.word()? as usize;
+        if count <= most { Ok(count) } else { Err(self.wrong()) }
+    }
+
+    fn number<T: Real>(&mut self) -> Result<T, Refusal> {
+        let mut words = [0; 2];
+        for word in words.iter_mut().take(T::WORDS) {
+            *word = self.word()?;
+        }
+        let value = T::from_words(words);
+        if value.is_finite() { Ok(value) } else { Err(self.wrong()) }
+    }
+
+    fn complex<T: Real>(&mut self) -> Result<Complex<T>, Refusal> {
+        Ok(Complex { re: self.number()?, im: self.number()? })
+    }
+
+    fn run<T: Real, const ROWS: usize>(&mut self, rows: usize) -> Result<Run<T, ROWS>, Refusal> {
+        let mut run = Run { readings: [zero(); ROWS], speeds: [T::zero(); ROWS] };
+        for (reading, speed) in run.readings.iter_mut().zip(&mut run.speeds).take(rows) {
+            *reading = self.complex()?;
+            *speed = self.number()?;
+        }
+        Ok(run)
+    }
+}

@@ -1,0 +1,70 @@
+//! What an axis asks of a drive beside its ticks: one without an angle, and to start while the machine turns.
+
+use super::{ConfigOf, Drive, NONE_YET};
+use crate::balance::Balancer;
+use crate::fault::Faults;
+use crate::fluctuation::Fluctuation;
+use crate::governor::Governor;
+use crate::number::Number;
+use crate::observer::Observer;
+use crate::sample::Command;
+
+impl<N, O, F, G, B> Drive<N, O, F, G, B>
+where
+    N: Number,
+    O: Observer<N>,
+    F: Fluctuation<N>,
+    G: Governor<N>,
+    B: Balancer<N>,
+{
+    /// One tick whose angle did not come: the sensor's bus failed, or what it gave was not sound or not new.
+    ///
+    /// It coasts, as for an angle that cannot be believed, and raises [`Faults::ANGLE_MISSING`]; after more than the limit of such ticks also
+    /// [`Faults::ANGLE_LOST`], and commands no torque. Torque and set point are screened as in [`Drive::tick`].
+    pub fn tick_blind(&mut self, config: &ConfigOf<N, O, F, G, B>, torque: N, reference: N) -> Command<N> {
+        let limits = &config.limits;
+        let (mut torque, mut faults) = (torque, Faults::ANGLE_MISSING);
+        if torque.exceeds(limits.torque) {
+            torque = self.commanded;
+            faults |= Faults::TORQUE;
+        } else if !G::COMMANDS {
+            self.commanded = torque;
+        }
+        self.fluctuation.disturb();
+        if self.missed < 0 {
+            // the search for two angles in a row begins anew
+            self.missed = NONE_YET;
+            let estimate = self.estimate(config);
+            self.governor.lost(&config.governor, &estimate);
+            self.commanded = N::ZERO;
+            return Command { torque: N::ZERO, faults: faults | Faults::ANGLE_LOST };
+        }
+        if reference.exceeds(limits.reference) {
+            faults |= Faults::REFERENCE;
+        } else {
+            self.governor.refer(reference);
+        }
+        let last = self.observer.angle();
+        let predicted = self.observer.predict(&config.observer, last, torque);
+        self.observer.coast(predicted, last);
+        self.missed = if (self.missed as u32) < limits.missed { self.missed.wrapping_add(1) } else { NONE_YET };
+        let estimate = self.estimate(config);
+        let torque = self.governor.command(&config.governor, &estimate);
+        if G::COMMANDS {
+            self.commanded = torque;
+        }
+        Command { torque, faults: faults | Faults::range(self.observer.beyond_base()) }
+    }
+
+    /// The governor starts anew, from the speed that the machine has and no torque; its set point is a standstill. The estimates stand.
+    pub fn engage(&mut self, config: &ConfigOf<N, O, F, G, B>) {
+        let estimate = self.estimate(config);
+        self.governor.start(&config.governor, &estimate, N::ZERO);
+        self.commanded = N::ZERO;
+    }
+
+    /// Whether the angle is lost: [`Faults::ANGLE_LOST`] was raised and no two angles in a row have been found since.
+    pub fn is_lost(&self) -> bool {
+        self.missed < 0
+    }
+}

@@ -1,0 +1,88 @@
+//! What a governor sees of the machine: the estimates as they are, or their mean over an interval in which the
+//! machine's torque repeats itself.
+//!
+//! An engine's speed swings with every firing, and a governor that follows the swing wears the rack and mends nothing:
+//! a flywheel mends what is periodic, a governor what is not [Notes ch. 5]. The mean over one firing interval at rated
+//! speed has none of the firing's orders.
+
+use crate::number::Number;
+use crate::sample::Estimate;
+
+/// What a governor sees; `()` sees the estimates as they are.
+pub trait View<N: Number>: Default {
+    /// Its constants.
+    type Config;
+
+    /// What is seen in this tick.
+    #[inline(always)]
+    fn see(&mut self, _config: &Self::Config, estimate: &Estimate<N>) -> Estimate<N> {
+        *estimate
+    }
+
+    /// Starts anew with these estimates.
+    #[inline(always)]
+    fn start(&mut self, _config: &Self::Config, _estimate: &Estimate<N>) {}
+}
+
+/// The estimates as they are.
+impl<N: Number> View<N> for () {
+    type Config = ();
+}
+
+/// The means of motor speed and load torque over the last `K` ticks, a power of two from 4 on; late by half of them.
+/// Shaft torque and load speed are seen as they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Mean<N, const K: usize> {
+    past: [[N; 2]; K],
+    sum: [N; 2],
+    /// The sum of the ring's beginning up to here, by additions alone: what replaces the running sum once a round, so
+    /// that its roundings do not add up.
+    fresh: [N; 2],
+    at: u32,
+}
+
+/// Constants of [`Mean`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct MeanConfig<N: Number, const K: usize> {
+    /// 1/K.
+    pub share: N::Coefficient,
+}
+
+impl<N: Number, const K: usize> Default for Mean<N, K> {
+    fn default() -> Self {
+        const { assert!(K.is_power_of_two() && K >= 4 && K <= 1 << 16, "a mean is over a power of two of ticks") };
+        Mean { past: [[N::ZERO; 2]; K], sum: [N::ZERO; 2], fresh: [N::ZERO; 2], at: 0 }
+    }
+}
+
+impl<N: Number, const K: usize> View<N> for Mean<N, K> {
+    type Config = MeanConfig<N, K>;
+
+    #[inline(always)]
+    fn see(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> Estimate<N> {
+        let new = [estimate.motor_speed.times(config.share), estimate.load_torque.times(config.share)];
+        let at = self.at as usize & (K - 1);
+        self.at = self.at.wrapping_add(1);
+        let [speed, load] = self.past.get(at).copied().unwrap_or_default();
+        if let Some(slot) = self.past.get_mut(at) {
+            *slot = new;
+        }
+        self.fresh = [self.fresh[0].plus(new[0]), self.fresh[1].plus(new[1])];
+        self.sum = [self.sum[0].plus(new[0].minus(speed)), self.sum[1].plus(new[1].minus(load))];
+        if at == K - 1 {
+            self.sum = self.fresh;
+            self.fresh = [N::ZERO; 2];
+        }
+        Estimate { motor_speed: self.sum[0], load_torque: self.sum[1], ..*estimate }
+    }
+
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
+        let new = [estimate.motor_speed.times(config.share), estimate.load_torque.times(config.share)];
+        self.past = [new; K];
+        self.sum = [estimate.motor_speed, estimate.load_torque];
+        self.fresh = [N::ZERO; 2];
+        self.at = 0;
+    }
+}

@@ -1,0 +1,126 @@
+//! Between a drive and a motor: adapters to `embedded-hal` 1.0, and the [`Axis`] that ties them to a [`Drive`](crate::drive::Drive).
+//!
+//! | adapter | takes | for |
+//! |---|---|---|
+//! | [`Quadrature`] | a [`Counter`] | an incremental encoder on a timer |
+//! | [`MagneticEncoder`] | `SpiDevice` | an absolute encoder: AS5047P, AS5048A |
+//! | [`ToothedWheel`] | capture times | a wheel with missing teeth |
+//! | [`PwmTorque`] | `SetDutyCycle` | a drive's torque input behind a filter, a DC motor's bridge |
+//! | [`ThreePhase`] | three `SetDutyCycle` | the bridge of a small synchronous motor |
+//! | [`SpiDac`] | `SpiDevice` | a drive's torque input in volts |
+//! | [`Tmc4671`] | `SpiDevice` | a drive that controls the current itself |
+//! | [`EnableChain`], [`Trip`] | `OutputPin` | what permits the power stage, what drops the contactor |
+//! | [`Adxl355`] | `SpiDevice` | vibration, digital |
+//! | [`AdcVibration`] | a slice of conversions | vibration, analog |
+//!
+//! A reading is a value that is new and sound, or [`Faults`]; there is no third answer, so that a failed bus never repeats the last
+//! value. `doc/adapters.md` shows every fault of every adapter with what the drive does, from runs.
+//!
+//! Crates for the encoders and the accelerometer exist (`as5048a`, `adxl355`), on `embedded-hal` 0.2; these are our own.
+//!
+//! # A board
+//! A new board is one file with one type that implements [`Board`]: an angle in, a torque out, the power stage on and off. [`Parts`] is that type
+//! made of adapters. This is a board and its control loop:
+//!
+//! ```
+//! use driveline::hal::{Axis, Board, Quadrature};
+//! # use driveline::fault::Faults;
+//! # #[derive(Default)] struct Timer; #[derive(Default)] struct Bridge;
+//! # impl driveline::hal::Counter for Timer { type Error = (); fn count(&mut self) -> Result<u32, ()> { Ok(0) } }
+//! # impl Bridge { fn duty(&mut self, _: f32) {} fn enable(&mut self, _: bool) {} }
+//! struct MyBoard {
+//!     encoder: Quadrature<Timer>, // the timer's count register behind `Counter`
+//!     bridge: Bridge,
+//! }
+//!
+//! impl Board<f32> for MyBoard {
+//!     fn angle(&mut self) -> Result<u32, Faults> {
+//!         self.encoder.read()
+//!     }
+//!     fn set_torque(&mut self, torque: f32, _angle: u32) -> Result<(), Faults> {
+//!         self.bridge.duty(torque / 2.5);
+//!         Ok(())
+//!     }
+//!     fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
+//!         self.bridge.enable(enabled);
+//!         Ok(())
+//!     }
+//! }
+//! ```
+//!
+//! The timer's interrupt then calls [`Axis::tick`].
+//!
+//! # From `cargo add driveline --features hal` to a governed motor
+//! Twenty lines, on any board; the timer's wait here stands for its interrupt:
+//!
+//! ```
+//! # use driveline::fault::Faults;
+//! # struct MyBoard(u32);
+//! # impl driveline::hal::Board<f32> for MyBoard {
+//! #     fn angle(&mut self) -> Result<u32, Faults> { Ok(0) }
+//! #     fn set_torque(&mut self, torque: f32, _: u32) -> Result<(), Faults> { self.0 += (torque > 0.0) as u32; Ok(()) }
+//! #     fn set_enabled(&mut self, _: bool) -> Result<(), Faults> { Ok(()) }
+//! # }
+//! # impl MyBoard { fn wait_for_timer(&mut self) -> bool { self.0 < 3 } }
+//! use driveline::{constants::*, design::*, drive::*, governor::*, hal::*, machine::*, observer};
+//!
+//! const TWO: TwoMass = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.35))
+//!     .reduce(Match::ResonanceAntiresonance);
+//! const RATE: Rate = Rate::hz(10_000);
+//! const LOAD: Disturbance = Disturbance { torque_accuracy: 2.0, load_torque_step: 100.0, within: 1.0 };
+//! const CONFIG: ConfigOf<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>> = Config {
+//!     limits: Limits::<f32>::new(&Screening {
+//!         torque: 500.0, reference: 180.0, innovation: 0.05, standstill: 0.0015, missed: 150,
+//!     }),
+//!     observer: observer::TwoMassConfig::<f32>::new(&TWO.observer(RATE, Encoder::lines(2048), LOAD)),
+//!     fluctuation: (),
+//!     governor: SpeedLoopConfig::<f32>::new(
+//!         &TWO.speed_loop(RATE, SpeedLoopTuning::USUAL), SpeedLoopSettings { torque_limit: 300.0, ramp: 75.0 }),
+//!     balancer: (),
+//! };
+//!
+//! fn run(board: MyBoard) -> Result<(), Faults> {
+//!     let mut mill = Axis::<_, f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>::new(board, &CONFIG, TRIPPING);
+//!     mill.start(&CONFIG)?;
+//!     while mill.board().wait_for_timer() {
+//!         mill.tick(&CONFIG, 150.0);
+//!     }
+//!     Ok(())
+//! }
+//! # assert_eq!(run(MyBoard(0)), Ok(()));
+//! ```
+
+mod adc;
+mod adxl355;
+mod angle;
+mod axis;
+mod board;
+mod dac;
+mod enable;
+mod magnetic;
+mod pwm;
+mod quadrature;
+mod scale;
+mod sine;
+mod three_phase;
+mod tmc4671;
+mod toothed_wheel;
+mod torque;
+mod vibration;
+
+pub use adc::AdcVibration;
+pub use adxl355::{Adxl355, Along, Range};
+pub use angle::AngleSensor;
+pub use axis::{Axis, TRIPPING};
+pub use board::{Board, Parts};
+pub use dac::{Dac, SpiDac};
+pub use enable::{EnableChain, Enabling, Line, Trip};
+pub use magnetic::{Chip, MagneticEncoder};
+pub use pwm::PwmTorque;
+pub use quadrature::{Counter, Quadrature};
+pub use scale::{FullScale, PerCount, Scaled};
+pub use three_phase::{PhaseConfig, ThreePhase};
+pub use tmc4671::Tmc4671;
+pub use toothed_wheel::{ToothedWheel, Wheel};
+pub use torque::TorqueOutput;
+pub use vibration::VibrationSensor;

@@ -1,0 +1,145 @@
+//! Vibration from an ADXL355: three axes of 20 bits at up to 4 kHz, SPI mode 0.
+//!
+//! A read starts with the address shifted up by one and a set lowest bit. The burst from `STATUS` to the last of the data brings the flag that says
+//! whether the data are new together with them [Analog Devices ADXL354/ADXL355, Rev. B, tables 16, 22 and 24 to 26].
+
+use embedded_hal::spi::SpiDevice;
+
+use super::{PerCount, Scaled, VibrationSensor};
+use crate::fault::Faults;
+
+const WHO: u8 = 0x00;
+const STATUS: u8 = 0x04;
+const FILTER: u8 = 0x28;
+const RANGE: u8 = 0x2c;
+const POWER: u8 = 0x2d;
+/// Analog Devices, MEMS, ADXL355.
+const IDENTITY: [u8; 3] = [0xad, 0x1d, 0xed];
+const READY: u8 = 1 << 0;
+/// The chip has lost its trimming.
+const BUSY: u8 = 1 << 4;
+/// Largest magnitude of 20 bits, less what stands for clipped.
+const CLIPPED: i32 = (1 << 19) - 1;
+
+/// Full scale.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Range {
+    /// 2.048 g, 256,000 counts to the g.
+    G2,
+    /// 4.096 g, 128,000 counts to the g.
+    G4,
+    /// 8.192 g, 64,000 counts to the g.
+    G8,
+}
+
+impl Range {
+    /// What a count is worth [m/s2].
+    pub const fn per_count(self) -> f64 {
+        9.806_65
+            / match self {
+                Range::G2 => 256_000.0,
+                Range::G4 => 128_000.0,
+                Range::G8 => 64_000.0,
+            }
+    }
+
+    const fn bits(self) -> u8 {
+        match self {
+            Range::G2 => 1,
+            Range::G4 => 2,
+            Range::G8 => 3,
+        }
+    }
+}
+
+/// The axis that is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Along {
+    /// x.
+    X,
+    /// y.
+    Y,
+    /// z.
+    Z,
+}
+
+/// An ADXL355 that measures.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Adxl355<S, N: Scaled> {
+    bus: S,
+    along: Along,
+    per_count: PerCount<N>,
+    patience: u32,
+    waited: u32,
+}
+
+impl<S: SpiDevice, N: Scaled> Adxl355<S, N> {
+    /// Starts a chip at 4 kHz, after asking who it is; `per_count` is of [`Range::per_count`]. A sample is overdue after `patience` polls without one: three, say, of a
+    /// loop at 10 kHz.
+    ///
+    /// # Errors
+    /// [`Faults::VIBRATION_MISSING`] and the bus, where it fails or another chip answers.
+    pub fn start(
+        bus: S,
+        along: Along,
+        range: Range,
+        per_count: PerCount<N>,
+        patience: u32,
+    ) -> Result<Self, (Faults, S)> {
+        let mut bus = bus;
+        let mut who = [WHO << 1 | 1, 0, 0, 0];
+        let is_it = bus.transfer_in_place(&mut who).is_ok() && matches!(who, [_, who @ ..] if who == IDENTITY);
+        let mut set = |register: u8, value: u8| bus.write(&[register << 1, value]).is_ok();
+        // interrupt polarity as after a reset; no filter but the 1 kHz low-pass; measuring, without temperature
+        if is_it && set(RANGE, 0x80 | range.bits()) && set(FILTER, 0) && set(POWER, 0) {
+            Ok(Adxl355 { bus, along, per_count, patience, waited: 0 })
+        } else {
+            Err((Faults::VIBRATION_MISSING, bus))
+        }
+    }
+
+    /// The bus again.
+    pub fn release(self) -> S {
+        self.bus
+    }
+
+    fn read(&mut self) -> Result<Option<N>, Faults> {
+        let mut burst = [0; 14];
+        burst[0] = STATUS << 1 | 1;
+        self.bus.transfer_in_place(&mut burst).map_err(|_| Faults::VIBRATION_MISSING)?;
+        // status, entries of the FIFO, temperature of 2, then x, y and z of 3
+        let [_, status, _, _, _, x @ .., y2, y1, y0, z2, z1, z0] = burst;
+        // a line that is stuck high has the busy bit, one that is stuck low is never ready
+        if status & BUSY != 0 {
+            return Err(Faults::VIBRATION_MISSING);
+        }
+        if status & READY == 0 {
+            return Ok(None);
+        }
+        let [high, middle, low] = match self.along {
+            Along::X => x,
+            Along::Y => [y2, y1, y0],
+            Along::Z => [z2, z1, z0],
+        };
+        let counts = i32::from_be_bytes([high, middle, low, 0]) >> 12;
+        if !(-CLIPPED..CLIPPED).contains(&counts) {
+            return Err(Faults::VIBRATION_MISSING);
+        }
+        Ok(Some(self.per_count.times(counts)))
+    }
+}
+
+impl<S: SpiDevice, N: Scaled> VibrationSensor<N> for Adxl355<S, N> {
+    fn vibration(&mut self) -> Result<Option<N>, Faults> {
+        let sample = self.read();
+        if matches!(sample, Ok(Some(_))) {
+            self.waited = 0;
+            return sample;
+        }
+        self.waited = self.waited.saturating_add(1);
+        if self.waited > self.patience { Err(Faults::VIBRATION_MISSING) } else { sample }
+    }
+}

@@ -1,0 +1,150 @@
+//! A drive on a board: one call a tick, and what becomes of a fault.
+
+use super::Board;
+use crate::balance::Balancer;
+use crate::drive::{ConfigOf, Drive};
+use crate::fault::Faults;
+use crate::fluctuation::Fluctuation;
+use crate::governor::Governor;
+use crate::number::Number;
+use crate::observer::Observer;
+use crate::sample::{Command, Sample};
+
+/// What trips an axis as a rule: a torque or an enable line that does not arrive, and an angle that stays away.
+pub const TRIPPING: Faults = Faults::TORQUE_OUTPUT.with(Faults::ENABLE).with(Faults::ANGLE_LOST);
+
+/// A drive on a board. It starts with the power stage off.
+#[derive(Debug)]
+pub struct Axis<P, N, O, F = (), G = (), B = ()> {
+    board: P,
+    drive: Drive<N, O, F, G, B>,
+    tripping: Faults,
+    /// What was set last.
+    set: N,
+    enabled: bool,
+    /// What of the board did not obey, and has not since.
+    pending: Faults,
+}
+
+impl<P, N, O, F, G, B> Axis<P, N, O, F, G, B>
+where
+    P: Board<N>,
+    N: Number,
+    O: Observer<N>,
+    F: Fluctuation<N>,
+    G: Governor<N>,
+    B: Balancer<N>,
+{
+    /// An axis that the faults of `tripping` trip. The power stage is switched off; where that fails the first tick says so.
+    pub fn new(board: P, config: &ConfigOf<N, O, F, G, B>, tripping: Faults) -> Self {
+        let mut board = board;
+        // where there is none yet, the drive finds it later
+        let drive = Drive::new(config, board.angle().unwrap_or(0));
+        let mut axis = Axis { board, drive, tripping, set: N::ZERO, enabled: false, pending: Faults::NONE };
+        axis.trip();
+        axis
+    }
+
+    /// Switches the power stage on: first no torque, then the enable chain. The governor starts from the speed that the drive has estimated, so
+    /// that a machine may turn meanwhile, as long as [`Axis::tick`] has been called all the time.
+    ///
+    /// # Errors
+    /// What kept it off, [`Faults::ANGLE_LOST`] or what the board says: it stays off.
+    pub fn start(&mut self, config: &ConfigOf<N, O, F, G, B>) -> Result<(), Faults> {
+        let lost = if self.drive.is_lost() { Err(Faults::ANGLE_LOST) } else { Ok(()) };
+        self.drive.engage(config);
+        self.set = N::ZERO;
+        let started = lost
+            .and_then(|()| self.board.set_torque(N::ZERO, self.drive.angle()))
+            .and_then(|()| self.board.set_enabled(true));
+        match started {
+            Ok(()) => {
+                self.pending = Faults::NONE;
+                self.enabled = true;
+            }
+            Err(_) => self.trip(),
+        }
+        started
+    }
+
+    /// Takes the torque away and the enable chain back, in this order, whatever fails of it, until [`Axis::start`].
+    pub fn trip(&mut self) {
+        self.enabled = false;
+        self.set = N::ZERO;
+        let torque = self.board.set_torque(N::ZERO, self.drive.angle());
+        let enable = self.board.set_enabled(false);
+        self.pending = torque.err().unwrap_or_default() | enable.err().unwrap_or_default();
+    }
+
+    /// One tick: angle in, drive, torque out. While the axis is tripped it estimates, gives no torque, raises [`Faults::TRIPPED`], and asks
+    /// a line that has not obeyed again.
+    #[inline]
+    pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, reference: N) -> Command<N> {
+        let (torque, mut faults) = match self.board.torque(self.set) {
+            Ok(torque) => (torque, Faults::NONE),
+            Err(faults) => (self.set, faults),
+        };
+        let Command { torque, faults: found } = match self.board.angle() {
+            Ok(angle) => self.drive.tick(config, &Sample { angle, torque, reference }),
+            Err(missing) => {
+                faults |= missing;
+                self.drive.tick_blind(config, torque, reference)
+            }
+        };
+        faults |= found;
+        if !self.enabled {
+            self.drive.engage(config);
+            if !self.pending.is_none() {
+                self.trip();
+            }
+        } else if faults.intersects(self.tripping) {
+            self.trip();
+        } else if let Err(output) = self.board.set_torque(torque, self.drive.angle()) {
+            faults |= output;
+            self.trip();
+        } else {
+            self.set = torque;
+        }
+        faults |= self.pending;
+        if !self.enabled {
+            faults |= Faults::TRIPPED;
+        }
+        self.board.alive();
+        Command { torque: self.set, faults }
+    }
+
+    /// Gives the balancer a sample of the vibration, taken with the last angle; where there is none, nothing.
+    pub fn vibration(
+        &mut self,
+        config: &ConfigOf<N, O, F, G, B>,
+        sample: Result<Option<B::Vibration>, Faults>,
+    ) -> Faults {
+        match sample {
+            Ok(Some(vibration)) => self.drive.vibration(config, &vibration),
+            Ok(None) => {}
+            Err(faults) => return faults,
+        }
+        Faults::NONE
+    }
+
+    /// Whether the power stage is on.
+    pub fn is_enabled(&self) -> bool {
+        self.enabled
+    }
+
+    /// The drive.
+    pub fn drive(&self) -> &Drive<N, O, F, G, B> {
+        &self.drive
+    }
+
+    /// The board.
+    pub fn board(&mut self) -> &mut P {
+        &mut self.board
+    }
+
+    /// The board again, switched off.
+    pub fn release(mut self) -> P {
+        self.trip();
+        self.board
+    }
+}

@@ -1,0 +1,135 @@
+//! What permits the power stage, and what drops its contactor.
+//!
+//! A line is *on* at the level that permits torque; choose it such that a wire that breaks is off. Lines go on one after the other, the last one only
+//! where all before it did, and off in the reverse order, each one whether or not the others obey.
+
+use embedded_hal::digital::{OutputPin, PinState};
+
+use crate::fault::Faults;
+
+/// Switches the power stage.
+pub trait Enabling {
+    /// On or off.
+    ///
+    /// # Errors
+    /// [`Faults::ENABLE`] where a line did not obey; all that do are then off.
+    fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults>;
+}
+
+/// A pin and the level at which it permits torque.
+#[derive(Clone, Copy, Debug)]
+pub struct Line<P> {
+    pin: P,
+    on: PinState,
+}
+
+impl<P: OutputPin> Line<P> {
+    /// Permits torque while high.
+    pub const fn high(pin: P) -> Self {
+        Line { pin, on: PinState::High }
+    }
+
+    /// Permits torque while low.
+    pub const fn low(pin: P) -> Self {
+        Line { pin, on: PinState::Low }
+    }
+
+    /// The pin again.
+    pub fn release(self) -> P {
+        self.pin
+    }
+
+    fn set(&mut self, on: bool) -> Result<(), Faults> {
+        let level = if on { self.on } else { !self.on };
+        self.pin.set_state(level).map_err(|_| Faults::ENABLE)
+    }
+}
+
+/// Lines that go on in order and off in the reverse order: contactor, gate driver, brake, say. Pins of different types go in as
+/// `&mut dyn OutputPin<Error = _>`.
+#[derive(Clone, Copy, Debug)]
+pub struct EnableChain<P, const LINES: usize> {
+    lines: [Line<P>; LINES],
+}
+
+impl<P: OutputPin, const LINES: usize> EnableChain<P, LINES> {
+    /// A chain; it is not switched here.
+    pub const fn new(lines: [Line<P>; LINES]) -> Self {
+        EnableChain { lines }
+    }
+
+    /// The lines again.
+    pub fn release(self) -> [Line<P>; LINES] {
+        self.lines
+    }
+
+    fn off(&mut self) -> Result<(), Faults> {
+        let mut all = Ok(());
+        for line in self.lines.iter_mut().rev() {
+            all = line.set(false).and(all);
+        }
+        all
+    }
+}
+
+impl<P: OutputPin, const LINES: usize> Enabling for EnableChain<P, LINES> {
+    fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
+        if !enabled {
+            return self.off();
+        }
+        let on = self.lines.iter_mut().try_for_each(|line| line.set(true));
+        if on.is_err() {
+            // what went on goes off again, and the line that failed is asked to
+            let _ = self.off();
+        }
+        on
+    }
+}
+
+/// A trip output: a pin that is on while the axis is healthy, and off to trip a contactor or a superior control.
+#[derive(Clone, Copy, Debug)]
+pub struct Trip<P>(Line<P>);
+
+impl<P: OutputPin> Trip<P> {
+    /// A trip output, tripped at once.
+    ///
+    /// # Errors
+    /// [`Faults::ENABLE`] and the line where it did not obey.
+    pub fn new(line: Line<P>) -> Result<Self, (Faults, Line<P>)> {
+        let mut line = line;
+        match line.set(false) {
+            Ok(()) => Ok(Trip(line)),
+            Err(faults) => Err((faults, line)),
+        }
+    }
+
+    /// The line again.
+    pub fn release(self) -> Line<P> {
+        self.0
+    }
+}
+
+impl<P: OutputPin> Enabling for Trip<P> {
+    fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
+        let set = self.0.set(enabled);
+        if set.is_err() && enabled {
+            let _ = self.0.set(false);
+        }
+        set
+    }
+}
+
+/// One after the other; off in the reverse order.
+impl<A: Enabling, B: Enabling> Enabling for (A, B) {
+    fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
+        if enabled {
+            let on = self.0.set_enabled(true).and_then(|()| self.1.set_enabled(true));
+            if on.is_err() {
+                let _ = self.set_enabled(false);
+            }
+            return on;
+        }
+        let second = self.1.set_enabled(false);
+        self.0.set_enabled(false).and(second)
+    }
+}

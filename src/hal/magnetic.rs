@@ -1,0 +1,112 @@
+//! Magnetic absolute encoders on SPI: AS5047P and AS5048A.
+//!
+//! 16-bit frames, SPI mode 1, most significant bit first. A frame's answer comes with the next frame. A reading is two frames: the first
+//! asks for the angle and brings the diagnosis asked for by the last one, the second asks for the diagnosis and brings the angle. So every angle is
+//! one that was asked for in this tick, and every diagnosis is at most a tick old [ams AS5047P DS000324, AS5048A datasheet].
+//!
+//! | checked in every frame | against |
+//! |---|---|
+//! | parity | a flipped bit; a line that is stuck high also sets the error bit |
+//! | error bit | a command that the chip did not understand; the register is read, which clears it |
+//! | offset compensation finished | a chip that has just started, and a line that is stuck low: zeros have an even parity |
+//! | CORDIC overflow, field too strong, field too weak | a magnet that has moved or gone |
+
+use embedded_hal::spi::SpiDevice;
+
+use super::AngleSensor;
+use crate::fault::Faults;
+
+/// Which chip it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Chip {
+    /// AS5047P: the angle is compensated for the time that the chip takes.
+    As5047P,
+    /// AS5048A.
+    As5048A,
+}
+
+const READ: u16 = 1 << 14;
+const ERROR: u16 = 1 << 14;
+const DATA: u16 = 0x3fff;
+const ANGLE: u16 = 0x3fff;
+const ERRORS: u16 = 0x0001;
+const FINISHED: u16 = 1 << 8;
+/// CORDIC overflow, field too strong, field too weak.
+const TROUBLE: u16 = 0b111 << 9;
+
+impl Chip {
+    const fn diagnosis(self) -> u16 {
+        match self {
+            Chip::As5047P => 0x3ffc,
+            Chip::As5048A => 0x3ffd,
+        }
+    }
+}
+
+/// A magnetic encoder.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct MagneticEncoder<S> {
+    bus: S,
+    chip: Chip,
+    /// Whether the next answer is a diagnosis.
+    asked: bool,
+}
+
+impl<S: SpiDevice> MagneticEncoder<S> {
+    /// An encoder on its bus: mode 1, at most 10 MHz.
+    pub const fn new(bus: S, chip: Chip) -> Self {
+        MagneticEncoder { bus, chip, asked: false }
+    }
+
+    /// The bus again.
+    pub fn release(self) -> S {
+        self.bus
+    }
+
+    /// Sends a command and gives the data of the last one's answer.
+    fn exchange(&mut self, register: u16) -> Result<u16, Faults> {
+        let mut frame = with_parity(READ | register).to_be_bytes();
+        self.bus.transfer_in_place(&mut frame).map_err(|_| Faults::ANGLE_MISSING)?;
+        let answer = u16::from_be_bytes(frame);
+        if answer.count_ones() & 1 != 0 || answer & ERROR != 0 {
+            return Err(Faults::ANGLE_MISSING);
+        }
+        Ok(answer & DATA)
+    }
+
+    fn read(&mut self) -> Result<u32, Faults> {
+        let diagnosis = self.chip.diagnosis();
+        if !self.asked {
+            // what this brings was asked for by nobody
+            let mut frame = with_parity(READ | diagnosis).to_be_bytes();
+            self.bus.transfer_in_place(&mut frame).map_err(|_| Faults::ANGLE_MISSING)?;
+        }
+        self.asked = false;
+        let state = self.exchange(ANGLE)?;
+        let angle = self.exchange(diagnosis)?;
+        self.asked = true;
+        if state & FINISHED == 0 || state & TROUBLE != 0 {
+            return Err(Faults::ANGLE_MISSING);
+        }
+        Ok((angle as u32) << 18)
+    }
+}
+
+impl<S: SpiDevice> AngleSensor for MagneticEncoder<S> {
+    fn angle(&mut self) -> Result<u32, Faults> {
+        let angle = self.read();
+        if angle.is_err() && !self.asked {
+            // reading the errors clears them; what the answer to this is does not matter
+            let mut frame = with_parity(READ | ERRORS).to_be_bytes();
+            let _ = self.bus.transfer_in_place(&mut frame);
+        }
+        angle
+    }
+}
+
+/// Makes the number of ones even.
+const fn with_parity(frame: u16) -> u16 {
+    frame | ((frame.count_ones() as u16 & 1) << 15)
+}

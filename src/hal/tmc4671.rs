@@ -1,0 +1,54 @@
+//! A torque as a target of a TMC4671, a drive that controls the motor's current itself.
+//!
+//! Datagrams of 40 bits: an address, its top bit set to write, and 32 bits of data; what is read comes in the same datagram. Register 0x64 holds the
+//! targets of torque (upper half) and flux (lower half) in the drive's units of current, signed 16 bits [TMC4671 datasheet, register
+//! `PID_TORQUE_FLUX_TARGET`]. There is no checksum, so that each target is read back.
+
+use embedded_hal::spi::SpiDevice;
+
+use super::{FullScale, Scaled, TorqueOutput};
+use crate::fault::Faults;
+
+const TARGET: u8 = 0x64;
+const WRITE: u8 = 0x80;
+
+/// A TMC4671 in its torque mode (register 0x63 at 1), which the board has set up; the flux target stays zero.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Tmc4671<S, N: Scaled> {
+    bus: S,
+    full_scale: FullScale<N>,
+}
+
+impl<S: SpiDevice, N: Scaled> Tmc4671<S, N> {
+    /// A drive, SPI mode 3, whose largest target of torque is `full_scale`.
+    pub const fn new(bus: S, full_scale: FullScale<N>) -> Self {
+        Tmc4671 { bus, full_scale }
+    }
+
+    /// The bus again.
+    pub fn release(self) -> S {
+        self.bus
+    }
+
+    /// Writes a target and reads it back.
+    fn target(&mut self, torque: i16) -> Result<(), Faults> {
+        let [high, low] = torque.to_be_bytes();
+        self.bus.write(&[TARGET | WRITE, high, low, 0, 0]).map_err(|_| Faults::TORQUE_OUTPUT)?;
+        let mut datagram = [TARGET, 0, 0, 0, 0];
+        self.bus.transfer_in_place(&mut datagram).map_err(|_| Faults::TORQUE_OUTPUT)?;
+        let [_, data @ ..] = datagram;
+        if data == [high, low, 0, 0] { Ok(()) } else { Err(Faults::TORQUE_OUTPUT) }
+    }
+}
+
+impl<S: SpiDevice, N: Scaled> TorqueOutput<N> for Tmc4671<S, N> {
+    fn set_torque(&mut self, torque: N, _angle: u32) -> Result<(), Faults> {
+        let fraction = self.full_scale.fraction(torque);
+        let set = self.target(fraction.unwrap_or(0) as i16);
+        if set.is_err() {
+            let _ = self.target(0);
+        }
+        if fraction.is_some() { set } else { Err(Faults::TORQUE_OUTPUT) }
+    }
+}

@@ -1,0 +1,110 @@
+//! A record's bytes, and why one is refused.
+
+use core::fmt;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// What is kept: anything that `serde` knows, without lifetimes.
+pub trait Parameters: Serialize + DeserializeOwned {
+    /// Whose parameters they are: a number of the firmware's own.
+    const IDENTITY: u32;
+    /// Version of their form; another one is refused.
+    const VERSION: u16;
+}
+
+/// Why a record is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Refusal {
+    /// It is not whole, or a bit of it has changed.
+    Damaged,
+    /// It is another firmware's, whose identity this is.
+    Foreign(u32),
+    /// Its form is of this version.
+    Version(u16),
+    /// Its parameters are not what the type reads.
+    Content,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::Damaged => f.write_str("the record is damaged"),
+            Refusal::Foreign(identity) => write!(f, "the record is another firmware's, {identity:#010x}"),
+            Refusal::Version(version) => write!(f, "the record is of version {version}"),
+            Refusal::Content => f.write_str("the record's parameters cannot be read"),
+        }
+    }
+}
+
+impl core::error::Error for Refusal {}
+
+const MAGIC: [u8; 4] = *b"DLP1";
+const HEAD: usize = 18;
+const CHECK: usize = 4;
+
+/// Writes a record; gives its length, `None` where there is no room for it.
+pub(super) fn write<P: Parameters>(parameters: &P, count: u32, bytes: &mut [u8]) -> Option<usize> {
+    let (head, content) = bytes.split_first_chunk_mut::<HEAD>()?;
+    head[..4].copy_from_slice(&MAGIC);
+    head[4..8].copy_from_slice(&P::IDENTITY.to_le_bytes());
+    head[8..10].copy_from_slice(&P::VERSION.to_le_bytes());
+    head[10..14].copy_from_slice(&count.to_le_bytes());
+    let room = content.len().checked_sub(CHECK)?;
+    let length = postcard::to_slice(parameters, content.get_mut(..room)?).ok()?.len();
+    bytes.get_mut(HEAD - 4..HEAD)?.copy_from_slice(&(length as u32).to_le_bytes());
+    let check = crc(bytes.get(..HEAD + length)?).to_le_bytes();
+    bytes.get_mut(HEAD + length..HEAD + length + CHECK)?.copy_from_slice(&check);
+    Some(HEAD + length + CHECK)
+}
+
+/// Whether nothing was written here since it was erased.
+pub(super) fn is_erased(bytes: &[u8]) -> bool {
+    bytes.iter().all(|&byte| byte == 0xff)
+}
+
+/// Reads a record, whatever is behind it, and the count of its save; where it is refused, the count that it claims.
+pub(super) fn read<P: Parameters>(bytes: &[u8]) -> Result<(P, u32), (Refusal, Option<u32>)> {
+    let damaged = (Refusal::Damaged, None);
+    let (head, after) = bytes.split_first_chunk::<HEAD>().ok_or(damaged)?;
+    let &[m0, m1, m2, m3, i0, i1, i2, i3, v0, v1, c0, c1, c2, c3, l0, l1, l2, l3] = head;
+    let length = u32::from_le_bytes([l0, l1, l2, l3]) as usize;
+    if [m0, m1, m2, m3] != MAGIC || length > after.len() {
+        return Err(damaged);
+    }
+    let (content, check) = after.split_at_checked(length).ok_or(damaged)?;
+    let check = check.first_chunk::<CHECK>().ok_or(damaged)?;
+    if bytes.get(..HEAD + length).map(crc) != Some(u32::from_le_bytes(*check)) {
+        return Err(damaged);
+    }
+    let identity = u32::from_le_bytes([i0, i1, i2, i3]);
+    let version = u16::from_le_bytes([v0, v1]);
+    let count = u32::from_le_bytes([c0, c1, c2, c3]);
+    if identity != P::IDENTITY {
+        return Err((Refusal::Foreign(identity), Some(count)));
+    }
+    if version != P::VERSION {
+        return Err((Refusal::Version(version), Some(count)));
+    }
+    match postcard::take_from_bytes(content) {
+        Ok((parameters, [])) => Ok((parameters, count)),
+        _ => Err((Refusal::Content, Some(count))),
+    }
+}
+
+/// CRC-32 of Ethernet and zip.
+fn crc(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, &byte| {
+        (0..8).fold(crc ^ byte as u32, |crc, _| if crc & 1 != 0 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_check_is_that_of_the_catalogue() {
+        // CRC-32/ISO-HDLC: Greg Cook, Catalogue of parametrised CRC algorithms
+        assert_eq!(super::crc(b"123456789"), 0xcbf4_3926);
+    }
+}

@@ -1,0 +1,115 @@
+//! The ring between the tick and the main loop.
+
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use super::frame;
+
+/// What was recorded in a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Record<const VALUES: usize> {
+    /// Number of the tick, from 0; wraps.
+    pub tick: u32,
+    /// Records dropped before it; wraps.
+    pub dropped: u32,
+    /// The values, as bits of the drive's number.
+    pub values: [u32; VALUES],
+}
+
+/// A ring of records for one that records (the tick) and one that takes (the main loop); a static serves both. Two that record, or two that take, garble
+/// records.
+#[derive(Debug)]
+pub struct Ring<const VALUES: usize, const RECORDS: usize> {
+    slots: [Slot<VALUES>; RECORDS],
+    /// Records kept so far.
+    head: AtomicU32,
+    /// Records taken so far.
+    tail: AtomicU32,
+    /// Ticks recorded, kept or dropped.
+    ticks: AtomicU32,
+}
+
+#[derive(Debug)]
+struct Slot<const VALUES: usize> {
+    tick: AtomicU32,
+    values: [AtomicU32; VALUES],
+}
+
+impl<const VALUES: usize, const RECORDS: usize> Ring<VALUES, RECORDS> {
+    const MASK: u32 = {
+        assert!(RECORDS.is_power_of_two() && RECORDS >= 2, "a ring must have a power of two of records, two at least");
+        assert!(VALUES >= 1 && VALUES <= frame::MOST_VALUES, "a record must have between 1 and 16 values");
+        RECORDS as u32 - 1
+    };
+
+    /// An empty ring; it holds one record less than its size, a power of two.
+    pub const fn new() -> Self {
+        let _ = Self::MASK;
+        Ring {
+            slots: [const { Slot { tick: AtomicU32::new(0), values: [const { AtomicU32::new(0) }; VALUES] } }; RECORDS],
+            head: AtomicU32::new(0),
+            tail: AtomicU32::new(0),
+            ticks: AtomicU32::new(0),
+        }
+    }
+
+    /// Records a tick; drops it where the ring is full. The same instructions either way.
+    #[inline(always)]
+    pub fn record(&self, values: &[u32; VALUES]) {
+        let head = self.head.load(Ordering::Relaxed);
+        let tick = self.ticks.load(Ordering::Relaxed);
+        self.ticks.store(tick.wrapping_add(1), Ordering::Relaxed);
+        // acquire: what is written now is not read any more
+        let room = head.wrapping_sub(self.tail.load(Ordering::Acquire)) < Self::MASK;
+        // the slot at the head is never one that waits to be taken: it may be written in any case. The mask is within the slots
+        if let Some(slot) = self.slots.get((head & Self::MASK) as usize) {
+            slot.tick.store(tick, Ordering::Relaxed);
+            let mut at = 0;
+            while at < VALUES {
+                slot.values[at].store(values[at], Ordering::Relaxed);
+                at += 1;
+            }
+        }
+        // release: the values are there before the head says so
+        self.head.store(head.wrapping_add(room as u32), Ordering::Release);
+    }
+
+    /// Takes the oldest record, if there is one.
+    pub fn take(&self) -> Option<Record<VALUES>> {
+        let tail = self.tail.load(Ordering::Relaxed);
+        if self.head.load(Ordering::Acquire) == tail {
+            return None;
+        }
+        let slot = self.slots.get((tail & Self::MASK) as usize)?;
+        let tick = slot.tick.load(Ordering::Relaxed);
+        let values = core::array::from_fn(|at| slot.values[at].load(Ordering::Relaxed));
+        self.tail.store(tail.wrapping_add(1), Ordering::Release);
+        // as many ticks as records kept and dropped before it
+        Some(Record { tick, dropped: tick.wrapping_sub(tail), values })
+    }
+
+    /// Records dropped so far; wraps. A tick that interrupts may be missed by one.
+    pub fn dropped(&self) -> u32 {
+        let kept = self.head.load(Ordering::Acquire);
+        self.ticks.load(Ordering::Relaxed).wrapping_sub(kept)
+    }
+
+    /// Sends all records that wait as frames; gives how many. A record whose writing fails is lost, and the gap shows it.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn send<W: embedded_io::Write>(&self, writer: &mut W) -> Result<u32, W::Error> {
+        let mut sent = 0;
+        while let Some(record) = self.take() {
+            frame::record(&record, |bytes| writer.write_all(bytes))?;
+            sent += 1;
+        }
+        Ok(sent)
+    }
+}
+
+impl<const VALUES: usize, const RECORDS: usize> Default for Ring<VALUES, RECORDS> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
