@@ -2,6 +2,7 @@
 
 mod calibration;
 mod correction;
+mod cranked;
 mod fluctuation;
 mod governors;
 mod phasors;

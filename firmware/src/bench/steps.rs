@@ -97,7 +97,7 @@ fn told(_: &mut (), values: &[u32; VALUES], _: &mut ()) {
 }
 
 /// An observer's step: predict and correct, without the checks that the drive makes.
-fn observer<B: Board, N: Number, O: Observer<N>>(bench: &mut Bench<'_, B>, name: &str, config: &O::Config) {
+pub(super) fn observer<B: Board, N: Number, O: Observer<N>>(bench: &mut Bench<'_, B>, name: &str, config: &O::Config) {
     let input = |inputs: &mut Program| {
         let input = inputs.next_input();
         (input.angle, N::from_word(input.torque))

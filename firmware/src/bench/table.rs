@@ -5,7 +5,7 @@ use driveline::number::Fixed;
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
-use super::{correction, fluctuation, governors, phasors, steps};
+use super::{correction, cranked, fluctuation, governors, phasors, steps};
 use crate::Words;
 use crate::board::Board;
 use crate::measure::driveline_tick;
@@ -22,12 +22,14 @@ pub fn run<B: Board>(bench: &mut Bench<'_, B>) {
     match const { Words::of::<Selected>() } {
         Words::Single => {
             steps::single(bench);
+            cranked::single(bench);
             phasors::single(bench);
             fluctuation::all::<B, f32>(bench, Bases::SI);
             governors::single(bench);
         }
         Words::Fixed => {
             steps::fixed(bench);
+            cranked::fixed(bench);
             phasors::fixed(bench);
             fluctuation::all::<B, Fixed>(bench, BASES);
             governors::fixed(bench);

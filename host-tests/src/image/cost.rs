@@ -94,6 +94,7 @@ pub const BENCHES: &[&str] = &[
     "bench/drive/rigid",
     "bench/phasor/1",
     "bench/phasor/2",
+    "bench/step/cranked",
     "bench/step/backlash",
     "bench/drive/backlash",
     "bench/balance/least-squares",
