@@ -44,7 +44,9 @@ pub use vibration::Vibration;
 pub(crate) use vibration::names;
 
 use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Parser, Subcommand};
 
@@ -119,6 +121,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(error) => error.exit(),
     };
     match cli.command.execute() {
+        Ok(()) if UNSAID.load(Ordering::Relaxed) => Failure::failed("standard output cannot be written").report(false),
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(cli.command.json()),
     }
@@ -126,8 +129,26 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// Writes to standard output. A reader that has gone away (`| head`) is no error.
 fn say(text: impl std::fmt::Display) {
-    use std::io::Write;
-    let _ = writeln!(std::io::stdout(), "{text}");
+    use std::io::{ErrorKind, Write};
+    let mut out = std::io::stdout();
+    let written = writeln!(out, "{text}").and_then(|()| out.flush());
+    if written.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe) {
+        UNSAID.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Standard output could not be written.
+static UNSAID: AtomicBool = AtomicBool::new(false);
+
+/// A result that would be written over what it is made from.
+fn onto_itself(source: &Path, result: Option<&Path>) -> Result<(), Failure> {
+    let place = |path: &Path| path.canonicalize().ok();
+    match result {
+        Some(result) if place(source).is_some_and(|source| place(result) == Some(source)) => {
+            Err(Failure::usage(format!("{} would be written over what it is made from", result.display())))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Writes JSON to standard output.

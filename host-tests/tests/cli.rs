@@ -173,3 +173,25 @@ fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
     assert!(out(&driveline(&["design", file.to_str().unwrap()])).contains("warning: two masses are a poor image"));
     assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
 }
+
+#[test]
+fn a_result_is_not_written_over_what_it_is_made_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("run");
+    std::fs::write(&file, "kept").unwrap();
+    let path = file.to_str().unwrap();
+    for command in ["simulate", "watch"] {
+        let output = driveline(&[command, path, "--csv", path]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(err(&output).contains("written over what it is made from"), "{}", err(&output));
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), "kept");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_a_failure() {
+    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let status = Command::new(env!("CARGO_BIN_EXE_driveline")).args(["design", HOIST]).stdout(full).status().unwrap();
+    assert_eq!(status.code(), Some(1));
+}

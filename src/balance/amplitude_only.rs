@@ -65,7 +65,9 @@ pub fn from_amplitudes<T: Real>(baseline: T, trial: T, runs: &[(T, T)]) -> Resul
     let [square, q, s] = pivoted.solve().map(|value| value.re);
     let effect = Complex { re: q, im: -s }.unscale(baseline + baseline);
     let found = effect.re * effect.re + effect.im * effect.im;
-    if !(found > T::zero()) {
+    // What the runs differ by must be more than rounding leaves of what they have in common.
+    let rounding = real::<T>(1e-6) * baseline;
+    if !(found > rounding * rounding) {
         return Err(Refusal::NoEffect { plane: 0 });
     }
     Ok(FromAmplitudes { weight: weight(effect), or: None, disagreement: (square - found).abs() / found })

@@ -281,7 +281,7 @@ impl Reading {
         let amplitude = self.phasor.amplitude();
         let relative = if amplitude < steadiness.floor { amplitude / steadiness.floor } else { 1.0 };
         // a NaN is beyond every limit
-        if clipped {
+        if clipped || !amplitude.is_finite() {
             Err(Doubt::Clipped)
         } else if !(self.speed_spread <= steadiness.speed) {
             Err(Doubt::SpeedMoved { spread: self.speed_spread })

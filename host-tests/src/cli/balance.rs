@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use driveline::balance::{Complex, Correction, Holes, Refusal, Tolerance, degrees, from_amplitudes};
+use driveline::balance::{Aim, Complex, Correction, Holes, Refusal, Tolerance, degrees, from_amplitudes};
 use serde::Serialize;
 
 use super::{Failure, say, say_json};
@@ -242,7 +242,8 @@ fn outcome(file: &BalanceFile) -> Result<Outcome, Refusal> {
         condition: correction.condition,
         rows,
         planes,
-        grade: grade(file, &correction.weights, &placed)?,
+        // What the rotor's unbalance is, limits and objective aside.
+        grade: grade(file, &influence.correct(last, &Aim::default())?.weights, &placed)?,
     })
 }
 

@@ -49,6 +49,9 @@ impl Simulate {
     /// # Errors
     /// A file with a fault; a run that is not proven; a result that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
+        for result in [&self.csv, &self.html] {
+            super::onto_itself(&self.file, result.as_deref())?;
+        }
         let file = read_train(&self.file)?;
         let simulation = Simulation::of(&file, !self.unproven)?;
         if let (Some(reason), false) = (&simulation.not_proven, self.unproven) {

@@ -106,6 +106,9 @@ impl Watch {
     /// # Errors
     /// A source that cannot be opened or read, a variant that is not there, a file that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
+        if let Some(source) = &self.source {
+            super::onto_itself(source, self.csv.as_deref())?;
+        }
         let mut source = self.open()?;
         let failed = |path: &PathBuf, error: io::Error| Failure::failed(format!("{}: {error}", path.display()));
         let mut csv = match &self.csv {
