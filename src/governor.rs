@@ -24,7 +24,7 @@ pub use limit::{
     Between, BetweenConfig, Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, Symmetric, SymmetricConfig,
 };
 pub use modes::{Duty, Mode, Modes, ModesConfig, Request, Supervisor, Trip};
-pub use prompt::{Damping, DampingConfig, FeedForward, FeedForwardConfig, Prompt};
+pub use prompt::{ActiveDamping, ActiveDampingConfig, FeedForward, FeedForwardConfig, Prompt};
 pub use rack::{Rack, RackConfig};
 pub use set_point::{Barred, BarredConfig, Droop, DroopConfig, SetPoint, Window};
 pub use slack::{Slack, SlackConfig};

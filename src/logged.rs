@@ -28,7 +28,7 @@ macro_rules! all_of_number {
             governor::BetweenConfig<$number>,
             governor::CurveConfig<$number, 4>,
             governor::CurvePiece<$number>,
-            governor::DampingConfig<$number>,
+            governor::ActiveDampingConfig<$number>,
             governor::DroopConfig<$number>,
             governor::FeedForwardConfig<$number>,
             governor::Gains<$number>,
@@ -39,7 +39,7 @@ macro_rules! all_of_number {
             governor::SpeedGovernor<
                 $number,
                 (governor::Droop, governor::Barred<2>),
-                (governor::FeedForward, governor::Damping),
+                (governor::FeedForward, governor::ActiveDamping),
                 governor::Curve<4>,
                 governor::Modes,
             >,

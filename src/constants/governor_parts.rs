@@ -4,7 +4,7 @@ use super::convert::{fixed, get, or_stop};
 use super::{Bases, Error, Format};
 use crate::design::{GovernorDesign, SpeedLoopDesign};
 use crate::governor::{
-    BetweenConfig, DampingConfig, DroopConfig, FeedForwardConfig, Gains, MeanConfig, ModesConfig, RackConfig,
+    ActiveDampingConfig, BetweenConfig, DroopConfig, FeedForwardConfig, Gains, MeanConfig, ModesConfig, RackConfig,
     SymmetricConfig, Window,
 };
 use crate::number::{Coefficient, Fixed};
@@ -236,10 +236,10 @@ part!(
 );
 
 part!(
-    DampingConfig, (design: &SpeedLoopDesign), GAIN,
+    ActiveDampingConfig, (design: &SpeedLoopDesign), GAIN,
     "[`Error::Coefficient`] for a gain beyond fixed point.",
     |format| damping(design.slip, &format),
-    |cast, [], [damping]| DampingConfig { damping: cast!(damping) }
+    |cast, [], [damping]| ActiveDampingConfig { damping: cast!(damping) }
 );
 
 part!(
@@ -272,7 +272,7 @@ part!(
 );
 
 impl Gains<f32> {
-    /// The gains of a speed loop, for a torque-controlled drive, as floats; [`DampingConfig`] takes the rest of it.
+    /// The gains of a speed loop, for a torque-controlled drive, as floats; [`ActiveDampingConfig`] takes the rest of it.
     ///
     /// # Panics
     /// At compile time in a constant, where the ramp [rad/s2] is not positive and finite.
@@ -289,7 +289,7 @@ impl Gains<f32> {
 }
 
 impl Gains<Fixed> {
-    /// The gains of a speed loop, for a torque-controlled drive, in fixed point; [`DampingConfig`] takes the rest of
+    /// The gains of a speed loop, for a torque-controlled drive, in fixed point; [`ActiveDampingConfig`] takes the rest of
     /// it.
     ///
     /// # Panics

@@ -68,21 +68,21 @@ impl<N: Number> Prompt<N> for FeedForward {
 /// Torque against the estimated twist rate, as a damper between motor and load would give it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Damping;
+pub struct ActiveDamping;
 
-/// Constants of [`Damping`].
+/// Constants of [`ActiveDamping`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct DampingConfig<N: Number> {
+pub struct ActiveDampingConfig<N: Number> {
     /// Active damping -k_d [N m s/rad], on the twist rate.
     pub damping: N::Coefficient,
 }
 
-impl<N: Number> Prompt<N> for Damping {
-    type Config = DampingConfig<N>;
+impl<N: Number> Prompt<N> for ActiveDamping {
+    type Config = ActiveDampingConfig<N>;
 
     #[inline(always)]
-    fn oppose(&self, config: &DampingConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
+    fn oppose(&self, config: &ActiveDampingConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
         let twist_rate = estimate.motor_speed.minus(estimate.load_speed).gain_operand();
         torque.plus(twist_rate.times(config.damping))
     }

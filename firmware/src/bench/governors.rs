@@ -1,7 +1,7 @@
 //! The governor alone, and what each of its parts adds, on the diesel set's constants.
 
 use driveline::governor::{
-    Barred, Between, Curve, Damping, Droop, FeedForward, Governor, Mean, Modes, Request, Slew, SpeedGovernor,
+    ActiveDamping, Barred, Between, Curve, Droop, FeedForward, Governor, Mean, Modes, Request, Slew, SpeedGovernor,
     SpeedGovernorConfig, SpeedLoop, Symmetric,
 };
 use driveline::number::{Fixed, Number};
@@ -56,7 +56,7 @@ macro_rules! governors {
             one!("governor/droop", Droop, (), Symmetric, (), p::DROOP, (), p::SYMMETRIC, ());
             one!("governor/barred", Barred<1>, (), Symmetric, (), p::BARRED, (), p::SYMMETRIC, ());
             one!("governor/feed-forward", (), FeedForward, Symmetric, (), (), p::FORWARD, p::SYMMETRIC, ());
-            one!("governor/damping", (), Damping, Symmetric, (), (), p::DAMPING, p::SYMMETRIC, ());
+            one!("governor/damping", (), ActiveDamping, Symmetric, (), (), p::DAMPING, p::SYMMETRIC, ());
             one!("governor/curve", (), (), Curve<4>, (), (), (), p::CURVE, ());
             one!("governor/slew", (), (), Slew<N, Symmetric>, (), (), (), p::SLEW, ());
             let config =

@@ -3,8 +3,8 @@
 use driveline::constants::Bases;
 use driveline::design::{Actuator, GovernorDesign, LoadFeedForward, Rate, TorqueCurve};
 use driveline::governor::{
-    Between, BetweenConfig, Curve, CurveConfig, Damping as ActiveDamping, DampingConfig, Droop, DroopConfig,
-    FeedForward, FeedForwardConfig, Gains, Governor, Limit, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig,
+    ActiveDamping, ActiveDampingConfig, Between, BetweenConfig, Curve, CurveConfig, Droop, DroopConfig, FeedForward,
+    FeedForwardConfig, Gains, Governor, Limit, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig,
     SpeedGovernorConfigOf, Symmetric, SymmetricConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
@@ -196,7 +196,7 @@ fn with_damping_and_nothing_else_it_is_the_speed_loop() {
     let config = SpeedGovernorConfig {
         gains: Gains::<f32>::of_speed_loop(&design, RAMP),
         set_point: (),
-        prompt: DampingConfig::<f32>::new(&design),
+        prompt: ActiveDampingConfig::<f32>::new(&design),
         limit: SymmetricConfig::<f32>::new(TORQUE),
         supervisor: (),
         view: (),

@@ -5,7 +5,7 @@ macro_rules! parts {
         /// The parts with this number.
         pub mod $module {
             use super::super::*;
-            use driveline::governor::{BetweenConfig, DampingConfig, SlewConfig, SymmetricConfig};
+            use driveline::governor::{BetweenConfig, ActiveDampingConfig, SlewConfig, SymmetricConfig};
             use crate::scenes::hoist;
 
             /// Gains and ramp.
@@ -20,8 +20,8 @@ macro_rules! parts {
             pub const FORWARD: FeedForwardConfig<$number> =
                 FeedForwardConfig::<$number>::new(DIESEL.share $(, $bases)?);
             /// Active damping, the hoist's.
-            pub const DAMPING: DampingConfig<$number> =
-                DampingConfig::<$number>::new(&hoist::speed_loop(10_000) $(, $bases)?);
+            pub const DAMPING: ActiveDampingConfig<$number> =
+                ActiveDampingConfig::<$number>::new(&hoist::speed_loop(10_000) $(, $bases)?);
             /// A limit either way.
             pub const SYMMETRIC: SymmetricConfig<$number> =
                 SymmetricConfig::<$number>::new(DIESEL_TORQUE $(, $bases)?);
