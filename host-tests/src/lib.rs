@@ -5,6 +5,7 @@ pub mod balance_file;
 pub mod balancing;
 pub mod check;
 pub mod cli;
+pub mod commission;
 pub mod generator;
 pub mod image;
 pub mod link;
