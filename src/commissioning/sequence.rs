@@ -308,7 +308,18 @@ impl<const L: usize> Commissioning<L> {
             self.advance(config);
         }
         self.reference.step(config);
-        let wanted = self.servo.torque(&self.deviation, self.reference.acceleration) + self.excitation;
+        let wanted = match self.next {
+            // Against the flank without the servo, which would shake a load that friction holds on a spring.
+            Next::Reversals { torque, .. }
+                if self.stage == Stage::Backlash && matches!(self.phase, Phase::Settles | Phase::Measures) =>
+            {
+                let push = if self.index.is_multiple_of(2) { torque as f32 } else { -torque as f32 };
+                // Slowly: a step would swing to twice its size, beyond what friction holds.
+                let most = torque as f32 * config.servo as f32 * config.block_f32;
+                self.torque + (push - self.torque).min(most).max(-most)
+            }
+            _ => self.servo.torque(&self.deviation, self.reference.acceleration) + self.excitation,
+        };
         let (middle, most) = match self.next {
             Next::Reversals { torque, .. } if self.stage == Stage::Backlash => (0.0, torque as f32),
             _ => (config.settings.held as f32, config.settings.torque as f32),
@@ -346,7 +357,7 @@ impl<const L: usize> Commissioning<L> {
             (Stage::Backlash, Phase::Goes) => {
                 self.reference.go(0.0, f32::MAX);
                 self.phase = Phase::Settles;
-                self.left = steady;
+                self.left = steady.saturating_mul(2);
             }
             (_, Phase::Goes) => {
                 self.phase = Phase::Settles;
@@ -370,6 +381,9 @@ impl<const L: usize> Commissioning<L> {
             }
             (Stage::Backlash, Phase::Measures) => {
                 self.index += 1;
+                // The reference starts anew from where the motor stands, so that the torque does not jump.
+                self.reference.angle += (self.deviation.angle * config.units) as i64;
+                self.deviation.angle = 0.0;
                 self.start.0 = self.reference.angle;
                 if self.index < PUSHES {
                     let Next::Reversals { speed, .. } = self.next else { return };

@@ -1,0 +1,4 @@
+//! Commissioning: what the test finds on full plants beside what is true, and what it refuses.
+
+mod found;
+mod refused;
