@@ -137,6 +137,11 @@ where
         &self.drive
     }
 
+    /// The drive, for what is done between two ticks: a reading begun, a state taken over.
+    pub fn drive_mut(&mut self) -> &mut Drive<N, O, F, G, B> {
+        &mut self.drive
+    }
+
     /// The board.
     pub fn board(&mut self) -> &mut P {
         &mut self.board
