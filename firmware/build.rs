@@ -10,15 +10,21 @@ use std::path::{Path, PathBuf};
 /// The variant of an image that was asked for without naming one.
 const DEFAULT_VARIANT: &str = "hoist/f32/reduced/10000";
 
+/// The board that a feature is for, and its variant where none is named.
+const NUCLEO: [&str; 2] = ["nucleo-g474re", "test-rig/f32/two-mass/10000"];
+
 fn main() {
-    let variant = env::var("DRIVELINE_VARIANT").unwrap_or_else(|_| DEFAULT_VARIANT.into());
+    let nucleo = env::var_os("CARGO_FEATURE_NUCLEO_G474RE").is_some();
+    let default = if nucleo { NUCLEO[1] } else { DEFAULT_VARIANT };
+    let variant = env::var("DRIVELINE_VARIANT").unwrap_or_else(|_| default.into());
     println!("cargo::rerun-if-env-changed=DRIVELINE_VARIANT");
     println!("cargo::rustc-check-cfg=cfg(driveline_variant, values(any()))");
     println!("cargo::rustc-cfg=driveline_variant={variant:?}");
     println!("cargo::rustc-env=DRIVELINE_VARIANT={variant}");
 
     let target = env::var("TARGET").expect("cargo sets TARGET for build scripts");
-    let board = env::var("DRIVELINE_BOARD").unwrap_or_else(|_| default_board(&target).into());
+    let default = if nucleo { NUCLEO[0] } else { default_board(&target) };
+    let board = env::var("DRIVELINE_BOARD").unwrap_or_else(|_| default.into());
     println!("cargo::rerun-if-env-changed=DRIVELINE_BOARD");
     println!("cargo::rustc-check-cfg=cfg(driveline_board, values(any()))");
     println!("cargo::rustc-cfg=driveline_board={board:?}");
