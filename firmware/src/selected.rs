@@ -12,6 +12,7 @@ use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 use crate::assembled::Assembled;
 use crate::balanced::Balanced;
 use crate::governed::Governed;
+use crate::on_axis::OnAxis;
 use crate::scenes::balanced_fan::BalancedFan;
 use crate::scenes::blooming_mill::{self, BloomingMill};
 use crate::scenes::composition::{ByHand, Composed, Of};
@@ -27,6 +28,7 @@ use crate::scenes::planetary_drive::PlanetaryDrive;
 use crate::scenes::skip_winch::{self, SkipWinch};
 use crate::scenes::spindle::Spindle;
 use crate::scenes::strip_mill::StripMill;
+use crate::scenes::test_rig::TestRig;
 use crate::variants::variants;
 
 variants! {
@@ -123,4 +125,5 @@ variants! {
     "skip-winch/fixed/slack/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Slack>>,
     "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
     "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
+    "test-rig/f32/two-mass/10000" => OnAxis<TestRig>,
 }

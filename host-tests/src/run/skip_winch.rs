@@ -38,7 +38,7 @@ fn rope(plant: &Body) -> f64 {
 }
 
 /// An emergency while hoisting: the set point goes to zero at once, and the brake is called for `later` \[s\].
-fn emergency_stop(name: &'static str, plant: Plant, later: f64) -> Scenario {
+fn emergency_stop(name: &'static str, plant: Body, later: f64) -> Scenario {
     let mut actions =
         vec![(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
     // The set point comes up within four seconds.
@@ -127,8 +127,8 @@ pub fn machine() -> Result<Machine, PlantError> {
                 marks: vec![(RELEASE, "brake opens"), (EMERGENCY, "emergency")],
                 law: None,
             },
-            emergency_stop("emergency stop while hoisting", hanging()?, STOPPED),
-            emergency_stop("emergency brake while hoisting", hanging()?, 0.0),
+            emergency_stop("emergency stop while hoisting", hanging()?.into(), STOPPED),
+            emergency_stop("emergency brake while hoisting", hanging()?.into(), 0.0),
         ],
         encoder: Encoder::new(scene::COUNTS),
         torque_noise,
