@@ -19,6 +19,7 @@ use crate::scenes::crane_travel::CraneTravel;
 use crate::scenes::empty::Empty;
 use crate::scenes::fan::Fan;
 use crate::scenes::flexible::Flexible;
+use crate::scenes::gear_drive::GearDrive;
 use crate::scenes::generator::{self, Generator};
 use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
@@ -26,6 +27,7 @@ use crate::scenes::planetary_drive::PlanetaryDrive;
 use crate::scenes::skip_winch::SkipWinch;
 use crate::scenes::spindle::Spindle;
 use crate::scenes::strip_mill::StripMill;
+use crate::scenes::vibrating_screen::{self, VibratingScreen};
 use crate::variants::variants;
 
 variants! {
@@ -116,6 +118,10 @@ variants! {
     "skip-winch/f32/semi-implicit/2000" => Governed<SkipWinch<f32, Geared<SemiImplicit<f32>>>>,
     "skip-winch/fixed/rigid/2000" => Governed<SkipWinch<Fixed, Geared<Rigid<Fixed>>>>,
     "skip-winch/fixed/semi-implicit/2000" => Governed<SkipWinch<Fixed, Geared<SemiImplicit<Fixed>>>>,
+    "gear-drive/f32/exact/4000" => Governed<GearDrive<f32, TwoMass<f32>>>,
+    "gear-drive/fixed/exact/4000" => Governed<GearDrive<Fixed, TwoMass<Fixed>>>,
+    "vibrating-screen/f32/exact/4000" => Assembled<VibratingScreen<f32, vibrating_screen::with::Quick>>,
+    "vibrating-screen/fixed/exact/4000" => Assembled<VibratingScreen<Fixed, vibrating_screen::with::Quick>>,
     "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
     "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
 }
