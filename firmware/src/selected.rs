@@ -1,7 +1,8 @@
-//! The variants that can be flashed, and the one that this image holds.
+//! The variants that can be flashed.
 //!
 //! One line a variant: its name (the scene's [`Scene::NAME`](crate::scene::Scene::NAME): scene, number, observer,
-//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line at build time; [`Selected`] is the type.
+//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line when a binary is built:
+//! [`selected!`](crate::selected!) gives the binary that type as `Selected`.
 
 use driveline::fluctuation::{Extremes, Waveform};
 use driveline::governor::SpeedLoop;
@@ -24,7 +25,7 @@ use crate::scenes::generator::{self, Generator};
 use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
 use crate::scenes::planetary_drive::PlanetaryDrive;
-use crate::scenes::skip_winch::SkipWinch;
+use crate::scenes::skip_winch::{self, SkipWinch};
 use crate::scenes::spindle::Spindle;
 use crate::scenes::strip_mill::StripMill;
 use crate::scenes::vibrating_screen::{self, VibratingScreen};
@@ -122,6 +123,10 @@ variants! {
     "gear-drive/fixed/exact/4000" => Governed<GearDrive<Fixed, TwoMass<Fixed>>>,
     "vibrating-screen/f32/exact/4000" => Assembled<VibratingScreen<f32, vibrating_screen::with::Quick>>,
     "vibrating-screen/fixed/exact/4000" => Assembled<VibratingScreen<Fixed, vibrating_screen::with::Quick>>,
+    "skip-winch/f32/plain/2000" => Assembled<SkipWinch<f32, skip_winch::with::Plain>>,
+    "skip-winch/f32/slack/2000" => Assembled<SkipWinch<f32, skip_winch::with::Slack>>,
+    "skip-winch/fixed/plain/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Plain>>,
+    "skip-winch/fixed/slack/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Slack>>,
     "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
     "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
 }

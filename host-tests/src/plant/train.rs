@@ -55,6 +55,7 @@ mod reading;
 mod series;
 mod source;
 mod start;
+mod stiffest;
 mod stretch;
 mod unbalance;
 
@@ -67,6 +68,7 @@ pub use modes::TrainModes;
 pub use motion::Motion;
 pub use reading::Signal;
 pub use source::{Source, Waveform};
+pub use stiffest::Stiffest;
 pub use unbalance::Unbalance;
 
 use super::error::{PlantError, finite, not_negative, positive};
