@@ -21,6 +21,7 @@ use crate::scenes::crane_travel::CraneTravel;
 use crate::scenes::empty::Empty;
 use crate::scenes::fan::Fan;
 use crate::scenes::flexible::Flexible;
+use crate::scenes::gear_drive::GearDrive;
 use crate::scenes::generator::{self, Generator};
 use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
@@ -29,6 +30,7 @@ use crate::scenes::skip_winch::{self, SkipWinch};
 use crate::scenes::spindle::Spindle;
 use crate::scenes::strip_mill::StripMill;
 use crate::scenes::test_rig::TestRig;
+use crate::scenes::vibrating_screen::{self, VibratingScreen};
 use crate::variants::variants;
 
 variants! {
@@ -119,6 +121,10 @@ variants! {
     "skip-winch/f32/semi-implicit/2000" => Governed<SkipWinch<f32, Geared<SemiImplicit<f32>>>>,
     "skip-winch/fixed/rigid/2000" => Governed<SkipWinch<Fixed, Geared<Rigid<Fixed>>>>,
     "skip-winch/fixed/semi-implicit/2000" => Governed<SkipWinch<Fixed, Geared<SemiImplicit<Fixed>>>>,
+    "gear-drive/f32/exact/4000" => Governed<GearDrive<f32, TwoMass<f32>>>,
+    "gear-drive/fixed/exact/4000" => Governed<GearDrive<Fixed, TwoMass<Fixed>>>,
+    "vibrating-screen/f32/exact/4000" => Assembled<VibratingScreen<f32, vibrating_screen::with::Quick>>,
+    "vibrating-screen/fixed/exact/4000" => Assembled<VibratingScreen<Fixed, vibrating_screen::with::Quick>>,
     "skip-winch/f32/plain/2000" => Assembled<SkipWinch<f32, skip_winch::with::Plain>>,
     "skip-winch/f32/slack/2000" => Assembled<SkipWinch<f32, skip_winch::with::Slack>>,
     "skip-winch/fixed/plain/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Plain>>,

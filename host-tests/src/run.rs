@@ -11,6 +11,7 @@ pub mod engine;
 mod facts;
 mod fan;
 pub mod figures;
+pub mod gear_drive;
 pub mod hoist;
 pub mod plan;
 mod planetary_drive;
@@ -20,6 +21,7 @@ mod skip_winch;
 mod spindle;
 mod strip_mill;
 pub mod units;
+pub mod vibrating_screen;
 
 pub use assemble::Plan;
 
@@ -40,4 +42,6 @@ pub const SCENES: &[(&str, Build)] = &[
     ("skip-winch", skip_winch::machine),
     ("blooming-mill", blooming_mill::machine),
     ("converter", converter::machine),
+    ("vibrating-screen", vibrating_screen::machine),
+    ("gear-drive", gear_drive::machine),
 ];

@@ -102,6 +102,16 @@ fn skip_winch() {
     needs_two_masses("skip-winch");
 }
 
+#[test]
+fn vibrating_screen() {
+    meets_the_aims("vibrating-screen", "exact");
+}
+
+#[test]
+fn gear_drive() {
+    meets_the_aims("gear-drive", "exact");
+}
+
 /// The solver's runs agree with another integrator within 1e-8 of the peaks: the shortest of each scene here, all of them in `cargo driveline run`.
 #[test]
 fn runs_are_proven() {
