@@ -24,6 +24,7 @@ use crate::scenes::generator::{self, Generator};
 use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
 use crate::scenes::planetary_drive::PlanetaryDrive;
+use crate::scenes::punch_press::{self, PunchPress};
 use crate::scenes::skip_winch::SkipWinch;
 use crate::scenes::spindle::Spindle;
 use crate::scenes::strip_mill::StripMill;
@@ -117,6 +118,10 @@ variants! {
     "skip-winch/f32/semi-implicit/2000" => Governed<SkipWinch<f32, Geared<SemiImplicit<f32>>>>,
     "skip-winch/fixed/rigid/2000" => Governed<SkipWinch<Fixed, Geared<Rigid<Fixed>>>>,
     "skip-winch/fixed/semi-implicit/2000" => Governed<SkipWinch<Fixed, Geared<SemiImplicit<Fixed>>>>,
+    "punch-press/f32/plain/10000" => PunchPress<punch_press::Of<f32, punch_press::with::Plain>>,
+    "punch-press/fixed/plain/10000" => PunchPress<punch_press::Of<Fixed, punch_press::with::Plain>>,
+    "punch-press/f32/mean/10000" => PunchPress<punch_press::Of<f32, punch_press::with::Mean>>,
+    "punch-press/fixed/mean/10000" => PunchPress<punch_press::Of<Fixed, punch_press::with::Mean>>,
     "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
     "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
 }

@@ -7,5 +7,6 @@ mod motion;
 mod numerics;
 mod press;
 mod rig;
+mod stroke;
 mod toothed_wheel;
 mod waveform;
