@@ -16,3 +16,4 @@ pub mod punch_press;
 pub mod skip_winch;
 pub mod spindle;
 pub mod strip_mill;
+pub mod test_rig;

@@ -114,11 +114,12 @@ pub fn run(
             recording.set_load_torque(law.node, torque);
         }
         let plant = &recording;
-        // What the drive is told of a brake and of friction in the tick that has ended; at rest they take what the motor gives.
-        let friction = if released { brake + machine.told_friction } else { 0.0 };
+        // What the drive is told of a brake and of friction in the tick that has ended. At rest friction takes what the motor gives; of what a
+        // closed brake then takes nobody knows.
+        let (friction, brake) = if released { (machine.told_friction, brake) } else { (0.0, 0.0) };
         let slipping = match plant.motor_speed() {
             0.0 => -applied.clamp(-friction, friction),
-            speed => -friction * speed.signum(),
+            speed => -(friction + brake) * speed.signum(),
         };
         let input = Input {
             angle: machine.encoder.read(plant.motor_angle() - scenario.plant.motor_angle()),
