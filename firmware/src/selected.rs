@@ -26,6 +26,7 @@ use crate::scenes::generator::{self, Generator};
 use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
 use crate::scenes::planetary_drive::PlanetaryDrive;
+use crate::scenes::punch_press::{self, PunchPress};
 use crate::scenes::skip_winch::{self, SkipWinch};
 use crate::scenes::spindle::Spindle;
 use crate::scenes::strip_mill::StripMill;
@@ -125,6 +126,10 @@ variants! {
     "gear-drive/fixed/exact/4000" => Governed<GearDrive<Fixed, TwoMass<Fixed>>>,
     "vibrating-screen/f32/exact/4000" => Assembled<VibratingScreen<f32, vibrating_screen::with::Quick>>,
     "vibrating-screen/fixed/exact/4000" => Assembled<VibratingScreen<Fixed, vibrating_screen::with::Quick>>,
+    "punch-press/f32/plain/10000" => PunchPress<punch_press::Of<f32, punch_press::with::Plain>>,
+    "punch-press/fixed/plain/10000" => PunchPress<punch_press::Of<Fixed, punch_press::with::Plain>>,
+    "punch-press/f32/mean/10000" => PunchPress<punch_press::Of<f32, punch_press::with::Mean>>,
+    "punch-press/fixed/mean/10000" => PunchPress<punch_press::Of<Fixed, punch_press::with::Mean>>,
     "skip-winch/f32/plain/2000" => Assembled<SkipWinch<f32, skip_winch::with::Plain>>,
     "skip-winch/f32/slack/2000" => Assembled<SkipWinch<f32, skip_winch::with::Slack>>,
     "skip-winch/fixed/plain/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Plain>>,

@@ -13,6 +13,7 @@ pub mod generator;
 pub mod grinding_spindle;
 pub mod hoist;
 pub mod planetary_drive;
+pub mod punch_press;
 pub mod skip_winch;
 pub mod spindle;
 pub mod strip_mill;
