@@ -1,7 +1,8 @@
-//! The variants that can be flashed, and the one that this image holds.
+//! The variants that can be flashed.
 //!
 //! One line a variant: its name (the scene's [`Scene::NAME`](crate::scene::Scene::NAME): scene, number, observer,
-//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line at build time; [`Selected`] is the type.
+//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line when a binary is built:
+//! [`selected!`](crate::selected!) gives the binary that type as `Selected`.
 
 use driveline::fluctuation::{Extremes, Waveform};
 use driveline::governor::SpeedLoop;
@@ -11,6 +12,7 @@ use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 use crate::assembled::Assembled;
 use crate::balanced::Balanced;
 use crate::governed::Governed;
+use crate::on_axis::OnAxis;
 use crate::scenes::balanced_fan::BalancedFan;
 use crate::scenes::blooming_mill::{self, BloomingMill};
 use crate::scenes::composition::{ByHand, Composed, Of};
@@ -26,6 +28,7 @@ use crate::scenes::planetary_drive::PlanetaryDrive;
 use crate::scenes::skip_winch::{self, SkipWinch};
 use crate::scenes::spindle::Spindle;
 use crate::scenes::strip_mill::StripMill;
+use crate::scenes::test_rig::TestRig;
 use crate::variants::variants;
 
 variants! {
@@ -122,4 +125,5 @@ variants! {
     "skip-winch/fixed/slack/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Slack>>,
     "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
     "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
+    "test-rig/f32/two-mass/10000" => OnAxis<TestRig>,
 }

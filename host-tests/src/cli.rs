@@ -31,6 +31,7 @@ mod run;
 mod setup;
 mod simulate;
 mod simulation;
+mod sizes;
 mod train_modes;
 mod vibration;
 mod vibration_page;
@@ -69,6 +70,7 @@ enum Command {
     Check(check::Check),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
+    Sizes(sizes::Sizes),
     Watch(watch::Watch),
 }
 
@@ -85,6 +87,7 @@ impl Command {
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
+            Self::Sizes(command) => command.json,
             Self::Watch(command) => command.json,
         }
     }
@@ -101,6 +104,7 @@ impl Command {
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),
+            Self::Sizes(command) => command.execute(),
             Self::Watch(command) => command.execute(),
         }
     }

@@ -15,3 +15,4 @@ pub mod planetary_drive;
 pub mod skip_winch;
 pub mod spindle;
 pub mod strip_mill;
+pub mod test_rig;

@@ -2,10 +2,11 @@
 
 use driveline_firmware::scenes::skip_winch as scene;
 
+use super::body::Body;
 use super::facts;
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
-use crate::plant::{Chain, Plant, PlantError, Shaft, Start};
+use crate::plant::{Chain, PlantError, Shaft, Start};
 
 /// Gravity [m/s2], the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665;
@@ -30,14 +31,14 @@ const STOPPING: f64 = 6.0;
 const STOPPED: f64 = 1.8;
 
 /// The rope's pull at the motor [N m], without the gear's loss.
-fn rope(plant: &Plant) -> f64 {
+fn rope(plant: &Body) -> f64 {
     let twist = plant.twist(1);
     let rate = plant.speed(1) - plant.speed(2);
     if twist > 0.0 { (ROPE * twist + ROPE_DAMPING * rate).max(0.0) } else { 0.0 }
 }
 
 /// An emergency while hoisting: the set point goes to zero at once, and the brake is called for `later` \[s\].
-fn emergency_stop(name: &'static str, plant: Plant, later: f64) -> Scenario {
+fn emergency_stop(name: &'static str, plant: Body, later: f64) -> Scenario {
     let mut actions =
         vec![(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
     // The set point comes up within four seconds.
@@ -108,7 +109,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         scenarios: vec![
             Scenario {
                 name: "hoisting",
-                plant: hanging()?,
+                plant: hanging()?.into(),
                 held: WEIGHT,
                 actions: hoist,
                 duration: 12.0,
@@ -118,7 +119,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             },
             Scenario {
                 name: "emergency brake while lowering",
-                plant: hanging()?,
+                plant: hanging()?.into(),
                 held: WEIGHT,
                 actions: emergency,
                 duration: EMERGENCY + STOP,
@@ -126,8 +127,8 @@ pub fn machine() -> Result<Machine, PlantError> {
                 marks: vec![(RELEASE, "brake opens"), (EMERGENCY, "emergency")],
                 law: None,
             },
-            emergency_stop("emergency stop while hoisting", hanging()?, STOPPED),
-            emergency_stop("emergency brake while hoisting", hanging()?, 0.0),
+            emergency_stop("emergency stop while hoisting", hanging()?.into(), STOPPED),
+            emergency_stop("emergency brake while hoisting", hanging()?.into(), 0.0),
         ],
         encoder: Encoder::new(scene::COUNTS),
         torque_noise,

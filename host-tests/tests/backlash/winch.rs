@@ -3,7 +3,6 @@
 use driveline_firmware::scene::Scene;
 use driveline_firmware::selected::visit;
 use driveline_firmware::{Visitor, Words};
-use host_tests::plant::converge;
 use host_tests::run::SCENES;
 use host_tests::run::closed_loop::{OnHost, Trace, run};
 use host_tests::run::figures::{deviations, peaks};
@@ -76,6 +75,6 @@ fn the_runs_are_proven() {
     let machine = machine();
     for scenario in ["emergency stop while hoisting", "emergency brake while hoisting"] {
         let (trace, ..) = ran(&machine, scenario, "skip-winch/f32/slack/2000");
-        converge::prove(&trace.recording).unwrap();
+        trace.recording.prove().unwrap();
     }
 }
