@@ -97,7 +97,7 @@ impl<F: NorFlash> Store<F> {
     }
 
     /// The newest good record, and the one of both that a save must leave alone.
-    fn newest<P: Parameters>(&mut self, buffer: &mut [u8]) -> Result<(Loaded<P>, Option<Kept>), Error<F::Error>> {
+    fn newest<P: Parameters>(&mut self, buffer: &mut [u8]) -> Result<Newest<P>, Error<F::Error>> {
         let mut parameters = None;
         let mut refused: Option<Refused> = None;
         let mut kept: Option<Kept> = None;
@@ -128,12 +128,7 @@ impl<F: NorFlash> Store<F> {
         Ok((Loaded { parameters, refused: refused.map(|refused| refused.reason) }, kept))
     }
 
-    #[allow(clippy::type_complexity)]
-    fn fetch<P: Parameters>(
-        &mut self,
-        place: u32,
-        buffer: &mut [u8],
-    ) -> Result<Option<Result<(P, u32), Refused>>, Error<F::Error>> {
+    fn fetch<P: Parameters>(&mut self, place: u32, buffer: &mut [u8]) -> Result<Fetched<P>, Error<F::Error>> {
         let length = buffer.len().min(self.half as usize);
         let length = length - length % F::READ_SIZE.max(1);
         let bytes = buffer.get_mut(..length).unwrap_or(&mut []);
@@ -141,6 +136,12 @@ impl<F: NorFlash> Store<F> {
         Ok((!record::is_erased(bytes)).then(|| record::read(bytes)))
     }
 }
+
+/// What was found, and the record that a save must leave alone.
+type Newest<P> = (Loaded<P>, Option<Kept>);
+
+/// The parameters of a record and the count of its save, or why it is refused; none where nothing was written.
+type Fetched<P> = Option<Result<(P, u32), Refused>>;
 
 /// A record that stands in the flash.
 #[derive(Clone, Copy)]
