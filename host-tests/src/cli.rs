@@ -42,7 +42,6 @@ pub use failure::Failure;
 pub use plan::Plan;
 pub use progress::Progress;
 pub use vibration::Vibration;
-pub(crate) use vibration::names;
 
 use std::ffi::OsString;
 use std::path::Path;
