@@ -87,6 +87,24 @@ impl Plant {
         self.layout.nodes
     }
 
+    /// Inertia of a node, kg m2; NaN for a node that is not there.
+    #[must_use]
+    pub fn inertia(&self, node: usize) -> f64 {
+        self.chain.nodes.get(node).map_or(f64::NAN, |node| node.inertia)
+    }
+
+    /// Whether a shaft carries nothing now: a gap is open, or a rope slack.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        (0..self.chain.shafts.len()).any(|shaft| !self.mode.carries(&self.chain, shaft))
+    }
+
+    /// The widest backlash of a shaft, rad; 0 where all are tight. A rope has none.
+    #[must_use]
+    pub fn widest_gap(&self) -> f64 {
+        self.chain.shafts.iter().filter(|shaft| !shaft.rope).map(|shaft| shaft.gap).fold(0.0, f64::max)
+    }
+
     /// Kinetic and strain energy, J.
     #[must_use]
     pub fn energy(&self) -> f64 {

@@ -1,0 +1,47 @@
+//! What is aimed at.
+
+use serde::Serialize;
+
+use crate::report::Variant;
+use crate::run::scenario::Machine;
+
+/// Root mean square errors that are allowed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Aim {
+    /// Of the shaft torque, over its peak.
+    pub shaft_torque: f64,
+    /// Of the load's speed, over rated; none through backlash.
+    pub load_speed: Option<f64>,
+}
+
+impl Aim {
+    /// With a tight shaft.
+    pub const TIGHT: Self = Self {
+        shaft_torque: driveline::design::Aim::USUAL.shaft_torque,
+        load_speed: Some(driveline::design::Aim::USUAL.load_speed),
+    };
+
+    /// Through backlash.
+    pub const BACKLASH: Self = Self { shaft_torque: 0.06, load_speed: None };
+
+    /// Of a machine, by the gaps of its plants.
+    pub fn of(machine: &Machine) -> Self {
+        let gap = |plant: &crate::plant::Plant| plant.widest_gap() > 0.0;
+        if machine.scenarios.iter().any(|scenario| gap(&scenario.plant)) { Self::BACKLASH } else { Self::TIGHT }
+    }
+
+    /// By how much a variant's shaft torque is over it; negative where it is kept, and not finite where it diverged.
+    pub fn torque_missed(&self, variant: &Variant) -> f64 {
+        variant.shaft_torque.rms - self.shaft_torque
+    }
+
+    /// The same of the load's speed; none where there is no aim.
+    pub fn speed_missed(&self, variant: &Variant) -> Option<f64> {
+        self.load_speed.map(|aim| variant.load_speed.rms - aim)
+    }
+
+    /// Whether a variant keeps both. What is not a number keeps nothing.
+    pub fn kept(&self, variant: &Variant) -> bool {
+        self.torque_missed(variant) <= 0.0 && self.speed_missed(variant).is_none_or(|missed| missed <= 0.0)
+    }
+}
