@@ -125,7 +125,7 @@ impl<V: Variant> Balanced<V> {
 }
 
 /// The reasons why something measured is no reading, in the order of their numbers.
-pub const DOUBTS: [&str; 7] = [
+pub const DOUBTS: [&str; 8] = [
     "no such channel",
     "passed its zero backwards",
     "too few ticks on a turn",
@@ -133,6 +133,7 @@ pub const DOUBTS: [&str; 7] = [
     "the speed moved",
     "drifting",
     "scattered",
+    "samples missing",
 ];
 
 fn number(doubt: &Doubt) -> u32 {
@@ -143,6 +144,7 @@ fn number(doubt: &Doubt) -> u32 {
         Doubt::Clipped => 3,
         Doubt::SpeedMoved { .. } => 4,
         Doubt::Drifting { .. } => 5,
+        Doubt::Missing { .. } => 7,
         _ => 6,
     }
 }

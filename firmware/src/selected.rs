@@ -1,7 +1,8 @@
-//! The variants that can be flashed, and the one that this image holds.
+//! The variants that can be flashed.
 //!
 //! One line a variant: its name (the scene's [`Scene::NAME`](crate::scene::Scene::NAME): scene, number, observer,
-//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line at build time; [`Selected`] is the type.
+//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line when a binary is built:
+//! [`selected!`](crate::selected!) gives the binary that type as `Selected`.
 
 use driveline::fluctuation::{Extremes, Waveform};
 use driveline::governor::SpeedLoop;
@@ -23,7 +24,7 @@ use crate::scenes::generator::{self, Generator};
 use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
 use crate::scenes::planetary_drive::PlanetaryDrive;
-use crate::scenes::skip_winch::SkipWinch;
+use crate::scenes::skip_winch::{self, SkipWinch};
 use crate::scenes::spindle::Spindle;
 use crate::scenes::strip_mill::StripMill;
 use crate::variants::variants;
@@ -116,6 +117,10 @@ variants! {
     "skip-winch/f32/semi-implicit/2000" => Governed<SkipWinch<f32, Geared<SemiImplicit<f32>>>>,
     "skip-winch/fixed/rigid/2000" => Governed<SkipWinch<Fixed, Geared<Rigid<Fixed>>>>,
     "skip-winch/fixed/semi-implicit/2000" => Governed<SkipWinch<Fixed, Geared<SemiImplicit<Fixed>>>>,
+    "skip-winch/f32/plain/2000" => Assembled<SkipWinch<f32, skip_winch::with::Plain>>,
+    "skip-winch/f32/slack/2000" => Assembled<SkipWinch<f32, skip_winch::with::Slack>>,
+    "skip-winch/fixed/plain/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Plain>>,
+    "skip-winch/fixed/slack/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Slack>>,
     "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
     "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
 }

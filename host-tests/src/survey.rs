@@ -23,7 +23,7 @@ mod wanted;
 pub use adapters::adapters;
 pub use aim::Aim;
 pub use factor::Factor;
-pub use figures::{Failure, Run, SceneFigures, Survey};
+pub use figures::{Failure, Gentle, Run, SceneFigures, Survey};
 pub use jobs::{CASES, Job, Piece, REVERSALS, SWEEP, jobs};
 pub use pool::work;
 pub use reason::{Quantity, Reason, Share, reasons};

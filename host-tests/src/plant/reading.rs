@@ -99,10 +99,10 @@ impl Plant {
         (0..self.chain.shafts.len()).any(|shaft| !self.mode.carries(&self.chain, shaft))
     }
 
-    /// The widest backlash of a shaft, rad; 0 where all are tight. A rope has none.
+    /// Whether a shaft has backlash. A rope has none.
     #[must_use]
-    pub fn widest_gap(&self) -> f64 {
-        self.chain.shafts.iter().filter(|shaft| !shaft.rope).map(|shaft| shaft.gap).fold(0.0, f64::max)
+    pub fn has_backlash(&self) -> bool {
+        self.chain.shafts.iter().any(|shaft| !shaft.rope && shaft.gap > 0.0)
     }
 
     /// Kinetic and strain energy, J.

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::report::Variant;
+use crate::run::closed_loop::Trace;
 use crate::run::scenario::Machine;
 
 /// Root mean square errors that are allowed.
@@ -24,10 +25,12 @@ impl Aim {
     /// Through backlash.
     pub const BACKLASH: Self = Self { shaft_torque: 0.06, load_speed: None };
 
-    /// Of a machine, by the gaps of its plants.
-    pub fn of(machine: &Machine) -> Self {
-        let gap = |plant: &crate::plant::Plant| plant.widest_gap() > 0.0;
-        if machine.scenarios.iter().any(|scenario| gap(&scenario.plant)) { Self::BACKLASH } else { Self::TIGHT }
+    /// Of a machine in its runs: through backlash where a plant has some, and it opens.
+    pub fn of(machine: &Machine, traces: &[Trace]) -> Self {
+        let mut runs = machine.scenarios.iter().zip(traces);
+        let through = runs
+            .any(|(scenario, trace)| scenario.plant.has_backlash() && trace.moments.iter().any(|moment| moment.open));
+        if through { Self::BACKLASH } else { Self::TIGHT }
     }
 
     /// By how much a variant's shaft torque is over it; negative where it is kept, and not finite where it diverged.

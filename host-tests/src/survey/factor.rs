@@ -6,8 +6,12 @@ use crate::run::closed_loop::Moment;
 use crate::run::scenario::{Machine, Scenario};
 
 /// The shaft torque's peak in a run, and what it would be were nothing to swing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Factor {
+    /// The run.
+    pub scenario: String,
+    /// Whether a gap was open or a rope slack in it.
+    pub opened: bool,
     /// Peak of the true shaft torque [N m].
     pub peak: f64,
     /// Peak of what the shaft would carry between rigid inertias under the same torques [N m].
@@ -15,7 +19,7 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// K, the peak over the rigid machine's [Wang 1989 ch. 2]; none where that carries nothing.
+    /// K, the peak over the rigid machine's [Wang 1989 ch. 2]; none where that carries nothing, or is not known for a crank.
     pub fn k(&self) -> Option<f64> {
         (self.rigid > 0.0).then(|| self.peak / self.rigid)
     }
@@ -31,11 +35,11 @@ impl Factor {
             (pair[0].truth[2] + share * rate).abs()
         });
         let peak = moments.iter().map(|moment| moment.truth[0].abs());
-        Self { peak: peak.fold(0.0, f64::max), rigid: rigid.fold(0.0, f64::max) }
-    }
-
-    /// Of the run with the largest peak.
-    pub fn largest(all: impl Iterator<Item = Self>) -> Self {
-        all.max_by(|a, b| a.peak.total_cmp(&b.peak)).unwrap_or_default()
+        Self {
+            scenario: scenario.name.to_owned(),
+            opened: moments.iter().any(|moment| moment.open),
+            peak: peak.fold(0.0, f64::max),
+            rigid: rigid.fold(0.0, f64::max),
+        }
     }
 }

@@ -16,12 +16,30 @@ pub struct Run {
     pub variant: Variant,
     /// Whether it is the design's choice, which is what the aims are for.
     pub chosen: bool,
-    /// What the shaft carried.
-    pub factor: Factor,
+    /// What the shaft carried, run by run.
+    pub factors: Vec<Factor>,
     /// Bytes of code that a tick reaches.
     pub tick_code: u64,
     /// Why it misses its aims; empty where it keeps them or is not the design's choice.
     pub reasons: Vec<Reason>,
+}
+
+impl Run {
+    /// Of the run with the largest peak.
+    pub fn factor(&self) -> Factor {
+        self.factors.iter().max_by(|a, b| a.peak.total_cmp(&b.peak)).cloned().unwrap_or_default()
+    }
+}
+
+/// A gentle governor's peak beside a plain speed loop's.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Gentle {
+    /// The run.
+    pub scenario: String,
+    /// The variant with the plain loop.
+    pub plain: String,
+    /// The gentle one's peak over the plain one's.
+    pub share: f64,
 }
 
 /// A drivetrain in all its variants.
@@ -53,25 +71,39 @@ impl SceneFigures {
         self.runs.iter().filter(least).collect()
     }
 
-    /// The peak of a variant's shaft torque over that of the plain speed loop with the same number, core and rate, where
-    /// the variant takes up slack; the plain loop's name beside it.
+    /// Peaks of the shaft torque over those of the plain speed loop with the same number, core and rate, of a variant that takes
+    /// up slack; of each run in which the plain loop lets a gap open or a rope go slack.
     ///
-    /// Variants that take up slack are called so; all others are governed by a plain speed loop.
-    pub fn over_plain(&self, run: &Run) -> Vec<(String, f64)> {
+    /// Variants that take up slack are called so. The plain loop is the variant `plain`; where there is none, every other
+    /// is governed by it.
+    pub fn gentle(&self, run: &Run) -> Vec<Gentle> {
         let of = &run.variant;
         if of.observer != SLACK {
             return Vec::new();
         }
-        let plain = self.runs.iter().filter(|other| {
-            let other = &other.variant;
-            other.observer != SLACK && (&other.number, &other.core, other.rate_hz) == (&of.number, &of.core, of.rate_hz)
-        });
-        plain.map(|other| (other.variant.observer.clone(), run.factor.peak / other.factor.peak)).collect()
+        let others = || {
+            self.runs.iter().filter(|other| {
+                let other = &other.variant;
+                other.observer != SLACK
+                    && (&other.number, &other.core, other.rate_hz) == (&of.number, &of.core, of.rate_hz)
+            })
+        };
+        let named = others().any(|other| other.variant.observer == PLAIN);
+        let mut gentle = Vec::new();
+        for other in others().filter(|other| !named || other.variant.observer == PLAIN) {
+            for (own, rough) in run.factors.iter().zip(&other.factors).filter(|(_, rough)| rough.opened) {
+                let (scenario, plain) = (own.scenario.clone(), other.variant.observer.clone());
+                gentle.push(Gentle { scenario, plain, share: own.peak / rough.peak });
+            }
+        }
+        gentle
     }
 }
 
 /// The name of variants that take up slack gently and damp the shaft.
 const SLACK: &str = "slack";
+/// The name of variants with the same observer and a plain speed loop.
+const PLAIN: &str = "plain";
 
 /// What kept a job from being done.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -34,8 +34,8 @@ pub type Work = Box<dyn FnOnce(&dyn Fn(&str)) -> Result<Piece, String> + Send>;
 
 /// What a job gives.
 pub enum Piece {
-    /// A variant of the scene of that name.
-    Run(String, Box<Run>),
+    /// A variant of the scene of that name, and what is aimed at there.
+    Run(String, Aim, Box<Run>),
     /// A generator set's verdicts.
     Generator(Verdicts),
     /// A rotor of the scene of that name.
@@ -89,7 +89,7 @@ pub fn jobs(wanted: &Wanted, quick: bool) -> (Vec<Job>, Survey) {
         survey.scenes.push(SceneFigures {
             name: name.to_owned(),
             summary: machine.summary.to_owned(),
-            aim: Aim::of(&machine),
+            aim: Aim::TIGHT,
             runs: Vec::new(),
         });
         jobs.extend(
@@ -103,8 +103,12 @@ impl Survey {
     /// Puts a piece in its place.
     pub fn add(&mut self, piece: Piece) {
         match piece {
-            Piece::Run(scene, run) => {
+            Piece::Run(scene, aim, run) => {
                 if let Some(scene) = self.scenes.iter_mut().find(|one| one.name == scene) {
+                    // Through backlash where any variant went through it.
+                    if aim == Aim::BACKLASH {
+                        scene.aim = aim;
+                    }
                     scene.runs.push(*run);
                 }
             }
@@ -188,17 +192,17 @@ fn drivetrain(scene: &'static str, build: Build, candidate: Candidate, seconds: 
         let says = |text: &str| says(&format!("{scene} {text}"));
         let ran = engine::run(&machine, &candidate, base, Options { quick }, &says).map_err(sentence)?;
         let chosen = (candidate.part(2), candidate.rate_hz()) == machine.chosen;
-        let aim = Aim::of(&machine);
+        let aim = Aim::of(&machine, &ran.traces);
         let reasons = if chosen && !quick && !aim.kept(&ran.variant) {
             says(&format!("{}: again with exact sensors", candidate.key()));
             reasons(&machine, &candidate, &aim, &ran.variant, &ran.traces)?
         } else {
             Vec::new()
         };
-        let factors = ran.traces.iter().zip(&machine.scenarios);
-        let factor = Factor::largest(factors.map(|(trace, scenario)| Factor::of(&machine, scenario, &trace.moments)));
-        let run = Run { variant: ran.variant, chosen, factor, tick_code: ran.tick_code, reasons };
-        Ok(Piece::Run(scene.to_owned(), Box::new(run)))
+        let runs = ran.traces.iter().zip(&machine.scenarios);
+        let factors = runs.map(|(trace, scenario)| Factor::of(&machine, scenario, &trace.moments)).collect();
+        let run = Run { variant: ran.variant, chosen, factors, tick_code: ran.tick_code, reasons };
+        Ok(Piece::Run(scene.to_owned(), aim, Box::new(run)))
     };
     let ticks = seconds * f64::from(candidate.rate_hz());
     Job { place: scene.into(), name: candidate.key(), weight: 5 + (1e-3 * ticks) as u64, work: Box::new(work) }

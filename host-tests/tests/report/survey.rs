@@ -23,7 +23,9 @@ fn survey(error: f64) -> Survey {
             variant.flash_bytes += if observer == "rigid" { 0 } else { 100 };
             let peak = if observer == "slack" { 60.0 } else { 100.0 };
             let chosen = observer == "slack";
-            Run { variant, chosen, factor: Factor { peak, rigid: 50.0 }, tick_code: 512, reasons: Vec::new() }
+            let factor = |scenario: &str, opened| Factor { scenario: scenario.into(), opened, peak, rigid: 50.0 };
+            let factors = vec![factor("reversal", true), factor("steady", false)];
+            Run { variant, chosen, factors, tick_code: 512, reasons: Vec::new() }
         })
     };
     let scene = |name: &str| SceneFigures {
@@ -66,6 +68,18 @@ fn every_scene_is_on_the_page_with_its_verdict() {
 }
 
 #[test]
+fn the_gentle_governor_stands_beside_the_plain_one_where_a_gap_opens() {
+    let survey = survey(0.01);
+    let scene = &survey.scenes[0];
+    let gentle = scene.gentle(&scene.runs[2]);
+    assert_eq!(gentle.len(), 1);
+    assert_eq!((gentle[0].scenario.as_str(), gentle[0].plain.as_str(), gentle[0].share), ("reversal", "plain", 0.6));
+    assert!(scene.gentle(&scene.runs[0]).is_empty());
+    // 60 over 50, of either run.
+    assert!((scene.runs[2].factor().k().unwrap() - 1.2).abs() < 1e-12);
+}
+
+#[test]
 fn a_miss_is_told_with_its_amount_and_its_reasons() {
     let mut survey = survey(0.031);
     let share = |name: &str, share: f64| Share { name: name.into(), share, detail: format!("{name} in detail") };
@@ -105,7 +119,7 @@ fn nothing_and_what_diverged_are_pages_too() {
     assert_sound(&survey_page(&Survey::default()));
     let mut survey = survey(f64::NAN);
     survey.cases.push(case("diverged", f64::NAN));
-    survey.scenes[0].runs[2].factor = Factor::default();
+    survey.scenes[0].runs[2].factors = vec![Factor::default()];
     let row = Row { approach: "ignore", shaft_torque: 0.2, worst: f64::NAN, load_speed: 0.1, each: vec![0.2] };
     let stretch = Stretch { course: String::new(), time: vec![], truth: vec![], estimates: vec![] };
     let (courses, rows) = (vec!["one".to_owned()], vec![row]);

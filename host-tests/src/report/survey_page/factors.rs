@@ -10,35 +10,37 @@ const OVER_PLAIN: f64 = 0.7;
 
 /// Peaks and dynamic factors.
 pub fn section(survey: &Survey) -> Section {
-    let mut factors = Table::new(["scene", "variant", "peak N m", "were it rigid N m", "K"]);
-    let mut gentle = Table::new(["scene", "variant", "beside the plain speed loop of", "peak, of its", "at most", ""]);
+    let mut factors = Table::new(["scene", "variant", "run", "peak N m", "were it rigid N m", "K"]);
+    let mut gentle = Table::new(["scene", "variant", "run", "beside", "peak, of its", "at most", ""]);
     let mut any = false;
     for scene in &survey.scenes {
         for run in scene.chosen() {
-            let k = run.factor.k().map_or_else(|| "none: nothing is carried".to_owned(), significant);
-            let torques = [run.factor.peak, run.factor.rigid].map(significant);
-            factors.row([scene.name.clone(), run.variant.label()].into_iter().chain(torques).chain([k]));
-            for (plain, share) in scene.over_plain(run) {
+            let label = run.variant.label();
+            for factor in &run.factors {
+                let k = factor.k().map_or_else(|| "not stated: nothing is carried, or a crank".to_owned(), significant);
+                let torques = [factor.peak, factor.rigid].map(significant);
+                let names = [scene.name.clone(), label.clone(), factor.scenario.clone()];
+                factors.row(names.into_iter().chain(torques).chain([k]));
+            }
+        }
+        for run in &scene.runs {
+            for one in scene.gentle(run) {
                 any = true;
-                gentle.row([
-                    scene.name.clone(),
-                    run.variant.label(),
-                    plain,
-                    percent(share),
-                    percent(OVER_PLAIN),
-                    kept(share <= OVER_PLAIN).to_owned(),
-                ]);
+                let verdict = kept(one.share <= OVER_PLAIN).to_owned();
+                let shares = [one.share, OVER_PLAIN].map(percent);
+                let names = [scene.name.clone(), run.variant.label(), one.scenario, one.plain];
+                gentle.row(names.into_iter().chain(shares).chain([verdict]));
             }
         }
     }
     let text = "K is the peak of the shaft torque over the largest torque that the same shaft would carry in a rigid machine under the same \
-                torques, gaining speed as the whole machine gains momentum: what vibration, impacts and slack add. Over all runs of the scene, the \
-                one with the largest peak.";
+                torques, gaining speed as the whole machine gains momentum: what vibration, impacts and slack add.";
     let section = Section::new("Dynamic factors", text);
     if survey.scenes.is_empty() {
         return section;
     }
     let section = section.table("", "", &factors);
-    let text = "The peak of the governor that takes up slack and damps the shaft, over that of a plain speed loop on the same run.";
+    let text = "The peak of the governor that takes up slack and damps the shaft, over that of a plain speed loop on the same run, where that lets a \
+                gap open or a rope go slack.";
     if any { section.table("With and without a gentle governor", text, &gentle) } else { section }
 }

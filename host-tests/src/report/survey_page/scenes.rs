@@ -76,7 +76,7 @@ pub fn overview_table(survey: &Survey) -> Table {
             let found = scene.chosen().find(|run| run.variant.number == number && run.variant.core == core);
             row.push(found.map_or_else(String::new, |run| grouped(run.variant.instructions.max as i64)));
         }
-        row.push(first.factor.k().map_or_else(String::new, significant));
+        row.push(first.factor().k().map_or_else(String::new, significant));
         row.push(bits);
         table.row(row);
     }
@@ -133,8 +133,8 @@ pub fn section(survey: &Survey, scene: &SceneFigures) -> Section {
             grouped(variant.flash_bytes as i64),
             grouped(variant.ram_bytes as i64),
             grouped(variant.stack_bytes as i64),
-            significant(run.factor.peak),
-            run.factor.k().map_or_else(String::new, significant),
+            significant(run.factor().peak),
+            run.factor().k().map_or_else(String::new, significant),
             if variant.bit_exact { "equal" } else { "differ" }.to_owned(),
         ]);
     }
