@@ -9,6 +9,7 @@ pub mod asking;
 pub mod assembled;
 pub mod balanced;
 pub mod board;
+pub mod expected;
 pub mod fingerprint;
 pub mod governed;
 pub mod head;

@@ -26,6 +26,7 @@ mod generator;
 mod modes;
 mod plan;
 mod progress;
+mod report;
 mod rotor;
 mod run;
 mod setup;
@@ -61,6 +62,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Run),
+    Report(report::Report),
     Backlash(backlash::Backlash),
     Modes(modes::Modes),
     Design(design::Design),
@@ -78,6 +80,7 @@ impl Command {
     const fn json(&self) -> bool {
         match self {
             Self::Run(command) => command.json,
+            Self::Report(command) => command.json,
             Self::Backlash(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
@@ -95,6 +98,7 @@ impl Command {
     fn execute(&self) -> Result<(), Failure> {
         match self {
             Self::Run(command) => command.execute(),
+            Self::Report(command) => command.execute(),
             Self::Backlash(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),

@@ -25,6 +25,7 @@ const HOIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/hoist.toml");
 fn every_command_explains_itself_with_examples() {
     for command in [
         "run",
+        "report",
         "modes",
         "design",
         "rotor",
