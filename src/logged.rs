@@ -156,7 +156,7 @@ const _: () = {
         governor::Trip,
         fluctuation::Balance,
         fluctuation::Behind,
-        fluctuation::Bin,
+        fluctuation::Bin<f32>,
         fluctuation::CycleConfig,
         fluctuation::Drivetrain,
         fluctuation::Edge<f32>,

@@ -87,7 +87,8 @@ impl CycleConfig {
         CycleConfig {
             length: (whole / parts) as u32,
             last_segment: segments - 1,
-            remainder: (whole % parts) as u32,
+            whole: ((whole % parts) / cycles as u64) as u32,
+            part: ((whole % parts) % cycles as u64) as u32,
             divisor: cycles,
             angle: core::f64::consts::TAU * turns as f64 / cycles as f64,
             period,
@@ -186,10 +187,10 @@ impl WaveformConfig {
         let per_segment = (BINS / segments) as u32;
         let length = cycle.length as u64;
         let scale = ((per_segment as u64) << 32) / length;
-        if scale > u32::MAX as u64 {
+        if scale > i32::MAX as u64 {
             return Err(Error::Value(BINS_SENTENCE));
         }
-        Ok(WaveformConfig { cycle, cycles, scale: scale as u32, per_segment })
+        Ok(WaveformConfig { cycle, cycles, scale: scale as i32, per_segment })
     }
 }
 
