@@ -1,29 +1,17 @@
-//! Tells the compiler which variant an image holds and on which board, and the linker where that board's memory is.
+//! Tells the compiler for which board an image is, and the linker where that board's memory is.
 //!
-//! `DRIVELINE_VARIANT`: a name from `src/selected.rs`. `DRIVELINE_BOARD`: a name from `src/board.rs`; where it is not
-//! set, the board that goes with the compiler's target.
+//! `DRIVELINE_BOARD`: a name from `src/board.rs`; where it is not set, the board of the feature `nucleo-g474re`, else the one that
+//! goes with the compiler's target.
+//! `DRIVELINE_VARIANT` is read by the binaries alone (`selected!`).
 
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The variant of an image that was asked for without naming one.
-const DEFAULT_VARIANT: &str = "hoist/f32/reduced/10000";
-
-/// The board that a feature is for, and its variant where none is named.
-const NUCLEO: [&str; 2] = ["nucleo-g474re", "test-rig/f32/two-mass/10000"];
-
 fn main() {
-    let nucleo = env::var_os("CARGO_FEATURE_NUCLEO_G474RE").is_some();
-    let default = if nucleo { NUCLEO[1] } else { DEFAULT_VARIANT };
-    let variant = env::var("DRIVELINE_VARIANT").unwrap_or_else(|_| default.into());
-    println!("cargo::rerun-if-env-changed=DRIVELINE_VARIANT");
-    println!("cargo::rustc-check-cfg=cfg(driveline_variant, values(any()))");
-    println!("cargo::rustc-cfg=driveline_variant={variant:?}");
-    println!("cargo::rustc-env=DRIVELINE_VARIANT={variant}");
-
     let target = env::var("TARGET").expect("cargo sets TARGET for build scripts");
-    let default = if nucleo { NUCLEO[0] } else { default_board(&target) };
+    let nucleo = env::var_os("CARGO_FEATURE_NUCLEO_G474RE").is_some();
+    let default = if nucleo { "nucleo-g474re" } else { default_board(&target) };
     let board = env::var("DRIVELINE_BOARD").unwrap_or_else(|_| default.into());
     println!("cargo::rerun-if-env-changed=DRIVELINE_BOARD");
     println!("cargo::rustc-check-cfg=cfg(driveline_board, values(any()))");

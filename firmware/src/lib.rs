@@ -3,7 +3,7 @@
 //! Scenes as a portable library, and the boards they are flashed onto.
 //!
 //! The same scenes build for the host, where the tests drive them, and for the target, where feature `target` adds
-//! the start-up code, the board and the panic handler. [`selected`] lists the variants and says which one an image holds.
+//! the start-up code, the board and the panic handler. [`selected`] lists the variants; a binary holds the one that `DRIVELINE_VARIANT` names.
 
 pub mod asking;
 pub mod assembled;
@@ -23,7 +23,7 @@ pub mod selected;
 pub mod told;
 pub mod trial_weights;
 pub mod turn;
-mod variants;
+pub mod variants;
 
 #[cfg(all(feature = "target", target_os = "none"))]
 pub mod bench;

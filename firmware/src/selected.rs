@@ -1,7 +1,8 @@
-//! The variants that can be flashed, and the one that this image holds.
+//! The variants that can be flashed.
 //!
 //! One line a variant: its name (the scene's [`Scene::NAME`](crate::scene::Scene::NAME): scene, number, observer,
-//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line at build time; [`Selected`] is the type.
+//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line when a binary is built:
+//! [`selected!`](crate::selected!) gives the binary that type as `Selected`.
 
 use driveline::fluctuation::{Extremes, Waveform};
 use driveline::governor::SpeedLoop;

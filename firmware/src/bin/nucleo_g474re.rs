@@ -18,14 +18,14 @@ use driveline_firmware::balanced::{Adviser, Measurement, Variant, reading, state
 use driveline_firmware::board::nucleo_g474re::{
     Beside, Channel, Nucleo, Pin, Serial, Vibration, outputs_off, start_tick, tick_taken,
 };
-use driveline_firmware::measure::driveline_tick;
 use driveline_firmware::panel::{DONE, Key};
 use driveline_firmware::scene::Scene;
 use driveline_firmware::scenes::test_rig::{self, TestRig};
-use driveline_firmware::selected::Selected;
 use driveline_firmware::told;
 use driveline_firmware::turn::{Asked, Turn};
 use stm32_metapac::{Interrupt, interrupt};
+
+driveline_firmware::selected!("test-rig/f32/two-mass/10000");
 
 /// What the interrupt owns.
 struct Control {
