@@ -203,4 +203,38 @@ impl Position {
         self.start = self.start.wrapping_add(steps.wrapping_mul(cycle.length));
         self.segment = self.segment.wrapping_add(steps) & cycle.last_segment;
     }
+
+    /// The end of a segment in one tick, for what has the time: goes to the segment of `angle`, and says whether it knows which that is.
+    pub fn pass(&mut self, cycle: &CycleConfig, angle: u32) -> bool {
+        self.measure(cycle);
+        let within = self.within(angle);
+        let beyond = within.wrapping_sub(cycle.length);
+        match self.ahead(cycle, beyond) {
+            Way::Segment => {
+                self.advance(cycle);
+                self.count(1);
+            }
+            Way::Cycle if self.beyond_cycle(beyond) < 0 => {}
+            Way::Cycle => {
+                self.next_cycle(cycle);
+                self.carry_on(cycle);
+            }
+            Way::Other => match self.behind(cycle, within.wrapping_neg()) {
+                Way::Segment => {
+                    self.retreat(cycle);
+                    self.count(-1);
+                }
+                Way::Cycle => {
+                    self.carry_back(cycle);
+                    self.measure(cycle);
+                    self.last_cycle(cycle);
+                }
+                Way::Other => {
+                    self.jump(cycle, Position::away(cycle, within));
+                    return false;
+                }
+            },
+        }
+        true
+    }
 }
