@@ -15,6 +15,7 @@ pub mod gear_drive;
 pub mod hoist;
 pub mod plan;
 mod planetary_drive;
+pub mod punch_press;
 pub mod scenario;
 pub mod sensors;
 mod skip_winch;
@@ -40,6 +41,7 @@ pub const SCENES: &[(&str, Build)] = &[
     ("planetary", planetary_drive::machine),
     ("crane-travel", crane_travel::machine),
     ("skip-winch", skip_winch::machine),
+    ("punch-press", punch_press::machine),
     ("blooming-mill", blooming_mill::machine),
     ("converter", converter::machine),
     ("vibrating-screen", vibrating_screen::machine),

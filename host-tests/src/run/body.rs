@@ -59,6 +59,43 @@ impl Body {
         }
     }
 
+    /// How many nodes there are.
+    pub fn nodes(&self) -> usize {
+        match self {
+            Body::Chain(chain) => chain.plant().nodes(),
+            Body::Train(train) => train.ratios.len(),
+        }
+    }
+
+    /// Inertia of a node, referred to the motor [kg m2]; NaN where a crank changes it.
+    pub fn inertia(&self, node: usize) -> f64 {
+        match self {
+            Body::Chain(chain) => chain.plant().inertia(node),
+            Body::Train(train) => train.recording.motion().inertia(node) / train.ratios[node].powi(2),
+        }
+    }
+
+    /// Angular momentum of all nodes about the motor's shaft [N m s]; NaN where a crank changes an inertia.
+    pub fn momentum(&self) -> f64 {
+        (0..self.nodes()).map(|node| self.inertia(node) * self.speed(node)).sum()
+    }
+
+    /// Whether a gap is open or a rope slack now.
+    pub fn is_open(&self) -> bool {
+        match self {
+            Body::Chain(chain) => chain.plant().is_open(),
+            Body::Train(train) => train.recording.motion().is_open(),
+        }
+    }
+
+    /// Whether it has backlash anywhere; a rope is none.
+    pub fn has_backlash(&self) -> bool {
+        match self {
+            Body::Chain(chain) => chain.plant().has_backlash(),
+            Body::Train(train) => train.recording.motion().has_backlash(),
+        }
+    }
+
     /// Twist of a shaft of a chain, referred to the motor, or elongation of a link of a train [rad or m].
     pub fn twist(&self, shaft: usize) -> f64 {
         match self {

@@ -47,6 +47,10 @@ pub struct Moment {
     pub truth: [f64; 3],
     /// The same as the drive estimates them.
     pub estimate: [f64; 3],
+    /// Angular momentum of the whole machine about the motor's shaft [N m s]; NaN where a crank changes an inertia.
+    pub momentum: f64,
+    /// A gap is open or a rope slack.
+    pub open: bool,
     /// Fault flags.
     pub faults: u32,
     /// Instructions of the tick; zero on the host.
@@ -110,7 +114,7 @@ pub fn run(
             }
         }
         if let Some(law) = scenario.law {
-            let torque = (law.torque)(recording.speed(law.node));
+            let torque = (law.torque)(&recording);
             recording.set_load_torque(law.node, torque);
         }
         let plant = &recording;
@@ -140,6 +144,8 @@ pub fn run(
                 units.speed(output.load_speed),
                 units.torque(output.load_torque),
             ],
+            momentum: plant.momentum(),
+            open: plant.is_open(),
             faults: output.faults,
             instructions: output.instructions,
         });

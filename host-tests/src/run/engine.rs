@@ -22,6 +22,8 @@ pub struct Ran {
     pub variant: Variant,
     /// One trace a scenario.
     pub traces: Vec<Trace>,
+    /// Bytes of code that a tick reaches.
+    pub tick_code: u64,
 }
 
 /// What a run is for.
@@ -101,7 +103,7 @@ pub fn run(
         bit_exact,
         ticks: moments().count() as u64,
     };
-    Ok(Ran { variant, traces })
+    Ok(Ran { variant, traces, tick_code: contents.tick_code })
 }
 
 /// Runs the variant's scene on the host over a trace's inputs; whether every output has the same bits.

@@ -73,6 +73,25 @@ impl Motion {
         self.train.links.len()
     }
 
+    /// Inertia of a coordinate, kg m2; NaN for one that is not there, or whose crank changes it.
+    #[must_use]
+    pub fn inertia(&self, coordinate: usize) -> f64 {
+        let coordinate = self.train.coordinates.get(coordinate).filter(|coordinate| coordinate.crank.is_none());
+        coordinate.map_or(f64::NAN, |coordinate| coordinate.inertia)
+    }
+
+    /// Whether a link carries nothing now: a gap is open, or a rope slack.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        (0..self.train.links.len()).any(|link| !self.mode.carries(&self.train, link))
+    }
+
+    /// Whether a link has backlash. A rope has none.
+    #[must_use]
+    pub fn has_backlash(&self) -> bool {
+        self.train.links.iter().any(|link| !link.rope && link.gap > 0.0)
+    }
+
     /// Angle of a coordinate, rad; NaN for one that is not there.
     #[must_use]
     pub fn angle(&self, coordinate: usize) -> f64 {
