@@ -80,7 +80,7 @@ pub use real::{Complex, Real};
 #[cfg(feature = "balancing")]
 pub use refusal::Refusal;
 pub use rotation::Synchronous;
-pub use sensor::{Motion, Sensor};
+pub use sensor::{Motion, Sensor, SensorError};
 #[cfg(feature = "balancing")]
 pub use tolerance::{GRADES, Tolerance, Verdict, resultant, two_planes};
 pub use turning::{Turning, TurningConfig};
