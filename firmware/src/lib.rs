@@ -11,6 +11,7 @@ pub mod board;
 pub mod fingerprint;
 pub mod governed;
 pub mod head;
+pub mod pages;
 pub mod panel;
 pub mod program;
 pub mod rattle;
