@@ -5,7 +5,7 @@ use driveline::number::Fixed;
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
-use super::{correction, cranked, fluctuation, governors, phasors, steps};
+use super::{advice, correction, cranked, fluctuation, governors, phasors, steps};
 use crate::Words;
 use crate::board::Board;
 use crate::measure::driveline_tick;
@@ -37,4 +37,5 @@ pub fn run<B: Board>(bench: &mut Bench<'_, B>) {
     }
     correction::solves(bench);
     correction::accuracy(bench);
+    advice::all(bench);
 }
