@@ -2,14 +2,13 @@
 
 use super::convert::{get, or_stop};
 use super::{Bases, Error};
-use crate::fluctuation::{CycleConfig, Drivetrain, ToothedWheelConfig, WaveformConfig};
+use crate::fluctuation::{CycleConfig, Drivetrain, PLACES, ToothedWheelConfig, WaveformConfig};
 use crate::machine::TwoMass;
 
 const RATIO: &str = "the cycle's turns and cycles must be at least 1, and at most 65,535";
 const LONG: &str = "the cycle must be at most 16 turns of the motor";
 const PERIOD: &str = "the time between two ticks must be positive and finite (s)";
-const BINS_SENTENCE: &str =
-    "the bins of the waveform must be a power of two, at most 1024, and at least four to each turn of the cycle";
+const BINS_SENTENCE: &str = "the bins of the waveform must be a power of two, at most 1024, at least four to each turn of the cycle, and at most 8192 to a turn";
 const WHEEL: &str = "the wheel must have at least one missing tooth and twice as many places as a gap takes, and as many places in a cycle as the table";
 const CLOCK: &str = "the clock that the teeth are timed with must be positive and finite (Hz)";
 const CYCLES: &str = "the waveform must be taken over at least 1 cycle, and at most 65,535";
@@ -112,7 +111,7 @@ impl WaveformConfig {
         }
         let per_segment = (BINS / segments) as u32;
         let length = cycle.length as u64;
-        let scale = ((per_segment as u64) << 32) / length;
+        let scale = ((per_segment as u64) << (32 + PLACES)) / length;
         if scale > i32::MAX as u64 {
             return Err(Error::Value(BINS_SENTENCE));
         }
