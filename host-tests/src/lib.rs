@@ -3,6 +3,7 @@
 pub mod backlash;
 pub mod balance_file;
 pub mod balancing;
+pub mod cases;
 pub mod check;
 pub mod cli;
 pub mod generator;
@@ -14,5 +15,6 @@ pub mod report;
 pub mod rotor;
 pub mod run;
 pub mod setup;
+pub mod survey;
 pub mod sweep;
 pub mod telemetry;
