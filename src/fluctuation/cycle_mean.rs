@@ -14,7 +14,7 @@
 //! There is none before a first whole cycle, nor after the angle was lost or the direction has changed, nor while the machine takes more than
 //! four times as long for a segment as it did in the mean: then a governor has to act on the speed as it is.
 
-use super::position::Position;
+use super::position::{Crossing, Position};
 use super::{CycleConfig, Fluctuation};
 use crate::number::Number;
 use crate::sample::Estimate;
@@ -121,9 +121,9 @@ impl<N: Number, const SEGMENTS: usize> CycleMean<N, SEGMENTS> {
     #[inline(never)]
     fn pass(&mut self, config: &CycleMeanConfig<N>, angle: u32, speed: N) {
         let before = self.position.segment;
-        let known = self.position.pass(&config.cycle, angle);
+        let crossing = self.position.pass(&config.cycle, angle);
         let passed = self.position.segment.wrapping_sub(before) & config.cycle.last_segment;
-        if !known {
+        if crossing == Crossing::Lost {
             self.give_up();
             return;
         }

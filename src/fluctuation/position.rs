@@ -82,6 +82,15 @@ pub(super) struct Position {
     pub unsure: bool,
 }
 
+/// What a tick has passed that does all slices at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Crossing {
+    /// At most the end of one segment or of the cycle.
+    Passed,
+    /// More, or nobody knows when: the angle was elsewhere.
+    Lost,
+}
+
 /// Where the motor is that has left its segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Way {
@@ -204,37 +213,38 @@ impl Position {
         self.segment = self.segment.wrapping_add(steps) & cycle.last_segment;
     }
 
-    /// The end of a segment in one tick, for what has the time: goes to the segment of `angle`, and says whether it knows which that is.
-    pub fn pass(&mut self, cycle: &CycleConfig, angle: u32) -> bool {
-        self.measure(cycle);
+    /// Goes to the segment of `angle` at once, for a tick that has the time.
+    pub fn pass(&mut self, cycle: &CycleConfig, angle: u32) -> Crossing {
+        let unsure = core::mem::replace(&mut self.unsure, false);
         let within = self.within(angle);
         let beyond = within.wrapping_sub(cycle.length);
-        match self.ahead(cycle, beyond) {
-            Way::Segment => {
+        self.measure(cycle);
+        let ahead = if beyond < cycle.length { self.ahead(cycle, beyond) } else { Way::Other };
+        match (ahead, self.behind(cycle, within.wrapping_neg())) {
+            (Way::Segment, _) => {
                 self.advance(cycle);
                 self.count(1);
             }
-            Way::Cycle if self.beyond_cycle(beyond) < 0 => {}
-            Way::Cycle => {
-                self.next_cycle(cycle);
-                self.carry_on(cycle);
+            (Way::Cycle, _) => {
+                if self.beyond_cycle(beyond) >= 0 {
+                    self.next_cycle(cycle);
+                    self.carry_on(cycle);
+                }
             }
-            Way::Other => match self.behind(cycle, within.wrapping_neg()) {
-                Way::Segment => {
-                    self.retreat(cycle);
-                    self.count(-1);
-                }
-                Way::Cycle => {
-                    self.carry_back(cycle);
-                    self.measure(cycle);
-                    self.last_cycle(cycle);
-                }
-                Way::Other => {
-                    self.jump(cycle, Position::away(cycle, within));
-                    return false;
-                }
-            },
+            (Way::Other, Way::Segment) => {
+                self.retreat(cycle);
+                self.count(-1);
+            }
+            (Way::Other, Way::Cycle) => {
+                self.carry_back(cycle);
+                self.measure(cycle);
+                self.last_cycle(cycle);
+            }
+            (Way::Other, Way::Other) => {
+                self.jump(cycle, Position::away(cycle, within));
+                return Crossing::Lost;
+            }
         }
-        true
+        if unsure { Crossing::Lost } else { Crossing::Passed }
     }
 }
