@@ -7,9 +7,14 @@ use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// The board that feature `nucleo-g474re` is for.
+const NUCLEO: &str = "nucleo-g474re";
+
 fn main() {
+    let nucleo = env::var_os("CARGO_FEATURE_NUCLEO_G474RE").is_some();
     let target = env::var("TARGET").expect("cargo sets TARGET for build scripts");
-    let board = env::var("DRIVELINE_BOARD").unwrap_or_else(|_| default_board(&target).into());
+    let default = if nucleo { NUCLEO } else { default_board(&target) };
+    let board = env::var("DRIVELINE_BOARD").unwrap_or_else(|_| default.into());
     println!("cargo::rerun-if-env-changed=DRIVELINE_BOARD");
     println!("cargo::rustc-check-cfg=cfg(driveline_board, values(any()))");
     println!("cargo::rustc-cfg=driveline_board={board:?}");

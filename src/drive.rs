@@ -130,6 +130,7 @@ where
         let (faults, applied) = self.observe(config, sample);
         let estimate = self.estimate(config);
         self.fluctuation.measure(&config.fluctuation, self.observer.angle(), applied, &estimate);
+        self.governor.follow(self.fluctuation.steady_speed());
         let torque = self.governor.command(&config.governor, &estimate);
         if G::COMMANDS {
             self.commanded = torque;

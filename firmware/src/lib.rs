@@ -5,6 +5,7 @@
 //! The same scenes build for the host, where the tests drive them, and for the target, where feature `target` adds
 //! the start-up code, the board and the panic handler. [`selected`] lists the variants; a binary holds the one that `DRIVELINE_VARIANT` names.
 
+pub mod asking;
 pub mod assembled;
 pub mod balanced;
 pub mod board;
@@ -12,6 +13,7 @@ pub mod expected;
 pub mod fingerprint;
 pub mod governed;
 pub mod head;
+pub mod on_axis;
 pub mod panel;
 pub mod program;
 pub mod rattle;
@@ -21,6 +23,7 @@ pub mod scenes;
 pub mod selected;
 pub mod told;
 pub mod trial_weights;
+pub mod turn;
 pub mod variants;
 
 #[cfg(all(feature = "target", target_os = "none"))]

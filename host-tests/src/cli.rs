@@ -32,6 +32,7 @@ mod run;
 mod setup;
 mod simulate;
 mod simulation;
+mod sizes;
 mod train_modes;
 mod vibration;
 mod vibration_page;
@@ -42,7 +43,6 @@ pub use failure::Failure;
 pub use plan::Plan;
 pub use progress::Progress;
 pub use vibration::Vibration;
-pub(crate) use vibration::names;
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -72,6 +72,7 @@ enum Command {
     Check(check::Check),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
+    Sizes(sizes::Sizes),
     Watch(watch::Watch),
 }
 
@@ -89,6 +90,7 @@ impl Command {
             Self::Check(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
+            Self::Sizes(command) => command.json,
             Self::Watch(command) => command.json,
         }
     }
@@ -106,6 +108,7 @@ impl Command {
             Self::Check(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),
+            Self::Sizes(command) => command.execute(),
             Self::Watch(command) => command.execute(),
         }
     }

@@ -36,6 +36,7 @@ fn every_command_explains_itself_with_examples() {
         "watch",
         "check",
         "setup",
+        "sizes",
     ] {
         let output = driveline(&[command, "--help"]);
         assert!(output.status.success());

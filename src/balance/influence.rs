@@ -19,11 +19,12 @@ pub struct Influence<T: Real, const ROWS: usize, const PLANES: usize> {
 }
 
 impl<T: Real, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANES> {
-    /// Nothing known yet of `planes` planes and `rows` readings.
+    /// Nothing known yet of `planes` planes and `rows` readings. A type with room for more planes than readings does not compile.
     ///
     /// # Errors
     /// [`Refusal::Size`], [`Refusal::MorePlanesThanReadings`].
     pub fn new(rows: usize, planes: usize) -> Result<Self, Refusal> {
+        const { assert!(PLANES <= ROWS, "{}", Refusal::MORE_PLANES_THAN_READINGS) };
         if rows == 0 || planes == 0 || rows > ROWS || planes > PLANES {
             return Err(Refusal::Size);
         }

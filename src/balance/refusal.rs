@@ -86,6 +86,12 @@ pub enum Refusal {
     },
 }
 
+impl Refusal {
+    /// What the compiler says of a type with room for more planes than readings.
+    pub const MORE_PLANES_THAN_READINGS: &str =
+        "more planes than readings cannot be told apart: measure at another place or speed, or take fewer planes";
+}
+
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -141,9 +141,9 @@ where
         &self.drive
     }
 
-    /// The balancer, to begin a reading: between two ticks.
-    pub fn balancer_mut(&mut self) -> &mut B {
-        self.drive.balancer_mut()
+    /// The drive, for what is done between two ticks: a reading begun, a state taken over.
+    pub fn drive_mut(&mut self) -> &mut Drive<N, O, F, G, B> {
+        &mut self.drive
     }
 
     /// The board.

@@ -89,6 +89,8 @@ impl Number for Fixed {
     type Coefficient = Coefficient;
     type Firmness = ();
     type Carry = u32;
+    type Rank = i32;
+    type Total = i64;
 
     const ZERO: Self = Fixed(0);
     const ONE: Self = Fixed::ONE;
@@ -243,8 +245,23 @@ impl Number for Fixed {
     }
 
     #[inline(always)]
-    fn sixteenth(self) -> Self {
-        Fixed(self.0 >> 4)
+    fn rank(self) -> i32 {
+        self.0
+    }
+
+    #[inline(always)]
+    fn of_rank(rank: i32) -> Self {
+        Fixed(rank)
+    }
+
+    #[inline(always)]
+    fn added_to(self, total: i64) -> i64 {
+        total.wrapping_add(self.0 as i64)
+    }
+
+    #[inline(always)]
+    fn total_to_real(total: i64) -> f64 {
+        total as f64 / 268_435_456.0
     }
 
     #[inline(always)]

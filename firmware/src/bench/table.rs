@@ -1,6 +1,7 @@
 //! What the bench measures: a line a function, with its state, its inputs and the function.
 
 use driveline::constants::Bases;
+use driveline::fluctuation::CycleMeanConfig;
 use driveline::number::Fixed;
 
 use super::Bench;
@@ -23,14 +24,15 @@ pub fn run<S: Scene, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<S, Input
             steps::single(bench);
             cranked::single(bench);
             phasors::single(bench);
-            fluctuation::all::<B, f32>(bench, Bases::SI);
+            fluctuation::all::<B, f32>(bench, Bases::SI, CycleMeanConfig::<f32>::new::<4>(fluctuation::QUARTER, 1e-4));
             governors::single(bench);
         }
         Words::Fixed => {
             steps::fixed(bench);
             cranked::fixed(bench);
             phasors::fixed(bench);
-            fluctuation::all::<B, Fixed>(bench, BASES);
+            let mean = CycleMeanConfig::<Fixed>::new::<4>(fluctuation::QUARTER, 1e-4, BASES);
+            fluctuation::all::<B, Fixed>(bench, BASES, mean);
             governors::fixed(bench);
         }
     }

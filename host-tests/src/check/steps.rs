@@ -1,12 +1,13 @@
 //! The steps, in order: what is cheap and finds most comes first.
 
+use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
 use driveline_firmware::board::{BOARDS, Facts};
 use driveline_firmware::selected::VARIANTS;
 
 use super::budgets::Budgets;
 use super::comparison::Comparison;
 use super::{Count, Failed, Step, Voice, cargo};
-use crate::image::{Cost, Program, belongs, build, self_test, workspace};
+use crate::image::{Cost, ON_NUCLEO, Program, belongs, build, self_test, workspace};
 use crate::setup;
 
 /// All steps.
@@ -44,6 +45,11 @@ fn clippy(voice: &Voice) -> Result<Count, Failed> {
         let arguments = [&package[..], &[&target, &directory, "--", "-D", "warnings"]].concat();
         count.passed += cargo::passes(&arguments, voice)?.passed;
     }
+    let (target, directory) = (format!("--target={}", NUCLEO.target), cargo::firmware_directory());
+    let package =
+        ["clippy", "--package=driveline-firmware", "--lib", "--bin=nucleo_g474re", "--features=nucleo-g474re"];
+    let arguments = [&package[..], &[&target, &directory, "--", "-D", "warnings"]].concat();
+    count.passed += cargo::passes(&arguments, voice)?.passed;
     Ok(count)
 }
 
@@ -53,12 +59,15 @@ fn tests(voice: &Voice) -> Result<Count, Failed> {
 
 /// Every image links: no panic can be reached in any.
 fn firmware(voice: &Voice) -> Result<Count, Failed> {
+    build(ON_NUCLEO, NUCLEO, Program::Nucleo, |_| {}).map_err(Failed::whole)?;
+    voice.say(&format!("{ON_NUCLEO} for {}: linked", NUCLEO.name));
     let linked = each(|variant, board| {
         build(variant, board, Program::ControlLoop, |_| {}).map_err(|error| error.to_string())?;
         voice.say(&format!("{variant} for {}: linked", board.name));
         Ok(())
     })?;
-    Ok(passed(&linked))
+    let count = passed(&linked);
+    Ok(Count { passed: count.passed + 1, ..count })
 }
 
 /// The self-test of every observer in every number gives the same bits on the host and in QEMU, at one rate; the budgets compare the others over

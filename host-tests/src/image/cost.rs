@@ -102,6 +102,7 @@ pub const BENCHES: &[&str] = &[
     "bench/fluctuation/extremes",
     "bench/fluctuation/waveform",
     "bench/fluctuation/both",
+    "bench/fluctuation/cycle-mean",
     "bench/governor/core",
     "bench/governor/whole",
     "bench/telemetry/record",

@@ -167,7 +167,7 @@ impl<'a> Table<'a> {
         let list = value.get_ref().as_array().filter(|list| !list.is_empty());
         let list = list.ok_or_else(|| self.wrong(key, expected.clone()))?;
         let read = |(index, item): (usize, &'a Spanned<DeValue<'a>>)| {
-            let path = format!("{key}[{index}]");
+            let path = self.name(&format!("{key}[{index}]"));
             let Some(table) = item.get_ref().as_table() else {
                 return Err(Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), expected.clone()));
             };

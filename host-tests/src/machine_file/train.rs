@@ -144,10 +144,15 @@ pub fn parse_train(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
     let (mut labels, mut element_places) = (Vec::new(), Vec::new());
     if root.has("element") {
         let machine = parse(name, text)?;
-        labels = machine.elements.iter().map(|part| part.label.clone()).collect();
+        let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
+        labels = machine.elements.iter().chain(branched).map(|part| part.label.clone()).collect();
         let referred = referred(&machine);
-        element_places = root.tables("element")?.into_iter().map(|(place, _)| place).collect();
-        root.pass(&["encoder", "control", "disturbance", "limits"]);
+        let mut tables = root.tables("element")?;
+        for (_, mut branch) in root.tables_if("branch", "branch")? {
+            tables.extend(branch.tables("element")?);
+        }
+        element_places = tables.into_iter().map(|(place, _)| place).collect();
+        root.pass(&["encoder", "control", "disturbance", "limits", "duty"]);
         file.static_force = vec![None; referred.links.len()];
         (file.names, coordinates) = referred.coordinates.into_iter().unzip();
         (file.links, links) = referred.links.into_iter().unzip();

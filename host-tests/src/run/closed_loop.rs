@@ -114,7 +114,7 @@ pub fn run(
             }
         }
         if let Some(law) = scenario.law {
-            let torque = (law.torque)(recording.speed(law.node));
+            let torque = (law.torque)(&recording);
             recording.set_load_torque(law.node, torque);
         }
         let plant = &recording;

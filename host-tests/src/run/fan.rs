@@ -15,7 +15,8 @@ fn coupling(plant: &Body) -> f64 {
     plant.shaft_torque(0)
 }
 
-fn air(speed: f64) -> f64 {
+fn air(fan: &Body) -> f64 {
+    let speed = fan.speed(1);
     AIR * speed * speed.abs() / (fan::RATED_SPEED * fan::RATED_SPEED)
 }
 

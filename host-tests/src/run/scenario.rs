@@ -21,13 +21,13 @@ pub enum Action {
     Trip,
 }
 
-/// A load torque that follows its node's speed.
+/// A load torque that follows the motion.
 #[derive(Clone, Copy)]
 pub struct Law {
     /// The node.
     pub node: usize,
-    /// Torque [N m] at a speed [rad/s].
-    pub torque: fn(f64) -> f64,
+    /// Torque, referred to the motor [N m], for the plant as it is.
+    pub torque: fn(&Body) -> f64,
 }
 
 /// One run of a scene's machine.
@@ -47,7 +47,7 @@ pub struct Scenario {
     pub counted: bool,
     /// What the plot says happened when [s].
     pub marks: Vec<(f64, &'static str)>,
-    /// A load torque that follows the speed, as a fan's does; held over each tick.
+    /// A load torque that follows the speed, as a fan's does, or the angle, as a press's; held over each tick.
     pub law: Option<Law>,
 }
 

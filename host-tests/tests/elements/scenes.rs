@@ -102,6 +102,25 @@ fn skip_winch() {
     needs_two_masses("skip-winch");
 }
 
+#[test]
+fn vibrating_screen() {
+    meets_the_aims("vibrating-screen", "exact");
+}
+
+#[test]
+fn gear_drive() {
+    meets_the_aims("gear-drive", "exact");
+}
+
+#[test]
+fn punch_press() {
+    let figures = figures("punch-press");
+    assert_eq!(figures.len(), 4, "two governors, f32 and fixed");
+    for (variant, [torque, speed]) in figures {
+        assert!(torque <= 0.02 && speed <= 0.003, "{variant}: {torque}, {speed}");
+    }
+}
+
 /// The solver's runs agree with another integrator within 1e-8 of the peaks: the shortest of each scene here, all of them in `cargo driveline run`.
 #[test]
 fn runs_are_proven() {

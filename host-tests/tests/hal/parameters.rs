@@ -259,6 +259,106 @@ fn the_last_good_one_is_kept_beside_one_that_is_refused() {
     assert_eq!((parameters, refused), (Some(kept(2)), Some(Refusal::Version(2))));
 }
 
+/// A form before that of [`Kept`], which had more to keep.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Before {
+    inertia: f32,
+    table: Vec<f32>,
+}
+
+impl Parameters for Before {
+    const IDENTITY: u32 = Kept::IDENTITY;
+    const VERSION: u16 = 2;
+}
+
+fn before(number: u32) -> Before {
+    Before { inertia: number as f32, table: (0..300).map(|at| (number * 1000 + at) as f32).collect() }
+}
+
+/// Whose records stand in the two halves when a new firmware comes, in the order of their saves.
+#[derive(Clone, Copy, Debug)]
+enum Record {
+    Before(u32),
+    Kept(u32),
+    Foreign(u32),
+}
+
+/// What the new firmware reads, and what the older one would.
+fn loaded(flash: &mut Flash) -> (Option<Kept>, Option<Before>) {
+    (load::<Kept>(flash).parameters, load::<Before>(flash).parameters)
+}
+
+#[test]
+fn a_power_cut_while_a_new_version_is_saved_leaves_the_old_record_or_the_new() {
+    use Record::{Before as B, Foreign as F, Kept as K};
+    let mut points = 0;
+    for history in [
+        &[B(1)][..],
+        &[B(1), B(2)],
+        &[B(1), B(2), B(3)],
+        &[F(1), B(2)],
+        &[B(1), F(2)],
+        &[B(1), B(2), F(3)],
+        &[K(1), B(2)],
+        &[K(1), K(2), B(3)],
+        &[B(1), K(2)],
+    ] {
+        let mut flash = Flash::new();
+        for &record in history {
+            match record {
+                B(number) => save_other(&mut flash, &before(number)),
+                K(number) => save(&mut flash, &kept(number)).unwrap(),
+                F(number) => save_other(&mut flash, &Foreign(kept(number))),
+            }
+        }
+        let old = loaded(&mut flash);
+        assert!(old.0.is_some() || old.1.is_some(), "{history:?}");
+        let start = flash.clone();
+        save(&mut flash, &kept(100)).unwrap();
+        let whole = usize::MAX - flash.left;
+        assert_eq!(loaded(&mut flash).0, Some(kept(100)), "{history:?}");
+        // through the whole save, at fewer places than where one version is tried byte by byte
+        for point in (0..whole).step_by(7) {
+            let mut cut = start.clone();
+            cut.left = point;
+            cut.random ^= point as u32;
+            assert_eq!(save(&mut cut, &kept(100)), Err(Error::Flash(Cut)), "{history:?}, {point}");
+            let (own, older) = loaded(&mut cut);
+            match old.0.clone() {
+                // what this firmware had it has, or the new ones
+                Some(had) => assert!(own == Some(had) || own == Some(kept(100)), "{history:?}, {point}: {own:?}"),
+                // it had none: those of the form before are there, or the new ones
+                None => assert!(own == Some(kept(100)) || own.is_none() && older == old.1, "{history:?}, {point}"),
+            }
+            points += 1;
+            save(&mut cut, &kept(101)).unwrap();
+            assert_eq!(load(&mut cut).parameters, Some(kept(101)), "{history:?}, {point}");
+        }
+    }
+    assert!(points > 1000, "{points}");
+}
+
+/// A record that the buffer has no room for cannot be checked; it is not taken for nothing.
+#[test]
+fn a_longer_record_of_an_older_version_is_not_erased_first() {
+    let mut flash = Flash::new();
+    save_other(&mut flash, &before(1));
+    let mut store = Store::new(flash.clone(), RANGE).unwrap();
+    // the older one has 1200 bytes and more
+    store.save(&Short(7.0), &mut [0; 300]).unwrap();
+    flash = store.release();
+    assert_eq!(load::<Before>(&mut flash).parameters, Some(before(1)));
+    assert_eq!(load::<Short>(&mut flash).parameters, Some(Short(7.0)));
+}
+
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Short(f32);
+
+impl Parameters for Short {
+    const IDENTITY: u32 = Kept::IDENTITY;
+    const VERSION: u16 = 4;
+}
+
 #[test]
 fn what_does_not_fit_is_said_and_nothing_is_lost() {
     let mut flash = Flash::new();

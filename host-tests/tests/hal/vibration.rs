@@ -147,7 +147,7 @@ fn a_reading_through_an_axis_says_what_its_samples_lacked() {
     let mut adc = AdcVibration::new(2048, 4095, PerCount::<f32>::new(0.01 / 256.0));
     let mut transfers = 0;
     let mut read = |fault: Option<Faults>| {
-        axis.balancer_mut().begin();
+        axis.drive_mut().balancer_mut().begin();
         // at 30 rad/s and 10 kHz a turn has 2094 ticks: the fault comes within the reading
         for tick in 0..8000 {
             axis.tick(&config, axis::WANTED);
