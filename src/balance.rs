@@ -24,6 +24,7 @@
 //! | influence coefficient | what a weight in a plane does to a row | row per weight |
 //! | run-out | what a displacement sensor sees of a shaft that is not round, and does not vibrate | of the channel |
 
+use crate::fault::Faults;
 use crate::number::Number;
 
 #[cfg(feature = "balancing")]
@@ -93,6 +94,9 @@ pub trait Balancer<N: Number>: Default {
 
     /// Takes one tick's angle [2^-32 turn of the motor] and vibration into account.
     fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration);
+
+    /// Told of a tick without a sound vibration, and why: a clipped one or none.
+    fn missed(&mut self, faults: Faults);
 }
 
 /// Not balanced.
@@ -102,6 +106,8 @@ impl<N: Number> Balancer<N> for () {
 
     #[inline(always)]
     fn measure(&mut self, _config: &(), _angle: u32, _vibration: &()) {}
+
+    fn missed(&mut self, _faults: Faults) {}
 }
 
 /// Two measurements side by side: two orders, or two rotors.
@@ -113,6 +119,11 @@ impl<N: Number, A: Balancer<N>, B: Balancer<N>> Balancer<N> for (A, B) {
     fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration) {
         self.0.measure(&config.0, angle, &vibration.0);
         self.1.measure(&config.1, angle, &vibration.1);
+    }
+
+    fn missed(&mut self, faults: Faults) {
+        self.0.missed(faults);
+        self.1.missed(faults);
     }
 }
 
@@ -126,5 +137,11 @@ impl<N: Number, A: Balancer<N>, B: Balancer<N>, C: Balancer<N>> Balancer<N> for 
         self.0.measure(&config.0, angle, &vibration.0);
         self.1.measure(&config.1, angle, &vibration.1);
         self.2.measure(&config.2, angle, &vibration.2);
+    }
+
+    fn missed(&mut self, faults: Faults) {
+        self.0.missed(faults);
+        self.1.missed(faults);
+        self.2.missed(faults);
     }
 }

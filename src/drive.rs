@@ -208,6 +208,11 @@ where
         self.balancer.measure(&config.balancer, self.observer.angle(), vibration);
     }
 
+    /// Tells the balancer of a tick whose vibration was not sound, and why: what it measures across the gap is doubted.
+    pub fn vibration_missing(&mut self, faults: Faults) {
+        self.balancer.missed(faults);
+    }
+
     /// The angle that was last believed, 2^32 per turn.
     pub fn angle(&self) -> u32 {
         self.observer.angle()

@@ -132,7 +132,7 @@ pub fn state<V: Variant>(measurement: &Measurement<V::Number>) -> u32 {
 }
 
 /// The reasons why something measured is no reading, in the order of their numbers.
-pub const DOUBTS: [&str; 7] = [
+pub const DOUBTS: [&str; 8] = [
     "no such channel",
     "passed its zero backwards",
     "too few ticks on a turn",
@@ -140,6 +140,7 @@ pub const DOUBTS: [&str; 7] = [
     "the speed moved",
     "drifting",
     "scattered",
+    "samples missing",
 ];
 
 fn number(doubt: &Doubt) -> u32 {
@@ -150,6 +151,7 @@ fn number(doubt: &Doubt) -> u32 {
         Doubt::Clipped => 3,
         Doubt::SpeedMoved { .. } => 4,
         Doubt::Drifting { .. } => 5,
+        Doubt::Missing { .. } => 7,
         _ => 6,
     }
 }

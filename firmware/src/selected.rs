@@ -25,7 +25,7 @@ use crate::scenes::generator::{self, Generator};
 use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
 use crate::scenes::planetary_drive::PlanetaryDrive;
-use crate::scenes::skip_winch::SkipWinch;
+use crate::scenes::skip_winch::{self, SkipWinch};
 use crate::scenes::spindle::Spindle;
 use crate::scenes::strip_mill::StripMill;
 use crate::scenes::test_rig::TestRig;
@@ -119,6 +119,10 @@ variants! {
     "skip-winch/f32/semi-implicit/2000" => Governed<SkipWinch<f32, Geared<SemiImplicit<f32>>>>,
     "skip-winch/fixed/rigid/2000" => Governed<SkipWinch<Fixed, Geared<Rigid<Fixed>>>>,
     "skip-winch/fixed/semi-implicit/2000" => Governed<SkipWinch<Fixed, Geared<SemiImplicit<Fixed>>>>,
+    "skip-winch/f32/plain/2000" => Assembled<SkipWinch<f32, skip_winch::with::Plain>>,
+    "skip-winch/f32/slack/2000" => Assembled<SkipWinch<f32, skip_winch::with::Slack>>,
+    "skip-winch/fixed/plain/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Plain>>,
+    "skip-winch/fixed/slack/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Slack>>,
     "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
     "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
     "test-rig/f32/two-mass/10000" => OnAxis<TestRig>,

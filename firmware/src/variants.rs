@@ -72,18 +72,18 @@ const fn append(text: &mut [u8], mut at: usize, parts: &[&str]) -> usize {
 /// Gives a binary `Selected`, the scene that `DRIVELINE_VARIANT` names, and `driveline_tick`, its tick as a function of its own, so that
 /// its code and instructions can be measured.
 ///
-/// Only the binary depends on the choice: the library with all scenes is compiled once for all variants.
+/// `selected!("name")` is for a binary with another default than the hoist's. Only the binary depends on the choice: the library with all scenes is compiled once for all variants.
 #[macro_export]
 macro_rules! selected {
     () => {
         $crate::selected!("hoist/f32/reduced/10000");
     };
-    ($usual:literal) => {
-        /// The line that this image holds; the usual one where none is named.
+    ($default:literal) => {
+        /// The line that this image holds; the default where none is named.
         const LINE: usize = $crate::variants::line(
             match option_env!("DRIVELINE_VARIANT") {
                 Some(name) => name,
-                None => $usual,
+                None => $default,
             },
             $crate::selected::VARIANTS,
         );

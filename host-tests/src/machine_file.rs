@@ -82,7 +82,7 @@ pub use excitation::{Excitation, Running};
 pub use quantity::Quantity;
 pub use read::{LARGEST, not_toml, parse, read, text};
 pub use rotor::{RotorFile, parse_rotor, read_rotor};
-pub use source::Source;
+pub use source::{Source, printable};
 pub use table::{Item, Table};
 pub use train::{TrainFile, is_train, parse_train, read_train};
 

@@ -2,6 +2,7 @@
 
 mod assemble;
 pub mod blooming_mill;
+pub mod body;
 pub mod closed_loop;
 mod comparison;
 pub mod converter;

@@ -9,6 +9,7 @@
 
 use super::reading::{Edge, Reading, Steadiness};
 use super::{Balancer, Doubt, Synchronous, Turning, TurningConfig};
+use crate::fault::Faults;
 use crate::number::Number;
 
 /// The constants of a measurement of `CHANNELS` channels.
@@ -40,6 +41,8 @@ pub struct Phasors<N: Synchronous, const CHANNELS: usize, const EDGES: usize> {
     noted: u32,
     /// Tick of the last sample of each channel that was clipped or no number; zero for none.
     clipped: [u32; CHANNELS],
+    /// Ticks without a sound sample.
+    missing: u32,
     /// Times that the rotor passed its zero backwards.
     back: u32,
     edges: [Edge<N, CHANNELS>; EDGES],
@@ -55,6 +58,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Default for Phas
             left: 1,
             noted: 0,
             clipped: [0; CHANNELS],
+            missing: 0,
             back: 0,
             edges: [Edge::default(); EDGES],
         }
@@ -95,6 +99,18 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for 
         self.sums = added(&self.sums, vibration, direction, self.direction);
         self.direction = direction;
     }
+
+    /// The next sample stands for the gap; a reading with one in it is doubted. One that is complete already is left as it is.
+    fn missed(&mut self, faults: Faults) {
+        if self.is_complete() {
+            return;
+        }
+        if faults.contains(Faults::VIBRATION_CLIPPED) {
+            self.clipped = [self.ticks.max(1); CHANNELS];
+        } else {
+            self.missing = self.missing.saturating_add(1);
+        }
+    }
 }
 
 /// The sums and each sample times the change of direction.
@@ -119,6 +135,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
         self.sums = [[N::Sum::default(); 2]; CHANNELS];
         self.ticks = 0;
         self.clipped = [0; CHANNELS];
+        self.missing = 0;
         self.back = 0;
         (self.noted, self.left) = (0, 1);
     }
@@ -161,6 +178,9 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
         }
         let clipped = *self.clipped.get(channel).ok_or(Doubt::NoChannel)?;
         let reading = Reading::between(&self.edges, channel, config)?;
+        if self.missing > 0 && clipped == 0 {
+            return Err(Doubt::Missing { samples: self.missing });
+        }
         reading.accept(clipped != 0, &config.steadiness)
     }
 

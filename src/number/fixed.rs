@@ -198,10 +198,11 @@ impl Number for Fixed {
         (self.0 ^ other.0) < 0
     }
 
-    // The divisor's last bit is set, which keeps it from zero; the share is then below 2 for a travel below 2^13.
+    // The divisor's last bit is set, which keeps it from zero, and the dividend's, which keeps it from the one number that
+    // -1 does not divide: neither is then checked for. The share is below 2 for a travel below 2^13.
     #[inline(always)]
     fn passed(self, travel: Self) -> Self {
-        let share = self.0.wrapping_div((travel.0 >> 12) | 1);
+        let share = (self.0 | 1).wrapping_div((travel.0 >> 12) | 1);
         Fixed(((self.0 as i64 * share as i64) >> 10) as i32)
     }
 

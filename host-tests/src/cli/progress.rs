@@ -32,6 +32,11 @@ impl Progress {
         self.0.inc(1);
     }
 
+    /// So many steps done in all.
+    pub fn at(&self, steps: u64) {
+        self.0.set_position(steps);
+    }
+
     /// A line above the bar.
     pub fn note(&self, line: &str) {
         self.0.suspend(|| eprintln!("{line}"));
@@ -54,5 +59,7 @@ mod tests {
         bar.says("first");
         bar.step();
         assert_eq!(bar.0.position(), 1);
+        bar.at(2);
+        assert_eq!(bar.0.position(), 2);
     }
 }

@@ -335,7 +335,13 @@ impl<'a> Table<'a> {
             return Ok(());
         };
         let key = printable(first.get_ref(), REPEATED);
-        let known: Vec<String> = self.asked.iter().map(|key| format!("`{key}`")).collect();
+        // a key may have been asked for more than once
+        let mut known: Vec<String> = Vec::new();
+        for key in self.asked.iter().map(|key| format!("`{key}`")) {
+            if !known.contains(&key) {
+                known.push(key);
+            }
+        }
         let expected = format!("only {}", known.join(", "));
         Err(Diagnostic::at(self.source, first.span(), self.name(&key), "an unknown key", expected))
     }

@@ -54,6 +54,7 @@ mod reading;
 mod series;
 mod source;
 mod start;
+mod stiffest;
 mod stretch;
 
 pub use crank::Crank;
@@ -65,6 +66,7 @@ pub use modes::TrainModes;
 pub use motion::Motion;
 pub use reading::Signal;
 pub use source::{Source, Waveform};
+pub use stiffest::Stiffest;
 
 use super::error::{PlantError, finite, not_negative, positive};
 use super::event::Place;

@@ -14,7 +14,6 @@ use super::scenario::Machine;
 use super::units::Units;
 use crate::image::{Contents, Program, Spread, build, cycles};
 use crate::link::Link;
-use crate::plant::converge;
 use crate::report::{Instructions, Mark, Signal, Trajectory, Variant};
 
 /// A variant that has run.
@@ -73,7 +72,7 @@ pub fn run(
         bit_exact &= visit(candidate.variant, Replay(&trace)).unwrap_or(false);
         if !options.quick {
             says(&format!("{name}: proving the solver's run"));
-            converge::prove(&trace.recording).map_err(|error| format!("{name}, {}: {error}", scenario.name))?;
+            trace.recording.prove().map_err(|error| format!("{name}, {}: {error}", scenario.name))?;
         }
         traces.push(trace);
         if options.quick {

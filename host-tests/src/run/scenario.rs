@@ -2,8 +2,8 @@
 
 use driveline::constants::Bases;
 
+use super::body::Body;
 use super::sensors::Encoder;
-use crate::plant::Plant;
 use crate::report::Fact;
 
 /// Something that happens at a time.
@@ -36,7 +36,7 @@ pub struct Scenario {
     /// What it shows.
     pub name: &'static str,
     /// The machine at the start.
-    pub plant: Plant,
+    pub plant: Body,
     /// What happens, in the order of time [s].
     pub actions: Vec<(f64, Action)>,
     /// Torque that the drive holds until it is released [N m].
@@ -72,9 +72,9 @@ pub struct Machine {
     /// The node of the load.
     pub load: usize,
     /// The torque that the drive calls the shaft's [N m].
-    pub shaft_torque: fn(&Plant) -> f64,
+    pub shaft_torque: fn(&Body) -> f64,
     /// The torque that the drive calls the load's [N m].
-    pub load_torque: fn(&Plant) -> f64,
+    pub load_torque: fn(&Body) -> f64,
     /// A brake on the motor's side whose torque the drive is told with the motor's while it slips, as [`Action::Brake`] sets it.
     pub told_brake: Option<usize>,
     /// Dry friction on the motor's side that the drive is told with the motor's torque while it turns, as it was found when the machine was

@@ -3,7 +3,6 @@
 use driveline_firmware::scene::Scene;
 use driveline_firmware::selected::{VARIANTS, visit};
 use driveline_firmware::{Visitor, Words};
-use host_tests::plant::converge;
 use host_tests::run::SCENES;
 use host_tests::run::closed_loop::{OnHost, Trace, run};
 use host_tests::run::figures::{deviations, peaks};
@@ -111,6 +110,6 @@ fn runs_are_proven() {
         let machine = machine().unwrap();
         let variant = VARIANTS.iter().find(|variant| variant.starts_with(scene)).unwrap();
         let traces = visit(variant, Runs(&machine)).unwrap();
-        converge::prove(&traces[0].recording).unwrap();
+        traces[0].recording.prove().unwrap();
     }
 }

@@ -22,6 +22,9 @@ pub enum Signal {
     Elastic(usize),
     /// Of a friction, against its motion.
     Friction(usize),
+    /// On a coordinate, all but its links, N m or N: its inertia times its acceleration, and what the links take. Of a
+    /// coordinate without a crank.
+    Outside(usize),
 }
 
 /// Greatest and least of a signal so far.
@@ -161,6 +164,23 @@ impl Motion {
                 let last = series.len() - 1;
                 series[last] = 0.0;
                 Some(series.map(|v| v * carried(l)))
+            }
+            Signal::Outside(j) => {
+                let speed = &stretch.speed.get(j)?.value;
+                let inertia = self.train.coordinates[j].inertia;
+                let mut series = ZERO;
+                for (k, to) in series.iter_mut().enumerate().take(speed.len() - 1) {
+                    *to = inertia * (k + 1) as f64 / stretch.length * speed[k + 1];
+                }
+                for (l, link) in self.train.links.iter().enumerate() {
+                    let Some(i) = link.terms.iter().position(|term| term.0 == j) else { continue };
+                    let loss = if i == 0 { self.mode.loss(&self.train, l) } else { 1.0 };
+                    let share = link.terms[i].1 * loss * carried(l);
+                    for (to, force) in series.iter_mut().zip(&stretch.strain[l].value) {
+                        *to += share * force;
+                    }
+                }
+                Some(series)
             }
             Signal::Friction(s) => {
                 let zero = ZERO;
