@@ -1,17 +1,19 @@
 //! Tells the compiler for which board an image is, and the linker where that board's memory is.
 //!
-//! `DRIVELINE_BOARD`: a name from `src/board.rs`; where it is not set, the board of the feature `nucleo-g474re`, else the one that
-//! goes with the compiler's target.
+//! `DRIVELINE_BOARD`: a name from `src/board.rs`; where it is not set, the board that goes with the compiler's target.
 //! `DRIVELINE_VARIANT` is read by the binaries alone (`selected!`).
 
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// The board that feature `nucleo-g474re` is for.
+const NUCLEO: &str = "nucleo-g474re";
+
 fn main() {
-    let target = env::var("TARGET").expect("cargo sets TARGET for build scripts");
     let nucleo = env::var_os("CARGO_FEATURE_NUCLEO_G474RE").is_some();
-    let default = if nucleo { "nucleo-g474re" } else { default_board(&target) };
+    let target = env::var("TARGET").expect("cargo sets TARGET for build scripts");
+    let default = if nucleo { NUCLEO } else { default_board(&target) };
     let board = env::var("DRIVELINE_BOARD").unwrap_or_else(|_| default.into());
     println!("cargo::rerun-if-env-changed=DRIVELINE_BOARD");
     println!("cargo::rustc-check-cfg=cfg(driveline_board, values(any()))");

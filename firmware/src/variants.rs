@@ -78,12 +78,12 @@ macro_rules! selected {
     () => {
         $crate::selected!("hoist/f32/reduced/10000");
     };
-    ($usual:literal) => {
-        /// The line that this image holds; the usual one where none is named.
+    ($default:literal) => {
+        /// The line that this image holds; the default where none is named.
         const LINE: usize = $crate::variants::line(
             match option_env!("DRIVELINE_VARIANT") {
                 Some(name) => name,
-                None => $usual,
+                None => $default,
             },
             $crate::selected::VARIANTS,
         );
