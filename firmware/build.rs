@@ -1,24 +1,20 @@
-//! Tells the compiler which variant an image holds and on which board, and the linker where that board's memory is.
+//! Tells the compiler for which board an image is, and the linker where that board's memory is.
 //!
-//! `DRIVELINE_VARIANT`: a name from `src/selected.rs`. `DRIVELINE_BOARD`: a name from `src/board.rs`; where it is not
-//! set, the board that goes with the compiler's target.
+//! `DRIVELINE_BOARD`: a name from `src/board.rs`; where it is not set, the board that goes with the compiler's target.
+//! `DRIVELINE_VARIANT` is read by the binaries alone (`selected!`).
 
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The variant of an image that was asked for without naming one.
-const DEFAULT_VARIANT: &str = "hoist/f32/reduced/10000";
+/// The board that feature `nucleo-g474re` is for.
+const NUCLEO: &str = "nucleo-g474re";
 
 fn main() {
-    let variant = env::var("DRIVELINE_VARIANT").unwrap_or_else(|_| DEFAULT_VARIANT.into());
-    println!("cargo::rerun-if-env-changed=DRIVELINE_VARIANT");
-    println!("cargo::rustc-check-cfg=cfg(driveline_variant, values(any()))");
-    println!("cargo::rustc-cfg=driveline_variant={variant:?}");
-    println!("cargo::rustc-env=DRIVELINE_VARIANT={variant}");
-
+    let nucleo = env::var_os("CARGO_FEATURE_NUCLEO_G474RE").is_some();
     let target = env::var("TARGET").expect("cargo sets TARGET for build scripts");
-    let board = env::var("DRIVELINE_BOARD").unwrap_or_else(|_| default_board(&target).into());
+    let default = if nucleo { NUCLEO } else { default_board(&target) };
+    let board = env::var("DRIVELINE_BOARD").unwrap_or_else(|_| default.into());
     println!("cargo::rerun-if-env-changed=DRIVELINE_BOARD");
     println!("cargo::rustc-check-cfg=cfg(driveline_board, values(any()))");
     println!("cargo::rustc-cfg=driveline_board={board:?}");

@@ -10,7 +10,8 @@
 //! [`Correction`]: by least squares, weighted, min-max or within limits, with planes that only repeat others found and left out.
 //!
 //! [`Holes`] fits a weight to what is at hand, [`Tolerance`] judges what is left (ISO 21940-11), [`from_amplitudes`] does without a phase.
-//! [`Procedure`] leads through the runs, refuses what cannot be, and goes on after a power cut from a record.
+//! [`Procedure`] leads through the runs, refuses what cannot be, and goes on after a power cut from a record, which with the feature `parameters` is
+//! one that a flash keeps.
 //! [`InRun`] does without trial runs, by a balancing head or an actuator while the machine turns.
 //!
 //! # Terms
@@ -24,6 +25,7 @@
 //! | influence coefficient | what a weight in a plane does to a row | row per weight |
 //! | run-out | what a displacement sensor sees of a shaft that is not round, and does not vibrate | of the channel |
 
+use crate::fault::Faults;
 use crate::number::Number;
 
 #[cfg(feature = "balancing")]
@@ -48,6 +50,8 @@ mod procedure;
 mod reading;
 #[cfg(feature = "balancing")]
 mod real;
+#[cfg(all(feature = "balancing", feature = "parameters"))]
+mod record;
 #[cfg(feature = "balancing")]
 mod refusal;
 mod rotation;
@@ -76,10 +80,12 @@ pub use procedure::{CORRECTIONS, Plan, Procedure, Run, Step};
 pub use reading::{Doubt, Phasor, Reading, Steadiness};
 #[cfg(feature = "balancing")]
 pub use real::{Complex, Real};
+#[cfg(all(feature = "balancing", feature = "parameters"))]
+pub use record::Record;
 #[cfg(feature = "balancing")]
 pub use refusal::Refusal;
 pub use rotation::Synchronous;
-pub use sensor::{Motion, Sensor};
+pub use sensor::{Motion, Sensor, SensorError};
 #[cfg(feature = "balancing")]
 pub use tolerance::{GRADES, Tolerance, Verdict, resultant, two_planes};
 pub use turning::{Turning, TurningConfig};
@@ -93,6 +99,9 @@ pub trait Balancer<N: Number>: Default {
 
     /// Takes one tick's angle [2^-32 turn of the motor] and vibration into account.
     fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration);
+
+    /// Told of a tick without a sound vibration, and why: a clipped one or none.
+    fn missed(&mut self, faults: Faults);
 }
 
 /// Not balanced.
@@ -102,6 +111,8 @@ impl<N: Number> Balancer<N> for () {
 
     #[inline(always)]
     fn measure(&mut self, _config: &(), _angle: u32, _vibration: &()) {}
+
+    fn missed(&mut self, _faults: Faults) {}
 }
 
 /// Two measurements side by side: two orders, or two rotors.
@@ -113,6 +124,11 @@ impl<N: Number, A: Balancer<N>, B: Balancer<N>> Balancer<N> for (A, B) {
     fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration) {
         self.0.measure(&config.0, angle, &vibration.0);
         self.1.measure(&config.1, angle, &vibration.1);
+    }
+
+    fn missed(&mut self, faults: Faults) {
+        self.0.missed(faults);
+        self.1.missed(faults);
     }
 }
 
@@ -126,5 +142,11 @@ impl<N: Number, A: Balancer<N>, B: Balancer<N>, C: Balancer<N>> Balancer<N> for 
         self.0.measure(&config.0, angle, &vibration.0);
         self.1.measure(&config.1, angle, &vibration.1);
         self.2.measure(&config.2, angle, &vibration.2);
+    }
+
+    fn missed(&mut self, faults: Faults) {
+        self.0.missed(faults);
+        self.1.missed(faults);
+        self.2.missed(faults);
     }
 }

@@ -49,7 +49,7 @@
 //! # Limits
 //! - The arithmetic in the tick is in `f32`: for cores with an FPU.
 //! - The gap is seen only where friction holds the load and no weight presses the gap shut: else [`Reason::LoadNotHeld`] or [`Reason::Preloaded`].
-//! - What lies before the gap is taken to turn freely under seven tenths of the friction.
+//! - What lies before the gap is taken to turn freely under half of the friction.
 //! - The eccentricity is told from an unbalance's torque by nothing: at the test's speed the rotor's own swing must be small beside it.
 
 mod complex;

@@ -130,6 +130,7 @@ where
         let (faults, applied) = self.observe(config, sample);
         let estimate = self.estimate(config);
         self.fluctuation.measure(&config.fluctuation, self.observer.angle(), applied, &estimate);
+        self.governor.follow(self.fluctuation.steady_speed());
         let torque = self.governor.command(&config.governor, &estimate);
         if G::COMMANDS {
             self.commanded = torque;
@@ -206,6 +207,11 @@ where
     #[inline(always)]
     pub fn vibration(&mut self, config: &ConfigOf<N, O, F, G, B>, vibration: &B::Vibration) {
         self.balancer.measure(&config.balancer, self.observer.angle(), vibration);
+    }
+
+    /// Tells the balancer of a tick whose vibration was not sound, and why: what it measures across the gap is doubted.
+    pub fn vibration_missing(&mut self, faults: Faults) {
+        self.balancer.missed(faults);
     }
 
     /// The angle that was last believed, 2^32 per turn.

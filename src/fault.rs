@@ -31,6 +31,8 @@ impl Faults {
     pub const ANGLE_MISSING: Faults = Faults(1 << 24);
     /// The vibration's sensor gave no sample that is new and sound; none was taken.
     pub const VIBRATION_MISSING: Faults = Faults(1 << 25);
+    /// The vibration's sensor was at an end of its range; no sample was taken.
+    pub const VIBRATION_CLIPPED: Faults = Faults(1 << 29);
     /// The torque could not be handed to what produces it.
     pub const TORQUE_OUTPUT: Faults = Faults(1 << 26);
     /// A line of the enable chain or the trip output could not be set.
@@ -39,7 +41,7 @@ impl Faults {
     pub const TRIPPED: Faults = Faults(1 << 28);
 
     /// Every flag with its name.
-    pub const NAMES: [(Faults, &'static str); 11] = [
+    pub const NAMES: [(Faults, &'static str); 12] = [
         (Faults::TORQUE, "torque"),
         (Faults::REFERENCE, "reference"),
         (Faults::ANGLE_JUMP, "angle jump"),
@@ -48,6 +50,7 @@ impl Faults {
         (Faults::RANGE, "range"),
         (Faults::ANGLE_MISSING, "angle missing"),
         (Faults::VIBRATION_MISSING, "vibration missing"),
+        (Faults::VIBRATION_CLIPPED, "vibration clipped"),
         (Faults::TORQUE_OUTPUT, "torque output"),
         (Faults::ENABLE, "enable"),
         (Faults::TRIPPED, "tripped"),
@@ -91,7 +94,7 @@ impl Faults {
 
     /// The faults with these bits; bits that mean nothing are dropped.
     pub const fn from_bits(bits: u32) -> Faults {
-        Faults(bits & 0x1f00_003f)
+        Faults(bits & 0x3f00_003f)
     }
 }
 

@@ -7,7 +7,8 @@
 //! |---|---|---|
 //! | [`Extremes`] | compares the observer's speeds | every cycle: mean, largest and least speed of motor and load, delta |
 //! | [`Waveform`] | counts itself in the bin of its angle | every few cycles: the mean waveform, orders, delta, torque, energy |
-//! | a pair of both | both | both |
+//! | [`CycleMean`] | nothing but at the ends of segments | several times a cycle: the speed without its ripple, for a governor |
+//! | a pair of any | both | both |
 //!
 //! [`ToothedWheel`] takes the times of teeth instead of the angles of ticks and gives the same [`Ripple`]. From a ripple and the machine's constants follow
 //! the load's speed and torque ([`Ripple::behind`]) and the flywheel that is missing ([`Ripple::flywheel`]).
@@ -54,6 +55,7 @@
 //! does not.
 
 mod behind;
+mod cycle_mean;
 mod extremes;
 mod flywheel;
 mod position;
@@ -63,11 +65,13 @@ mod waveform;
 mod window;
 
 pub use behind::{Behind, Drivetrain};
+pub use cycle_mean::{CycleMean, CycleMeanConfig};
 pub use extremes::{Extreme, Extremes, Fluctuations, Reading};
 pub use flywheel::{Balance, Flywheel, MachineClass, Remedy};
 pub use position::{CycleConfig, Edge};
 pub use series::{Order, Series};
 pub use toothed_wheel::{ToothErrors, ToothWindow, ToothedWheel, ToothedWheelConfig};
+pub(crate) use waveform::PLACES;
 pub use waveform::{Bin, Waveform, WaveformConfig};
 pub use window::{MAX_ORDER, Ripple, Window};
 
@@ -84,6 +88,13 @@ pub trait Fluctuation<N: Number>: Default {
 
     /// This tick's angle cannot be used: what is being measured is void.
     fn disturb(&mut self);
+
+    /// The motor's speed without what repeats in every cycle, where the measurement knows it: what a governor acts on that is to leave the ripple
+    /// alone, by [`OverCycle`](crate::governor::OverCycle).
+    #[inline(always)]
+    fn steady_speed(&self) -> Option<N> {
+        None
+    }
 }
 
 /// Not measured.
@@ -111,5 +122,10 @@ impl<N: Number, A: Fluctuation<N>, B: Fluctuation<N>> Fluctuation<N> for (A, B) 
     fn disturb(&mut self) {
         self.0.disturb();
         self.1.disturb();
+    }
+
+    #[inline(always)]
+    fn steady_speed(&self) -> Option<N> {
+        self.0.steady_speed().or(self.1.steady_speed())
     }
 }

@@ -30,7 +30,7 @@ pub use set_point::{Barred, BarredConfig, Droop, DroopConfig, SetPoint, Window};
 pub use slack::{Slack, SlackConfig};
 pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};
-pub use view::{Mean, MeanConfig, View};
+pub use view::{Mean, MeanConfig, OverCycle, View};
 
 use crate::number::Number;
 use crate::sample::Estimate;
@@ -45,6 +45,11 @@ pub trait Governor<N: Number>: Default {
 
     /// Takes a set point that can be believed; it stands until the next.
     fn refer(&mut self, reference: N);
+
+    /// Takes what the measurement of the fluctuation says of the speed without its ripple, `None` where it says nothing: once a tick, before
+    /// [`command`](Self::command).
+    #[inline(always)]
+    fn follow(&mut self, _steady_speed: Option<N>) {}
 
     /// The torque for the tick that begins.
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N;

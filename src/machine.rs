@@ -55,7 +55,7 @@ pub use cranked::Cranked;
 pub use error::Error;
 pub use linear::STANDARD_GRAVITY;
 pub use modes::{Mode, Modes};
-pub use planetary::Planetary;
+pub use planetary::{Member, Planetary, PlanetaryGear};
 pub use prime_mover::{Combustion, Induction, Line, Mixture, Parabola, Series, Shunt, StartCondition, StartingLaw};
 pub use quantity::{
     Damping, Density, Diameter, Efficiency, Falls, Gap, Inertia, Length, LinearDamping, Mass, Ratio, ShearModulus,

@@ -24,6 +24,10 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     type Firmness: Copy + Default + PartialEq + core::fmt::Debug;
     /// What one sum leaves to the next.
     type Carry: Copy;
+    /// The number as an integer that rises with it among numbers of one sign; that of a float below zero falls.
+    type Rank: Copy + Default + Ord + core::fmt::Debug;
+    /// A sum of many numbers: a float itself; in fixed point of twice the width.
+    type Total: Copy + Default + PartialEq + core::fmt::Debug;
 
     /// Zero.
     const ZERO: Self;
@@ -93,8 +97,15 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// The speed at which the motor turns by this angle difference in a tick; held within four times the base in fixed point.
     fn speed_of_turn(self, c: Self::Coefficient) -> Self;
 
-    /// A sixteenth of the number, rounded down in fixed point: for a mean that follows.
-    fn sixteenth(self) -> Self;
+    /// The number as an integer to be compared with others of its sign; that of a NaN is beyond infinity.
+    fn rank(self) -> Self::Rank;
+    /// The number of a rank.
+    fn of_rank(rank: Self::Rank) -> Self;
+
+    /// `total` and the number.
+    fn added_to(self, total: Self::Total) -> Self::Total;
+    /// A total in the SI unit, or per unit of its base: for what is done between the ticks.
+    fn total_to_real(total: Self::Total) -> f64;
 
     /// The value in the SI unit, or per unit of its base: for what is done between the ticks.
     fn to_real(self) -> f64;

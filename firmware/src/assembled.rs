@@ -6,6 +6,7 @@ use driveline::number::Number;
 use driveline::observer::Observer;
 use driveline::sample::Sample;
 
+use crate::expected::Expected;
 use crate::governed::output;
 use crate::scene::{Input, Output, Scene};
 
@@ -23,6 +24,11 @@ pub trait Parts: 'static {
     const RATE_HZ: u32;
     /// The drive's constants.
     const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), Self::Governor>;
+
+    /// What the observer's design says of its errors, as [`Scene::expected`].
+    fn expected() -> Option<Expected> {
+        None
+    }
 }
 
 /// A drive with its constants.
@@ -37,6 +43,10 @@ pub struct Assembled<P: Parts> {
 impl<P: Parts> Scene for Assembled<P> {
     const NAME: &'static str = P::NAME;
     const RATE_HZ: u32 = P::RATE_HZ;
+
+    fn expected() -> Option<Expected> {
+        P::expected()
+    }
 
     fn new() -> Self {
         Assembled { config: P::CONFIG, drive: Drive::new(P::CONFIG, 0) }

@@ -100,32 +100,39 @@ impl<V: Variant> Scene for Balanced<V> {
                 self.drive.balancer_mut().begin();
                 DONE
             }
-            Some(Key::State) => match self.reading() {
-                Ok(_) => DONE,
-                Err(Doubt::Incomplete { .. }) => MEASURING,
-                Err(doubt) => refused(number(&doubt)),
-            },
-            Some(key) => self.adviser.ask(key, value, self.reading().ok()),
+            Some(Key::State) => state::<V>(self.drive.balancer()),
+            Some(key) => self.adviser.ask(key, value, reading::<V>(self.drive.balancer()).ok()),
         }
     }
 }
 
-impl<V: Variant> Balanced<V> {
-    fn reading(&self) -> Result<Measured, Doubt> {
-        let read = |channel| {
-            let reading = self.drive.balancer().reading(&self.config.balancer, channel)?;
-            let (phasor, variance) = (reading.phasor.scaled(V::UNIT), reading.variance * V::UNIT * V::UNIT);
-            Ok(Reading { phasor, variance, ..reading })
-        };
-        let readings: [Reading; CHANNELS] = [read(0)?, read(1)?];
-        // a reading has eight ticks on a turn at least
-        let speed = core::f32::consts::TAU * V::RATE_HZ as f32 / readings[0].ticks;
-        Ok(Measured { readings, speed })
+/// What a measurement has read.
+///
+/// # Errors
+/// Why it is no reading, or not yet.
+pub fn reading<V: Variant>(measurement: &Measurement<V::Number>) -> Result<Measured, Doubt> {
+    let read = |channel| {
+        let reading = measurement.reading(&V::CONFIG.balancer, channel)?;
+        let (phasor, variance) = (reading.phasor.scaled(V::UNIT), reading.variance * V::UNIT * V::UNIT);
+        Ok(Reading { phasor, variance, ..reading })
+    };
+    let readings: [Reading; CHANNELS] = [read(0)?, read(1)?];
+    // a reading has eight ticks on a turn at least
+    let speed = core::f32::consts::TAU * V::RATE_HZ as f32 / readings[0].ticks;
+    Ok(Measured { readings, speed })
+}
+
+/// The answer to [`Key::State`].
+pub fn state<V: Variant>(measurement: &Measurement<V::Number>) -> u32 {
+    match reading::<V>(measurement) {
+        Ok(_) => DONE,
+        Err(Doubt::Incomplete { .. }) => MEASURING,
+        Err(doubt) => refused(number(&doubt)),
     }
 }
 
 /// The reasons why something measured is no reading, in the order of their numbers.
-pub const DOUBTS: [&str; 7] = [
+pub const DOUBTS: [&str; 8] = [
     "no such channel",
     "passed its zero backwards",
     "too few ticks on a turn",
@@ -133,6 +140,7 @@ pub const DOUBTS: [&str; 7] = [
     "the speed moved",
     "drifting",
     "scattered",
+    "samples missing",
 ];
 
 fn number(doubt: &Doubt) -> u32 {
@@ -143,6 +151,7 @@ fn number(doubt: &Doubt) -> u32 {
         Doubt::Clipped => 3,
         Doubt::SpeedMoved { .. } => 4,
         Doubt::Drifting { .. } => 5,
+        Doubt::Missing { .. } => 7,
         _ => 6,
     }
 }

@@ -1,12 +1,14 @@
 //! The boards: what the binaries need of one, and what the host needs to know to run it.
 //!
-//! A new board is one file beside [`mps2_an386`] with its [`Facts`] and its [`Board`], a line in [`BOARDS`] and one in
-//! the choice below, and, where its memory is not that of `mps2.x`, a `.x` file of the same name.
+//! A new board of QEMU's is one file beside [`mps2_an386`] with its [`Facts`] and its [`Board`], a line in [`BOARDS`] and one in
+//! the choice below, and, where its memory is not that of `mps2.x`, a `.x` file of the same name. A board with a motor ([`nucleo_g474re`]) implements
+//! [`driveline::hal::Board`] instead; `doc/boards.md` says how.
 
 pub mod mps2_an385;
 pub mod mps2_an386;
 pub mod mps2_an500;
 pub mod mps2_an505;
+pub mod nucleo_g474re;
 
 #[cfg(all(feature = "target", target_os = "none"))]
 mod cmsdk_timer;

@@ -6,6 +6,7 @@ use driveline::number::Number;
 use driveline::observer::Observer;
 use driveline::sample::{Command, Estimate, Sample};
 
+use crate::expected::Expected;
 use crate::scene::{Input, Output, Scene};
 
 /// The parts and constants of one variant of a scene.
@@ -20,6 +21,11 @@ pub trait Variant: 'static {
     const RATE_HZ: u32;
     /// The drive's constants.
     const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), SpeedLoop<Self::Number>>;
+
+    /// What the observer's design says of its errors, as [`Scene::expected`].
+    fn expected() -> Option<Expected> {
+        None
+    }
 }
 
 /// Implements [`Variant`] for a scene, in `f32` and in fixed point, with each of the observers that are named.
@@ -30,9 +36,9 @@ macro_rules! governed {
     ($scene:ident, $name:literal, $rate:literal; $($text:literal: $observer:ident, $config:ident($($design:expr),+);)+) => {
         $(
             $crate::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
-                observer::$observer<f32>, $config::<f32>::new($($design),+););
+                observer::$observer<f32>, $config::<f32>::new($($design),+); $($design),+;);
             $crate::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
-                observer::$observer<Fixed>, $config::<Fixed>::new($($design),+, BASES); BASES);
+                observer::$observer<Fixed>, $config::<Fixed>::new($($design),+, BASES); $($design),+; BASES);
         )+
     };
     ($scene:ident, $name:literal, $rate:literal, behind $gear:ident;
@@ -40,15 +46,16 @@ macro_rules! governed {
         $(
             $crate::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
                 observer::Geared<observer::$observer<f32>>,
-                GearedConfig::<f32, _>::new($config::<f32>::new($($design),+), &$gear, 1.0 / $rate as f64););
+                GearedConfig::<f32, _>::new($config::<f32>::new($($design),+), &$gear, 1.0 / $rate as f64);
+                $($design),+;);
             $crate::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
                 observer::Geared<observer::$observer<Fixed>>,
                 GearedConfig::<Fixed, _>::new($config::<Fixed>::new($($design),+, BASES), &$gear, 1.0 / $rate as f64, BASES);
-                BASES);
+                $($design),+; BASES);
         )+
     };
     (@variant $scene:ident, $name:literal, $rate:literal, $text:literal, $words:literal, $number:ident,
-     $observer:ty, $config:expr; $($bases:ident)?) => {
+     $observer:ty, $config:expr; $first:expr $(, $more:expr)*; $($bases:ident)?) => {
         impl $crate::governed::Variant for $scene<$number, $observer> {
             type Number = $number;
             type Observer = $observer;
@@ -61,6 +68,10 @@ macro_rules! governed {
                 governor: SpeedLoopConfig::<$number>::new(&LOOP, SETTINGS $(, $bases)?),
                 balancer: (),
             };
+
+            fn expected() -> Option<$crate::expected::Expected> {
+                Some($crate::expected::Expects::expected($first))
+            }
         }
     };
 }
@@ -78,6 +89,10 @@ pub struct Governed<V: Variant> {
 impl<V: Variant> Scene for Governed<V> {
     const NAME: &'static str = V::NAME;
     const RATE_HZ: u32 = V::RATE_HZ;
+
+    fn expected() -> Option<Expected> {
+        V::expected()
+    }
 
     fn new() -> Self {
         // An incremental encoder counts from where it was switched on.

@@ -4,6 +4,8 @@
 //! type (`f32` in SI units, or fixed point per unit of the scene's limits), so that host and target can be
 //! compared bit for bit and the link needs no conversion.
 
+use crate::expected::Expected;
+
 /// What a tick is given: eight words, as they travel over the link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
@@ -64,6 +66,11 @@ pub trait Scene {
     /// a panel has nothing of it.
     fn panel(&mut self, _asked: [u32; 2]) -> u32 {
         0
+    }
+
+    /// What the design says of its observer's errors; none where the scene does not tell.
+    fn expected() -> Option<Expected> {
+        None
     }
 
     /// A tick and the panel's turn after it, as the control loop runs them.

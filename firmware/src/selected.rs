@@ -1,7 +1,8 @@
-//! The variants that can be flashed, and the one that this image holds.
+//! The variants that can be flashed.
 //!
 //! One line a variant: its name (the scene's [`Scene::NAME`](crate::scene::Scene::NAME): scene, number, observer,
-//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line at build time; [`Selected`] is the type.
+//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line when a binary is built:
+//! [`selected!`](crate::selected!) gives the binary that type as `Selected`.
 
 use driveline::fluctuation::{Extremes, Waveform};
 use driveline::governor::SpeedLoop;
@@ -11,6 +12,7 @@ use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 use crate::assembled::Assembled;
 use crate::balanced::Balanced;
 use crate::governed::Governed;
+use crate::on_axis::OnAxis;
 use crate::scenes::balanced_fan::BalancedFan;
 use crate::scenes::blooming_mill::{self, BloomingMill};
 use crate::scenes::commission::Commission;
@@ -20,13 +22,17 @@ use crate::scenes::crane_travel::CraneTravel;
 use crate::scenes::empty::Empty;
 use crate::scenes::fan::Fan;
 use crate::scenes::flexible::Flexible;
+use crate::scenes::gear_drive::GearDrive;
 use crate::scenes::generator::{self, Generator};
 use crate::scenes::grinding_spindle::GrindingSpindle;
 use crate::scenes::hoist::{Hoist, with};
 use crate::scenes::planetary_drive::PlanetaryDrive;
-use crate::scenes::skip_winch::SkipWinch;
+use crate::scenes::punch_press::{self, PunchPress};
+use crate::scenes::skip_winch::{self, SkipWinch};
 use crate::scenes::spindle::Spindle;
 use crate::scenes::strip_mill::StripMill;
+use crate::scenes::test_rig::TestRig;
+use crate::scenes::vibrating_screen::{self, VibratingScreen};
 use crate::variants::variants;
 
 variants! {
@@ -118,6 +124,19 @@ variants! {
     "skip-winch/f32/semi-implicit/2000" => Governed<SkipWinch<f32, Geared<SemiImplicit<f32>>>>,
     "skip-winch/fixed/rigid/2000" => Governed<SkipWinch<Fixed, Geared<Rigid<Fixed>>>>,
     "skip-winch/fixed/semi-implicit/2000" => Governed<SkipWinch<Fixed, Geared<SemiImplicit<Fixed>>>>,
+    "gear-drive/f32/exact/4000" => Governed<GearDrive<f32, TwoMass<f32>>>,
+    "gear-drive/fixed/exact/4000" => Governed<GearDrive<Fixed, TwoMass<Fixed>>>,
+    "vibrating-screen/f32/exact/4000" => Assembled<VibratingScreen<f32, vibrating_screen::with::Quick>>,
+    "vibrating-screen/fixed/exact/4000" => Assembled<VibratingScreen<Fixed, vibrating_screen::with::Quick>>,
+    "punch-press/f32/plain/10000" => PunchPress<punch_press::Of<f32, punch_press::with::Plain>>,
+    "punch-press/fixed/plain/10000" => PunchPress<punch_press::Of<Fixed, punch_press::with::Plain>>,
+    "punch-press/f32/mean/10000" => PunchPress<punch_press::Of<f32, punch_press::with::Mean>>,
+    "punch-press/fixed/mean/10000" => PunchPress<punch_press::Of<Fixed, punch_press::with::Mean>>,
+    "skip-winch/f32/plain/2000" => Assembled<SkipWinch<f32, skip_winch::with::Plain>>,
+    "skip-winch/f32/slack/2000" => Assembled<SkipWinch<f32, skip_winch::with::Slack>>,
+    "skip-winch/fixed/plain/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Plain>>,
+    "skip-winch/fixed/slack/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Slack>>,
     "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
     "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
+    "test-rig/f32/two-mass/10000" => OnAxis<TestRig>,
 }

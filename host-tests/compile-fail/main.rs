@@ -11,6 +11,13 @@ const SENTENCES: [(&str, &str); 5] = [
     ("encoder_without_lines", driveline::design::Error::EncoderLines.message()),
 ];
 
+/// What is refused where the type is used, and not in a constant: such a case has to be built, and one that compiles makes the compiler build.
+#[cfg(feature = "balancing")]
+const BUILT: [(&str, &str); 1] =
+    [("more_planes_than_readings", driveline::balance::Refusal::MORE_PLANES_THAN_READINGS)];
+#[cfg(not(feature = "balancing"))]
+const BUILT: [(&str, &str); 0] = [];
+
 #[test]
 fn wrong_machines_do_not_compile() {
     let cases = trybuild::TestCases::new();
@@ -20,9 +27,19 @@ fn wrong_machines_do_not_compile() {
 }
 
 #[test]
+#[cfg(feature = "balancing")]
+fn more_planes_than_readings_do_not_compile() {
+    let cases = trybuild::TestCases::new();
+    cases.pass("host-tests/compile-fail/as_many_planes_as_readings.rs");
+    for (file, _) in BUILT {
+        cases.compile_fail(format!("host-tests/compile-fail/{file}.rs"));
+    }
+}
+
+#[test]
 fn the_compiler_says_the_sentence_of_the_error() {
-    for (file, sentence) in SENTENCES {
+    for (file, sentence) in SENTENCES.iter().chain(&BUILT) {
         let path = format!("{}/host-tests/compile-fail/{file}.stderr", env!("CARGO_MANIFEST_DIR"));
-        assert!(std::fs::read_to_string(path).unwrap().contains(sentence), "{file}");
+        assert!(std::fs::read_to_string(path).unwrap().contains(*sentence), "{file}");
     }
 }

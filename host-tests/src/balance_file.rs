@@ -24,17 +24,24 @@
 //! | `aim` | `"least squares"` (as without it) or `"min-max"` |
 //! | `good` | the largest residual that is good enough |
 //! | `independence` | the least share of a plane's effect that must be its own, 0.01 |
-//! | `weighting` | a number for each reading |
-//! | `limits` | the largest weight of each plane |
+//! | `weighting` | a number for each reading, zero for one that is left out |
+//! | `limits` | the largest weight of each plane, above zero |
 //! | `[[correction]]` | `weights` that were put on, an amount and an angle for each plane, then `rpm` and `readings` with them |
 //! | `[[influence]]` | `plane` and `coefficients`, an amplitude and phase for each reading, instead of a trial run |
 //! | `[[holes]]` | `plane`, `angles` or `count` (and `first`), `weights` to choose from, `removing = true` for drilling |
 //! | `[rotor]` | `mass` \[kg\], `rpm` in service, `grade` \[mm/s\], `radius` \[m\] of the weights |
-//! | `[amplitudes]` | instead of `[baseline]`, without phases: `baseline`, `weight`, `runs` of an angle and an amplitude |
+//! | `span`, `centre`, `planes_at` of `[rotor]` | along the rotor from bearing A \[m\]: bearing B, the centre of mass, each plane; the grade is then split between the bearings |
+//! | `[amplitudes]` | of one plane, instead of `[baseline]`, without phases: `baseline`, `weight`, `runs` of an angle and an amplitude |
+//!
+//! A plane may have several `[[trial]]`: all of them count, by least squares. Where trial weights stay, `weight` is what each run has more than
+//! the one before it.
 
 use std::path::Path;
 
-use driveline::balance::{Aim, Complex, Entry, Influence, Mode, Objective, Plan, Procedure, Refusal, Run};
+use driveline::balance::{
+    Aim, CORRECTIONS, Complex, Entry, FromAmplitudes, Influence, Mode, Objective, Plan, Procedure, Refusal, Run,
+    from_amplitudes,
+};
 use toml::de::DeTable;
 
 use crate::machine_file::{Diagnostic, Item, Quantity, Source, Table, not_toml, text};
@@ -43,6 +50,11 @@ use crate::machine_file::{Diagnostic, Item, Quantity, Source, Table, not_toml, t
 pub const ROWS: usize = 24;
 /// Most planes.
 pub const PLANES: usize = 8;
+/// Most trial runs.
+pub const TRIALS: usize = 32;
+
+/// The procedure of a file.
+pub type Field = Procedure<f64, ROWS, PLANES, TRIALS>;
 
 /// A balancing as its file describes it.
 #[derive(Clone, Debug)]
@@ -71,7 +83,7 @@ pub enum Measured {
     /// Amplitudes and phases.
     Phasors {
         /// The procedure, as far as the runs go.
-        procedure: Box<Procedure<f64, ROWS, PLANES>>,
+        procedure: Box<Field>,
         /// The first run.
         baseline: Vec<Complex<f64>>,
         /// The last run.
@@ -85,11 +97,11 @@ pub enum Measured {
     Amplitudes {
         /// Without a trial weight.
         baseline: f64,
-        /// The trial weight.
-        weight: f64,
-        /// Angle \[degrees\] of the weight and amplitude of each run.
-        runs: Vec<(f64, f64)>,
+        /// The weight that follows.
+        found: FromAmplitudes<f64>,
     },
+    /// Not read yet.
+    Nothing,
 }
 
 /// Unit of the weights.
@@ -138,10 +150,12 @@ pub struct PlaneHoles {
     pub weights: Vec<f64>,
     /// Whether weight is added or removed.
     pub mode: Mode,
+    /// What to say where they cannot take the weight.
+    pub too_heavy: Diagnostic,
 }
 
 /// The rotor.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Rotor {
     /// Mass \[kg\].
     pub mass: f64,
@@ -151,8 +165,23 @@ pub struct Rotor {
     pub grade: f64,
     /// Radius of the weights \[m\].
     pub radius: Option<f64>,
+    /// Where everything is along the rotor.
+    pub along: Option<Along>,
 }
 
+/// Places along a rotor, from bearing A.
+#[derive(Clone, Debug)]
+pub struct Along {
+    /// Bearing B \[m\].
+    pub span: f64,
+    /// Centre of mass \[m\].
+    pub centre: f64,
+    /// Each plane \[m\].
+    pub planes: Vec<f64>,
+}
+
+/// What a limit or a weight for a hole may be.
+const ABOVE_ZERO: Quantity = Quantity { zero: false, ..Quantity::WEIGHT };
 const PAIR: &str = "a list of two numbers, [amplitude, phase in degrees]";
 const NAMES: &str = "a list of names";
 
@@ -191,19 +220,29 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
         unit,
         weight_unit,
         sensors: Vec::new(),
-        measured: Measured::Amplitudes { baseline: 0.0, weight: 0.0, runs: Vec::new() },
+        measured: Measured::Nothing,
         holes: Vec::new(),
         rotor: None,
         planes,
     };
     for mut table in root.optional_tables("holes")? {
-        file.holes.push(holes(&mut table, &file.planes)?);
+        let holes = holes(&mut table, &file.planes)?;
+        if file.holes.iter().any(|known| known.plane == holes.plane) {
+            return Err(table.wrong("plane", "a plane that has no [[holes]] yet: one table for all holes of a plane"));
+        }
+        file.holes.push(holes);
         table.finish()?;
     }
     if root.has("rotor") {
         let mut table = root.table("rotor")?;
         let radius = if table.has("radius") { Some(table.number("radius", Quantity::DIAMETER)?) } else { None };
+        if radius.is_none() && file.weight_unit.unbalance(None).is_none() {
+            return Err(
+                table.wrong("radius", format!("the radius of the weights, which are in {}", weight_unit.name()))
+            );
+        }
         file.rotor = Some(Rotor {
+            along: along(&mut table, file.planes.len())?,
             mass: table.number("mass", Quantity::MASS)?,
             rpm: table.number("rpm", Quantity::RPM)?,
             grade: table.number("grade", Quantity::GRADE)?,
@@ -212,15 +251,34 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
         table.finish()?;
     }
     if root.has("amplitudes") {
+        if file.planes.len() > 1 {
+            return Err(root.wrong("planes", "one plane: amplitudes without phases tell no second one apart"));
+        }
         let mut table = root.table("amplitudes")?;
         let expected = "a list of two numbers, [angle in degrees, amplitude]";
         let runs = table.items("runs", expected)?;
         let run = |item: &Item<'_>| item.pair(Quantity::DEGREES, Quantity::AMPLITUDE, expected);
-        file.measured = Measured::Amplitudes {
-            baseline: table.number("baseline", Quantity::AMPLITUDE)?,
-            weight: table.number("weight", Quantity::WEIGHT)?,
-            runs: runs.iter().map(run).collect::<Result<_, _>>()?,
-        };
+        let runs: Vec<(f64, f64)> = runs.iter().map(run).collect::<Result<_, _>>()?;
+        let baseline = table.number("baseline", Quantity::AMPLITUDE)?;
+        let weight = table.number("weight", Quantity::WEIGHT)?;
+        let mut angles = Entry::new();
+        for (degrees, _) in &runs {
+            angles.polar(1.0, *degrees);
+        }
+        let radians: Vec<(f64, f64)> =
+            runs.iter().map(|(degrees, amplitude)| (degrees.to_radians(), *amplitude)).collect();
+        let found = angles.check().and_then(|()| from_amplitudes(baseline, weight, &radians));
+        let found = found.map_err(|refusal| match refusal {
+            Refusal::TrialWeightZero { .. } => table.wrong("weight", format!("a weight above zero ({refusal})")),
+            Refusal::Reading { row: 0 } => table.wrong("baseline", "an amplitude above zero"),
+            Refusal::PhasesInRadians => table.wrong("runs", format!("angles in degrees: {refusal}")),
+            Refusal::ReadingMissing { .. } => table.wrong("runs", "three runs at different angles, or two"),
+            Refusal::NoEffect { .. } => {
+                table.wrong("runs", format!("other amplitudes than the baseline's ({refusal})"))
+            }
+            _ => table.wrong("runs", "runs at different angles, with amplitudes that one influence can give"),
+        })?;
+        file.measured = Measured::Amplitudes { baseline, found };
         table.finish()?;
     } else {
         file.sensors = names(&mut root, "sensors", ROWS)?;
@@ -242,13 +300,18 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
     for (value, weighting) in list(root, "weighting", rows, Quantity::WEIGHT)?.into_iter().zip(&mut aim.weighting) {
         *weighting = value;
     }
-    for (value, limit) in list(root, "limits", planes.len(), Quantity::WEIGHT)?.into_iter().zip(&mut aim.limits) {
+    let readings = aim.weighting.iter().take(rows).filter(|weighting| **weighting > 0.0).count();
+    if readings < planes.len() && readings < rows {
+        let refusal = Refusal::MorePlanesThanReadings { planes: planes.len(), readings };
+        return Err(root.wrong("weighting", format!("a reading above zero for each plane: {refusal}")));
+    }
+    for (value, limit) in list(root, "limits", planes.len(), ABOVE_ZERO)?.into_iter().zip(&mut aim.limits) {
         *limit = Some(value);
     }
     let plan = Plan { trials_stay, aim, ..Plan::usual(rows, planes.len(), good) };
     let mut procedure =
-        Procedure::new(plan).map_err(|refusal| root.wrong("planes", format!("other settings: {refusal}")))?;
-    let mut entry = Entry::new();
+        Field::new(plan).map_err(|refusal| root.wrong("planes", format!("other settings: {refusal}")))?;
+    let (mut entry, mut angles) = (Entry::new(), Entry::new());
 
     let mut table = root.table("baseline")?;
     let (run, baseline, rpm) = run(&mut table, rows, &mut entry)?;
@@ -260,9 +323,14 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
     if !known.is_empty() {
         let mut influence = Influence::<f64, ROWS, PLANES>::new(rows, planes.len())
             .map_err(|refusal| root.wrong("influence", refusal.to_string()))?;
+        let mut phases = Entry::new();
         for mut table in known {
             let plane = plane(&mut table, planes)?;
-            let column = pairs(&mut table, "coefficients", rows, &mut Entry::new())?;
+            if influence.get(0, plane).is_some() {
+                return Err(table.wrong("plane", "a plane that has no [[influence]] yet"));
+            }
+            let column = pairs(&mut table, "coefficients", rows, &mut phases)?;
+            phases.check().map_err(|refusal| table.wrong("coefficients", format!("phases in degrees: {refusal}")))?;
             influence.set(plane, &column).map_err(|refusal| table.wrong("coefficients", refusal.to_string()))?;
             table.finish()?;
         }
@@ -270,11 +338,20 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
             .with_coefficients(influence)
             .map_err(|refusal| root.wrong("influence", format!("a table for each plane: {}", said(refusal, planes))))?;
     }
-    for mut table in root.optional_tables("trial")? {
+    let known = root.has("influence");
+    for (count, mut table) in root.optional_tables("trial")?.into_iter().enumerate() {
         let plane = plane(&mut table, planes)?;
-        let [weight] = weights(&mut table, "weight")?;
+        if known {
+            return Err(table.wrong("plane", "no trial run beside [[influence]]: either of them, for all planes"));
+        }
+        if count == TRIALS {
+            return Err(table.wrong("plane", format!("no more than {TRIALS} trial runs")));
+        }
+        let [weight] = weights(&mut table, "weight", &mut angles)?;
+        angles.check().map_err(|refusal| table.wrong("weight", format!("an angle in degrees: {refusal}")))?;
         let (run, readings, _) = self::run(&mut table, rows, &mut entry)?;
-        procedure.trial(plane, weight, &run).map_err(|refusal| refused(&table, refusal))?;
+        // several of a plane are all believed: replacing one would lose what was entered
+        procedure.further_trial(plane, weight, &run).map_err(|refusal| refused(&table, refusal))?;
         if trials_stay {
             last = readings;
         }
@@ -282,6 +359,9 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
     }
     let mut corrections = 0;
     for mut table in root.optional_tables("correction")? {
+        if corrections == CORRECTIONS {
+            return Err(table.wrong("weights", format!("no more than {CORRECTIONS} corrections")));
+        }
         let placed = pairs(&mut table, "weights", planes.len(), &mut Entry::new())?;
         let mut all = [Complex::new(0.0, 0.0); PLANES];
         all[..placed.len()].copy_from_slice(&placed);
@@ -302,6 +382,11 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         let key = if root.has("trial") { "trial" } else { "planes" };
         return Err(root.wrong(key, expected));
     }
+    // what no weights follow from is a fault of the file
+    procedure.correction().map_err(|refusal| {
+        let key = ["limits", "aim", "baseline"].into_iter().find(|key| root.has(key)).unwrap_or("planes");
+        root.wrong(key, format!("what weights follow from: {}", said(refusal, planes)))
+    })?;
     Ok(Measured::Phasors { procedure: Box::new(procedure), baseline, last, rpm, corrections })
 }
 
@@ -321,6 +406,7 @@ fn refused(table: &Table<'_>, refusal: Refusal) -> Diagnostic {
     let (key, expected) = match refusal {
         Refusal::TrialWeightZero { .. } | Refusal::Weight { .. } => ("weight", "a weight above zero"),
         Refusal::SpeedDiffers { .. } => ("rpm", "the speed of the baseline, within 1 %"),
+        Refusal::NoEffect { .. } => ("readings", "readings that the trial weight has changed"),
         _ => ("readings", "other readings"),
     };
     table.wrong(key, format!("{expected} ({refusal})"))
@@ -369,12 +455,12 @@ fn pairs(
 }
 
 /// One weight: an amount and an angle.
-fn weights(table: &mut Table<'_>, key: &'static str) -> Result<[Complex<f64>; 1], Diagnostic> {
+fn weights(table: &mut Table<'_>, key: &'static str, entry: &mut Entry) -> Result<[Complex<f64>; 1], Diagnostic> {
     let expected = "an amount and an angle in degrees, [2.5, 90]";
     let items = table.items(key, expected)?;
     let [amount, angle] = items.as_slice() else { return Err(table.wrong(key, expected)) };
     let (amount, angle) = (amount.number(Quantity::WEIGHT)?, angle.number(Quantity::DEGREES)?);
-    Ok([Entry::new().polar(amount, angle)])
+    Ok([entry.polar(amount, angle)])
 }
 
 /// Numbers, none or as many as there must be.
@@ -424,22 +510,51 @@ fn plane(table: &mut Table<'_>, planes: &[String]) -> Result<usize, Diagnostic> 
     planes.iter().position(|known| known == name).ok_or_else(|| table.wrong("plane", expected))
 }
 
+/// Places along the rotor, all of them or none.
+fn along(table: &mut Table<'_>, planes: usize) -> Result<Option<Along>, Diagnostic> {
+    if !["span", "centre", "planes_at"].into_iter().any(|key| table.has(key)) {
+        return Ok(None);
+    }
+    let (span, centre) = (table.number("span", Quantity::LENGTH)?, table.number("centre", Quantity::PLACE)?);
+    if !table.has("planes_at") {
+        return Err(table.wrong("planes_at", format!("a list of {planes} places from bearing A")));
+    }
+    Ok(Some(Along { span, centre, planes: list(table, "planes_at", planes, Quantity::PLACE)? }))
+}
+
 fn holes(table: &mut Table<'_>, planes: &[String]) -> Result<PlaneHoles, Diagnostic> {
     let plane = plane(table, planes)?;
     let degrees = if table.has("angles") {
         let items = table.items("angles", "angles in degrees")?;
-        items.iter().map(|item| item.number(Quantity::DEGREES)).collect::<Result<Vec<_>, _>>()?
+        let mut degrees: Vec<f64> = Vec::new();
+        let mut entry = Entry::new();
+        for item in &items {
+            let angle = item.number(Quantity::DEGREES)?;
+            entry.polar(1.0, angle);
+            if degrees.iter().any(|known| (known - angle).rem_euclid(360.0) == 0.0) {
+                return Err(item.wrong("an angle of its own: a hole takes one weight"));
+            }
+            degrees.push(angle);
+        }
+        entry.check().map_err(|refusal| table.wrong("angles", format!("angles in degrees: {refusal}")))?;
+        if degrees.is_empty() {
+            return Err(table.wrong("angles", "one angle at least"));
+        }
+        degrees
     } else {
         let count = table.number("count", Quantity::COUNT)? as u32;
         let first = table.number_or("first", Quantity::DEGREES, 0.0)?;
         (0..count).map(|hole| first + 360.0 * f64::from(hole) / f64::from(count)).collect()
     };
-    let positive = Quantity { zero: false, ..Quantity::WEIGHT };
     let items = table.items("weights", "weights to choose from")?;
-    let weights = items.iter().map(|item| item.number(positive)).collect::<Result<Vec<_>, _>>()?;
+    let weights = items.iter().map(|item| item.number(ABOVE_ZERO)).collect::<Result<Vec<_>, _>>()?;
+    if weights.is_empty() {
+        return Err(table.wrong("weights", "one weight at least"));
+    }
+    let too_heavy = table.wrong("weights", format!("more: {}", Refusal::TooHeavy { plane }));
     let removing = match table.has("removing") {
         false => false,
         true => table.truth("removing")?,
     };
-    Ok(PlaneHoles { plane, degrees, weights, mode: if removing { Mode::Removing } else { Mode::Adding } })
+    Ok(PlaneHoles { plane, degrees, weights, too_heavy, mode: if removing { Mode::Removing } else { Mode::Adding } })
 }

@@ -27,11 +27,13 @@ mod generator;
 mod modes;
 mod plan;
 mod progress;
+mod report;
 mod rotor;
 mod run;
 mod setup;
 mod simulate;
 mod simulation;
+mod sizes;
 mod train_modes;
 mod vibration;
 mod vibration_page;
@@ -42,7 +44,6 @@ pub use failure::Failure;
 pub use plan::Plan;
 pub use progress::Progress;
 pub use vibration::Vibration;
-pub(crate) use vibration::names;
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -62,6 +63,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Run),
+    Report(report::Report),
     Backlash(backlash::Backlash),
     Modes(modes::Modes),
     Design(design::Design),
@@ -72,6 +74,7 @@ enum Command {
     Commission(commission::Commission),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
+    Sizes(sizes::Sizes),
     Watch(watch::Watch),
 }
 
@@ -79,6 +82,7 @@ impl Command {
     const fn json(&self) -> bool {
         match self {
             Self::Run(command) => command.json,
+            Self::Report(command) => command.json,
             Self::Backlash(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
@@ -89,6 +93,7 @@ impl Command {
             Self::Commission(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
+            Self::Sizes(command) => command.json,
             Self::Watch(command) => command.json,
         }
     }
@@ -96,6 +101,7 @@ impl Command {
     fn execute(&self) -> Result<(), Failure> {
         match self {
             Self::Run(command) => command.execute(),
+            Self::Report(command) => command.execute(),
             Self::Backlash(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
@@ -106,6 +112,7 @@ impl Command {
             Self::Commission(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),
+            Self::Sizes(command) => command.execute(),
             Self::Watch(command) => command.execute(),
         }
     }

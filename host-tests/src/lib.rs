@@ -3,6 +3,7 @@
 pub mod backlash;
 pub mod balance_file;
 pub mod balancing;
+pub mod cases;
 pub mod check;
 pub mod cli;
 pub mod commission;
@@ -15,5 +16,6 @@ pub mod report;
 pub mod rotor;
 pub mod run;
 pub mod setup;
+pub mod survey;
 pub mod sweep;
 pub mod telemetry;

@@ -44,7 +44,7 @@
 //! | `section` | `length` \[m\], `diameter` \[m\], (`end` diameter \[m\]), (`bore` \[m\]), (`modulus` \[Pa\], steel's), (`damping` \[N m s/rad\]); pieces in a row are a stepped shaft |
 //! | `crank` | `inertia`, `radius` \[m\], `rod` \[m\], `slider` \[kg\], (`rod_mass`, `rod_centre` \[m\] from the pin, `rod_inertia`); the mean over a turn |
 //! | `worm` | `ratio`, `efficiency`, `back_efficiency` with the load driving |
-//! | `planetary` | `sun_teeth`, `ring_teeth`, `module` \[m\], `planets`, `sun`, `planet`, `carrier` \[kg m2\], `planet_mass` \[kg\], (`efficiency`) |
+//! | `planetary` | `sun_teeth`, `ring_teeth`, `module` \[m\], `planets`, `sun`, `planet`, `carrier` \[kg m2\], `planet_mass` \[kg\], (`efficiency`, `driven` the member on the motor's side, `held`: `sun`, `ring` or `carrier`; the sun and the ring where they are left out; `ring` \[kg m2\]) |
 //! | `belt` | `driving`, `driven` \[m\], `stiffness` \[N/m\] of a strand, (`damping` \[N s/m\]), (`efficiency`) |
 //! | `screw` | `lead` \[m\] a turn |
 //! | `swinging` | `mass` \[kg\], `length` \[m\] of the pendulum |
@@ -54,6 +54,24 @@
 //! | `rope` | `falls`, `stiffness` \[N/m\] at the load, (`damping` \[N s/m\]) |
 //! | `lifted`, `driven` | `mass` \[kg\]; a lifted one has weight |
 //! | `backlash` | `gap` \[rad\], the whole free angle |
+//!
+//! A machine with branches has, beside its chain of elements, a `[[branch]]` for each: `at`, the label of the element
+//! whose mass it stands on (a motor, rotor, crank or planetary set of the chain or of a branch before it), and
+//! `[[branch.element]]` tables away from there. A branch that turns at another speed begins with a gear.
+//!
+//! ```toml
+//! [[branch]]
+//! at = "pinion"            # an element's label
+//!
+//! [[branch.element]]
+//! kind = "gear"
+//! ratio = 1.6
+//!
+//! [[branch.element]]
+//! kind = "rotor"
+//! label = "gear wheel"
+//! inertia = 800.0          # kg m2
+//! ```
 //!
 //! A rotor that is to be balanced has a file of its own kind: see [`RotorFile`].
 //!
@@ -73,6 +91,7 @@ mod read;
 mod referred;
 mod rotor;
 mod source;
+pub(crate) mod station;
 mod table;
 pub mod train;
 
@@ -82,11 +101,11 @@ pub use excitation::{Excitation, Running};
 pub use quantity::Quantity;
 pub use read::{LARGEST, not_toml, parse, read, text};
 pub use rotor::{RotorFile, parse_rotor, read_rotor};
-pub use source::Source;
+pub use source::{Source, printable};
 pub use table::{Item, Table};
 pub use train::{TrainFile, is_train, parse_train, read_train};
 
-use driveline::machine::Chain;
+use driveline::machine::{Chain, Train};
 use serde::Serialize;
 
 /// A machine as its file describes it.
@@ -113,6 +132,33 @@ pub struct MachineFile {
     /// The elements as the library's chain, referred to the motor.
     #[serde(skip)]
     pub chain: Chain,
+    /// What stands on masses of the chain, or of branches before it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub branches: Vec<Branch>,
+    /// Chain and branches as the library's train; none where there is no branch.
+    #[serde(skip)]
+    pub train: Option<Train>,
+}
+
+/// A chain of elements that stands on a mass.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Branch {
+    /// Label of the element whose mass it stands on.
+    pub at: String,
+    /// The elements, away from that mass.
+    pub elements: Vec<Part>,
+    /// The elements as the library's chain, referred to that mass.
+    #[serde(skip)]
+    pub chain: Chain,
+    /// Index of that mass.
+    #[serde(skip)]
+    pub node: usize,
+    /// The motor's speed over that of the mass.
+    #[serde(skip)]
+    pub ratio: f64,
+    /// Index of the first mass that the branch adds to the machine.
+    #[serde(skip)]
+    pub first: usize,
 }
 
 /// An element with the name that tables and plots give it.

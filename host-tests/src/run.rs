@@ -2,6 +2,7 @@
 
 mod assemble;
 pub mod blooming_mill;
+pub mod body;
 pub mod closed_loop;
 mod comparison;
 pub mod converter;
@@ -10,15 +11,18 @@ pub mod engine;
 mod facts;
 mod fan;
 pub mod figures;
+pub mod gear_drive;
 pub mod hoist;
 pub mod plan;
 mod planetary_drive;
+pub mod punch_press;
 pub mod scenario;
 pub mod sensors;
 mod skip_winch;
 mod spindle;
 mod strip_mill;
 pub mod units;
+pub mod vibrating_screen;
 
 pub use assemble::Plan;
 
@@ -37,6 +41,9 @@ pub const SCENES: &[(&str, Build)] = &[
     ("planetary", planetary_drive::machine),
     ("crane-travel", crane_travel::machine),
     ("skip-winch", skip_winch::machine),
+    ("punch-press", punch_press::machine),
     ("blooming-mill", blooming_mill::machine),
     ("converter", converter::machine),
+    ("vibrating-screen", vibrating_screen::machine),
+    ("gear-drive", gear_drive::machine),
 ];

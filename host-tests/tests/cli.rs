@@ -23,9 +23,21 @@ const HOIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/hoist.toml");
 
 #[test]
 fn every_command_explains_itself_with_examples() {
-    for command in
-        ["run", "modes", "design", "rotor", "balance", "generator", "backlash", "simulate", "watch", "check", "setup"]
-    {
+    for command in [
+        "run",
+        "report",
+        "modes",
+        "design",
+        "rotor",
+        "balance",
+        "generator",
+        "backlash",
+        "simulate",
+        "watch",
+        "check",
+        "setup",
+        "sizes",
+    ] {
         let output = driveline(&[command, "--help"]);
         assert!(output.status.success());
         let help = out(&output);

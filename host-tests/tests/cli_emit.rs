@@ -19,6 +19,10 @@ mod mill;
 #[path = "cli_emit/axis.rs"]
 mod axis;
 
+#[rustfmt::skip]
+#[path = "cli_emit/ship.rs"]
+mod ship;
+
 /// Reads a machine and holds what is printed for it against the file that was compiled.
 fn printed(name: &str, compiled: &str) -> (MachineFile, Plan) {
     let root = env!("CARGO_MANIFEST_DIR");
@@ -82,4 +86,18 @@ fn the_mill_compiles_to_the_same_bits() {
         &[governor.proportional, governor.integral, governor.slip],
     );
     same_bits(&[mill::ROLLING_MILL_TORQUE, mill::ROLLING_MILL_SPEED], &[machine.limits.torque, machine.limits.speed]);
+}
+
+#[test]
+fn the_ship_with_its_branches_compiles_to_the_same_bits() {
+    let (machine, plan) = printed("ship", include_str!("cli_emit/ship.rs"));
+    assert_eq!(machine.train, Some(ship::TWIN_SCREW_SHIP));
+    let gains = plan.states.iter().map(|state| state.gain).collect::<Vec<_>>();
+    same_bits(&ship::TWIN_SCREW_SHIP_OBSERVER.gains, &gains);
+    let (compiled, governor) = (ship::TWIN_SCREW_SHIP_SPEED_LOOP, plan.speed_loop.unwrap());
+    same_bits(&[compiled.proportional, compiled.slip], &[governor.proportional, governor.slip]);
+    same_bits(
+        &[ship::TWIN_SCREW_SHIP_TORQUE, ship::TWIN_SCREW_SHIP_SPEED],
+        &[machine.limits.torque, machine.limits.speed],
+    );
 }

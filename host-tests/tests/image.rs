@@ -3,8 +3,10 @@
 use std::time::Duration;
 
 use driveline_firmware::board::BOARDS;
-use host_tests::image::{Contents, Cost, Program, build, self_test};
+use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
+use host_tests::image::{Contents, Cost, ON_NUCLEO, Program, board, build, self_test, tick_code};
 use host_tests::link;
+use object::{Object, ObjectSection, ObjectSymbol};
 
 /// A bench takes well under a second of QEMU.
 const LIMIT: Duration = Duration::from_secs(60);
@@ -72,4 +74,52 @@ fn a_cost_is_the_images_and_the_runs() {
     assert!(0 < spread.min && spread.min <= spread.median && spread.median <= spread.max, "{spread:?}");
     assert_eq!(u64::from(cost.state), RIGID_STATE);
     assert!(cost.stack >= 8 && cost.sizes.ram() >= RIGID_STATE && cost.tick_code > 0, "{cost:?}");
+}
+
+/// What a linker may decide is where a function and a table lie; the tick's code is else the same, halfword for halfword, on the board with a motor and in
+/// QEMU on the same core, and so are the tables that it reads and the drive's constants.
+#[test]
+fn the_tick_on_the_board_with_a_motor_is_the_tick_in_qemu() {
+    let in_qemu = build(ON_NUCLEO, board("m4f").unwrap(), Program::ControlLoop, |_| {}).unwrap();
+    let on_board = build(ON_NUCLEO, NUCLEO, Program::Nucleo, |_| {}).unwrap();
+    let [qemu, nucleo] = [&in_qemu, &on_board].map(|image| tick_code(&image.path).unwrap());
+    assert_eq!(qemu[0].name, "driveline_tick");
+    for (here, there) in qemu.iter().zip(&nucleo) {
+        let bytes: usize = here.referents.iter().map(|referent| referent.bytes.len()).sum();
+        println!(
+            "{}: {} bytes, {} addresses, {bytes} bytes of tables",
+            here.name,
+            2 * here.code.len(),
+            here.referents.len()
+        );
+        assert_eq!(here, there);
+    }
+    assert_eq!(qemu.len(), nucleo.len());
+    // what the comparison can see: another variant's tick is another
+    let other = build("hoist/f32/rigid/10000", board("m4f").unwrap(), Program::ControlLoop, |_| {}).unwrap();
+    assert_ne!(tick_code(&other.path).unwrap()[0].code, qemu[0].code);
+}
+
+/// The stack of the board with a motor lies below its variables, at the bottom of the memory: it cannot grow into one.
+#[test]
+fn the_stack_of_the_board_with_a_motor_ends_where_the_memory_ends() {
+    let image = build(ON_NUCLEO, NUCLEO, Program::Nucleo, |_| {}).unwrap();
+    let bytes = std::fs::read(&image.path).unwrap();
+    let file = object::File::parse(&*bytes).unwrap();
+    let address = |name: &str| file.symbols().find(|symbol| symbol.name() == Ok(name)).unwrap().address();
+    // RM0440, 2.2.2: SRAM1 begins here, and below it there is nothing that can be written
+    assert_eq!(address("_stack_end"), 0x2000_0000);
+    assert_eq!(address("_stack_start"), address("_stack_end") + 16 * 1024);
+    for variables in ["__sdata", "__sbss"] {
+        assert!(address(variables) >= address("_stack_start"), "{variables}");
+    }
+    // the handler of faults pushes nothing: TIM1_BDTR's address, then MOE is cleared for ever (Arm DDI 0403E, A7.7)
+    let text = file.section_by_name(".text").unwrap();
+    let handler = text.data_range(address("HardFault") & !1, 18).unwrap().unwrap();
+    let code: Vec<u16> = handler.chunks_exact(2).map(|two| u16::from_le_bytes([two[0], two[1]])).collect();
+    assert_eq!(code, [0xf642, 0x4044, 0xf2c4, 0x0001, 0x6801, 0xf421, 0x4100, 0x6001, 0xe7fa]);
+    // and the core starts there: the first word of the vectors
+    let vectors = file.section_by_name(".vector_table").unwrap();
+    let first = vectors.data_range(vectors.address(), 4).unwrap().unwrap();
+    assert_eq!(u64::from(u32::from_le_bytes(first.try_into().unwrap())), address("_stack_start"));
 }

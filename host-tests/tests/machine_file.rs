@@ -105,6 +105,23 @@ fn missing_and_unknown_keys_are_named() {
     assert_eq!(fault("name = \"hoist\"", "name = \"hoist\"\nowner = \"me\"").key, "owner");
 }
 
+/// A key that the reader looks for more than once is named once.
+#[test]
+fn an_unknown_key_is_told_each_known_one_once() {
+    let machine = fault("name = \"hoist\"", "name = \"hoist\"\nowner = \"me\"");
+    let amplitudes = "name = \"fan\"\nunit = \"mm/s\"\nplanes = [\"A\"]\nowner = \"me\"\n\
+                      [amplitudes]\nbaseline = 4.0\nweight = 1.0\nruns = [[0, 3.0], [120, 5.0], [240, 4.5]]\n";
+    let balance = host_tests::balance_file::parse("fan.toml", amplitudes).unwrap_err();
+    for fault in [machine, balance] {
+        assert_eq!(fault.key, "owner", "{fault}");
+        let mut keys: Vec<&str> = fault.expected.trim_start_matches("only ").split(", ").collect();
+        let count = keys.len();
+        keys.sort_unstable();
+        keys.dedup();
+        assert_eq!(keys.len(), count, "{fault}");
+    }
+}
+
 #[test]
 fn an_impossible_order_is_told_at_the_element() {
     let twice = fault("kind = \"rotor\"", "kind = \"motor\"");

@@ -1,88 +1,21 @@
 //! Starts, reversal and loss of load of a two-mass drive against runs made with 40-digit matrix exponentials
 //! (`data/backlash_transients.json`; its header has the equations).
 
-use host_tests::plant::converge::{Recording, prove};
-use host_tests::plant::{Chain, EventKind, Extremes, MotorLaw, Place, Plant, Shaft, Start};
-use serde::Deserialize;
+use host_tests::cases::transients::{Transient, transients};
+use host_tests::plant::{EventKind, Extremes, Place, Plant};
 
-#[derive(Deserialize)]
-struct Cases {
-    cases: Vec<Case>,
+fn cases() -> Vec<Transient> {
+    transients().unwrap()
 }
 
-#[derive(Deserialize)]
-#[allow(non_snake_case)]
-struct Case {
-    id: String,
-    J1_kg_m2: f64,
-    J2_kg_m2: f64,
-    c_Nm_rad: f64,
-    d_Nms_rad: f64,
-    gap_total_rad: f64,
-    load_law: String,
-    M2_Nm: f64,
-    motor: (String, f64),
-    initial_theta_w1_w2: [f64; 3],
-    t_end_s: f64,
-    events: Vec<Expected>,
-    peak_torque_Nm: f64,
-    t_peak_s: f64,
-    min_torque_Nm: f64,
-    t_min_s: f64,
-    rel_tol_peak: f64,
-    trajectory: Vec<[f64; 4]>,
-}
-
-#[derive(Deserialize)]
-struct Expected {
-    t_s: f64,
-    kind: String,
-    new: i8,
-}
-
-fn cases() -> Vec<Case> {
-    let text = include_str!("data/backlash_transients.json");
-    serde_json::from_str::<Cases>(text).unwrap().cases
-}
-
-fn plant(case: &Case) -> Plant {
-    let shaft = Shaft::elastic(case.c_Nm_rad).damping(case.d_Nms_rad).gap(case.gap_total_rad);
-    let chain = Chain::motor(case.J1_kg_m2).shaft(shaft, case.J2_kg_m2);
-    let chain = match case.load_law.as_str() {
-        "active" => chain.load(case.M2_Nm),
-        "coulomb" => chain.coulomb(case.M2_Nm),
-        "none" => chain,
-        other => panic!("load law {other}"),
-    };
-    assert_eq!(case.motor.0, "const");
-    let [theta, w1, w2] = case.initial_theta_w1_w2;
-    chain
-        .start(Start::Given { twists: vec![theta], speeds: vec![w1, w2] })
-        .motor_law(MotorLaw::Constant(case.motor.1))
-        .build()
-        .unwrap()
-}
-
-fn peak(case: &Case) -> f64 {
-    case.peak_torque_Nm.abs().max(case.min_torque_Nm.abs())
+fn plant(case: &Transient) -> Plant {
+    case.plant().unwrap()
 }
 
 #[test]
 fn trajectories_agree_with_the_reference() {
     for case in cases() {
-        let mut plant = plant(&case);
-        let mut worst = [0.0_f64; 3];
-        let top_speed = case.trajectory.iter().flat_map(|p| [p[1].abs(), p[2].abs()]).fold(0.0, f64::max);
-        for &[t, w1, w2, torque] in &case.trajectory {
-            // uneven ticks on purpose: the grid of the reference is not the solver's
-            plant.advance(0.0, t - plant.time());
-            let found = [plant.speed(0), plant.speed(1), plant.shaft_torque(0)];
-            for ((worst, found), (expected, scale)) in
-                worst.iter_mut().zip(found).zip([(w1, top_speed), (w2, top_speed), (torque, peak(&case))])
-            {
-                *worst = worst.max((found - expected).abs() / scale);
-            }
-        }
+        let worst = case.deviations().unwrap();
         println!("{}: largest deviation of w1, w2, torque over their peaks {worst:?}", case.id);
         // the tolerance that the file sets: 1e-6 of peak
         assert!(worst.iter().all(|w| *w <= case.rel_tol_peak), "{} {worst:?}", case.id);
@@ -126,7 +59,7 @@ fn peaks_are_found_between_the_ticks() {
         }
         let Extremes { peak: most, least, .. } = watched.extremes(0).unwrap();
         // the tolerance that the file sets: 1e-6 of peak
-        let tolerance = case.rel_tol_peak * peak(&case);
+        let tolerance = case.rel_tol_peak * case.peak();
         assert!((most - case.peak_torque_Nm).abs() <= tolerance, "{} peak {most}", case.id);
         assert!((least - case.min_torque_Nm).abs() <= tolerance, "{} least {least}", case.id);
         // an undamped drive meets its extremes again and again, so the times are checked by going there
@@ -143,13 +76,8 @@ fn peaks_are_found_between_the_ticks() {
 #[test]
 fn every_run_proves_its_own_convergence() {
     for case in cases() {
-        let mut run = Recording::new(plant(&case));
-        let ticks = 2000;
-        for _ in 0..ticks {
-            run.advance(0.0, case.t_end_s / f64::from(ticks));
-        }
-        // 1e-8 of peak, or `prove` refuses
-        let proof = prove(&run).unwrap_or_else(|refused| panic!("{}: {refused}", case.id));
+        // 1e-8 of peak, or it is refused
+        let proof = case.proof().unwrap().unwrap_or_else(|refused| panic!("{}: {refused}", case.id));
         println!(
             "{}: {:.1e} of peak from the second integrator, {:.1e} from tighter events",
             case.id, proof.integrator.largest, proof.tightened.largest

@@ -1,5 +1,5 @@
-//! Natural frequencies of published machines (`data/torsional_modes.json`) and of chains with extreme ratios
-//! (`data/torsional_modes_extreme.json`, made with 40 digits), each by every way that applies.
+//! Natural frequencies of published machines (`data/torsional_modes.json`), each by every way that applies. Those of chains
+//! with extreme ratios are held in `machine_modes.rs`.
 
 use host_tests::plant::modes::{System, SystemError, holzer};
 use serde::Deserialize;
@@ -155,31 +155,6 @@ fn damped_eigenvalues_of_a_geared_drive_train() {
         }
     }
     assert_eq!(checked, 8);
-}
-
-#[derive(Deserialize)]
-#[allow(non_snake_case)]
-struct Extreme {
-    id: String,
-    J_kg_m2: Vec<String>,
-    k_Nm_rad: Vec<String>,
-    expected_omega_rad_s: Vec<f64>,
-    rel_tol_high_relative_accuracy_f64: f64,
-}
-
-#[test]
-fn chains_with_extreme_ratios_keep_every_digit_by_jacobi() {
-    let text = include_str!("data/torsional_modes_extreme.json");
-    for case in serde_json::from_str::<Cases<Extreme>>(text).unwrap().cases {
-        let numbers = |list: &[String]| list.iter().map(|s| s.parse().unwrap()).collect::<Vec<f64>>();
-        let mut system = System::new(&numbers(&case.J_kg_m2));
-        for (i, k) in numbers(&case.k_Nm_rad).into_iter().enumerate() {
-            system = system.shaft(i, i + 1, k, 0.0);
-        }
-        let error = largest_error(&system.frequencies().unwrap(), &case.expected_omega_rad_s);
-        println!("{}: largest relative error {error:.1e}", case.id);
-        assert!(error <= case.rel_tol_high_relative_accuracy_f64, "{} {error:e}", case.id);
-    }
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 #[path = "report/sample.rs"]
 mod sample;
+#[path = "report/survey.rs"]
+mod survey;
 
 use host_tests::report::{Deviation, Report, Signal, Trajectory};
 

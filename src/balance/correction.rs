@@ -48,6 +48,18 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Default for Aim<T, ROWS, P
     }
 }
 
+impl<T: Real, const ROWS: usize, const PLANES: usize> Aim<T, ROWS, PLANES> {
+    /// The readings among the first `rows` that are not weighted with zero.
+    pub(crate) fn counted<'r>(
+        &'r self,
+        readings: &'r [Complex<T>; ROWS],
+        rows: usize,
+    ) -> impl Iterator<Item = Complex<T>> + 'r {
+        let weighted = readings.iter().zip(&self.weighting).take(rows);
+        weighted.filter(|(_, weighting)| **weighting > T::zero()).map(|(reading, _)| *reading)
+    }
+}
+
 /// A plane that is not used, and why.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeftOut<T: Real, const PLANES: usize> {
@@ -66,9 +78,9 @@ pub struct Correction<T: Real, const ROWS: usize, const PLANES: usize> {
     pub weights: [Complex<T>; PLANES],
     /// The readings with them, as predicted.
     pub residual: [Complex<T>; ROWS],
-    /// Root mean square of the residual's amplitudes.
+    /// Root mean square of the residual's amplitudes, those of readings that are weighted with zero left out.
     pub rms: T,
-    /// The largest of them.
+    /// The largest of them, likewise.
     pub largest: T,
     /// Greatest over least singular value of the used planes' influence: how many times larger than a reading's error that of a weight may be.
     pub condition: T,
@@ -135,9 +147,10 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANES>
                 let _ = left_out.push(LeftOut { plane, own, like });
             }
         }
-        let squares = residual.iter().fold(T::zero(), |sum, value| sum + square(*value));
-        let largest = residual.iter().fold(T::zero(), |largest, value| largest.max(size(*value)));
-        let rms = (squares / real(self.rows() as f64)).sqrt();
+        let counted = || aim.counted(&residual, self.rows());
+        let squares = counted().fold(T::zero(), |sum, value| sum + square(value));
+        let largest = counted().fold(T::zero(), |largest, value| largest.max(size(value)));
+        let rms = (squares / real(used as f64)).sqrt();
         Ok(Correction { weights, residual, rms, largest, condition: pivoted.condition(), left_out, bounds })
     }
 

@@ -4,7 +4,7 @@
 //! `a = (v - v0) / w`.
 
 use super::grid::{Grid, pick};
-use super::real::{Complex, Real, given, real, size, zero};
+use super::real::{Complex, Real, given, real, size, square, zero};
 use super::refusal::Refusal;
 
 /// Influence coefficients of at most `PLANES` planes on at most `ROWS` readings \[unit of the reading per unit of the weight\].
@@ -19,11 +19,12 @@ pub struct Influence<T: Real, const ROWS: usize, const PLANES: usize> {
 }
 
 impl<T: Real, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANES> {
-    /// Nothing known yet of `planes` planes and `rows` readings.
+    /// Nothing known yet of `planes` planes and `rows` readings. A type with room for more planes than readings does not compile.
     ///
     /// # Errors
     /// [`Refusal::Size`], [`Refusal::MorePlanesThanReadings`].
     pub fn new(rows: usize, planes: usize) -> Result<Self, Refusal> {
+        const { assert!(PLANES <= ROWS, "{}", Refusal::MORE_PLANES_THAN_READINGS) };
         if rows == 0 || planes == 0 || rows > ROWS || planes > PLANES {
             return Err(Refusal::Size);
         }
@@ -92,6 +93,23 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANES>
         with: &[Complex<T>],
         trial: Complex<T>,
     ) -> Result<(), Refusal> {
+        self.learn_further(plane, before, with, trial, T::zero()).map(|_| ())
+    }
+
+    /// Learns a plane from a further trial run, by least squares over all of them: `a = sum conj(w) (v - v0) / sum |w|^2`.
+    ///
+    /// `known` is what the last call for this plane gave, zero for the first: the sum of the squares of its trial weights, which comes back.
+    ///
+    /// # Errors
+    /// What is wrong with the weight or the readings; what was known stays.
+    pub fn learn_further(
+        &mut self,
+        plane: usize,
+        before: &[Complex<T>],
+        with: &[Complex<T>],
+        trial: Complex<T>,
+        known: T,
+    ) -> Result<T, Refusal> {
         if plane >= self.planes {
             return Err(Refusal::NoPlane { plane });
         }
@@ -105,8 +123,11 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANES>
         self.complete(with)?;
         let mut column = [zero(); ROWS];
         let (mut largest, mut change) = (T::zero(), T::zero());
-        for ((value, with), before) in column.iter_mut().zip(with).zip(before).take(self.rows) {
-            *value = (*with - *before) / trial;
+        let all = known + square(trial);
+        for (row, ((value, with), before)) in column.iter_mut().zip(with).zip(before).take(self.rows).enumerate() {
+            let alone = (*with - *before) / trial;
+            let so_far = self.coefficients.at(row, plane);
+            *value = if known > T::zero() { so_far + (alone - so_far).scale(square(trial) / all) } else { alone };
             change = change.max(size(*with - *before));
             largest = largest.max(size(*before));
         }
@@ -114,7 +135,8 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANES>
         if !(change > largest * T::default_epsilon() * real(4.0)) {
             return Err(Refusal::NoEffect { plane });
         }
-        self.set(plane, &column)
+        self.set(plane, &column)?;
+        Ok(all)
     }
 
     /// Readings with these weights in the planes: `A w + v`, zeros behind the last row.

@@ -8,7 +8,9 @@
 //! The sums run on; at the end of each block of turns they are noted down. What needs a division waits for [`Phasors::reading`].
 
 use super::reading::{Edge, Reading, Steadiness};
+use super::turning::Passed;
 use super::{Balancer, Doubt, Synchronous, Turning, TurningConfig};
+use crate::fault::Faults;
 use crate::number::Number;
 
 /// The constants of a measurement of `CHANNELS` channels.
@@ -40,6 +42,8 @@ pub struct Phasors<N: Synchronous, const CHANNELS: usize, const EDGES: usize> {
     noted: u32,
     /// Tick of the last sample of each channel that was clipped or no number; zero for none.
     clipped: [u32; CHANNELS],
+    /// Ticks without a sound sample.
+    missing: u32,
     /// Times that the rotor passed its zero backwards.
     back: u32,
     edges: [Edge<N, CHANNELS>; EDGES],
@@ -55,6 +59,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Default for Phas
             left: 1,
             noted: 0,
             clipped: [0; CHANNELS],
+            missing: 0,
             back: 0,
             edges: [Edge::default(); EDGES],
         }
@@ -73,15 +78,16 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for 
                 *clipped = self.ticks;
             }
         }
-        if !self.turning.follow(&config.turning, angle) {
-            if !self.turning.wrap(&config.turning) {
+        let passed = self.turning.advance(&config.turning, angle);
+        if passed != Passed::Not {
+            if passed == Passed::Astray {
                 return self.restart();
             }
             self.left = self.left.wrapping_sub(1);
-            let noted = self.noted;
-            if self.left == 0
-                && let Some(edge) = self.edges.get_mut(noted as usize)
-            {
+            if self.left == 0 {
+                let noted = self.noted;
+                // complete: what comes now is in no block
+                let Some(edge) = self.edges.get_mut(noted as usize) else { return };
                 // The tick ends at the zero, and the next one takes over what is left of it: so no tick does the work of two.
                 (self.left, self.noted) = (config.block, noted + 1);
                 let sums = added(&self.sums, vibration, N::AHEAD, self.direction);
@@ -91,9 +97,21 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for 
                 return;
             }
         }
-        let direction = N::direction(self.turning.angle(&config.turning));
+        let direction = N::direction(self.turning.direction(&config.turning));
         self.sums = added(&self.sums, vibration, direction, self.direction);
         self.direction = direction;
+    }
+
+    /// The next sample stands for the gap; a reading with one in it is doubted. One that is complete already is left as it is.
+    fn missed(&mut self, faults: Faults) {
+        if self.is_complete() {
+            return;
+        }
+        if faults.contains(Faults::VIBRATION_CLIPPED) {
+            self.clipped = [self.ticks.max(1); CHANNELS];
+        } else {
+            self.missing = self.missing.saturating_add(1);
+        }
     }
 }
 
@@ -119,6 +137,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
         self.sums = [[N::Sum::default(); 2]; CHANNELS];
         self.ticks = 0;
         self.clipped = [0; CHANNELS];
+        self.missing = 0;
         self.back = 0;
         (self.noted, self.left) = (0, 1);
     }
@@ -128,7 +147,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
     /// An incremental encoder has its zero where it was switched on; without this, so has the phase.
     pub fn align(&mut self, config: &PhasorsConfig<N, CHANNELS>, angle: u32) {
         self.turning.set(&config.turning, angle);
-        self.direction = N::direction(self.turning.angle(&config.turning));
+        self.direction = N::direction(self.turning.direction(&config.turning));
         self.begin();
     }
 
@@ -161,6 +180,9 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
         }
         let clipped = *self.clipped.get(channel).ok_or(Doubt::NoChannel)?;
         let reading = Reading::between(&self.edges, channel, config)?;
+        if self.missing > 0 && clipped == 0 {
+            return Err(Doubt::Missing { samples: self.missing });
+        }
         reading.accept(clipped != 0, &config.steadiness)
     }
 

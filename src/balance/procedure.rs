@@ -64,7 +64,7 @@ pub struct Plan<T: Real, const ROWS: usize, const PLANES: usize> {
     pub trials_stay: bool,
     /// How far a speed may be from the baseline's, relative.
     pub speed: T,
-    /// The largest residual that is good enough, in the unit of the readings.
+    /// The largest residual that is good enough, in the unit of the readings; one that is weighted with zero does not count.
     pub good: T,
     /// How weights are chosen.
     pub aim: Aim<T, ROWS, PLANES>,
@@ -115,18 +115,18 @@ struct Trial<T: Real, const ROWS: usize> {
     run: Run<T, ROWS>,
 }
 
-/// A procedure under way.
+/// A procedure under way. `TRIALS` trial runs are kept: one for each plane, where not more is said.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Procedure<T: Real, const ROWS: usize, const PLANES: usize> {
+pub struct Procedure<T: Real, const ROWS: usize, const PLANES: usize, const TRIALS: usize = PLANES> {
     plan: Plan<T, ROWS, PLANES>,
     /// Coefficients that were known before.
     before: Option<Influence<T, ROWS, PLANES>>,
     baseline: Option<Run<T, ROWS>>,
-    trials: Vec<Trial<T, ROWS>, PLANES>,
+    trials: Vec<Trial<T, ROWS>, TRIALS>,
     placed: Vec<Placed<T, ROWS, PLANES>, CORRECTIONS>,
 }
 
-impl<T: Real, const ROWS: usize, const PLANES: usize> Procedure<T, ROWS, PLANES> {
+impl<T: Real, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Procedure<T, ROWS, PLANES, TRIALS> {
     /// A procedure at its beginning.
     ///
     /// # Errors
@@ -156,6 +156,11 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Procedure<T, ROWS, PLANES>
         Ok(self)
     }
 
+    /// How it goes.
+    pub fn plan(&self) -> &Plan<T, ROWS, PLANES> {
+        &self.plan
+    }
+
     /// What is to be done next.
     pub fn next(&self) -> Step {
         if self.baseline.is_none() {
@@ -168,8 +173,8 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Procedure<T, ROWS, PLANES>
             None => Step::Correction,
             Some(Placed { run: None, .. }) => Step::Verify,
             Some(Placed { run: Some(run), .. }) => {
-                let largest =
-                    run.readings.iter().take(self.plan.rows).fold(T::zero(), |most, reading| most.max(size(*reading)));
+                let counted = self.plan.aim.counted(&run.readings, self.plan.rows);
+                let largest = counted.fold(T::zero(), |most, reading| most.max(size(reading)));
                 if largest <= self.plan.good { Step::Done } else { Step::Trim }
             }
         }
@@ -198,23 +203,58 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Procedure<T, ROWS, PLANES>
         Ok(())
     }
 
-    /// Gives the trial run of a plane, or gives it again.
+    /// Gives the trial run of a plane, or gives it again: one that was entered before is replaced.
     ///
     /// # Errors
-    /// [`Refusal::TooEarly`] without a baseline; what is wrong with the plane, the weight or the run. What was entered before stays.
+    /// [`Refusal::TooEarly`] without a baseline; what is wrong with the plane, the weight or the run; [`Refusal::TrialRepeated`] where the plane has
+    /// several trial runs, or its weight has stayed on below a later one: take back what is wrong ([`Procedure::take_back`]), or
+    /// give a [`Procedure::further_trial`]. What was entered before stays.
     pub fn trial(&mut self, plane: usize, weight: Complex<T>, run: &Run<T, ROWS>) -> Result<(), Refusal> {
         self.at_baseline_speed(run)?;
-        let old = self.trials.clone();
         let trial = Trial { plane, weight, run: *run };
-        match self.trials.iter_mut().find(|trial| trial.plane == plane) {
-            Some(known) => *known = trial,
-            None => self.trials.push(trial).map_err(|_| Refusal::NoPlane { plane })?,
+        let last = self.trials.len().saturating_sub(1);
+        let mut known = self.trials.iter().enumerate().filter(|(_, trial)| trial.plane == plane).map(|(at, _)| at);
+        match (known.next(), known.next()) {
+            (None, _) => self.add(trial),
+            (Some(at), None) if at == last || !self.plan.trials_stay => {
+                let Some(place) = self.trials.get_mut(at) else { return Err(Refusal::NoPlane { plane }) };
+                let old = core::mem::replace(place, trial);
+                let learnt = self.influence().map(|_| ());
+                if let (Err(_), Some(place)) = (learnt, self.trials.get_mut(at)) {
+                    *place = old;
+                }
+                learnt
+            }
+            _ => Err(Refusal::TrialRepeated { plane }),
         }
-        if let Err(refusal) = self.influence() {
-            self.trials = old;
-            return Err(refusal);
+    }
+
+    /// Gives a further trial run of a plane that has one: all of them count, by least squares.
+    ///
+    /// Where trial weights stay the weight is what this run has more than the one before it.
+    ///
+    /// # Errors
+    /// As [`Procedure::trial`], and [`Refusal::Size`] where `TRIALS` runs are there already.
+    pub fn further_trial(&mut self, plane: usize, weight: Complex<T>, run: &Run<T, ROWS>) -> Result<(), Refusal> {
+        self.at_baseline_speed(run)?;
+        self.add(Trial { plane, weight, run: *run })
+    }
+
+    fn add(&mut self, trial: Trial<T, ROWS>) -> Result<(), Refusal> {
+        if trial.plane >= self.plan.planes {
+            return Err(Refusal::NoPlane { plane: trial.plane });
         }
-        Ok(())
+        self.trials.push(trial).map_err(|_| Refusal::Size)?;
+        let learnt = self.influence().map(|_| ());
+        if learnt.is_err() {
+            self.trials.pop();
+        }
+        learnt
+    }
+
+    /// Trial runs of a plane that were entered.
+    pub fn trials_of(&self, plane: usize) -> usize {
+        self.trials.iter().filter(|trial| trial.plane == plane).count()
     }
 
     /// The coefficients, as far as they are known.
@@ -229,9 +269,12 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Procedure<T, ROWS, PLANES>
         let Some(baseline) = &self.baseline else {
             return if self.before.is_some() { Ok(influence) } else { Err(Refusal::TooEarly) };
         };
-        let mut before = baseline;
+        let (mut before, mut known) = (baseline, [T::zero(); PLANES]);
         for trial in &self.trials {
-            influence.learn(trial.plane, &before.readings, &trial.run.readings, trial.weight)?;
+            let so_far = pick(&known, trial.plane, T::zero());
+            let (from, to) = (&before.readings, &trial.run.readings);
+            let all = influence.learn_further(trial.plane, from, to, trial.weight, so_far)?;
+            super::grid::put(&mut known, trial.plane, all);
             if self.plan.trials_stay {
                 before = &trial.run;
             }
@@ -343,7 +386,14 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Procedure<T, ROWS, PLANES>
 /// First word of a record: "BAL" and its version.
 const MARK: u32 = 0x4241_4c01;
 
-impl<T: Real, const ROWS: usize, const PLANES: usize> Procedure<T, ROWS, PLANES> {
+impl<T: Real, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Procedure<T, ROWS, PLANES, TRIALS> {
+    /// The most words that a record of this many readings and planes takes.
+    pub const fn words(rows: usize, planes: usize) -> usize {
+        let run = 3 * rows * T::WORDS;
+        // mark, sum, four numbers of the plan, three counts
+        9 + run + TRIALS * (1 + 2 * T::WORDS + run) + CORRECTIONS * (1 + 2 * planes * T::WORDS + run)
+    }
+
     /// Writes everything that was entered as words, and says how many. The plan and coefficients that were known before are not in it.
     ///
     /// # Errors
@@ -396,7 +446,7 @@ impl<T: Real, const ROWS: usize, const PLANES: usize> Procedure<T, ROWS, PLANES>
         if from.flag()? {
             procedure.baseline = Some(from.run(plan.rows)?);
         }
-        for _ in 0..from.count(PLANES)? {
+        for _ in 0..from.count(TRIALS)? {
             let plane = from.count(PLANES)?;
             let trial = Trial { plane, weight: from.complex()?, run: from.run(plan.rows)? };
             procedure.trials.push(trial).map_err(|_| from.wrong())?;

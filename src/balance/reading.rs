@@ -148,6 +148,11 @@ pub enum Doubt {
     TooFast,
     /// The sensor was at the end of its range, or gave what is no number.
     Clipped,
+    /// Samples were missing, or not sound: a bus that failed, a sensor that stood still.
+    Missing {
+        /// Ticks without one.
+        samples: u32,
+    },
     /// The speed moved.
     SpeedMoved {
         /// Difference of the fastest and slowest block, over the mean.
@@ -175,6 +180,7 @@ impl fmt::Display for Doubt {
             Doubt::Backwards { times } => write!(f, "the rotor passed its zero backwards {times} times"),
             Doubt::TooFast => f.write_str("the rotor turns too fast for the tick: fewer than eight ticks on a turn"),
             Doubt::Clipped => f.write_str("the sensor was at the end of its range, or gave what is no number"),
+            Doubt::Missing { samples } => write!(f, "samples were missing or not sound, {samples} of them"),
             Doubt::SpeedMoved { spread } => {
                 f.write_str("the speed moved by ")?;
                 tenths(f, *spread)

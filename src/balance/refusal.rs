@@ -39,6 +39,11 @@ pub enum Refusal {
         /// Its plane.
         plane: usize,
     },
+    /// The trial run of a plane is there already, and cannot be replaced.
+    TrialRepeated {
+        /// The plane.
+        plane: usize,
+    },
     /// The influence of a plane is not known yet.
     PlaneUnknown {
         /// The plane.
@@ -81,6 +86,12 @@ pub enum Refusal {
     },
 }
 
+impl Refusal {
+    /// What the compiler says of a type with room for more planes than readings.
+    pub const MORE_PLANES_THAN_READINGS: &str =
+        "more planes than readings cannot be told apart: measure at another place or speed, or take fewer planes";
+}
+
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -94,6 +105,9 @@ impl fmt::Display for Refusal {
             Refusal::Reading { row } => write!(f, "reading {} is not a number", row + 1),
             Refusal::NoEffect { plane } => {
                 write!(f, "the trial weight in plane {} changed nothing: take a heavier one", plane + 1)
+            }
+            Refusal::TrialRepeated { plane } => {
+                write!(f, "plane {} has its trial run already: take that back, or give a further one", plane + 1)
             }
             Refusal::PlaneUnknown { plane } => {
                 write!(f, "the influence of plane {} is not known: make its trial run", plane + 1)

@@ -34,8 +34,8 @@ pub(crate) fn about<const L: usize>(fit: &Fit, band: [f64; 2]) -> ([f64; L], f64
     let (low, high) = (derived.antiresonance / TAU, derived.resonance / TAU);
     let wide = L / 4;
     let narrow = (L - wide) / 2;
-    let z = derived.damping_ratio.max(0.003).min(0.1);
-    let apart = (high / low.max(f64::MIN_POSITIVE) - 1.0).max(0.01).min(1.0);
+    let z = derived.damping_ratio.clamp(0.003, 0.1);
+    let apart = (high / low.max(f64::MIN_POSITIVE) - 1.0).clamp(0.01, 1.0);
     let ends = [(0.4 * low).max(band[0]), (1.6 * high).min(band[1])];
     let mut hertz = [0.0; L];
     for (k, value) in hertz.iter_mut().enumerate() {

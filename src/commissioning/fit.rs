@@ -214,7 +214,7 @@ pub(crate) fn fit(responses: &[Response], unit: f64, between: [f64; 2]) -> Optio
         let mut tried = x;
         for (value, [change]) in tried.iter_mut().zip(change.0) {
             // A logarithm that moves by more than a half has lost its way.
-            *value += change.max(-0.5).min(0.5);
+            *value += change.clamp(-0.5, 0.5);
         }
         let after = data.residual(&tried);
         if after < residual {

@@ -8,7 +8,7 @@ use crate::scalar::sqrt;
 pub(crate) const PUSHES: usize = 9;
 
 /// Share of the friction that a push may take: it must hold the load.
-pub(crate) const PUSH: f64 = 0.7;
+pub(crate) const PUSH: f64 = 0.5;
 
 /// What was crept from flank to flank, the twists of the shaft under the push included.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

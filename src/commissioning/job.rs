@@ -15,6 +15,10 @@ use crate::scalar::sqrt;
 /// What is done next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "without allocation the answer has no other place, and there is one of it"
+)]
 pub(crate) enum Next {
     /// The test of friction.
     Segments,
@@ -106,6 +110,8 @@ const BELIEVED: f64 = 12.0;
 /// Standard deviation of resonance and of the load's inertia that is aimed at, and that is still an answer.
 const AIM: [f64; 2] = [0.002, 0.01];
 const ENOUGH: [f64; 2] = [0.01, 0.05];
+/// Share of the friction that a swing may take where there is a gap: the load's friction holds the flanks together while the motor turns.
+const PRELOAD: f64 = 0.63;
 /// Share of the room that a swing may take: transients come on top.
 const SHARE: f64 = 0.6;
 
@@ -178,7 +184,7 @@ impl<const L: usize> Job<L> {
         let friction = &known.friction;
         let room = SHARE * config.room(friction.weight.value.abs() + friction.coulomb.value.max(0.0));
         match known.crept {
-            Ok(crept) if crept.way.value > 3.0 * config.resolution => room.min(0.9 * PUSH * friction.coulomb.value),
+            Ok(crept) if crept.way.value > 3.0 * config.resolution => room.min(PRELOAD * friction.coulomb.value),
             _ => room,
         }
     }
@@ -294,7 +300,7 @@ impl<const L: usize> Job<L> {
     /// A record about the resonance that is known, as large as the shaft may swing, longer where the last one has `missed` its aim.
     fn about(&self, known: &mut Known<L>, fitted: &Fit, missed: f64, config: &TestConfig) -> Next {
         let (hertz, needed) = about::<L>(fitted, config.settings.band);
-        let longer = (missed * missed).max(1.0).min(4.0);
+        let longer = (missed * missed).clamp(1.0, 4.0);
         let time = needed.max(2000.0 * config.block).max(known.time * longer);
         known.time = time;
         // Every line swings the shaft alike, but none takes more than three times the mean of the torque.

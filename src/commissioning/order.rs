@@ -17,7 +17,8 @@ impl Order {
     /// Takes in a block at an angle of `halves` half turns of the motor's `angle` [2^-32 turn].
     #[inline(always)]
     pub(crate) fn take(&mut self, halves: u32, angle: i64, window: f32, speed: f32, torque: f32) {
-        let place = ((angle * i64::from(halves)) >> 1) as u32;
+        // The table takes 2^26 to the turn.
+        let place = ((angle * i64::from(halves)) >> 1) as u32 >> 6;
         let [cosine, sine] = <f32 as Synchronous>::direction(place);
         let (cosine, sine) = (window * cosine, -window * sine);
         self.speed = [self.speed[0] + speed * cosine, self.speed[1] + speed * sine];

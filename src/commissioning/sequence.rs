@@ -31,6 +31,9 @@ pub enum Stage {
     Refused,
 }
 
+/// Share of the push at which the servo has found a flank.
+const TOUCH: f32 = 0.3;
+
 /// What the motor does within a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -184,7 +187,10 @@ impl<const L: usize> Commissioning<L> {
         }
         self.known = findings.known;
         self.next = findings.next;
-        self.servo = Servo::new(config, self.known.inertia);
+        self.servo = match self.next {
+            Next::Reversals { .. } => Servo::slow(config, self.known.inertia),
+            _ => Servo::new(config, self.known.inertia),
+        };
         self.eccentric = self.known.eccentric.map(|part| part as f32);
         self.begin(config);
     }
@@ -238,7 +244,7 @@ impl<const L: usize> Commissioning<L> {
             Next::Reversals { speed, .. } => {
                 self.stage = Stage::Backlash;
                 self.start.0 = self.reference.angle;
-                self.reference.go(speed as f32, rate);
+                self.reference.go(speed as f32, (speed * config.servo) as f32);
             }
             Next::Record { way, .. } => {
                 self.stage = Stage::Resonance;
@@ -265,7 +271,7 @@ impl<const L: usize> Commissioning<L> {
         let step = deviation.wrapping_sub(self.before.wrapping_sub(self.meant));
         // The mean angle of the block: what the encoder's eccentricity goes by.
         let place = self.sum.checked_div(ticks).unwrap_or(self.angle);
-        let [cosine, sine] = <f32 as Synchronous>::direction(place as u32);
+        let [cosine, sine] = <f32 as Synchronous>::direction(place as u32 >> 6);
         let taken = self.eccentric[0] * cosine + self.eccentric[1] * sine;
         let measured = deviation as f32 * config.unit - taken;
         let increase = step as f32 * config.unit - (taken - self.taken);
@@ -295,7 +301,7 @@ impl<const L: usize> Commissioning<L> {
             for line in &mut self.lines {
                 sum += line.step(window, increase, self.torque);
             }
-            self.fade = (self.fade + self.fading).min(1.0).max(0.0);
+            self.fade = (self.fade + self.fading).clamp(0.0, 1.0);
             self.excitation = self.fade * sum;
         } else {
             self.excitation = 0.0;
@@ -311,11 +317,16 @@ impl<const L: usize> Commissioning<L> {
         let wanted = match self.next {
             // Against the flank without the servo, which would shake a load that friction holds on a spring.
             Next::Reversals { torque, .. }
-                if self.stage == Stage::Backlash && matches!(self.phase, Phase::Settles | Phase::Measures) =>
+                if self.stage == Stage::Backlash
+                    && matches!(self.phase, Phase::Settles | Phase::Measures | Phase::Fades) =>
             {
-                let push = if self.index.is_multiple_of(2) { torque as f32 } else { -torque as f32 };
-                // Slowly: a step would swing to twice its size, beyond what friction holds.
-                let most = torque as f32 * config.servo as f32 * config.block_f32;
+                let push = match (self.phase, self.index.is_multiple_of(2)) {
+                    (Phase::Fades, _) => 0.0,
+                    (_, true) => torque as f32,
+                    (_, false) => -torque as f32,
+                };
+                // Slowly: a step would swing to twice its size, and one given in a bounce come back as an impact.
+                let most = 0.125 * torque as f32 * config.servo as f32 * config.block_f32;
                 self.torque + (push - self.torque).min(most).max(-most)
             }
             _ => self.servo.torque(&self.deviation, self.reference.acceleration) + self.excitation,
@@ -334,7 +345,7 @@ impl<const L: usize> Commissioning<L> {
                 let Next::Reversals { torque, widest, .. } = self.next else { return true };
                 let way = if self.reference.target < 0.0 { -1.0 } else { 1.0 };
                 let crept = (self.reference.angle.wrapping_sub(self.start.0)) as f64 / f64::from(config.units);
-                way * self.torque >= 0.97 * torque as f32 || crept.abs() > widest
+                way * self.torque >= TOUCH * torque as f32 || crept.abs() > widest
             }
             (_, Phase::Goes | Phase::Stops) => self.reference.is_there(),
             _ => self.left == 0,
@@ -357,7 +368,7 @@ impl<const L: usize> Commissioning<L> {
             (Stage::Backlash, Phase::Goes) => {
                 self.reference.go(0.0, f32::MAX);
                 self.phase = Phase::Settles;
-                self.left = steady.saturating_mul(2);
+                self.left = steady.saturating_mul(3);
             }
             (_, Phase::Goes) => {
                 self.phase = Phase::Settles;
@@ -381,14 +392,18 @@ impl<const L: usize> Commissioning<L> {
             }
             (Stage::Backlash, Phase::Measures) => {
                 self.index += 1;
+                self.phase = Phase::Fades;
+                self.left = steady.saturating_mul(2);
+            }
+            (Stage::Backlash, Phase::Fades) => {
                 // The reference starts anew from where the motor stands, so that the torque does not jump.
                 self.reference.angle += (self.deviation.angle * config.units) as i64;
                 self.deviation.angle = 0.0;
                 self.start.0 = self.reference.angle;
                 if self.index < PUSHES {
                     let Next::Reversals { speed, .. } = self.next else { return };
-                    let way = if self.index % 2 == 0 { 1.0 } else { -1.0 };
-                    self.reference.go(way * speed as f32, rate);
+                    let way = if self.index.is_multiple_of(2) { 1.0 } else { -1.0 };
+                    self.reference.go(way * speed as f32, (speed * config.servo) as f32);
                     self.phase = Phase::Goes;
                 } else {
                     stop(self);
@@ -481,7 +496,7 @@ impl TestConfig {
 
     /// Blocks in the turns of the encoder's test: 40, or eight at least where the travel is shorter.
     pub(crate) fn turns(&self) -> u32 {
-        let angle = (0.4 * self.settings.travel).max(8.0 * core::f64::consts::TAU).min(40.0 * core::f64::consts::TAU);
+        let angle = (0.4 * self.settings.travel).clamp(8.0 * core::f64::consts::TAU, 40.0 * core::f64::consts::TAU);
         self.blocks(angle / self.settings.speed)
     }
 }

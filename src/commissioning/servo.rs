@@ -32,7 +32,17 @@ impl Servo {
     ///
     /// The observer has three equal poles three times as fast as the servo's two [critically damped filter of third order: Benedict and Bordner 1962].
     pub(crate) fn new(config: &TestConfig, inertia: f64) -> Self {
-        let (w, h) = (config.servo, config.block);
+        Self::of(config, inertia, config.servo)
+    }
+
+    /// A slow one, three times: for a motor whose load friction holds on a spring. The servo's integral takes damping from that swing, by the third
+    /// power of its own frequency.
+    pub(crate) fn slow(config: &TestConfig, inertia: f64) -> Self {
+        Self::of(config, inertia, config.servo / 3.0)
+    }
+
+    fn of(config: &TestConfig, inertia: f64, w: f64) -> Self {
+        let h = config.block;
         let rho = crate::scalar::exp(-3.0 * w * h);
         let left = 1.0 - rho;
         let square = left * left;

@@ -1,15 +1,18 @@
 //! Constants of the measurement of the speed's fluctuation.
 
-use super::convert::{get, or_stop};
-use super::{Bases, Error};
-use crate::fluctuation::{CycleConfig, Drivetrain, ToothedWheelConfig, WaveformConfig};
+use super::convert::{fixed, get, or_stop};
+use super::{Bases, Error, Format};
+use crate::fluctuation::{CycleConfig, CycleMeanConfig, Drivetrain, PLACES, ToothedWheelConfig, WaveformConfig};
 use crate::machine::TwoMass;
+use crate::number::Fixed;
 
 const RATIO: &str = "the cycle's turns and cycles must be at least 1, and at most 65,535";
 const LONG: &str = "the cycle must be at most 16 turns of the motor";
 const PERIOD: &str = "the time between two ticks must be positive and finite (s)";
-const BINS_SENTENCE: &str =
-    "the bins of the waveform must be a power of two, at most 1024, and at least four to each turn of the cycle";
+const BINS_SENTENCE: &str = "the bins of the waveform must be a power of two, at most 1024, at least four to each turn of the cycle, and at most 8192 to a turn";
+const SEGMENTS_SENTENCE: &str = "the segments of the cycle's mean must be a power of two from 4 to 1024, none longer than a quarter of a turn of the motor nor shorter than 2^-23 of one";
+const SLOW: &str =
+    "the motor turns too little in a tick at the base of the speed for a mean in fixed point: lower the rate";
 const WHEEL: &str = "the wheel must have at least one missing tooth and twice as many places as a gap takes, and as many places in a cycle as the table";
 const CLOCK: &str = "the clock that the teeth are timed with must be positive and finite (Hz)";
 const CYCLES: &str = "the waveform must be taken over at least 1 cycle, and at most 65,535";
@@ -73,18 +76,89 @@ impl CycleConfig {
         while 4 * turns > segments * cycles {
             segments *= 2;
         }
+        Ok(Self::in_segments(cycle, segments, period, bases))
+    }
+
+    const fn in_segments(cycle: Cycle, segments: u32, period: f64, bases: Bases) -> Self {
+        let Cycle { turns, cycles } = cycle;
         let whole = (turns as u64) << 32;
         let parts = cycles as u64 * segments as u64;
-        Ok(CycleConfig {
+        CycleConfig {
             length: (whole / parts) as u32,
             last_segment: segments - 1,
-            remainder: (whole % parts) as u32,
+            whole: ((whole % parts) / cycles as u64) as u32,
+            part: ((whole % parts) % cycles as u64) as u32,
             divisor: cycles,
             angle: core::f64::consts::TAU * turns as f64 / cycles as f64,
             period,
             speed: bases.speed,
             torque: bases.torque,
-        })
+        }
+    }
+}
+
+/// A cycle in so many segments, and its angle [2^-26 turn].
+const fn mean_cycle(cycle: Cycle, segments: usize, period: f64, bases: Bases) -> Result<(CycleConfig, u32), Error> {
+    let least = get!(CycleConfig::try_new(cycle, period, bases)).last_segment as usize + 1;
+    if !(segments.is_power_of_two() && segments >= 4 && segments <= 1024 && segments >= least) {
+        return Err(Error::Value(SEGMENTS_SENTENCE));
+    }
+    let whole = ((cycle.turns as u64) << 26) / cycle.cycles as u64;
+    if whole >> 3 < segments as u64 {
+        return Err(Error::Value(SEGMENTS_SENTENCE));
+    }
+    Ok((CycleConfig::in_segments(cycle, segments as u32, period, bases), whole as u32))
+}
+
+macro_rules! float_mean {
+    ($float:ident) => {
+        impl CycleMeanConfig<$float> {
+            /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period` \[s\], as floats.
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+            pub const fn new<const SEGMENTS: usize>(cycle: Cycle, period: f64) -> Self {
+                or_stop!(Self::try_new::<SEGMENTS>(cycle, period))
+            }
+
+            /// [`new`](Self::new), with an error instead of a panic.
+            ///
+            /// # Errors
+            /// As [`CycleConfig::try_new`], and [`Error::Value`] for segments that are no power of two, or too few or too many for the cycle.
+            pub const fn try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64) -> Result<Self, Error> {
+                let (cycle, angle) = get!(mean_cycle(cycle, SEGMENTS, period, Bases::SI));
+                Ok(CycleMeanConfig { cycle, angle, speed: Format::FLOAT.speed_of_turn(period) as $float })
+            }
+        }
+    };
+}
+
+float_mean!(f32);
+float_mean!(f64);
+
+impl CycleMeanConfig<Fixed> {
+    /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period` \[s\], in fixed point.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+    pub const fn new<const SEGMENTS: usize>(cycle: Cycle, period: f64, bases: Bases) -> Self {
+        or_stop!(Self::try_new::<SEGMENTS>(cycle, period, bases))
+    }
+
+    /// [`new`](Self::new), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// As [`CycleConfig::try_new`], [`Error::Value`] for segments that are no power of two, or too few or too many for the cycle, and
+    /// [`Error::Coefficient`] for a motor that turns by less than a count of 2^-32 turns in a tick at its base.
+    pub const fn try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64, bases: Bases) -> Result<Self, Error> {
+        let (cycle, angle) = get!(mean_cycle(cycle, SEGMENTS, period, bases));
+        let speed = Format::fixed(bases).speed_of_turn(period);
+        // The format ends there, and the speed would come out too low.
+        if speed > 0.4989 {
+            return Err(Error::Coefficient(SLOW));
+        }
+        let [speed] = get!(fixed([speed], SLOW));
+        Ok(CycleMeanConfig { cycle, angle, speed })
     }
 }
 
@@ -111,11 +185,11 @@ impl WaveformConfig {
         }
         let per_segment = (BINS / segments) as u32;
         let length = cycle.length as u64;
-        let scale = ((per_segment as u64) << 32) / length;
-        if scale > u32::MAX as u64 {
+        let scale = ((per_segment as u64) << (32 + PLACES)) / length;
+        if scale > i32::MAX as u64 {
             return Err(Error::Value(BINS_SENTENCE));
         }
-        Ok(WaveformConfig { cycle, cycles, scale: scale as u32, per_segment })
+        Ok(WaveformConfig { cycle, cycles, scale: scale as i32, per_segment })
     }
 }
 

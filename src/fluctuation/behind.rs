@@ -46,9 +46,12 @@ pub struct Behind {
 }
 
 impl<N: Number, const BINS: usize> Window<N, BINS> {
-    /// The motor's torque over the angle of the cycle [N m], with orders up to `highest`: the mean of each bin over the last cycles of the window.
+    /// The motor's torque over the angle of the cycle [N m], with orders up to `highest`: the mean of each bin over the window.
     pub fn motor_torque(&self, config: &WaveformConfig, highest: usize) -> Series {
-        let torques = self.torque.iter().map(|torque| torque.to_real() * config.cycle.torque);
+        let torques = self
+            .bins
+            .iter()
+            .map(|bin| N::total_to_real(bin.torque) / f64::from(bin.ticks.max(1)) * config.cycle.torque);
         let mut series = Series::sampled(torques, BINS, 0.5, highest);
         // A bin's mean is less than what is in its middle: sin(x)/x of half a bin.
         for (n, order) in (1_u32..).zip(&mut series.orders) {

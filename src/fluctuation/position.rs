@@ -1,4 +1,7 @@
 //! Where in its cycle the motor is, in integers, and when it passed the cycle's end.
+//!
+//! The end of a segment, and even more that of a cycle, takes more than a tick has time for. It is found late and dealt with in slices, one
+//! in every other tick, none of which takes longer than a tick's usual work.
 
 use core::f64::consts::TAU;
 
@@ -12,8 +15,10 @@ pub struct CycleConfig {
     pub length: u32,
     /// Number of segments less one, all ones in binary.
     pub last_segment: u32,
-    /// What whole segments leave of the cycle [2^-32 turn over `divisor`].
-    pub remainder: u32,
+    /// What whole segments leave of the cycle [2^-32 turn] ...
+    pub whole: u32,
+    /// ... and what that leaves [2^-32 turn over `divisor`].
+    pub part: u32,
     /// Cycles in the whole number of turns that the ratio is given by.
     pub divisor: u32,
     /// The cycle's angle \[rad\].
@@ -26,25 +31,29 @@ pub struct CycleConfig {
     pub torque: f64,
 }
 
-/// When the motor passed the cycle's end: the time to the tick that found it beyond, from how far and how fast.
+/// When the motor passed the cycle's end: the time to a tick that found it beyond, from how far and how fast.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Edge<N> {
-    /// The first tick beyond it; wraps.
+    /// The tick; wraps.
     pub tick: u32,
-    /// How far that tick was beyond it [2^-32 turn].
+    /// Its angle [2^-32 turn].
+    pub angle: u32,
+    /// How far that was beyond the cycle's end [2^-32 turn].
     pub beyond: u32,
     /// The motor's estimated speed.
     pub speed: N,
 }
 
+/// More ticks than an end is found late by.
+const LATEST: f64 = 64.0;
+
 impl<N: Number> Edge<N> {
     /// How long before its tick the end was passed [ticks], where the motor turned by `turned` in a tick \[rad\]; half a tick where that says nothing
     /// of it.
     pub fn fraction(&self, turned: f64) -> f64 {
-        let fraction = f64::from(self.beyond) * (TAU / 4_294_967_296.0) / turned;
-        // A speed that is a little too low may say a little more than one.
-        if fraction < 2.0 { fraction } else { 0.5 }
+        let fraction = f64::from(self.beyond) * RADIANS / turned;
+        if fraction < LATEST { fraction } else { 0.5 }
     }
 
     /// Ticks from an earlier edge to this one, by the estimated speeds.
@@ -54,103 +63,188 @@ impl<N: Number> Edge<N> {
     }
 }
 
-/// What a tick has passed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Crossing {
-    /// Nothing, or the end of a segment.
-    Within,
-    /// The end of the cycle, forwards or backwards, and how far the motor is beyond it [2^-32 turn].
-    Cycle { beyond: u32, forward: bool },
-    /// More than a segment, or nobody knows when: the angle was elsewhere.
-    Lost,
-}
+/// Radians of 2^-32 turn.
+pub(super) const RADIANS: f64 = TAU / 4_294_967_296.0;
 
-/// The motor's place in its cycle.
+/// The motor's place in its cycle. Each of its methods is a slice's work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Position {
     /// Where the segment begins [2^-32 turn].
-    start: u32,
+    pub start: u32,
     /// The segment's number.
     pub segment: u32,
-    /// What whole units of 2^-32 turn have left over, in `divisor`s of one.
+    /// What whole units of 2^-32 turn had left over where the cycle began, in `divisor`s of one.
     carry: u32,
+    /// What the cycle is longer by than its segments [2^-32 turn].
+    extra: u32,
     /// A tick was left out: what is passed next may have been passed in more than one tick.
-    unsure: bool,
+    pub unsure: bool,
+}
+
+/// What a tick has passed that does all slices at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Crossing {
+    /// At most the end of one segment or of the cycle.
+    Passed,
+    /// More, or nobody knows when: the angle was elsewhere.
+    Lost,
+}
+
+/// Where the motor is that has left its segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Way {
+    /// In another segment of the cycle.
+    Segment,
+    /// In another cycle.
+    Cycle,
+    /// Not this way.
+    Other,
 }
 
 impl Position {
-    /// A tick is left out.
-    pub fn interrupt(&mut self) {
-        self.unsure = true;
-    }
-
-    /// How far the motor is into the segment [2^-32 turn]; from the segment's length on it is in another, and [`Position::pass`] is due.
+    /// How far the motor is into the segment [2^-32 turn]; from the segment's length on it is in another.
     #[inline(always)]
     pub fn within(&self, angle: u32) -> u32 {
         angle.wrapping_sub(self.start)
     }
 
-    /// Goes to the segment of `angle`.
-    pub fn pass(&mut self, cycle: &CycleConfig, angle: u32) -> Crossing {
-        let crossing = self.step(cycle, angle);
-        if core::mem::replace(&mut self.unsure, false) { Crossing::Lost } else { crossing }
-    }
-
-    fn step(&mut self, cycle: &CycleConfig, angle: u32) -> Crossing {
-        // A segment is at most a quarter of a turn, so twice its length is within a `u32`.
-        let into = angle.wrapping_sub(self.start);
-        let back = self.start.wrapping_sub(angle);
-        if into >= cycle.length && into.wrapping_sub(cycle.length) < cycle.length {
-            self.forward(cycle, angle)
-        } else if back <= cycle.length {
-            self.backward(cycle, back)
+    /// Which way the motor is that is so far beyond the segment's end [2^-32 turn].
+    // A segment is at most a quarter of a turn. The motor is looked for in the next two, and in the one before.
+    #[inline(always)]
+    pub fn ahead(&self, cycle: &CycleConfig, beyond: u32) -> Way {
+        if beyond >= cycle.length << 1 {
+            Way::Other
+        } else if self.segment == cycle.last_segment {
+            Way::Cycle
         } else {
-            // The length is never zero.
-            let steps = (into as i32).div_euclid((cycle.length as i32).max(1));
-            self.start = self.start.wrapping_add((steps as u32).wrapping_mul(cycle.length));
-            self.segment = self.segment.wrapping_add(steps as u32) & cycle.last_segment;
-            Crossing::Lost
+            Way::Segment
         }
     }
 
+    /// The same for the motor that is not ahead, and so far behind the segment's start.
     #[inline(always)]
-    fn forward(&mut self, cycle: &CycleConfig, angle: u32) -> Crossing {
-        let mut start = self.start.wrapping_add(cycle.length);
-        let mut carry = self.carry;
-        let end = self.segment == cycle.last_segment;
-        if end {
-            // The divisor is never zero.
-            carry = carry.wrapping_add(cycle.remainder);
-            start = start.wrapping_add(carry / cycle.divisor.max(1));
-            carry %= cycle.divisor.max(1);
+    pub fn behind(&self, cycle: &CycleConfig, behind: u32) -> Way {
+        if behind > cycle.length {
+            Way::Other
+        } else if self.segment == 0 {
+            Way::Cycle
+        } else {
+            Way::Segment
         }
-        let beyond = angle.wrapping_sub(start);
-        if (beyond as i32) < 0 {
-            // Between the last segment's end and the cycle's.
-            return Crossing::Within;
-        }
-        self.start = start;
-        self.segment = self.segment.wrapping_add(1) & cycle.last_segment;
-        self.carry = carry;
-        if end { Crossing::Cycle { beyond, forward: true } } else { Crossing::Within }
     }
 
+    /// Goes on by a segment, whose number is then to be [counted](Self::count).
     #[inline(always)]
-    fn backward(&mut self, cycle: &CycleConfig, beyond: u32) -> Crossing {
-        let beginning = self.segment == 0;
-        if beginning {
-            let divisor = cycle.divisor.max(1);
-            let (mut whole, part) = (cycle.remainder / divisor, cycle.remainder % divisor);
-            if self.carry < part {
-                self.carry = self.carry.wrapping_add(divisor);
-                whole = whole.wrapping_add(1);
-            }
-            self.carry = self.carry.wrapping_sub(part);
-            self.start = self.start.wrapping_sub(whole);
-        }
+    pub fn advance(&mut self, cycle: &CycleConfig) {
+        self.start = self.start.wrapping_add(cycle.length);
+    }
+
+    /// Goes back by a segment, whose number is then to be [counted](Self::count).
+    #[inline(always)]
+    pub fn retreat(&mut self, cycle: &CycleConfig) {
         self.start = self.start.wrapping_sub(cycle.length);
-        self.segment = self.segment.wrapping_sub(1) & cycle.last_segment;
-        if beginning { Crossing::Cycle { beyond, forward: false } } else { Crossing::Within }
+    }
+
+    /// Counts so many segments further.
+    #[inline(always)]
+    pub fn count(&mut self, steps: i32) {
+        self.segment = self.segment.wrapping_add(steps as u32);
+    }
+
+    /// How far the motor that is so far beyond the last segment's end is beyond the cycle's; negative between the two.
+    #[inline(always)]
+    pub fn beyond_cycle(&self, beyond: u32) -> i32 {
+        beyond.wrapping_sub(self.extra) as i32
+    }
+
+    /// Goes to the next cycle.
+    #[inline(always)]
+    pub fn next_cycle(&mut self, cycle: &CycleConfig) {
+        self.start = self.start.wrapping_add(cycle.length.wrapping_add(self.extra));
+        self.segment = 0;
+    }
+
+    /// What a cycle leaves to the next, that being the present one.
+    #[inline(always)]
+    pub fn carry_on(&mut self, cycle: &CycleConfig) {
+        let carry = self.carry.wrapping_add(cycle.part);
+        self.carry = if carry >= cycle.divisor { carry.wrapping_sub(cycle.divisor) } else { carry };
+    }
+
+    /// What the cycle before the last had left, for that to be gone back to.
+    #[inline(always)]
+    pub fn carry_back(&mut self, cycle: &CycleConfig) {
+        let carry = self.carry.wrapping_sub(cycle.part);
+        self.carry = if self.carry < cycle.part { carry.wrapping_add(cycle.divisor) } else { carry };
+    }
+
+    /// The length of the cycle, from what the one before has left.
+    #[inline(always)]
+    pub fn measure(&mut self, cycle: &CycleConfig) {
+        let up = self.carry.wrapping_add(cycle.part) >= cycle.divisor;
+        self.extra = cycle.whole.wrapping_add(up as u32);
+    }
+
+    /// Goes to the last segment of the cycle before, whose length is known.
+    #[inline(always)]
+    pub fn last_cycle(&mut self, cycle: &CycleConfig) {
+        self.start = self.start.wrapping_sub(cycle.length.wrapping_add(self.extra));
+        self.segment = cycle.last_segment;
+    }
+
+    /// How far the motor is behind the end of a cycle that it has come into from there, in its last segment.
+    #[inline(always)]
+    pub fn behind_end(&self, cycle: &CycleConfig, within: u32) -> u32 {
+        cycle.length.wrapping_add(self.extra).wrapping_sub(within)
+    }
+
+    /// How many segments the motor is away that is so far from the segment's start.
+    #[inline(always)]
+    pub fn away(cycle: &CycleConfig, within: u32) -> u32 {
+        // The length is never zero.
+        (within as i32).div_euclid((cycle.length as i32).max(1)) as u32
+    }
+
+    /// Goes so many segments further.
+    #[inline(always)]
+    pub fn jump(&mut self, cycle: &CycleConfig, steps: u32) {
+        self.start = self.start.wrapping_add(steps.wrapping_mul(cycle.length));
+        self.segment = self.segment.wrapping_add(steps) & cycle.last_segment;
+    }
+
+    /// Goes to the segment of `angle` at once, for a tick that has the time.
+    pub fn pass(&mut self, cycle: &CycleConfig, angle: u32) -> Crossing {
+        let unsure = core::mem::replace(&mut self.unsure, false);
+        let within = self.within(angle);
+        let beyond = within.wrapping_sub(cycle.length);
+        self.measure(cycle);
+        let ahead = if beyond < cycle.length { self.ahead(cycle, beyond) } else { Way::Other };
+        match (ahead, self.behind(cycle, within.wrapping_neg())) {
+            (Way::Segment, _) => {
+                self.advance(cycle);
+                self.count(1);
+            }
+            (Way::Cycle, _) => {
+                if self.beyond_cycle(beyond) >= 0 {
+                    self.next_cycle(cycle);
+                    self.carry_on(cycle);
+                }
+            }
+            (Way::Other, Way::Segment) => {
+                self.retreat(cycle);
+                self.count(-1);
+            }
+            (Way::Other, Way::Cycle) => {
+                self.carry_back(cycle);
+                self.measure(cycle);
+                self.last_cycle(cycle);
+            }
+            (Way::Other, Way::Other) => {
+                self.jump(cycle, Position::away(cycle, within));
+                return Crossing::Lost;
+            }
+        }
+        if unsure { Crossing::Lost } else { Crossing::Passed }
     }
 }

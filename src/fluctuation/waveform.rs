@@ -5,15 +5,20 @@
 //! tick needs no sine. All of it is in integers: the same bits in every number, and no drift.
 //!
 //! The table is filled over a whole number of cycles, from one end of a cycle to another, and then stands until it is taken between two
-//! ticks ([`Waveform::take`]). The next window begins at the next end of a cycle.
+//! ticks ([`Waveform::take`]). The next window begins at the next end of a cycle. Every other tick also looks for the end of a segment, or does a slice
+//! of what it brings: it counts as little when that is late, since a bin is found from any segment near it, and the parts of a cycle that a window has
+//! too much or too little are known at its ends.
 
-use super::position::{Crossing, Position};
+use super::position::{Position, Way};
 use super::{CycleConfig, Edge, Fluctuation, Window};
 use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Ticks that a window may last, so that no bin overflows: 419 s at 10 kHz.
 const LONGEST: u32 = 1 << 22;
+
+/// Binary places of a bin in the upper word of an angle times the scale.
+pub(crate) const PLACES: u32 = 18;
 
 /// Constants of [`Waveform`]. Made by [`crate::constants`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,68 +28,115 @@ pub struct WaveformConfig {
     pub cycle: CycleConfig,
     /// Cycles in a window; fewer where they last too long.
     pub cycles: u32,
-    /// Bins per 2^-32 turn [2^-32].
-    pub scale: u32,
+    /// Bins per 2^-32 turn [2^-50].
+    pub scale: i32,
     /// Bins in a segment of the cycle.
     pub per_segment: u32,
 }
 
 /// What has fallen into a bin.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Bin {
+pub struct Bin<N: Number> {
     /// Ticks.
     pub ticks: u32,
     /// Sum of their distances from the bin's middle [2^-10 bin].
     pub first: i32,
     /// Sum of the squares of their distances from the bin's middle [2^-12 bin2].
     pub second: u32,
+    /// Sum of the motor's torque.
+    pub torque: N::Total,
 }
 
 /// Where a window stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Stage {
+    /// In the middle of it: ticks are counted.
+    Filling,
     /// The table is empty, and no cycle has begun.
     #[default]
     Waiting,
-    /// In the middle of it.
-    Filling,
     /// Finished, to be taken.
     Full,
     /// Disturbed, to be emptied.
     Void,
 }
 
+/// What every other tick does besides: one of these.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+enum Slice {
+    /// Looks for the end of the segment.
+    Watch,
+    /// The first tick of all.
+    #[default]
+    Begin,
+    Ahead,
+    Behind,
+    Advance,
+    Retreat,
+    CountUp,
+    CountDown,
+    Away,
+    Beyond,
+    NextCycle,
+    CarryOn,
+    Measure,
+    CarryBack,
+    MeasureBack,
+    LastCycle,
+    /// The angle was elsewhere, a tick was left out on the way here, or the motor has turned back.
+    Doubt,
+    /// What the end of the cycle is to the window.
+    Decide,
+    Open,
+    Direction,
+    Duration,
+    /// Notes the end of the cycle down, and begins or ends the window by it.
+    Note,
+    NoteBack,
+    File,
+    FileFirst,
+}
+
 /// The waveform of a cycle's speed and torque over some cycles, in `BINS` bins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Waveform<N, const BINS: usize> {
-    position: Position,
+pub struct Waveform<N: Number, const BINS: usize> {
     tick: u32,
-    /// The segment's first bin; beyond the table while nothing is to be counted.
-    base: usize,
     stage: Stage,
+    /// The stage that the cycle's end leads to.
+    then: Stage,
+    slice: Slice,
+    ahead: bool,
     forward: bool,
+    /// The segment's first bin.
+    base: u32,
+    position: Position,
     cycles: u32,
-    /// The window's first end of a cycle, the second, the last but one, the last.
+    edge: Edge<N>,
+    /// The window's first end of a cycle and the second; the last of an even and of an odd number.
     edges: [Edge<N>; 4],
-    bins: [Bin; BINS],
-    torque: [N; BINS],
+    bins: [Bin<N>; BINS],
 }
 
 impl<N: Number, const BINS: usize> Default for Waveform<N, BINS> {
     fn default() -> Self {
+        const { assert!(BINS.is_power_of_two(), "the bins of a waveform must be a power of two") };
         Waveform {
-            position: Position::default(),
             tick: 0,
-            base: BINS,
             stage: Stage::Waiting,
+            then: Stage::Waiting,
+            slice: Slice::Begin,
+            ahead: true,
             forward: true,
+            base: 0,
+            position: Position::default(),
             cycles: 0,
+            edge: Edge::default(),
             edges: [Edge::default(); 4],
             bins: [Bin::default(); BINS],
-            torque: [N::ZERO; BINS],
         }
     }
 }
@@ -94,24 +146,18 @@ impl<N: Number, const BINS: usize> Fluctuation<N> for Waveform<N, BINS> {
 
     #[inline(always)]
     fn measure(&mut self, config: &WaveformConfig, angle: u32, torque: N, estimate: &Estimate<N>) {
-        self.tick = self.tick.wrapping_add(1);
-        let within = self.position.within(angle);
-        if within >= config.cycle.length {
-            self.pass(config, angle, estimate.motor_speed);
-            return;
+        let tick = self.tick.wrapping_add(1);
+        self.tick = tick;
+        if tick & 1 != 0 {
+            self.slice(config, angle, tick, estimate);
         }
-        let (index, distance) = self.place(config, within);
-        if let (Some(bin), Some(mean)) = (self.bins.get_mut(index), self.torque.get_mut(index)) {
-            if bin.ticks == 0 {
-                *mean = torque;
-            }
-            bin.count(distance);
-            *mean = mean.plus(torque.minus(*mean).sixteenth());
+        if self.stage == Stage::Filling {
+            self.count(config, self.position.within(angle), torque);
         }
     }
 
     fn disturb(&mut self) {
-        self.position.interrupt();
+        self.position.unsure = true;
         self.give_up();
     }
 }
@@ -121,92 +167,197 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
         if self.stage == Stage::Filling {
             self.stage = Stage::Void;
         }
-        self.base = BINS;
-    }
-}
-
-impl Bin {
-    /// A tick at this distance from the bin's middle [2^-32 bin].
-    #[inline(always)]
-    fn count(&mut self, distance: i32) {
-        let coarse = distance >> 26;
-        self.ticks = self.ticks.wrapping_add(1);
-        self.first = self.first.wrapping_add(distance >> 22);
-        self.second = self.second.wrapping_add((coarse * coarse) as u32);
-    }
-}
-
-impl<N: Number, const BINS: usize> Waveform<N, BINS> {
-    /// The bin, and the distance from its middle [2^-32 bin], so far within the segment.
-    #[inline(always)]
-    fn place(&self, config: &WaveformConfig, within: u32) -> (usize, i32) {
-        let place = u64::from(within) * u64::from(config.scale);
-        (self.base.wrapping_add((place >> 32) as usize), (place as u32 ^ 1 << 31) as i32)
+        self.reconsider(Slice::Watch);
     }
 
-    /// A tick that ends a segment or a cycle; its torque is not looked at.
-    #[cold]
-    #[inline(never)]
-    fn pass(&mut self, config: &WaveformConfig, angle: u32, speed: N) {
-        match self.position.pass(&config.cycle, angle) {
-            Crossing::Within => {}
-            Crossing::Lost => self.give_up(),
-            Crossing::Cycle { beyond, forward } => {
-                self.end(config, Edge { tick: self.tick, beyond, speed }, forward);
-            }
+    /// What is being decided about the end of a cycle is no longer so.
+    fn reconsider(&mut self, slice: Slice) {
+        if let Slice::Open | Slice::Direction | Slice::Duration | Slice::Note | Slice::NoteBack = self.slice {
+            self.slice = slice;
         }
-        self.base = match self.stage {
-            Stage::Filling => (self.position.segment * config.per_segment) as usize,
-            Stage::Waiting | Stage::Full | Stage::Void => BINS,
-        };
-        let (index, distance) = self.place(config, self.position.within(angle));
+    }
+
+    /// A tick so far from the segment's start [2^-32 turn], a little before it or beyond its end included.
+    #[inline(always)]
+    fn count(&mut self, config: &WaveformConfig, within: u32, torque: N) {
+        let place = ((i64::from(within as i32) * i64::from(config.scale)) >> 32) as i32;
+        let index = self.base.wrapping_add((place >> PLACES) as u32) as usize & BINS.wrapping_sub(1);
         if let Some(bin) = self.bins.get_mut(index) {
-            bin.count(distance);
+            // The distance from the bin's middle [2^-32 bin].
+            let distance = (place << (32 - PLACES)) ^ i32::MIN;
+            let coarse = distance >> 26;
+            bin.ticks = bin.ticks.wrapping_add(1);
+            bin.first = bin.first.wrapping_add(distance >> 22);
+            bin.second = bin.second.wrapping_add((coarse * coarse) as u32);
+            bin.torque = torque.added_to(bin.torque);
         }
     }
 
-    /// The end of a cycle.
-    fn end(&mut self, config: &WaveformConfig, edge: Edge<N>, forward: bool) {
-        let [first, second, last_but_one, last] = &mut self.edges;
-        match self.stage {
-            Stage::Waiting => {
-                self.stage = Stage::Filling;
-                self.forward = forward;
-                self.cycles = 0;
-                *first = edge;
-                *last = edge;
-            }
-            Stage::Filling if forward == self.forward => {
-                if self.cycles == 0 {
-                    *second = edge;
+    /// One slice of what the end of a segment or of a cycle brings.
+    #[inline(always)]
+    fn slice(&mut self, config: &WaveformConfig, angle: u32, tick: u32, estimate: &Estimate<N>) {
+        let cycle = &config.cycle;
+        let position = &mut self.position;
+        self.slice = match self.slice {
+            Slice::Watch => {
+                if position.within(angle) < cycle.length {
+                    return;
                 }
-                *last_but_one = *last;
-                *last = edge;
-                self.cycles = self.cycles.wrapping_add(1);
-                let ticks = edge.tick.wrapping_sub(first.tick);
-                if ticks > LONGEST {
+                Slice::Ahead
+            }
+            Slice::Begin => {
+                position.measure(cycle);
+                Slice::Watch
+            }
+            Slice::Ahead if position.unsure => Slice::Away,
+            Slice::Ahead => match position.ahead(cycle, position.within(angle).wrapping_sub(cycle.length)) {
+                Way::Segment => Slice::Advance,
+                Way::Cycle => Slice::Beyond,
+                Way::Other => Slice::Behind,
+            },
+            Slice::Behind => match position.behind(cycle, position.within(angle).wrapping_neg()) {
+                Way::Segment => Slice::Retreat,
+                Way::Cycle => Slice::CarryBack,
+                Way::Other => Slice::Away,
+            },
+            Slice::Advance => {
+                position.advance(cycle);
+                self.base = self.base.wrapping_add(config.per_segment);
+                Slice::CountUp
+            }
+            Slice::Retreat => {
+                position.retreat(cycle);
+                self.base = self.base.wrapping_sub(config.per_segment);
+                Slice::CountDown
+            }
+            Slice::CountUp => {
+                position.count(1);
+                if self.forward { Slice::Watch } else { Slice::Doubt }
+            }
+            Slice::CountDown => {
+                position.count(-1);
+                if self.forward { Slice::Doubt } else { Slice::Watch }
+            }
+            Slice::Away => {
+                position.jump(cycle, Position::away(cycle, position.within(angle)));
+                self.base = position.segment.wrapping_mul(config.per_segment);
+                Slice::Doubt
+            }
+            Slice::Beyond => {
+                let beyond = position.beyond_cycle(position.within(angle).wrapping_sub(cycle.length));
+                if beyond < 0 { Slice::Watch } else { Slice::NextCycle }
+            }
+            Slice::NextCycle => {
+                position.next_cycle(cycle);
+                self.base = 0;
+                Slice::CarryOn
+            }
+            Slice::CarryOn => {
+                position.carry_on(cycle);
+                self.ahead = true;
+                Slice::Measure
+            }
+            Slice::Measure => {
+                position.measure(cycle);
+                Slice::Decide
+            }
+            Slice::CarryBack => {
+                position.carry_back(cycle);
+                Slice::MeasureBack
+            }
+            Slice::MeasureBack => {
+                position.measure(cycle);
+                self.ahead = false;
+                Slice::LastCycle
+            }
+            Slice::LastCycle => {
+                position.last_cycle(cycle);
+                self.base = (BINS as u32).wrapping_sub(config.per_segment);
+                Slice::Decide
+            }
+            Slice::Doubt => {
+                position.unsure = false;
+                if self.stage == Stage::Filling {
                     self.stage = Stage::Void;
-                } else if self.cycles >= config.cycles || ticks > LONGEST / 2 {
-                    self.stage = Stage::Full;
+                }
+                Slice::Watch
+            }
+            Slice::Decide => match self.stage {
+                Stage::Waiting => Slice::Open,
+                Stage::Filling => Slice::Direction,
+                Stage::Full | Stage::Void => Slice::Watch,
+            },
+            Slice::Open => {
+                self.forward = self.ahead;
+                self.cycles = u32::MAX;
+                self.then = Stage::Filling;
+                if self.ahead { Slice::Note } else { Slice::NoteBack }
+            }
+            Slice::Direction => {
+                self.then = if self.ahead == self.forward { Stage::Filling } else { Stage::Void };
+                Slice::Duration
+            }
+            Slice::Duration => {
+                let long = tick.wrapping_sub(self.edges[0].tick) > LONGEST / 2;
+                if self.then == Stage::Filling && (long || self.cycles.wrapping_add(1) >= config.cycles) {
+                    self.then = Stage::Full;
+                }
+                if self.ahead { Slice::Note } else { Slice::NoteBack }
+            }
+            // The motor has turned back meanwhile.
+            Slice::Note if (position.within(angle) as i32) < 0 => Slice::Doubt,
+            Slice::Note => {
+                self.edge = Edge { tick, angle, beyond: position.within(angle), speed: estimate.motor_speed };
+                self.stage = self.then;
+                Slice::File
+            }
+            Slice::NoteBack => {
+                let beyond = position.behind_end(cycle, position.within(angle));
+                if (beyond as i32) < 0 {
+                    Slice::Doubt
+                } else {
+                    self.edge = Edge { tick, angle, beyond, speed: estimate.motor_speed };
+                    self.stage = self.then;
+                    Slice::File
                 }
             }
-            Stage::Filling => self.stage = Stage::Void,
-            Stage::Full | Stage::Void => {}
-        }
+            Slice::File => {
+                self.cycles = self.cycles.wrapping_add(1);
+                if let Some(last) = self.edges.get_mut(2 + (self.cycles as usize & 1)) {
+                    *last = self.edge;
+                }
+                Slice::FileFirst
+            }
+            Slice::FileFirst => {
+                if let Some(early) = self.edges.get_mut(self.cycles as usize)
+                    && self.cycles < 2
+                {
+                    *early = self.edge;
+                }
+                Slice::Watch
+            }
+        };
     }
 
     /// Takes a finished window and lets the next one begin; `None` while there is none. To be called between two ticks; it copies and empties
     /// the table, and it must be called now and then also for a window that was disturbed to be given up.
     pub fn take(&mut self) -> Option<Window<N, BINS>> {
-        let stale = self.stage == Stage::Filling && self.tick.wrapping_sub(self.edges[3].tick) > LONGEST;
-        if stale {
+        // While an end is being filed the window is not complete.
+        if let Slice::File | Slice::FileFirst = self.slice {
+            return None;
+        }
+        let [first, second, even, odd] = self.edges;
+        let [before, last] = if self.cycles & 1 == 0 { [odd, even] } else { [even, odd] };
+        let longest = |from: &Edge<N>, to: u32| to.wrapping_sub(from.tick) > LONGEST;
+        if (self.stage == Stage::Filling && longest(&last, self.tick))
+            || (self.stage == Stage::Full && longest(&first, last.tick))
+        {
             self.stage = Stage::Void;
         }
         let window = match self.stage {
             Stage::Full => Some(Window {
                 bins: self.bins,
-                torque: self.torque,
-                edges: self.edges,
+                edges: [first, second, before, last],
                 cycles: self.cycles,
                 forward: self.forward,
             }),
@@ -215,7 +366,7 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
         };
         self.bins = [Bin::default(); BINS];
         self.stage = Stage::Waiting;
-        self.base = BINS;
+        self.reconsider(Slice::Decide);
         window
     }
 }

@@ -13,9 +13,8 @@ pub use super::series::MAX_ORDER;
 /// A finished window, as it was taken from a [`super::Waveform`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Window<N, const BINS: usize> {
-    pub(super) bins: [Bin; BINS],
-    pub(super) torque: [N; BINS],
+pub struct Window<N: Number, const BINS: usize> {
+    pub(super) bins: [Bin<N>; BINS],
     pub(super) edges: [Edge<N>; 4],
     pub(super) cycles: u32,
     pub(super) forward: bool,
@@ -40,7 +39,7 @@ pub struct Ripple {
 
 impl<N: Number, const BINS: usize> Window<N, BINS> {
     /// The bins, the first one beginning where the cycle does.
-    pub fn bins(&self) -> &[Bin; BINS] {
+    pub fn bins(&self) -> &[Bin<N>; BINS] {
         &self.bins
     }
 
@@ -73,9 +72,12 @@ impl<N: Number, const BINS: usize> Window<N, BINS> {
             let mut integrals = counted;
             for (n, order) in (1_u32..).zip(integrals.orders.iter_mut().take(highest)) {
                 for (part, weight, turned) in [(ends.parts[0], 1.0, turned[0]), (ends.parts[1], -1.0, turned[1])] {
-                    let (s, c) = sin_cos(f64::from(n) * 0.5 * part * turned * (TAU / config.cycle.angle));
-                    order.cos += weight * part * c;
-                    order.sin += weight * part * s;
+                    // The integral over the part: that at its middle, times sin(x)/x of half of it.
+                    let half = f64::from(n) * 0.5 * part * turned * (TAU / config.cycle.angle);
+                    let (s, c) = sin_cos(half);
+                    let mean = if half.abs() > 1e-3 { s / half } else { 1.0 };
+                    order.cos += weight * part * mean * c;
+                    order.sin += weight * part * mean * s;
                 }
             }
             slowness = ramp.taken_off(&slowness, &integrals, ticks, highest);

@@ -14,7 +14,7 @@
 //! | `F`, added torque | `()`, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping) |
 //! | `L`, the limit | [`Symmetric`], [`Between`](super::Between), [`Curve`](super::Curve), [`Slew`](super::Slew) or [`Slack`](super::Slack) round any of them |
 //! | `M`, the modes | `()` always at work, [`Modes`](super::Modes) |
-//! | `V`, the view | `()` the estimates as they are, [`Mean`](super::Mean) over an engine's firing interval |
+//! | `V`, the view | `()` the estimates as they are, [`Mean`](super::Mean) over an engine's firing interval, [`OverCycle`](super::OverCycle) without what repeats every cycle |
 //!
 //! Two parts of one kind are a tuple: `(Droop, Barred<f32, 2>)`. What is left out costs nothing.
 
@@ -174,11 +174,18 @@ where
     }
 
     #[inline(always)]
+    fn follow(&mut self, steady_speed: Option<N>) {
+        self.view.follow(steady_speed);
+    }
+
+    #[inline(always)]
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N {
         let mut carry = N::CARRY;
-        let estimate = &self.view.see(&config.view, estimate);
+        let seen = self.view.see(&config.view, estimate);
+        let watched = V::watched(estimate, &seen);
+        let estimate = &seen;
         let mut reference = self.reference;
-        match self.supervisor.duty(&config.supervisor, estimate) {
+        match self.supervisor.duty(&config.supervisor, watched) {
             Duty::Govern => {}
             Duty::Begin => self.begin(config, estimate, N::ZERO),
             Duty::Brake => reference = N::ZERO,

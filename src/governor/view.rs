@@ -3,7 +3,8 @@
 //!
 //! An engine's speed swings with every firing, and a governor that follows the swing wears the rack and mends nothing:
 //! a flywheel mends what is periodic, a governor what is not [Notes ch. 5]. The mean over one firing interval at rated
-//! speed has none of the firing's orders.
+//! speed has none of the firing's orders. Where the speed varies, or the cycle is long, what repeats is known by the angle: [`OverCycle`] takes
+//! the speed without its ripple from the drive's measurement of the fluctuation.
 
 use crate::number::Number;
 use crate::sample::Estimate;
@@ -13,10 +14,20 @@ pub trait View<N: Number>: Default {
     /// Its constants.
     type Config;
 
+    /// Takes the speed without its ripple, where the drive's fluctuation knows it.
+    #[inline(always)]
+    fn follow(&mut self, _steady_speed: Option<N>) {}
+
     /// What is seen in this tick.
     #[inline(always)]
     fn see(&mut self, _config: &Self::Config, estimate: &Estimate<N>) -> Estimate<N> {
         *estimate
+    }
+
+    /// What the modes and trips see, of the estimates as they are and as they are seen.
+    #[inline(always)]
+    fn watched<'e>(_estimate: &'e Estimate<N>, seen: &'e Estimate<N>) -> &'e Estimate<N> {
+        seen
     }
 
     /// Starts anew with these estimates.
@@ -84,5 +95,39 @@ impl<N: Number, const K: usize> View<N> for Mean<N, K> {
         self.sum = [estimate.motor_speed, estimate.load_torque];
         self.fresh = [N::ZERO; 2];
         self.at = 0;
+    }
+}
+
+/// The motor's speed without what repeats in every cycle, as the drive's fluctuation has it ([`CycleMean`](crate::fluctuation::CycleMean)); as it
+/// is where the fluctuation does not know. Everything else is seen as it is, and so is the speed by the modes and their trips.
+///
+/// A load torque that is fed forward brings the ripple back: leave [`FeedForward`](super::FeedForward) out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct OverCycle<N> {
+    steady_speed: Option<N>,
+}
+
+impl<N: Number> View<N> for OverCycle<N> {
+    type Config = ();
+
+    #[inline(always)]
+    fn follow(&mut self, steady_speed: Option<N>) {
+        self.steady_speed = steady_speed;
+    }
+
+    #[inline(always)]
+    fn see(&mut self, _config: &(), estimate: &Estimate<N>) -> Estimate<N> {
+        Estimate { motor_speed: self.steady_speed.unwrap_or(estimate.motor_speed), ..*estimate }
+    }
+
+    #[inline(always)]
+    fn watched<'e>(estimate: &'e Estimate<N>, _seen: &'e Estimate<N>) -> &'e Estimate<N> {
+        estimate
+    }
+
+    #[inline(always)]
+    fn start(&mut self, _config: &(), _estimate: &Estimate<N>) {
+        self.steady_speed = None;
     }
 }

@@ -22,8 +22,8 @@ impl<N: Scaled> AdcVibration<N> {
     /// The mean of the conversions of a tick. `transfers` counts the DMA's transfers, and so says whether these are new.
     ///
     /// # Errors
-    /// [`Faults::VIBRATION_MISSING`] where there is no conversion, the transfers stand still, or a conversion is at either end of the range: clipped,
-    /// or a wire that has broken.
+    /// [`Faults::VIBRATION_MISSING`] where there is no conversion, or the transfers stand still; [`Faults::VIBRATION_CLIPPED`] where a conversion is
+    /// at either end of the range: clipped, or a wire that has broken.
     pub fn mean(&mut self, conversions: &[u16], transfers: u32) -> Result<N, Faults> {
         let stale = self.last == Some(transfers);
         self.last = Some(transfers);
@@ -31,8 +31,11 @@ impl<N: Scaled> AdcVibration<N> {
         let sum = conversions.iter().fold(0_u64, |sum, &conversion| sum.saturating_add(conversion as u64));
         // in 1/256 of a count: of 65,535 at most, so that it fits
         let mean = sum.saturating_mul(256).checked_div(conversions.len() as u64).ok_or(Faults::VIBRATION_MISSING)?;
-        if stale || at_end {
+        if stale {
             return Err(Faults::VIBRATION_MISSING);
+        }
+        if at_end {
+            return Err(Faults::VIBRATION_CLIPPED);
         }
         Ok(self.per_count.times((mean as i32).wrapping_sub((self.middle as i32) << 8)))
     }

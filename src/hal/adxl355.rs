@@ -126,7 +126,7 @@ impl<S: SpiDevice, N: Scaled> Adxl355<S, N> {
         };
         let counts = i32::from_be_bytes([high, middle, low, 0]) >> 12;
         if !(-CLIPPED..CLIPPED).contains(&counts) {
-            return Err(Faults::VIBRATION_MISSING);
+            return Err(Faults::VIBRATION_CLIPPED);
         }
         Ok(Some(self.per_count.times(counts)))
     }
@@ -135,7 +135,8 @@ impl<S: SpiDevice, N: Scaled> Adxl355<S, N> {
 impl<S: SpiDevice, N: Scaled> VibrationSensor<N> for Adxl355<S, N> {
     fn vibration(&mut self) -> Result<Option<N>, Faults> {
         let sample = self.read();
-        if matches!(sample, Ok(Some(_))) {
+        // a clipped one has come all the same
+        if matches!(sample, Ok(Some(_)) | Err(Faults::VIBRATION_CLIPPED)) {
             self.waited = 0;
             return sample;
         }

@@ -113,7 +113,8 @@ where
         Command { torque: self.set, faults }
     }
 
-    /// Gives the balancer a sample of the vibration, taken with the last angle; where there is none, nothing.
+    /// Gives the balancer a sample of the vibration, taken with the last angle; where there is none, nothing. A fault is given to the balancer too,
+    /// whose reading is doubted then, and comes back.
     pub fn vibration(
         &mut self,
         config: &ConfigOf<N, O, F, G, B>,
@@ -122,7 +123,10 @@ where
         match sample {
             Ok(Some(vibration)) => self.drive.vibration(config, &vibration),
             Ok(None) => {}
-            Err(faults) => return faults,
+            Err(faults) => {
+                self.drive.vibration_missing(faults);
+                return faults;
+            }
         }
         Faults::NONE
     }
@@ -135,6 +139,11 @@ where
     /// The drive.
     pub fn drive(&self) -> &Drive<N, O, F, G, B> {
         &self.drive
+    }
+
+    /// The drive, for what is done between two ticks: a reading begun, a state taken over.
+    pub fn drive_mut(&mut self) -> &mut Drive<N, O, F, G, B> {
+        &mut self.drive
     }
 
     /// The board.

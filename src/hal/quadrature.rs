@@ -31,7 +31,11 @@ pub struct Quadrature<C> {
     last: Option<u32>,
     /// Counts since zero, modulo a turn.
     position: i32,
+    /// Where the index stands: at its first pulse, and after a slip where it is then.
     index: Option<i32>,
+    /// Counts that the index has shown to be lost.
+    slipped: i32,
+    /// Whether the next reading has to say so.
     lost: bool,
 }
 
@@ -54,22 +58,33 @@ impl<C> Quadrature<C> {
             last: None,
             position: 0,
             index: None,
+            slipped: 0,
             lost: false,
         }
     }
 
-    /// Tells that the encoder's index pulse was seen at `count`. The first one is remembered; where a later one is more than a count off a
-    /// whole number of turns, lines were lost or gained, and the next reading says so.
+    /// Tells that the encoder's index pulse was seen at `count`. The place of the first one is kept: a later one that is more than a count off it, by a
+    /// whole number of turns, shows that counts were lost or gained, all at once or one by one, and the next reading says so. A single count is what
+    /// the edges of the index leave open.
     ///
     /// The interrupt of the index must not come between two readings that are more than a turn apart.
     pub fn index(&mut self, count: u32) {
         let Some(last) = self.last else { return };
         let place = self.wrapped(self.position.saturating_add(self.difference(count, last)));
-        if let Some(first) = self.index {
-            let off = self.wrapped(place.saturating_sub(first));
-            self.lost |= off > 1 && off < self.turn - 1;
+        let first = *self.index.get_or_insert(place);
+        let ahead = self.wrapped(place.saturating_sub(first));
+        let off = if ahead > self.turn >> 1 { ahead.saturating_sub(self.turn) } else { ahead };
+        if !(-1..=1).contains(&off) {
+            self.slipped = self.slipped.saturating_add(off);
+            self.lost = true;
+            // what is lost is told once: the next slip is measured from here
+            self.index = Some(place);
         }
-        self.index = Some(place);
+    }
+
+    /// Counts that the index has shown to be lost or gained since the first pulse: by so many the angle is ahead of the shaft.
+    pub fn slipped(&self) -> i32 {
+        self.slipped
     }
 
     /// Counts from `last` to `count`, the shorter way round.
@@ -88,7 +103,8 @@ impl<C: Counter> Quadrature<C> {
     /// The angle now, 2^32 to the turn.
     ///
     /// # Errors
-    /// [`Faults::ANGLE_MISSING`] where the timer gives none, or where the index has shown that lines were lost; the latter once.
+    /// [`Faults::ANGLE_MISSING`] where the timer gives none, or where the index has shown that counts were lost; the latter once
+    /// for each slip.
     #[inline]
     pub fn read(&mut self) -> Result<u32, Faults> {
         let count = self.counter.count().map_err(|_| Faults::ANGLE_MISSING)?;

@@ -33,6 +33,7 @@ sentences! {
     GearEfficiency => "efficiency of the gear must be above 0 and at most 1",
     PlanetaryTeeth => "teeth of the planetary set must be above zero, with more on the ring than on the sun",
     PlanetaryInertia => "inertias and masses of the planetary set must be zero or positive and finite, its module positive",
+    PlanetaryMembers => "the member of the planetary set that is held must not be the one that is driven",
     DrumDiameter => "diameter of the drum must be positive and finite (m)",
     RopeFalls => "falls of the rope must be at least 1",
     RopeStiffness => "stiffness of the rope must be positive and finite (N/m at the load)",

@@ -1,9 +1,13 @@
-//! A planetary set of one sun, planets, a held ring and a carrier as output (2K-H).
+//! A planetary set of one sun, planets, a ring and a carrier (2K-H), any of sun, ring and carrier held.
+//!
+//! Speeds follow from Willis: seen from the carrier, sun and ring turn as `z_sun (w_sun - w_H) = -z_ring (w_ring - w_H)`, and a planet as `z_planet (w - w_H) =
+//! -z_sun (w_sun - w_H)` [Wang 1989 example 1-4]. The inertia at the driven member is that of each part by the square of its speed over the driven one's.
 
 use super::error::{not_negative, positive};
 use super::{Chain, Efficiency, Error, Inertia, Mass, Ratio};
 
-/// A planetary set driven at the sun, with the ring held and the carrier as output [Wang 1989 example 1-4].
+/// A planetary set; by itself driven at the sun, with the ring held and the carrier as output [Wang 1989 example 1-4]. Other members are driven or held in a
+/// [`PlanetaryGear`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Planetary {
@@ -59,9 +63,123 @@ impl Planetary {
     pub const fn inertia_at_carrier(&self) -> f64 {
         self.inertia_at_sun() * self.ratio() * self.ratio()
     }
+
+    /// Checks what holds whichever member is driven.
+    const fn check(&self) -> Result<(), Error> {
+        if self.sun_teeth == 0 || self.ring_teeth <= self.sun_teeth || self.planets == 0 {
+            return Err(Error::PlanetaryTeeth);
+        }
+        let parts = not_negative(self.sun.0)
+            && not_negative(self.planet.0)
+            && not_negative(self.planet_mass.0)
+            && not_negative(self.carrier.0);
+        if positive(self.module) && parts { Ok(()) } else { Err(Error::PlanetaryInertia) }
+    }
+}
+
+/// A member of a planetary set that can be driven, held, or give the power on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Member {
+    /// The sun.
+    Sun,
+    /// The ring.
+    Ring,
+    /// The carrier of the planets.
+    Carrier,
+}
+
+/// A planetary set of which one member is driven and another held; the third gives the power on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PlanetaryGear {
+    /// The set.
+    pub set: Planetary,
+    /// Inertia of the ring \[kg m2\].
+    pub ring: Inertia,
+    /// The member on the motor's side.
+    pub driven: Member,
+    /// The member that stands still.
+    pub held: Member,
+}
+
+impl PlanetaryGear {
+    /// Speeds of sun, ring, carrier and planet (about its own axis in space) over that of the driven member; negative where one turns against it.
+    const fn speeds(&self) -> [f64; 4] {
+        let (sun, ring) = (self.set.sun_teeth as f64, self.set.ring_teeth as f64);
+        let both = sun + ring;
+        let [w_sun, w_ring, w_carrier] = match (self.driven, self.held) {
+            (Member::Sun, Member::Ring) => [1.0, 0.0, sun / both],
+            (Member::Carrier, Member::Ring) => [both / sun, 0.0, 1.0],
+            (Member::Ring, Member::Sun) => [0.0, 1.0, ring / both],
+            (Member::Carrier, Member::Sun) => [0.0, both / ring, 1.0],
+            (Member::Sun, Member::Carrier) => [1.0, -sun / ring, 0.0],
+            (Member::Ring, Member::Carrier) => [-ring / sun, 1.0, 0.0],
+            // refused by `check`
+            _ => [f64::NAN; 3],
+        };
+        let planet = (ring - sun) / 2.0;
+        [w_sun, w_ring, w_carrier, w_carrier - (w_sun - w_carrier) * sun / planet]
+    }
+
+    /// Speed of the driven member over that of the member that gives the power on; negative where they turn against each other, which is so with the
+    /// carrier held.
+    #[must_use]
+    pub const fn ratio(&self) -> f64 {
+        let [sun, ring, carrier, _] = self.speeds();
+        1.0 / match (self.driven, self.held) {
+            (Member::Ring | Member::Carrier, Member::Carrier | Member::Ring) => sun,
+            (Member::Sun | Member::Carrier, Member::Carrier | Member::Sun) => ring,
+            _ => carrier,
+        }
+    }
+
+    /// Inertia of the whole set at the driven member \[kg m2\], without losses.
+    #[must_use]
+    pub const fn inertia(&self) -> f64 {
+        let [sun, ring, carrier, planet] = self.speeds();
+        let set = &self.set;
+        let planet_teeth = (set.ring_teeth as f64 - set.sun_teeth as f64) / 2.0;
+        let way = set.module * (set.sun_teeth as f64 + planet_teeth) / 2.0 * carrier;
+        let planets = set.planets as f64 * (set.planet.0 * planet * planet + set.planet_mass.0 * way * way);
+        set.sun.0 * sun * sun + planets + set.carrier.0 * carrier * carrier + self.ring.0 * ring * ring
+    }
 }
 
 impl Chain {
+    /// A planetary set with one member on the present mass and another held; what follows turns with the third. Which way that turns is left out: nothing in a
+    /// chain feels it.
+    #[must_use]
+    pub const fn planetary_gear(self, gear: PlanetaryGear) -> Self {
+        match self.try_planetary_gear(gear) {
+            Ok(chain) => chain,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`planetary_gear`](Self::planetary_gear), with an error for a value out of range.
+    ///
+    /// # Errors
+    /// [`Error::PlanetaryMembers`], and those of [`try_planetary`](Self::try_planetary).
+    pub const fn try_planetary_gear(self, gear: PlanetaryGear) -> Result<Self, Error> {
+        if matches!(
+            (gear.driven, gear.held),
+            (Member::Sun, Member::Sun) | (Member::Ring, Member::Ring) | (Member::Carrier, Member::Carrier)
+        ) {
+            return Err(Error::PlanetaryMembers);
+        }
+        if let Err(error) = gear.set.check() {
+            return Err(error);
+        }
+        if !(not_negative(gear.ring.0) && positive(gear.inertia())) {
+            return Err(Error::PlanetaryInertia);
+        }
+        match self.try_rotor(Inertia(gear.inertia())) {
+            Ok(chain) => chain.try_gear(Ratio(gear.ratio().abs()), gear.set.efficiency),
+            Err(error) => Err(error),
+        }
+    }
+
     /// A planetary set with its sun on the present mass; what follows turns with the carrier.
     #[must_use]
     pub const fn planetary(self, set: Planetary) -> Self {
@@ -76,16 +194,10 @@ impl Chain {
     /// # Errors
     /// [`Error::PlanetaryTeeth`], [`Error::PlanetaryInertia`], [`Error::GearEfficiency`], [`Error::RotaryAfterDrum`].
     pub const fn try_planetary(self, set: Planetary) -> Result<Self, Error> {
-        if set.sun_teeth == 0 || set.ring_teeth <= set.sun_teeth || set.planets == 0 {
-            return Err(Error::PlanetaryTeeth);
+        if let Err(error) = set.check() {
+            return Err(error);
         }
-        if !(positive(set.module)
-            && not_negative(set.sun.0)
-            && not_negative(set.planet.0)
-            && not_negative(set.planet_mass.0)
-            && not_negative(set.carrier.0)
-            && positive(set.inertia_at_sun()))
-        {
+        if !positive(set.inertia_at_sun()) {
             return Err(Error::PlanetaryInertia);
         }
         match self.try_rotor(Inertia(set.inertia_at_sun())) {

@@ -89,6 +89,8 @@ impl Number for Fixed {
     type Coefficient = Coefficient;
     type Firmness = ();
     type Carry = u32;
+    type Rank = i32;
+    type Total = i64;
 
     const ZERO: Self = Fixed(0);
     const ONE: Self = Fixed::ONE;
@@ -198,10 +200,11 @@ impl Number for Fixed {
         (self.0 ^ other.0) < 0
     }
 
-    // The divisor's last bit is set, which keeps it from zero; the share is then below 2 for a travel below 2^13.
+    // The divisor's last bit is set, which keeps it from zero, and the dividend's, which keeps it from the one number that
+    // -1 does not divide: neither is then checked for. The share is below 2 for a travel below 2^13.
     #[inline(always)]
     fn passed(self, travel: Self) -> Self {
-        let share = self.0.wrapping_div((travel.0 >> 12) | 1);
+        let share = (self.0 | 1).wrapping_div((travel.0 >> 12) | 1);
         Fixed(((self.0 as i64 * share as i64) >> 10) as i32)
     }
 
@@ -242,8 +245,23 @@ impl Number for Fixed {
     }
 
     #[inline(always)]
-    fn sixteenth(self) -> Self {
-        Fixed(self.0 >> 4)
+    fn rank(self) -> i32 {
+        self.0
+    }
+
+    #[inline(always)]
+    fn of_rank(rank: i32) -> Self {
+        Fixed(rank)
+    }
+
+    #[inline(always)]
+    fn added_to(self, total: i64) -> i64 {
+        total.wrapping_add(self.0 as i64)
+    }
+
+    #[inline(always)]
+    fn total_to_real(total: i64) -> f64 {
+        total as f64 / 268_435_456.0
     }
 
     #[inline(always)]

@@ -3,11 +3,13 @@
 use super::Number;
 
 macro_rules! float {
-    ($float:ident) => {
+    ($float:ident, $integer:ident) => {
         impl Number for $float {
             type Coefficient = $float;
             type Firmness = $float;
             type Carry = ();
+            type Rank = $integer;
+            type Total = $float;
 
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -151,9 +153,25 @@ macro_rules! float {
                 c * self
             }
 
+            // The bits without the sign rise with the magnitude.
             #[inline(always)]
-            fn sixteenth(self) -> Self {
-                self * 0.0625
+            fn rank(self) -> $integer {
+                self.to_bits() as $integer
+            }
+
+            #[inline(always)]
+            fn of_rank(rank: $integer) -> Self {
+                $float::from_bits(rank as _)
+            }
+
+            #[inline(always)]
+            fn added_to(self, total: Self) -> Self {
+                total + self
+            }
+
+            #[inline(always)]
+            fn total_to_real(total: Self) -> f64 {
+                total.into()
             }
 
             #[inline(always)]
@@ -174,5 +192,5 @@ macro_rules! float {
     };
 }
 
-float!(f32);
-float!(f64);
+float!(f32, i32);
+float!(f64, i64);

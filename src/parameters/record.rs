@@ -64,32 +64,58 @@ pub(super) fn is_erased(bytes: &[u8]) -> bool {
     bytes.iter().all(|&byte| byte == 0xff)
 }
 
-/// Reads a record, whatever is behind it, and the count of its save; where it is refused, the count that it claims.
-pub(super) fn read<P: Parameters>(bytes: &[u8]) -> Result<(P, u32), (Refusal, Option<u32>)> {
-    let damaged = (Refusal::Damaged, None);
+/// How much a record in the flash is worth keeping to whom reads it as `P`, in rising order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Worth {
+    /// Nothing is there, or nothing that is whole.
+    Nothing,
+    /// It begins as a record does, and is longer than the buffer: nobody knows.
+    Unknown,
+    /// Sound, another firmware's.
+    Foreign,
+    /// Sound, this firmware's, in another form.
+    Other,
+    /// Sound, and parameters.
+    Good,
+}
+
+/// A record that is refused.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Refused {
+    pub reason: Refusal,
+    pub worth: Worth,
+    /// The count of its save that it claims, where it has one.
+    pub count: Option<u32>,
+}
+
+/// Reads a record, whatever is behind it, and the count of its save.
+pub(super) fn read<P: Parameters>(bytes: &[u8]) -> Result<(P, u32), Refused> {
+    let damaged = Refused { reason: Refusal::Damaged, worth: Worth::Nothing, count: None };
     let (head, after) = bytes.split_first_chunk::<HEAD>().ok_or(damaged)?;
     let &[m0, m1, m2, m3, i0, i1, i2, i3, v0, v1, c0, c1, c2, c3, l0, l1, l2, l3] = head;
     let length = u32::from_le_bytes([l0, l1, l2, l3]) as usize;
-    if [m0, m1, m2, m3] != MAGIC || length > after.len() {
+    if [m0, m1, m2, m3] != MAGIC {
         return Err(damaged);
     }
-    let (content, check) = after.split_at_checked(length).ok_or(damaged)?;
-    let check = check.first_chunk::<CHECK>().ok_or(damaged)?;
+    let longer = Refused { worth: Worth::Unknown, ..damaged };
+    let (content, check) = after.split_at_checked(length).ok_or(longer)?;
+    let check = check.first_chunk::<CHECK>().ok_or(longer)?;
     if bytes.get(..HEAD + length).map(crc) != Some(u32::from_le_bytes(*check)) {
         return Err(damaged);
     }
     let identity = u32::from_le_bytes([i0, i1, i2, i3]);
     let version = u16::from_le_bytes([v0, v1]);
     let count = u32::from_le_bytes([c0, c1, c2, c3]);
+    let refused = |reason, worth| Err(Refused { reason, worth, count: Some(count) });
     if identity != P::IDENTITY {
-        return Err((Refusal::Foreign(identity), Some(count)));
+        return refused(Refusal::Foreign(identity), Worth::Foreign);
     }
     if version != P::VERSION {
-        return Err((Refusal::Version(version), Some(count)));
+        return refused(Refusal::Version(version), Worth::Other);
     }
     match postcard::take_from_bytes(content) {
         Ok((parameters, [])) => Ok((parameters, count)),
-        _ => Err((Refusal::Content, Some(count))),
+        _ => refused(Refusal::Content, Worth::Other),
     }
 }
 

@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use embedded_storage::nor_flash::NorFlash;
 
-use super::record::{self, Parameters, Refusal};
+use super::record::{self, Parameters, Refusal, Refused, Worth};
 
 /// Why parameters were not kept or found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,13 +73,14 @@ impl<F: NorFlash> Store<F> {
         Ok(self.newest(buffer)?.0)
     }
 
-    /// Keeps parameters; they are there once this returns, and until then the last ones are.
+    /// Keeps parameters; they are there once this returns, and until then the last ones are. Where there are none that this firmware reads, those that it
+    /// wrote in another form are: what is overwritten is the record that is worth less, or else the older one.
     ///
     /// # Errors
     /// What the flash says; [`Error::TooLarge`] where the buffer or half the range has no room for them.
     pub fn save<P: Parameters>(&mut self, parameters: &P, buffer: &mut [u8]) -> Result<(), Error<F::Error>> {
-        let (_, newest) = self.newest::<P>(buffer)?;
-        let (place, count) = newest.map_or((0, 0), |(place, count)| (place ^ 1, count.wrapping_add(1)));
+        let (_, kept) = self.newest::<P>(buffer)?;
+        let (place, count) = kept.map_or((0, 0), |kept| (kept.place ^ 1, kept.count.wrapping_add(1)));
         let length = record::write(parameters, count, buffer).ok_or(Error::TooLarge)?;
         // up to a whole word, as if still erased
         let whole = length.next_multiple_of(F::WRITE_SIZE);
@@ -95,48 +96,69 @@ impl<F: NorFlash> Store<F> {
         self.flash
     }
 
-    /// The newest good record, and its place and count.
-    #[allow(clippy::type_complexity)]
-    fn newest<P: Parameters>(&mut self, buffer: &mut [u8]) -> Result<(Loaded<P>, Option<(u32, u32)>), Error<F::Error>> {
-        let mut good: Option<(P, u32, u32)> = None;
-        let mut refused: Option<(Refusal, Option<u32>)> = None;
+    /// The newest good record, and the one of both that a save must leave alone.
+    fn newest<P: Parameters>(&mut self, buffer: &mut [u8]) -> Result<Newest<P>, Error<F::Error>> {
+        let mut parameters = None;
+        let mut refused: Option<Refused> = None;
+        let mut kept: Option<Kept> = None;
         for place in 0..2 {
-            match self.fetch::<P>(place, buffer)? {
-                None => {}
-                Some(Ok((parameters, count))) => {
-                    // the counts are one apart; they wrap
-                    let newer = good.as_ref().is_none_or(|(_, _, other)| (count.wrapping_sub(*other) as i32) > 0);
-                    good = if newer { Some((parameters, place, count)) } else { good };
+            let found = match self.fetch::<P>(place, buffer)? {
+                None => continue,
+                Some(Ok((read, count))) => {
+                    let found = Kept { worth: Worth::Good, place, count };
+                    if kept.is_none_or(|kept| found.before(&kept)) {
+                        parameters = Some(read);
+                    }
+                    found
                 }
                 Some(Err(reason)) => {
-                    let newer = |other: &(Refusal, Option<u32>)| {
-                        reason.1.zip(other.1).is_none_or(|(count, other)| (count.wrapping_sub(other) as i32) > 0)
+                    let newer = |other: &Refused| {
+                        reason.count.zip(other.count).is_none_or(|(count, other)| is_newer(count, other))
                     };
                     if refused.as_ref().is_none_or(newer) {
                         refused = Some(reason);
                     }
+                    Kept { worth: reason.worth, place, count: reason.count.unwrap_or(0) }
                 }
+            };
+            if found.worth > Worth::Nothing && kept.is_none_or(|kept| found.before(&kept)) {
+                kept = Some(found);
             }
         }
-        let refused = refused.map(|(reason, _)| reason);
-        Ok(match good {
-            Some((parameters, place, count)) => {
-                (Loaded { parameters: Some(parameters), refused }, Some((place, count)))
-            }
-            None => (Loaded { parameters: None, refused }, None),
-        })
+        Ok((Loaded { parameters, refused: refused.map(|refused| refused.reason) }, kept))
     }
 
-    #[allow(clippy::type_complexity)]
-    fn fetch<P: Parameters>(
-        &mut self,
-        place: u32,
-        buffer: &mut [u8],
-    ) -> Result<Option<Result<(P, u32), (Refusal, Option<u32>)>>, Error<F::Error>> {
+    fn fetch<P: Parameters>(&mut self, place: u32, buffer: &mut [u8]) -> Result<Fetched<P>, Error<F::Error>> {
         let length = buffer.len().min(self.half as usize);
         let length = length - length % F::READ_SIZE.max(1);
         let bytes = buffer.get_mut(..length).unwrap_or(&mut []);
         self.flash.read(self.start + place * self.half, bytes).map_err(Error::Flash)?;
         Ok((!record::is_erased(bytes)).then(|| record::read(bytes)))
     }
+}
+
+/// What was found, and the record that a save must leave alone.
+type Newest<P> = (Loaded<P>, Option<Kept>);
+
+/// The parameters of a record and the count of its save, or why it is refused; none where nothing was written.
+type Fetched<P> = Option<Result<(P, u32), Refused>>;
+
+/// A record that stands in the flash.
+#[derive(Clone, Copy)]
+struct Kept {
+    worth: Worth,
+    place: u32,
+    count: u32,
+}
+
+impl Kept {
+    /// Whether this one is to be kept rather than the other.
+    fn before(&self, other: &Kept) -> bool {
+        self.worth > other.worth || self.worth == other.worth && is_newer(self.count, other.count)
+    }
+}
+
+/// Whether a save came after another: their counts are one apart, and wrap.
+fn is_newer(count: u32, other: u32) -> bool {
+    count.wrapping_sub(other) as i32 > 0
 }

@@ -1,7 +1,9 @@
 //! The measurement of the speed's fluctuation, on a motor that turns at 1425 r/min, a little faster and slower by turns.
 
 use driveline::constants::{Bases, Cycle};
-use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Waveform, WaveformConfig};
+use driveline::fluctuation::{
+    CycleConfig, CycleMean, CycleMeanConfig, Extremes, Fluctuation, Waveform, WaveformConfig,
+};
 use driveline::number::Number;
 use driveline::sample::Estimate;
 
@@ -19,14 +21,18 @@ struct Tick<N> {
     estimate: Estimate<N>,
 }
 
+/// A quarter of a turn, so that there are many ends.
+pub const QUARTER: Cycle = Cycle { turns: 1, cycles: 4 };
+
 /// Every part alone, and both.
-pub fn all<B: Board, N: Number + 'static>(bench: &mut Bench<'_, B>, bases: Bases) {
-    // A quarter of a turn, so that there are many ends; a window of six, which is most of the calls.
-    let cycle = CycleConfig::new(Cycle { turns: 1, cycles: 4 }, 1e-4, bases);
+pub fn all<B: Board, N: Number + 'static>(bench: &mut Bench<'_, B>, bases: Bases, mean: CycleMeanConfig<N>) {
+    // A window of six cycles is most of the calls.
+    let cycle = CycleConfig::new(QUARTER, 1e-4, bases);
     let waveform = WaveformConfig::new::<BINS>(cycle, 6);
     part::<B, N, Extremes<N>>(bench, "fluctuation/extremes", cycle);
     part::<B, N, Waveform<N, BINS>>(bench, "fluctuation/waveform", waveform);
     part::<B, N, (Extremes<N>, Waveform<N, BINS>)>(bench, "fluctuation/both", (cycle, waveform));
+    part::<B, N, CycleMean<N, 4>>(bench, "fluctuation/cycle-mean", mean);
 }
 
 fn part<B: Board, N: Number, F: Fluctuation<N>>(bench: &mut Bench<'_, B>, name: &str, config: F::Config) {

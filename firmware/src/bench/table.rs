@@ -1,40 +1,42 @@
 //! What the bench measures: a line a function, with its state, its inputs and the function.
 
 use driveline::constants::Bases;
+use driveline::fluctuation::CycleMeanConfig;
 use driveline::number::Fixed;
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
-use super::{correction, cranked, fluctuation, governors, phasors, steps};
+use super::{advice, correction, cranked, fluctuation, governors, phasors, steps};
 use crate::Words;
 use crate::board::Board;
-use crate::measure::driveline_tick;
+use crate::measure::count::Measured;
 use crate::program::Program;
-use crate::scene::Scene;
+use crate::scene::{Input, Output, Scene};
 use crate::scenes::hoist::BASES;
-use crate::selected::Selected;
 
-/// Measures everything.
-pub fn run<B: Board>(bench: &mut Bench<'_, B>) {
+/// Measures everything; `tick` is that of scene `S`.
+pub fn run<S: Scene, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<S, Input, Output>) {
     bench.measure("nops/10", (), |_| (), ten_nops);
     bench.measure("nops/1000", (), |_| (), thousand_nops);
-    bench.measure("tick", Selected::new(), Program::next_input, driveline_tick);
-    match const { Words::of::<Selected>() } {
+    bench.measure("tick", S::new(), Program::next_input, tick);
+    match const { Words::of::<S>() } {
         Words::Single => {
             steps::single(bench);
             cranked::single(bench);
             phasors::single(bench);
-            fluctuation::all::<B, f32>(bench, Bases::SI);
+            fluctuation::all::<B, f32>(bench, Bases::SI, CycleMeanConfig::<f32>::new::<4>(fluctuation::QUARTER, 1e-4));
             governors::single(bench);
         }
         Words::Fixed => {
             steps::fixed(bench);
             cranked::fixed(bench);
             phasors::fixed(bench);
-            fluctuation::all::<B, Fixed>(bench, BASES);
+            let mean = CycleMeanConfig::<Fixed>::new::<4>(fluctuation::QUARTER, 1e-4, BASES);
+            fluctuation::all::<B, Fixed>(bench, BASES, mean);
             governors::fixed(bench);
         }
     }
     correction::solves(bench);
     correction::accuracy(bench);
+    advice::all(bench);
 }

@@ -9,12 +9,13 @@ use driveline_firmware::board::{Board, ThisBoard};
 use driveline_firmware::fingerprint::SEED;
 use driveline_firmware::program::Program;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::selected::Selected;
+
+driveline_firmware::selected!();
 
 #[entry]
 fn main() -> ! {
     let board = ThisBoard::start();
     let inputs = Program::new(SEED, const { Words::of::<Selected>() });
-    bench::run(&mut Bench::new(&board, Selected::NAME, inputs));
+    bench::run::<Selected, _>(&mut Bench::new(&board, Selected::NAME, inputs), driveline_tick);
     board.exit(true)
 }

@@ -7,10 +7,11 @@ use core::mem::MaybeUninit;
 use cortex_m_rt::entry;
 use driveline_firmware::board::{Board, Link, ThisBoard};
 use driveline_firmware::measure::count::Counter;
-use driveline_firmware::measure::{driveline_tick, stack};
+use driveline_firmware::measure::stack;
 use driveline_firmware::report::Line;
 use driveline_firmware::scene::{Input, Output, Scene};
-use driveline_firmware::selected::Selected;
+
+driveline_firmware::selected!();
 
 #[entry]
 fn main() -> ! {

@@ -8,7 +8,8 @@ use driveline_firmware::board::{Board, ThisBoard};
 use driveline_firmware::fingerprint::{SEED, TICKS};
 use driveline_firmware::program::Program;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::selected::Selected;
+
+driveline_firmware::selected!();
 
 #[entry]
 fn main() -> ! {

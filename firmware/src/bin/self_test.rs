@@ -7,7 +7,8 @@ use driveline_firmware::board::{Board, ThisBoard};
 use driveline_firmware::fingerprint;
 use driveline_firmware::report::Line;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::selected::Selected;
+
+driveline_firmware::selected!();
 
 #[entry]
 fn main() -> ! {

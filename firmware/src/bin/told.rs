@@ -9,8 +9,9 @@ use driveline_firmware::board::{Board, Sink, ThisBoard};
 use driveline_firmware::fingerprint::SEED;
 use driveline_firmware::program::Program;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::selected::Selected;
 use driveline_firmware::told::{Told, channels, values};
+
+driveline_firmware::selected!();
 
 /// Ticks told: a minute of the drive's time.
 const TICKS: u32 = 60 * Selected::RATE_HZ;

@@ -2,6 +2,3 @@
 
 pub mod count;
 pub mod stack;
-mod tick;
-
-pub use tick::driveline_tick;

@@ -30,6 +30,7 @@ use driveline::number::Fixed;
 use driveline::observer::{self, BacklashConfig, TwoMassConfig};
 
 use crate::assembled::Parts;
+use crate::expected::{Expected, Expects};
 use crate::governed::Variant;
 
 /// The gap of the spindles \[rad\].
@@ -130,7 +131,7 @@ pub mod with {
 pub struct BloomingMill<N, O, const RATE_HZ: u32>(PhantomData<(N, O)>);
 
 macro_rules! variant {
-    ($with:ident, $text:literal, $number:ident, $observer:ty, $config:expr, $limits:expr, $governor:expr) => {
+    ($with:ident, $text:literal, $number:ident, $observer:ty, $design:ident, $config:expr, $limits:expr, $governor:expr) => {
         // Generic over the rate: the compiler designs only those that an image holds.
         impl<const R: u32> Variant for BloomingMill<$number, with::$with, R> {
             type Number = $number;
@@ -142,17 +143,22 @@ macro_rules! variant {
             const RATE_HZ: u32 = R;
             const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), SpeedLoop<$number>> =
                 &Config { limits: $limits, observer: $config, fluctuation: (), governor: $governor, balancer: () };
+
+            fn expected() -> Option<Expected> {
+                Some($design(R).expected())
+            }
         }
     };
 }
 
 macro_rules! single {
-    ($with:ident, $text:literal, $observer:ident, $config:expr) => {
+    ($with:ident, $text:literal, $observer:ident, $design:ident, $config:expr) => {
         variant!(
             $with,
             $text,
             f32,
             observer::$observer<f32>,
+            $design,
             $config,
             Limits::<f32>::new(&screening(R)),
             SpeedLoopConfig::<f32>::new(&speed_loop(R), SETTINGS)
@@ -161,12 +167,13 @@ macro_rules! single {
 }
 
 macro_rules! fixed {
-    ($with:ident, $text:literal, $observer:ident, $config:expr) => {
+    ($with:ident, $text:literal, $observer:ident, $design:ident, $config:expr) => {
         variant!(
             $with,
             $text,
             Fixed,
             observer::$observer<Fixed>,
+            $design,
             $config,
             Limits::<Fixed>::new(&screening(R), BASES),
             SpeedLoopConfig::<Fixed>::new(&speed_loop(R), SETTINGS, BASES)
@@ -174,10 +181,10 @@ macro_rules! fixed {
     };
 }
 
-single!(Backlash, "f32/backlash", Backlash, BacklashConfig::<f32>::new(&backlash(R)));
-single!(Exact, "f32/exact", TwoMass, TwoMassConfig::<f32>::new(&two_mass(R)));
-fixed!(Backlash, "fixed/backlash", Backlash, BacklashConfig::<Fixed>::new(&backlash(R), BASES));
-fixed!(Exact, "fixed/exact", TwoMass, TwoMassConfig::<Fixed>::new(&two_mass(R), BASES));
+single!(Backlash, "f32/backlash", Backlash, backlash, BacklashConfig::<f32>::new(&backlash(R)));
+single!(Exact, "f32/exact", TwoMass, two_mass, TwoMassConfig::<f32>::new(&two_mass(R)));
+fixed!(Backlash, "fixed/backlash", Backlash, backlash, BacklashConfig::<Fixed>::new(&backlash(R), BASES));
+fixed!(Exact, "fixed/exact", TwoMass, two_mass, TwoMassConfig::<Fixed>::new(&two_mass(R), BASES));
 
 /// The governor that takes up slack.
 pub type Governor<N> = SpeedGovernor<N, (), (), Slack<N, Symmetric>>;
@@ -208,6 +215,10 @@ macro_rules! slack {
                 },
                 balancer: (),
             };
+
+            fn expected() -> Option<Expected> {
+                Some(backlash(10_000).expected())
+            }
         }
     };
 }

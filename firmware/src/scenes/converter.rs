@@ -27,6 +27,7 @@ use driveline::number::Fixed;
 use driveline::observer::{Backlash, BacklashConfig};
 
 use crate::assembled::Parts;
+use crate::expected::{Expected, Expects};
 
 /// Motor turns per turn of the trunnion.
 pub const RATIO: f64 = 690.0;
@@ -135,6 +136,10 @@ macro_rules! variant {
                 },
                 balancer: (),
             };
+
+            fn expected() -> Option<Expected> {
+                Some(OBSERVER.expected())
+            }
         }
     };
 }

@@ -19,6 +19,7 @@ use driveline::machine::{
 use driveline::number::Fixed;
 use driveline::observer::{self, Geared, GearedConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
 
+use crate::expected::{Expected, Expects};
 use crate::governed::Variant;
 
 /// Efficiency of the gearbox.
@@ -141,7 +142,7 @@ macro_rules! limits_and_governor {
 }
 
 macro_rules! variant {
-    ($with:ident, $text:literal, $number:ident, $observer:ident, $config:expr) => {
+    ($with:ident, $text:literal, $number:ident, $observer:ident, $design:expr, $config:expr) => {
         // Generic over the rate: the compiler designs only those that an image holds.
         impl<const R: u32> Variant for Hoist<$number, with::$with, R> {
             type Number = $number;
@@ -155,21 +156,40 @@ macro_rules! variant {
             const RATE_HZ: u32 = R;
             const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), SpeedLoop<$number>> =
                 limits_and_governor!($number, $config);
+
+            fn expected() -> Option<Expected> {
+                Some($design.expected())
+            }
         }
     };
 }
 
-variant!(Rigid, "f32/rigid", f32, Rigid, RigidConfig::<f32>::new(&rigid(R), LOAD_SHARE));
-variant!(Cut, "f32/cut", f32, TwoMass, TwoMassConfig::<f32>::new(&observer(&CUT, R)));
-variant!(Exact, "f32/exact", f32, TwoMass, TwoMassConfig::<f32>::new(&observer(&REDUCED, R)));
-variant!(Reduced, "f32/reduced", f32, SemiImplicit, SemiImplicitConfig::<f32>::new(&observer(&REDUCED, R)));
-variant!(Rigid, "fixed/rigid", Fixed, Rigid, RigidConfig::<Fixed>::new(&rigid(R), LOAD_SHARE, BASES));
-variant!(Cut, "fixed/cut", Fixed, TwoMass, TwoMassConfig::<Fixed>::new(&observer(&CUT, R), BASES));
-variant!(Exact, "fixed/exact", Fixed, TwoMass, TwoMassConfig::<Fixed>::new(&observer(&REDUCED, R), BASES));
+variant!(Rigid, "f32/rigid", f32, Rigid, rigid(R), RigidConfig::<f32>::new(&rigid(R), LOAD_SHARE));
+variant!(Cut, "f32/cut", f32, TwoMass, observer(&CUT, R), TwoMassConfig::<f32>::new(&observer(&CUT, R)));
+variant!(Exact, "f32/exact", f32, TwoMass, observer(&REDUCED, R), TwoMassConfig::<f32>::new(&observer(&REDUCED, R)));
+variant!(
+    Reduced,
+    "f32/reduced",
+    f32,
+    SemiImplicit,
+    observer(&REDUCED, R),
+    SemiImplicitConfig::<f32>::new(&observer(&REDUCED, R))
+);
+variant!(Rigid, "fixed/rigid", Fixed, Rigid, rigid(R), RigidConfig::<Fixed>::new(&rigid(R), LOAD_SHARE, BASES));
+variant!(Cut, "fixed/cut", Fixed, TwoMass, observer(&CUT, R), TwoMassConfig::<Fixed>::new(&observer(&CUT, R), BASES));
+variant!(
+    Exact,
+    "fixed/exact",
+    Fixed,
+    TwoMass,
+    observer(&REDUCED, R),
+    TwoMassConfig::<Fixed>::new(&observer(&REDUCED, R), BASES)
+);
 variant!(
     Reduced,
     "fixed/reduced",
     Fixed,
     SemiImplicit,
+    observer(&REDUCED, R),
     SemiImplicitConfig::<Fixed>::new(&observer(&REDUCED, R), BASES)
 );

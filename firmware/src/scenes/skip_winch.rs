@@ -4,24 +4,38 @@
 //! that the skip hangs on 0.39 MN/m and swings at 1.4 Hz. The brake's disc sits on the motor's shaft, and holds twice the weight: it stops the descending
 //! skip with 4.4 m/s2. The figures are of the size of a small shaft's winch, not those of one machine.
 //!
-//! When the brake closes the inverter is off; the drive is told the brake's torque with the motor's and goes on estimating, since that is when the rope's force matters
-//! most.
+//! When the supply fails the brake closes and the inverter is off; the drive is told the brake's torque with the motor's and goes on estimating, since that is
+//! when the rope's force matters most.
+//!
+//! Otherwise the inverter stays on through an emergency (stop category 1 of IEC 60204-1). A winch that stops faster than its skip falls throws it into a slack
+//! rope, and the skip falls back into it. So the emergency is tried with two governors, on an observer that knows a slack rope:
+//!
+//! | variant | estimates | governs |
+//! |---|---|---|
+//! | `slack` | with the observer of backlash, whose gap is the slack rope | keeps the rope from going slack, takes it up gently, damps the swing |
+//! | `plain` | with the observer of backlash | by a plain speed loop |
+//! | `semi-implicit` | with two masses, a rope that pushes | by the speed loop with its damping |
+//! | `rigid` | with one mass | by the speed loop with its damping |
 
 use core::marker::PhantomData;
 
 use driveline::constants::{Bases, Gear, Screening, SpeedLoopSettings};
 use driveline::design::{
-    Aim, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
-    TwoMassDesign,
+    Aim, BacklashDesign, BacklashTuning, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, RigidDesign,
+    SlackDesign, SlackTuning, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
 };
 use driveline::drive::{Config, ConfigOf, Limits};
-use driveline::governor::{SpeedLoop, SpeedLoopConfig};
+use driveline::governor::{
+    Gains, Slack, SlackConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, Symmetric,
+    SymmetricConfig,
+};
 use driveline::machine::{
-    Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Match, Ratio, Stiffness, TwoMass,
+    Chain, Damping, Diameter, Efficiency, Falls, Gap, Inertia, LinearDamping, Mass, Match, Ratio, Stiffness, TwoMass,
 };
 use driveline::number::Fixed;
-use driveline::observer::{self, GearedConfig, RigidConfig, SemiImplicitConfig};
+use driveline::observer::{self, BacklashConfig, Geared, GearedConfig, RigidConfig, SemiImplicitConfig};
 
+use crate::assembled::Parts;
 use crate::governed::governed;
 
 /// Efficiency of the gear.
@@ -119,3 +133,94 @@ governed! { SkipWinch, "skip-winch", 2000, behind GEAR;
     "rigid": Rigid, RigidConfig(&RIGID, LOAD_SHARE);
     "semi-implicit": SemiImplicit, SemiImplicitConfig(&OBSERVER);
 }
+
+/// The rope as a shaft with a gap: pulled on one flank, and so far from the other that it is never met \[rad\].
+pub const ROPE_GAP: f64 = 15.0;
+
+/// Limits of what a sample can be, where motor and brake pull together.
+pub const ROPE_SCREENING: Screening = Screening { torque: TORQUE_LIMIT + 1.05 * BRAKE_TORQUE, ..SCREENING };
+
+/// Two masses on a rope that can go slack.
+pub const ON_ROPE: TwoMass = REDUCED.with_gap(Gap(ROPE_GAP));
+
+/// How the observer looks for the moment in which the rope tightens: a slack rope's length is known from the flight of the skip, to 0.15 rad within a period of
+/// the swing.
+pub const SEARCH: BacklashTuning = BacklashTuning { wander: 0.01, hold: 0.6 };
+
+/// The observer of a rope that can go slack.
+pub const SLACK_ROPE: BacklashDesign =
+    ON_ROPE.backlash_observer(Rate::hz(RATE_HZ), Encoder::lines(COUNTS / 4), DISTURBANCE, SEARCH);
+
+/// The set point of the emergency stop: from rated speed in an eighth of a second, which is more than motor and brake
+/// can \[rad/s2\].
+pub const EMERGENCY_RAMP: f64 = 8.0 * RATED_SPEED;
+
+/// The plain speed loop: the design's proportional and integral gains, without its damping.
+pub const PLAIN: SpeedLoopDesign = SpeedLoopDesign { slip: 0.0, ..LOOP };
+
+/// How slack is taken up. While the rope is slack, rated torque holds the drum to the skip's speed, also against the brake. A tight rope's torque rises by
+/// as much within a period of the swing, which is damped as far as motor and drum, as heavy as the skip, can.
+pub const TAKING_UP: SlackTuning = SlackTuning {
+    impact: 0.2 * RATED_TORQUE,
+    torque: RATED_TORQUE,
+    rise: RATED_TORQUE,
+    most: TORQUE_LIMIT,
+    damping: 0.7,
+};
+
+/// The taking up of slack.
+pub const TAKE_UP: SlackDesign = REDUCED.take_up(Rate::hz(RATE_HZ), TAKING_UP);
+
+/// What the emergency stop is tried with.
+pub mod with {
+    /// A slack rope taken up.
+    pub struct Slack;
+    /// A plain speed loop.
+    pub struct Plain;
+}
+
+macro_rules! rope {
+    ($with:ident, $number:ident, $name:literal, $limit:ty, $config:expr $(, $bases:ident)?) => {
+        impl Parts for SkipWinch<$number, with::$with> {
+            type Number = $number;
+            type Observer = Geared<observer::Backlash<$number>>;
+            type Governor = SpeedGovernor<$number, (), (), $limit>;
+            const NAME: &'static str = concat!("skip-winch/", $name, "/2000");
+            const RATE_HZ: u32 = RATE_HZ;
+            const CONFIG: &'static ConfigOf<$number, Self::Observer, (), Self::Governor> = &Config {
+                limits: Limits::<$number>::new(&ROPE_SCREENING $(, $bases)?),
+                observer: GearedConfig::<$number, _>::new(
+                    BacklashConfig::<$number>::new(&SLACK_ROPE $(, $bases)?),
+                    &GEAR,
+                    1.0 / RATE_HZ as f64
+                    $(, $bases)?
+                ),
+                fluctuation: (),
+                governor: SpeedGovernorConfig {
+                    view: (),
+                    gains: Gains::<$number>::of_speed_loop(&PLAIN, EMERGENCY_RAMP $(, $bases)?),
+                    set_point: (),
+                    prompt: (),
+                    limit: $config,
+                    supervisor: (),
+                },
+                balancer: (),
+            };
+        }
+    };
+}
+
+const SINGLE: SymmetricConfig<f32> = SymmetricConfig::<f32>::new(TORQUE_LIMIT);
+const FIXED: SymmetricConfig<Fixed> = SymmetricConfig::<Fixed>::new(TORQUE_LIMIT, BASES);
+
+rope!(Plain, f32, "f32/plain", Symmetric, SINGLE);
+rope!(Plain, Fixed, "fixed/plain", Symmetric, FIXED, BASES);
+rope!(Slack, f32, "f32/slack", Slack<f32, Symmetric>, SlackConfig::<f32, _>::new(&TAKE_UP, SINGLE));
+rope!(
+    Slack,
+    Fixed,
+    "fixed/slack",
+    Slack<Fixed, Symmetric>,
+    SlackConfig::<Fixed, _>::new(&TAKE_UP, FIXED, BASES),
+    BASES
+);

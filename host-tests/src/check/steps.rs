@@ -1,12 +1,13 @@
 //! The steps, in order: what is cheap and finds most comes first.
 
+use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
 use driveline_firmware::board::{BOARDS, Facts};
 use driveline_firmware::selected::VARIANTS;
 
 use super::budgets::Budgets;
 use super::comparison::Comparison;
 use super::{Count, Failed, Step, Voice, cargo};
-use crate::image::{Cost, Program, belongs, build, self_test, workspace};
+use crate::image::{Cost, ON_NUCLEO, Program, belongs, build, self_test, workspace};
 use crate::setup;
 
 /// All steps.
@@ -40,7 +41,11 @@ fn clippy(voice: &Voice) -> Result<Count, Failed> {
     count.passed += cargo::passes(&features, voice)?.passed;
     for board in BOARDS {
         let (target, directory) = (format!("--target={}", board.target), cargo::firmware_directory());
-        let package = ["clippy", "--package=driveline-firmware", "--features=target,defmt"];
+        // the board with a motor is linted with the others of its core, of which the binaries for QEMU take theirs
+        let of_core = if board.target == NUCLEO.target { ",nucleo-g474re" } else { "" };
+        let features = format!("--features=target,defmt{of_core}");
+        let this = format!("--config=env.DRIVELINE_BOARD='{}'", board.name);
+        let package = ["clippy", &this, "--package=driveline-firmware", &features];
         let arguments = [&package[..], &[&target, &directory, "--", "-D", "warnings"]].concat();
         count.passed += cargo::passes(&arguments, voice)?.passed;
     }
@@ -53,34 +58,42 @@ fn tests(voice: &Voice) -> Result<Count, Failed> {
 
 /// Every image links: no panic can be reached in any.
 fn firmware(voice: &Voice) -> Result<Count, Failed> {
-    each(|variant, board| {
-        build(variant, board, Program::ControlLoop, |_| {}).map_err(|error| error.to_string())?;
-        voice.say(&format!("{variant} for {}: linked", board.name));
-        Ok(())
-    })
+    let linked = each(|variant, board| {
+        let image = |board: Facts, program| {
+            build(variant, board, program, |_| {}).map_err(|error| error.to_string())?;
+            voice.say(&format!("{variant} for {}: linked", board.name));
+            Ok(())
+        };
+        if variant == ON_NUCLEO {
+            image(NUCLEO, Program::Nucleo)?;
+        }
+        image(board, Program::ControlLoop)
+    })?;
+    let Count { passed, failed } = passed(&linked);
+    // and the one for the board with a motor
+    Ok(Count { passed: passed + 1, failed })
 }
 
 /// The self-test of every observer in every number gives the same bits on the host and in QEMU, at one rate; the budgets compare the others over
 /// the link.
 fn self_tests(voice: &Voice) -> Result<Count, Failed> {
-    each(|variant, board| {
+    let run = each(|variant, board| {
         if !(variant.starts_with("hoist/") && variant.ends_with("/10000")) {
             return Ok(());
         }
         let fingerprint = self_test(variant, board).map_err(|error| error.to_string())?;
         voice.say(&format!("{variant} on {}: {fingerprint}", board.name));
         Ok(())
-    })
+    })?;
+    Ok(passed(&run))
 }
 
 /// Every figure is within its budget.
 fn budgets(voice: &Voice) -> Result<Count, Failed> {
     let budgets = Budgets::read(&workspace().join("budgets.toml")).map_err(Failed::whole)?;
-    let mut costs = Vec::new();
-    each(|variant, board| {
+    let mut costs = each(|variant, board| {
         let cost = Cost::measure(variant, board, |_| {}).map_err(|error| error.to_string())?;
-        costs.push((variant.to_string(), board.core, cost));
-        Ok(())
+        Ok((variant.to_string(), board.core, cost))
     })?;
     for &board in BOARDS {
         let benches = Cost::benches(board).map_err(Failed::whole)?;
@@ -91,17 +104,35 @@ fn budgets(voice: &Voice) -> Result<Count, Failed> {
     comparison.count().map_err(|(count, message)| Failed { count, message })
 }
 
-/// Does something for every variant on every board that it belongs on, up to the first failure.
-fn each(mut check: impl FnMut(&str, Facts) -> Result<(), String>) -> Result<Count, Failed> {
-    let mut count = Count::default();
-    for &variant in VARIANTS {
-        for &board in BOARDS.iter().filter(|board| belongs(variant, board)) {
-            if let Err(error) = check(variant, board) {
-                count.failed += 1;
-                return Err(Failed { count, message: format!("{variant} on {}: {error}", board.name) });
+fn passed<T>(done: &[T]) -> Count {
+    Count { passed: done.len() as u64, failed: 0 }
+}
+
+/// Does something for every variant on every board that it belongs on, a board beside the other, each up to its first failure.
+fn each<T: Send>(check: impl Fn(&str, Facts) -> Result<T, String> + Sync) -> Result<Vec<T>, Failed> {
+    let on = |board: Facts| {
+        let mut done = Vec::new();
+        for &variant in VARIANTS.iter().filter(|variant| belongs(variant, &board)) {
+            match check(variant, board) {
+                Ok(value) => done.push(value),
+                Err(error) => return (done, Some(format!("{variant} on {}: {error}", board.name))),
             }
-            count.passed += 1;
         }
+        (done, None)
+    };
+    let boards = std::thread::scope(|scope| {
+        let boards: Vec<_> = BOARDS.iter().map(|board| scope.spawn(|| on(*board))).collect();
+        boards.into_iter().map(|board| board.join()).collect::<Result<Vec<_>, _>>()
+    })
+    .map_err(|_| Failed::whole("a board's thread panicked"))?;
+    let (mut all, mut messages) = (Vec::new(), Vec::new());
+    for (done, message) in boards {
+        all.extend(done);
+        messages.extend(message);
     }
-    Ok(count)
+    if messages.is_empty() {
+        return Ok(all);
+    }
+    let count = Count { failed: messages.len() as u64, ..passed(&all) };
+    Err(Failed { count, message: messages.join("\n") })
 }

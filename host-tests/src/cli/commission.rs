@@ -68,7 +68,7 @@ impl Commission {
                 last = stage;
                 progress.step();
             }
-            if tick % 65_536 == 0 {
+            if tick.is_multiple_of(65_536) {
                 let name = usize::try_from(stage).ok().and_then(|stage| STAGES.get(stage)).copied();
                 let seconds = tick as f64 * case.settings.rate.period().unwrap_or(0.0);
                 progress.says(&format!("{}: {}, {seconds:.0} s at the machine", case.name, name.unwrap_or_default()));

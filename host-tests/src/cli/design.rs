@@ -81,7 +81,7 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
         fact("antiresonance", shaft.antiresonance / TAU, "Hz");
         fact("reduction error at worst", shaft.reduction_error * 100.0, "% of a jump of the motor's speed");
     }
-    fact("weight", machine.chain.gravity_torque(), "N m");
+    fact("weight", machine.gravity_torque(), "N m");
     text.push_str(&format!("{facts}\n"));
     if let Some(shaft) = &plan.shaft {
         if shaft.reduction_error > super::plan::Shaft::LARGE_REDUCTION_ERROR {

@@ -3,15 +3,21 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use driveline::machine::Member;
+
 use super::plan::two_masses;
-use crate::machine_file::{Element, MachineFile};
+use crate::machine_file::{Branch, Element, MachineFile, Part};
 
 /// The constants: the chain, its reduction, the observer's design and, for two masses, the speed loop's.
 pub fn rust(machine: &MachineFile) -> String {
     let name = machine.constant();
     let mut words: BTreeSet<&str> = ["Chain"].into();
-    for part in &machine.elements {
+    let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
+    for part in machine.elements.iter().chain(branched) {
         words.extend(words_of(&part.element));
+    }
+    if !machine.branches.is_empty() {
+        words.extend(["Train", "Ratio", "Inertia"]);
     }
     let two = two_masses(machine).is_some();
     words.extend(if two { ["Match", "TwoMass"].as_slice() } else { ["Rigid"].as_slice() });
@@ -20,12 +26,15 @@ pub fn rust(machine: &MachineFile) -> String {
     } else {
         "Disturbance, Encoder, Rate, RigidDesign"
     };
-    let mut elements = machine.elements.iter().map(|part| part.element.rust());
-    let mut chain = elements.next().unwrap_or_default();
-    for element in elements {
-        chain.push_str("\n    ");
-        chain.push_str(&element);
+    let mut chain = written(&machine.elements, "    ");
+    if !machine.branches.is_empty() {
+        chain = format!("Train::of(\n    {}\n)", written(&machine.elements, "        "));
     }
+    for Branch { node, ratio, elements, .. } in &machine.branches {
+        let branch = written(elements, "        ");
+        chain.push_str(&format!("\n.branch(\n    {node},\n    Ratio({ratio:?}),\n    {branch},\n)"));
+    }
+    let kind = if machine.branches.is_empty() { "Chain" } else { "Train" };
     let (torque, step, within) =
         (machine.disturbance.torque_accuracy, machine.disturbance.load_torque_step, machine.disturbance.within);
     let (model, make, observer) = if two {
@@ -40,7 +49,7 @@ use driveline::design::{{{designs}}};
 use driveline::machine::{{{words}}};
 
 /// The machine, from the motor to the load.
-pub const {name}: Chain = {chain};
+pub const {name}: {kind} = {chain};
 
 /// What the observer takes it for.
 pub const {name}_MODEL: {model} = {make};
@@ -84,6 +93,23 @@ pub const {name}_SPEED: f64 = {:?};
     text
 }
 
+/// The elements of a chain or a branch in the library's words, a line for each.
+fn written(elements: &[Part], indent: &str) -> String {
+    let mut text = String::new();
+    for (index, part) in elements.iter().enumerate() {
+        match part.element {
+            // a branch begins as a chain does
+            Element::Rotor { inertia } if index == 0 => text.push_str(&Element::Motor { inertia }.rust()),
+            element if index == 0 && !matches!(element, Element::Motor { .. }) => {
+                text.push_str(&format!("Chain::motor(Inertia(f64::MIN_POSITIVE))\n{indent}{}", element.rust()));
+            }
+            element if index == 0 => text.push_str(&element.rust()),
+            element => text.push_str(&format!("\n{indent}{}", element.rust())),
+        }
+    }
+    text
+}
+
 /// The library's words that an element is written with.
 const fn words_of(element: &Element) -> &'static [&'static str] {
     match element {
@@ -93,7 +119,10 @@ const fn words_of(element: &Element) -> &'static [&'static str] {
         Element::Section { .. } => &["Section", "Length", "Diameter", "ShearModulus", "Damping"],
         Element::Crank { .. } => &["CrankSlider", "Length", "Inertia", "Mass"],
         Element::Worm { .. } => &["Ratio", "Efficiency"],
-        Element::Planetary { .. } => &["Planetary", "Inertia", "Mass", "Efficiency"],
+        Element::Planetary { driven: Member::Sun, held: Member::Ring, .. } => {
+            &["Planetary", "Inertia", "Mass", "Efficiency"]
+        }
+        Element::Planetary { .. } => &["Planetary", "PlanetaryGear", "Member", "Inertia", "Mass", "Efficiency"],
         Element::Belt { .. } => &["Belt", "Diameter", "Stiffness", "LinearDamping", "Efficiency"],
         Element::Screw { .. } | Element::Slack { .. } => &["Length"],
         Element::Swinging { .. } => &["Mass", "Length"],

@@ -16,7 +16,7 @@ use crate::report::{Table, write_page};
 
 /// Natural frequencies and shapes of a machine, the two masses that can stand for it, the parts not worth keeping.
 ///
-/// A chain of elements is referred to the motor's shaft; a train of coordinates and links stays as it is. With
+/// A chain of elements, with its branches, is referred to the motor's shaft; a train of coordinates and links stays as it is. With
 /// `[running]` and
 /// `[[excitation]]` in the file, critical speeds are listed and drawn, and those within 10 % of the running range
 /// flagged. The page with the plots opens in any browser.
@@ -109,7 +109,9 @@ pub fn tables(vibration: &Vibration) -> Vec<(String, String, Table)> {
     all.push(("Frequencies and shapes".to_owned(), text.to_owned(), modes));
     all.extend(critical(&vibration.critical));
     all.push(reductions(&vibration.reductions));
-    all.push(worth(&vibration.worth));
+    if !vibration.worth.is_empty() {
+        all.push(worth(&vibration.worth));
+    }
     all
 }
 

@@ -134,7 +134,7 @@ pub fn tuning(machine: &MachineFile) -> (Rate, Encoder, Disturbance) {
 
 /// The machine as two masses; `None` where it has no shaft.
 pub fn two_masses(machine: &MachineFile) -> Option<TwoMass> {
-    machine.chain.try_reduce(Match::ResonanceAntiresonance).ok()
+    machine.reduce(Match::ResonanceAntiresonance).ok()
 }
 
 impl Plan {
@@ -150,7 +150,7 @@ impl Plan {
                 let governor = two.try_speed_loop(rate, SpeedLoopTuning::USUAL)?;
                 Ok(Self::two_mass(machine, &two, &observer, &governor))
             }
-            None => Ok(Self::rigid(machine, &machine.chain.try_rigid()?.try_observer(rate, encoder, disturbance)?)),
+            None => Ok(Self::rigid(machine, &machine.rigid()?.try_observer(rate, encoder, disturbance)?)),
         }
     }
 

@@ -14,7 +14,7 @@ impl Progress {
     /// # Panics
     /// Never: the template is a constant that the tests show.
     pub fn of(steps: u64) -> Self {
-        let style = ProgressStyle::with_template("{bar:32} {pos}/{len}  {elapsed}  {msg}")
+        let style = ProgressStyle::with_template("{bar:32} {pos}/{len}  {elapsed}, {eta} left  {msg}")
             .expect("the template of the progress bar is well-formed");
         let bar = ProgressBar::new(steps).with_style(style);
         // Elapsed time moves on through a long step.
@@ -30,6 +30,16 @@ impl Progress {
     /// One step done.
     pub fn step(&self) {
         self.0.inc(1);
+    }
+
+    /// So many steps done at once.
+    pub fn steps(&self, steps: u64) {
+        self.0.inc(steps);
+    }
+
+    /// So many steps done in all.
+    pub fn at(&self, steps: u64) {
+        self.0.set_position(steps);
     }
 
     /// A line above the bar.
@@ -54,5 +64,7 @@ mod tests {
         bar.says("first");
         bar.step();
         assert_eq!(bar.0.position(), 1);
+        bar.at(2);
+        assert_eq!(bar.0.position(), 2);
     }
 }

@@ -5,8 +5,11 @@ use serde::Serialize;
 use super::{Failure, Progress};
 use crate::machine_file::TrainFile;
 use crate::plant::train::Signal;
-use crate::plant::train::converge::{Recording, prove};
+use crate::plant::train::converge::{Recording, prove_telling};
 use crate::plant::{EventKind, Place};
+
+/// Product of the fastest rate and the time between two looks at the progress, at most.
+const BETWEEN_LOOKS: f64 = 1e4;
 
 /// A finished run.
 #[derive(Clone, Debug, Serialize)]
@@ -88,10 +91,14 @@ impl Simulation {
     /// Runs a train and proves the run.
     ///
     /// # Errors
-    /// More than a thousand events in one step: the machine rattles without end there.
+    /// A train too stiff for the length of the run, with the parameter that makes it so. More than a thousand events
+    /// in one step: the machine rattles without end there.
     pub fn of(file: &TrainFile, proven: bool) -> Result<Self, Failure> {
+        if let Some(refusal) = &file.too_stiff {
+            return Err(refusal.clone().into());
+        }
         let steps = (file.time / file.step).round().max(1.0) as u64;
-        let progress = Progress::of(100);
+        let progress = Progress::of(200);
         progress.says("solving");
         let mut start = file.motion.clone();
         let (n, links) = (start.coordinates(), start.links());
@@ -100,8 +107,13 @@ impl Simulation {
         let mut times = vec![0.0];
         let mut rows: Vec<Vec<f64>> = start.read_all(&signals).into_iter().map(|value| vec![value]).collect();
         let mut run = Recording::new(start);
+        // a stiff train's step is divided, so that the bar moves within it
+        let looks = (file.motion.rate() * file.step / BETWEEN_LOOKS).ceil().max(1.0) as u64;
         for step in 0..steps {
-            run.advance(file.step);
+            for look in 0..looks {
+                run.advance(file.step / looks as f64);
+                progress.at((step * looks + look + 1) * 100 / (steps * looks));
+            }
             let motion = run.motion();
             if motion.events().last().is_some_and(|event| event.kind == EventKind::Unresolved) {
                 let at = motion.time();
@@ -111,13 +123,10 @@ impl Simulation {
             }
             times.push(motion.time());
             rows.iter_mut().zip(motion.read_all(&signals)).for_each(|(row, value)| row.push(value));
-            if (step + 1) * 100 / steps > step * 100 / steps {
-                progress.step();
-            }
         }
         progress.says("proving by the second integrator");
         let (proof, not_proven) = if proven {
-            match prove(&run) {
+            match prove_telling(&run, |share| progress.at(100 + (100.0 * share) as u64)) {
                 Ok(proof) => (Some([proof.integrator.largest, proof.tightened.largest]), None),
                 Err(error) => (None, Some(error.to_string())),
             }

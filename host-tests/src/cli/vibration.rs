@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use driveline::machine::{Element, Match, Shaft};
+use driveline::machine::{Element, Joint, Match};
 use serde::Serialize;
 
 use super::campbell::{Critical, critical_speeds};
-use crate::machine_file::{Element as Written, MachineFile};
+use crate::machine_file::MachineFile;
 
 /// Change below which a part is not worth keeping: 1 %, less than a stiffness is ever known to.
 pub const WORTH: f64 = 0.01;
@@ -28,7 +28,7 @@ pub struct Vibration {
     pub reductions: Vec<Reduction>,
     /// Speeds of the motor at which an excitation meets a natural frequency, the lowest first.
     pub critical: Vec<Critical>,
-    /// What leaving out each part would change, the least first.
+    /// What leaving out each part of a chain would change, the least first.
     pub worth: Vec<Leaving>,
 }
 
@@ -69,7 +69,7 @@ pub struct Resonance {
     pub shape: Vec<f64>,
 }
 
-/// Two masses that stand for the chain, and what they do not show of it.
+/// Two masses that stand for the machine, and what they do not show of it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Reduction {
     /// How they were found.
@@ -114,9 +114,12 @@ pub struct Leaving {
 impl Vibration {
     /// Of a machine.
     pub fn of(machine: &MachineFile) -> Self {
-        let chain = &machine.chain;
-        let (masses, shafts) = names(machine);
-        let modes = chain.modes();
+        let (masses, mut shafts) = machine.names();
+        let joints = machine.joints();
+        for (name, joint) in shafts.iter_mut().zip(&joints).filter(|(_, joint)| joint.from + 1 != joint.to) {
+            *name = format!("{name}, from {}", masses[joint.from]);
+        }
+        let modes = machine.modes();
         let count = masses.len();
         let resonance = |mode: &driveline::machine::Mode| {
             let shape = &mode.shape[..count];
@@ -130,13 +133,14 @@ impl Vibration {
                 shape: shape.iter().map(|value| value / most).collect(),
             }
         };
-        let spring = |(name, shaft): (&String, &Shaft)| Spring {
+        let spring = |(name, joint): (&String, &Joint)| Spring {
             name: name.clone(),
-            stiffness: shaft.stiffness,
-            damping: shaft.damping,
-            gap: shaft.gap,
+            stiffness: joint.shaft.stiffness,
+            damping: joint.shaft.damping,
+            gap: joint.shaft.gap,
         };
-        let mut worth: Vec<_> = chain.worth().parts().to_vec();
+        // parts are left out of chains only
+        let mut worth = if machine.train.is_none() { machine.chain.worth().parts().to_vec() } else { Vec::new() };
         worth.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
         let finite = |value: f64| value.is_finite().then_some(value);
         let leaving = |part: &driveline::machine::Part| Leaving {
@@ -157,8 +161,8 @@ impl Vibration {
             antiresonances: modes.antiresonances().to_vec(),
             reductions: reductions(machine, &shafts),
             worth: worth.iter().map(leaving).collect(),
-            shafts: shafts.iter().zip(chain.shafts()).map(spring).collect(),
-            masses: masses.into_iter().zip(chain.masses()).map(|(name, &inertia)| Mass { name, inertia }).collect(),
+            shafts: shafts.iter().zip(&joints).map(spring).collect(),
+            masses: masses.into_iter().zip(machine.masses()).map(|(name, &inertia)| Mass { name, inertia }).collect(),
         }
     }
 }
@@ -177,7 +181,7 @@ fn reductions(machine: &MachineFile, shafts: &[String]) -> Vec<Reduction> {
     ];
     let all = matches.into_iter().chain(shafts.iter().enumerate().flat_map(cut));
     let reduced = |(by, how): (String, Match)| {
-        let two = machine.chain.try_reduce(how).ok()?;
+        let two = machine.reduce(how).ok()?;
         Some(Reduction {
             by,
             motor_inertia: two.motor_inertia,
@@ -193,48 +197,4 @@ fn reductions(machine: &MachineFile, shafts: &[String]) -> Vec<Reduction> {
         })
     };
     all.filter_map(reduced).collect()
-}
-
-/// Names of the masses and of the shafts between them, from the labels of the elements.
-pub(crate) fn names(machine: &MachineFile) -> (Vec<String>, Vec<String>) {
-    let (mut masses, mut shafts): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
-    let join = |names: &mut Vec<String>, index: usize, label: &str| {
-        if names.len() <= index {
-            names.resize(index + 1, String::new());
-        }
-        let name = &mut names[index];
-        if !name.is_empty() {
-            name.push_str(" + ");
-        }
-        name.push_str(label);
-    };
-    let mut chain = machine.chain;
-    for part in &machine.elements {
-        // The whole chain was built of these elements, so each of them can follow.
-        chain = part.element.follow(chain).unwrap_or(chain);
-        let last = chain.masses().len() - 1;
-        match part.element {
-            Written::Motor { .. }
-            | Written::Rotor { .. }
-            | Written::Crank { .. }
-            | Written::Planetary { .. }
-            | Written::Lifted { .. }
-            | Written::Driven { .. } => join(&mut masses, last, &part.label),
-            Written::Shaft { .. } | Written::Section { .. } | Written::Belt { .. } | Written::Rope { .. } => {
-                join(&mut shafts, last - 1, &part.label);
-            }
-            // A pendulum: its own spring and its own mass.
-            Written::Swinging { .. } => {
-                join(&mut shafts, last - 1, &part.label);
-                join(&mut masses, last, &part.label);
-            }
-            Written::Gear { .. }
-            | Written::Worm { .. }
-            | Written::Drum { .. }
-            | Written::Screw { .. }
-            | Written::Slack { .. }
-            | Written::Backlash { .. } => {}
-        }
-    }
-    (masses, shafts)
 }

@@ -38,8 +38,8 @@ pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
         facts.push(fact("first resonance", format!("{} Hz", significant(mode.hz))));
         facts.push(fact("first antiresonance", format!("{} Hz", significant(vibration.antiresonances[0] / TAU))));
     }
-    if machine.chain.gravity_torque() != 0.0 {
-        facts.push(fact("weight at the motor", format!("{} N m", significant(machine.chain.gravity_torque()))));
+    if machine.gravity_torque() != 0.0 {
+        facts.push(fact("weight at the motor", format!("{} N m", significant(machine.gravity_torque()))));
     }
     let frequency = frequencies(vibration);
     MachinePage {
@@ -92,7 +92,7 @@ fn responses(machine: &MachineFile, vibration: &Vibration, frequency: &[f64], to
     ];
     // Two masses stand for themselves.
     for (index, (name, by)) in matches.into_iter().enumerate().filter(|_| vibration.masses.len() > 2) {
-        if let Ok(two) = machine.chain.try_reduce(by) {
+        if let Ok(two) = machine.reduce(by) {
             curves.push((name.to_owned(), format!("s{index}"), vec![seen(&two)]));
         }
     }

@@ -10,6 +10,7 @@ use clap::Args;
 use super::{Failure, say, say_json};
 use crate::image::{Program, belongs, board, build};
 use crate::link::Telling;
+use crate::machine_file::printable;
 use crate::report::format::significant;
 use crate::telemetry::{Decoder, Described, Told};
 
@@ -48,6 +49,9 @@ const DRAWN: Duration = Duration::from_millis(100);
 
 /// Records that wait for the channels' descriptions: four of their periods in our firmware.
 const PATIENCE: usize = 4096;
+
+/// Longest name or unit of a channel that is shown, in characters; a frame holds some 240.
+const LONGEST: usize = 40;
 
 /// A channel and its course.
 #[derive(Debug, serde::Serialize)]
@@ -92,7 +96,8 @@ impl Seen {
         let head = format!("  {:<16} {:<6} {:>12} {:>12} {:>12}", "channel", "unit", "now", "least", "most");
         let row = |course: &Course| {
             let [last, least, most] = [course.last, course.least, course.most].map(significant);
-            format!("  {:<16} {:<6} {last:>12} {least:>12} {most:>12}", course.channel.name, course.channel.unit)
+            let [name, unit] = [&course.channel.name, &course.channel.unit].map(|text| printable(text, LONGEST));
+            format!("  {name:<16} {unit:<6} {last:>12} {least:>12} {most:>12}")
         };
         let foot =
             format!("{} records, {} dropped by the drive, {} frames damaged", self.records, self.dropped, self.damaged);
@@ -189,15 +194,21 @@ impl Watch {
     }
 }
 
-/// The first line of the CSV: `tick,dropped,torque [N m],...`.
+/// The first line of the CSV: `tick,dropped,torque [N m],...`. What a drive says of itself may hold anything.
 fn header(decoder: &Decoder, told: &Told) -> String {
     let mut text = String::from("tick,dropped");
     for index in 0..told.words.len() {
         let Described { name, unit, .. } = decoder.channel(index);
         let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
-        text.push_str(&format!(",{name}{unit}"));
+        text.push(',');
+        text.push_str(&field(&printable(&format!("{name}{unit}"), usize::MAX)));
     }
     text
+}
+
+/// A field of a CSV, in quotes where it has to be [RFC 4180].
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 fn line(decoder: &Decoder, told: &Told) -> String {

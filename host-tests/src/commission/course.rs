@@ -165,7 +165,7 @@ pub fn run(
         if let Some(peak) = course.peaks.get_mut(stage as usize) {
             *peak = peak.max(shaft.abs());
         }
-        if course.ticks % 64 == 0 {
+        if course.ticks.is_multiple_of(64) {
             course.moments.push(Moment {
                 time: course.ticks as f64 * period,
                 stage,

@@ -1,8 +1,8 @@
 //! Building an image with cargo.
 //!
-//! In a target directory of its own, `target/firmware`, so that a test or a command that is itself run by cargo
-//! does not wait for cargo's lock. One image at a time: they share that directory, and each is copied out before the
-//! next variant overwrites it.
+//! In target directories of its own, `target/firmware/<the compiler's target>`, so that a test or a command that is itself run by
+//! cargo does not wait for cargo's lock, and images for two cores can be built at once. For one of them it is one image at a time: they
+//! share its directory, and each is copied out before the next variant overwrites it.
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader};
@@ -58,10 +58,11 @@ pub fn build(
     let images = target_directory().join("images");
     let place = |what: String| move |error| BuildError::Io { place: what, error };
     fs::create_dir_all(&images).map_err(place(format!("making {}", images.display())))?;
-    let lock = File::create(images.join(".lock")).map_err(place(format!("making {}/.lock", images.display())))?;
-    lock.lock().map_err(place(format!("locking {}/.lock", images.display())))?;
+    let lock = images.join(format!(".{}.lock", board.target));
+    let held = File::create(&lock).map_err(place(format!("making {}", lock.display())))?;
+    held.lock().map_err(place(format!("locking {}", lock.display())))?;
 
-    let firmware = target_directory().join("firmware");
+    let firmware = target_directory().join("firmware").join(board.target);
     let arguments = [
         "build",
         "--package=driveline-firmware",

@@ -44,23 +44,27 @@ fn branches(file: &ElfFile32<'_>, function: &Symbol) -> Vec<u64> {
         let Some(first) = halfword(file, at) else {
             break;
         };
-        if first >> 11 < 0b11101 {
-            if first >> 11 == 0b11100 {
-                targets.push(offset(at, i64::from(first & 0x7ff) << 1, 12));
-            }
-            at += 2;
-            continue;
-        }
-        let Some(second) = halfword(file, at + 2) else {
+        let is_wide = first >> 11 >= 0b11101;
+        let second = if is_wide { halfword(file, at + 2) } else { Some(0) };
+        let Some(second) = second else {
             break;
         };
-        // BL: 11x1 in the second half's top, B.W: 10x1
-        if first >> 11 == 0b11110 && matches!(second & 0xd000, 0xd000 | 0x9000) {
-            targets.push(offset(at, wide(i64::from(first), i64::from(second)), 25));
-        }
-        at += 4;
+        targets.extend(target(at, first, second));
+        at += if is_wide { 4 } else { 2 };
     }
     targets
+}
+
+/// The target of the instruction at `at`, where it is a branch; `second` is not looked at where it has one halfword.
+pub(super) fn target(at: u64, first: u16, second: u16) -> Option<u64> {
+    match first >> 11 {
+        0b11100 => Some(offset(at, i64::from(first & 0x7ff) << 1, 12)),
+        // BL: 11x1 in the second half's top, B.W: 10x1
+        0b11110 if matches!(second & 0xd000, 0xd000 | 0x9000) => {
+            Some(offset(at, wide(i64::from(first), i64::from(second)), 25))
+        }
+        _ => None,
+    }
 }
 
 /// S:I1:I2:imm10:imm11:0 of a wide branch, with I = NOT (J EOR S).

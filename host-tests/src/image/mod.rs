@@ -5,7 +5,9 @@ mod calls;
 mod compositions;
 mod cost;
 pub mod cycles;
+mod footprint;
 mod fresh;
+mod machine_code;
 mod sections;
 mod self_test;
 
@@ -16,6 +18,8 @@ use driveline_firmware::board::{BOARDS, Facts};
 pub use build::{BuildError, build, links, target_directory, workspace};
 pub use compositions::compositions;
 pub use cost::{BENCHES, Cost, Spread};
+pub use footprint::{Footprint, footprints};
+pub use machine_code::{Function, Referent, tick_code};
 pub use sections::{Contents, ReadError, Sizes, Symbol};
 pub use self_test::self_test;
 
@@ -32,6 +36,8 @@ pub enum Program {
     Log,
     /// Tells each tick of a run as frames of telemetry.
     Told,
+    /// The test rig on the board of its own, which QEMU has not.
+    Nucleo,
     /// Has a reachable panic: must not link.
     Panics,
 }
@@ -45,6 +51,7 @@ impl Program {
             Program::SelfTest => "self_test",
             Program::Log => "log",
             Program::Told => "told",
+            Program::Nucleo => "nucleo_g474re",
             Program::Panics => "panics",
         }
     }
@@ -53,6 +60,7 @@ impl Program {
     const fn features(self) -> &'static str {
         match self {
             Program::Log => "target,defmt",
+            Program::Nucleo => "nucleo-g474re",
             Program::Panics => "reachable_panic",
             _ => "target",
         }
@@ -71,6 +79,9 @@ pub struct Image {
     /// The binary.
     pub program: Program,
 }
+
+/// The variant that the board with a motor holds.
+pub const ON_NUCLEO: &str = "test-rig/f32/two-mass/10000";
 
 /// Whether a variant belongs on a board: floats on cores that have a unit for them, fixed point and the empty variant on all.
 pub fn belongs(variant: &str, board: &Facts) -> bool {

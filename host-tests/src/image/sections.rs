@@ -72,8 +72,10 @@ pub struct Symbol {
 /// What was read from an image.
 #[derive(Clone, Debug)]
 pub struct Contents {
-    /// Bytes by section.
+    /// Bytes by what they are for.
     pub sizes: Sizes,
+    /// Sections that take memory, by address: name and bytes.
+    pub sections: Vec<(String, u64)>,
     /// Functions and variables, by address.
     pub symbols: Vec<Symbol>,
     /// Bytes of the tick: `driveline_tick`, and every function that it calls directly or through others.
@@ -88,7 +90,7 @@ impl Contents {
             ElfFile32::<Endianness>::parse(&*bytes).map_err(|error| ReadError::Format { path: path.into(), error })?;
         let symbols = symbols(&file);
         let tick_code = calls::reached(&file, &symbols, "driveline_tick").iter().map(|symbol| symbol.size).sum();
-        Ok(Contents { sizes: sizes(&file), symbols, tick_code })
+        Ok(Contents { sizes: sizes(&file), sections: sections(&file), symbols, tick_code })
     }
 
     /// The symbol of that name.
@@ -118,7 +120,13 @@ fn sizes(file: &ElfFile32<'_>) -> Sizes {
     sizes
 }
 
-fn symbols(file: &ElfFile32<'_>) -> Vec<Symbol> {
+fn sections(file: &ElfFile32<'_>) -> Vec<(String, u64)> {
+    let allocated = |flags| matches!(flags, SectionFlags::Elf { sh_flags, .. } if sh_flags & SHF_ALLOC == SHF_ALLOC);
+    let taken = file.sections().filter(|section| allocated(section.flags()) && section.size() > 0);
+    taken.filter_map(|section| Some((section.name().ok()?.into(), section.size()))).collect()
+}
+
+pub(super) fn symbols(file: &ElfFile32<'_>) -> Vec<Symbol> {
     let mut symbols: Vec<_> = file
         .symbols()
         .filter(|symbol| matches!(symbol.kind(), SymbolKind::Text | SymbolKind::Data) && symbol.size() > 0)

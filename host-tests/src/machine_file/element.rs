@@ -2,7 +2,7 @@
 
 use driveline::machine::{
     Belt, Chain, CrankSlider, Damping, Diameter, Efficiency, Error, Falls, Gap, Inertia, Length, LinearDamping, Mass,
-    Planetary, Ratio, Section, ShearModulus, Stiffness, try_stepped,
+    Member, Planetary, PlanetaryGear, Ratio, Section, ShearModulus, Stiffness, try_stepped,
 };
 use serde::Serialize;
 
@@ -83,7 +83,7 @@ pub enum Element {
         /// Efficiency while the load drives.
         back_efficiency: f64,
     },
-    /// A planetary set, its ring held: sun on the present shaft, what follows turns with the carrier.
+    /// A planetary set: one member on the present shaft, one held, what follows turns with the third.
     Planetary {
         /// Teeth of the sun.
         sun_teeth: u32,
@@ -101,6 +101,14 @@ pub enum Element {
         planet_mass: f64,
         /// Inertia of the carrier \[kg m2\].
         carrier: f64,
+        /// Inertia of the ring \[kg m2\]; 0 where the file is silent.
+        ring: f64,
+        /// The member on the present shaft; the sun where the file is silent.
+        #[serde(serialize_with = "named")]
+        driven: Member,
+        /// The member that stands still; the ring where the file is silent.
+        #[serde(serialize_with = "named")]
+        held: Member,
         /// Efficiency; 1 where the file is silent.
         efficiency: f64,
     },
@@ -209,6 +217,9 @@ impl Element {
                 back_efficiency: table.number("back_efficiency", Quantity::EFFICIENCY)?,
             },
             "planetary" => Self::Planetary {
+                ring: table.number_or("ring", Quantity::PART_INERTIA, 0.0)?,
+                driven: member(&mut table, "driven", Member::Sun)?,
+                held: other_member(&mut table)?,
                 // `TEETH` allows whole numbers up to 10000 only.
                 sun_teeth: table.number("sun_teeth", Quantity::TEETH)? as u32,
                 ring_teeth: table.number("ring_teeth", Quantity::TEETH)? as u32,
@@ -315,18 +326,27 @@ impl Element {
                 planet,
                 planet_mass,
                 carrier,
+                ring,
+                driven,
+                held,
                 efficiency,
-            } => chain.try_planetary(Planetary {
-                sun_teeth,
-                ring_teeth,
-                module,
-                planets,
-                sun: Inertia(sun),
-                planet: Inertia(planet),
-                planet_mass: Mass(planet_mass),
-                carrier: Inertia(carrier),
-                efficiency: Efficiency(efficiency),
-            }),
+            } => {
+                let set = Planetary {
+                    sun_teeth,
+                    ring_teeth,
+                    module,
+                    planets,
+                    sun: Inertia(sun),
+                    planet: Inertia(planet),
+                    planet_mass: Mass(planet_mass),
+                    carrier: Inertia(carrier),
+                    efficiency: Efficiency(efficiency),
+                };
+                match (driven, held) {
+                    (Member::Sun, Member::Ring) => chain.try_planetary(set),
+                    _ => chain.try_planetary_gear(PlanetaryGear { set, ring: Inertia(ring), driven, held }),
+                }
+            }
             Self::Belt { driving, driven, stiffness, damping, efficiency } => chain.try_belt(Belt {
                 driving: Diameter(driving),
                 driven: Diameter(driven),
@@ -377,12 +397,23 @@ impl Element {
                 planet,
                 planet_mass,
                 carrier,
+                ring,
+                driven,
+                held,
                 efficiency,
-            } => format!(
-                ".planetary(Planetary {{ sun_teeth: {sun_teeth}, ring_teeth: {ring_teeth}, module: {module:?}, planets: {planets}, \
-                 sun: Inertia({sun:?}), planet: Inertia({planet:?}), planet_mass: Mass({planet_mass:?}), carrier: Inertia({carrier:?}), \
-                 efficiency: Efficiency({efficiency:?}) }})"
-            ),
+            } => {
+                let set = format!(
+                    "Planetary {{ sun_teeth: {sun_teeth}, ring_teeth: {ring_teeth}, module: {module:?}, planets: {planets}, \
+                     sun: Inertia({sun:?}), planet: Inertia({planet:?}), planet_mass: Mass({planet_mass:?}), carrier: Inertia({carrier:?}), \
+                     efficiency: Efficiency({efficiency:?}) }}"
+                );
+                match (driven, held) {
+                    (Member::Sun, Member::Ring) => format!(".planetary({set})"),
+                    _ => format!(
+                        ".planetary_gear(PlanetaryGear {{ set: {set}, ring: Inertia({ring:?}), driven: Member::{driven:?}, held: Member::{held:?} }})"
+                    ),
+                }
+            }
             Self::Belt { driving, driven, stiffness, damping, efficiency } => format!(
                 ".belt(Belt {{ driving: Diameter({driving:?}), driven: Diameter({driven:?}), strand: Stiffness({stiffness:?}), \
                  damping: LinearDamping({damping:?}), efficiency: Efficiency({efficiency:?}) }})"
@@ -400,4 +431,29 @@ impl Element {
             Self::Backlash { gap } => format!(".backlash(Gap({gap:?}))"),
         }
     }
+}
+
+/// The members of a planetary set by their names in a file.
+const MEMBERS: [(&str, Member); 3] = [("sun", Member::Sun), ("ring", Member::Ring), ("carrier", Member::Carrier)];
+
+fn member(table: &mut Table<'_>, key: &'static str, default: Member) -> Result<Member, Diagnostic> {
+    const MEMBER: &str = "\"sun\", \"ring\" or \"carrier\"";
+    let Some(text) = table.text_if(key, MEMBER)? else { return Ok(default) };
+    let found = MEMBERS.iter().find(|(name, _)| *name == text);
+    found.map(|(_, member)| *member).ok_or_else(|| table.wrong(key, MEMBER))
+}
+
+/// The member that is held, which is not the driven one.
+fn other_member(table: &mut Table<'_>) -> Result<Member, Diagnostic> {
+    let driven = member(table, "driven", Member::Sun)?;
+    let held = member(table, "held", Member::Ring)?;
+    if held == driven {
+        return Err(table.wrong("held", "another member than the driven one"));
+    }
+    Ok(held)
+}
+
+fn named<S: serde::Serializer>(member: &Member, serializer: S) -> Result<S::Ok, S::Error> {
+    let name = MEMBERS.iter().find(|(_, one)| one == member).map_or("", |(name, _)| name);
+    serializer.serialize_str(name)
 }

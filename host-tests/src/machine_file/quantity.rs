@@ -118,6 +118,8 @@ impl Quantity {
     pub const AMPLITUDE: Self = not_negative("");
     /// A weight of balancing, in whatever unit.
     pub const WEIGHT: Self = not_negative("");
+    /// A place along a rotor, either way from where it is counted.
+    pub const PLACE: Self = Quantity { least: -1e4, most: 1e4, zero: true, whole: false, unit: "m" };
     /// Speed in turns a minute.
     pub const RPM: Self = positive("rpm");
     /// Balance quality grade.

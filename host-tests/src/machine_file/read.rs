@@ -5,7 +5,7 @@ use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
-use driveline::machine::{Chain, Inertia};
+use driveline::machine::{Chain, Ratio, Train};
 use toml::Spanned;
 use toml::de::DeTable;
 
@@ -13,8 +13,9 @@ use super::diagnostic::Diagnostic;
 use super::excitation::excitations;
 use super::quantity::Quantity;
 use super::source::{Source, printable};
+use super::station::{Station, begun, stations};
 use super::table::Table;
-use super::{Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
+use super::{Branch, Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
 
 /// Largest machine file in bytes: a thousand times what the longest chain needs.
 pub const LARGEST: u64 = 1 << 20;
@@ -77,7 +78,8 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let mut root = Table::root(source, document.get_ref());
 
     let machine_name = named(&mut root)?;
-    let (elements, chain) = elements(source, &mut root)?;
+    let (elements, chain) = elements(source, &mut root, "", &[])?;
+    let (branches, train) = branches(source, &mut root, chain, &elements)?;
     let encoder = section(&mut root, "encoder", |table| {
         // `LINES` and `RATE` allow whole numbers within `u32` only.
         Ok(Encoder { lines: table.number("lines", Quantity::LINES)? as u32 })
@@ -122,6 +124,8 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         excitations,
         duty,
         chain,
+        branches,
+        train,
     })
 }
 
@@ -153,14 +157,20 @@ pub(super) fn section<T>(
     Ok(settings)
 }
 
-/// Reads the elements and puts them together, so that what cannot follow is reported at its own place.
-fn elements(source: Source<'_>, root: &mut Table<'_>) -> Result<(Vec<Part>, Chain), Diagnostic> {
+/// Reads the elements and puts them together, so that what cannot follow is reported at its own place. The labels of `before` are taken.
+fn elements(
+    source: Source<'_>,
+    table: &mut Table<'_>,
+    heading: &str,
+    before: &[Part],
+) -> Result<(Vec<Part>, Chain), Diagnostic> {
+    let branch = !before.is_empty();
     let mut parts: Vec<Part> = Vec::new();
     let mut chain: Option<Chain> = None;
     let mut last: Range<usize> = 0..0;
-    for (index, (span, mut table)) in root.tables("element")?.into_iter().enumerate() {
+    for (index, (span, mut table)) in table.tables("element")?.into_iter().enumerate() {
         let at = |found: String, expected: &str| {
-            Diagnostic::at(source, span.clone(), format!("element[{index}]"), found, expected)
+            Diagnostic::at(source, span.clone(), format!("{heading}element[{index}]"), found, expected)
         };
         let label = label(&mut table)?;
         let element = Element::read(table)?;
@@ -169,7 +179,11 @@ fn elements(source: Source<'_>, root: &mut Table<'_>) -> Result<(Vec<Part>, Chai
             (Element::Motor { .. }, Some(_)) => {
                 return Err(at("a second motor".to_owned(), "one motor only, as the first element"));
             }
-            (Element::Motor { inertia }, None) => Chain::try_motor(Inertia(inertia)),
+            (Element::Motor { .. }, None) if branch => {
+                return Err(at("a second motor".to_owned(), "one motor only, as the first element of the chain"));
+            }
+            (Element::Motor { .. }, None) => begun(element),
+            (element, None) if branch => begun(element),
             (_, None) => return Err(at(format!("a {kind} before the motor"), "the motor as the first element")),
             (element, Some(chain)) => element.follow(chain),
         };
@@ -177,12 +191,12 @@ fn elements(source: Source<'_>, root: &mut Table<'_>) -> Result<(Vec<Part>, Chai
             at(format!("a {kind} that cannot stand here ({error})"), "an element that can follow those before it")
         };
         chain = Some(longer.map_err(refused)?);
-        let same = parts.iter().filter(|part| part.element.kind() == kind).count();
+        let same = before.iter().chain(&parts).filter(|part| part.element.kind() == kind).count();
         let label = label.unwrap_or_else(|| if same == 0 { kind.to_owned() } else { format!("{kind} {}", same + 1) });
         parts.push(Part { label, element });
         last = span;
     }
-    let key = format!("element[{}]", parts.len().saturating_sub(1));
+    let key = format!("{heading}element[{}]", parts.len().saturating_sub(1));
     let Some(chain) = chain else {
         return Err(Diagnostic::at(source, last, key, "no element", "the motor as the first element"));
     };
@@ -193,6 +207,57 @@ fn elements(source: Source<'_>, root: &mut Table<'_>) -> Result<(Vec<Part>, Chai
     };
     chain.check().map_err(ended)?;
     Ok((parts, chain))
+}
+
+/// Reads the branches, each on a mass of the chain or of a branch before it.
+fn branches(
+    source: Source<'_>,
+    root: &mut Table<'_>,
+    chain: Chain,
+    main: &[Part],
+) -> Result<(Vec<Branch>, Option<Train>), Diagnostic> {
+    let mut branches: Vec<Branch> = Vec::new();
+    // what a branch can stand on: label, mass, and the motor's speed over that of the mass
+    let mut masses: Vec<(String, usize, f64)> = Vec::new();
+    let turning = |part: &Part, station: &Station| {
+        let turns = matches!(
+            part.element,
+            Element::Motor { .. } | Element::Rotor { .. } | Element::Crank { .. } | Element::Planetary { .. }
+        );
+        station.mass.filter(|_| turns).map(|mass| (part.label.clone(), mass, station.ratio))
+    };
+    masses.extend(main.iter().zip(&stations(main)).filter_map(|(part, station)| turning(part, station)));
+    let mut parts = main.to_vec();
+    let mut train: Option<Train> = None;
+    for (index, (span, mut table)) in root.tables_if("branch", "branch")?.into_iter().enumerate() {
+        let known = masses.iter().map(|(label, ..)| format!("\"{label}\"")).collect::<Vec<_>>().join(", ");
+        let expected = format!("the label of a mass that turns: {known}");
+        let at = table.text("at", &expected)?.to_owned();
+        let Some(&(_, node, ratio)) = masses.iter().find(|(label, ..)| *label == at) else {
+            return Err(table.wrong("at", expected));
+        };
+        let key = format!("branch[{index}]");
+        let (elements, own) = elements(source, &mut table, &format!("{key}."), &parts)?;
+        table.finish()?;
+        let refused = |error: driveline::machine::Error| {
+            let found = format!("a branch that cannot stand here ({error})");
+            Diagnostic::at(source, span.clone(), key.clone(), found, "a branch that the train has room for")
+        };
+        let before = match train {
+            Some(train) => train,
+            None => Train::try_of(chain).map_err(refused)?,
+        };
+        let first = before.masses().len();
+        train = Some(before.try_branch(node, Ratio(ratio), own).map_err(refused)?);
+        let branch = Branch { at, elements, chain: own, node, ratio, first };
+        let below = stations(&branch.elements);
+        masses.extend(branch.elements.iter().zip(&below).filter_map(|(part, station)| {
+            turning(part, station).map(|(label, mass, own)| (label, branch.mass(mass), ratio * own))
+        }));
+        parts.extend(branch.elements.iter().cloned());
+        branches.push(branch);
+    }
+    Ok((branches, train))
 }
 
 /// An element's label, if it has one.

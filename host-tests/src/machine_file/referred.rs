@@ -1,7 +1,7 @@
-//! A chain of elements as a train, everything referred to the motor.
+//! A machine of elements as a train, everything referred to the motor.
 
-use super::{Element, MachineFile};
-use crate::cli::names;
+use super::station::{Station, stations};
+use super::{Element, MachineFile, Part};
 use crate::plant::train::{Coordinate, Link, Source};
 use crate::plant::{Chain, Plant, PlantError, Shaft, Start};
 
@@ -12,41 +12,49 @@ pub(super) struct Referred {
 }
 
 /// The masses and shafts of a machine. A gear's efficiency belongs to the shaft behind it; where a shaft ends in a
-/// gear, to that shaft. A rope only pulls; the weight of what is lifted pulls backwards on the last mass.
+/// gear, to that shaft. A rope only pulls; the weight of what is lifted pulls backwards on the last mass of its chain
+/// or branch.
 pub(super) fn referred(machine: &MachineFile) -> Referred {
-    let (masses, shafts) = names(machine);
-    let mut chain = machine.chain;
+    let (masses, shafts) = machine.names();
     let mut rope = vec![false; shafts.len()];
     let mut efficiency = vec![1.0; shafts.len()];
-    for part in &machine.elements {
-        // the whole chain was built of these elements, so each of them can follow
-        chain = part.element.follow(chain).unwrap_or(chain);
-        let last = chain.masses().len() - 1;
-        match part.element {
-            Element::Rope { .. } => rope[last - 1] = true,
-            Element::Gear { efficiency: eta, .. } => {
-                let ends_a_shaft = last > 0 && chain.masses()[last] == 0.0;
-                if let Some(known) = efficiency.get_mut(if ends_a_shaft { last - 1 } else { last }) {
-                    *known *= eta;
+    let mut weight = vec![0.0; masses.len()];
+    let mut look = |elements: &[Part], stations: &[Station], at: &dyn Fn(usize) -> usize| {
+        for (part, Station { chain, .. }) in elements.iter().zip(stations) {
+            let last = chain.masses().len() - 1;
+            match part.element {
+                Element::Rope { .. } => rope[at(last - 1)] = true,
+                Element::Gear { efficiency: eta, .. } => {
+                    let ends_a_shaft = last > 0 && chain.masses()[last] == 0.0;
+                    if let Some(known) = efficiency.get_mut(at(if ends_a_shaft { last - 1 } else { last })) {
+                        *known *= eta;
+                    }
                 }
+                _ => {}
             }
-            _ => {}
         }
-    }
-    let last = machine.chain.masses().len() - 1;
-    let weight = machine.chain.gravity_torque();
-    let coordinate = |(j, &inertia): (usize, &f64)| {
-        let bare = Coordinate::new(inertia);
-        if j == last && weight != 0.0 { bare.source(Source::Constant(-weight)) } else { bare }
     };
-    let link = |(s, shaft): (usize, &driveline::machine::Shaft)| {
-        let bare =
-            Link::shaft(s, s + 1, shaft.stiffness).damping(shaft.damping).gap(shaft.gap).efficiency(efficiency[s]);
+    look(&machine.elements, &stations(&machine.elements), &|shaft| shaft);
+    weight[machine.chain.masses().len() - 1] = machine.chain.gravity_torque();
+    for branch in &machine.branches {
+        look(&branch.elements, &stations(&branch.elements), &|shaft| branch.shaft(shaft));
+        weight[branch.mass(branch.chain.masses().len() - 1)] += branch.chain.gravity_torque() / branch.ratio;
+    }
+    let coordinate = |(&inertia, &weight): (&f64, &f64)| {
+        let bare = Coordinate::new(inertia);
+        if weight != 0.0 { bare.source(Source::Constant(-weight)) } else { bare }
+    };
+    let link = |(s, joint): (usize, driveline::machine::Joint)| {
+        let shaft = joint.shaft;
+        let bare = Link::shaft(joint.from, joint.to, shaft.stiffness)
+            .damping(shaft.damping)
+            .gap(shaft.gap)
+            .efficiency(efficiency[s]);
         if rope[s] { bare.rope() } else { bare }
     };
     Referred {
-        coordinates: masses.into_iter().zip(machine.chain.masses().iter().enumerate().map(coordinate)).collect(),
-        links: shafts.into_iter().zip(machine.chain.shafts().iter().enumerate().map(link)).collect(),
+        coordinates: masses.into_iter().zip(machine.masses().iter().zip(&weight).map(coordinate)).collect(),
+        links: shafts.into_iter().zip(machine.joints().into_iter().enumerate().map(link)).collect(),
     }
 }
 

@@ -75,10 +75,10 @@ impl<'a> Source<'a> {
 }
 
 /// A text fit for a terminal: each control character as one `?`-like mark, cut with an ellipsis at `longest` characters.
-pub(super) fn printable(text: &str, longest: usize) -> String {
+pub fn printable(text: &str, longest: usize) -> String {
     let visible = |c: char| match c {
         '\t' => ' ',
-        c if c.is_control() || ('\u{202a}'..='\u{202e}').contains(&c) => '\u{fffd}',
+        c if c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}') => '\u{fffd}',
         c => c,
     };
     let mut shown: String = text.chars().take(longest).map(visible).collect();

@@ -167,7 +167,7 @@ impl<'a> Table<'a> {
         let list = value.get_ref().as_array().filter(|list| !list.is_empty());
         let list = list.ok_or_else(|| self.wrong(key, expected.clone()))?;
         let read = |(index, item): (usize, &'a Spanned<DeValue<'a>>)| {
-            let path = format!("{key}[{index}]");
+            let path = self.name(&format!("{key}[{index}]"));
             let Some(table) = item.get_ref().as_table() else {
                 return Err(Diagnostic::at(self.source, item.span(), path, describe(item.get_ref()), expected.clone()));
             };
@@ -335,7 +335,13 @@ impl<'a> Table<'a> {
             return Ok(());
         };
         let key = printable(first.get_ref(), REPEATED);
-        let known: Vec<String> = self.asked.iter().map(|key| format!("`{key}`")).collect();
+        // a key may have been asked for more than once
+        let mut known: Vec<String> = Vec::new();
+        for key in self.asked.iter().map(|key| format!("`{key}`")) {
+            if !known.contains(&key) {
+                known.push(key);
+            }
+        }
         let expected = format!("only {}", known.join(", "));
         Err(Diagnostic::at(self.source, first.span(), self.name(&key), "an unknown key", expected))
     }

@@ -70,6 +70,10 @@ use crate::plant::{LoadProgram, Place, PlantError};
 /// Most lines that a run may have.
 const LINES: f64 = 1e6;
 
+/// Product of the fastest rate of a train and the length of its run, at most: a minute's work for the second integrator,
+/// whose roundings gather beyond it.
+const STIFFEST: f64 = 1e6;
+
 /// A train as its file describes it, ready to run.
 #[derive(Debug, Clone)]
 pub struct TrainFile {
@@ -93,6 +97,9 @@ pub struct TrainFile {
     pub time: f64,
     /// s.
     pub step: f64,
+    /// Why a run of this length cannot be solved, where the train is too stiff for it; its modes can be found all the
+    /// same.
+    pub too_stiff: Option<Diagnostic>,
 }
 
 impl TrainFile {
@@ -133,9 +140,19 @@ pub fn parse_train(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
     let mut file = Reading { names: Vec::new(), links: Vec::new(), static_force: Vec::new() };
     let (mut coordinates, mut links) = (Vec::new(), Vec::new());
     let (mut places, mut link_places) = (Vec::new(), Vec::new());
+    // of elements, which become coordinates and links by their labels
+    let (mut labels, mut element_places) = (Vec::new(), Vec::new());
     if root.has("element") {
-        let referred = referred(&parse(name, text)?);
-        root.pass(&["element", "encoder", "control", "disturbance", "limits"]);
+        let machine = parse(name, text)?;
+        let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
+        labels = machine.elements.iter().chain(branched).map(|part| part.label.clone()).collect();
+        let referred = referred(&machine);
+        let mut tables = root.tables("element")?;
+        for (_, mut branch) in root.tables_if("branch", "branch")? {
+            tables.extend(branch.tables("element")?);
+        }
+        element_places = tables.into_iter().map(|(place, _)| place).collect();
+        root.pass(&["encoder", "control", "disturbance", "limits", "duty"]);
         file.static_force = vec![None; referred.links.len()];
         (file.names, coordinates) = referred.coordinates.into_iter().unzip();
         (file.links, links) = referred.links.into_iter().unzip();
@@ -198,7 +215,20 @@ pub fn parse_train(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
     }
     run.finish()?;
     root.finish()?;
-    let motion = train.clone().build().map_err(|error| refused(error, whole))?;
+    let motion = train.clone().build().map_err(|error| refused(error, whole.clone()))?;
+    let too_stiff = too_stiff(&motion, time).map(|(place, found, expected)| {
+        let name = match place {
+            Place::Node(j) => &file.names[j],
+            Place::Shaft(l) => &file.links[l],
+        };
+        // a mass of several elements is called by all of them
+        let element = labels.iter().position(|label| name.split(" + ").any(|one| one == label));
+        let span = element.and_then(|at| element_places.get(at)).or(match place {
+            Place::Node(j) => places.get(j),
+            Place::Shaft(l) => l.checked_sub(chained).and_then(|own| link_places.get(own)),
+        });
+        Diagnostic::at(source, span.unwrap_or(&whole).clone(), name.clone(), found, expected)
+    });
     let Reading { names, links, static_force } = file;
     Ok(TrainFile {
         name: title,
@@ -211,7 +241,33 @@ pub fn parse_train(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
         step,
         running,
         excitations,
+        too_stiff,
     })
+}
+
+/// Where a train is too stiff for a run of so many seconds: the place, what was found and what was expected.
+fn too_stiff(motion: &Motion, time: f64) -> Option<(Place, String, String)> {
+    let over = motion.rate() * time / STIFFEST;
+    if over <= 1.0 {
+        return None;
+    }
+    let short = format!("a run of at most {:.1e} s", time / over);
+    match motion.stiffest().filter(|part| 2.0 * part.rate >= motion.rate()) {
+        Some(part) => {
+            let (parameter, value, inertia) = (part.parameter, part.value, part.inertia);
+            let share = if parameter == "stiffness" { over * over } else { over };
+            Some((
+                part.odd,
+                format!("a {parameter} of {value:.1e} on an inertia of {inertia:.1e}, a rate of {:.1e} 1/s", part.rate),
+                format!(
+                    "a {parameter} of at most {:.1e}, an inertia of at least {:.1e}, or {short}",
+                    value / share,
+                    inertia * share
+                ),
+            ))
+        }
+        None => Some((Place::Node(0), format!("a train whose parts move at up to {:.1e} 1/s", motion.rate()), short)),
+    }
 }
 
 const STARTS: &str = "\"rest\", \"slack\" or \"pretensioned\"";

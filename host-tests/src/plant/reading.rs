@@ -87,6 +87,24 @@ impl Plant {
         self.layout.nodes
     }
 
+    /// Inertia of a node, kg m2; NaN for a node that is not there.
+    #[must_use]
+    pub fn inertia(&self, node: usize) -> f64 {
+        self.chain.nodes.get(node).map_or(f64::NAN, |node| node.inertia)
+    }
+
+    /// Whether a shaft carries nothing now: a gap is open, or a rope slack.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        (0..self.chain.shafts.len()).any(|shaft| !self.mode.carries(&self.chain, shaft))
+    }
+
+    /// Whether a shaft has backlash. A rope has none.
+    #[must_use]
+    pub fn has_backlash(&self) -> bool {
+        self.chain.shafts.iter().any(|shaft| !shaft.rope && shaft.gap > 0.0)
+    }
+
     /// Kinetic and strain energy, J.
     #[must_use]
     pub fn energy(&self) -> f64 {

@@ -1,4 +1,5 @@
-//! Any drive train: chains, branches and closed loops, gear meshes, torsion with lateral motion, cranks, friction.
+//! Any drive train: chains, branches and closed loops, gear meshes, torsion with lateral motion, cranks, unbalances,
+//! friction.
 //!
 //! A train is a list of coordinates (angles, or ways of a mass) and of links between any of them. Each link has an
 //! elongation that is a sum over coordinates, so that a shaft, a geared shaft, a bearing and a tooth mesh are the
@@ -54,7 +55,9 @@ mod reading;
 mod series;
 mod source;
 mod start;
+mod stiffest;
 mod stretch;
+mod unbalance;
 
 pub use crank::Crank;
 pub use friction::Friction;
@@ -65,6 +68,8 @@ pub use modes::TrainModes;
 pub use motion::Motion;
 pub use reading::Signal;
 pub use source::{Source, Waveform};
+pub use stiffest::Stiffest;
+pub use unbalance::Unbalance;
 
 use super::error::{PlantError, finite, not_negative, positive};
 use super::event::Place;
@@ -129,6 +134,7 @@ pub struct Train {
     coordinates: Vec<Coordinate>,
     links: Vec<Link>,
     frictions: Vec<Friction>,
+    unbalances: Vec<Unbalance>,
 }
 
 impl Train {
@@ -145,6 +151,15 @@ impl Train {
         self
     }
 
+    /// With a torque more on a coordinate that is there already; on none that is not.
+    #[must_use]
+    pub fn source(mut self, coordinate: usize, source: Source) -> Self {
+        if let Some(coordinate) = self.coordinates.get_mut(coordinate) {
+            coordinate.sources.push(source);
+        }
+        self
+    }
+
     /// With one link more, counted from 0.
     #[must_use]
     pub fn link(mut self, link: Link) -> Self {
@@ -156,6 +171,13 @@ impl Train {
     #[must_use]
     pub fn friction(mut self, friction: Friction) -> Self {
         self.frictions.push(friction);
+        self
+    }
+
+    /// With an unbalance that couples two coordinates.
+    #[must_use]
+    pub fn unbalance(mut self, unbalance: Unbalance) -> Self {
+        self.unbalances.push(unbalance);
         self
     }
 
@@ -194,6 +216,9 @@ impl Train {
         }
         for friction in &self.frictions {
             friction.validate(self.coordinates.len())?;
+        }
+        for unbalance in &self.unbalances {
+            unbalance.validate(self)?;
         }
         let cranked = |at: usize| self.coordinates[at].crank.is_some();
         let lossy = self.links.iter().filter(|link| link.efficiency < 1.0).map(|link| link.terms[0].0);

@@ -1,7 +1,7 @@
 //! Puts the report on one page.
 
 mod budgeting;
-mod view;
+pub(super) mod view;
 
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
@@ -12,6 +12,9 @@ use super::Report;
 /// The page's template and its parts, compiled into the program.
 const TEMPLATES: &[(&str, &str)] = &[
     ("page.html", include_str!("page/page.html")),
+    ("costs.html", include_str!("page/costs.html")),
+    ("sweeps.html", include_str!("page/sweeps.html")),
+    ("survey.html", include_str!("page/survey.html")),
     ("machine.html", include_str!("page/machine.html")),
     ("sheet.html", include_str!("page/sheet.html")),
     ("simulation.html", include_str!("page/simulation.html")),

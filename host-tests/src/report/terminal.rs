@@ -38,7 +38,7 @@ impl Table {
     }
 
     /// A column is of numbers where every text in it begins as one.
-    fn numeric(&self, column: usize) -> bool {
+    pub(super) fn numeric(&self, column: usize) -> bool {
         let begins = |text: &String| text.starts_with(|c: char| c.is_ascii_digit() || "-−+.±∞".contains(c));
         let mut texts = self
             .rows

@@ -5,6 +5,7 @@
 
 use driveline_firmware::scenes::blooming_mill as scene;
 
+use super::body::Body;
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
 use crate::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
@@ -19,7 +20,7 @@ const FRICTION: f64 = 0.05 * scene::RATED_TORQUE;
 /// Rolling torque of a middle pass [N m].
 pub const ROLLING: f64 = 0.55 * scene::RATED_TORQUE;
 
-fn spindle_torque(plant: &Plant) -> f64 {
+fn spindle_torque(plant: &Body) -> f64 {
     plant.shaft_torque(SPINDLES)
 }
 
@@ -53,7 +54,8 @@ pub fn machine() -> Result<Machine, PlantError> {
             (3.66, -ROLLING),
             (4.6, -ROLLING),
             (4.66, 0.0),
-        ]))?,
+        ]))?
+        .into(),
         held: 0.0,
         actions: vec![
             (0.1, Action::Release),

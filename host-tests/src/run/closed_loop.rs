@@ -4,11 +4,11 @@ use std::io;
 
 use driveline_firmware::scene::{Input, Output, Scene};
 
+use super::body::Body;
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Noise;
 use super::units::Units;
 use crate::link::Link;
-use crate::plant::converge::Recording;
 
 /// Something that ticks: a scene on the host, or an image in QEMU.
 pub trait Ticks {
@@ -47,6 +47,10 @@ pub struct Moment {
     pub truth: [f64; 3],
     /// The same as the drive estimates them.
     pub estimate: [f64; 3],
+    /// Angular momentum of the whole machine about the motor's shaft [N m s]; NaN where a crank changes an inertia.
+    pub momentum: f64,
+    /// A gap is open or a rope slack.
+    pub open: bool,
     /// Fault flags.
     pub faults: u32,
     /// Instructions of the tick; zero on the host.
@@ -67,7 +71,7 @@ pub struct Trace {
     /// What was sent and what came back.
     pub words: Vec<(Input, Output)>,
     /// The plant with everything that was done to it, ready to be proven.
-    pub recording: Recording,
+    pub recording: Body,
 }
 
 /// Runs a scenario to its end with a drive that ticks `rate_hz` times a second.
@@ -85,7 +89,7 @@ pub fn run(
     let period = 1.0 / f64::from(rate_hz);
     let ticks = (scenario.duration * f64::from(rate_hz)).round() as usize;
     let node = machine.load;
-    let mut recording = Recording::new(scenario.plant.clone());
+    let mut recording = scenario.plant.clone();
     let mut noise = Noise::new(1);
     let mut actions = scenario.actions.iter().peekable();
     let (mut reference, mut released, mut applied) = (0.0, false, 0.0_f64);
@@ -110,15 +114,16 @@ pub fn run(
             }
         }
         if let Some(law) = scenario.law {
-            let torque = (law.torque)(recording.plant().speed(law.node));
+            let torque = (law.torque)(&recording);
             recording.set_load_torque(law.node, torque);
         }
-        let plant = recording.plant();
-        // What the drive is told of a brake and of friction in the tick that has ended; at rest they take what the motor gives.
-        let friction = if released { brake + machine.told_friction } else { 0.0 };
+        let plant = &recording;
+        // What the drive is told of a brake and of friction in the tick that has ended. At rest friction takes what the motor gives; of what a
+        // closed brake then takes nobody knows.
+        let (friction, brake) = if released { (machine.told_friction, brake) } else { (0.0, 0.0) };
         let slipping = match plant.motor_speed() {
             0.0 => -applied.clamp(-friction, friction),
-            speed => -friction * speed.signum(),
+            speed => -(friction + brake) * speed.signum(),
         };
         let input = Input {
             angle: machine.encoder.read(plant.motor_angle() - scenario.plant.motor_angle()),
@@ -139,6 +144,8 @@ pub fn run(
                 units.speed(output.load_speed),
                 units.torque(output.load_torque),
             ],
+            momentum: plant.momentum(),
+            open: plant.is_open(),
             faults: output.faults,
             instructions: output.instructions,
         });

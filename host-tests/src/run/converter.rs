@@ -5,9 +5,10 @@
 
 use driveline_firmware::scenes::converter as scene;
 
+use super::body::Body;
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
-use crate::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
+use crate::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
 const RATIO: f64 = 690.0;
 const LOAD: usize = 2;
@@ -18,7 +19,7 @@ const FRICTION: f64 = 700.0;
 /// Torque of the bath on either side of its dead centre [N m]: a third of rated torque.
 const BATH: f64 = 2_400.0;
 
-fn trunnion_torque(plant: &Plant) -> f64 {
+fn trunnion_torque(plant: &Body) -> f64 {
     plant.shaft_torque(TRUNNION)
 }
 
@@ -37,7 +38,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         .build()?;
     let tilting = Scenario {
         name: "tilting out of the slack, over the dead centre and back",
-        plant,
+        plant: plant.into(),
         held: 0.0,
         actions: vec![
             (0.1, Action::Release),

@@ -2,10 +2,11 @@
 
 use driveline_firmware::scenes::crane_travel as scene;
 
+use super::body::Body;
 use super::facts;
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
-use crate::plant::{Chain, LoadProgram, Plant, PlantError, Shaft};
+use crate::plant::{Chain, LoadProgram, PlantError, Shaft};
 
 /// Gravity [m/s2], the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665;
@@ -29,7 +30,7 @@ const TOLD: f64 = 0.9 * RESISTANCE;
 const WIND: f64 = 300.0 * TRAVEL;
 
 /// What of the travelling resistance the drive does not know [N m].
-fn unknown(plant: &Plant) -> f64 {
+fn unknown(plant: &Body) -> f64 {
     match plant.motor_speed() {
         // At rest it is told to take what the motor gives.
         0.0 => plant.load_torque(0) - plant.load_torque(0).clamp(-TOLD, TOLD),
@@ -38,11 +39,11 @@ fn unknown(plant: &Plant) -> f64 {
 }
 
 /// What passes from the motors' inertia and the bridge's to the outside: the push of the load's swing, and the resistance that is not known.
-fn push(plant: &Plant) -> f64 {
+fn push(plant: &Body) -> f64 {
     PENDULUM * plant.twist(0) + unknown(plant)
 }
 
-fn resistance(plant: &Plant) -> f64 {
+fn resistance(plant: &Body) -> f64 {
     unknown(plant) + plant.load_torque(1)
 }
 
@@ -71,7 +72,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         chosen: ("semi-implicit", scene::RATE_HZ),
         scenarios: vec![Scenario {
             name: "travel, a gust, slower",
-            plant,
+            plant: plant.into(),
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),

@@ -14,7 +14,6 @@ use super::scenario::Machine;
 use super::units::Units;
 use crate::image::{Contents, Program, Spread, build, cycles};
 use crate::link::Link;
-use crate::plant::converge;
 use crate::report::{Instructions, Mark, Signal, Trajectory, Variant};
 
 /// A variant that has run.
@@ -23,6 +22,8 @@ pub struct Ran {
     pub variant: Variant,
     /// One trace a scenario.
     pub traces: Vec<Trace>,
+    /// Bytes of code that a tick reaches.
+    pub tick_code: u64,
 }
 
 /// What a run is for.
@@ -73,7 +74,7 @@ pub fn run(
         bit_exact &= visit(candidate.variant, Replay(&trace)).unwrap_or(false);
         if !options.quick {
             says(&format!("{name}: proving the solver's run"));
-            converge::prove(&trace.recording).map_err(|error| format!("{name}, {}: {error}", scenario.name))?;
+            trace.recording.prove().map_err(|error| format!("{name}, {}: {error}", scenario.name))?;
         }
         traces.push(trace);
         if options.quick {
@@ -102,7 +103,7 @@ pub fn run(
         bit_exact,
         ticks: moments().count() as u64,
     };
-    Ok(Ran { variant, traces })
+    Ok(Ran { variant, traces, tick_code: contents.tick_code })
 }
 
 /// Runs the variant's scene on the host over a trace's inputs; whether every output has the same bits.

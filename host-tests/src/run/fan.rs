@@ -2,19 +2,21 @@
 
 use driveline_firmware::scenes::fan;
 
+use super::body::Body;
 use super::facts::fact;
 use super::scenario::{Action, Law, Machine, Scenario};
 use super::sensors::Encoder;
-use crate::plant::{Chain, Plant, PlantError, Shaft};
+use crate::plant::{Chain, PlantError, Shaft};
 
 /// Torque of the air at rated speed [N m]: nine tenths of rated torque.
 const AIR: f64 = 261.0;
 
-fn coupling(plant: &Plant) -> f64 {
+fn coupling(plant: &Body) -> f64 {
     plant.shaft_torque(0)
 }
 
-fn air(speed: f64) -> f64 {
+fn air(fan: &Body) -> f64 {
+    let speed = fan.speed(1);
     AIR * speed * speed.abs() / (fan::RATED_SPEED * fan::RATED_SPEED)
 }
 
@@ -39,7 +41,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         chosen: ("rigid", fan::RATE_HZ),
         scenarios: vec![Scenario {
             name: "run-up, slower, faster",
-            plant,
+            plant: plant.into(),
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),

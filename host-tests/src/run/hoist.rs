@@ -5,10 +5,11 @@
 
 use driveline_firmware::scenes::hoist;
 
+use super::body::Body;
 use super::facts;
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
-use crate::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
+use crate::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
 /// Gravity [m/s2], the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665;
@@ -44,7 +45,7 @@ fn chain(slack: f64) -> Chain {
 }
 
 /// The rope's pull at the motor [N m], without the gear's loss.
-fn rope_torque(plant: &Plant) -> f64 {
+fn rope_torque(plant: &Body) -> f64 {
     let square = TRAVEL * TRAVEL;
     let twist = plant.twist(ROPE_SHAFT);
     let rate = plant.speed(DRUM) - plant.speed(LOAD);
@@ -74,7 +75,7 @@ pub fn machine() -> Result<Machine, PlantError> {
     let hoisting = (0.2, Action::Reference(hoist::RATED_SPEED));
     let pretensioned = Scenario {
         name: "pretensioned start, half a load more, lowering",
-        plant: hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]))?,
+        plant: hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]))?.into(),
         held: WEIGHT,
         actions: [&release[..], &[hoisting, (6.0, Action::Reference(-hoist::RATED_SPEED))]].concat(),
         duration: 12.0,
@@ -85,7 +86,7 @@ pub fn machine() -> Result<Machine, PlantError> {
     let slack = Scenario {
         name: "slack-rope start",
         // On the ground: what holds the load until the rope carries its weight, and is its weight once it is lifted.
-        plant: chain(0.0).coulomb(WEIGHT).start(Start::Rest).build()?,
+        plant: chain(0.0).coulomb(WEIGHT).start(Start::Rest).build()?.into(),
         held: 0.0,
         actions: vec![
             (0.0, Action::Reference(CREEP)),
@@ -99,7 +100,7 @@ pub fn machine() -> Result<Machine, PlantError> {
     };
     let sudden = Scenario {
         name: "half a load more at once",
-        plant: hanging(LoadProgram::steps(&[(4.0, 0.5 * WEIGHT)]))?,
+        plant: hanging(LoadProgram::steps(&[(4.0, 0.5 * WEIGHT)]))?.into(),
         held: WEIGHT,
         actions: [&release[..], &[hoisting]].concat(),
         duration: 6.0,

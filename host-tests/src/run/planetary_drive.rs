@@ -4,10 +4,11 @@ use core::f64::consts::PI;
 
 use driveline_firmware::scenes::planetary_drive as scene;
 
+use super::body::Body;
 use super::facts;
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
-use crate::plant::{Chain, LoadProgram, Plant, PlantError, Shaft};
+use crate::plant::{Chain, LoadProgram, PlantError, Shaft};
 
 /// Friction of the belt at the motor [N m], half of rated torque.
 const BELT: f64 = 177.0;
@@ -20,7 +21,7 @@ const STIFFNESS: f64 = 79.3e9 * PI * 0.090 * 0.090 * 0.090 * 0.090 / (32.0 * 1.2
 const DAMPING: f64 = 120.0 * CARRIER * CARRIER;
 
 /// The torque behind the set's loss [N m].
-fn shaft(plant: &Plant) -> f64 {
+fn shaft(plant: &Body) -> f64 {
     STIFFNESS * plant.twist(0) + DAMPING * (plant.speed(0) - plant.speed(1))
 }
 
@@ -54,7 +55,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         chosen: ("exact", scene::RATE_HZ),
         scenarios: vec![Scenario {
             name: "start under load, more load, slower",
-            plant,
+            plant: plant.into(),
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),

@@ -2,8 +2,8 @@
 
 use driveline::constants::Bases;
 
+use super::body::Body;
 use super::sensors::Encoder;
-use crate::plant::Plant;
 use crate::report::Fact;
 
 /// Something that happens at a time.
@@ -21,13 +21,13 @@ pub enum Action {
     Trip,
 }
 
-/// A load torque that follows its node's speed.
+/// A load torque that follows the motion.
 #[derive(Clone, Copy)]
 pub struct Law {
     /// The node.
     pub node: usize,
-    /// Torque [N m] at a speed [rad/s].
-    pub torque: fn(f64) -> f64,
+    /// Torque, referred to the motor [N m], for the plant as it is.
+    pub torque: fn(&Body) -> f64,
 }
 
 /// One run of a scene's machine.
@@ -36,7 +36,7 @@ pub struct Scenario {
     /// What it shows.
     pub name: &'static str,
     /// The machine at the start.
-    pub plant: Plant,
+    pub plant: Body,
     /// What happens, in the order of time [s].
     pub actions: Vec<(f64, Action)>,
     /// Torque that the drive holds until it is released [N m].
@@ -47,7 +47,7 @@ pub struct Scenario {
     pub counted: bool,
     /// What the plot says happened when [s].
     pub marks: Vec<(f64, &'static str)>,
-    /// A load torque that follows the speed, as a fan's does; held over each tick.
+    /// A load torque that follows the speed, as a fan's does, or the angle, as a press's; held over each tick.
     pub law: Option<Law>,
 }
 
@@ -72,9 +72,9 @@ pub struct Machine {
     /// The node of the load.
     pub load: usize,
     /// The torque that the drive calls the shaft's [N m].
-    pub shaft_torque: fn(&Plant) -> f64,
+    pub shaft_torque: fn(&Body) -> f64,
     /// The torque that the drive calls the load's [N m].
-    pub load_torque: fn(&Plant) -> f64,
+    pub load_torque: fn(&Body) -> f64,
     /// A brake on the motor's side whose torque the drive is told with the motor's while it slips, as [`Action::Brake`] sets it.
     pub told_brake: Option<usize>,
     /// Dry friction on the motor's side that the drive is told with the motor's torque while it turns, as it was found when the machine was

@@ -4,10 +4,11 @@ use core::f64::consts::PI;
 
 use driveline_firmware::scenes::spindle;
 
+use super::body::Body;
 use super::facts;
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
-use crate::plant::{Chain, LoadProgram, Plant, PlantError, Shaft};
+use crate::plant::{Chain, LoadProgram, PlantError, Shaft};
 
 /// Shear modulus of steel [Pa].
 const STEEL: f64 = 79.3e9;
@@ -30,7 +31,7 @@ fn stiffness() -> f64 {
     STEEL * PI / 32.0 / (straight + taper * 0.120 / (3.0 * f64::from(pieces)))
 }
 
-fn shaft(plant: &Plant) -> f64 {
+fn shaft(plant: &Body) -> f64 {
     plant.shaft_torque(0)
 }
 
@@ -66,7 +67,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         scenarios: vec![
             Scenario {
                 name: "run-up and a face cut",
-                plant: spindle_with(LoadProgram::table(&face))?,
+                plant: spindle_with(LoadProgram::table(&face))?.into(),
                 held: 0.0,
                 actions: run_up.clone(),
                 duration: 1.8,
@@ -76,7 +77,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             },
             Scenario {
                 name: "milling with four teeth",
-                plant: spindle_with(LoadProgram::table(&milling))?,
+                plant: spindle_with(LoadProgram::table(&milling))?.into(),
                 held: 0.0,
                 actions: run_up,
                 duration: 2.1,

@@ -2,10 +2,11 @@
 
 use driveline_firmware::scenes::strip_mill;
 
+use super::body::Body;
 use super::facts;
 use super::scenario::{Action, Machine, Scenario};
 use super::sensors::Encoder;
-use crate::plant::{Chain, LoadProgram, Plant, PlantError, Shaft};
+use crate::plant::{Chain, LoadProgram, PlantError, Shaft};
 
 /// Rolling torque [N m].
 const ROLLING: f64 = 1.2e5;
@@ -17,7 +18,7 @@ const BITE: f64 = 0.05;
 const ROLLS: usize = 3;
 const SPINDLES: usize = 2;
 
-fn spindles(plant: &Plant) -> f64 {
+fn spindles(plant: &Body) -> f64 {
     plant.shaft_torque(SPINDLES)
 }
 
@@ -51,7 +52,8 @@ pub fn machine() -> Result<Machine, PlantError> {
                 (6.0 + BITE, 0.0),
                 (7.0, 0.0),
                 (7.0 + BITE, 0.7 * ROLLING),
-            ]))?,
+            ]))?
+            .into(),
             held: 0.0,
             actions: vec![(0.1, Action::Release), (0.1, Action::Reference(strip_mill::RATED_SPEED))],
             duration: 9.0,

@@ -8,3 +8,4 @@ mod scenes;
 mod sentences;
 mod sides;
 mod step;
+mod winch;

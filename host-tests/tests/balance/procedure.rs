@@ -1,6 +1,6 @@
 //! The procedure on a rotor: step by step, back and again, cut off and resumed, and used wrongly.
 
-use driveline::balance::{Complex, Influence, Plan, Procedure, Refusal, Run, Step};
+use driveline::balance::{Aim, Complex, Influence, Plan, Procedure, Refusal, Run, Step};
 
 use crate::noise::Noise;
 
@@ -122,6 +122,90 @@ fn steps_are_taken_back_and_given_again() {
     again.trial(0, Complex::new(3.0, 0.0), &Run::new(&readings[..2], &[SPEED; 2]).unwrap()).unwrap();
     assert!((again.influence().unwrap().get(0, 0).unwrap() - Complex::new(2.0, 0.0)).norm() < 1e-12);
     assert_eq!(again.influence().unwrap().get(1, 1), whole.influence().unwrap().get(1, 1));
+}
+
+/// A plane tried again: given again it is replaced, given further it counts with the others, and where weights stay a later run forbids the first.
+#[test]
+fn a_plane_is_tried_again_or_further() {
+    type Roomy = Procedure<f64, 4, 2, 5>;
+    let w = |re: f64, im: f64| Complex::new(re, im);
+    for stays in [false, true] {
+        let mut fan = Fan::new();
+        let mut field = Roomy::new(plan(stays)).unwrap();
+        field.baseline(&fan.run()).unwrap();
+        for (plane, weight) in
+            [(0, w(1.0, 0.5)), (1, w(0.5, -1.0)), (0, w(-0.3, 1.0)), (1, w(2.0, 0.0)), (0, w(0.7, 0.1))]
+        {
+            fan.on[plane] += weight;
+            field.further_trial(plane, weight, &fan.run()).unwrap();
+            if !stays {
+                fan.on[plane] -= weight;
+            }
+        }
+        assert_eq!((field.trials_of(0), field.trials_of(1)), (3, 2));
+        assert_eq!(field.further_trial(0, w(1.0, 0.0), &fan.run()), Err(Refusal::Size));
+        for (row, plane) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            // rounding of five runs of size 10
+            let (got, truth) = (field.influence().unwrap().get(row, plane), fan.influence.get(row, plane));
+            assert!((got.unwrap() - truth.unwrap()).norm() < 1e-13);
+        }
+        // which of the three is meant to be replaced cannot be known
+        let kept = field.clone();
+        assert_eq!(field.trial(0, w(1.0, 0.0), &fan.run()), Err(Refusal::TrialRepeated { plane: 0 }));
+        assert_eq!(field, kept);
+        let mut words = [0; 300];
+        let length = field.record(&mut words).unwrap();
+        assert_eq!(Roomy::resume(plan(stays), &words[..length]), Ok(field));
+        // a procedure with less room does not take it
+        assert!(matches!(Field::resume(plan(stays), &words[..length]), Err(Refusal::Record { .. })));
+    }
+    // weights that stay: the last trial may be given again, one below another one not
+    let mut fan = Fan::new();
+    let mut field = Field::new(plan(true)).unwrap();
+    field.baseline(&fan.run()).unwrap();
+    for plane in 0..2 {
+        fan.on[plane] += w(9.0, 9.0);
+        field.trial(plane, w(1.0, 0.0), &fan.run()).unwrap();
+        if plane == 0 {
+            // it was not one but nine and nine
+            field.trial(plane, w(9.0, 9.0), &fan.run()).unwrap();
+        }
+    }
+    assert_eq!(field.trial(0, w(9.0, 9.0), &fan.run()), Err(Refusal::TrialRepeated { plane: 0 }));
+    field.trial(1, w(9.0, 9.0), &fan.run()).unwrap();
+    assert!((field.influence().unwrap().get(0, 0).unwrap() - fan.influence.get(0, 0).unwrap()).norm() < 1e-13);
+    assert!((field.influence().unwrap().get(0, 1).unwrap() - fan.influence.get(0, 1).unwrap()).norm() < 1e-13);
+    assert_eq!(
+        Refusal::TrialRepeated { plane: 0 }.to_string(),
+        "plane 1 has its trial run already: take that back, or give a further one"
+    );
+}
+
+/// A reading that is weighted with zero keeps no procedure from its end, and is in no residual.
+#[test]
+fn a_reading_that_is_left_out_is_in_no_residual() {
+    let z = |re: f64, im: f64| Complex::new(re, im);
+    let mut aim = Aim::default();
+    aim.weighting[2] = 0.0;
+    let mut field = Field::new(Plan { aim, ..Plan::usual(3, 2, 0.1) }).unwrap();
+    let run = |readings: [Complex<f64>; 3]| Run::new(&readings, &[SPEED; 3]).unwrap();
+    field.baseline(&run([z(5.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
+    field.trial(0, z(1.0, 0.0), &run([z(6.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
+    field.trial(1, z(1.0, 0.0), &run([z(5.0, 0.0), z(1.0, 3.0), z(50.0, 0.0)])).unwrap();
+    let correction = field.correction().unwrap();
+    // influences of one: two readings vanish, and the third, which no plane changes, stays
+    assert!(
+        correction.rms < 1e-15 && correction.largest < 1e-15 && (correction.residual[2].norm() - 50.0).abs() < 1e-12
+    );
+    field.placed(&correction.weights).unwrap();
+    field.verified(&run([z(0.05, 0.0), z(0.0, 0.05), z(50.0, 0.0)])).unwrap();
+    assert_eq!(field.next(), Step::Done);
+    // and counts as soon as it is weighted
+    let mut field = Field::new(Plan::usual(3, 2, 0.1)).unwrap();
+    field.baseline(&run([z(5.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
+    field.trial(0, z(1.0, 0.0), &run([z(6.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
+    field.trial(1, z(1.0, 0.0), &run([z(5.0, 0.0), z(1.0, 3.0), z(50.0, 0.0)])).unwrap();
+    assert!((field.correction().unwrap().rms - 50.0 / 3_f64.sqrt()).abs() < 1e-12);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The elements of machines against textbooks, published machines and closed forms.
 
 mod crank;
+mod excited;
 mod files;
 mod need;
 mod prime_mover;

@@ -3,7 +3,6 @@
 use driveline_firmware::scene::Scene;
 use driveline_firmware::selected::{VARIANTS, visit};
 use driveline_firmware::{Visitor, Words};
-use host_tests::plant::converge;
 use host_tests::run::SCENES;
 use host_tests::run::closed_loop::{OnHost, Trace, run};
 use host_tests::run::figures::{deviations, peaks};
@@ -103,6 +102,25 @@ fn skip_winch() {
     needs_two_masses("skip-winch");
 }
 
+#[test]
+fn vibrating_screen() {
+    meets_the_aims("vibrating-screen", "exact");
+}
+
+#[test]
+fn gear_drive() {
+    meets_the_aims("gear-drive", "exact");
+}
+
+#[test]
+fn punch_press() {
+    let figures = figures("punch-press");
+    assert_eq!(figures.len(), 4, "two governors, f32 and fixed");
+    for (variant, [torque, speed]) in figures {
+        assert!(torque <= 0.02 && speed <= 0.003, "{variant}: {torque}, {speed}");
+    }
+}
+
 /// The solver's runs agree with another integrator within 1e-8 of the peaks: the shortest of each scene here, all of them in `cargo driveline run`.
 #[test]
 fn runs_are_proven() {
@@ -111,6 +129,6 @@ fn runs_are_proven() {
         let machine = machine().unwrap();
         let variant = VARIANTS.iter().find(|variant| variant.starts_with(scene)).unwrap();
         let traces = visit(variant, Runs(&machine)).unwrap();
-        converge::prove(&traces[0].recording).unwrap();
+        traces[0].recording.prove().unwrap();
     }
 }

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use driveline::machine::{
-    Belt, Chain, Diameter, Efficiency, Error, Inertia, Length, LinearDamping, Mass, Match, Planetary, Ratio,
-    STANDARD_GRAVITY, Stiffness,
+    Belt, Chain, Diameter, Efficiency, Error, Inertia, Length, LinearDamping, Mass, Match, Member, Planetary,
+    PlanetaryGear, Ratio, STANDARD_GRAVITY, Stiffness,
 };
 
 use super::{case, close, meets};
@@ -86,6 +86,74 @@ fn a_planetary_set_at_its_carrier() {
         efficiency: Efficiency(0.97),
     };
     meets(set.inertia_at_carrier(), &case["expected_J_at_carrier"], 1e-12);
+}
+
+/// Any member driven and any other held, against the speeds at the pitch points and the kinetic energy: with radii of sun and planet, `v` the speed of a
+/// planet's pin, the sun's rim moves at `v - w r_planet`, the ring's at `v + w r_planet`.
+#[test]
+fn a_planetary_set_with_any_member_held() {
+    let case = case("textbook_examples.json", "S07_planetary_1");
+    let at = |key: &str| case[key].as_f64().unwrap();
+    let (sun_teeth, ring_teeth, module) = (at("z_sun"), at("z_ring"), at("module_m"));
+    let set = Planetary {
+        sun_teeth: sun_teeth as u32,
+        ring_teeth: ring_teeth as u32,
+        module,
+        planets: at("planets") as u32,
+        sun: Inertia(at("J_sun")),
+        planet: Inertia(at("J_planet_own_axis")),
+        planet_mass: Mass(at("m_planet")),
+        carrier: Inertia(at("J_carrier")),
+        efficiency: Efficiency(0.97),
+    };
+    let ring = 0.4;
+    let (sun_radius, planet_radius) = (0.5 * module * sun_teeth, 0.5 * module * at("z_planet"));
+    let (pin_radius, ring_radius) = (sun_radius + planet_radius, 0.5 * module * ring_teeth);
+    let members = [Member::Sun, Member::Ring, Member::Carrier];
+    for (driven, held) in [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)] {
+        let gear = PlanetaryGear { set, ring: Inertia(ring), driven: members[driven], held: members[held] };
+        // speeds of sun, ring, carrier and planet
+        let mut matrix = nalgebra::Matrix4::from_row_slice(&[
+            sun_radius,
+            0.0,
+            -pin_radius,
+            planet_radius, //
+            0.0,
+            ring_radius,
+            -pin_radius,
+            -planet_radius, //
+            0.0,
+            0.0,
+            0.0,
+            0.0, //
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+        ]);
+        (matrix[(2, driven)], matrix[(3, held)]) = (1.0, 1.0);
+        let speeds = matrix.lu().solve(&nalgebra::Vector4::new(0.0, 0.0, 1.0, 0.0)).unwrap();
+        let pin = speeds[2] * pin_radius;
+        let energies = at("J_sun") * speeds[0].powi(2)
+            + ring * speeds[1].powi(2)
+            + at("J_carrier") * speeds[2].powi(2)
+            + at("planets") * (at("J_planet_own_axis") * speeds[3].powi(2) + at("m_planet") * pin * pin);
+        // a solution of four equations: some roundings
+        close(gear.ratio(), 1.0 / speeds[3 - driven - held], 1e-14);
+        close(gear.inertia(), energies, 1e-14);
+        assert_eq!(gear.ratio() < 0.0, members[held] == Member::Carrier);
+        let chain = Chain::motor(Inertia(1.0)).planetary_gear(gear);
+        close(chain.total_inertia() - 1.0, energies, 1e-14);
+        assert_eq!(chain.ratio(), gear.ratio().abs());
+    }
+    let published = PlanetaryGear { set, ring: Inertia(0.0), driven: Member::Carrier, held: Member::Ring };
+    meets(published.inertia(), &case["expected_J_at_carrier"], 1e-12);
+    let own = Chain::motor(Inertia(1.0)).planetary_gear(PlanetaryGear { driven: Member::Sun, ..published });
+    close(own.total_inertia(), Chain::motor(Inertia(1.0)).planetary(set).total_inertia(), 1e-15);
+    let both = PlanetaryGear { held: Member::Carrier, ..published };
+    assert_eq!(Chain::motor(Inertia(1.0)).try_planetary_gear(both), Err(Error::PlanetaryMembers));
+    let light = PlanetaryGear { ring: Inertia(-1.0), ..published };
+    assert_eq!(Chain::motor(Inertia(1.0)).try_planetary_gear(light), Err(Error::PlanetaryInertia));
 }
 
 #[test]

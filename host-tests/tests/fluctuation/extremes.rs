@@ -50,8 +50,7 @@ fn load_swing(motion: &Motion) -> f64 {
     speeds.iter().fold(f64::MIN, |a, &b| a.max(b)) - speeds.iter().fold(f64::MAX, |a, &b| a.min(b))
 }
 
-/// The parabola's error is a quarter of the fourth difference at most: at 40 samples to the faster order's period (20 us x 2 of 16 ms), 1e-5 of the
-/// amplitude. In `f32` speeds of 157 rad/s are known to 8e-6 rad/s, which the place of an extreme sees by its root.
+/// At 100 samples to the faster order's period (0.4 ms of 40 ms) the parabola misses 4e-5 of the amplitude at most. In `f32` speeds of 157 rad/s are known to 8e-6 rad/s, which the place of an extreme sees by its root.
 #[test]
 fn extremes_of_a_closed_form() {
     let single = |speed: f64| speed as f32;
@@ -113,8 +112,8 @@ fn case() -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// The punch press of the reference cases: its speed falls by a third at a corner and rises at another. Between samples that are two ticks apart a corner is
-/// known to what the speed changes in one: 280 N m on 1.8 kg m2 in 0.1 ms is 0.016 rad/s of 3.4, half a per cent, which the parabola halves.
+/// The punch press of the reference cases: its speed falls by a third at a corner and rises at another. Between samples that are four ticks apart a corner is
+/// known to what the speed changes in two: 280 N m on 1.8 kg m2 in 0.2 ms is 0.031 rad/s of 3.4, one per cent, which the parabola halves.
 #[test]
 fn the_punch_press_of_the_reference_cases() {
     let document = case();
@@ -150,16 +149,17 @@ fn the_punch_press_of_the_reference_cases() {
     assert!((reading.mean / number("w_mean_time_rad_s") - 1.0).abs() < 1e-4, "{reading:?}");
     assert!((reading.duration / number("cycle_time_s") - 1.0).abs() < 1e-4, "{reading:?}");
     for fluctuations in [reading.motor, reading.load] {
-        // A parabola over a level that breaks off into a fall of 0.031 rad/s in two ticks stands above it by an eighth of that at most; a corner
-        // that points downwards is missed by half as much either way.
-        assert!((fluctuations.max.speed - number("w_max_rad_s")).abs() < 0.004, "{reading:?}");
-        assert!((fluctuations.min.speed - number("w_min_rad_s")).abs() < 0.008, "{reading:?}");
+        // A parabola over a level that breaks off into a fall of 0.062 rad/s in four ticks stands above it by an eighth of that at most; a corner
+        // that points downwards is missed by a quarter of it either way.
+        assert!((fluctuations.max.speed - number("w_max_rad_s")).abs() < 0.008, "{reading:?}");
+        assert!((fluctuations.min.speed - number("w_min_rad_s")).abs() < 0.016, "{reading:?}");
         assert!((fluctuations.arithmetic_mean / number("w_mean_arithmetic_rad_s") - 1.0).abs() < 5e-4);
-        assert!((fluctuations.delta / number("delta_time_mean") - 1.0).abs() < 3e-3, "{reading:?}");
-        assert!((fluctuations.delta_arithmetic / number("delta_arithmetic_mean") - 1.0).abs() < 3e-3, "{reading:?}");
-        // Two ticks are 2 mrad; each speed is looked at in every other tick.
-        assert!((fluctuations.max.angle - number("phi_at_w_max_rad")).abs() < 3e-3, "{reading:?}");
-        assert!((fluctuations.min.angle - number("phi_at_w_min_rad")).abs() < 2e-3, "{reading:?}");
+        // Both together are 0.7 % of the swing.
+        assert!((fluctuations.delta / number("delta_time_mean") - 1.0).abs() < 7e-3, "{reading:?}");
+        assert!((fluctuations.delta_arithmetic / number("delta_arithmetic_mean") - 1.0).abs() < 7e-3, "{reading:?}");
+        // The level's last sample is up to four ticks before the corner, and the vertex up to half of that before it: 7 mrad.
+        assert!((fluctuations.max.angle - number("phi_at_w_max_rad")).abs() < 7e-3, "{reading:?}");
+        assert!((fluctuations.min.angle - number("phi_at_w_min_rad")).abs() < 4e-3, "{reading:?}");
     }
 }
 

@@ -13,3 +13,4 @@ mod proof;
 mod simulate;
 mod start;
 mod transfer;
+mod unbalance;

@@ -138,3 +138,62 @@ fn every_fault_of_a_file_has_its_place() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+/// A motor, a drum and a load; what is put in for `inertia`, `stiffness` and `damping` belongs to the drum and its shaft.
+fn drum(inertia: &str, stiffness: &str, damping: &str) -> String {
+    format!(
+        "name = \"drum\"\n\
+         [[coordinate]]\nname = \"motor\"\ninertia = 1.2\n\
+         [[coordinate]]\nname = \"drum\"\ninertia = {inertia}\n\
+         [[coordinate]]\nname = \"load\"\ninertia = 0.3\n\
+         [[link]]\nname = \"shaft\"\nbetween = [\"motor\", \"drum\"]\nstiffness = {stiffness}\ndamping = {damping}\n\
+         [[link]]\nname = \"rope\"\nbetween = [\"drum\", \"load\"]\nstiffness = 850.0\ndamping = 0.1\n\
+         [[torque]]\non = \"motor\"\nkind = \"constant\"\ntorque = 100.0\n\
+         [run]\ntime = 0.5\nstep = 1e-3\n"
+    )
+}
+
+#[test]
+fn a_train_that_is_too_stiff_for_its_run_is_refused_at_once_with_place_and_range() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |text: &str| {
+        let file = folder.path().join("stiff.toml");
+        std::fs::write(&file, text).unwrap();
+        let path = file.to_str().unwrap();
+        let output = simulate(&[path, "--json"]);
+        assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(output.stdout.is_empty());
+        let value: serde_json::Value = serde_json::from_slice(&output.stderr).unwrap();
+        (value["at"]["line"].as_u64().unwrap(), value["error"].as_str().unwrap().to_owned())
+    };
+    // 1e11/1e-12 is a decay of 1e23 1/s; what is heavy beside it does not slow it
+    let (line, error) = refused(&drum("1e-12", "850.0", "1e11"));
+    // the damping, 1e12 times the other's, is as odd as the inertia: either may be called
+    assert!(line == 5 || line == 11, "{error}");
+    assert!(error.contains("damping of 1.0e11 on an inertia of 1.0e-12, a rate of 1.0e23 1/s"), "{error}");
+    // sqrt(850 (1/1e-12 + 1/1.2)) = 2.9e7 rad/s; 1e6 in 0.5 s are 2e6 1/s, whose square is less by 2.1e2
+    let (line, error) = refused(&drum("1e-12", "850.0", "0.0").replace("damping = 0.1", "damping = 0.0"));
+    assert_eq!(line, 5, "{error}");
+    assert!(error.contains("a stiffness of 8.5e2 on an inertia of 1.0e-12, a rate of 2.9e7 1/s"), "{error}");
+    let (line, error) = refused(&drum("0.02", "850.0", "1e11"));
+    assert_eq!(line, 11, "{error}");
+    assert!(error.contains("`shaft`") && error.contains("damping of at most"), "{error}");
+    // elements are called by their own place
+    let text = std::fs::read_to_string(machine("hoist-start")).unwrap();
+    let heading = text.lines().position(|line| line.contains("inertia = 0.08")).unwrap() - 2;
+    let (line, error) = refused(&text.replace("inertia = 0.08 ", "inertia = 1e-12 "));
+    assert_eq!(line as usize, heading, "{error}");
+    assert!(error.contains("`brake drum`") && error.contains("an inertia of at least"), "{error}");
+}
+
+#[test]
+fn what_is_stiff_but_not_too_stiff_is_solved_and_proven() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("stiff.toml");
+    // 0.1/2e-6 = 5e4 1/s, and twice that of the shafts' swing together
+    std::fs::write(&file, drum("2e-6", "850.0", "0.0").replace("time = 0.5", "time = 0.05")).unwrap();
+    let output = simulate(&[file.to_str().unwrap(), "--json"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(found["proof"][0].as_f64().unwrap() < 1e-8);
+}

@@ -76,6 +76,47 @@ fn an_index_off_its_place_is_one_missing_angle() {
     assert!(encoder.angle().is_ok());
 }
 
+/// An index of 1000 counts a turn, seen once a turn; what each turn's count is off, and what the reading after it says.
+fn turns(offs: impl IntoIterator<Item = i64>) -> (Vec<bool>, i32) {
+    let offs: Vec<i64> = offs.into_iter().collect();
+    let place = |turn: usize| (1000 * turn as i64 + 500 + offs[turn]).rem_euclid(65_536) as u32;
+    // read a little before the index, and a little after it
+    let around = |turn: usize| [-20, 20].map(|by| Some(place(turn).wrapping_add_signed(by) & 0xffff));
+    let mut encoder = Quadrature::new(counts((0..offs.len()).flat_map(around)), 1000, 16);
+    let mut told = Vec::new();
+    for turn in 0..offs.len() {
+        assert!(encoder.angle().is_ok());
+        encoder.index(place(turn));
+        told.push(encoder.angle() == MISSING);
+    }
+    (told, encoder.slipped())
+}
+
+#[test]
+fn counts_that_slip_one_by_one_are_told() {
+    // one a turn: every second turn they are two, and are told
+    for direction in [1, -1] {
+        let (told, slipped) = turns((0..101).map(|turn| direction * turn));
+        assert_eq!(told.iter().filter(|&&told| told).count(), 50);
+        assert!((0..101).all(|turn| told[turn] == (turn > 0 && turn % 2 == 0)), "{told:?}");
+        assert_eq!(slipped, 100 * direction as i32);
+    }
+}
+
+#[test]
+fn an_index_between_two_counts_is_no_slip() {
+    let (told, slipped) = turns((0..100).map(|turn| i64::from(turn % 3 == 1) - i64::from(turn % 7 == 3)).skip(2));
+    assert_eq!((told.iter().any(|&told| told), slipped), (false, 0));
+}
+
+#[test]
+fn a_slip_is_told_once_and_the_next_one_again() {
+    let (told, slipped) = turns([0, 0, 3, 3, 4, 3, 1, 1, 500, 500]);
+    assert_eq!(told, (0..10).map(|turn| [2, 6, 8].contains(&turn)).collect::<Vec<_>>());
+    // half a turn and a count less: 3, then back by 2, then on by 499
+    assert_eq!(slipped, 3 - 2 + 499);
+}
+
 /// The frames of a magnetic encoder, an AS5047P.
 #[derive(Default)]
 pub struct Frames {

@@ -9,5 +9,6 @@ mod parameters;
 mod table;
 mod telemetry;
 mod torque;
+mod turn;
 mod vibration;
 mod wheel;

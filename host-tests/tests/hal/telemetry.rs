@@ -74,6 +74,57 @@ fn channels_describe_themselves() {
     assert_eq!(decoder.channel(2).name, "value 2");
 }
 
+/// A CSV's first line, parted and unquoted as RFC 4180 says.
+fn fields(line: &str) -> Vec<String> {
+    let (mut fields, mut quoted) = (vec![String::new()], false);
+    let mut characters = line.chars().peekable();
+    while let Some(c) = characters.next() {
+        let field = fields.last_mut().unwrap();
+        match c {
+            '"' if quoted && characters.peek() == Some(&'"') => field.extend(characters.next()),
+            '"' => quoted = !quoted,
+            ',' if !quoted => fields.push(String::new()),
+            c => field.push(c),
+        }
+    }
+    fields
+}
+
+#[test]
+fn whatever_a_channel_is_called_the_table_has_its_columns_and_the_terminal_its_peace() {
+    let channels = [
+        Channel { name: "torque, \"shaft\"", unit: "N m", kind: Kind::Integer(1.0) },
+        // clears the screen; sets the title by an eight-bit code; a line's end
+        Channel { name: "\x1b[2Jspeed", unit: "\u{9b}31m", kind: Kind::Integer(1.0) },
+        Channel { name: "two\r\nlines", unit: "", kind: Kind::Integer(1.0) },
+    ];
+    let ring = Ring::<3, 16>::new();
+    let mut bytes = Vec::new();
+    Channel::send(&channels, &mut bytes).unwrap();
+    ring.record(&[1, 2, 3]);
+    ring.send(&mut bytes).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let [recorded, csv] = ["recorded.bin", "run.csv"].map(|name| folder.path().join(name));
+    std::fs::write(&recorded, &bytes).unwrap();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_driveline"))
+        .args(["watch", recorded.to_str().unwrap(), "--csv", csv.to_str().unwrap()])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let table = std::fs::read_to_string(csv).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(
+        fields(lines[0]),
+        ["tick", "dropped", "torque, \"shaft\" [N m]", "\u{fffd}[2Jspeed [\u{fffd}31m]", "two\u{fffd}\u{fffd}lines"]
+    );
+    assert_eq!(lines[1..], ["0,0,1,2,3"]);
+    for text in [&output.stdout, &output.stderr] {
+        let text = std::str::from_utf8(text).unwrap();
+        assert!(text.chars().all(|c| c == '\n' || !c.is_control()), "{text:?}");
+    }
+    assert!(std::str::from_utf8(&output.stdout).unwrap().contains("\u{fffd}[2Jspeed"));
+}
+
 #[test]
 fn no_damaged_byte_makes_a_record_that_was_not_sent() {
     let ring = Ring::<3, 8>::new();

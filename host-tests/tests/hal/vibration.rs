@@ -1,12 +1,18 @@
 //! Vibration from an ADXL355 and from conversions.
 
+use driveline::balance::{Doubt, Phasors, PhasorsConfig, Reading};
+use driveline::constants::Measured;
+use driveline::drive::Config;
 use driveline::fault::Faults;
-use driveline::hal::{AdcVibration, Adxl355, Along, PerCount, Range, VibrationSensor};
+use driveline::governor::SpeedLoop;
+use driveline::hal::{AdcVibration, Adxl355, Along, Axis, PerCount, Range, TRIPPING, VibrationSensor};
 use driveline::number::Fixed;
 
+use crate::axis;
 use crate::bus::{Bus, Expected};
 
 pub const MISSING: Result<Option<f32>, Faults> = Err(Faults::VIBRATION_MISSING);
+const CLIPPED: Result<Option<f32>, Faults> = Err(Faults::VIBRATION_CLIPPED);
 const PER_COUNT: PerCount<f32> = PerCount::<f32>::new(Range::G2.per_count());
 
 /// The chip says who it is and takes its settings [ADXL355 datasheet, tables 17, 43, 46 and 47].
@@ -69,8 +75,8 @@ fn every_fault_is_no_sample() {
     expected.exchange(&[0x09, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], &[0xff; 14]);
     burst(&mut expected, 1, 1000);
     let mut sensor = sensor(expected);
-    for _ in 0..5 {
-        assert_eq!(sensor.vibration(), MISSING);
+    for expected in [MISSING, CLIPPED, CLIPPED, MISSING, MISSING] {
+        assert_eq!(sensor.vibration(), expected);
     }
     assert!(sensor.vibration().unwrap().is_some());
     sensor.release().done();
@@ -117,7 +123,50 @@ fn old_clipped_and_no_conversions_are_faults() {
     assert!(vibration.mean(&[2048], 1).is_ok());
     assert_eq!(vibration.mean(&[2048], 1), NONE);
     assert_eq!(vibration.mean(&[], 2), NONE);
-    assert_eq!(vibration.mean(&[2048, 0], 3), NONE);
-    assert_eq!(vibration.mean(&[4095, 2048], 4), NONE);
+    assert_eq!(vibration.mean(&[2048, 0], 3), Err(Faults::VIBRATION_CLIPPED));
+    assert_eq!(vibration.mean(&[4095, 2048], 4), Err(Faults::VIBRATION_CLIPPED));
     assert!(vibration.mean(&[2048], 5).is_ok());
+}
+
+/// Readings of two turns through an axis, whose angle comes from a board and whose samples from conversions: a sound one, then with a conversion
+/// at the end of the range, a transfer that stood still, and sound again.
+#[test]
+fn a_reading_through_an_axis_says_what_its_samples_lacked() {
+    let config = Config {
+        limits: axis::CONFIG.limits,
+        observer: axis::CONFIG.observer,
+        fluctuation: (),
+        governor: axis::CONFIG.governor,
+        balancer: PhasorsConfig::<f32, 1>::new(&Measured { turns: 1, ..Measured::DIRECT }, [100.0]),
+    };
+    let mut axis = Axis::<_, f32, axis::Observer, (), SpeedLoop<f32>, Phasors<f32, 1, 3>>::new(
+        axis::Scripted::sound(),
+        &config,
+        TRIPPING,
+    );
+    let mut adc = AdcVibration::new(2048, 4095, PerCount::<f32>::new(0.01 / 256.0));
+    let mut transfers = 0;
+    let mut read = |fault: Option<Faults>| {
+        axis.drive_mut().balancer_mut().begin();
+        // at 30 rad/s and 10 kHz a turn has 2094 ticks: the fault comes within the reading
+        for tick in 0..8000 {
+            axis.tick(&config, axis::WANTED);
+            let theta = f64::from(axis.drive().angle()) / 4_294_967_296.0 * std::f64::consts::TAU;
+            let faulty = fault.filter(|_| tick == 3000);
+            transfers += u32::from(faulty != Some(Faults::VIBRATION_MISSING));
+            let swing = if faulty == Some(Faults::VIBRATION_CLIPPED) { 2047.0 } else { (1500.0 * theta.cos()).round() };
+            let sample = adc.mean(&[(2048.0 + swing) as u16], transfers).map(|sample| Some([sample]));
+            let faults = axis.vibration(&config, sample);
+            assert_eq!(faults, faulty.unwrap_or(Faults::NONE));
+        }
+        axis.drive().balancer().reading(&config.balancer, 0)
+    };
+    // 1500 counts of 0.01 each, to a tenth of a count and the table's 2e-4
+    let sound = |reading: Result<Reading, Doubt>| (reading.unwrap().phasor.amplitude() - 15.0).abs() < 5e-3;
+    assert!(sound(read(None)));
+    assert_eq!(read(Some(Faults::VIBRATION_CLIPPED)), Err(Doubt::Clipped));
+    let missing = read(Some(Faults::VIBRATION_MISSING));
+    assert_eq!(missing, Err(Doubt::Missing { samples: 1 }));
+    assert_eq!(missing.unwrap_err().to_string(), "samples were missing or not sound, 1 of them");
+    assert!(sound(read(None)));
 }

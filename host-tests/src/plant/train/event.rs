@@ -32,16 +32,23 @@ impl Motion {
     /// From event to event until a time, s.
     pub(super) fn run_to(&mut self, end: f64) {
         let mut events = 0;
+        // What the clock has lost to rounding: stretches of one length would lose the same each time, and teeth would meet
+        // 1e-11 s late after seconds.
+        let mut lost = 0.0;
         while self.now < end {
-            let stretch = self.stretch(self.longest(end - self.now));
+            let left = (end - self.now) - lost;
+            let stretch = self.stretch(self.longest(left));
             let found = if events < MOST_EVENTS { self.first_event(&stretch) } else { None };
             let share = found.map_or(1.0, |(share, _)| share);
             self.watches(&stretch, share);
             if share > 0.0 {
                 self.state = stretch.at(share);
             }
-            let whole = share == 1.0 && stretch.length >= end - self.now;
-            self.now = if whole { end } else { self.now + share * stretch.length };
+            let whole = share == 1.0 && stretch.length >= left;
+            let step = share * stretch.length + lost;
+            let next = if whole { end } else { self.now + step };
+            lost = step - (next - self.now);
+            self.now = next;
             if let Some((_, action)) = found {
                 events += 1;
                 self.fire(action);

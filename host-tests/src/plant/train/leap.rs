@@ -29,7 +29,7 @@ impl Leap {
         };
         let coordinates = train.coordinates.iter().all(|c| c.crank.is_none() && c.sources.iter().all(linear));
         let links = train.links.iter().all(|l| l.is_linear() && l.variation.is_none() && l.efficiency == 1.0);
-        if !(coordinates && links && train.frictions.is_empty()) {
+        if !(coordinates && links && train.frictions.is_empty() && train.unbalances.is_empty()) {
             return None;
         }
         let (links, n) = (train.links.len(), train.coordinates.len());

@@ -15,7 +15,7 @@ pub struct TrainModes {
 }
 
 impl Train {
-    /// Undamped modes from the eigenvalues of the mass-normalised stiffness.
+    /// Undamped modes from the eigenvalues of the mass-normalised stiffness, without what unbalances couple.
     ///
     /// # Errors
     /// [`PlantError`] as [`build`](Self::build).

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use super::leap::Leap;
 use super::reading::Watch;
 use super::stretch::{Stretch, TRAILING};
-use super::{Source, Train, Variation};
+use super::{Source, Train, Variation, unbalance};
 use crate::plant::event::Event;
 
 /// Product of the fastest rate and a stretch: `1.5^24/24!` = 3e-20 is left out.
@@ -296,5 +296,6 @@ fn fastest(train: &Train) -> f64 {
         swing = coordinate.sources.iter().map(Source::rate).fold(swing, f64::max);
     }
     let most = |matrix: DMatrix<f64>| SymmetricEigen::new(matrix).eigenvalues.max().max(0.0);
-    most(k).sqrt() + most(d) + swing
+    let least = unbalance::least(train).max(1e-3);
+    (most(k) / least).sqrt() + most(d) / least + swing
 }

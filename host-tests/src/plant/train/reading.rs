@@ -22,6 +22,9 @@ pub enum Signal {
     Elastic(usize),
     /// Of a friction, against its motion.
     Friction(usize),
+    /// On a coordinate, all but its links, N m or N: its inertia times its acceleration, and what the links take. Of a
+    /// coordinate without a crank.
+    Outside(usize),
 }
 
 /// Greatest and least of a signal so far.
@@ -68,6 +71,25 @@ impl Motion {
     #[must_use]
     pub fn links(&self) -> usize {
         self.train.links.len()
+    }
+
+    /// Inertia of a coordinate, kg m2; NaN for one that is not there, or whose crank changes it.
+    #[must_use]
+    pub fn inertia(&self, coordinate: usize) -> f64 {
+        let coordinate = self.train.coordinates.get(coordinate).filter(|coordinate| coordinate.crank.is_none());
+        coordinate.map_or(f64::NAN, |coordinate| coordinate.inertia)
+    }
+
+    /// Whether a link carries nothing now: a gap is open, or a rope slack.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        (0..self.train.links.len()).any(|link| !self.mode.carries(&self.train, link))
+    }
+
+    /// Whether a link has backlash. A rope has none.
+    #[must_use]
+    pub fn has_backlash(&self) -> bool {
+        self.train.links.iter().any(|link| !link.rope && link.gap > 0.0)
     }
 
     /// Angle of a coordinate, rad; NaN for one that is not there.
@@ -161,6 +183,23 @@ impl Motion {
                 let last = series.len() - 1;
                 series[last] = 0.0;
                 Some(series.map(|v| v * carried(l)))
+            }
+            Signal::Outside(j) => {
+                let speed = &stretch.speed.get(j)?.value;
+                let inertia = self.train.coordinates[j].inertia;
+                let mut series = ZERO;
+                for (k, to) in series.iter_mut().enumerate().take(speed.len() - 1) {
+                    *to = inertia * (k + 1) as f64 / stretch.length * speed[k + 1];
+                }
+                for (l, link) in self.train.links.iter().enumerate() {
+                    let Some(i) = link.terms.iter().position(|term| term.0 == j) else { continue };
+                    let loss = if i == 0 { self.mode.loss(&self.train, l) } else { 1.0 };
+                    let share = link.terms[i].1 * loss * carried(l);
+                    for (to, force) in series.iter_mut().zip(&stretch.strain[l].value) {
+                        *to += share * force;
+                    }
+                }
+                Some(series)
             }
             Signal::Friction(s) => {
                 let zero = ZERO;

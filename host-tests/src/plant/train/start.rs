@@ -28,6 +28,7 @@ impl Train {
         let mut frictionless = self.clone();
         frictionless.frictions.clear();
         frictionless.links.clear();
+        frictionless.unbalances.clear();
         let n = self.coordinates.len();
         if held >= n {
             return Err(PlantError::Count { name: "coordinate that is held", found: held, expected: n });
@@ -35,7 +36,11 @@ impl Train {
         self.validate()?;
         let bare = Motion::new(frictionless);
         let still = Stretch::new(&bare.train, &bare.mode, &bare.state, &bare.held, 0.0, 1e-6);
-        let torque = |j: usize| still.speed[j].value[1] / still.length * self.coordinates[j].inertia;
+        let weight = |j: usize| {
+            let on = self.unbalances.iter().filter(|unbalance| unbalance.turning == j);
+            on.map(|unbalance| unbalance.weight(self.coordinates[j].angle)).sum::<f64>()
+        };
+        let torque = |j: usize| still.speed[j].value[1] / still.length * self.coordinates[j].inertia + weight(j);
         let free: Vec<usize> = (0..n).filter(|&j| j != held).collect();
         let links = self.links.len();
         let share = |l: usize, j: usize| self.links[l].terms.iter().find(|term| term.0 == j).map_or(0.0, |term| term.1);

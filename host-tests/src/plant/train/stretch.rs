@@ -4,7 +4,7 @@ use super::Train;
 use super::motion::{Mode, State};
 use super::series::{Series, TERMS, ZERO, product, value};
 use super::source::Work as SourceWork;
-use super::{crank, series};
+use super::{crank, series, unbalance};
 
 /// Units in the last place that count as rounding: products of a handful of terms, taken a hundredfold.
 const ROUNDING: f64 = 1024.0 * f64::EPSILON;
@@ -21,13 +21,13 @@ pub(super) struct Sized {
 }
 
 impl Sized {
-    fn new(value: f64) -> Self {
+    pub fn new(value: f64) -> Self {
         let mut new = Self { value: ZERO, size: ZERO };
         new.put(0, value, value.abs());
         new
     }
 
-    fn put(&mut self, k: usize, value: f64, size: f64) {
+    pub fn put(&mut self, k: usize, value: f64, size: f64) {
         (self.value[k], self.size[k]) = (value, size);
     }
 
@@ -108,6 +108,7 @@ impl Stretch {
                 (work, Sized::new(momentum))
             }));
         }
+        let mut unbalances = unbalance::Work::of(train, &self.angle, &self.speed);
         let mut net = vec![0.0; n];
         let mut size = vec![0.0; n];
         for k in 0..TERMS - 1 {
@@ -128,6 +129,10 @@ impl Stretch {
             }
             self.links(train, mode, &laws, k, step, &mut net, &mut size);
             self.frictions(train, mode, k, &mut net, &mut size);
+            if let Some(work) = &mut unbalances {
+                work.push(train, &self.speed, k, &mut net, &mut size);
+                work.extend(train, k, step, &net, &size, [&mut self.angle, &mut self.speed]);
+            }
             for (j, coordinate) in train.coordinates.iter().enumerate() {
                 match (&mut cranks[j], coordinate.crank) {
                     (Some((work, momentum)), Some(description)) => {
@@ -145,6 +150,7 @@ impl Stretch {
                         let next = series::quotient(&momentum.value, &inertia, &speed.value, k + 1);
                         speed.put(k + 1, next, next.abs().max(momentum.size[k + 1] / inertia[0]));
                     }
+                    _ if unbalances.is_some() => {}
                     _ => {
                         let rate = step / coordinate.inertia;
                         self.speed[j].put(k + 1, rate * net[j], rate * size[j]);

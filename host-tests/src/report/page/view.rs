@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::budgeting::fineness;
 use crate::report::svg::MARKERS;
-use crate::report::{Fact, Report, Trajectory, chart};
+use crate::report::{Fact, Report, Sweep, Trajectory, Variant, chart};
 
 /// Everything on the page.
 #[derive(Serialize)]
@@ -18,18 +18,52 @@ pub struct View<'a> {
     facts: &'a [Fact],
     notes: &'a [String],
     tiles: Vec<tiles::Tile>,
-    costs: Vec<variants::Plot>,
+    #[serde(flatten)]
+    costs: Costs,
     rows: Vec<variants::Row>,
-    series: Vec<Named>,
-    shapes: Vec<Named>,
-    markers: [&'static str; 6],
     courses: Courses,
     comparison: Option<String>,
     compared: Vec<Vec<String>>,
-    sweeps: Vec<tables::SweepView>,
-    classes: Vec<String>,
+    #[serde(flatten)]
+    sweeps: Sweeps,
     sizes: Vec<tables::Size>,
     budgets: Vec<tables::Verdict>,
+}
+
+/// Errors against costs, with what colours and markers stand for.
+#[derive(Serialize)]
+pub struct Costs {
+    costs: Vec<variants::Plot>,
+    series: Vec<Named>,
+    shapes: Vec<Named>,
+    markers: [&'static str; 6],
+}
+
+impl Costs {
+    /// The plots of variants that look as they are and are called as `named` has them, in the same order.
+    pub fn named(variants: &[Variant], named: &[Variant]) -> Self {
+        let looks = variants::Looks::of(variants);
+        Costs {
+            costs: variants::costs(named, &looks.each),
+            series: looks.series,
+            shapes: looks.shapes,
+            markers: MARKERS,
+        }
+    }
+}
+
+/// Sweeps, with what the classes of their maps are.
+#[derive(Serialize)]
+pub struct Sweeps {
+    sweeps: Vec<tables::SweepView>,
+    classes: Vec<String>,
+}
+
+impl Sweeps {
+    /// Of these.
+    pub fn of(sweeps: &[Sweep]) -> Self {
+        Sweeps { sweeps: sweeps.iter().map(tables::sweep).collect(), classes: tables::classes() }
+    }
 }
 
 /// A colour or a marker and what it stands for.
@@ -65,16 +99,12 @@ pub fn view(report: &Report) -> View<'_> {
         facts: &report.facts,
         notes: &report.notes,
         tiles: tiles::tiles(report),
-        costs: variants::costs(&report.variants, &looks.each),
+        costs: Costs::named(&report.variants, &report.variants),
         rows: variants::rows(&report.variants, &looks.each),
-        series: looks.series,
-        shapes: looks.shapes,
-        markers: MARKERS,
         courses: courses(&report.trajectories),
         comparison: compared.then(|| chart::step_errors(&report.comparisons)),
         compared: tables::compared(&report.comparisons),
-        sweeps: report.sweeps.iter().map(tables::sweep).collect(),
-        classes: tables::classes(),
+        sweeps: Sweeps::of(&report.sweeps),
         sizes: tables::sizes(&report.compositions),
         budgets: report.budgets.iter().map(tables::verdict).collect(),
     }

@@ -263,6 +263,27 @@ impl<'a> Double<'a> {
         }
     }
 
+    /// Accelerations of the coordinates that unbalances couple, from Lagrange's equations as they stand.
+    fn unbalanced(&self, y: &[f64], torques: &[f64], out: &mut [f64]) {
+        let (links, n) = (self.train.links.len(), self.train.coordinates.len());
+        let mut mass = DMatrix::from_fn(n, n, |i, j| if i == j { self.train.coordinates[i].inertia } else { 0.0 });
+        let mut right = DVector::from_column_slice(torques);
+        for unbalance in &self.train.unbalances {
+            let (turning, way, moment) = (unbalance.turning, unbalance.way, unbalance.moment);
+            let (sine, cosine) = self.angle(y, turning).sin_cos();
+            mass[(turning, way)] -= moment * sine;
+            mass[(way, turning)] -= moment * sine;
+            right[turning] += moment * unbalance.gravity * sine;
+            right[way] += moment * self.speed(y, turning).powi(2) * cosine;
+        }
+        let Some(solved) = mass.qr().solve(&right) else { return };
+        for unbalance in &self.train.unbalances {
+            for at in [unbalance.turning, unbalance.way] {
+                out[links + at] = solved[at];
+            }
+        }
+    }
+
     fn arc_end(&self, arc: usize, passed: i64) -> f64 {
         let (j, s, _) = self.arcs[arc];
         let Source::Arc { from, to, .. } = &self.train.coordinates[j].sources[s] else { return f64::INFINITY };
@@ -279,16 +300,21 @@ impl Hybrid for Double<'_> {
             out[l] = link.terms.iter().map(|&(at, c)| c * self.speed(y, at)).sum();
         }
         let (net, forces) = self.balance(t, y);
+        let mut torques = Vec::with_capacity(n);
         for (j, coordinate) in self.train.coordinates.iter().enumerate() {
             let sticking = self.train.frictions.iter().zip(&forces);
             let share = |(friction, force): (&super::super::Friction, &f64)| {
                 friction.terms.iter().find(|term| term.0 == j).map_or(0.0, |term| term.1 * force)
             };
             let torque = net[j] + sticking.map(share).sum::<f64>();
+            torques.push(torque);
             let speed = self.speed(y, j);
             let (inertia, slope) = coordinate.crank.map_or((0.0, 0.0), |crank| whole_inertia(&crank, self.angle(y, j)));
             out[links + j] = (torque - 0.5 * slope * speed * speed) / (coordinate.inertia + inertia);
             out[links + n + j] = speed;
+        }
+        if !self.train.unbalances.is_empty() {
+            self.unbalanced(y, &torques, out);
         }
         for (friction, _) in self.train.frictions.iter().zip(&self.way).filter(|(_, way)| **way == 0.0) {
             if let [(at, _)] = friction.terms[..] {

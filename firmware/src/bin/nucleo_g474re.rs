@@ -1,0 +1,202 @@
+#![no_std]
+#![no_main]
+//! The test rig on a NUCLEO-G474RE: the control loop in the timer's interrupt, balancing and telemetry in the main loop.
+//!
+//! The blue button stops the drive when it is touched, and starts it when it was pressed and let go. `cargo driveline watch` shows the telemetry; what is asked for comes as frames of [`Asking`]. See `doc/boards.md`.
+
+use core::cell::UnsafeCell;
+use core::mem::MaybeUninit;
+use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
+use cortex_m::interrupt::free;
+use cortex_m::peripheral::NVIC;
+use cortex_m_rt::entry;
+use driveline::hal::{FullScale, PwmTorque};
+use driveline::telemetry::{Channel as Column, Kind, Ring};
+use driveline_firmware::asking::{Asking, RELEASE, SPEED};
+use driveline_firmware::balanced::{Adviser, Measurement, Variant, reading, state};
+use driveline_firmware::board::nucleo_g474re::{
+    Beside, Channel, Nucleo, Pin, Serial, Vibration, start_tick, tick_taken,
+};
+use driveline_firmware::panel::{DONE, Key};
+use driveline_firmware::scene::Scene;
+use driveline_firmware::scenes::test_rig::{self, TestRig};
+use driveline_firmware::told;
+use driveline_firmware::turn::{Asked, Turn};
+use stm32_metapac::{Interrupt, interrupt};
+
+driveline_firmware::selected!("test-rig/f32/two-mass/10000");
+
+/// What the interrupt owns.
+struct Control {
+    scene: Selected,
+    turn: Turn<Nucleo<PwmTorque<Channel<0>, f32>>, f32>,
+    vibration: Vibration,
+    /// Ticks until the next record.
+    left: u32,
+}
+
+/// Uninitialised until the interrupt is unmasked.
+struct Owned(UnsafeCell<MaybeUninit<Control>>);
+
+// SAFETY: the interrupt alone uses it, and the main loop while interrupts are off.
+unsafe impl Sync for Owned {}
+
+static CONTROL: Owned = Owned(UnsafeCell::new(MaybeUninit::uninit()));
+
+/// Values of a record: those of a scene, the two velocities, the last answer.
+const VALUES: usize = told::VALUES + 3;
+/// Ticks between two records: a thousand of 57 bytes a second, two thirds of what the port takes.
+const TICKS: u32 = 10;
+/// Records between two descriptions of the channels.
+const DESCRIBED: u32 = 1_000;
+
+static RECORDS: Ring<VALUES, 32> = Ring::new();
+static RELEASED: AtomicBool = AtomicBool::new(false);
+static REFERENCE: AtomicU32 = AtomicU32::new((test_rig::SPEED as f32).to_bits());
+static ANSWER: AtomicU32 = AtomicU32::new(0);
+
+const COLUMNS: [Column<'static>; VALUES] = {
+    let [a, b, c, d, e, f, g, h] = told::channels::<Selected>();
+    let first = Column { name: "vibration 1", unit: "m/s", kind: Kind::Single };
+    let second = Column { name: "vibration 2", unit: "m/s", kind: Kind::Single };
+    [a, b, c, d, e, f, g, h, first, second, Column { name: "answer", unit: "", kind: Kind::Integer(1.0) }]
+};
+
+/// A tick.
+#[interrupt]
+fn TIM6_DAC() {
+    tick_taken();
+    // SAFETY: it was initialised before the interrupt was unmasked; the main loop uses it with interrupts off, and nothing else does.
+    let Control { scene, turn, vibration, left } = unsafe { (*CONTROL.0.get()).assume_init_mut() };
+    let asked =
+        Asked { released: RELEASED.load(Ordering::Relaxed), speed: f32::from_bits(REFERENCE.load(Ordering::Relaxed)) };
+    let (input, output) = turn.run(asked, vibration.read(), |input, output| driveline_tick(scene, input, output));
+    *left = left.wrapping_sub(1);
+    if *left == 0 {
+        *left = TICKS;
+        let [a, b, c, d, e, f, g, h] = told::values(&input, &output);
+        let [first, second] = input.vibration;
+        RECORDS.record(&[a, b, c, d, e, f, g, h, first, second, ANSWER.load(Ordering::Relaxed)]);
+    }
+}
+
+#[entry]
+fn main() -> ! {
+    let full_scale = const { FullScale::<f32>::new(test_rig::TORQUE_LIMIT) };
+    let (nucleo, Beside { vibration, serial, button }) = Nucleo::torque_input(test_rig::COUNTS, full_scale);
+    let control = Control { scene: Selected::new(), turn: Turn::new(nucleo), vibration, left: TICKS };
+    // SAFETY: the interrupt is masked.
+    unsafe { (*CONTROL.0.get()).write(control) };
+    start_tick(Selected::RATE_HZ);
+    // SAFETY: what the interrupt uses is there.
+    unsafe { NVIC::unmask(Interrupt::TIM6_DAC) };
+
+    let mut desk = Desk { serial, asking: Asking::default(), adviser: <TestRig as Variant>::Adviser::new() };
+    let mut starter = Starter { resting: button.is_high(), button, pressed: false, turns: 0, stopped: false };
+    let mut told = DESCRIBED;
+    loop {
+        starter.look();
+        desk.serve();
+        if told >= DESCRIBED {
+            told = 0;
+            let Ok(()) = Column::send(&COLUMNS, &mut desk.serial);
+        }
+        let Ok(sent) = RECORDS.send(&mut desk.serial);
+        told = told.saturating_add(sent);
+    }
+}
+
+/// The blue button. Its level at reset counts as that of rest: whichever way it is wired, and even if it is held then, the drive does not start by a release
+/// alone.
+struct Starter {
+    button: Pin,
+    resting: bool,
+    /// Away from rest, without the bouncing.
+    pressed: bool,
+    /// Turns of the main loop that it has been otherwise.
+    turns: u32,
+    /// Whether this press has stopped the drive.
+    stopped: bool,
+}
+
+impl Starter {
+    /// Turns after which a level stands: a millisecond or more, contacts bounce for less.
+    const STANDS: u32 = 4096;
+
+    /// Stops when it is touched; starts after it was pressed and let go.
+    fn look(&mut self) {
+        let pressed = self.button.is_high() != self.resting;
+        if pressed && RELEASED.load(Ordering::Relaxed) {
+            RELEASED.store(false, Ordering::Relaxed);
+            self.stopped = true;
+        }
+        self.turns = if pressed == self.pressed { 0 } else { self.turns.saturating_add(1) };
+        if self.turns < Self::STANDS {
+            return;
+        }
+        self.pressed = pressed;
+        if !pressed {
+            RELEASED.store(!self.stopped, Ordering::Relaxed);
+            self.stopped = false;
+        }
+    }
+}
+
+/// What the main loop serves: the terminal, and the balancing.
+struct Desk {
+    serial: Serial,
+    asking: Asking,
+    adviser: <TestRig as Variant>::Adviser,
+}
+
+impl Desk {
+    /// Answers what has been asked.
+    fn serve(&mut self) {
+        while let Some(byte) = self.serial.receive() {
+            if let Some(asked) = self.asking.take(byte) {
+                ANSWER.store(self.answer(asked), Ordering::Relaxed);
+            }
+        }
+    }
+
+    fn answer(&mut self, [key, value]: [u32; 2]) -> u32 {
+        match (key, Key::of(key)) {
+            (RELEASE, _) => {
+                RELEASED.store(value == 1, Ordering::Relaxed);
+                DONE
+            }
+            (SPEED, _) => {
+                // a value that is no speed is refused by the drive, and flagged
+                REFERENCE.store(value, Ordering::Relaxed);
+                DONE
+            }
+            (_, Some(Key::Begin)) => {
+                between_ticks(|scene| scene.begin());
+                DONE
+            }
+            (_, Some(key)) => {
+                // a tick may wait for the copy, but not for what is made of it
+                let measurement = between_ticks(|scene| *scene.measurement());
+                self.advise(key, value, &measurement)
+            }
+            _ => 0,
+        }
+    }
+
+    fn advise(&mut self, key: Key, value: u32, measurement: &Measurement<f32>) -> u32 {
+        match key {
+            Key::State => state::<TestRig>(measurement),
+            key => self.adviser.ask(key, value, reading::<TestRig>(measurement).ok()),
+        }
+    }
+}
+
+/// Does something with the scene between two ticks; once the interrupt is unmasked.
+fn between_ticks<T>(action: impl FnOnce(&mut Selected) -> T) -> T {
+    free(|_| {
+        // SAFETY: interrupts are off, and `main` has initialised it before there was anything to answer.
+        let control = unsafe { (*CONTROL.0.get()).assume_init_mut() };
+        action(&mut control.scene)
+    })
+}

@@ -1,0 +1,150 @@
+//! TIM1: three phases with their complements at 20 kHz, and a break input that switches them off without the core.
+//!
+//! | pin | |
+//! |---|---|
+//! | PA8, PA9, PA10 | phases U, V, W: CH1, CH2, CH3 |
+//! | PA7, PB0, PB1 | their complements: CH1N, CH2N, CH3N |
+//! | PA6 | BKIN: low switches off, and so does a wire that has broken |
+//!
+//! Off is low on all six, driven. The core's lockup, a double error in the flash and a supply that fails break, too (SYSCFG), and a debugger that stops the
+//! core. What has broken stays off until [`Outputs`] are switched on again.
+
+use core::convert::Infallible;
+
+use driveline::fault::Faults;
+use driveline::hal::Enabling;
+use embedded_hal::pwm::{ErrorType, SetDutyCycle};
+use stm32_metapac::gpio::vals::Pupdr;
+use stm32_metapac::timer::vals::{Bkp, Cms, FilterValue, Lock, Ocm, Ossi, Ossr};
+use stm32_metapac::{DBGMCU, PWR, SYSCFG, TIM1};
+
+use super::clock::CLOCK_HZ;
+use super::pin::alternate;
+
+/// Frequency of the PWM [Hz].
+const PWM_HZ: u32 = 20_000;
+/// Counts of full duty: up and down again in a period.
+const FULL: u16 = (CLOCK_HZ / PWM_HZ / 2) as u16;
+/// Dead time of a microsecond: (64 + 21) x 2 clocks (RM0440, DTG of TIMx_BDTR).
+const DEAD_TIME: u8 = 0b1000_0000 | 21;
+
+/// Starts the timer, outputs off.
+pub fn start() {
+    DBGMCU.apb2fzr().modify(|r| r.set_tim1(true));
+    // the supply below 2.9 V or so: PLS 6
+    PWR.cr2().modify(|r| {
+        r.set_pls(6);
+        r.set_pvde(true);
+    });
+    TIM1.cr1().modify(|r| {
+        r.set_cms(Cms::CENTER_ALIGNED1);
+        r.set_arpe(true);
+    });
+    TIM1.arr().write(|r| r.set_arr(FULL));
+    for pair in 0..2 {
+        TIM1.ccmr_output(pair).modify(|r| {
+            for channel in 0..2 {
+                r.set_ocm(channel, Ocm::PWM_MODE1);
+                r.set_ocpe(channel, true);
+            }
+        });
+    }
+    for channel in 0..3 {
+        TIM1.ccr(channel).write(|r| r.set_ccr(FULL / 2));
+        TIM1.ccer().modify(|r| {
+            r.set_cce(channel, true);
+            r.set_ccne(channel, true);
+        });
+    }
+    TIM1.bdtr().write(|r| {
+        r.set_dtg(DEAD_TIME);
+        r.set_ossr(Ossr::IDLE_LEVEL);
+        r.set_ossi(Ossi::IDLE_LEVEL);
+        r.set_bkp(0, Bkp::ACTIVE_LOW);
+        r.set_bkf(0, FilterValue::FCK_INT_N8);
+        r.set_bke(0, true);
+        // polarity, dead time and break cannot be changed until the next reset
+        r.set_lock(Lock::LEVEL1);
+    });
+    SYSCFG.cfgr2().modify(|r| {
+        r.set_cll(true);
+        r.set_eccl(true);
+        r.set_pvdl(true);
+    });
+    TIM1.egr().write(|r| r.set_ug(true));
+    TIM1.cr1().modify(|r| r.set_cen(true));
+    alternate('A', 6, 6, Pupdr::PULL_DOWN);
+    for (port, number) in [('A', 8), ('A', 9), ('A', 10), ('A', 7), ('B', 0), ('B', 1)] {
+        alternate(port, number, 6, Pupdr::PULL_DOWN);
+    }
+}
+
+/// Whether the outputs are on: MOE, which the hardware clears at a break.
+#[inline]
+pub fn outputs_are_on() -> bool {
+    TIM1.bdtr().read().moe()
+}
+
+/// Address of TIM1_BDTR.
+const BDTR: u32 = 0x4001_2c44;
+/// MOE in it.
+const MOE: u32 = 1 << 15;
+
+/// The stack has run out of the memory, or worse: the outputs off, again and again; the watchdog, which nobody feeds any more, does the rest.
+///
+/// It uses no stack, for there may be none.
+#[unsafe(naked)]
+#[unsafe(no_mangle)]
+extern "C" fn HardFault() -> ! {
+    core::arch::naked_asm!(
+        "movw r0, {low}",
+        "movt r0, {high}",
+        "2: ldr r1, [r0]",
+        "bic r1, r1, {moe}",
+        "str r1, [r0]",
+        "b 2b",
+        low = const BDTR & 0xffff,
+        high = const BDTR >> 16,
+        moe = const MOE,
+    );
+}
+
+/// The outputs as a link of the enable chain.
+pub struct Outputs;
+
+impl Enabling for Outputs {
+    fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
+        if enabled {
+            TIM1.sr().write(|r| {
+                // writing ones changes nothing
+                r.0 = u32::MAX;
+                r.set_bif(0, false);
+                r.set_sbif(false);
+            });
+        }
+        TIM1.bdtr().modify(|r| r.set_moe(enabled));
+        // the break input holds them off
+        if outputs_are_on() == enabled { Ok(()) } else { Err(Faults::ENABLE) }
+    }
+}
+
+/// A phase: its duty becomes that of its output at the next crest or trough of the PWM, within 25 us.
+#[derive(Clone, Copy, Debug)]
+pub struct Channel<const NUMBER: usize>;
+
+impl<const NUMBER: usize> ErrorType for Channel<NUMBER> {
+    type Error = Infallible;
+}
+
+impl<const NUMBER: usize> SetDutyCycle for Channel<NUMBER> {
+    #[inline]
+    fn max_duty_cycle(&self) -> u16 {
+        FULL
+    }
+
+    #[inline]
+    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
+        TIM1.ccr(NUMBER).write(|r| r.set_ccr(duty));
+        Ok(())
+    }
+}

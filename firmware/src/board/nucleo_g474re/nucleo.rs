@@ -1,0 +1,96 @@
+//! The board: angle in, torque out, the power stage on and off.
+
+use driveline::fault::Faults;
+use driveline::hal::{
+    Board, EnableChain, Enabling, FullScale, Line, PhaseConfig, PwmTorque, Quadrature, ThreePhase, TorqueOutput,
+};
+
+use super::bridge::{self, Channel, Outputs};
+use super::encoder::Timer2;
+use super::pin::Pin;
+use super::serial::Serial;
+use super::vibration::Vibration;
+use super::watchdog::Watchdog;
+use super::{clock, encoder};
+
+/// An encoder, a torque output on TIM1, its outputs and a line that enables the drive.
+pub struct Nucleo<T> {
+    encoder: Quadrature<Timer2>,
+    torque: T,
+    /// On from the first to the last, off from the last to the first: the drive is enabled once it is given no torque.
+    chain: (Outputs, EnableChain<Pin, 1>),
+    enabled: bool,
+    watchdog: Watchdog,
+}
+
+/// What is beside the motor.
+pub struct Beside {
+    /// Two velocity sensors.
+    pub vibration: Vibration,
+    /// The terminal.
+    pub serial: Serial,
+    /// The blue button, with a resistor of its own.
+    pub button: Pin,
+}
+
+impl Nucleo<PwmTorque<Channel<0>, f32>> {
+    /// A drive that controls its current. Its torque input is the difference of PA8 and PA7, each behind a low-pass: switched off both are low, and the
+    /// difference is no torque.
+    pub fn torque_input(counts_per_turn: u32, full_scale: FullScale<f32>) -> (Self, Beside) {
+        Self::with(counts_per_turn, PwmTorque::new(Channel, full_scale))
+    }
+}
+
+impl Nucleo<ThreePhase<Channel<0>, Channel<1>, Channel<2>, f32>> {
+    /// The bridge of a small synchronous motor.
+    pub fn three_phase(counts_per_turn: u32, config: PhaseConfig<f32>) -> (Self, Beside) {
+        Self::with(counts_per_turn, ThreePhase::new((Channel, Channel, Channel), config))
+    }
+}
+
+impl<T> Nucleo<T> {
+    /// Starts the clock, every peripheral and the watchdog; the outputs stay off.
+    fn with(counts_per_turn: u32, torque: T) -> (Self, Beside) {
+        clock::start();
+        let drive_enable = Pin::output('C', 10);
+        bridge::start();
+        encoder::start();
+        let beside = Beside { vibration: Vibration::start(), serial: Serial::start(), button: Pin::input('C', 13) };
+        let nucleo = Nucleo {
+            encoder: Quadrature::new(Timer2, counts_per_turn, 32),
+            torque,
+            chain: (Outputs, EnableChain::new([Line::high(drive_enable)])),
+            enabled: false,
+            watchdog: Watchdog::start(),
+        };
+        (nucleo, beside)
+    }
+}
+
+impl<T: TorqueOutput<f32>> Board<f32> for Nucleo<T> {
+    #[inline]
+    fn angle(&mut self) -> Result<u32, Faults> {
+        if let Some(count) = Timer2::index() {
+            self.encoder.index(count);
+        }
+        self.encoder.read()
+    }
+
+    #[inline]
+    fn set_torque(&mut self, torque: f32, angle: u32) -> Result<(), Faults> {
+        self.torque.set_torque(torque, angle)?;
+        // the break input has switched the outputs off, or the core's lockup has
+        if self.enabled && !bridge::outputs_are_on() { Err(Faults::TORQUE_OUTPUT) } else { Ok(()) }
+    }
+
+    fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
+        let set = self.chain.set_enabled(enabled);
+        self.enabled = enabled && set.is_ok();
+        set
+    }
+
+    #[inline]
+    fn alive(&mut self) {
+        self.watchdog.feed();
+    }
+}

@@ -1,0 +1,127 @@
+//! An axis as a scene: the drive and what becomes of a board's faults, over an image of what the board reads and does.
+//!
+//! What was read goes in, what is to be done comes out, and nothing in between touches a register. So the tick is the same machine code on a board
+//! with a motor, where [`Turn`](crate::turn::Turn) reads and does, and in QEMU, where the host does.
+//!
+//! Into [`Input::flags`] go [`Input::RELEASED`] and the board's faults as bits of [`Faults`]: of this reading (angle, torque, vibration) and of
+//! what was to be done after the last tick (torque output, enable). [`Output::faults`] has [`Faults::TRIPPED`] while the power stage is to be off.
+
+use driveline::fault::Faults;
+use driveline::governor::SpeedLoop;
+use driveline::hal::{Axis, Board, TRIPPING};
+use driveline::number::Number;
+
+use crate::balanced::{Constants, Measurement, Variant, state};
+use crate::governed::output;
+use crate::panel::{DONE, Key, refused};
+use crate::scene::{Input, Output, Scene};
+
+/// The faults that a board tells in the flags of an input.
+const OF_THE_BOARD: Faults = Faults::ANGLE_MISSING
+    .with(Faults::VIBRATION_MISSING)
+    .with(Faults::TORQUE_OUTPUT)
+    .with(Faults::ENABLE)
+    .with(Faults::TORQUE);
+
+/// What a board has read, in place of the board.
+struct Image<N> {
+    angle: u32,
+    torque: N,
+    faults: Faults,
+}
+
+impl<N: Number> Image<N> {
+    #[inline(always)]
+    fn unless(&self, fault: Faults) -> Result<(), Faults> {
+        if self.faults.intersects(fault) { Err(fault) } else { Ok(()) }
+    }
+}
+
+impl<N: Number> Board<N> for Image<N> {
+    #[inline(always)]
+    fn angle(&mut self) -> Result<u32, Faults> {
+        self.unless(Faults::ANGLE_MISSING).map(|()| self.angle)
+    }
+
+    #[inline(always)]
+    fn torque(&mut self, _: N) -> Result<N, Faults> {
+        self.unless(Faults::TORQUE).map(|()| self.torque)
+    }
+
+    #[inline(always)]
+    fn set_torque(&mut self, _: N, _: u32) -> Result<(), Faults> {
+        self.unless(Faults::TORQUE_OUTPUT)
+    }
+
+    #[inline(always)]
+    fn set_enabled(&mut self, _: bool) -> Result<(), Faults> {
+        self.unless(Faults::ENABLE)
+    }
+}
+
+type Parts<N, O> = Axis<Image<N>, N, O, (), SpeedLoop<N>, Measurement<N>>;
+
+/// An axis with its constants. What balances is beside it: the panel only begins readings.
+pub struct OnAxis<V: Variant> {
+    // By reference: folded into the code, the constants cost more instructions than loaded from a table.
+    config: &'static Constants<V::Number, V::Observer>,
+    axis: Parts<V::Number, V::Observer>,
+    released: bool,
+}
+
+impl<V: Variant> OnAxis<V> {
+    /// Begins a reading of the vibration: between two ticks.
+    pub fn begin(&mut self) {
+        self.axis.drive_mut().balancer_mut().begin();
+    }
+
+    /// The reading, complete or not: to be copied between two ticks, and worked on at leisure.
+    pub fn measurement(&self) -> &Measurement<V::Number> {
+        self.axis.drive().balancer()
+    }
+}
+
+impl<V: Variant> Scene for OnAxis<V> {
+    const NAME: &'static str = V::NAME;
+    const RATE_HZ: u32 = V::RATE_HZ;
+
+    fn new() -> Self {
+        // An incremental encoder counts from where it was switched on.
+        let board = Image { angle: 0, torque: V::Number::ZERO, faults: Faults::NONE };
+        OnAxis { config: V::CONFIG, axis: Axis::new(board, V::CONFIG, TRIPPING), released: false }
+    }
+
+    #[inline(always)]
+    fn tick(&mut self, input: &Input) -> Output {
+        let word = <V::Number as Number>::from_word;
+        let config = self.config;
+        let faults = Faults::from_bits(input.flags) & OF_THE_BOARD;
+        *self.axis.board() = Image { angle: input.angle, torque: word(input.torque), faults };
+        let released = input.flags & Input::RELEASED != 0;
+        if released != self.released {
+            self.released = released;
+            if released {
+                // what keeps it off is said by the tick, and it stays off until the next release
+                let _ = self.axis.start(config);
+            } else {
+                self.axis.trip();
+            }
+        }
+        let mut command = self.axis.tick(config, word(input.reference));
+        let vibration = self.axis.board().unless(Faults::VIBRATION_MISSING).map(|()| Some(input.vibration.map(word)));
+        command.faults |= self.axis.vibration(config, vibration);
+        output(&command, &self.axis.drive().estimate(config))
+    }
+
+    fn panel(&mut self, [key, _]: [u32; 2]) -> u32 {
+        match Key::of(key) {
+            None => 0,
+            Some(Key::Begin) => {
+                self.begin();
+                DONE
+            }
+            Some(Key::State) => state::<V>(self.measurement()),
+            Some(_) => refused(3),
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Where the elements of a machine come to stand: their masses and shafts, and how fast they turn.
+
+use driveline::machine::{Chain, Error, Inertia, Joint, Match, Modes, Rigid, Shaft, TwoMass};
+
+use super::{Branch, Element, MachineFile, Part};
+
+/// Where an element stands in its chain.
+pub(crate) struct Station {
+    /// The mass that it is, or is a part of.
+    pub mass: Option<usize>,
+    /// The shaft that it is, or is a part of.
+    pub shaft: Option<usize>,
+    /// The motor's speed, or the speed of what a branch stands on, over that of the element where it begins.
+    pub ratio: f64,
+    /// The chain up to and with the element.
+    pub chain: Chain,
+}
+
+/// What a branch begins with where its first element is no rotor: an inertia that adds nothing to the mass that it stands on.
+pub(crate) const NOTHING: Inertia = Inertia(f64::MIN_POSITIVE);
+
+/// The chain of a machine with its first element, or of a branch with its first.
+pub(super) fn begun(element: Element) -> Result<Chain, Error> {
+    match element {
+        Element::Motor { inertia } | Element::Rotor { inertia } => Chain::try_motor(Inertia(inertia)),
+        element => element.follow(Chain::try_motor(NOTHING)?),
+    }
+}
+
+/// Where the elements of a chain stand, in their order.
+pub(crate) fn stations(elements: &[Part]) -> Vec<Station> {
+    let mut stations: Vec<Station> = Vec::new();
+    for part in elements {
+        let before = stations.last().map(|station| station.chain);
+        let ratio = before.map_or(1.0, |chain| chain.ratio());
+        let chain = match before {
+            None => begun(part.element),
+            Some(chain) => part.element.follow(chain),
+        };
+        // the chain was built of these elements, so each of them can follow
+        let Some(chain) = chain.ok().or(before) else { continue };
+        let last = chain.masses().len() - 1;
+        let (mass, shaft) = match part.element {
+            Element::Motor { .. }
+            | Element::Rotor { .. }
+            | Element::Crank { .. }
+            | Element::Planetary { .. }
+            | Element::Lifted { .. }
+            | Element::Driven { .. } => (Some(last), None),
+            Element::Shaft { .. } | Element::Section { .. } | Element::Belt { .. } | Element::Rope { .. } => {
+                (None, last.checked_sub(1))
+            }
+            // a pendulum: its own spring and its own mass
+            Element::Swinging { .. } => (Some(last), last.checked_sub(1)),
+            Element::Gear { .. }
+            | Element::Worm { .. }
+            | Element::Drum { .. }
+            | Element::Screw { .. }
+            | Element::Slack { .. }
+            | Element::Backlash { .. } => (None, None),
+        };
+        stations.push(Station { mass, shaft, ratio, chain });
+    }
+    stations
+}
+
+impl Branch {
+    /// The index in the whole machine of a mass of the branch.
+    pub(crate) fn mass(&self, own: usize) -> usize {
+        if own == 0 { self.node } else { self.first + own - 1 }
+    }
+
+    /// The index in the whole machine of a shaft of the branch.
+    pub(crate) fn shaft(&self, own: usize) -> usize {
+        self.first - 1 + own
+    }
+}
+
+/// The machine as a whole, its branches included.
+impl MachineFile {
+    /// Inertias \[kg m2\] at the motor: the chain's, then those of the branches in their order.
+    pub fn masses(&self) -> &[f64] {
+        self.train.as_ref().map_or(self.chain.masses(), |train| train.masses())
+    }
+
+    /// The shafts between them, in the same order.
+    pub fn joints(&self) -> Vec<Joint> {
+        let between = |(from, &shaft): (usize, &Shaft)| Joint { from, to: from + 1, shaft };
+        match &self.train {
+            Some(train) => train.joints().to_vec(),
+            None => self.chain.shafts().iter().enumerate().map(between).collect(),
+        }
+    }
+
+    /// Natural vibrations.
+    pub fn modes(&self) -> Modes {
+        self.train.as_ref().map_or_else(|| self.chain.modes(), |train| train.modes())
+    }
+
+    /// Two masses for the machine.
+    ///
+    /// # Errors
+    /// The library's sentence for a machine without a shaft that the motor feels, or a cut that it has not.
+    pub fn reduce(&self, by: Match) -> Result<TwoMass, Error> {
+        self.train.as_ref().map_or_else(|| self.chain.try_reduce(by), |train| train.try_reduce(by))
+    }
+
+    /// One mass for the machine.
+    ///
+    /// # Errors
+    /// As [`Chain::try_rigid`].
+    pub fn rigid(&self) -> Result<Rigid, Error> {
+        self.train.as_ref().map_or_else(|| self.chain.try_rigid(), |train| Ok(train.rigid()))
+    }
+
+    /// Torque of the weights at the motor \[N m\].
+    pub fn gravity_torque(&self) -> f64 {
+        self.train.as_ref().map_or(self.chain.gravity_torque(), |train| train.gravity_torque())
+    }
+
+    /// Names of the masses and of the shafts between them, from the labels of the elements.
+    pub(crate) fn names(&self) -> (Vec<String>, Vec<String>) {
+        let (mut masses, mut shafts): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+        let join = |names: &mut Vec<String>, index: usize, label: &str| {
+            if names.len() <= index {
+                names.resize(index + 1, String::new());
+            }
+            let name = &mut names[index];
+            if !name.is_empty() {
+                name.push_str(" + ");
+            }
+            name.push_str(label);
+        };
+        for (part, station) in self.elements.iter().zip(stations(&self.elements)) {
+            station.shaft.inspect(|&shaft| join(&mut shafts, shaft, &part.label));
+            station.mass.inspect(|&mass| join(&mut masses, mass, &part.label));
+        }
+        for branch in &self.branches {
+            for (part, station) in branch.elements.iter().zip(stations(&branch.elements)) {
+                station.shaft.inspect(|&shaft| join(&mut shafts, branch.shaft(shaft), &part.label));
+                station.mass.inspect(|&mass| join(&mut masses, branch.mass(mass), &part.label));
+            }
+        }
+        (masses, shafts)
+    }
+}
