@@ -26,7 +26,8 @@ fn unexplained(order: &Order, halves: f64, mean_speed: f64, inertia: f64, block:
     angle.plus(torque.scaled(1.0 / (inertia * speed * speed)))
 }
 
-/// The eccentricity, from what was correlated over `blocks` at a mean speed \[rad/s\]; its spread from the orders beside it, where an encoder has none.
+/// The eccentricity, from what was correlated over `blocks` at a mean speed \[rad/s\]; its spread from the orders
+/// beside it, where an encoder has none.
 ///
 /// `start` is the absolute angle at which the test began \[rad\].
 pub(crate) fn of(

@@ -11,7 +11,8 @@ use crate::scalar::{exp, ln, sin_cos, sqrt};
 /// Most of a sum of many sines over its root mean square: passed in less than 1e-4 of the time.
 const CREST: f64 = 3.9;
 
-/// Peak of a sum of sines of these amplitudes: no more than their sum, and hardly more than `CREST` times their root mean square.
+/// Peak of a sum of sines of these amplitudes: no more than their sum, and hardly more than `CREST` times their root
+/// mean square.
 pub(crate) fn peak(amplitudes: impl Iterator<Item = f64>) -> f64 {
     let (sum, square) = amplitudes.fold((0.0, 0.0), |(sum, square), a| (sum + a, square + a * a));
     sum.min(CREST * sqrt(0.5 * square))
@@ -27,8 +28,8 @@ pub(crate) fn over_band<const L: usize>(band: [f64; 2]) -> [f64; L] {
     hertz
 }
 
-/// Frequencies \[Hz\] about the resonance and the antiresonance of a fit, and some wide of them; and the time \[s\] that tells those about the
-/// resonance apart.
+/// Frequencies \[Hz\] about the resonance and the antiresonance of a fit, and some wide of them; and the time \[s\]
+/// that tells those about the resonance apart.
 pub(crate) fn about<const L: usize>(fit: &Fit, band: [f64; 2]) -> ([f64; L], f64) {
     let derived = fit.derived();
     let (low, high) = (derived.antiresonance / TAU, derived.resonance / TAU);
@@ -73,7 +74,8 @@ pub(crate) fn time<const L: usize>(hertz: &[f64; L]) -> f64 {
     4.0 / least.max(f64::MIN_POSITIVE)
 }
 
-/// Lines at these frequencies \[Hz\], moved to whole turns over the record, two apart at least: so the window keeps them apart.
+/// Lines at these frequencies \[Hz\], moved to whole turns over the record, two apart at least: so the window keeps
+/// them apart.
 pub(crate) fn lines<const L: usize>(hertz: &[f64; L], blocks: u32, config: &TestConfig) -> [Line; L] {
     let time = f64::from(blocks) * config.block;
     let mut lines = [Line::NONE; L];
@@ -88,7 +90,8 @@ pub(crate) fn lines<const L: usize>(hertz: &[f64; L], blocks: u32, config: &Test
     lines
 }
 
-/// Sets the amplitudes \[N m\], with starts by which they hardly ever meet [Schroeder 1970, IEEE Trans. Inf. Theory 16].
+/// Sets the amplitudes \[N m\], with starts by which they hardly ever meet [Schroeder 1970, IEEE Trans. Inf. Theory
+/// 16].
 pub(crate) fn set<const L: usize>(lines: &mut [Line; L], amplitude: impl Fn(f64) -> f64) {
     for (k, line) in lines.iter_mut().enumerate() {
         let place = k as f64;

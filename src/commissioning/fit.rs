@@ -1,7 +1,8 @@
 //! The two-mass machine that fits responses best.
 //!
-//! `H = g + b s^2/(s^2 + 2 z w s + w^2) + R s^2` is linear but for w and z: these are looked for on a grid with the linear part solved at each
-//! point, and all five then refined together [Golub and Pereyra 1973 (variable projection), Levenberg-Marquardt].
+//! `H = g + b s^2/(s^2 + 2 z w s + w^2) + R s^2` is linear but for w and z: these are looked for on a grid with the
+//! linear part solved at each point, and all five then refined together [Golub and Pereyra 1973 (variable projection),
+//! Levenberg-Marquardt].
 
 use core::f64::consts::TAU;
 
@@ -14,7 +15,8 @@ use crate::scalar::{exp, ln, sqrt};
 /// Parameters: g, b, R, ln w, ln z.
 const PARAMETERS: usize = 5;
 
-/// The compliance of higher modes moves the response at the highest line by no more than about this, of a rigid machine's: those modes lie above the band.
+/// The compliance of higher modes moves the response at the highest line by no more than about this, of a rigid
+/// machine's: those modes lie above the band.
 const COMPLIANCE: f64 = 0.5;
 
 /// A fitted machine, in the unit of a guessed inertia.
@@ -27,7 +29,8 @@ pub(crate) struct Fit {
     highest: f64,
     x: [f64; PARAMETERS],
     covariance: [[f64; PARAMETERS]; PARAMETERS],
-    /// How much better the data are explained than by a rigid machine, as a ratio of variances: with 3 degrees of freedom over those of the residual.
+    /// How much better the data are explained than by a rigid machine, as a ratio of variances: with 3 degrees of
+    /// freedom over those of the residual.
     pub improvement: f64,
     /// Variance of the residuals, of that which the noise explains.
     pub excess: f64,
@@ -302,8 +305,9 @@ impl Fit {
     }
 }
 
-/// The machine behind the parameters: the antiresonance is the zero of the undamped response, that of higher modes included, and the inertias share the
-/// total so that it is met, as [`Match::ResonanceAntiresonance`](crate::machine::Match) has it.
+/// The machine behind the parameters: the antiresonance is the zero of the undamped response, that of higher modes
+/// included, and the inertias share the total so that it is met, as
+/// [`Match::ResonanceAntiresonance`](crate::machine::Match) has it.
 fn derived(x: &[f64; PARAMETERS], unit: f64, highest: f64) -> Derived {
     let [g, b, r, lw, lz] = *x;
     let (w, z) = (exp(lw), exp(lz));

@@ -57,7 +57,8 @@ pub struct Identified {
 }
 
 impl Identified {
-    /// The two-mass machine, for [`try_observer`](TwoMass::try_observer) and [`try_speed_loop`](TwoMass::try_speed_loop); without a gap where none was told.
+    /// The two-mass machine, for [`try_observer`](TwoMass::try_observer) and
+    /// [`try_speed_loop`](TwoMass::try_speed_loop); without a gap where none was told.
     ///
     /// # Errors
     /// The sentence of a figure that no machine can have.

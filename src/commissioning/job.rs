@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use super::excitation::{about, lines, over_band, peak, set, time};
 use super::fit::{Derived, Fit, fit};
 use super::friction::{SEGMENTS, Segment};
-use super::gap::{Crept, PUSH, PUSHES, crept, gap};
+use super::gap::{PUSH, PUSHES, Push, gap};
 use super::identified::{Figure, Identified};
 use super::multisine::Line;
 use super::order::Order;
@@ -44,7 +44,7 @@ pub(crate) struct Known<const L: usize> {
     pub eccentricity: Eccentricity,
     /// Cosine and sine part of the eccentricity, from where the test began \[rad\].
     pub eccentric: [f64; 2],
-    crept: Result<Crept, Reason>,
+    gap: Result<Figure, Reason>,
     /// Ways that have a fit that is good enough.
     fits: [Option<Fit>; 2],
     /// The last fit that shows a resonance.
@@ -66,7 +66,7 @@ impl<const L: usize> Known<L> {
             friction: Friction::default(),
             eccentricity: Eccentricity::default(),
             eccentric: [0.0; 2],
-            crept: Err(Reason::LoadNotHeld),
+            gap: Err(Reason::LoadNotHeld),
             fits: [None; 2],
             last: None,
             responses: [[Response::default(); L]; 2],
@@ -88,7 +88,7 @@ pub struct Job<const L: usize> {
     pub(crate) lines: [Line; L],
     pub(crate) orders: [Order; 3],
     pub(crate) segments: [Segment; SEGMENTS],
-    pub(crate) pushes: [(f64, f64); PUSHES],
+    pub(crate) pushes: [Push; PUSHES],
     pub(crate) mean_speed: f64,
     /// Angle from where the test began, and of that from the encoder's zero \[rad\].
     pub(crate) angle: f64,
@@ -105,12 +105,14 @@ pub struct Findings<const L: usize> {
 
 /// Records at most.
 const RECORDS: u32 = 12;
-/// Ratio of variances from which a resonance is believed: by chance less than once in 10,000 with 3 and 40 degrees of freedom [Fisher].
+/// Ratio of variances from which a resonance is believed: by chance less than once in 10,000 with 3 and 40 degrees of
+/// freedom [Fisher].
 const BELIEVED: f64 = 12.0;
 /// Standard deviation of resonance and of the load's inertia that is aimed at, and that is still an answer.
 const AIM: [f64; 2] = [0.002, 0.01];
 const ENOUGH: [f64; 2] = [0.01, 0.05];
-/// Share of the friction that a swing may take where there is a gap: the load's friction holds the flanks together while the motor turns.
+/// Share of the friction that a swing may take where there is a gap: the load's friction holds the flanks together
+/// while the motor turns.
 const PRELOAD: f64 = 0.63;
 /// Share of the room that a swing may take: transients come on top.
 const SHARE: f64 = 0.6;
@@ -162,12 +164,13 @@ impl<const L: usize> Job<L> {
         let friction = &known.friction;
         let (coulomb, weight) = (friction.coulomb, friction.weight.value.abs());
         if weight > coulomb.value.max(config.settings.torque_accuracy) {
-            known.crept = Err(Reason::Preloaded);
+            known.gap = Err(Reason::Preloaded);
         } else if coulomb.value < 5.0 * coulomb.standard_deviation || coulomb.value < config.settings.torque_accuracy {
-            known.crept = Err(Reason::LoadNotHeld);
+            known.gap = Err(Reason::LoadNotHeld);
         } else {
             let torque = PUSH * coulomb.value;
-            // So slow that the flanks meet with a tenth of the push, for the stiffest shaft whose resonance is in the band.
+            // So slow that the flanks meet with a tenth of the push, for the stiffest shaft whose resonance is in the
+            // band.
             let speed = 0.4 * torque / (known.inertia * TAU * config.settings.band[1]);
             return Next::Reversals { torque, speed, widest: WIDEST };
         }
@@ -175,17 +178,19 @@ impl<const L: usize> Job<L> {
     }
 
     fn backlash(&self, known: &mut Known<L>, config: &TestConfig) -> Next {
-        known.crept = crept(&self.pushes, WIDEST, config);
+        known.gap = gap(&self.pushes, WIDEST, config);
         self.first(known, config)
     }
 
-    /// What a swing of the shaft may be \[N m\]: within the room, and where there is a gap less than the friction that holds the flanks together.
+    /// What a swing of the shaft may be \[N m\]: within the room, and where there is a gap less than the friction that
+    /// holds the flanks together.
     fn swing(known: &Known<L>, config: &TestConfig) -> f64 {
         let friction = &known.friction;
         let room = SHARE * config.room(friction.weight.value.abs() + friction.coulomb.value.max(0.0));
-        match known.crept {
-            Ok(crept) if crept.way.value > 3.0 * config.resolution => room.min(PRELOAD * friction.coulomb.value),
-            _ => room,
+        match known.gap {
+            // One whose ends did not repeat may be there.
+            Ok(_) | Err(Reason::GapUnclear) => room.min(PRELOAD * friction.coulomb.value),
+            Err(_) => room,
         }
     }
 
@@ -205,7 +210,8 @@ impl<const L: usize> Job<L> {
         self.record(known, config, &hertz, time(&hertz), |_| level)
     }
 
-    /// A record at these frequencies \[Hz\], the other way than the last one; `needed` \[s\] tells its lines apart, and half of that is still borne.
+    /// A record at these frequencies \[Hz\], the other way than the last one; `needed` \[s\] tells its lines apart, and
+    /// half of that is still borne.
     fn record(
         &self,
         known: &mut Known<L>,
@@ -284,7 +290,7 @@ impl<const L: usize> Job<L> {
                     *place = Some(fitted);
                 }
                 if let [Some(up), Some(down)] = known.fits {
-                    return Self::identify(known, &up, &down, config);
+                    return Self::identify(known, &up, &down);
                 }
             } else if last_chance {
                 return Next::Refused(if resonance.relative() >= ENOUGH[0] {
@@ -297,7 +303,8 @@ impl<const L: usize> Job<L> {
         self.about(known, &fitted, if was_fine { missed } else { 1.0 }, config)
     }
 
-    /// A record about the resonance that is known, as large as the shaft may swing, longer where the last one has `missed` its aim.
+    /// A record about the resonance that is known, as large as the shaft may swing, longer where the last one has
+    /// `missed` its aim.
     fn about(&self, known: &mut Known<L>, fitted: &Fit, missed: f64, config: &TestConfig) -> Next {
         let (hertz, needed) = about::<L>(fitted, config.settings.band);
         let longer = (missed * missed).clamp(1.0, 4.0);
@@ -341,7 +348,7 @@ impl<const L: usize> Job<L> {
         self.search(known, config)
     }
 
-    fn identify(known: &Known<L>, up: &Fit, down: &Fit, config: &TestConfig) -> Next {
+    fn identify(known: &Known<L>, up: &Fit, down: &Fit) -> Next {
         let mut mean = [Figure::default(); Derived::COUNT];
         for ((mean, up), down) in mean.iter_mut().zip(up.figures()).zip(down.figures()) {
             *mean = up.mean(down);
@@ -358,7 +365,7 @@ impl<const L: usize> Job<L> {
             damping,
             damping_ratio,
             friction: known.friction,
-            gap: known.crept.and_then(|crept| gap(&crept, stiffness.value, config)),
+            gap: known.gap,
             eccentricity: known.eccentricity,
         })
     }

@@ -1,7 +1,8 @@
 //! A sum of sines as excitation, and the correlation of angle and torque with each of them.
 //!
-//! Every line is a phasor that turns by the same angle each block, a whole number of turns over the record; a rotation by a rounded angle is off by
-//! 1e-7 of itself, which moves the line's frequency by as little and both correlations alike.
+//! Every line is a phasor that turns by the same angle each block, a whole number of turns over the record; a rotation
+//! by a rounded angle is off by 1e-7 of itself, which moves the line's frequency by as little and both correlations
+//! alike.
 
 /// One line: its phasor, its amplitude, its sums.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -32,9 +32,10 @@ fn sinc(x: f64) -> f64 {
 
 /// The response of one line over a record of so many blocks; `viscous` friction \[N m s/rad\] is taken off.
 ///
-/// The torque is held over a block of D ticks and the angle is the mean of its samples, which come a tick after the torque begins: with
-/// `Theta/T = G`, the correlations give `G sinc(w D t/2) sin(w D t/2)/(D sin(w t/2)) exp(j w (t/2 - delay))`. That the hold also makes images
-/// at multiples of the blocks' rate changes it by less than 1e-4 at twelve blocks a period.
+/// The torque is held over a block of D ticks and the angle is the mean of its samples, which come a tick after the
+/// torque begins: with `Theta/T = G`, the correlations give `G sinc(w D t/2) sin(w D t/2)/(D sin(w t/2)) exp(j w (t/2 -
+/// delay))`. That the hold also makes images at multiples of the blocks' rate changes it by less than 1e-4 at twelve
+/// blocks a period.
 pub(crate) fn of(line: &Line, config: &TestConfig, blocks: u32, viscous: f64) -> Response {
     let w = line.frequency;
     let complex =

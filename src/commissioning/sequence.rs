@@ -1,7 +1,7 @@
 //! The sequence: what the tick does, and when a stage has its data.
 
 use super::friction::{SEGMENTS, Segment, ends_of};
-use super::gap::PUSHES;
+use super::gap::{EASED, PUSHES, Push};
 use super::identified::Identified;
 use super::job::{Findings, Job, Known, Next};
 use super::multisine::{Line, Window};
@@ -86,11 +86,12 @@ pub struct Commissioning<const L: usize> {
     lines: [Line; L],
     orders: [Order; 3],
     segments: [Segment; SEGMENTS],
-    pushes: [(f64, f64); PUSHES],
+    pushes: [Push; PUSHES],
     /// Sums of a phase: of the torque, the window, the angle.
     total: f64,
     start: (i64, f32),
-    /// Torque that is steady in a phase: it must not be taken for one of once a turn of a reading that is not quite the angle.
+    /// Torque that is steady in a phase: it must not be taken for one of once a turn of a reading that is not quite the
+    /// angle.
     carried: f32,
     known: Known<L>,
     next: Next,
@@ -136,7 +137,8 @@ impl<const L: usize> Commissioning<L> {
 
     /// One tick: the motor's angle [2^-32 turn] in, the torque \[N m\] out, for the next tick.
     ///
-    /// After an angle that cannot be, or beyond the travel, there is no torque, and what holds the load is for its brake.
+    /// After an angle that cannot be, or beyond the travel, there is no torque, and what holds the load is for its
+    /// brake.
     #[inline]
     pub fn tick(&mut self, config: &TestConfig, angle: u32) -> f32 {
         let moved = angle.wrapping_sub(self.last) as i32;
@@ -320,10 +322,11 @@ impl<const L: usize> Commissioning<L> {
                 if self.stage == Stage::Backlash
                     && matches!(self.phase, Phase::Settles | Phase::Measures | Phase::Fades) =>
             {
-                let push = match (self.phase, self.index.is_multiple_of(2)) {
-                    (Phase::Fades, _) => 0.0,
-                    (_, true) => torque as f32,
-                    (_, false) => -torque as f32,
+                let way = if self.index.is_multiple_of(2) { torque } else { -torque };
+                let push = match self.phase {
+                    Phase::Fades => 0.0,
+                    Phase::Measures => (EASED * way) as f32,
+                    _ => way as f32,
                 };
                 // Slowly: a step would swing to twice its size, and one given in a bounce come back as an impact.
                 let most = 0.125 * torque as f32 * config.servo as f32 * config.block_f32;
@@ -391,6 +394,10 @@ impl<const L: usize> Commissioning<L> {
                 }
             }
             (Stage::Backlash, Phase::Measures) => {
+                let place = self.place(config);
+                if let Some(push) = self.pushes.get_mut(self.index) {
+                    push.1 = place;
+                }
                 self.index += 1;
                 self.phase = Phase::Fades;
                 self.left = steady.saturating_mul(2);
@@ -450,11 +457,10 @@ impl<const L: usize> Commissioning<L> {
                 self.window = Window::over(self.left);
             }
             Next::Reversals { .. } => {
-                self.left = 1;
-                // Deviation from the reference, which stands: the place of the flank.
-                let place = self.reference.angle as f64 / f64::from(config.units) + f64::from(self.deviation.angle);
+                self.left = config.blocks(12.0 / config.servo);
+                let place = self.place(config);
                 if let Some(push) = self.pushes.get_mut(self.index) {
-                    *push = (place, f64::from(self.torque));
+                    push.0 = place;
                 }
             }
             Next::Record { blocks, way, .. } => {
@@ -469,6 +475,11 @@ impl<const L: usize> Commissioning<L> {
             }
             Next::Done(_) | Next::Refused(_) => {}
         }
+    }
+
+    /// Where the motor stands against a flank \[rad\].
+    fn place(&self, config: &TestConfig) -> f64 {
+        self.reference.angle as f64 / f64::from(config.units) + f64::from(self.deviation.angle)
     }
 
     fn finish_segment(&mut self, config: &TestConfig) {
@@ -488,7 +499,8 @@ impl<const L: usize> Commissioning<L> {
 }
 
 impl TestConfig {
-    /// Duration of a segment of the friction's test \[s\]: long beside the servo and the band's lower end, and for ramps no steeper than the others.
+    /// Duration of a segment of the friction's test \[s\]: long beside the servo and the band's lower end, and for
+    /// ramps no steeper than the others.
     pub(crate) fn segment(&self) -> f64 {
         let [low, _] = self.settings.band;
         (6.0 / low).max(0.6 * self.settings.speed / self.acceleration)

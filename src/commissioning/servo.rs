@@ -1,4 +1,5 @@
-//! The servo that holds the motor to a moving reference: a rigid observer of deviation, speed and disturbance, and a state feedback.
+//! The servo that holds the motor to a moving reference: a rigid observer of deviation, speed and disturbance, and a
+//! state feedback.
 
 use super::TestConfig;
 
@@ -30,13 +31,14 @@ pub(crate) struct Deviation {
 impl Servo {
     /// The servo of a machine of this inertia \[kg m2\].
     ///
-    /// The observer has three equal poles three times as fast as the servo's two [critically damped filter of third order: Benedict and Bordner 1962].
+    /// The observer has three equal poles three times as fast as the servo's two [critically damped filter of third
+    /// order: Benedict and Bordner 1962].
     pub(crate) fn new(config: &TestConfig, inertia: f64) -> Self {
         Self::of(config, inertia, config.servo)
     }
 
-    /// A slow one, three times: for a motor whose load friction holds on a spring. The servo's integral takes damping from that swing, by the third
-    /// power of its own frequency.
+    /// A slow one, three times: for a motor whose load friction holds on a spring. The servo's integral takes damping
+    /// from that swing, by the third power of its own frequency.
     pub(crate) fn slow(config: &TestConfig, inertia: f64) -> Self {
         Self::of(config, inertia, config.servo / 3.0)
     }

@@ -15,7 +15,8 @@ pub struct TestSettings {
     pub encoder: Encoder,
     /// The most that the motor's torque may differ from `held` \[N m\].
     pub torque: f64,
-    /// The most that the shaft may carry during the test, what it holds included \[N m\]: half of rated torque as a rule.
+    /// The most that the shaft may carry during the test, what it holds included \[N m\]: half of rated torque as a
+    /// rule.
     pub shaft_torque: f64,
     /// Speed of the test \[rad/s\]; the motor's own swing stays below it.
     pub speed: f64,
@@ -60,7 +61,8 @@ pub struct TestConfig {
     pub(crate) travel: i64,
     /// Resolution of the encoder \[rad\].
     pub(crate) resolution: f64,
-    /// Natural frequency of the servo \[rad/s\]: a sixth of the band's lower end, and below a tenth of the torque's reach.
+    /// Natural frequency of the servo \[rad/s\]: a sixth of the band's lower end, and below a tenth of the torque's
+    /// reach.
     pub(crate) servo: f64,
     /// Rate of change of the speed \[rad/s2\].
     pub(crate) acceleration: f64,

@@ -6,7 +6,8 @@
 //! | mill | rolls apart, nothing between them: what holds them is the friction of their bearings |
 //! | spindle | with its tool, in the air |
 //!
-//! What the test may know of a machine is on its name plates: rates, torques, speeds, the motor's inertia, and where about the resonance is looked for.
+//! What the test may know of a machine is on its name plates: rates, torques, speeds, the motor's inertia, and where
+//! about the resonance is looked for.
 
 use driveline::commissioning::{Commissioning, Figure, Identified, Reason, Stage, TestConfig, TestSettings};
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopTuning};
@@ -21,7 +22,8 @@ pub const LINES: usize = 24;
 /// Ticks a second.
 pub const RATE_HZ: u32 = 10_000;
 
-/// Torque of the hoist's test load at the motor [N m]: 3 t of 9.80665 m/s2 on a drum of 0.8 m, two falls and a gear of 31.5, as the crane's driver reckons it.
+/// Torque of the hoist's test load at the motor [N m]: 3 t of 9.80665 m/s2 on a drum of 0.8 m, two falls and a gear of
+/// 31.5, as the crane's driver reckons it.
 pub const HELD: f64 = 3_000.0 * 9.80665 * 0.8 / (2.0 * 2.0 * 31.5);
 
 /// What is known of the hoist.
@@ -89,13 +91,16 @@ pub mod panel {
     pub const MACHINE: u32 = 6;
     /// The stage, by its place in [`STAGES`](super::STAGES).
     pub const STAGE: u32 = 1;
-    /// A figure of the answer, by its place in [`figures`](super::figures), as the bits of an `f32`; all ones where there is none.
+    /// A figure of the answer, by its place in [`figures`](super::figures), as the bits of an `f32`; all ones where
+    /// there is none.
     pub const FIGURE: u32 = 2;
     /// Its standard deviation.
     pub const DEVIATION: u32 = 3;
-    /// The number of the reason for which the test, or (with value 1) the gap, has no answer: see [`reason`](super::reason).
+    /// The number of the reason for which the test, or (with value 1) the gap, has no answer: see
+    /// [`reason`](super::reason).
     pub const REASON: u32 = 4;
-    /// Of the lines' last responses, one part: line times 8, upwards or downwards times 4, and frequency, real part, imaginary part or deviation.
+    /// Of the lines' last responses, one part: line times 8, upwards or downwards times 4, and frequency, real part,
+    /// imaginary part or deviation.
     pub const RESPONSE: u32 = 5;
     /// A gain of what was designed for the machine that was found, by its place in [`design`](super::design).
     pub const GAIN: u32 = 7;
@@ -133,8 +138,9 @@ pub fn figures(identified: &Identified) -> [Figure; 14] {
     ]
 }
 
-/// The observer's five gains (per radian: rad, rad/s, rad, rad/s, N m) and the speed loop's three (proportional \[N m s/rad\], integral \[N m/rad\],
-/// slip \[N m s/rad\]) for a machine, by the functions that the compiler uses for the other scenes; `None` where it cannot be controlled.
+/// The observer's five gains (per radian: rad, rad/s, rad, rad/s, N m) and the speed loop's three (proportional \[N m
+/// s/rad\], integral \[N m/rad\], slip \[N m s/rad\]) for a machine, by the functions that the compiler uses for the
+/// other scenes; `None` where it cannot be controlled.
 pub fn design(machine: &TwoMass, settings: &TestSettings) -> Option<[f64; 8]> {
     let disturbance = Disturbance {
         torque_accuracy: settings.torque_accuracy,

@@ -11,11 +11,11 @@ use crate::machine_file::read;
 use crate::report::write_page;
 use crate::setup;
 
-/// Commission a machine: run the test that finds its inertias, resonance, damping, friction, gap and encoder's eccentricity against its full plant,
-/// and put what it found beside what is true.
+/// Commission a machine: run the test that finds its inertias, resonance, damping, friction, gap and encoder's
+/// eccentricity against its full plant, and put what it found beside what is true.
 ///
-/// The machine is `hoist`, `mill` or `spindle` as in the scene `commission`, or a file of elements as for `design`. The motor's torque is off by the
-/// file's torque accuracy in every tick, as white noise; the scenes' by 1 % of rated.
+/// The machine is `hoist`, `mill` or `spindle` as in the scene `commission`, or a file of elements as for `design`. The
+/// motor's torque is off by the file's torque accuracy in every tick, as white noise; the scenes' by 1 % of rated.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline commission mill

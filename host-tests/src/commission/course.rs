@@ -18,8 +18,8 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// Of a chain of inertias, stiffnesses and dampings, all at the motor: first resonance and first antiresonance of the whole chain, and the two
-    /// masses that have them and the same sum.
+    /// Of a chain of inertias, stiffnesses and dampings, all at the motor: first resonance and first antiresonance of
+    /// the whole chain, and the two masses that have them and the same sum.
     pub fn of(inertia: &[f64], stiffness: &[f64], damping: &[f64]) -> Self {
         let least = |found: Result<Vec<f64>, SystemError>| {
             let found = found.unwrap_or_default().into_iter().filter(|w| *w > 1.0e-3);

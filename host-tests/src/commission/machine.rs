@@ -1,6 +1,7 @@
 //! The machines as they truly are.
 //!
-//! Referred to the motor here once more from the same figures as the scenes, but by own arithmetic [Huang 1987 ch. 1, Wang 1989 §1-3].
+//! Referred to the motor here once more from the same figures as the scenes, but by own arithmetic [Huang 1987 ch. 1,
+//! Wang 1989 §1-3].
 
 use core::f64::consts::PI;
 
@@ -106,7 +107,8 @@ fn mill() -> Result<Case, PlantError> {
 
 /// The spindle in the air, with a little drag in its bearings.
 fn tool() -> Result<Case, PlantError> {
-    // As the scene's shaft: 46 mm on 360 mm, a taper to 60 mm on 120 mm, bored by 22 mm, by Simpson's rule [Wang 1989 §1-3].
+    // As the scene's shaft: 46 mm on 360 mm, a taper to 60 mm on 120 mm, bored by 22 mm, by Simpson's rule [Wang 1989
+    // §1-3].
     let bore = 0.022_f64.powi(4);
     let taper: f64 = (0..=1000)
         .map(|j| {
@@ -158,8 +160,8 @@ pub struct Trial {
     pub rated: f64,
 }
 
-/// A machine from a file: its plant by its chain, without the losses of its gears. The test is told the motor's own inertia, the weight, and a band from two fifths
-/// of the antiresonance to two and a half times the resonance.
+/// A machine from a file: its plant by its chain, without the losses of its gears. The test is told the motor's own
+/// inertia, the weight, and a band from two fifths of the antiresonance to two and a half times the resonance.
 ///
 /// # Errors
 /// A sentence: a machine with fewer than two masses, or what the plant refuses.

@@ -55,7 +55,8 @@ pub struct Verdict {
     pub gains: Vec<Row>,
     /// What QEMU showed.
     pub target: Option<Target>,
-    /// Responses upwards and downwards: frequency \[rad/s\], acceleration per torque (real, imaginary), standard deviation [1/(kg m2)].
+    /// Responses upwards and downwards: frequency \[rad/s\], acceleration per torque (real, imaginary), standard
+    /// deviation [1/(kg m2)].
     pub responses: [Vec<[f64; 4]>; 2],
     #[serde(skip)]
     summary: String,

@@ -19,8 +19,8 @@ fn meets_its_aims(name: &str, seed: u64) -> Course {
             aimed += 1;
             assert!(met, "{name}: {row:?}");
         }
-        // What is found lies within five of its own standard deviations and the half per mille and half percent that no noise explains: the third mass, and the
-        // mean of a gear's two ways, (1/0.94 + 0.94)/2 = 1.0019.
+        // What is found lies within five of its own standard deviations and the half per mille and half percent that no
+        // noise explains: the third mass, and the mean of a gear's two ways, (1/0.94 + 0.94)/2 = 1.0019.
         if let (Some(truth), Some(found), Some(deviation)) = (row.truth, row.found, row.standard_deviation) {
             let allowed = 5.0 * deviation + 0.005 * truth.abs();
             assert!((found - truth).abs() <= allowed, "{name}: {row:?}");

@@ -43,7 +43,8 @@ fn too_little_torque() {
     let mut weak = named("spindle").unwrap();
     // A thousandth: 0.035 N m, where the torque itself is off by 0.7 N m in every tick.
     weak.settings.shaft_torque *= 1.0e-3;
-    // So small a torque also means ramps of minutes, whose way is beyond any travel: which bound is met first is not the point.
+    // So small a torque also means ramps of minutes, whose way is beyond any travel: which bound is met first is not
+    // the point.
     assert!(refused(&weak).is_some());
 }
 
