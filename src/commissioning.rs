@@ -34,7 +34,7 @@
 //!     torque_accuracy: 7.5,
 //!     delay: 0.0,
 //! })?;
-//! let mut test = Commissioning::<24>::new(&config, 0);
+//! let mut test = Commissioning::<24>::new(&config);
 //! // in the timer's interrupt
 //! let torque = test.tick(&config, 0);
 //! // in the main loop

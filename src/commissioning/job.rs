@@ -103,6 +103,8 @@ pub struct Findings<const L: usize> {
     pub(crate) next: Next,
 }
 
+/// Share of the room that a swing may take: transients come on top.
+const SHARE: f64 = 0.6;
 /// Records at most.
 const RECORDS: u32 = 12;
 /// Ratio of variances from which a resonance is believed: by chance less than once in 10,000 with 3 and 40 degrees of
@@ -114,8 +116,6 @@ const ENOUGH: [f64; 2] = [0.01, 0.05];
 /// Share of the friction that a swing may take where there is a gap: the load's friction holds the flanks together
 /// while the motor turns.
 const PRELOAD: f64 = 0.63;
-/// Share of the room that a swing may take: transients come on top.
-const SHARE: f64 = 0.6;
 
 impl<const L: usize> Job<L> {
     /// The stage whose data these are.
@@ -319,7 +319,7 @@ impl<const L: usize> Job<L> {
         let torque = peak(each().map(|(_, a)| a));
         let speed = peak(each().map(|(w, a)| a * sqrt(fitted.response(w).square()) / w));
         let level = (Self::swing(known, config) / shaft)
-            .min(SHARE * config.settings.torque / torque)
+            .min(SHARE * config.most[0] / torque)
             .min(0.6 * config.settings.speed / speed);
         self.record(known, config, &hertz, needed, |frequency| level * even(frequency))
     }
@@ -337,7 +337,7 @@ impl<const L: usize> Job<L> {
         };
         let swing = peak(responses.iter().map(carried));
         let torque = peak(responses.iter().map(|response| response.torque));
-        let more = (Self::swing(known, config) / swing).min(SHARE * config.settings.torque / torque);
+        let more = (Self::swing(known, config) / swing).min(SHARE * config.most[0] / torque);
         if more > 1.2 {
             known.level *= more.min(4.0);
         } else if known.records < 6 {

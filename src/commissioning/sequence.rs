@@ -34,6 +34,9 @@ pub enum Stage {
 /// Share of the push at which the servo has found a flank.
 const TOUCH: f32 = 0.3;
 
+/// How often the torque may go from bound to bound in a stage: each time adds to a swing of the shaft.
+const REVERSALS: u32 = 1;
+
 /// What the motor does within a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -62,7 +65,8 @@ pub struct Commissioning<const L: usize> {
     left: u32,
     /// Segment, push.
     index: usize,
-    last: u32,
+    /// The angle of the tick before; none before the first.
+    last: Option<u32>,
     /// Angle from where the test began [2^-32 turn].
     angle: i64,
     /// Sum over the block, and over the one before.
@@ -73,6 +77,9 @@ pub struct Commissioning<const L: usize> {
     ticks: u32,
     torque: f32,
     excitation: f32,
+    /// Bound that the torque last met in the stage \[N m\]; how often it met the other one next.
+    bound: f32,
+    reversals: u32,
     /// Size of the excitation, and how it changes in a block.
     fade: f32,
     fading: f32,
@@ -98,16 +105,17 @@ pub struct Commissioning<const L: usize> {
 }
 
 impl<const L: usize> Commissioning<L> {
-    /// A test whose motor stands at `angle` [2^-32 turn], and whose torque holds the load from the first tick on.
+    /// A test whose motor stands, and whose torque holds the load from the first tick on. The angle of that tick is where
+    /// it begins.
     #[must_use]
-    pub fn new(config: &TestConfig, angle: u32) -> Self {
+    pub fn new(config: &TestConfig) -> Self {
         let held = config.settings.held as f32;
         Self {
             stage: Stage::Holding,
             phase: Phase::Settles,
             left: config.blocks(8.0 / config.servo),
             index: 0,
-            last: angle,
+            last: None,
             angle: 0,
             sum: 0,
             before: 0,
@@ -115,6 +123,8 @@ impl<const L: usize> Commissioning<L> {
             ticks: 0,
             torque: held,
             excitation: 0.0,
+            bound: 0.0,
+            reversals: 0,
             fade: 0.0,
             fading: 0.0,
             eccentric: [0.0; 2],
@@ -141,8 +151,8 @@ impl<const L: usize> Commissioning<L> {
     /// brake.
     #[inline]
     pub fn tick(&mut self, config: &TestConfig, angle: u32) -> f32 {
-        let moved = angle.wrapping_sub(self.last) as i32;
-        self.last = angle;
+        let moved = angle.wrapping_sub(self.last.unwrap_or(angle)) as i32;
+        self.last = Some(angle);
         self.angle = self.angle.wrapping_add(i64::from(moved));
         if moved.unsigned_abs() > config.jump {
             self.refuse(Reason::AngleJump);
@@ -178,7 +188,8 @@ impl<const L: usize> Commissioning<L> {
             pushes: self.pushes,
             mean_speed: self.total,
             angle: self.travelled(),
-            zero: f64::from(self.last.wrapping_sub(self.angle as u32)) * (core::f64::consts::TAU / 4_294_967_296.0),
+            zero: f64::from(self.last.unwrap_or(0).wrapping_sub(self.angle as u32))
+                * (core::f64::consts::TAU / 4_294_967_296.0),
         })
     }
 
@@ -233,10 +244,12 @@ impl<const L: usize> Commissioning<L> {
         let rate = config.acceleration as f32;
         self.index = 0;
         self.phase = Phase::Goes;
+        (self.bound, self.reversals) = (0.0, 0);
         match self.next {
             Next::Segments => {
                 self.stage = Stage::Friction;
-                self.reference.go(ends_of(0).0 * speed, rate);
+                // Gently: whether there is a gap, and whether the load is free, is not known yet.
+                self.reference.go(ends_of(0).0 * speed, 0.25 * rate);
             }
             Next::Turns => {
                 self.stage = Stage::Encoder;
@@ -290,6 +303,11 @@ impl<const L: usize> Commissioning<L> {
         }
         let h = config.block_f32;
         self.servo.observe(&mut self.deviation, h, measured, self.torque, self.reference.acceleration);
+        // So written that what is no number is not followed either.
+        if !(self.deviation.angle.abs() <= config.lag) {
+            self.refuse(Reason::NotFollowed);
+            return;
+        }
         let measures = self.phase == Phase::Measures;
         if self.stage == Stage::Encoder && measures {
             let window = self.window.step();
@@ -336,9 +354,22 @@ impl<const L: usize> Commissioning<L> {
         };
         let (middle, most) = match self.next {
             Next::Reversals { torque, .. } if self.stage == Stage::Backlash => (0.0, torque as f32),
-            _ => (config.settings.held as f32, config.settings.torque as f32),
+            _ => {
+                let [most, slow] = config.most;
+                let most = if self.stage == Stage::Resonance { most } else { slow };
+                (config.settings.held as f32, most as f32)
+            }
         };
-        self.torque = (wanted - middle).min(most).max(-most) + middle;
+        let given = (wanted - middle).min(most).max(-most);
+        self.torque = given + middle;
+        // Pushes against a flank may well go from bound to bound.
+        if given.abs() >= most && self.stage != Stage::Backlash {
+            self.reversals += u32::from(given * self.bound < 0.0);
+            self.bound = given;
+            if self.reversals > REVERSALS {
+                self.refuse(Reason::Unsteady);
+            }
+        }
     }
 
     /// Whether the phase has ended.

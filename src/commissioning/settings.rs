@@ -13,12 +13,13 @@ pub struct TestSettings {
     pub rate: Rate,
     /// The encoder on the motor.
     pub encoder: Encoder,
-    /// The most that the motor's torque may differ from `held` \[N m\].
+    /// The most that the motor's torque may differ from `held` \[N m\]; no more than `shaft_torque` leaves beside `held`
+    /// is given, and half of that before the multisine, so that a load that is seized is not strained either.
     pub torque: f64,
     /// The most that the shaft may carry during the test, what it holds included \[N m\]: half of rated torque as a
     /// rule.
     pub shaft_torque: f64,
-    /// Speed of the test \[rad/s\]; the motor's own swing stays below it.
+    /// Speed of the test \[rad/s\]: eight turns in an hour at least; the motor's own swing stays below it.
     pub speed: f64,
     /// How far the motor may turn to either side of where it starts \[rad\].
     pub travel: f64,
@@ -33,6 +34,15 @@ pub struct TestSettings {
     /// Time from the sample to when the torque that it gives rise to begins to act \[s\]: 0 where it acts at once.
     pub delay: f64,
 }
+
+/// Share of the room that a steady torque may take: a load that is seized would swing the shaft about it.
+const STEADY: f64 = 0.5;
+
+/// A motor does not follow whose lag alone makes the servo ask for this share of the torque.
+const LAG: f64 = 0.5;
+
+/// Longest run-up \[s\], and longest time for the eight turns that the encoder's test needs.
+const LONGEST: [f64; 2] = [1_800.0, 3_600.0];
 
 /// Blocks in a period of the band's upper end, at least.
 const BLOCKS: f64 = 12.0;
@@ -57,6 +67,10 @@ pub struct TestConfig {
     pub(crate) units: f32,
     /// Largest believed turn in a tick \[2^-32 turn\].
     pub(crate) jump: u32,
+    /// Most that the motor may lag behind the reference \[rad\].
+    pub(crate) lag: f32,
+    /// Most that the torque may differ from what is held \[N m\]: under the multisine, and before.
+    pub(crate) most: [f64; 2],
     /// The travel \[2^-32 turn\].
     pub(crate) travel: i64,
     /// Resolution of the encoder \[rad\].
@@ -93,7 +107,8 @@ impl TestConfig {
         if !(settings.shaft_torque > settings.held.abs() && settings.shaft_torque.is_finite()) {
             return Err(Reason::ShaftTorque);
         }
-        if !(positive(settings.speed) && settings.speed * period < 0.25 * TAU) {
+        let [run_up, turns] = LONGEST;
+        if !(settings.speed * turns >= 8.0 * TAU && settings.speed * period < 0.25 * TAU) {
             return Err(Reason::Speed);
         }
         if !positive(settings.travel) || settings.travel > 1.0e9 {
@@ -102,7 +117,7 @@ impl TestConfig {
         if !positive(settings.inertia) {
             return Err(Reason::Inertia);
         }
-        if !(low > 0.0 && high > low && high * period <= 0.1) {
+        if !(low >= 0.01 && high > low && high * period <= 0.1) {
             return Err(Reason::Band);
         }
         if !positive(settings.torque_accuracy) {
@@ -122,7 +137,13 @@ impl TestConfig {
         };
         let block = ticks as f64 * period;
         let room = settings.shaft_torque - settings.held.abs();
-        let least = if room < settings.torque { room } else { settings.torque };
+        let most = if room < settings.torque { room } else { settings.torque };
+        let slow = if STEADY * room < most { STEADY * room } else { most };
+        let acceleration = 0.15 * most / settings.inertia;
+        if !(acceleration * run_up >= settings.speed && acceleration.is_finite()) {
+            return Err(Reason::Torque);
+        }
+        let servo = TAU * low / 6.0;
         let turn = 4_294_967_296.0;
         // the largest turn in a tick: three times the speed, and eight counts
         let jump = (3.0 * settings.speed * period + 8.0 * resolution) / TAU * turn;
@@ -135,10 +156,12 @@ impl TestConfig {
             unit: (TAU / turn / ticks as f64) as f32,
             units: (turn / TAU) as f32,
             jump: jump as u32,
+            lag: (LAG * slow / (settings.inertia * servo * servo)) as f32,
+            most: [most, slow],
             travel: (settings.travel / TAU * turn) as i64,
             resolution,
-            servo: TAU * low / 6.0,
-            acceleration: 0.15 * least / settings.inertia,
+            servo,
+            acceleration,
         })
     }
 

@@ -158,14 +158,16 @@ pub fn design(machine: &TwoMass, settings: &TestSettings) -> Option<[f64; 8]> {
 /// One image serves all three machines: the panel says which before the drive is released.
 pub struct Commission {
     config: &'static TestConfig,
-    test: Option<Commissioning<LINES>>,
+    test: Commissioning<LINES>,
+    /// Whether it has been released, ever.
+    begun: bool,
     gains: Option<[f64; 8]>,
 }
 
 impl Commission {
     /// The commissioning of any machine.
     pub fn of(config: &'static TestConfig) -> Self {
-        Commission { config, test: None, gains: None }
+        Commission { config, test: Commissioning::new(config), begun: false, gains: None }
     }
 }
 
@@ -175,31 +177,26 @@ impl Scene for Commission {
 
     fn new() -> Self {
         let [first, ..] = &CONFIGS;
-        Commission { config: first, test: None, gains: None }
+        Self::of(first)
     }
 
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
-        let config = self.config;
-        let torque = match &mut self.test {
-            Some(test) => test.tick(config, input.angle),
-            None if input.flags & Input::RELEASED != 0 => {
-                self.test.insert(Commissioning::new(config, input.angle)).tick(config, input.angle)
-            }
-            None => 0.0,
-        };
+        self.begun |= input.flags & Input::RELEASED != 0;
+        let torque = if self.begun { self.test.tick(self.config, input.angle) } else { 0.0 };
         Output { torque: torque.to_bits(), ..Output::default() }
     }
 
     fn panel(&mut self, asked: [u32; 2]) -> u32 {
-        let Some(test) = &mut self.test else {
+        if !self.begun {
             if let [panel::MACHINE, number] = asked
                 && let Some(config) = CONFIGS.get(number as usize)
             {
-                self.config = config;
+                *self = Self::of(config);
             }
             return panel::NONE;
-        };
+        }
+        let test = &mut self.test;
         if let Some(job) = test.job() {
             let findings = job.solve(self.config);
             test.accept(self.config, findings);

@@ -92,7 +92,7 @@ fn gaps_that_nothing_shows() {
 #[test]
 fn an_encoder_that_jumps() {
     let config = TestConfig::try_new(&SPINDLE).unwrap();
-    let mut test = Commissioning::<24>::new(&config, 7);
+    let mut test = Commissioning::<24>::new(&config);
     for _ in 0..100 {
         assert!(test.tick(&config, 7).abs() < 1.0e-3);
     }
