@@ -10,7 +10,8 @@
 //! [`Correction`]: by least squares, weighted, min-max or within limits, with planes that only repeat others found and left out.
 //!
 //! [`Holes`] fits a weight to what is at hand, [`Tolerance`] judges what is left (ISO 21940-11), [`from_amplitudes`] does without a phase.
-//! [`Procedure`] leads through the runs, refuses what cannot be, and goes on after a power cut from a record.
+//! [`Procedure`] leads through the runs, refuses what cannot be, and goes on after a power cut from a record, which with the feature `parameters` is
+//! one that a flash keeps.
 //! [`InRun`] does without trial runs, by a balancing head or an actuator while the machine turns.
 //!
 //! # Terms
@@ -49,6 +50,8 @@ mod procedure;
 mod reading;
 #[cfg(feature = "balancing")]
 mod real;
+#[cfg(all(feature = "balancing", feature = "parameters"))]
+mod record;
 #[cfg(feature = "balancing")]
 mod refusal;
 mod rotation;
@@ -77,10 +80,12 @@ pub use procedure::{CORRECTIONS, Plan, Procedure, Run, Step};
 pub use reading::{Doubt, Phasor, Reading, Steadiness};
 #[cfg(feature = "balancing")]
 pub use real::{Complex, Real};
+#[cfg(all(feature = "balancing", feature = "parameters"))]
+pub use record::Record;
 #[cfg(feature = "balancing")]
 pub use refusal::Refusal;
 pub use rotation::Synchronous;
-pub use sensor::{Motion, Sensor};
+pub use sensor::{Motion, Sensor, SensorError};
 #[cfg(feature = "balancing")]
 pub use tolerance::{GRADES, Tolerance, Verdict, resultant, two_planes};
 pub use turning::{Turning, TurningConfig};

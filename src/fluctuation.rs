@@ -71,6 +71,7 @@ pub use flywheel::{Balance, Flywheel, MachineClass, Remedy};
 pub use position::{CycleConfig, Edge};
 pub use series::{Order, Series};
 pub use toothed_wheel::{ToothErrors, ToothWindow, ToothedWheel, ToothedWheelConfig};
+pub(crate) use waveform::PLACES;
 pub use waveform::{Bin, Waveform, WaveformConfig};
 pub use window::{MAX_ORDER, Ripple, Window};
 

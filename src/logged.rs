@@ -99,6 +99,7 @@ const _: () = {
         balance::Phasor,
         balance::Reading,
         balance::Sensor,
+        balance::SensorError,
         balance::Steadiness,
         balance::Turning,
         balance::TurningConfig,

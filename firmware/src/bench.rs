@@ -1,5 +1,6 @@
 //! The bench: instructions of single functions, each over many inputs, one line of JSON a function.
 
+mod advice;
 mod calibration;
 mod correction;
 mod cranked;

@@ -14,6 +14,7 @@ pub mod fingerprint;
 pub mod governed;
 pub mod head;
 pub mod on_axis;
+pub mod pages;
 pub mod panel;
 pub mod program;
 pub mod rattle;

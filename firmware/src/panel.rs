@@ -71,6 +71,14 @@ keys! {
     HeadRe = 21,
     /// Its imaginary part.
     HeadIm = 22,
+    /// Power is on again: go on from the record in the flash. Answers [`DONE`], or refuses where there is none.
+    Resume = 23,
+    /// Word `value` of the flash.
+    FlashWord = 24,
+    /// The place of the flash that the next [`Key::PutWord`] goes to.
+    PutPlace = 25,
+    /// A word of the flash, as a programmer puts it there; the place goes on by one.
+    PutWord = 26,
 }
 
 /// Answers to [`Key::Next`].

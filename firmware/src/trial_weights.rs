@@ -1,10 +1,15 @@
 //! A panel that balances by trial weights: the library's procedure, and the readings that make up its runs.
+//!
+//! After every entry the run-out and the procedure go into a record in flash; with power on again, [`Key::Resume`] goes
+//! on from there. The zero of the phases has to be the same then: an absolute encoder's, or an index's.
 
 use core::marker::PhantomData;
 
-use driveline::balance::{Complex, Correction, Phasor, Plan, Procedure, Refusal, Run, Step};
+use driveline::balance::{Complex, Correction, Phasor, Plan, Procedure, Record, Refusal, Run, Step};
+use driveline::parameters::Store;
 
 use crate::balanced::{Adviser, CHANNELS, Measured};
+use crate::pages::{self, Pages};
 use crate::panel::{DONE, Key, next, refused};
 
 /// What is good enough.
@@ -22,7 +27,17 @@ pub struct TrialWeights<G, const ROWS: usize, const PLANES: usize> {
     weight: Complex<f32>,
     procedure: Option<Procedure<f32, ROWS, PLANES>>,
     solution: Option<Correction<f32, ROWS, PLANES>>,
+    flash: Pages,
+    /// Where the next word is put.
+    place: u32,
 }
+
+/// Words of a record, of which the run-out has some; both go into a page of the flash.
+const WORDS: usize = 192;
+const RUN_OUT: usize = 2 * CHANNELS;
+const BYTES: usize = 1024;
+/// The whole flash.
+const RANGE: core::ops::Range<u32> = 0..4 * pages::WORDS as u32;
 
 const ZERO: Complex<f32> = Complex { re: 0.0, im: 0.0 };
 
@@ -31,6 +46,8 @@ const BY_PROCEDURE: u32 = refused(0);
 const NO_PROCEDURE: u32 = refused(1);
 const NO_READING: u32 = refused(2);
 const NO_KEY: u32 = refused(3);
+const NOT_KEPT: u32 = refused(4);
+const NOTHING_KEPT: u32 = refused(5);
 
 impl<G: Goal, const ROWS: usize, const PLANES: usize> TrialWeights<G, ROWS, PLANES> {
     /// Gives the procedure the run.
@@ -40,9 +57,42 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> TrialWeights<G, ROWS, PLAN
     ) -> u32 {
         let Some(procedure) = &mut self.procedure else { return NO_PROCEDURE };
         match Run::new(&self.run, &self.speeds).and_then(|run| entry(procedure, &run)) {
-            Ok(()) => DONE,
+            Ok(()) => self.save(),
             Err(_) => BY_PROCEDURE,
         }
+    }
+
+    /// Keeps what was entered.
+    fn save(&mut self) -> u32 {
+        const { assert!(Procedure::<f32, ROWS, PLANES>::words(ROWS, PLANES) + RUN_OUT <= WORDS) };
+        let Some(procedure) = &self.procedure else { return NO_PROCEDURE };
+        let mut own = [0; RUN_OUT];
+        for (words, run_out) in own.as_chunks_mut::<2>().0.iter_mut().zip(self.run_out) {
+            *words = [run_out.re.to_bits(), run_out.im.to_bits()];
+        }
+        let Ok(record) = Record::<WORDS>::of(procedure, &own) else { return NOT_KEPT };
+        match Store::new(&mut self.flash, RANGE).and_then(|mut store| store.save(&record, &mut [0; BYTES])) {
+            Ok(()) => DONE,
+            Err(_) => NOT_KEPT,
+        }
+    }
+
+    /// Goes on from what was kept.
+    fn resume(&mut self) -> u32 {
+        let loaded = Store::new(&mut self.flash, RANGE).and_then(|mut store| store.load(&mut [0; BYTES]));
+        let Some(record) = loaded.ok().and_then(|loaded| loaded.parameters) else { return NOTHING_KEPT };
+        let record: Record<WORDS> = record;
+        let mut own = [0; RUN_OUT];
+        let Ok(procedure) = record.resume(Self::plan(), &mut own) else { return NOTHING_KEPT };
+        for (run_out, [re, im]) in self.run_out.iter_mut().zip(own.as_chunks::<2>().0) {
+            *run_out = Phasor { re: f32::from_bits(*re), im: f32::from_bits(*im) };
+        }
+        (self.procedure, self.solution) = (Some(procedure), None);
+        DONE
+    }
+
+    fn plan() -> Plan<f32, ROWS, PLANES> {
+        Plan::usual(ROWS, PLANES, G::GOOD)
     }
 
     fn keep(&mut self, row: usize, measured: &Measured) -> u32 {
@@ -69,7 +119,7 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> TrialWeights<G, ROWS, PLAN
     fn placed(&mut self) -> u32 {
         match (&mut self.procedure, &self.solution) {
             (Some(procedure), Some(solution)) => match procedure.placed(&solution.weights) {
-                Ok(()) => DONE,
+                Ok(()) => self.save(),
                 Err(_) => BY_PROCEDURE,
             },
             _ => NO_PROCEDURE,
@@ -102,8 +152,10 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> Adviser for TrialWeights<G
             run: [ZERO; ROWS],
             speeds: [0.0; ROWS],
             weight: ZERO,
-            procedure: Procedure::new(Plan::usual(ROWS, PLANES, G::GOOD)).ok(),
+            procedure: Procedure::new(Self::plan()).ok(),
             solution: None,
+            flash: Pages::new(),
+            place: 0,
         }
     }
 
@@ -113,7 +165,7 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> Adviser for TrialWeights<G
         match (key, measured) {
             (Key::RunOut, Some(measured)) => {
                 self.run_out = measured.readings.map(|reading| reading.phasor);
-                DONE
+                self.save()
             }
             (Key::Row, Some(measured)) => self.keep(value as usize, &measured),
             (Key::RunOut | Key::Row, None) => NO_READING,
@@ -134,13 +186,24 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> Adviser for TrialWeights<G
             (Key::Placed, _) => self.placed(),
             (Key::Verified, _) => self.give(Procedure::verified),
             (Key::TakeBack, _) => match self.procedure.as_mut().and_then(Procedure::take_back) {
-                Some(_) => DONE,
+                Some(_) => self.save(),
                 None => NO_PROCEDURE,
             },
             (Key::RowRe, _) => row.re.to_bits(),
             (Key::RowIm, _) => row.im.to_bits(),
             (Key::Predicted, _) => self.solution.as_ref().map_or(0, |solution| solution.rms.to_bits()),
             (Key::Condition, _) => self.solution.as_ref().map_or(0, |solution| solution.condition.to_bits()),
+            (Key::Resume, _) => self.resume(),
+            (Key::FlashWord, _) => self.flash.word(value),
+            (Key::PutPlace, _) => {
+                self.place = value;
+                DONE
+            }
+            (Key::PutWord, _) => {
+                let put = self.flash.put(self.place, value);
+                self.place = self.place.saturating_add(1);
+                if put { DONE } else { NOT_KEPT }
+            }
             (Key::Begin | Key::State | Key::Step | Key::HeadRe | Key::HeadIm, _) => NO_KEY,
         }
     }

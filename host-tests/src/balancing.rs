@@ -20,6 +20,7 @@ mod machine;
 mod operator;
 mod outcome;
 mod page;
+mod power_cut;
 mod scene;
 mod spindle;
 
@@ -29,5 +30,6 @@ pub use machine::{Drivetrain, Machine};
 pub use operator::Operator;
 pub use outcome::{Claim, Outcome, Stage, Vector};
 pub use page::{page, tables};
+pub use power_cut::PowerCuts;
 pub use scene::{Cost, Ran, Scene, scenes};
 pub use spindle::{Course, SpindleStart, spindle};

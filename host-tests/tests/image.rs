@@ -113,6 +113,11 @@ fn the_stack_of_the_board_with_a_motor_ends_where_the_memory_ends() {
     for variables in ["__sdata", "__sbss"] {
         assert!(address(variables) >= address("_stack_start"), "{variables}");
     }
+    // the handler of faults pushes nothing: TIM1_BDTR's address, then MOE is cleared for ever (Arm DDI 0403E, A7.7)
+    let text = file.section_by_name(".text").unwrap();
+    let handler = text.data_range(address("HardFault") & !1, 18).unwrap().unwrap();
+    let code: Vec<u16> = handler.chunks_exact(2).map(|two| u16::from_le_bytes([two[0], two[1]])).collect();
+    assert_eq!(code, [0xf642, 0x4044, 0xf2c4, 0x0001, 0x6801, 0xf421, 0x4100, 0x6001, 0xe7fa]);
     // and the core starts there: the first word of the vectors
     let vectors = file.section_by_name(".vector_table").unwrap();
     let first = vectors.data_range(vectors.address(), 4).unwrap().unwrap();

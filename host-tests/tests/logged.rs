@@ -23,8 +23,19 @@ fn public_types(folder: &Path, names: &mut Vec<String>) {
 }
 
 /// What holds complex numbers or matrices of `nalgebra`, which cannot be logged as they are.
-const OF_NALGEBRA: [&str; 10] =
-    ["Advice", "Fitted", "FromAmplitudes", "Holes", "InRun", "Influence", "LeftOut", "Plan", "Procedure", "Run"];
+const OF_NALGEBRA: [&str; 11] = [
+    "Advice",
+    "Fitted",
+    "FromAmplitudes",
+    "Holes",
+    "InRun",
+    "Influence",
+    "LeftOut",
+    "Plan",
+    "Procedure",
+    "Record",
+    "Run",
+];
 
 /// What owns the parts of a board, or memory that a tick writes.
 const OWNERS: [&str; 5] = ["Axis", "EnableChain", "Parts", "Ring", "Store"];

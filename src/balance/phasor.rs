@@ -8,6 +8,7 @@
 //! The sums run on; at the end of each block of turns they are noted down. What needs a division waits for [`Phasors::reading`].
 
 use super::reading::{Edge, Reading, Steadiness};
+use super::turning::Passed;
 use super::{Balancer, Doubt, Synchronous, Turning, TurningConfig};
 use crate::fault::Faults;
 use crate::number::Number;
@@ -77,15 +78,16 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for 
                 *clipped = self.ticks;
             }
         }
-        if !self.turning.follow(&config.turning, angle) {
-            if !self.turning.wrap(&config.turning) {
+        let passed = self.turning.advance(&config.turning, angle);
+        if passed != Passed::Not {
+            if passed == Passed::Astray {
                 return self.restart();
             }
             self.left = self.left.wrapping_sub(1);
-            let noted = self.noted;
-            if self.left == 0
-                && let Some(edge) = self.edges.get_mut(noted as usize)
-            {
+            if self.left == 0 {
+                let noted = self.noted;
+                // complete: what comes now is in no block
+                let Some(edge) = self.edges.get_mut(noted as usize) else { return };
                 // The tick ends at the zero, and the next one takes over what is left of it: so no tick does the work of two.
                 (self.left, self.noted) = (config.block, noted + 1);
                 let sums = added(&self.sums, vibration, N::AHEAD, self.direction);
@@ -95,7 +97,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for 
                 return;
             }
         }
-        let direction = N::direction(self.turning.angle(&config.turning));
+        let direction = N::direction(self.turning.direction(&config.turning));
         self.sums = added(&self.sums, vibration, direction, self.direction);
         self.direction = direction;
     }
@@ -145,7 +147,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
     /// An incremental encoder has its zero where it was switched on; without this, so has the phase.
     pub fn align(&mut self, config: &PhasorsConfig<N, CHANNELS>, angle: u32) {
         self.turning.set(&config.turning, angle);
-        self.direction = N::direction(self.turning.angle(&config.turning));
+        self.direction = N::direction(self.turning.direction(&config.turning));
         self.begin();
     }
 

@@ -8,14 +8,16 @@ use crate::scalar::sin_cos;
 
 /// Places on a turn.
 const PLACES: usize = 128;
-/// Binary places of an angle below the place.
-const BELOW: u32 = 32 - PLACES.trailing_zeros();
+/// Binary places of an angle.
+const ANGLE: u32 = 26;
+/// Those below the place.
+const BELOW: u32 = ANGLE - PLACES.trailing_zeros();
 /// One in fixed point.
 const ONE: i32 = 1 << 24;
 /// Binary places that the table in fixed point has more.
 const FINER: u32 = 6;
 
-/// Cosine and sine in the middle of each place, for a tangent whose ends are as far out as its middle is in.
+/// Cosine and sine at each place, for a tangent half a place either way whose ends are as far out as its middle is in.
 const fn table() -> [[f64; 2]; PLACES] {
     let half = core::f64::consts::PI / PLACES as f64;
     // the mean of 1 + x^2/2 over the place
@@ -23,7 +25,7 @@ const fn table() -> [[f64; 2]; PLACES] {
     let mut table = [[0.0; 2]; PLACES];
     let mut place = 0;
     while place < PLACES {
-        let (sine, cosine) = sin_cos((2 * place + 1) as f64 * half);
+        let (sine, cosine) = sin_cos((2 * place) as f64 * half);
         table[place] = [radius * cosine, radius * sine];
         place += 1;
     }
@@ -51,15 +53,15 @@ static FIXED: [[i32; 2]; PLACES] = {
     rounded
 };
 
-/// The distance from the middle of the place, 2^31 to half a place.
+/// The distance from the nearest place, 2^31 to half a place.
 #[inline(always)]
 fn beside(angle: u32) -> i32 {
-    ((angle << (32 - BELOW)) ^ (1 << 31)) as i32
+    (angle << (32 - BELOW)) as i32
 }
 
 #[inline(always)]
 fn place(angle: u32) -> usize {
-    (angle >> BELOW) as usize & (PLACES - 1)
+    (angle.wrapping_add(1 << (BELOW - 1)) >> BELOW) as usize & (PLACES - 1)
 }
 
 /// A number that a phasor can be measured in.
@@ -71,7 +73,7 @@ pub trait Synchronous: Number {
     /// Cosine and sine of nothing.
     const AHEAD: [Self::Part; 2];
 
-    /// Cosine and sine of an angle [2^-32 turn].
+    /// Cosine and sine of an angle [2^-26 turn].
     fn direction(angle: u32) -> [Self::Part; 2];
     /// The difference of two parts.
     fn change(to: Self::Part, from: Self::Part) -> Self::Part;
@@ -116,7 +118,7 @@ impl Synchronous for f64 {
 
     #[inline(always)]
     fn direction(angle: u32) -> [f64; 2] {
-        let (sine, cosine) = sin_cos(f64::from(angle) * (core::f64::consts::TAU / 4_294_967_296.0));
+        let (sine, cosine) = sin_cos(f64::from(angle) * (core::f64::consts::TAU / 67_108_864.0));
         [cosine, sine]
     }
 
@@ -176,7 +178,7 @@ mod tests {
     #[test]
     fn directions_are_those_of_the_angle() {
         for n in 0..100_003_u32 {
-            let angle = n.wrapping_mul(42_949);
+            let angle = n.wrapping_mul(671) & 0x03ff_ffff;
             let exact = <f64 as Synchronous>::direction(angle);
             let single = <f32 as Synchronous>::direction(angle);
             let fixed = <Fixed as Synchronous>::direction(angle);

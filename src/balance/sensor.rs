@@ -1,5 +1,7 @@
 //! From what a sensor gives to the motion that it measures.
 
+use core::fmt;
+
 use super::reading::Phasor;
 
 /// What a sensor measures, or a reading is wanted in.
@@ -43,6 +45,43 @@ pub struct Sensor {
     pub angle: f32,
 }
 
+/// What of a sensor cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum SensorError {
+    /// [`Sensor::sensitivity`].
+    Sensitivity,
+    /// [`Sensor::high_pass`].
+    HighPass,
+    /// [`Sensor::low_pass`].
+    LowPass,
+    /// [`Sensor::angle`].
+    Angle,
+    /// The frequency that the reading was taken at.
+    Frequency,
+    /// The phasor is not a number.
+    Phasor,
+}
+
+impl fmt::Display for SensorError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            SensorError::Sensitivity => "the sensor's sensitivity must be a number above zero",
+            SensorError::HighPass => "the sensor's lower corner must be a number, zero for none",
+            SensorError::LowPass => "the sensor's upper corner must be above zero, infinite for none",
+            SensorError::Angle => "the sensor's angle must be a number of radians within ten turns",
+            SensorError::Frequency => "the frequency of the reading must be a number above zero",
+            SensorError::Phasor => "the sensor's phasor is not a number",
+        })
+    }
+}
+
+impl core::error::Error for SensorError {}
+
+/// Largest angle of mounting: ten turns, more than anybody writes in radians; a number of degrees is beyond it mostly.
+const MOST_ANGLE: f32 = 10.0 * core::f32::consts::TAU;
+
 impl Sensor {
     /// A sensor that gives the motion as it is.
     pub const fn ideal(motion: Motion) -> Self {
@@ -51,12 +90,22 @@ impl Sensor {
 
     /// The motion at `frequency` \[rad/s\], above 0, behind a phasor of the channel: in m, m/s or m/s2.
     ///
-    /// `None` where the frequency or the sensitivity is not positive. The phase is that of a sensor at the rotor's zero only where
-    /// the bearings are alike in all directions.
-    pub fn motion(&self, phasor: Phasor, frequency: f32, wanted: Motion) -> Option<Phasor> {
-        let given = self.sensitivity > 0.0 && frequency > 0.0 && frequency < f32::INFINITY;
-        if !given || !(self.high_pass >= 0.0) || !(self.low_pass > 0.0) {
-            return None;
+    /// The phase is that of a sensor at the rotor's zero only where the bearings are alike in all directions.
+    ///
+    /// # Errors
+    /// [`SensorError`]: what of the sensor or the reading cannot be.
+    pub fn motion(&self, phasor: Phasor, frequency: f32, wanted: Motion) -> Result<Phasor, SensorError> {
+        let above_zero = |value: f32| value > 0.0 && value < f32::INFINITY;
+        let sound = [
+            (above_zero(self.sensitivity), SensorError::Sensitivity),
+            (self.high_pass >= 0.0 && self.high_pass < f32::INFINITY, SensorError::HighPass),
+            (self.low_pass > 0.0, SensorError::LowPass),
+            ((-MOST_ANGLE..=MOST_ANGLE).contains(&self.angle), SensorError::Angle),
+            (above_zero(frequency), SensorError::Frequency),
+            (phasor.re.is_finite() && phasor.im.is_finite(), SensorError::Phasor),
+        ];
+        if let Some((_, error)) = sound.iter().find(|(sound, _)| !sound) {
+            return Err(*error);
         }
         // (1 + i w/low) (1 + high/(i w)) / sensitivity
         let passed = phasor
@@ -72,6 +121,6 @@ impl Sensor {
         };
         // (cos, sin) of the angle of mounting; a sensor further round sees the same later
         let (sine, cosine) = crate::scalar::sin_cos(f64::from(self.angle));
-        Some(wanted.times(Phasor { re: cosine as f32, im: sine as f32 }))
+        Ok(wanted.times(Phasor { re: cosine as f32, im: sine as f32 }))
     }
 }

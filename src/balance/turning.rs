@@ -49,6 +49,17 @@ impl TurningConfig {
     }
 }
 
+/// Whether a rotor has passed its zero in a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Passed {
+    /// It has not.
+    Not,
+    /// Forwards, once.
+    Zero,
+    /// Backwards, or by more than a turn at once.
+    Astray,
+}
+
 /// Where a rotor is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -80,6 +91,33 @@ impl Turning {
         }
         self.position = 0;
         false
+    }
+
+    /// Follows the motor to an angle [2^-32 turn], and says whether the rotor has passed its zero.
+    #[inline(always)]
+    pub(crate) fn advance(&mut self, config: &TurningConfig, motor: u32) -> Passed {
+        let turned = motor.wrapping_sub(self.motor) as i32;
+        self.motor = motor;
+        let position = self.position.wrapping_add(turned as i64 * config.step as i64);
+        if ((position >> 32) as u32) < config.turn {
+            self.position = position;
+            return Passed::Not;
+        }
+        // one comparison for the way it goes as a rule: what is backwards is far beyond a turn without its sign
+        let ahead = position.wrapping_sub(i64::from(config.turn) << 32);
+        if ((ahead >> 32) as u32) < config.turn {
+            self.position = ahead;
+            return Passed::Zero;
+        }
+        let back = position.wrapping_add(i64::from(config.turn) << 32);
+        self.position = if ((back >> 32) as u32) < config.turn { back } else { 0 };
+        Passed::Astray
+    }
+
+    /// The rotor's angle times the order [2^-26 turn].
+    #[inline(always)]
+    pub(crate) fn direction(&self, config: &TurningConfig) -> u32 {
+        ((u64::from(self.units()) * u64::from(config.inverse)) >> 32) as u32
     }
 
     /// Whole units of the position.

@@ -2,15 +2,14 @@
 
 use super::convert::{fixed, get, or_stop};
 use super::{Bases, Error, Format};
-use crate::fluctuation::{CycleConfig, CycleMeanConfig, Drivetrain, ToothedWheelConfig, WaveformConfig};
+use crate::fluctuation::{CycleConfig, CycleMeanConfig, Drivetrain, PLACES, ToothedWheelConfig, WaveformConfig};
 use crate::machine::TwoMass;
 use crate::number::Fixed;
 
 const RATIO: &str = "the cycle's turns and cycles must be at least 1, and at most 65,535";
 const LONG: &str = "the cycle must be at most 16 turns of the motor";
 const PERIOD: &str = "the time between two ticks must be positive and finite (s)";
-const BINS_SENTENCE: &str =
-    "the bins of the waveform must be a power of two, at most 1024, and at least four to each turn of the cycle";
+const BINS_SENTENCE: &str = "the bins of the waveform must be a power of two, at most 1024, at least four to each turn of the cycle, and at most 8192 to a turn";
 const SEGMENTS_SENTENCE: &str = "the segments of the cycle's mean must be a power of two from 4 to 1024, none longer than a quarter of a turn of the motor nor shorter than 2^-23 of one";
 const SLOW: &str =
     "the motor turns too little in a tick at the base of the speed for a mean in fixed point: lower the rate";
@@ -186,7 +185,7 @@ impl WaveformConfig {
         }
         let per_segment = (BINS / segments) as u32;
         let length = cycle.length as u64;
-        let scale = ((per_segment as u64) << 32) / length;
+        let scale = ((per_segment as u64) << (32 + PLACES)) / length;
         if scale > i32::MAX as u64 {
             return Err(Error::Value(BINS_SENTENCE));
         }

@@ -351,7 +351,8 @@ impl<N: Number> Extremes<N> {
             let (max, min) = (self.vertex(config, max), self.vertex(config, min));
             // Floats below zero have it the other way round.
             let [max, min] = if max.speed < min.speed { [min, max] } else { [max, min] };
-            (max.speed * min.speed >= 0.0 && max.speed.is_finite()).then(|| Fluctuations::of(max, min, mean))
+            (max.speed * min.speed >= 0.0 && (max.speed - min.speed).is_finite())
+                .then(|| Fluctuations::of(max, min, mean))
         };
         Some(Reading {
             mean,
@@ -380,9 +381,13 @@ impl<N: Number> Extremes<N> {
             [peak.before, peak.value, peak.after].map(|rank| N::of_rank(rank).to_real() * config.speed);
         let curvature = before - 2.0 * value + after;
         let offset = if curvature == 0.0 { 0.0 } else { (0.5 * (before - after) / curvature).clamp(-1.0, 1.0) };
-        let angle = self.place(config, peak) + (offset - 1.0) * SAMPLE * config.period * value;
+        // An estimate that cannot be does not lead out of the cycle.
+        let back = (1.0 - offset) * SAMPLE * config.period * value;
+        let back = if back.abs() < config.angle { back } else { 0.0 };
+        let angle = self.place(config, peak) - back;
+        // Into the cycle; a motion that is none may lead beyond it by some cycles.
+        let angle = angle - (angle / config.angle) as i32 as f64 * config.angle;
         let angle = if angle < 0.0 { angle + config.angle } else { angle };
-        let angle = if angle < config.angle { angle } else { angle - config.angle };
         Extreme { speed: value - 0.25 * (before - after) * offset, angle }
     }
 

@@ -82,6 +82,15 @@ pub(super) struct Position {
     pub unsure: bool,
 }
 
+/// What a tick has passed that does all slices at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Crossing {
+    /// At most the end of one segment or of the cycle.
+    Passed,
+    /// More, or nobody knows when: the angle was elsewhere.
+    Lost,
+}
+
 /// Where the motor is that has left its segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Way {
@@ -202,5 +211,40 @@ impl Position {
     pub fn jump(&mut self, cycle: &CycleConfig, steps: u32) {
         self.start = self.start.wrapping_add(steps.wrapping_mul(cycle.length));
         self.segment = self.segment.wrapping_add(steps) & cycle.last_segment;
+    }
+
+    /// Goes to the segment of `angle` at once, for a tick that has the time.
+    pub fn pass(&mut self, cycle: &CycleConfig, angle: u32) -> Crossing {
+        let unsure = core::mem::replace(&mut self.unsure, false);
+        let within = self.within(angle);
+        let beyond = within.wrapping_sub(cycle.length);
+        self.measure(cycle);
+        let ahead = if beyond < cycle.length { self.ahead(cycle, beyond) } else { Way::Other };
+        match (ahead, self.behind(cycle, within.wrapping_neg())) {
+            (Way::Segment, _) => {
+                self.advance(cycle);
+                self.count(1);
+            }
+            (Way::Cycle, _) => {
+                if self.beyond_cycle(beyond) >= 0 {
+                    self.next_cycle(cycle);
+                    self.carry_on(cycle);
+                }
+            }
+            (Way::Other, Way::Segment) => {
+                self.retreat(cycle);
+                self.count(-1);
+            }
+            (Way::Other, Way::Cycle) => {
+                self.carry_back(cycle);
+                self.measure(cycle);
+                self.last_cycle(cycle);
+            }
+            (Way::Other, Way::Other) => {
+                self.jump(cycle, Position::away(cycle, within));
+                return Crossing::Lost;
+            }
+        }
+        if unsure { Crossing::Lost } else { Crossing::Passed }
     }
 }

@@ -97,13 +97,19 @@ impl<const PLACES: usize> Default for ToothedWheel<PLACES> {
 impl<const PLACES: usize> ToothedWheel<PLACES> {
     /// A tooth has passed, at this reading of a clock that wraps; to be called from the interrupt of its capture.
     ///
-    /// A gap is an interval longer than halfway between the last pitch and what a gap of that pitch would be. One that comes where there is none, or
-    /// does not come, voids the window, and the place is looked for anew.
+    /// A gap is an interval longer than halfway between the last pitch and what a gap of that pitch would be, and shorter than halfway to that of one more
+    /// tooth missing. One that comes where there is none, does not come, or is longer voids the window, and the place is looked for anew: a wheel that
+    /// is not the one that was described gives no window.
     pub fn tooth(&mut self, config: &ToothedWheelConfig, time: u32) {
         let interval = time.wrapping_sub(self.last);
         self.last = time;
         let limit = u64::from(self.pitch) * (2 + u64::from(config.missing)) / 2;
         let gap = self.pitch != 0 && u64::from(interval) > limit;
+        let longest = u64::from(self.pitch) * (3 + 2 * u64::from(config.missing)) / 2;
+        if gap && u64::from(interval) > longest {
+            self.disturb();
+            return;
+        }
         if !gap {
             self.pitch = interval;
         }
@@ -200,7 +206,8 @@ impl<const PLACES: usize> ToothWindow<PLACES> {
         late
     }
 
-    /// The wheel's errors, from a window in which the machine had no ripple: it coasted, without fuel and without load.
+    /// The wheel's errors, from a window in which the machine had no ripple: it coasted, without fuel and without load. Over some 16 turns:
+    /// fewer average less of the clock's rounding, and while the speed falls by more than a quarter it falls no longer as steadily as is taken off.
     pub fn errors(&self, config: &ToothedWheelConfig) -> ToothErrors<PLACES> {
         let (mean, trend, _) = self.trend();
         let mut errors = [0.0; PLACES];
@@ -213,6 +220,8 @@ impl<const PLACES: usize> ToothWindow<PLACES> {
     }
 
     /// The waveform of the wheel's speed with the orders up to `highest`, which counts at most [`MAX_ORDER`] and a sixth of the places.
+    ///
+    /// Take no more orders than the machine has: the clock's rounding, which a steady speed may repeat in every turn, shows in the n-th order n times.
     ///
     /// The lateness of the missing teeth is what the orders make of that of the others: found by repetition, each time closer.
     pub fn ripple(&self, config: &ToothedWheelConfig, errors: &ToothErrors<PLACES>, highest: usize) -> Ripple {

@@ -17,6 +17,9 @@ use crate::sample::Estimate;
 /// Ticks that a window may last, so that no bin overflows: 419 s at 10 kHz.
 const LONGEST: u32 = 1 << 22;
 
+/// Binary places of a bin in the upper word of an angle times the scale.
+pub(crate) const PLACES: u32 = 18;
+
 /// Constants of [`Waveform`]. Made by [`crate::constants`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -25,7 +28,7 @@ pub struct WaveformConfig {
     pub cycle: CycleConfig,
     /// Cycles in a window; fewer where they last too long.
     pub cycles: u32,
-    /// Bins per 2^-32 turn [2^-32].
+    /// Bins per 2^-32 turn [2^-50].
     pub scale: i32,
     /// Bins in a segment of the cycle.
     pub per_segment: u32,
@@ -83,7 +86,7 @@ enum Slice {
     CarryBack,
     MeasureBack,
     LastCycle,
-    /// The angle was elsewhere, or a tick was left out on the way here.
+    /// The angle was elsewhere, a tick was left out on the way here, or the motor has turned back.
     Doubt,
     /// What the end of the cycle is to the window.
     Decide,
@@ -177,11 +180,11 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
     /// A tick so far from the segment's start [2^-32 turn], a little before it or beyond its end included.
     #[inline(always)]
     fn count(&mut self, config: &WaveformConfig, within: u32, torque: N) {
-        let place = i64::from(within as i32) * i64::from(config.scale);
-        let index = self.base.wrapping_add((place >> 32) as u32) as usize & BINS.wrapping_sub(1);
+        let place = ((i64::from(within as i32) * i64::from(config.scale)) >> 32) as i32;
+        let index = self.base.wrapping_add((place >> PLACES) as u32) as usize & BINS.wrapping_sub(1);
         if let Some(bin) = self.bins.get_mut(index) {
             // The distance from the bin's middle [2^-32 bin].
-            let distance = (place as u32 ^ 1 << 31) as i32;
+            let distance = (place << (32 - PLACES)) ^ i32::MIN;
             let coarse = distance >> 26;
             bin.ticks = bin.ticks.wrapping_add(1);
             bin.first = bin.first.wrapping_add(distance >> 22);
@@ -229,11 +232,11 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
             }
             Slice::CountUp => {
                 position.count(1);
-                Slice::Watch
+                if self.forward { Slice::Watch } else { Slice::Doubt }
             }
             Slice::CountDown => {
                 position.count(-1);
-                Slice::Watch
+                if self.forward { Slice::Doubt } else { Slice::Watch }
             }
             Slice::Away => {
                 position.jump(cycle, Position::away(cycle, position.within(angle)));
@@ -301,6 +304,8 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
                 }
                 if self.ahead { Slice::Note } else { Slice::NoteBack }
             }
+            // The motor has turned back meanwhile.
+            Slice::Note if (position.within(angle) as i32) < 0 => Slice::Doubt,
             Slice::Note => {
                 self.edge = Edge { tick, angle, beyond: position.within(angle), speed: estimate.motor_speed };
                 self.stage = self.then;
@@ -308,9 +313,13 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
             }
             Slice::NoteBack => {
                 let beyond = position.behind_end(cycle, position.within(angle));
-                self.edge = Edge { tick, angle, beyond, speed: estimate.motor_speed };
-                self.stage = self.then;
-                Slice::File
+                if (beyond as i32) < 0 {
+                    Slice::Doubt
+                } else {
+                    self.edge = Edge { tick, angle, beyond, speed: estimate.motor_speed };
+                    self.stage = self.then;
+                    Slice::File
+                }
             }
             Slice::File => {
                 self.cycles = self.cycles.wrapping_add(1);

@@ -8,8 +8,9 @@ use super::Bench;
 use crate::board::Board;
 use crate::program::Program;
 
-/// A rotor behind a gear, a block every turn so that the ends of blocks occur among the calls.
-const GEARED: Measured = Measured { rotor_turns: 31, motor_turns: 47, turns: 1, ..Measured::DIRECT };
+/// A rotor behind a gear, a block every second turn so that both occur among the calls: the end of a block, and a turn's
+/// end within one, which is the longest tick of a single channel.
+const GEARED: Measured = Measured { rotor_turns: 31, motor_turns: 47, turns: 2, ..Measured::DIRECT };
 
 static SINGLE: (PhasorsConfig<f32, 1>, PhasorsConfig<f32, 2>) =
     (PhasorsConfig::<f32, 1>::new(&GEARED, [7.5]), PhasorsConfig::<f32, 2>::new(&GEARED, [7.5; 2]));

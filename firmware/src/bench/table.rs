@@ -6,7 +6,7 @@ use driveline::number::Fixed;
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
-use super::{correction, cranked, fluctuation, governors, phasors, steps};
+use super::{advice, correction, cranked, fluctuation, governors, phasors, steps};
 use crate::Words;
 use crate::board::Board;
 use crate::measure::count::Measured;
@@ -38,4 +38,5 @@ pub fn run<S: Scene, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<S, Input
     }
     correction::solves(bench);
     correction::accuracy(bench);
+    advice::all(bench);
 }

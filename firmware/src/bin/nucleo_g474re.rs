@@ -10,13 +10,13 @@ use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use cortex_m::interrupt::free;
 use cortex_m::peripheral::NVIC;
-use cortex_m_rt::{entry, exception};
+use cortex_m_rt::entry;
 use driveline::hal::{FullScale, PwmTorque};
 use driveline::telemetry::{Channel as Column, Kind, Ring};
 use driveline_firmware::asking::{Asking, RELEASE, SPEED};
 use driveline_firmware::balanced::{Adviser, Measurement, Variant, reading, state};
 use driveline_firmware::board::nucleo_g474re::{
-    Beside, Channel, Nucleo, Pin, Serial, Vibration, outputs_off, start_tick, tick_taken,
+    Beside, Channel, Nucleo, Pin, Serial, Vibration, start_tick, tick_taken,
 };
 use driveline_firmware::panel::{DONE, Key};
 use driveline_firmware::scene::Scene;
@@ -78,14 +78,6 @@ fn TIM6_DAC() {
         let [a, b, c, d, e, f, g, h] = told::values(&input, &output);
         let [first, second] = input.vibration;
         RECORDS.record(&[a, b, c, d, e, f, g, h, first, second, ANSWER.load(Ordering::Relaxed)]);
-    }
-}
-
-/// The stack has run out of the memory, or worse: the outputs off at once; the watchdog, which nobody feeds any more, does the rest. It needs no stack.
-#[exception(trampoline = false)]
-unsafe fn HardFault() -> ! {
-    loop {
-        outputs_off();
     }
 }
 

@@ -32,7 +32,7 @@ mod watchdog;
 
 #[cfg(all(feature = "nucleo-g474re", target_os = "none"))]
 pub use {
-    bridge::{Channel, outputs_off},
+    bridge::Channel,
     nucleo::{Beside, Nucleo},
     pin::Pin,
     serial::Serial,

@@ -11,7 +11,8 @@ use driveline_firmware::{Visitor, Words, scene};
 use super::error::BalancingError;
 use super::operator::Operator;
 use super::outcome::{Claim, Outcome, Stage};
-use crate::image::{Contents, Program, belongs, build};
+use super::power_cut::PowerCuts;
+use crate::image::{Contents, Image, Program, belongs, build};
 use crate::link::Link;
 use crate::rotor::{Model, Polar};
 use crate::run::closed_loop::{OnHost, Ticks};
@@ -118,6 +119,25 @@ impl Scene {
         visit(variant, HostRun { scene: *self, seed }).expect("a variant of the firmware's table")
     }
 
+    /// Balances a variant on the host, or on a board in QEMU, with a power cut after every entry: the outcome, the cuts, and those after which the
+    /// panel went on otherwise.
+    ///
+    /// # Errors
+    /// A build or a link that failed; why it could not be balanced.
+    ///
+    /// # Panics
+    /// For a variant that is not in the firmware's table.
+    pub fn with_power_cuts(
+        &self,
+        variant: &str,
+        board: Option<Facts>,
+        seed: u64,
+    ) -> Result<(Outcome, usize, usize), Box<dyn Error>> {
+        let image = board.map(|board| build(variant, board, Program::ControlLoop, |_| {})).transpose()?;
+        let run = CutRun { scene: *self, image: image.as_ref(), seed };
+        Ok(visit(variant, run).expect("a variant of the firmware's table")?)
+    }
+
     /// Balances a variant in QEMU; the same scene on the host is given the same inputs beside it. `seed` is that of everything
     /// that is left to chance.
     ///
@@ -176,6 +196,26 @@ impl<S: scene::Scene> Ticks for Beside<S> {
         let tick = Output { instructions: 0, answer: 0, ..output };
         self.same &= tick == Output { answer: 0, ..host };
         Ok(output)
+    }
+}
+
+struct CutRun<'i> {
+    scene: Scene,
+    image: Option<&'i Image>,
+    seed: u64,
+}
+
+impl Visitor for CutRun<'_> {
+    type Outcome = Result<(Outcome, usize, usize), BalancingError>;
+
+    fn visit<S: scene::Scene>(self) -> Self::Outcome {
+        let start: super::power_cut::Start<'_> = match self.image {
+            Some(image) => Box::new(move || Ok(Box::new(Link::start(image)?))),
+            None => Box::new(|| Ok(Box::new(OnHost(S::new())))),
+        };
+        let mut drive = PowerCuts::new(start)?;
+        let outcome = (self.scene.balance)(Words::of::<S>(), &mut drive, self.seed)?;
+        Ok((outcome, drive.cuts, drive.differing))
     }
 }
 

@@ -1,5 +1,6 @@
 //! The survey cut into jobs.
 
+use std::collections::VecDeque;
 use std::error::Error;
 use std::sync::{Mutex, PoisonError};
 
@@ -23,6 +24,8 @@ pub struct Job {
     pub place: String,
     /// Its name.
     pub name: String,
+    /// The core whose images it builds; empty for none.
+    pub core: &'static str,
     /// How long it takes beside others, about, in thousands of ticks of a closed loop.
     pub weight: u64,
     /// Does it; what it is given is told what is under way.
@@ -96,7 +99,26 @@ pub fn jobs(wanted: &Wanted, quick: bool) -> (Vec<Job>, Survey) {
             candidates(name, None).into_iter().map(|candidate| drivetrain(name, build, candidate, seconds, quick)),
         );
     }
-    (jobs, survey)
+    (in_turn(jobs), survey)
+}
+
+/// The jobs in turn for one core and for another, in their order else: images of one core are built one after another, those of two
+/// side by side.
+fn in_turn(jobs: Vec<Job>) -> Vec<Job> {
+    let mut queues: Vec<(&str, VecDeque<Job>)> = Vec::new();
+    for job in jobs {
+        match queues.iter_mut().find(|(core, _)| *core == job.core) {
+            Some((_, queue)) => queue.push_back(job),
+            None => queues.push((job.core, VecDeque::from([job]))),
+        }
+    }
+    // What needs no image comes first, all of it.
+    let mut ordered = Vec::new();
+    queues.iter_mut().filter(|(core, _)| core.is_empty()).for_each(|(_, queue)| ordered.extend(queue.drain(..)));
+    while queues.iter().any(|(_, queue)| !queue.is_empty()) {
+        ordered.extend(queues.iter_mut().filter_map(|(_, queue)| queue.pop_front()));
+    }
+    ordered
 }
 
 impl Survey {
@@ -146,11 +168,16 @@ fn of_no_scene(quick: bool) -> Vec<Job> {
         says("published and extreme cases");
         cases::all().map(Piece::Cases)
     };
-    let job =
-        |place: &str, name: &str, weight: u64, work: Work| Job { place: place.into(), name: name.into(), weight, work };
+    let job = |place: &str, name: &str, weight: u64, work: Work| Job {
+        place: place.into(),
+        name: name.into(),
+        core: "",
+        weight,
+        work,
+    };
     vec![
-        job(SWEEP, "stiff and extreme machines", if quick { 100 } else { 4_000 }, Box::new(sweeps)),
-        job(REVERSALS, "ways through backlash", if quick { 200 } else { 1_000 }, Box::new(reversals)),
+        job(SWEEP, "stiff and extreme machines", if quick { 100 } else { 2_000 }, Box::new(sweeps)),
+        job(REVERSALS, "ways through backlash", if quick { 100 } else { 600 }, Box::new(reversals)),
         job(CASES, "published and extreme cases", 200, Box::new(published)),
     ]
 }
@@ -160,7 +187,13 @@ fn generator(candidate: Candidate) -> Job {
         let verdicts = verdict::run_all(&[candidate], true, says, &|| {}).map_err(sentence)?;
         Ok(Piece::Generator(verdicts))
     };
-    Job { place: GENERATOR.into(), name: candidate.key(), weight: 600, work: Box::new(work) }
+    Job {
+        place: GENERATOR.into(),
+        name: candidate.key(),
+        core: candidate.board.core,
+        weight: 600,
+        work: Box::new(work),
+    }
 }
 
 fn balanced(scene: balancing::Scene, variant: &'static str, board: Facts) -> Job {
@@ -168,7 +201,13 @@ fn balanced(scene: balancing::Scene, variant: &'static str, board: Facts) -> Job
         let ran = scene.in_qemu(variant, board, SEED, says).map_err(sentence)?;
         Ok(Piece::Balanced(scene.name.to_owned(), Box::new(ran)))
     };
-    Job { place: scene.name.into(), name: format!("{variant} on {}", board.core), weight: 600, work: Box::new(work) }
+    Job {
+        place: scene.name.into(),
+        name: format!("{variant} on {}", board.core),
+        core: board.core,
+        weight: 600,
+        work: Box::new(work),
+    }
 }
 
 /// Sizes of the images without a drive, by core: every variant's are reckoned from them.
@@ -205,5 +244,11 @@ fn drivetrain(scene: &'static str, build: Build, candidate: Candidate, seconds: 
         Ok(Piece::Run(scene.to_owned(), aim, Box::new(run)))
     };
     let ticks = seconds * f64::from(candidate.rate_hz());
-    Job { place: scene.into(), name: candidate.key(), weight: 5 + (1e-3 * ticks) as u64, work: Box::new(work) }
+    Job {
+        place: scene.into(),
+        name: candidate.key(),
+        core: candidate.board.core,
+        weight: 5 + (1e-3 * ticks) as u64,
+        work: Box::new(work),
+    }
 }

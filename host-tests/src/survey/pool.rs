@@ -24,7 +24,7 @@ pub fn work(
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(slot) = jobs.get(index) else { break };
             let Some(job) = slot.lock().unwrap_or_else(PoisonError::into_inner).take() else { continue };
-            let Job { place, name, weight, work } = job;
+            let Job { place, name, weight, work, .. } = job;
             let failed = |reason: String| Failure { place: place.clone(), job: name.clone(), reason };
             let outcome = match catch_unwind(AssertUnwindSafe(|| work(&|text| says(text)))) {
                 Ok(outcome) => outcome.map_err(failed),
@@ -57,6 +57,7 @@ mod tests {
         let job = |name: &str, work: fn() -> Result<Piece, String>| Job {
             place: name.into(),
             name: name.into(),
+            core: "",
             weight: 2,
             work: Box::new(move |_| work()),
         };

@@ -10,3 +10,4 @@ mod phasor;
 mod procedure;
 mod target;
 mod tolerance;
+mod wrong_use;

@@ -273,12 +273,41 @@ fn run_out_and_sensor_are_taken_off() {
     assert!((x.re - 1e-4).abs() < 1e-10 && x.im.abs() < 1e-10, "{x:?}");
     let a = pick_up.motion(volts, 100.0, Motion::Acceleration).unwrap();
     assert!((a.re + 1.0).abs() < 1e-6 && a.im.abs() < 1e-6, "{a:?}");
-    assert_eq!(pick_up.motion(volts, 0.0, Motion::Displacement), None);
-    assert_eq!(Sensor { sensitivity: 0.0, ..pick_up }.motion(volts, 1.0, Motion::Displacement), None);
     // a sensor a quarter turn further round sees the same a quarter turn later
     let aside = Sensor { angle: std::f32::consts::FRAC_PI_2, ..Sensor::ideal(Motion::Displacement) };
     let seen = aside.motion(Phasor { re: 0.0, im: -1.0 }, 1.0, Motion::Displacement).unwrap();
     assert!((seen.re - 1.0).abs() < 1e-6 && seen.im.abs() < 1e-6, "{seen:?}");
+}
+
+/// Each wrong setting of a sensor has a sentence of its own.
+#[test]
+fn a_sensor_that_cannot_be_is_refused() {
+    let sound = Sensor { sensitivity: 20.0, high_pass: 100.0, ..Sensor::ideal(Motion::Velocity) };
+    let volts = Phasor { re: 1.0, im: 0.0 };
+    let said = |sensor: Sensor, phasor: Phasor, frequency: f32| {
+        sensor.motion(phasor, frequency, Motion::Displacement).unwrap_err().to_string()
+    };
+    for wrong in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        let of = said(Sensor { sensitivity: wrong, ..sound }, volts, 100.0);
+        assert_eq!(of, "the sensor's sensitivity must be a number above zero");
+        assert_eq!(said(sound, volts, wrong), "the frequency of the reading must be a number above zero");
+    }
+    for wrong in [-1.0, f32::NAN, f32::INFINITY] {
+        let of = said(Sensor { high_pass: wrong, ..sound }, volts, 100.0);
+        assert_eq!(of, "the sensor's lower corner must be a number, zero for none");
+    }
+    for wrong in [0.0, -1.0, f32::NAN] {
+        let of = said(Sensor { low_pass: wrong, ..sound }, volts, 100.0);
+        assert_eq!(of, "the sensor's upper corner must be above zero, infinite for none");
+    }
+    // 90 degrees where radians are expected
+    for wrong in [90.0, f32::NAN, f32::NEG_INFINITY] {
+        let of = said(Sensor { angle: wrong, ..sound }, volts, 100.0);
+        assert_eq!(of, "the sensor's angle must be a number of radians within ten turns");
+    }
+    let nothing = Phasor { re: f32::NAN, im: 0.0 };
+    assert_eq!(said(sound, nothing, 100.0), "the sensor's phasor is not a number");
+    assert!(sound.motion(volts, 100.0, Motion::Acceleration).is_ok());
 }
 
 #[test]

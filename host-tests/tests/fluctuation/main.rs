@@ -1,5 +1,6 @@
 //! The speed's fluctuation: cycles, waveforms and orders against motions in closed form, through the real drive.
 
+mod breakage;
 mod cycle_mean;
 mod extremes;
 mod flywheel;

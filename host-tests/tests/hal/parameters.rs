@@ -1,5 +1,6 @@
 //! Parameters in a flash whose power is cut anywhere.
 
+use driveline::balance::{self, Complex, Influence, Plan, Procedure, Run, Step};
 use driveline::parameters::{Error, Loaded, Parameters, Refusal, Store};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use serde::{Deserialize, Serialize};
@@ -370,4 +371,110 @@ fn what_does_not_fit_is_said_and_nothing_is_lost() {
     assert_eq!(store.load(&mut [0; 4096]).unwrap().parameters, Some(kept(1)));
     assert!(Store::new(Flash::new(), 0..PAGE as u32).is_err_and(|error| error == Error::Range));
     assert!(Store::new(Flash::new(), 7..3 * PAGE as u32).is_err_and(|error| error == Error::Range));
+}
+
+type Field = Procedure<f64, 2, 2, 4>;
+type Record = balance::Record<{ Field::words(2, 2) + 1 }>;
+
+/// A rotor that two sensors feel, and what is on it.
+struct Rotor {
+    influence: Influence<f64, 2, 2>,
+    on: [Complex<f64>; 2],
+}
+
+impl Rotor {
+    fn new() -> Self {
+        let mut influence = Influence::new(2, 2).unwrap();
+        influence.set(0, &[Complex::new(1.0, 0.4), Complex::new(-0.3, 0.2)]).unwrap();
+        influence.set(1, &[Complex::new(0.2, -0.5), Complex::new(0.8, 0.9)]).unwrap();
+        Rotor { influence, on: [Complex::new(0.0, 0.0); 2] }
+    }
+
+    fn run(&self) -> Run<f64, 2> {
+        let found = [Complex::new(5.0, 1.0), Complex::new(-2.0, 3.0)];
+        Run::new(&self.influence.predict(&found, &self.on).unwrap(), &[155.0; 2]).unwrap()
+    }
+
+    /// Does the next step, and says what was put on at last.
+    fn step(&mut self, field: &mut Field) {
+        let trial = Complex::new(1.5, 0.5);
+        match field.next() {
+            Step::Baseline => field.baseline(&self.run()).unwrap(),
+            Step::Trial { plane } => {
+                self.on[plane] = trial;
+                field.trial(plane, trial, &self.run()).unwrap();
+                self.on[plane] = Complex::new(0.0, 0.0);
+            }
+            Step::Correction | Step::Trim => {
+                // set a tenth wrong the first time
+                let share = if field.next() == Step::Trim { 1.0 } else { 0.9 };
+                let weights = field.correction().unwrap().weights.map(|weight| weight * share);
+                // the rotor has them whether the entry is kept or not
+                let before = field.weights();
+                self.on = [before[0] + weights[0], before[1] + weights[1]];
+                field.placed(&weights).unwrap();
+            }
+            Step::Verify => field.verified(&self.run()).unwrap(),
+            Step::Done => {}
+        }
+    }
+}
+
+/// The record of a balancing through the store: the power is cut at every seventh byte of the save of every step. What is loaded is the procedure before
+/// the step or after it, and it ends at the same weights.
+#[test]
+fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
+    let plan = Plan::usual(2, 2, 1e-9);
+    let whole = {
+        let (mut rotor, mut field) = (Rotor::new(), Field::new(plan).unwrap());
+        while field.next() != Step::Done {
+            rotor.step(&mut field);
+        }
+        field.weights()
+    };
+    let keep = |flash: &mut Flash, field: &Field| {
+        let mut store = Store::new(flash.clone(), RANGE).unwrap();
+        let saved = store.save(&Record::of(field, &[0x5eed]).unwrap(), &mut [0; 2048]);
+        *flash = store.release();
+        saved
+    };
+    let (mut flash, mut rotor, mut field) = (Flash::new(), Rotor::new(), Field::new(plan).unwrap());
+    keep(&mut flash, &field).unwrap();
+    flash.left = usize::MAX;
+    let (mut cuts, mut steps, mut lost) = (0, 0, 0);
+    while field.next() != Step::Done {
+        let (before, kept) = (field.clone(), flash.clone());
+        rotor.step(&mut field);
+        keep(&mut flash, &field).unwrap();
+        let bytes = usize::MAX - flash.left;
+        flash.left = usize::MAX;
+        for point in (0..bytes).step_by(7) {
+            let mut cut = Flash { left: point, ..kept.clone() };
+            assert_eq!(keep(&mut cut, &field), Err(Error::Flash(Cut)));
+            let mut own = [0];
+            let found: Record = load(&mut cut).parameters.unwrap();
+            let mut resumed: Field = found.resume(plan, &mut own).unwrap();
+            assert!(resumed == before || resumed == field, "step {steps}, cut after {point} of {bytes} bytes");
+            assert_eq!(own, [0x5eed]);
+            lost += usize::from(resumed == before);
+            let mut rotor = Rotor { influence: rotor.influence, on: rotor.on };
+            if resumed.next() == Step::Verify || resumed == before {
+                rotor.on = resumed.weights();
+            }
+            while resumed.next() != Step::Done {
+                rotor.step(&mut resumed);
+            }
+            assert_eq!(resumed.weights(), whole, "step {steps}, cut after {point} of {bytes} bytes");
+            cuts += 1;
+        }
+        steps += 1;
+    }
+    println!("{cuts} cuts in {steps} steps: {lost} steps were to be done again");
+    // baseline, two trials, correction, run, trim, run
+    assert_eq!((field.weights(), steps), (whole, 7));
+    assert!(cuts > 500 && lost > 0 && lost < cuts, "{cuts} {lost}");
+    // a record of another plan is refused
+    let other: Record = load(&mut flash).parameters.unwrap();
+    let resumed: Result<Field, _> = other.resume(Plan { trials_stay: true, ..plan }, &mut [0]);
+    assert!(matches!(resumed, Err(balance::Refusal::Record { .. })));
 }

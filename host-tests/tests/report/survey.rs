@@ -140,6 +140,8 @@ fn the_scenes_are_those_that_can_be_run() {
     assert!(jobs.iter().all(|job| job.place == "fan" || job.place == "flexible"));
     // Each in `f32` on one core and in fixed point on two.
     assert_eq!((jobs.len(), survey.scenes.len(), survey.balanced.len()), (6, 1, 1));
+    // The first two are for two cores, so that their images are built side by side.
+    assert_ne!(jobs[0].core, jobs[1].core);
     let unknown = Wanted::scenes(&["windmill".to_owned()]).unwrap_err();
     assert!(unknown.contains("`windmill`") && unknown.contains("`hoist`"), "{unknown}");
 }

@@ -28,6 +28,23 @@ fn a_flexible_rotor_is_quiet_at_both_speeds_after_one_correction() {
     balanced("flexible", "flexible/fixed/two-mass/4000", 2);
 }
 
+/// The controller loses its memory after every entry, the rotor still turning: it goes on from its flash to the same weights, and the rotor is balanced
+/// as well. Baseline, two trials, and twice weights and their run make seven entries; run-out, baseline, three trials, weights and their run as many.
+#[test]
+fn a_power_cut_after_every_entry_changes_nothing() {
+    for (scene, variant) in [
+        ("balanced-fan", "balanced-fan/f32/two-mass/4000"),
+        ("balanced-fan", "balanced-fan/fixed/two-mass/4000"),
+        ("flexible", "flexible/f32/two-mass/4000"),
+    ] {
+        let (outcome, cuts, differing) = Scene::named(scene).unwrap().with_power_cuts(variant, None, 1).unwrap();
+        assert_eq!((cuts, differing), (7, 0), "{variant}");
+        for claim in &outcome.claims {
+            assert!(claim.holds(), "{variant}: {claim:?}");
+        }
+    }
+}
+
 #[test]
 fn what_the_firmware_reads_is_what_the_rotor_does() {
     // The sensors read 1.05 of the truth 10 degrees late, and 0.95 of it 10 degrees early; what their noise of 5 %

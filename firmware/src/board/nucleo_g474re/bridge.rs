@@ -85,10 +85,28 @@ pub fn outputs_are_on() -> bool {
     TIM1.bdtr().read().moe()
 }
 
-/// Switches all outputs off, whatever else has failed: for the handler of faults.
-#[inline(always)]
-pub fn outputs_off() {
-    TIM1.bdtr().modify(|r| r.set_moe(false));
+/// Address of TIM1_BDTR.
+const BDTR: u32 = 0x4001_2c44;
+/// MOE in it.
+const MOE: u32 = 1 << 15;
+
+/// The stack has run out of the memory, or worse: the outputs off, again and again; the watchdog, which nobody feeds any more, does the rest.
+///
+/// It uses no stack, for there may be none.
+#[unsafe(naked)]
+#[unsafe(no_mangle)]
+extern "C" fn HardFault() -> ! {
+    core::arch::naked_asm!(
+        "movw r0, {low}",
+        "movt r0, {high}",
+        "2: ldr r1, [r0]",
+        "bic r1, r1, {moe}",
+        "str r1, [r0]",
+        "b 2b",
+        low = const BDTR & 0xffff,
+        high = const BDTR >> 16,
+        moe = const MOE,
+    );
 }
 
 /// The outputs as a link of the enable chain.
