@@ -257,12 +257,12 @@ impl<V: Variant> Scene for PunchPress<V> {
 }
 
 /// What the panel of a press knows: the strokes that were finished last, and the last advice.
-pub struct Notes<N> {
+pub struct Notes<N: Number> {
     window: Option<Window<N, BINS>>,
     advice: Option<(Ripple, Flywheel)>,
 }
 
-impl<N> Default for Notes<N> {
+impl<N: Number> Default for Notes<N> {
     fn default() -> Self {
         Notes { window: None, advice: None }
     }
