@@ -63,7 +63,7 @@ fn the_screen_passes_its_resonance_quickly() {
 }
 
 /// A run-up by a steady torque passes the wheels' resonance and the fractions of the mesh's: the teeth carry more than the
-/// torque asks for, with an error on every second tooth more than without, and never part.
+/// torque asks for, with an error on every second tooth more than without, and do not part.
 #[test]
 fn the_teeth_excite_the_gear_drive() {
     let torque = 1.2 * gear_drive::RATED_TORQUE;
@@ -76,12 +76,13 @@ fn the_teeth_excite_the_gear_drive() {
         motion.set_torque(0, torque);
         motion.advance(0.2);
         motion.watch(Signal::Force(GearPair::MESH));
-        motion.advance(1.6);
+        // a tick holds no more than a thousand events, and every tooth brings two
+        (0..1600).for_each(|_| motion.advance(1e-3));
         let force = motion.extremes(Signal::Force(GearPair::MESH)).unwrap();
         let factor = force.peak * gear_drive::BASE_RADII[0] / through;
         println!("error {error}: mesh force {:.0} to {:.0} N, dynamic factor {factor:.2}", force.least, force.peak);
-        // the teeth met once, at the start
-        assert_eq!(motion.events().len(), 1, "{:?}", motion.events());
+        // they meet, and without an error bounce once, as the torque steps up; from then on they keep contact
+        assert!(motion.events().iter().all(|event| event.time < 0.01), "{:?}", motion.events());
         assert!(force.least > 0.0 && motion.speed(0) > gear_drive::RATED_SPEED, "{force:?}");
         factors.push(factor);
     }

@@ -278,7 +278,7 @@ fn before(number: u32) -> Before {
 
 /// Whose records stand in the two halves when a new firmware comes, in the order of their saves.
 #[derive(Clone, Copy, Debug)]
-enum Record {
+enum Saved {
     Before(u32),
     Kept(u32),
     Foreign(u32),
@@ -291,7 +291,7 @@ fn loaded(flash: &mut Flash) -> (Option<Kept>, Option<Before>) {
 
 #[test]
 fn a_power_cut_while_a_new_version_is_saved_leaves_the_old_record_or_the_new() {
-    use Record::{Before as B, Foreign as F, Kept as K};
+    use Saved::{Before as B, Foreign as F, Kept as K};
     let mut points = 0;
     for history in [
         &[B(1)][..],
