@@ -7,8 +7,9 @@ use super::fit::{Derived, Fit, fit};
 use super::friction::{SEGMENTS, Segment};
 use super::gap::{PUSH, PUSHES, Push, gap};
 use super::identified::{Figure, Identified};
-use super::multisine::Line;
+use super::multisine::{Line, Window};
 use super::order::Order;
+use super::servo::Servo;
 use super::{Eccentricity, Friction, Reason, Response, Stage, TestConfig};
 use crate::scalar::sqrt;
 
@@ -52,6 +53,8 @@ pub(crate) struct Known<const L: usize> {
     pub responses: [[Response; L]; 2],
     /// Lines of the next record.
     pub lines: [Line; L],
+    /// Window of what is measured next.
+    pub window: Window,
     /// Records so far, and how long the last one was \[s\].
     records: u32,
     time: f64,
@@ -71,6 +74,7 @@ impl<const L: usize> Known<L> {
             last: None,
             responses: [[Response::default(); L]; 2],
             lines: [Line::NONE; L],
+            window: Window::NONE,
             records: 0,
             time: 0.0,
             level: 0.0,
@@ -101,6 +105,8 @@ pub struct Job<const L: usize> {
 pub struct Findings<const L: usize> {
     pub(crate) known: Known<L>,
     pub(crate) next: Next,
+    /// What holds the motor from now on.
+    pub(crate) servo: Servo,
 }
 
 /// Share of the room that a swing may take: transients come on top.
@@ -124,7 +130,8 @@ impl<const L: usize> Job<L> {
         self.stage
     }
 
-    /// Solves it: some ten million operations of `f64` for a record, off the tick.
+    /// Solves it, off the tick: on a Cortex-M4F, without `f64` in hardware, 0.12 and 0.96 million instructions for friction
+    /// and encoder, and 163 million for each record.
     #[must_use]
     pub fn solve(&self, config: &TestConfig) -> Findings<L> {
         let mut known = self.known;
@@ -135,7 +142,11 @@ impl<const L: usize> Job<L> {
             Stage::Resonance => self.resonance(&mut known, config),
             Stage::Holding | Stage::Done | Stage::Refused => self.next,
         };
-        Findings { known, next }
+        let servo = match next {
+            Next::Reversals { .. } => Servo::slow(config, known.inertia),
+            _ => Servo::new(config, known.inertia),
+        };
+        Findings { known, next, servo }
     }
 
     fn friction(&self, known: &mut Known<L>, config: &TestConfig) -> Next {
@@ -147,6 +158,7 @@ impl<const L: usize> Job<L> {
                 if needed + self.angle.abs() > 0.8 * config.settings.travel {
                     return Next::Refused(Reason::Travel);
                 }
+                known.window = Window::over(config.turns());
                 Next::Turns
             }
             Err(reason) => Next::Refused(reason),
@@ -243,6 +255,7 @@ impl<const L: usize> Job<L> {
         known.time = known.time.min(most);
         let blocks = config.blocks(known.time);
         known.lines = lines(hertz, blocks, config);
+        known.window = Window::over(blocks);
         set(&mut known.lines, amplitude);
         Next::Record { blocks, settle: config.blocks(settle), way }
     }

@@ -56,6 +56,9 @@ pub(crate) struct Window {
 }
 
 impl Window {
+    /// No window.
+    pub(crate) const NONE: Self = Self { turn: [1.0, 0.0], phasor: [1.0, 0.0] };
+
     /// A window over so many blocks.
     pub(crate) fn over(blocks: u32) -> Self {
         let (sine, cosine) = crate::scalar::sin_cos(core::f64::consts::TAU / f64::from(blocks.max(1)));

@@ -132,7 +132,7 @@ impl<const L: usize> Commissioning<L> {
             servo: Servo::new(config, config.settings.inertia),
             deviation: Deviation { disturbance: -held, ..Deviation::default() },
             reference: Reference::default(),
-            window: Window::over(1),
+            window: Window::NONE,
             lines: [Line::NONE; L],
             orders: [Order::default(); 3],
             segments: [Segment::default(); SEGMENTS],
@@ -193,17 +193,14 @@ impl<const L: usize> Commissioning<L> {
         })
     }
 
-    /// Takes what a job has found, and goes on.
+    /// Takes what a job has found, and goes on. Like [`job`](Self::job) it only copies: both belong between two ticks.
     pub fn accept(&mut self, config: &TestConfig, findings: Findings<L>) {
         if self.phase != Phase::Waits || matches!(self.stage, Stage::Done | Stage::Refused) {
             return;
         }
         self.known = findings.known;
         self.next = findings.next;
-        self.servo = match self.next {
-            Next::Reversals { .. } => Servo::slow(config, self.known.inertia),
-            _ => Servo::new(config, self.known.inertia),
-        };
+        self.servo = findings.servo;
         self.eccentric = self.known.eccentric.map(|part| part as f32);
         self.begin(config);
     }
@@ -485,7 +482,7 @@ impl<const L: usize> Commissioning<L> {
             }
             Next::Turns => {
                 self.left = config.turns();
-                self.window = Window::over(self.left);
+                self.window = self.known.window;
             }
             Next::Reversals { .. } => {
                 self.left = config.blocks(12.0 / config.servo);
@@ -496,7 +493,7 @@ impl<const L: usize> Commissioning<L> {
             }
             Next::Record { blocks, way, .. } => {
                 self.left = blocks;
-                self.window = Window::over(blocks);
+                self.window = self.known.window;
                 self.fading = 0.0;
                 for line in &mut self.lines {
                     (line.angle, line.torque) = ([0.0; 2], [0.0; 2]);
