@@ -23,6 +23,8 @@ pub struct Case {
     pub number: u32,
     /// What it is, in a sentence.
     pub summary: String,
+    /// Whether its test is so short that QEMU takes less than a minute for it.
+    pub brief: bool,
     /// The plant at the start.
     pub plant: Plant,
     /// What the test knows.
@@ -65,6 +67,7 @@ fn crane() -> Result<Case, PlantError> {
         name: "hoist".into(),
         number: 0,
         summary: "A 12 t crane hoist with a test load of 3 t.".into(),
+        brief: true,
         plant: chain.build()?,
         settings: HOIST,
         counts: 8192,
@@ -91,6 +94,7 @@ fn mill() -> Result<Case, PlantError> {
         name: "mill".into(),
         number: 1,
         summary: "A reversing blooming mill with a gap of 10 mrad in its spindles, rolling nothing.".into(),
+        brief: false,
         plant: chain.build()?,
         settings: MILL,
         counts: 32_768,
@@ -125,6 +129,7 @@ fn tool() -> Result<Case, PlantError> {
         name: "spindle".into(),
         number: 2,
         summary: "A machine tool's spindle with a resonance of 800 Hz, in the air.".into(),
+        brief: true,
         plant: chain.build()?,
         settings: SPINDLE,
         counts: spindle::COUNTS,
@@ -186,6 +191,7 @@ pub fn of_file(machine: &MachineFile, trial: Trial) -> Result<Case, String> {
         name: machine.slug(),
         number: 0,
         summary: format!("The machine `{}`, from a file.", machine.name),
+        brief: false,
         plant,
         settings: TestSettings {
             rate: Rate::hz(machine.control.rate_hz),

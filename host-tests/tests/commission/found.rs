@@ -13,6 +13,7 @@ fn meets_its_aims(name: &str, seed: u64) -> Course {
     let (case, course) = course(name, seed);
     let verdict = verdict(&case, &course, None);
     assert_eq!(verdict.refused, None, "{name}");
+    assert!(verdict.meets(), "{name}: {verdict:?}");
     let mut aimed = 0;
     for row in &verdict.figures {
         if let Some(met) = row.met() {
