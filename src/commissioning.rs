@@ -63,10 +63,23 @@
 //! A gear that loses a share of its torque makes the machine look heavier when it drives and lighter when it is driven
 //! [Wang 1989 §1-3]: the mean of both ways is taken.
 //!
+//! # Bounds
+//! Torque, travel and what the shaft carries stay within the [`TestSettings`]. Before the multisine, while it is not
+//! known whether the load is free, the torque takes half of the shaft's room at most, and the first run-up is gentle.
+//! A motor that lags too far ([`Reason::NotFollowed`]), a torque that goes from bound to bound
+//! ([`Reason::Unsteady`]), an angle that jumps and a travel that is left end the test without torque: what holds the
+//! load then is the brake. Where data do not support an answer the test ends holding the load, with its [`Reason`].
+//!
 //! # Limits
-//! - The arithmetic in the tick is in `f32`: for cores with an FPU.
+//! - The arithmetic in the tick is in `f32`: for cores with an FPU. A record's solving, in `f64`, takes 163 million
+//!   instructions on a Cortex-M4F, while the tick goes on.
+//! - The first guess of the inertia must be right within a factor of two.
+//! - One resonance is told, the lowest, and it must lie within the band; higher modes count as a compliance.
+//! - Friction is taken as weight, Coulomb and viscous friction over the two speeds of its test.
+//! - A gap is seen as one, wherever it lies, and no wider than a tenth of a turn of the motor.
 //! - The gap is seen only where friction holds the load and no weight presses the gap shut: else
 //!   [`Reason::LoadNotHeld`] or [`Reason::Preloaded`].
+//! - While there is a gap the multisine stays below what friction holds: a light friction means long records.
 //! - What lies before the gap is taken to turn freely under half of the friction.
 //! - The eccentricity is told from an unbalance's torque by nothing: at the test's speed the rotor's own swing must be
 //!   small beside it.
