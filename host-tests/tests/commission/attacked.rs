@@ -1,10 +1,12 @@
 //! What goes wrong at the machine ends in a refusal with its reason, and stays within torque and travel on the way.
 
+use core::f64::consts::TAU;
 use std::io;
 
-use driveline::commissioning::{Reason, TestConfig, TestSettings};
+use driveline::commissioning::{Commissioning, Reason, TestConfig, TestSettings};
 use driveline_firmware::scene::{Input, Output};
 use driveline_firmware::scenes::commission::{Commission, SPINDLE, reason};
+use driveline_firmware::scenes::spindle::COUNTS;
 use host_tests::commission::{Case, Course, named, on_host, run, verdict};
 use host_tests::plant::{Chain, Plant, Shaft, Start};
 use host_tests::run::closed_loop::{OnHost, Ticks};
@@ -140,7 +142,7 @@ fn settings_that_are_no_numbers() {
             let mut settings = SPINDLE;
             *field(&mut settings) = value;
             let Ok(config) = TestConfig::try_new(&settings) else { continue };
-            let mut test = driveline::commissioning::Commissioning::<24>::new(&config);
+            let mut test = Commissioning::<24>::new(&config);
             for tick in 0..20_000_u32 {
                 let torque = test.tick(&config, tick.wrapping_mul(40_000));
                 let most = settings.torque.min(settings.shaft_torque) as f32;
@@ -150,6 +152,72 @@ fn settings_that_are_no_numbers() {
                     test.accept(&config, findings);
                 }
             }
+        }
+    }
+}
+
+/// What breaks while the test runs.
+#[derive(Clone, Copy, Debug)]
+enum Broken {
+    /// The encoder gives the same angle for ever.
+    Frozen,
+    /// The encoder counts the other way.
+    Reversed,
+    /// The motor is stopped and held.
+    Seized,
+    /// The torque has no effect, friction brings the motor to rest.
+    Cut,
+}
+
+/// A rigid spindle on which something breaks at a tick; the answer, and ticks from then on.
+fn broken(config: &TestConfig, what: Broken, at: u32) -> (Option<Reason>, u32) {
+    let settings = config.settings();
+    let (inertia, drag, period) = (0.016, 0.05, 1.0e-4);
+    let (mut angle, mut speed, mut shown, mut offset) = (0.0_f64, 0.0_f64, 0_u32, 0_u32);
+    let mut test = Commissioning::<24>::new(config);
+    for tick in 0..at + 400_000 {
+        let fault = (tick >= at).then_some(what);
+        let count = (angle / TAU * f64::from(COUNTS)).floor() as i64 as u32;
+        let read = count.wrapping_mul(u32::MAX / COUNTS + 1);
+        if tick == at {
+            offset = read.wrapping_mul(2);
+        }
+        shown = match fault {
+            Some(Broken::Frozen) => shown,
+            // The same where it breaks.
+            Some(Broken::Reversed) => offset.wrapping_sub(read),
+            _ => read,
+        };
+        let torque = test.tick(config, shown);
+        assert!(torque.abs() <= settings.torque as f32, "{what:?} at {at}: {torque}");
+        if let Some(job) = test.job() {
+            let findings = job.solve(config);
+            test.accept(config, findings);
+        }
+        if let Some(outcome) = test.outcome() {
+            return (outcome.err(), tick.saturating_sub(at));
+        }
+        let pushed = if let Some(Broken::Cut) = fault { 0.0 } else { f64::from(torque) };
+        speed += period / inertia * (pushed - drag * speed);
+        if let Some(Broken::Seized) = fault {
+            speed = 0.0;
+        }
+        angle += period * speed;
+    }
+    (None, u32::MAX)
+}
+
+#[test]
+fn what_breaks_on_the_way() {
+    let config = TestConfig::try_new(&SPINDLE).unwrap();
+    // Through every stage: the test of this machine, which has no resonance, ends after 10 s.
+    for at in (0..14).map(|k| 1 + 7_001 * k) {
+        for what in [Broken::Frozen, Broken::Reversed, Broken::Seized, Broken::Cut] {
+            let (reason, ticks) = broken(&config, what, at);
+            assert_eq!(reason, Some(Reason::NotFollowed), "{what:?} at {at}");
+            // The lag is half of 17.5 N m over 0.012 kg m2 (209/s)^2: 17 mrad, which takes a tick at 200 rad/s and 600 for
+            // a reference that starts with 100 rad/s2, a quarter of the ramps'.
+            assert!(ticks < 1_000, "{what:?} at {at}: {ticks}");
         }
     }
 }
