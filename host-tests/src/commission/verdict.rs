@@ -92,6 +92,9 @@ const GAINS: [&str; 8] = [
     "speed loop: slip, N m s/rad",
 ];
 
+/// What is said of a course that was ended by its time.
+const OVER: &str = "no answer within an hour at the machine: more torque, more friction where there is a gap, or a finer encoder is expected";
+
 /// Puts a course beside the truth.
 pub fn verdict(case: &Case, course: &Course, target: Option<Target>) -> Verdict {
     let known = |value: f64| value.is_finite().then_some(value);
@@ -133,7 +136,8 @@ pub fn verdict(case: &Case, course: &Course, target: Option<Target>) -> Verdict 
         machine: case.name.clone(),
         seconds: course.moments.last().map_or(0.0, |moment| moment.time),
         peak: course.peak / case.rated_torque,
-        refused: sentence(course.reasons[0]),
+        // A course ends with an answer, with a reason, or by its time.
+        refused: sentence(course.reasons[0]).or_else(|| course.figures.is_none().then_some(OVER)),
         gap_refused: sentence(course.reasons[1]),
         figures,
         gains,

@@ -215,8 +215,8 @@ fn what_breaks_on_the_way() {
         for what in [Broken::Frozen, Broken::Reversed, Broken::Seized, Broken::Cut] {
             let (reason, ticks) = broken(&config, what, at);
             assert_eq!(reason, Some(Reason::NotFollowed), "{what:?} at {at}");
-            // The lag is half of 17.5 N m over 0.012 kg m2 (209/s)^2: 17 mrad, which takes a tick at 200 rad/s and 600 for
-            // a reference that starts with 100 rad/s2, a quarter of the ramps'.
+            // The lag is half of 17.5 N m over 0.012 kg m2 (209/s)^2: 17 mrad, which takes a tick at 200 rad/s and 600
+            // for a reference that starts with 100 rad/s2, a quarter of the ramps'.
             assert!(ticks < 1_000, "{what:?} at {at}: {ticks}");
         }
     }

@@ -3,7 +3,7 @@
 use driveline::commissioning::{Commissioning, Reason, Stage, TestConfig, TestSettings};
 use driveline::design::{Encoder, Rate};
 use driveline_firmware::scenes::commission::{SPINDLE, reason};
-use host_tests::commission::{Case, Course, named, on_host};
+use host_tests::commission::{Case, Course, named, on_host, verdict};
 use host_tests::plant::{Chain, Shaft};
 
 fn run(case: &Case) -> Course {
@@ -87,6 +87,15 @@ fn gaps_that_nothing_shows() {
         let course = run(&named(name).unwrap());
         assert_eq!(reason(course.reasons[1]), Some(expected), "{name}");
     }
+}
+
+#[test]
+fn an_answer_that_does_not_come() {
+    let case = named("spindle").unwrap();
+    let mut course = run(&case);
+    (course.figures, course.reasons) = (None, [0; 2]);
+    let verdict = verdict(&case, &course, None);
+    assert!(!verdict.meets() && verdict.refused.is_some_and(|reason| reason.contains("an hour")));
 }
 
 #[test]
