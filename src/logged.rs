@@ -255,6 +255,13 @@ const _: () = {
     all!(hal::PwmTorque<(), f32>, hal::SpiDac<(), f32>, hal::ThreePhase<(), (), (), f32>, hal::Tmc4671<(), f32>);
 };
 
+#[cfg(feature = "hal-async")]
+const _: () = {
+    use crate::hal;
+
+    all!(hal::AwaitedAngle, hal::AwaitedTorque<f32>);
+};
+
 #[cfg(feature = "telemetry")]
 const _: () = {
     use crate::telemetry;
