@@ -14,7 +14,7 @@
 //! | [`AdcVibration`] | a slice of conversions | vibration, analog |
 //! | `AwaitedAngle`, `AwaitedTorque` | what was awaited between two ticks | the four on `SpiDevice` under `embedded-hal-async` |
 //!
-//! A reading is a value that is new and sound, or [`Faults`]; there is no third answer, so that a failed bus never repeats the last
+//! A reading is a value that is new and sound, or [`Faults`](crate::fault::Faults); there is no third answer, so that a failed bus never repeats the last
 //! value. `doc/adapters.md` shows every fault of every adapter with what the drive does, from runs.
 //!
 //! Crates for the encoders and the accelerometer exist (`as5048a`, `adxl355`), on `embedded-hal` 0.2; these are our own.

@@ -35,11 +35,11 @@ pub struct ModesSettings {
     pub shaft_torque: f64,
     /// The speed below which a braking machine has stopped [rad/s].
     pub standstill: f64,
-    /// Time beyond a limit, other than underspeed's, that does not trip yet [s].
+    /// Time beyond a limit, other than underspeed's, that does not trip yet \[s\].
     pub prompt: f64,
-    /// Time of underspeed that does not trip yet [s].
+    /// Time of underspeed that does not trip yet \[s\].
     pub patient: f64,
-    /// Time that a start may take [s].
+    /// Time that a start may take \[s\].
     pub start: f64,
 }
 
@@ -258,7 +258,7 @@ part!(
 
 part!(
     ModesConfig, (settings: &ModesSettings, period: f64), MODES,
-    "[`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` [s] or more.",
+    "[`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` \\[s\\] or more.",
     |format| windows(settings, &format),
     |cast, [middle, half, centre, reach, shaft, standstill], []| ModesConfig {
         running: Window { middle: cast!(middle), half: cast!(half) },
@@ -303,7 +303,7 @@ impl Gains<Fixed> {
 }
 
 impl<const K: usize> RackConfig<K> {
-    /// A delay [s] in ticks of `period` [s].
+    /// A delay \[s\] in ticks of `period` \[s\].
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -311,7 +311,7 @@ impl<const K: usize> RackConfig<K> {
         or_stop!(Self::try_new(delay, period))
     }
 
-    /// A delay [s] in ticks of `period` [s], to the nearest.
+    /// A delay \[s\] in ticks of `period` \[s\], to the nearest.
     ///
     /// # Errors
     /// [`Error::Value`] for a delay that is negative or does not fit the ring.
