@@ -208,6 +208,41 @@ fn a_power_cut_at_any_byte_leaves_the_old_or_the_new() {
     assert!(points >= 1000 && erasing > 0, "{points} {erasing}");
 }
 
+/// Anything, as [`Kept`] in a sound record; an array has no count before it.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Anything([u8; 13]);
+
+impl Parameters for Anything {
+    const IDENTITY: u32 = Kept::IDENTITY;
+    const VERSION: u16 = Kept::VERSION;
+}
+
+/// The check says that a record is whole, not that its parameters are some: a count of four thousand million values, say.
+#[test]
+fn a_sound_record_of_nonsense_is_refused_and_the_last_good_one_kept() {
+    for count in [[0xff, 0xff, 0xff, 0xff, 0x0f], [0xff; 5], [0x7f; 5], [2, 0, 0, 0, 0]] {
+        let mut flash = Flash::new();
+        save(&mut flash, &kept(1)).unwrap();
+        // two numbers of four bytes, then the count of the values
+        let mut nonsense = [0; 13];
+        nonsense[8..].copy_from_slice(&count);
+        save_other(&mut flash, &Anything(nonsense));
+        let Loaded { parameters, refused } = load::<Kept>(&mut flash);
+        assert_eq!((parameters, refused), (Some(kept(1)), Some(Refusal::Content)), "{count:?}");
+    }
+    // a page of any bytes
+    let mut flash = Flash::new();
+    save(&mut flash, &kept(1)).unwrap();
+    for _ in 0..1000 {
+        for place in PAGE..2 * PAGE {
+            flash.bytes[place] = flash.any();
+        }
+        flash.bytes[PAGE..PAGE + 4].copy_from_slice(b"DLP1");
+        let Loaded { parameters, refused } = load::<Kept>(&mut flash);
+        assert_eq!((parameters, refused), (Some(kept(1)), Some(Refusal::Damaged)));
+    }
+}
+
 /// A flash with a check of each word, as the STM32G4's: what is half programmed cannot be read at all.
 #[test]
 fn a_record_that_the_flash_does_not_give_is_refused_and_the_other_one_taken() {
