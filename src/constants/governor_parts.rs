@@ -121,7 +121,7 @@ const fn windows(settings: &ModesSettings, format: &Format) -> Values<6, 0> {
     ))
 }
 
-const fn ticks(time: f64, period: f64) -> Result<u32, Error> {
+pub(super) const fn ticks(time: f64, period: f64) -> Result<u32, Error> {
     let ticks = time / period + 0.5;
     if time >= 0.0 && period > 0.0 && ticks < 2_147_483_648.0 { Ok(ticks as u32) } else { Err(Error::Value(TIMES)) }
 }

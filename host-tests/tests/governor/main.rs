@@ -9,3 +9,4 @@ mod page;
 mod sets;
 mod sharing;
 mod switch;
+mod watch;
