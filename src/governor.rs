@@ -26,7 +26,10 @@ pub use limit::{
     Between, BetweenConfig, Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, Symmetric, SymmetricConfig,
 };
 pub use modes::{Duty, Mode, Modes, ModesConfig, Request, Supervisor, Trip};
-pub use prompt::{ActiveDamping, ActiveDampingConfig, FeedForward, FeedForwardConfig, Prompt};
+pub use prompt::{
+    AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, FeedForward,
+    FeedForwardConfig, Prompt,
+};
 pub use rack::{Rack, RackConfig};
 pub use set_point::{Barred, BarredConfig, Droop, DroopConfig, SetPoint, Window};
 pub use slack::{Slack, SlackConfig};

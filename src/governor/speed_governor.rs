@@ -11,7 +11,7 @@
 //! | parameter | parts |
 //! |---|---|
 //! | `S`, the set point | `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred) |
-//! | `F`, added torque | `()`, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping) |
+//! | `F`, added torque | `()`, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping), [`AccelerationFeedback`](super::AccelerationFeedback) |
 //! | `L`, the limit | [`Symmetric`], [`Between`](super::Between), [`Curve`](super::Curve), [`Slew`](super::Slew) or [`Slack`](super::Slack) round any of them |
 //! | `M`, the modes | `()` always at work, [`Modes`](super::Modes) |
 //! | `V`, the view | `()` the estimates as they are, [`Mean`](super::Mean) over an engine's firing interval, [`OverCycle`](super::OverCycle) without what repeats every cycle |
