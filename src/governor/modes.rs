@@ -239,7 +239,11 @@ impl Modes {
                 }
                 duty
             }
-            Mode::Braking if estimate.motor_speed.exceeds(config.standstill) => Duty::Brake,
+            // One that is stopped before its first tick begins at its speed all the same.
+            Mode::Braking if estimate.motor_speed.exceeds(config.standstill) => match duty {
+                Duty::Begin => duty,
+                _ => Duty::Brake,
+            },
             Mode::Braking => {
                 self.mode = Mode::Stopped;
                 Duty::Idle
