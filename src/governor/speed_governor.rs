@@ -117,6 +117,7 @@ where
         to: &SpeedGovernorConfigOf<N, S, F, L, M, V>,
         estimate: &Estimate<N>,
     ) {
+        let estimate = &self.view.seen(estimate);
         let target = self.target(from, estimate);
         let error = target.minus(estimate.motor_speed).gain_operand();
         let before = self.wanted(from, estimate, self.integral, error);
