@@ -1,5 +1,6 @@
 //! The composed governor: its design, its parts, its modes and trips; the generator sets that it governs.
 
+mod attack;
 mod barred;
 mod design;
 mod engine;
