@@ -111,7 +111,8 @@ impl<N: Number, const K: usize> View<N> for Mean<N, K> {
 /// The motor's speed without what repeats in every cycle, as the drive's fluctuation has it ([`CycleMean`](crate::fluctuation::CycleMean)); as it
 /// is where the fluctuation does not know. Everything else is seen as it is, and so is the speed by the modes and their trips.
 ///
-/// A load torque that is fed forward brings the ripple back: leave [`FeedForward`](super::FeedForward) out.
+/// A load torque that is fed forward brings the ripple back: leave [`FeedForward`](super::FeedForward) out, or take [`Mean`], which sees the
+/// mean of the load torque as well, where the speed hardly varies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct OverCycle<N> {
