@@ -135,9 +135,10 @@ impl Survey {
                 }
             }
             Piece::Generator(verdicts) => {
-                let all = self.generator.get_or_insert_with(|| Verdicts { verdicts: Vec::new(), faults: Vec::new() });
+                let all = self.generator.get_or_insert_with(Verdicts::default);
                 all.verdicts.extend(verdicts.verdicts);
                 all.faults.extend(verdicts.faults);
+                all.trips.extend(verdicts.trips);
             }
             Piece::Balanced(scene, ran) => {
                 if let Some((_, all)) = self.balanced.iter_mut().find(|(name, _)| *name == scene) {
