@@ -236,6 +236,25 @@ const _: () = {
     );
 };
 
+const _: () = {
+    use crate::commissioning;
+
+    all!(
+        commissioning::Commissioning<24>,
+        commissioning::Eccentricity,
+        commissioning::Figure,
+        commissioning::Findings<24>,
+        commissioning::Friction,
+        commissioning::Identified,
+        commissioning::Job<24>,
+        commissioning::Reason,
+        commissioning::Response,
+        commissioning::Stage,
+        commissioning::TestConfig,
+        commissioning::TestSettings,
+    );
+};
+
 #[cfg(feature = "balancing")]
 const _: () = {
     all!(

@@ -15,6 +15,7 @@ use crate::governed::Governed;
 use crate::on_axis::OnAxis;
 use crate::scenes::balanced_fan::BalancedFan;
 use crate::scenes::blooming_mill::{self, BloomingMill};
+use crate::scenes::commission::Commission;
 use crate::scenes::composition::{ByHand, Composed, Of};
 use crate::scenes::converter::{self, Converter};
 use crate::scenes::crane_travel::CraneTravel;
@@ -66,6 +67,7 @@ variants! {
     "balanced-fan/fixed/two-mass/4000" => Balanced<BalancedFan<Fixed>>,
     "flexible/f32/two-mass/4000" => Balanced<Flexible<f32>>,
     "flexible/fixed/two-mass/4000" => Balanced<Flexible<Fixed>>,
+    "commission/f32/two-mass/10000" => Commission,
     "hoist/f32/rigid/1000" => Governed<Hoist<f32, with::Rigid, 1000>>,
     "hoist/f32/rigid/4000" => Governed<Hoist<f32, with::Rigid, 4000>>,
     "hoist/f32/rigid/10000" => Governed<Hoist<f32, with::Rigid, 10000>>,

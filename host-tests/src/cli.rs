@@ -19,6 +19,7 @@ mod balance;
 mod balancing;
 mod campbell;
 mod check;
+mod commission;
 mod design;
 mod emit;
 mod failure;
@@ -70,6 +71,7 @@ enum Command {
     Balance(balance::Balance),
     Generator(generator::Generator),
     Check(check::Check),
+    Commission(commission::Commission),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
     Sizes(sizes::Sizes),
@@ -88,6 +90,7 @@ impl Command {
             Self::Balance(command) => command.json,
             Self::Generator(command) => command.json,
             Self::Check(command) => command.json,
+            Self::Commission(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
             Self::Sizes(command) => command.json,
@@ -106,6 +109,7 @@ impl Command {
             Self::Balance(command) => command.execute(),
             Self::Generator(command) => command.execute(),
             Self::Check(command) => command.execute(),
+            Self::Commission(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),
             Self::Sizes(command) => command.execute(),

@@ -6,6 +6,7 @@ pub mod balancing;
 pub mod cases;
 pub mod check;
 pub mod cli;
+pub mod commission;
 pub mod generator;
 pub mod image;
 pub mod link;

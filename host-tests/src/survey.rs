@@ -27,4 +27,4 @@ pub use figures::{Failure, Gentle, Run, SceneFigures, Survey};
 pub use jobs::{CASES, Job, Piece, REVERSALS, SWEEP, jobs};
 pub use pool::work;
 pub use reason::{Quantity, Reason, Share, reasons};
-pub use wanted::{GENERATOR, Wanted};
+pub use wanted::{COMMISSIONING, GENERATOR, Wanted};

@@ -47,11 +47,12 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
     let mut values = [(f64::NAN, f64::NAN); N];
     let mut last = N;
     let mut tries = 0;
-    while last > 0 {
+    // The bounds beside the loops' own, here and below, hold anyway: they are there for the compiler, which then leaves no panic in an image.
+    while last > 0 && last <= N {
         let n = last - 1;
         // The block that is still joined to its last row.
         let mut low = n;
-        while low > 0 {
+        while low > 0 && low < N {
             let around = size(h[low][low]) + size(h[low - 1][low - 1]);
             if size(h[low][low - 1]) <= f64::EPSILON * 0.1 * around || size(h[low][low - 1]) < 1e-290 {
                 h[low][low - 1] = (0.0, 0.0);
@@ -59,16 +60,16 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
             }
             low -= 1;
         }
-        if low == n {
+        if low >= n || n < 1 {
             values[n] = h[n][n];
             last -= 1;
             tries = 0;
             continue;
         }
-        if tries > 200 {
+        if tries > 200 || n >= N {
             return values;
         }
-        let shift = if tries % 11 == 10 { (size(h[n][n - 1]), size(h[n][n - 1])) } else { wilkinson(&h, n) };
+        let shift = if tries % 11 == 10 { (below(&h, n), below(&h, n)) } else { wilkinson(&h, n) };
         qr_step(&mut h, low, n, shift);
         tries += 1;
     }
@@ -80,7 +81,7 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
         }
         values[i].0 += 1.0;
         let mut j = i;
-        while j > 0 && after(values[j - 1], values[j]) {
+        while j > 0 && j < N && after(values[j - 1], values[j]) {
             values.swap(j - 1, j);
             j -= 1;
         }
@@ -164,8 +165,16 @@ const fn hessenberg<const N: usize>(a: &Matrix<N, N>) -> [[Complex; N]; N] {
     h
 }
 
+/// Size of the element left of a row's diagonal.
+const fn below<const N: usize>(h: &[[Complex; N]; N], n: usize) -> f64 {
+    if n < 1 || n >= N { 0.0 } else { size(h[n][n - 1]) }
+}
+
 /// The eigenvalue of the last two rows' block that is nearer to its last element.
 const fn wilkinson<const N: usize>(h: &[[Complex; N]; N], n: usize) -> Complex {
+    if n < 1 || n >= N {
+        return (0.0, 0.0);
+    }
     let (a, b, c, d) = (h[n - 1][n - 1], h[n - 1][n], h[n][n - 1], h[n][n]);
     let half = minus(a, d);
     let half = (0.5 * half.0, 0.5 * half.1);
@@ -179,12 +188,12 @@ const fn wilkinson<const N: usize>(h: &[[Complex; N]; N], n: usize) -> Complex {
 const fn qr_step<const N: usize>(h: &mut [[Complex; N]; N], low: usize, n: usize, shift: Complex) {
     let mut turns = [((1.0, 0.0), (0.0, 0.0)); N];
     let mut i = low;
-    while i <= n {
+    while i <= n && i < N {
         h[i][i] = minus(h[i][i], shift);
         i += 1;
     }
     let mut i = low;
-    while i < n {
+    while i < n && i + 1 < N {
         let (x, y) = (h[i][i], h[i + 1][i]);
         let length = hypot(size(x), size(y));
         if length > 0.0 {
@@ -192,7 +201,7 @@ const fn qr_step<const N: usize>(h: &mut [[Complex; N]; N], low: usize, n: usize
         }
         let (c, s) = turns[i];
         let mut j = i;
-        while j <= n {
+        while j <= n && j < N {
             let (p, q) = (h[i][j], h[i + 1][j]);
             h[i][j] = plus(times(conjugate(c), p), times(conjugate(s), q));
             h[i + 1][j] = minus(times(c, q), times(s, p));
@@ -201,10 +210,10 @@ const fn qr_step<const N: usize>(h: &mut [[Complex; N]; N], low: usize, n: usize
         i += 1;
     }
     let mut i = low;
-    while i < n {
+    while i < n && i + 1 < N {
         let (c, s) = turns[i];
         let mut r = low;
-        while r <= n && r <= i + 1 {
+        while r <= n && r <= i + 1 && r < N {
             let (p, q) = (h[r][i], h[r][i + 1]);
             h[r][i] = plus(times(p, c), times(q, s));
             h[r][i + 1] = minus(times(q, conjugate(c)), times(p, conjugate(s)));
@@ -213,7 +222,7 @@ const fn qr_step<const N: usize>(h: &mut [[Complex; N]; N], low: usize, n: usize
         i += 1;
     }
     let mut i = low;
-    while i <= n {
+    while i <= n && i < N {
         h[i][i] = plus(h[i][i], shift);
         i += 1;
     }

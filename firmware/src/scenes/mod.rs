@@ -2,6 +2,7 @@
 
 pub mod balanced_fan;
 pub mod blooming_mill;
+pub mod commission;
 pub mod composition;
 pub mod converter;
 pub mod crane_travel;

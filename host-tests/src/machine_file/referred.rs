@@ -3,6 +3,7 @@
 use super::station::{Station, stations};
 use super::{Element, MachineFile, Part};
 use crate::plant::train::{Coordinate, Link, Source};
+use crate::plant::{Chain, Plant, PlantError, Shaft, Start};
 
 /// Masses and shafts with their names.
 pub(super) struct Referred {
@@ -54,5 +55,32 @@ pub(super) fn referred(machine: &MachineFile) -> Referred {
     Referred {
         coordinates: masses.into_iter().zip(machine.masses().iter().zip(&weight).map(coordinate)).collect(),
         links: shafts.into_iter().zip(machine.joints().into_iter().enumerate().map(link)).collect(),
+    }
+}
+
+impl MachineFile {
+    /// The machine as a plant that runs in lock-step: it hangs on its shafts, which carry its weight, with dry friction \[N m at the motor\] at its
+    /// far end. A gear before the first shaft loses nothing.
+    ///
+    /// # Errors
+    /// What the plant refuses.
+    pub fn plant(&self, friction: f64) -> Result<Plant, PlantError> {
+        let (masses, shafts) = (self.chain.masses(), self.chain.shafts());
+        let weight = self.chain.gravity_torque();
+        let mut known = Chain::motor(1.0);
+        let mut twists = Vec::new();
+        for (node, inertia) in masses.iter().enumerate() {
+            match node.checked_sub(1).and_then(|before| shafts.get(before)) {
+                None => known = Chain::motor(*inertia),
+                Some(shaft) => {
+                    let shaft_of = Shaft::elastic(shaft.stiffness).damping(shaft.damping).gap(shaft.gap);
+                    let flank = if weight > 0.0 { 0.5 * shaft.gap } else { 0.0 };
+                    twists.push(flank + weight / shaft.stiffness);
+                    known = known.shaft(shaft_of, *inertia);
+                }
+            }
+        }
+        let start = Start::Given { twists, speeds: vec![0.0; masses.len()] };
+        known.load(weight).coulomb(friction).start(start).build()
     }
 }

@@ -2,6 +2,7 @@
 
 mod balancing;
 mod cases;
+mod commissioning;
 mod factors;
 mod front;
 mod generator;
@@ -121,6 +122,7 @@ pub fn survey_page(survey: &Survey) -> String {
                 cases::sweep_failures(survey),
                 generator::section(survey),
                 balancing::section(survey),
+                commissioning::section(survey),
                 Section::new(
                     "Every fault of every adapter",
                     "From doc/adapters.md, which a test writes from runs on mocked buses and compares ever since.",

@@ -6,6 +6,7 @@ use super::{Aim, Factor, Reason};
 use crate::backlash::Comparison;
 use crate::balancing;
 use crate::cases::Case;
+use crate::commission::Verdict;
 use crate::generator::verdict::Verdicts;
 use crate::report::{Sweep, Variant};
 
@@ -123,6 +124,8 @@ pub struct Survey {
     pub scenes: Vec<SceneFigures>,
     /// The generator sets, where they were asked for.
     pub generator: Option<Verdicts>,
+    /// The machines that were commissioned, each beside its true figures.
+    pub commissioned: Vec<Verdict>,
     /// The rotors that were balanced, by scene.
     pub balanced: Vec<(String, Vec<balancing::Ran>)>,
     /// Published and made-up cases that are stiff or extreme.

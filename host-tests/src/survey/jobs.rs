@@ -4,13 +4,14 @@ use std::collections::VecDeque;
 use std::error::Error;
 use std::sync::{Mutex, PoisonError};
 
-use driveline_firmware::board::Facts;
+use driveline_firmware::board::{BOARDS, Facts};
 
-use super::wanted::GENERATOR;
+use super::wanted::{COMMISSIONING, GENERATOR};
 use super::{Aim, Factor, Run, SceneFigures, Survey, Wanted, reasons};
 use crate::backlash::Comparison;
 use crate::balancing;
 use crate::cases::{self, Case};
+use crate::commission::{self, Verdict};
 use crate::generator::verdict::{self, Verdicts};
 use crate::report::Sweep;
 use crate::run::engine::{self, Options};
@@ -41,6 +42,8 @@ pub enum Piece {
     Run(String, Aim, Box<Run>),
     /// A generator set's verdicts.
     Generator(Verdicts),
+    /// A machine that was commissioned.
+    Commissioned(Box<Verdict>),
     /// A rotor of the scene of that name.
     Balanced(String, Box<balancing::Ran>),
     /// Cases.
@@ -74,6 +77,15 @@ pub fn jobs(wanted: &Wanted, quick: bool) -> (Vec<Job>, Survey) {
     }
     if wanted.has(GENERATOR) {
         jobs.extend(verdict::variants(None).into_iter().map(generator));
+    }
+    if wanted.has(COMMISSIONING) {
+        match commission::cases() {
+            Ok(cases) => jobs.extend(cases.into_iter().map(|case| commissioned(case, quick))),
+            Err(error) => {
+                let (place, job) = (COMMISSIONING.to_owned(), "the plants".to_owned());
+                survey.failures.push(super::Failure { place, job, reason: error.to_string() });
+            }
+        }
     }
     for scene in balancing::scenes().into_iter().filter(|scene| wanted.has(scene.name)) {
         survey.balanced.push((scene.name.to_owned(), Vec::new()));
@@ -140,6 +152,10 @@ impl Survey {
                 all.faults.extend(verdicts.faults);
                 all.trips.extend(verdicts.trips);
             }
+            Piece::Commissioned(verdict) => {
+                self.commissioned.push(*verdict);
+                self.commissioned.sort_by(|a, b| a.machine.cmp(&b.machine));
+            }
             Piece::Balanced(scene, ran) => {
                 if let Some((_, all)) = self.balanced.iter_mut().find(|(name, _)| *name == scene) {
                     all.push(*ran);
@@ -193,6 +209,32 @@ fn generator(candidate: Candidate) -> Job {
         name: candidate.key(),
         core: candidate.board.core,
         weight: 600,
+        work: Box::new(work),
+    }
+}
+
+/// In QEMU where that does not take long, else on the host; `quick`, all on the host.
+fn commissioned(case: commission::Case, quick: bool) -> Job {
+    let board = BOARDS.iter().find(|board| board.core == "m4f" && !quick && case.brief).copied();
+    let name = case.name.clone();
+    let work = move |says: &dyn Fn(&str)| {
+        let says = |text: &str| says(&format!("commissioning the {}{text}", case.name));
+        says("");
+        let (course, target) = match board {
+            Some(board) => {
+                let built = |text: &str| says(&format!(": {text}"));
+                let (course, target) = commission::in_qemu(&case, board, SEED, built, |_, _| {}).map_err(sentence)?;
+                (course, Some(target))
+            }
+            None => (commission::on_host(&case, SEED, |_, _| {}).map_err(sentence)?, None),
+        };
+        Ok(Piece::Commissioned(Box::new(commission::verdict(&case, &course, target))))
+    };
+    Job {
+        place: COMMISSIONING.into(),
+        name,
+        core: board.map_or("", |board| board.core),
+        weight: if board.is_some() { 1_500 } else { 100 },
         work: Box::new(work),
     }
 }

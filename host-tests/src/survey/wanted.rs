@@ -6,6 +6,9 @@ use crate::run::SCENES;
 /// The generator sets' name among the scenes.
 pub const GENERATOR: &str = "generator";
 
+/// The commissionings' name among the scenes.
+pub const COMMISSIONING: &str = "commissioning";
+
 /// What is to be run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
@@ -31,7 +34,7 @@ impl Wanted {
     /// Every scene there is.
     pub fn names() -> Vec<&'static str> {
         let balanced = balancing::scenes().map(|scene| scene.name);
-        SCENES.iter().map(|(name, _)| *name).chain([GENERATOR]).chain(balanced).collect()
+        SCENES.iter().map(|(name, _)| *name).chain([GENERATOR, COMMISSIONING]).chain(balanced).collect()
     }
 
     /// Whether a scene is wanted.

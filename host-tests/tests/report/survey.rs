@@ -2,6 +2,7 @@
 
 use host_tests::backlash::{Comparison, Row, Stretch};
 use host_tests::cases::Case;
+use host_tests::commission::{Target, Verdict, named, on_host, verdict};
 use host_tests::report::chart::front;
 use host_tests::report::{survey_page, survey_table};
 use host_tests::run::SCENES;
@@ -129,6 +130,58 @@ fn nothing_and_what_diverged_are_pages_too() {
     // What is not a number keeps no aim.
     assert!(page.contains("diverged") && !survey.scenes[1].aim.kept(&survey.scenes[1].runs[2].variant));
     assert!(serde_json::to_string(&survey).is_ok());
+}
+
+/// The spindle, commissioned in half a second, as if QEMU had shown an image of it or not.
+fn commissioned(target: Option<Target>) -> Verdict {
+    let case = named("spindle").unwrap();
+    verdict(&case, &on_host(&case, 1, |_, _| {}).unwrap(), target)
+}
+
+#[test]
+fn commissioned_machines_stand_beside_what_is_true() {
+    let mut survey = survey(0.01);
+    let target = Target { instructions: [1, 2, 987], bytes: [9, 500, 234], bit_exact: true };
+    survey.commissioned = vec![commissioned(None), commissioned(Some(target))];
+    let page = survey_page(&survey);
+    assert_sound(&page);
+    let at = page.find("<h2>Commissioning</h2>").unwrap();
+    let section = &page[at..at + page[at..].find("</section>").unwrap()];
+    // The longest tick, static memory with the stack, where it ran, the inertia that is true.
+    for part in ["987", "734", "on the host, since", "in QEMU: 1 to 987", "0.016", "antiresonance, rad", "kept"] {
+        assert!(section.contains(part), "{part}");
+    }
+    assert!(!section.contains("missed"));
+    assert!(page.contains("2 of 2"));
+    // One whose inertia is 4 % off, and one that has no answer.
+    let mut wrong = commissioned(None);
+    wrong.figures[0].error = Some(0.04);
+    let mut refused = commissioned(None);
+    refused.refused = Some("there is no motor");
+    for (figure, row) in refused.figures.iter_mut().enumerate() {
+        (row.found, row.error) = (None, if figure == 0 { Some(f64::NAN) } else { None });
+    }
+    assert!(!wrong.meets() && !refused.meets());
+    survey.commissioned = vec![wrong, refused];
+    let page = survey_page(&survey);
+    assert_sound(&page);
+    assert!(page.contains("there is no motor") && page.contains("0 of 2"));
+    assert!(serde_json::to_string(&survey).is_ok());
+}
+
+#[test]
+fn commissioning_has_a_job_for_each_machine() {
+    let only = Wanted::scenes(&["commissioning".to_owned()]).unwrap();
+    let (all, _) = jobs(&only, false);
+    // The mill's takes QEMU more than a minute.
+    let places: Vec<(&str, &str)> = all.iter().map(|job| (job.name.as_str(), job.core)).collect();
+    assert_eq!(places, [("mill", ""), ("hoist", "m4f"), ("spindle", "m4f")]);
+    // Quick: all of them on the host, in three seconds; one of them as it comes out.
+    let (quick, mut survey) = jobs(&only, true);
+    assert!(quick.len() == 3 && quick.iter().all(|job| job.core.is_empty()));
+    let spindle = quick.into_iter().find(|job| job.name == "spindle").unwrap();
+    survey.add((spindle.work)(&|_| {}).unwrap());
+    assert!(survey.commissioned.len() == 1 && survey.commissioned[0].meets());
 }
 
 #[test]

@@ -19,6 +19,14 @@ pub fn facts(survey: &Survey) -> Vec<Fact> {
         fact("chosen variants within their aims", format!("{keep} of {}", chosen().count())),
         fact("same bits on host and target", format!("{equal} of {}", runs().count())),
         fact("cases within tolerance", format!("{cases} of {}", survey.cases.len())),
+        fact(
+            "machines commissioned within the aims",
+            format!(
+                "{} of {}",
+                survey.commissioned.iter().filter(|one| one.meets()).count(),
+                survey.commissioned.len()
+            ),
+        ),
         fact("jobs that failed", survey.failures.len().to_string()),
         fact(
             "time that it took",

@@ -1,0 +1,136 @@
+//! `cargo driveline commission`: the test that finds the machine, against its full plant.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use driveline_firmware::board::BOARDS;
+
+use super::{Failure, Progress, onto_itself, say, say_json};
+use crate::commission::{Case, Trial, Verdict, in_qemu, named, of_file, on_host, verdict};
+use crate::machine_file::read;
+use crate::report::write_page;
+use crate::setup;
+
+/// Commission a machine: run the test that finds its inertias, resonance, damping, friction, gap and encoder's
+/// eccentricity against its full plant, and put what it found beside what is true.
+///
+/// The machine is `hoist`, `mill` or `spindle` as in the scene `commission`, or a file of elements as for `design`. The
+/// motor's torque is off by the file's torque accuracy in every tick, as white noise; the scenes' by 1 % of rated.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline commission mill
+  cargo driveline commission hoist --qemu
+  cargo driveline commission host-tests/machines/mill.toml --friction 0.05
+  cargo driveline commission spindle --json > spindle.json")]
+pub struct Commission {
+    /// `hoist`, `mill`, `spindle`, or a TOML file of elements from the motor to the load
+    machine: String,
+    /// Run the firmware in QEMU on the M4F, with the host beside it (not for a file)
+    #[arg(long)]
+    qemu: bool,
+    /// Which random numbers the noise is drawn with
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// For a file: speed of the test, of the largest speed
+    #[arg(long, value_name = "SHARE", default_value_t = 0.2)]
+    speed: f64,
+    /// For a file: travel either way [rad]
+    #[arg(long, value_name = "RAD", default_value_t = 1.0e4)]
+    travel: f64,
+    /// For a file: dry friction of the load, of the largest torque
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    friction: f64,
+    /// For a file: rated torque, of the largest torque
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5)]
+    rated: f64,
+    /// Where the page goes [default: report/NAME-commission.html]
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+    /// Print JSON, and write a page only with --html
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Stages of a test, for its progress.
+const STAGES: [&str; 7] = ["holding", "friction", "encoder", "backlash", "resonance", "done", "refused"];
+
+impl Commission {
+    /// Runs the test and shows what it found.
+    ///
+    /// # Errors
+    /// No such machine, a setting out of range, what kept QEMU from running; with exit code 1 where the test refused.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let case = self.case()?;
+        let progress = Progress::of(STAGES.len() as u64);
+        let mut last = u32::MAX;
+        let seen = |tick: u64, stage: u32| {
+            if stage != last {
+                last = stage;
+                progress.step();
+            }
+            if tick.is_multiple_of(65_536) {
+                let name = usize::try_from(stage).ok().and_then(|stage| STAGES.get(stage)).copied();
+                let seconds = tick as f64 * case.settings.rate.period().unwrap_or(0.0);
+                progress.says(&format!("{}: {}, {seconds:.0} s at the machine", case.name, name.unwrap_or_default()));
+            }
+        };
+        let run = if self.qemu {
+            setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
+            let Some(board) = BOARDS.iter().find(|board| board.core == "m4f") else {
+                return Err(Failure::failed("there is no board with an M4F"));
+            };
+            in_qemu(&case, *board, self.seed, |_| {}, seen).map(|(course, target)| (course, Some(target)))
+        } else {
+            on_host(&case, self.seed, seen).map(|course| (course, None))
+        };
+        let (course, target) = run.map_err(|error| Failure::failed(format!("{}: {error}", case.name)))?;
+        drop(progress);
+        self.show(&verdict(&case, &course, target))
+    }
+
+    fn case(&self) -> Result<Case, Failure> {
+        if !self.machine.ends_with(".toml") {
+            return named(&self.machine).map_err(|error| Failure::usage(format!("{error}, or a file `NAME.toml`")));
+        }
+        if self.qemu {
+            return Err(Failure::usage("--qemu is for the machines of the firmware, not for a file"));
+        }
+        for (name, value) in [("--speed", self.speed), ("--travel", self.travel), ("--rated", self.rated)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Failure::usage(format!("{name} must be above zero and finite, not {value}")));
+            }
+        }
+        if !(self.friction >= 0.0 && self.friction.is_finite()) {
+            return Err(Failure::usage(format!("--friction must be zero or above and finite, not {}", self.friction)));
+        }
+        let path = PathBuf::from(&self.machine);
+        onto_itself(&path, self.html.as_deref())?;
+        let machine = read(&path).map_err(|error| Failure::usage(error.to_string()))?;
+        let trial = Trial { speed: self.speed, travel: self.travel, friction: self.friction, rated: self.rated };
+        of_file(&machine, trial).map_err(Failure::usage)
+    }
+
+    fn show(&self, verdict: &Verdict) -> Result<(), Failure> {
+        let usual = (!self.json).then(|| PathBuf::from(format!("report/{}-commission.html", verdict.machine)));
+        let path = self.html.clone().or(usual);
+        if let Some(path) = &path {
+            write_page(path, &verdict.page())
+                .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
+        }
+        if self.json {
+            say_json(verdict)?;
+        } else {
+            say(verdict.table());
+            for sentence in verdict.sentences() {
+                say(sentence);
+            }
+            if let Some(path) = path {
+                say(format_args!("page: {}", path.display()));
+            }
+        }
+        match verdict.refused {
+            Some(reason) => Err(Failure::failed(format!("the test refused: {reason}"))),
+            None => Ok(()),
+        }
+    }
+}

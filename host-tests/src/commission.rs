@@ -1,0 +1,11 @@
+//! Commissioning against full plants: the test of `driveline::commissioning` in closed loop with the solver, on the host or in QEMU.
+
+mod course;
+mod engine;
+mod machine;
+mod verdict;
+
+pub use course::{Course, Moment, Truth, run};
+pub use engine::{Target, VARIANT, in_qemu, on_host};
+pub use machine::{Case, Trial, cases, named, of_file};
+pub use verdict::{Row, Verdict, verdict};

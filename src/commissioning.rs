@@ -1,0 +1,111 @@
+//! Commission: a test sequence that finds out, from the motor's angle and the commanded torque alone, what machine the
+//! drive is on.
+//!
+//! [`Commissioning`] runs in the tick and gives the torque: bounded, as is the travel. It goes through these stages:
+//!
+//! | stage | the motor | gives |
+//! |---|---|---|
+//! | [`Stage::Holding`] | stands | nothing: the load settles |
+//! | [`Stage::Friction`] | two speeds and the ramps between, both ways | total inertia, Coulomb and viscous friction, weight |
+//! | [`Stage::Encoder`] | 8 to 40 turns at the test's speed | eccentricity of the encoder, which is then taken off |
+//! | [`Stage::Backlash`] | creeps to and fro against a load that friction holds | gap |
+//! | [`Stage::Resonance`] | turns slowly under a multisine, first small, then as large as the shaft may carry, both ways | inertias, stiffness, damping |
+//!
+//! A stage ends with a [`Job`]: a copy of its sums, solved in `f64` outside the tick ([`Job::solve`]) while the tick
+//! holds the motor, and handed back ([`Commissioning::accept`]). The last one gives [`Identified`]: the two-mass
+//! machine, with standard deviations, for the same [`try_observer`](crate::machine::TwoMass::try_observer) and
+//! [`try_speed_loop`](crate::machine::TwoMass::try_speed_loop) that the compiler uses; or a [`Reason`] why the data do
+//! not support an answer.
+//!
+//! ```
+//! use driveline::commissioning::{Commissioning, Stage, TestConfig, TestSettings};
+//! use driveline::design::{Encoder, Rate};
+//!
+//! let config = TestConfig::try_new(&TestSettings {
+//!     rate: Rate::hz(10_000),
+//!     encoder: Encoder::lines(2048),
+//!     torque: 300.0,
+//!     shaft_torque: 375.0,
+//!     speed: 15.0,
+//!     travel: 900.0,
+//!     held: 190.0,
+//!     inertia: 0.7,
+//!     band: [2.0, 12.0],
+//!     torque_accuracy: 7.5,
+//!     delay: 0.0,
+//! })?;
+//! let mut test = Commissioning::<24>::new(&config);
+//! // in the timer's interrupt
+//! let torque = test.tick(&config, 0);
+//! // in the main loop
+//! if let Some(job) = test.job() {
+//!     let findings = job.solve(&config);
+//!     test.accept(&config, findings);
+//! }
+//! assert_eq!(test.stage(), Stage::Holding);
+//! # assert!((torque - 190.0).abs() < 1.0);
+//! # Ok::<(), driveline::commissioning::Reason>(())
+//! ```
+//!
+//! # How it is found
+//! The commanded torque is what is correlated with, so that noise in the motor's torque and the encoder's counts
+//! average out. While the motor turns at a speed with a slow ramp in it, counts of the encoder fall at all phases, and
+//! dry friction is but a constant. The speed is held by a servo whose torque is correlated too, so that it does not
+//! bias the answer. Each line of the multisine gives the response of the acceleration `H = s^2 Theta/T`, through a Hann
+//! window, corrected for the hold of the torque and the mean of the angle over a block; to them
+//! `H = 1/J + (1/J_m - 1/J) s^2/(s^2 + 2 zeta w_r s + w_r^2) + R s^2` is fitted, the two-mass machine [Huang 1987
+//! part 2] and the compliance R of all higher modes, with weights of noise in torque and angle. Deviations follow from
+//! the fit's curvature and its own residuals.
+//!
+//! The gap is the way that the motor creeps from flank to flank while friction holds the load. Each flank is read under
+//! two torques, and the ways carried on to none: that takes the twist of the shafts off without their stiffness.
+//!
+//! A gear that loses a share of its torque makes the machine look heavier when it drives and lighter when it is driven
+//! [Wang 1989 §1-3]: the mean of both ways is taken.
+//!
+//! # Bounds
+//! Torque, travel and what the shaft carries stay within the [`TestSettings`]. Before the multisine, while it is not
+//! known whether the load is free, the torque takes half of the shaft's room at most, and the first run-up is gentle.
+//! A motor that lags too far ([`Reason::NotFollowed`]), a torque that goes from bound to bound
+//! ([`Reason::Unsteady`]), an angle that jumps and a travel that is left end the test without torque: what holds the
+//! load then is the brake. Where data do not support an answer the test ends holding the load, with its [`Reason`].
+//!
+//! # Limits
+//! - The arithmetic in the tick is in `f32`: for cores with an FPU. A record's solving, in `f64`, takes 163 million
+//!   instructions on a Cortex-M4F, while the tick goes on.
+//! - The first guess of the inertia must be right within a factor of two.
+//! - One resonance is told, the lowest, and it must lie within the band; higher modes count as a compliance.
+//! - Friction is taken as weight, Coulomb and viscous friction over the two speeds of its test.
+//! - A gap is seen as one, wherever it lies, and no wider than a tenth of a turn of the motor.
+//! - The gap is seen only where friction holds the load and no weight presses the gap shut: else
+//!   [`Reason::LoadNotHeld`] or [`Reason::Preloaded`].
+//! - While there is a gap the multisine stays below what friction holds: a light friction means long records.
+//! - What lies before the gap is taken to turn freely under half of the friction.
+//! - The eccentricity is told from an unbalance's torque by nothing: at the test's speed the rotor's own swing must be
+//!   small beside it.
+
+mod complex;
+mod eccentricity;
+mod excitation;
+mod fit;
+mod friction;
+mod gap;
+mod identified;
+mod job;
+mod multisine;
+mod order;
+mod reason;
+mod reference;
+mod response;
+mod sequence;
+mod servo;
+mod settings;
+
+pub use eccentricity::Eccentricity;
+pub use friction::Friction;
+pub use identified::{Figure, Identified};
+pub use job::{Findings, Job};
+pub use reason::Reason;
+pub use response::Response;
+pub use sequence::{Commissioning, Stage};
+pub use settings::{TestConfig, TestSettings};

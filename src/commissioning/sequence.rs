@@ -1,0 +1,542 @@
+//! The sequence: what the tick does, and when a stage has its data.
+
+use super::friction::{SEGMENTS, Segment, ends_of};
+use super::gap::{EASED, PUSHES, Push};
+use super::identified::Identified;
+use super::job::{Findings, Job, Known, Next};
+use super::multisine::{Line, Window};
+use super::order::{HALVES, Order};
+use super::reference::Reference;
+use super::servo::{Deviation, Servo};
+use super::{Reason, TestConfig};
+use crate::balance::Synchronous;
+
+/// Where the test is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Stage {
+    /// The motor stands, the load settles.
+    Holding,
+    /// Two speeds and the ramps between, both ways.
+    Friction,
+    /// Turns at the test's speed.
+    Encoder,
+    /// To and fro against a load that friction holds.
+    Backlash,
+    /// Turning under a multisine.
+    Resonance,
+    /// The motor stands, there is an answer.
+    Done,
+    /// The motor stands or is without torque, there is a reason.
+    Refused,
+}
+
+/// Share of the push at which the servo has found a flank.
+const TOUCH: f32 = 0.3;
+
+/// How often the torque may go from bound to bound in a stage: each time adds to a swing of the shaft.
+const REVERSALS: u32 = 1;
+
+/// What the motor does within a stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+enum Phase {
+    /// Goes to the speed.
+    Goes,
+    /// Waits until it is steady.
+    Settles,
+    /// Is measured.
+    Measures,
+    /// The excitation fades.
+    Fades,
+    /// Goes back to standstill.
+    Stops,
+    /// Stands until the job is solved.
+    Waits,
+}
+
+/// A test under way. `L` lines of the multisine: 24 as a rule, 16 at least.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Commissioning<const L: usize> {
+    stage: Stage,
+    phase: Phase,
+    /// Blocks left in the phase.
+    left: u32,
+    /// Segment, push.
+    index: usize,
+    /// The angle of the tick before; none before the first.
+    last: Option<u32>,
+    /// Angle from where the test began [2^-32 turn].
+    angle: i64,
+    /// Sum over the block, and over the one before.
+    sum: i64,
+    before: i64,
+    /// The reference in the block before, times the ticks.
+    meant: i64,
+    ticks: u32,
+    torque: f32,
+    excitation: f32,
+    /// Bound that the torque last met in the stage \[N m\]; how often it met the other one next.
+    bound: f32,
+    reversals: u32,
+    /// Size of the excitation, and how it changes in a block.
+    fade: f32,
+    fading: f32,
+    /// Cosine and sine part of the eccentricity that is taken off \[rad\], and what was taken off the last block.
+    eccentric: [f32; 2],
+    taken: f32,
+    servo: Servo,
+    deviation: Deviation,
+    reference: Reference,
+    window: Window,
+    lines: [Line; L],
+    orders: [Order; 3],
+    segments: [Segment; SEGMENTS],
+    pushes: [Push; PUSHES],
+    /// Sums of a phase: of the torque, the window, the angle.
+    total: f64,
+    start: (i64, f32),
+    /// Torque that is steady in a phase: it must not be taken for one of once a turn of a reading that is not quite the
+    /// angle.
+    carried: f32,
+    known: Known<L>,
+    next: Next,
+}
+
+impl<const L: usize> Commissioning<L> {
+    /// A test whose motor stands, and whose torque holds the load from the first tick on. The angle of that tick is where
+    /// it begins.
+    #[must_use]
+    pub fn new(config: &TestConfig) -> Self {
+        let held = config.settings.held as f32;
+        Self {
+            stage: Stage::Holding,
+            phase: Phase::Settles,
+            left: config.blocks(8.0 / config.servo),
+            index: 0,
+            last: None,
+            angle: 0,
+            sum: 0,
+            before: 0,
+            meant: 0,
+            ticks: 0,
+            torque: held,
+            excitation: 0.0,
+            bound: 0.0,
+            reversals: 0,
+            fade: 0.0,
+            fading: 0.0,
+            eccentric: [0.0; 2],
+            taken: 0.0,
+            servo: Servo::new(config, config.settings.inertia),
+            deviation: Deviation { disturbance: -held, ..Deviation::default() },
+            reference: Reference::default(),
+            window: Window::NONE,
+            lines: [Line::NONE; L],
+            orders: [Order::default(); 3],
+            segments: [Segment::default(); SEGMENTS],
+            pushes: [(0.0, 0.0); PUSHES],
+            total: 0.0,
+            start: (0, 0.0),
+            carried: 0.0,
+            known: Known::new(config),
+            next: Next::Segments,
+        }
+    }
+
+    /// One tick: the motor's angle [2^-32 turn] in, the torque \[N m\] out, for the next tick.
+    ///
+    /// After an angle that cannot be, or beyond the travel, there is no torque, and what holds the load is for its
+    /// brake.
+    #[inline]
+    pub fn tick(&mut self, config: &TestConfig, angle: u32) -> f32 {
+        let moved = angle.wrapping_sub(self.last.unwrap_or(angle)) as i32;
+        self.last = Some(angle);
+        self.angle = self.angle.wrapping_add(i64::from(moved));
+        if moved.unsigned_abs() > config.jump {
+            self.refuse(Reason::AngleJump);
+        }
+        self.sum = self.sum.wrapping_add(self.angle);
+        self.ticks += 1;
+        if self.ticks >= config.ticks {
+            self.ticks = 0;
+            self.block(config);
+        }
+        self.torque
+    }
+
+    /// Where the test is.
+    #[must_use]
+    pub fn stage(&self) -> Stage {
+        self.stage
+    }
+
+    /// What is to be solved outside the tick before the test goes on; a copy.
+    #[must_use]
+    pub fn job(&self) -> Option<Job<L>> {
+        if self.phase != Phase::Waits || matches!(self.stage, Stage::Done | Stage::Refused) {
+            return None;
+        }
+        Some(Job {
+            stage: self.stage,
+            known: self.known,
+            next: self.next,
+            lines: self.lines,
+            orders: self.orders,
+            segments: self.segments,
+            pushes: self.pushes,
+            mean_speed: self.total,
+            angle: self.travelled(),
+            zero: f64::from(self.last.unwrap_or(0).wrapping_sub(self.angle as u32))
+                * (core::f64::consts::TAU / 4_294_967_296.0),
+        })
+    }
+
+    /// Takes what a job has found, and goes on. Like [`job`](Self::job) it only copies: both belong between two ticks.
+    pub fn accept(&mut self, config: &TestConfig, findings: Findings<L>) {
+        if self.phase != Phase::Waits || matches!(self.stage, Stage::Done | Stage::Refused) {
+            return;
+        }
+        self.known = findings.known;
+        self.next = findings.next;
+        self.servo = findings.servo;
+        self.eccentric = self.known.eccentric.map(|part| part as f32);
+        self.begin(config);
+    }
+
+    /// The answer, where the test has ended.
+    #[must_use]
+    pub fn outcome(&self) -> Option<Result<&Identified, Reason>> {
+        match (&self.next, self.stage) {
+            (Next::Done(identified), Stage::Done) => Some(Ok(identified)),
+            (Next::Refused(reason), Stage::Refused) => Some(Err(*reason)),
+            _ => None,
+        }
+    }
+
+    /// Responses that the resonance was last fitted to, upwards and downwards; zeros before.
+    #[must_use]
+    pub fn responses(&self) -> &[[super::Response; L]; 2] {
+        &self.known.responses
+    }
+
+    /// Angle from where the test began \[rad\].
+    #[must_use]
+    pub fn travelled(&self) -> f64 {
+        self.angle as f64 * (core::f64::consts::TAU / 4_294_967_296.0)
+    }
+
+    fn refuse(&mut self, reason: Reason) {
+        self.stage = Stage::Refused;
+        self.phase = Phase::Waits;
+        self.next = Next::Refused(reason);
+        self.torque = 0.0;
+        self.fade = 0.0;
+    }
+
+    /// The first phase of what is next.
+    fn begin(&mut self, config: &TestConfig) {
+        let speed = config.settings.speed as f32;
+        let rate = config.acceleration as f32;
+        self.index = 0;
+        self.phase = Phase::Goes;
+        (self.bound, self.reversals) = (0.0, 0);
+        match self.next {
+            Next::Segments => {
+                self.stage = Stage::Friction;
+                // Gently: whether there is a gap, and whether the load is free, is not known yet.
+                self.reference.go(ends_of(0).0 * speed, 0.25 * rate);
+            }
+            Next::Turns => {
+                self.stage = Stage::Encoder;
+                self.orders = [Order::default(); 3];
+                self.reference.go(speed, rate);
+            }
+            Next::Reversals { speed, .. } => {
+                self.stage = Stage::Backlash;
+                self.start.0 = self.reference.angle;
+                self.reference.go(speed as f32, (speed * config.servo) as f32);
+            }
+            Next::Record { way, .. } => {
+                self.stage = Stage::Resonance;
+                self.lines = self.known.lines;
+                self.reference.go(way as f32 * 0.9 * speed, rate);
+            }
+            Next::Done(_) => {
+                self.stage = Stage::Done;
+                self.phase = Phase::Waits;
+            }
+            Next::Refused(_) => {
+                self.stage = Stage::Refused;
+                self.phase = Phase::Waits;
+            }
+        }
+    }
+
+    fn block(&mut self, config: &TestConfig) {
+        let ticks = i64::from(config.ticks);
+        let lost = self.stage == Stage::Refused && self.torque == 0.0 && self.fade == 0.0;
+        let meant = self.reference.angle.wrapping_mul(ticks);
+        // Before the reference moves on: what was meant in the block that has just ended.
+        let deviation = self.sum.wrapping_sub(meant);
+        let step = deviation.wrapping_sub(self.before.wrapping_sub(self.meant));
+        // The mean angle of the block: what the encoder's eccentricity goes by.
+        let place = self.sum.checked_div(ticks).unwrap_or(self.angle);
+        let [cosine, sine] = <f32 as Synchronous>::direction(place as u32 >> 6);
+        let taken = self.eccentric[0] * cosine + self.eccentric[1] * sine;
+        let measured = deviation as f32 * config.unit - taken;
+        let increase = step as f32 * config.unit - (taken - self.taken);
+        self.taken = taken;
+        self.before = self.sum;
+        self.meant = meant;
+        self.sum = 0;
+        if lost {
+            return;
+        }
+        if self.angle.unsigned_abs() > config.travel.unsigned_abs() {
+            self.refuse(Reason::TravelExceeded);
+            return;
+        }
+        let h = config.block_f32;
+        self.servo.observe(&mut self.deviation, h, measured, self.torque, self.reference.acceleration);
+        // So written that what is no number is not followed either.
+        if !(self.deviation.angle.abs() <= config.lag) {
+            self.refuse(Reason::NotFollowed);
+            return;
+        }
+        let measures = self.phase == Phase::Measures;
+        if self.stage == Stage::Encoder && measures {
+            let window = self.window.step();
+            for (order, halves) in self.orders.iter_mut().zip(HALVES) {
+                order.take(halves, place, window, increase, self.torque - self.carried);
+            }
+        }
+        if self.stage == Stage::Resonance {
+            let window = if measures { self.window.step() } else { 0.0 };
+            let mut sum = 0.0;
+            for line in &mut self.lines {
+                sum += line.step(window, increase, self.torque);
+            }
+            self.fade = (self.fade + self.fading).clamp(0.0, 1.0);
+            self.excitation = self.fade * sum;
+        } else {
+            self.excitation = 0.0;
+        }
+        if measures && self.stage == Stage::Friction {
+            self.total += f64::from(self.torque);
+        }
+        self.left = self.left.saturating_sub(1);
+        if self.phase != Phase::Waits && self.is_over(config) {
+            self.advance(config);
+        }
+        self.reference.step(config);
+        let wanted = match self.next {
+            // Against the flank without the servo, which would shake a load that friction holds on a spring.
+            Next::Reversals { torque, .. }
+                if self.stage == Stage::Backlash
+                    && matches!(self.phase, Phase::Settles | Phase::Measures | Phase::Fades) =>
+            {
+                let way = if self.index.is_multiple_of(2) { torque } else { -torque };
+                let push = match self.phase {
+                    Phase::Fades => 0.0,
+                    Phase::Measures => (EASED * way) as f32,
+                    _ => way as f32,
+                };
+                // Slowly: a step would swing to twice its size, and one given in a bounce come back as an impact.
+                let most = 0.125 * torque as f32 * config.servo as f32 * config.block_f32;
+                self.torque + (push - self.torque).min(most).max(-most)
+            }
+            _ => self.servo.torque(&self.deviation, self.reference.acceleration) + self.excitation,
+        };
+        let (middle, most) = match self.next {
+            Next::Reversals { torque, .. } if self.stage == Stage::Backlash => (0.0, torque as f32),
+            _ => {
+                let [most, slow] = config.most;
+                let most = if self.stage == Stage::Resonance { most } else { slow };
+                (config.settings.held as f32, most as f32)
+            }
+        };
+        let given = (wanted - middle).min(most).max(-most);
+        self.torque = given + middle;
+        // Pushes against a flank may well go from bound to bound.
+        if given.abs() >= most && self.stage != Stage::Backlash {
+            self.reversals += u32::from(given * self.bound < 0.0);
+            self.bound = given;
+            if self.reversals > REVERSALS {
+                self.refuse(Reason::Unsteady);
+            }
+        }
+    }
+
+    /// Whether the phase has ended.
+    fn is_over(&self, config: &TestConfig) -> bool {
+        match (self.stage, self.phase) {
+            (Stage::Backlash, Phase::Goes) => {
+                let Next::Reversals { torque, widest, .. } = self.next else { return true };
+                let way = if self.reference.target < 0.0 { -1.0 } else { 1.0 };
+                let crept = (self.reference.angle.wrapping_sub(self.start.0)) as f64 / f64::from(config.units);
+                way * self.torque >= TOUCH * torque as f32 || crept.abs() > widest
+            }
+            (_, Phase::Goes | Phase::Stops) => self.reference.is_there(),
+            _ => self.left == 0,
+        }
+    }
+
+    /// Goes to the next phase.
+    fn advance(&mut self, config: &TestConfig) {
+        let rate = config.acceleration as f32;
+        let steady = config.blocks(6.0 / config.servo);
+        let stop = |this: &mut Self| {
+            this.reference.go(0.0, rate);
+            this.phase = Phase::Stops;
+        };
+        match (self.stage, self.phase) {
+            (Stage::Holding, _) => {
+                self.next = Next::Segments;
+                self.begin(config);
+            }
+            (Stage::Backlash, Phase::Goes) => {
+                self.reference.go(0.0, f32::MAX);
+                self.phase = Phase::Settles;
+                self.left = steady.saturating_mul(3);
+            }
+            (_, Phase::Goes) => {
+                self.phase = Phase::Settles;
+                self.left = match self.next {
+                    Next::Record { settle, .. } => settle,
+                    _ => steady,
+                };
+                self.fading = 2.0 / self.left.max(1) as f32;
+            }
+            (_, Phase::Settles) => self.measure(config),
+            (Stage::Friction, Phase::Measures) => {
+                self.finish_segment(config);
+                self.index += 1;
+                if self.index < SEGMENTS {
+                    let (from, _) = ends_of(self.index);
+                    self.reference.go(from * config.settings.speed as f32, rate);
+                    self.phase = Phase::Goes;
+                } else {
+                    stop(self);
+                }
+            }
+            (Stage::Backlash, Phase::Measures) => {
+                let place = self.place(config);
+                if let Some(push) = self.pushes.get_mut(self.index) {
+                    push.1 = place;
+                }
+                self.index += 1;
+                self.phase = Phase::Fades;
+                self.left = steady.saturating_mul(2);
+            }
+            (Stage::Backlash, Phase::Fades) => {
+                // The reference starts anew from where the motor stands, so that the torque does not jump.
+                self.reference.angle += (self.deviation.angle * config.units) as i64;
+                self.deviation.angle = 0.0;
+                self.start.0 = self.reference.angle;
+                if self.index < PUSHES {
+                    let Next::Reversals { speed, .. } = self.next else { return };
+                    let way = if self.index.is_multiple_of(2) { 1.0 } else { -1.0 };
+                    self.reference.go(way * speed as f32, (speed * config.servo) as f32);
+                    self.phase = Phase::Goes;
+                } else {
+                    stop(self);
+                }
+            }
+            (Stage::Encoder, Phase::Measures) => {
+                let turned = self.angle.wrapping_sub(self.start.0) as f64 / f64::from(config.units);
+                let blocks = if let Next::Turns = self.next { config.turns() } else { 1 };
+                self.total = turned / (f64::from(blocks) * config.block);
+                stop(self);
+            }
+            (_, Phase::Measures) => {
+                self.phase = Phase::Fades;
+                self.left = steady;
+                self.fading = -2.0 / steady as f32;
+            }
+            (_, Phase::Fades) => {
+                self.fade = 0.0;
+                stop(self);
+            }
+            (_, Phase::Stops | Phase::Waits) => {
+                self.phase = Phase::Waits;
+                self.fade = 0.0;
+            }
+        }
+    }
+
+    /// Begins to measure.
+    fn measure(&mut self, config: &TestConfig) {
+        self.phase = Phase::Measures;
+        self.total = 0.0;
+        self.carried = -self.deviation.disturbance;
+        self.start = (self.angle, self.reference.speed + self.deviation.speed);
+        let speed = config.settings.speed as f32;
+        match self.next {
+            Next::Segments => {
+                let (from, to) = ends_of(self.index);
+                self.left = config.blocks(config.segment());
+                let time = self.left as f32 * config.block_f32;
+                self.reference.go(to * speed, ((to - from) * speed).abs() / time);
+            }
+            Next::Turns => {
+                self.left = config.turns();
+                self.window = self.known.window;
+            }
+            Next::Reversals { .. } => {
+                self.left = config.blocks(12.0 / config.servo);
+                let place = self.place(config);
+                if let Some(push) = self.pushes.get_mut(self.index) {
+                    push.0 = place;
+                }
+            }
+            Next::Record { blocks, way, .. } => {
+                self.left = blocks;
+                self.window = self.known.window;
+                self.fading = 0.0;
+                for line in &mut self.lines {
+                    (line.angle, line.torque) = ([0.0; 2], [0.0; 2]);
+                }
+                let time = blocks as f32 * config.block_f32;
+                self.reference.go(way as f32 * 1.1 * speed, 0.2 * speed / time);
+            }
+            Next::Done(_) | Next::Refused(_) => {}
+        }
+    }
+
+    /// Where the motor stands against a flank \[rad\].
+    fn place(&self, config: &TestConfig) -> f64 {
+        self.reference.angle as f64 / f64::from(config.units) + f64::from(self.deviation.angle)
+    }
+
+    fn finish_segment(&mut self, config: &TestConfig) {
+        let blocks = f64::from(config.blocks(config.segment()));
+        let time = blocks * config.block;
+        let (angle, speed) = self.start;
+        let turned = self.angle.wrapping_sub(angle) as f64 / f64::from(config.units);
+        let now = self.reference.speed + self.deviation.speed;
+        if let Some(segment) = self.segments.get_mut(self.index) {
+            *segment = Segment {
+                torque: self.total / blocks,
+                speed: turned / time,
+                acceleration: f64::from(now - speed) / time,
+            };
+        }
+    }
+}
+
+impl TestConfig {
+    /// Duration of a segment of the friction's test \[s\]: long beside the servo and the band's lower end, and for
+    /// ramps no steeper than the others.
+    pub(crate) fn segment(&self) -> f64 {
+        let [low, _] = self.settings.band;
+        (6.0 / low).max(0.6 * self.settings.speed / self.acceleration)
+    }
+
+    /// Blocks in the turns of the encoder's test: 40, or eight at least where the travel is shorter.
+    pub(crate) fn turns(&self) -> u32 {
+        let angle = (0.4 * self.settings.travel).clamp(8.0 * core::f64::consts::TAU, 40.0 * core::f64::consts::TAU);
+        self.blocks(angle / self.settings.speed)
+    }
+}
