@@ -4,6 +4,7 @@
 //! coefficients have formats of their own. Everything is `const fn`, so a firmware holds nothing but the result; the same functions run
 //! on a machine that is commissioned in the field.
 
+mod actuator_watch;
 mod backlash;
 mod bases;
 mod convert;
@@ -20,6 +21,7 @@ mod phasors;
 mod settled;
 mod slack;
 
+pub use actuator_watch::ActuatorWatchSettings;
 pub use bases::Bases;
 pub use convert::Error;
 pub use fluctuation::{Cycle, Wheel};

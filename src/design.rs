@@ -42,7 +42,7 @@ pub use cranked::CrankedDesign;
 pub use error::Error;
 pub use exponential::{discretise, exponential};
 pub use flywheel::{energy_swing, flywheel_inertia};
-pub use governor::{Actuator, GovernorDesign, LoadFeedForward};
+pub use governor::{Actuator, GovernorDesign, LoadFeedForward, VirtualInertia};
 pub use kalman::Kalman;
 pub use margins::Margins;
 pub use matrix::Matrix;

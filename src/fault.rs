@@ -12,7 +12,7 @@ impl Faults {
     /// Nothing wrong.
     pub const NONE: Faults = Faults(0);
     /// The applied torque of the sample was NaN, infinite or beyond the drive's limit; the tick used the last command instead, or without a governor
-    /// the last torque that was believed.
+    /// the last torque that was believed. From an [`ActuatorWatch`](crate::governor::ActuatorWatch): not the torque that was commanded; the expected one was used.
     pub const TORQUE: Faults = Faults(1 << 5);
     /// The speed set point was NaN, infinite or beyond the drive's limit; the last good one stands.
     pub const REFERENCE: Faults = Faults(1 << 1);

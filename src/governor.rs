@@ -10,6 +10,7 @@
 //! | [`SpeedLoop`] | a drive that is always at work: proportional, integral, active damping |
 //! | [`SpeedGovernor`] | anything more, composed of parts: droop, feed-forward, limits by a curve, modes and trips |
 
+mod actuator_watch;
 mod limit;
 mod modes;
 mod prompt;
@@ -20,11 +21,15 @@ mod speed_governor;
 mod speed_loop;
 mod view;
 
+pub use actuator_watch::{ActuatorWatch, ActuatorWatchConfig};
 pub use limit::{
     Between, BetweenConfig, Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, Symmetric, SymmetricConfig,
 };
 pub use modes::{Duty, Mode, Modes, ModesConfig, Request, Supervisor, Trip};
-pub use prompt::{ActiveDamping, ActiveDampingConfig, FeedForward, FeedForwardConfig, Prompt};
+pub use prompt::{
+    AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, FeedForward,
+    FeedForwardConfig, Prompt,
+};
 pub use rack::{Rack, RackConfig};
 pub use set_point::{Barred, BarredConfig, Droop, DroopConfig, SetPoint, Window};
 pub use slack::{Slack, SlackConfig};

@@ -12,11 +12,42 @@
 //! | [`EnableChain`], [`Trip`] | `OutputPin` | what permits the power stage, what drops the contactor |
 //! | [`Adxl355`] | `SpiDevice` | vibration, digital |
 //! | [`AdcVibration`] | a slice of conversions | vibration, analog |
+//! | `AwaitedAngle`, `AwaitedTorque` | what was awaited between two ticks | the four on `SpiDevice` under `embedded-hal-async` |
 //!
-//! A reading is a value that is new and sound, or [`Faults`]; there is no third answer, so that a failed bus never repeats the last
+//! A reading is a value that is new and sound, or [`Faults`](crate::fault::Faults); there is no third answer, so that a failed bus never repeats the last
 //! value. `doc/adapters.md` shows every fault of every adapter with what the drive does, from runs.
 //!
 //! Crates for the encoders and the accelerometer exist (`as5048a`, `adxl355`), on `embedded-hal` 0.2; these are our own.
+//!
+//! # Awaited
+//! With the feature `hal-async` the four adapters on `SpiDevice` also run on that of `embedded-hal-async`. They are the same types with the same frames and
+//! checks; what waits ends in `_async`: `MagneticEncoder::angle_async`, `SpiDac::set_torque_async`, `Tmc4671::set_torque_async`,
+//! `Adxl355::start_async` and `vibration_async`. So a bus that implements both traits is never ambiguous, and nothing need be imported. A future may be
+//! dropped at any point: the next call starts afresh, and what was lost is a fault.
+//!
+//! [`Axis::tick`] never waits. `AwaitedAngle` and `AwaitedTorque` are a board's parts between it and what is awaited:
+//!
+//! ```
+//! # #[cfg(feature = "hal-async")] mod awaited {
+//! # use driveline::{drive::ConfigOf, governor::SpeedLoop, observer::TwoMass, fault::Faults};
+//! use driveline::hal::{AwaitedAngle, AwaitedTorque, Axis, Enabling, MagneticEncoder, Parts, SpiDac};
+//! use embedded_hal_async::spi::SpiDevice;
+//!
+//! # type Config = ConfigOf<f32, TwoMass<f32>, (), SpeedLoop<f32>>;
+//! type OnTask<E> = Axis<Parts<AwaitedAngle, AwaitedTorque<f32>, E>, f32, TwoMass<f32>, (), SpeedLoop<f32>>;
+//!
+//! async fn one_tick<E: Enabling, S: SpiDevice>(
+//!     axis: &mut OnTask<E>, config: &Config, encoder: &mut MagneticEncoder<S>, dac: &mut SpiDac<S, f32>,
+//! ) -> Faults {
+//!     axis.board().angle.fetch(encoder.angle_async()).await;
+//!     let command = axis.tick(config, 150.0);
+//!     axis.board().torque.give(async |torque| dac.set_torque_async(torque).await).await;
+//!     command.faults
+//! }
+//! # }
+//! ```
+//!
+//! A time limit round either await is safe: without an angle the tick is blind, and a torque that did not arrive trips in the next tick.
 //!
 //! # A board
 //! A new board is one file with one type that implements [`Board`]: an angle in, a torque out, the power stage on and off. [`Parts`] is that type
@@ -93,6 +124,8 @@
 mod adc;
 mod adxl355;
 mod angle;
+#[cfg(feature = "hal-async")]
+mod awaited;
 mod axis;
 mod board;
 mod dac;
@@ -111,6 +144,8 @@ mod vibration;
 pub use adc::AdcVibration;
 pub use adxl355::{Adxl355, Along, Range};
 pub use angle::AngleSensor;
+#[cfg(feature = "hal-async")]
+pub use awaited::{AwaitedAngle, AwaitedTorque};
 pub use axis::{Axis, TRIPPING};
 pub use board::{Board, Parts};
 pub use dac::{Dac, SpiDac};

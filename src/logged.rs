@@ -24,10 +24,14 @@ macro_rules! all_of_number {
             drive::Limits<$number>,
             drive::Config<$number, observer::TwoMassConfig<$number>, (), governor::SpeedLoopConfig<$number>, ()>,
             drive::Drive<$number, observer::TwoMass<$number>, (), governor::SpeedLoop<$number>, ()>,
+            governor::ActuatorWatch<$number, 2>,
+            governor::ActuatorWatchConfig<$number, 2>,
             governor::BarredConfig<$number, 2>,
             governor::BetweenConfig<$number>,
             governor::CurveConfig<$number, 4>,
             governor::CurvePiece<$number>,
+            governor::AccelerationFeedback,
+            governor::AccelerationFeedbackConfig<$number>,
             governor::ActiveDamping,
             governor::ActiveDampingConfig<$number>,
             governor::DroopConfig<$number>,
@@ -109,6 +113,7 @@ const _: () = {
         constants::Gear,
         constants::Measured,
         constants::MeasuredError,
+        constants::ActuatorWatchSettings,
         constants::ModesSettings,
         constants::Screening,
         constants::SpeedLoopSettings,
@@ -132,6 +137,7 @@ const _: () = {
         design::GovernorDesign,
         design::Kalman<5, 1>,
         design::LoadFeedForward,
+        design::VirtualInertia,
         design::Margins,
         design::Matrix<5, 5>,
         design::Need,
@@ -272,6 +278,13 @@ const _: () = {
     all!(hal::AdcVibration<f32>, hal::FullScale<f32>, hal::PerCount<f32>, hal::PhaseConfig<f32>);
     all!(hal::MagneticEncoder<()>, hal::Quadrature<()>, hal::Adxl355<(), f32>);
     all!(hal::PwmTorque<(), f32>, hal::SpiDac<(), f32>, hal::ThreePhase<(), (), (), f32>, hal::Tmc4671<(), f32>);
+};
+
+#[cfg(feature = "hal-async")]
+const _: () = {
+    use crate::hal;
+
+    all!(hal::AwaitedAngle, hal::AwaitedTorque<f32>);
 };
 
 #[cfg(feature = "telemetry")]

@@ -7,6 +7,7 @@
 
 pub mod asking;
 pub mod assembled;
+pub mod attended;
 pub mod balanced;
 pub mod board;
 pub mod expected;

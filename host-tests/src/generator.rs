@@ -14,5 +14,6 @@ pub mod page;
 pub mod run;
 pub mod set;
 pub mod standard;
+pub mod trips;
 pub mod turbine;
 pub mod verdict;

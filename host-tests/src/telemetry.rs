@@ -41,8 +41,19 @@ pub struct Decoder {
     frame: Vec<u8>,
     begun: bool,
     channels: BTreeMap<u8, Described>,
-    /// Frames that were damaged, or of a kind that is not known.
+    /// Frames that were damaged.
     pub damaged: u64,
+    /// Frames that were sound and are not understood: a later firmware's.
+    pub unknown: u64,
+    /// Bytes that came.
+    pub bytes: u64,
+}
+
+/// What a packet is.
+enum Packet {
+    Record(Told),
+    Channel(u8, Described),
+    Unknown,
 }
 
 /// A frame that grows beyond this is none.
@@ -51,6 +62,7 @@ const LONGEST: usize = 256;
 impl Decoder {
     /// Takes bytes, and gives each record that is complete.
     pub fn take(&mut self, bytes: &[u8], mut record: impl FnMut(&Decoder, Told)) {
+        self.bytes += bytes.len() as u64;
         for &byte in bytes {
             if byte != 0 {
                 if self.frame.len() < LONGEST {
@@ -59,8 +71,12 @@ impl Decoder {
                 continue;
             }
             let frame = std::mem::take(&mut self.frame);
-            match unstuffed(&frame).and_then(|packet| self.packet(&packet)) {
-                Some(told) => told.into_iter().for_each(|told| record(self, told)),
+            match unstuffed(&frame).and_then(|packet| understood(&packet)) {
+                Some(Packet::Record(told)) => record(self, told),
+                Some(Packet::Channel(index, described)) => {
+                    self.channels.insert(index, described);
+                }
+                Some(Packet::Unknown) => self.unknown += 1,
                 // what precedes the first zero may be the end of a frame
                 None if self.begun && !frame.is_empty() => self.damaged += 1,
                 None => {}
@@ -83,29 +99,28 @@ impl Decoder {
     pub fn describes(&self, channels: usize) -> bool {
         self.channels.len() >= channels
     }
+}
 
-    /// `None` for a damaged packet, nothing in it for a channel.
-    fn packet(&mut self, packet: &[u8]) -> Option<Option<Told>> {
-        let (packet, check) = packet.split_last_chunk::<2>()?;
-        if crc(packet) != u16::from_le_bytes(*check) {
-            return None;
-        }
-        match packet {
-            [1, rest @ ..] if rest.len() >= 8 && rest.len() % 4 == 0 => {
-                let words: Vec<_> = rest.chunks_exact(4).map(le).collect();
-                let [tick, dropped, words @ ..] = &words[..] else { return None };
-                Some(Some(Told { tick: *tick, dropped: *dropped, words: words.to_vec() }))
-            }
-            [2, index, _, kind, a, b, c, d, length, text @ ..] => {
-                let (name, unit) = text.split_at_checked(usize::from(*length))?;
-                let factor = (*kind == 1).then(|| f32::from_le_bytes([*a, *b, *c, *d]));
-                let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-                self.channels.insert(*index, Described { name: text(name), unit: text(unit), factor });
-                Some(None)
-            }
-            _ => None,
-        }
+/// `None` for a damaged packet.
+fn understood(packet: &[u8]) -> Option<Packet> {
+    let (packet, check) = packet.split_last_chunk::<2>()?;
+    if crc(packet) != u16::from_le_bytes(*check) {
+        return None;
     }
+    Some(match packet {
+        [1, rest @ ..] if rest.len() >= 8 && rest.len().is_multiple_of(4) => {
+            let words: Vec<_> = rest.chunks_exact(4).map(le).collect();
+            let [tick, dropped, words @ ..] = &words[..] else { return None };
+            Packet::Record(Told { tick: *tick, dropped: *dropped, words: words.to_vec() })
+        }
+        [2, index, _, kind @ 0..=1, a, b, c, d, length, text @ ..] if text.len() >= usize::from(*length) => {
+            let (name, unit) = text.split_at_checked(usize::from(*length))?;
+            let factor = (*kind == 1).then(|| f32::from_le_bytes([*a, *b, *c, *d]));
+            let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+            Packet::Channel(*index, Described { name: text(name), unit: text(unit), factor })
+        }
+        _ => Packet::Unknown,
+    })
 }
 
 fn le(four: &[u8]) -> u32 {

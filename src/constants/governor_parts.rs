@@ -4,8 +4,8 @@ use super::convert::{fixed, get, or_stop};
 use super::{Bases, Error, Format};
 use crate::design::{GovernorDesign, SpeedLoopDesign};
 use crate::governor::{
-    ActiveDampingConfig, BetweenConfig, DroopConfig, FeedForwardConfig, Gains, MeanConfig, ModesConfig, RackConfig,
-    SymmetricConfig, Window,
+    AccelerationFeedbackConfig, ActiveDampingConfig, BetweenConfig, DroopConfig, FeedForwardConfig, Gains, MeanConfig,
+    ModesConfig, RackConfig, SymmetricConfig, Window,
 };
 use crate::number::{Coefficient, Fixed};
 
@@ -19,6 +19,7 @@ pub(super) const LIMIT: &str = "the torque limit of the governor must be positiv
 const MODES: &str = "the speeds of the modes must be standstill < underspeed < overspeed, none of them negative, the shaft's torque positive, all finite and within twice their bases in fixed point";
 const TIMES: &str =
     "the times of the modes must be zero or above and below 2^31 ticks, and the period of a tick positive";
+const ACCELERATION: &str = "the acceleration feedback must be less than twice the torque that accelerates the load in fixed point: lower its share";
 const DELAY: &str = "the delay of the rack must be zero or above and less than its ring of ticks";
 
 /// The limits of [`Modes`](crate::governor::Modes), in SI units.
@@ -35,11 +36,11 @@ pub struct ModesSettings {
     pub shaft_torque: f64,
     /// The speed below which a braking machine has stopped [rad/s].
     pub standstill: f64,
-    /// Time beyond a limit, other than underspeed's, that does not trip yet [s].
+    /// Time beyond a limit, other than underspeed's, that does not trip yet \[s\].
     pub prompt: f64,
-    /// Time of underspeed that does not trip yet [s].
+    /// Time of underspeed that does not trip yet \[s\].
     pub patient: f64,
-    /// Time that a start may take [s].
+    /// Time that a start may take \[s\].
     pub start: f64,
 }
 
@@ -57,13 +58,13 @@ pub(super) const fn all_finite(values: &[f64]) -> bool {
     true
 }
 
-const fn gains(design: &[f64; 4], ramp: f64, format: &Format) -> Values<1, 3> {
-    let [proportional, integral, slip, period] = *design;
+const fn gains(design: &[f64; 5], ramp: f64, format: &Format) -> Values<1, 3> {
+    let [proportional, integral, slip, acceleration, period] = *design;
     let Bases { torque, speed, .. } = format.bases;
     let scale = speed / (torque * format.gain);
     let step = ramp * period / speed;
-    // Operands are held within 8 bases and the integral and what is fed forward within 2: the sum must stay within 8.
-    let sum = 8.0 * scale * (proportional + integral * period + slip.abs());
+    // Operands are held within 8 bases, the integral, what is fed forward and what accelerates the load within 2: the sum must stay within 8.
+    let sum = 8.0 * scale * (proportional + integral * period + slip.abs()) + 2.0 * acceleration;
     if !(step > 0.0 && step.is_finite()) {
         Err(Error::Value(RAMP))
     } else if format.unit != 1.0 && !(sum <= 3.99) {
@@ -84,6 +85,14 @@ const fn droop(droop: f64, rated_speed: f64, rated_torque: f64, format: &Format)
 
 const fn feed_forward(share: f64, format: &Format) -> Values<0, 1> {
     if share >= 0.0 && share <= 1.0 { Ok(([], [share / format.widened])) } else { Err(Error::Value(SHARE)) }
+}
+
+const fn acceleration(feedback: f64, format: &Format) -> Values<0, 1> {
+    if feedback >= 0.0 && feedback.is_finite() {
+        Ok(([], [-feedback / format.widened]))
+    } else {
+        Err(Error::Value(ACCELERATION))
+    }
 }
 
 const fn damping(slip: f64, format: &Format) -> Values<0, 1> {
@@ -121,7 +130,7 @@ const fn windows(settings: &ModesSettings, format: &Format) -> Values<6, 0> {
     ))
 }
 
-const fn ticks(time: f64, period: f64) -> Result<u32, Error> {
+pub(super) const fn ticks(time: f64, period: f64) -> Result<u32, Error> {
     let ticks = time / period + 0.5;
     if time >= 0.0 && period > 0.0 && ticks < 2_147_483_648.0 { Ok(ticks as u32) } else { Err(Error::Value(TIMES)) }
 }
@@ -212,7 +221,7 @@ macro_rules! part {
 part!(
     Gains, (design: &GovernorDesign, ramp: f64), GAIN,
     "[`Error::Value`] for a ramp [rad/s2] that is not positive and finite, [`Error::Coefficient`] for a gain beyond fixed point.",
-    |format| gains(&[design.proportional, design.integral, 0.0, design.period], ramp, &format),
+    |format| gains(&[design.proportional, design.integral, 0.0, design.acceleration, design.period], ramp, &format),
     |cast, [ramp], [proportional, integral, unwinding]| Gains {
         proportional: cast!(proportional),
         integral: cast!(integral),
@@ -233,6 +242,13 @@ part!(
     "[`Error::Value`] for a share that is not from 0 to 1.",
     |format| feed_forward(share, &format),
     |cast, [], [share]| FeedForwardConfig { share: cast!(share) }
+);
+
+part!(
+    AccelerationFeedbackConfig, (design: &GovernorDesign), ACCELERATION,
+    "[`Error`] for a feedback of twice the torque that accelerates the load or more, in fixed point.",
+    |format| acceleration(design.acceleration, &format),
+    |cast, [], [feedback]| AccelerationFeedbackConfig { feedback: cast!(feedback) }
 );
 
 part!(
@@ -258,7 +274,7 @@ part!(
 
 part!(
     ModesConfig, (settings: &ModesSettings, period: f64), MODES,
-    "[`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` [s] or more.",
+    "[`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` \\[s\\] or more.",
     |format| windows(settings, &format),
     |cast, [middle, half, centre, reach, shaft, standstill], []| ModesConfig {
         running: Window { middle: cast!(middle), half: cast!(half) },
@@ -277,7 +293,7 @@ impl Gains<f32> {
     /// # Panics
     /// At compile time in a constant, where the ramp [rad/s2] is not positive and finite.
     pub const fn of_speed_loop(design: &SpeedLoopDesign, ramp: f64) -> Self {
-        let design = [design.proportional, design.integral, design.slip, design.period];
+        let design = [design.proportional, design.integral, design.slip, 0.0, design.period];
         let ([ramp], [proportional, integral, unwinding]) = or_stop!(gains(&design, ramp, &Format::FLOAT));
         Gains {
             proportional: proportional as f32,
@@ -295,7 +311,7 @@ impl Gains<Fixed> {
     /// # Panics
     /// At compile time in a constant, where a gain or the ramp [rad/s2] is beyond fixed point.
     pub const fn of_speed_loop(design: &SpeedLoopDesign, ramp: f64, bases: Bases) -> Self {
-        let design = [design.proportional, design.integral, design.slip, design.period];
+        let design = [design.proportional, design.integral, design.slip, 0.0, design.period];
         let values = gains(&design, ramp, &Format::fixed(bases));
         let ([ramp], [proportional, integral, unwinding]) = or_stop!(in_fixed(values, GAIN));
         Gains { proportional, integral, unwinding, ramp }
@@ -303,7 +319,7 @@ impl Gains<Fixed> {
 }
 
 impl<const K: usize> RackConfig<K> {
-    /// A delay [s] in ticks of `period` [s].
+    /// A delay \[s\] in ticks of `period` \[s\].
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -311,7 +327,7 @@ impl<const K: usize> RackConfig<K> {
         or_stop!(Self::try_new(delay, period))
     }
 
-    /// A delay [s] in ticks of `period` [s], to the nearest.
+    /// A delay \[s\] in ticks of `period` \[s\], to the nearest.
     ///
     /// # Errors
     /// [`Error::Value`] for a delay that is negative or does not fit the ring.

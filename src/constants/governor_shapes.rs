@@ -103,7 +103,7 @@ macro_rules! float_arrays {
         }
 
         impl<L: Copy> SlewConfig<$float, L> {
-            /// The constants as floats: torque per time [N m/s], the other limit, and the period of a tick [s].
+            /// The constants as floats: torque per time [N m/s], the other limit, and the period of a tick \[s\].
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
@@ -187,7 +187,7 @@ impl<const K: usize> CurveConfig<Fixed, K> {
 }
 
 impl<L: Copy> SlewConfig<Fixed, L> {
-    /// The constants in fixed point: torque per time [N m/s], the other limit, and the period of a tick [s].
+    /// The constants in fixed point: torque per time [N m/s], the other limit, and the period of a tick \[s\].
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.

@@ -14,7 +14,9 @@
 //! P the machine, A the actuator, C the controller, F the lag of the estimated load torque and g its share, the
 //! observer finds the load from the machine's motion and from the torque that acts, so the loop cut at the actuator is
 //! `A (C P + g F)/(1 - g F A)`. The closed loop is that of `A C P` alone, as long as the actuator is what the observer
-//! is told it is; the margins say how far it may be something else. At g = 1 the feed-forward integrates by itself.
+//! is told it is; the margins say how far it may be something else. At g = 1 the feed-forward integrates by itself. With
+//! a virtual inertia of the share s the estimated acceleration is that of the told torque and, late, of what the
+//! machine's motion adds to it: the loop is `A (C P + s F)/(1 + s (1 - F) A)`.
 
 use super::margins::{Late, Loop, Margins};
 use super::tuning::Rate;
@@ -80,6 +82,20 @@ impl LoadFeedForward {
     pub const NONE: Self = Self { share: 0.0, lag: 0.0 };
 }
 
+/// An inertia that the governor gives the machine by the actuator, against the estimated acceleration.
+///
+/// With a share `s` of the machine's own inertia J the actuator A is closed into the inner loop `A/(1 + s A)`. For a sum
+/// of lags that is a lag of `1/(1 + s)` of theirs and of `1/(1 + s)` of their gain. The loop round it is designed for the
+/// shorter lag, with the gain left as it is, which is as if the machine were heavier: both raise the margins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct VirtualInertia {
+    /// Of the machine's total inertia, from 0 to 1.
+    pub share: f64,
+    /// By how much the estimate of the load torque is late, as a first-order lag \[s\].
+    pub lag: f64,
+}
+
 /// A finished governor for a late actuator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -90,10 +106,12 @@ pub struct GovernorDesign {
     pub proportional: f64,
     /// Integral gain \[N m/rad\].
     pub integral: f64,
-    /// Sum of all that is late \[s\].
+    /// Sum of all that is late \[s\], less what a virtual inertia takes of it.
     pub lateness: f64,
     /// Share of the load torque that is fed forward.
     pub share: f64,
+    /// Torque against the acceleration, per torque that accelerates the load.
+    pub acceleration: f64,
     /// Margins of the loop, cut at the actuator.
     pub margins: Margins,
 }
@@ -130,6 +148,56 @@ impl TwoMass {
         span: f64,
         forward: LoadFeedForward,
     ) -> Result<GovernorDesign, Error> {
+        if !(forward.share >= 0.0 && forward.share <= 1.0 && forward.lag >= 0.0 && forward.lag.is_finite()) {
+            return Err(Error::FeedForward);
+        }
+        self.late_governor(rate, actuator, span, [forward.share, 0.0, forward.lag])
+    }
+
+    /// [`governor`](Self::governor) with a virtual inertia instead of feed-forward.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that
+    /// [`try_governor_with_inertia`](Self::try_governor_with_inertia) returns.
+    #[must_use]
+    pub const fn governor_with_inertia(
+        &self,
+        rate: Rate,
+        actuator: Actuator,
+        span: f64,
+        inertia: VirtualInertia,
+    ) -> GovernorDesign {
+        match self.try_governor_with_inertia(rate, actuator, span, inertia) {
+            Ok(design) => design,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`governor_with_inertia`](Self::governor_with_inertia), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// A value out of range, or [`Error::GovernorUnstable`].
+    pub const fn try_governor_with_inertia(
+        &self,
+        rate: Rate,
+        actuator: Actuator,
+        span: f64,
+        inertia: VirtualInertia,
+    ) -> Result<GovernorDesign, Error> {
+        if !(inertia.share >= 0.0 && inertia.share <= 1.0 && inertia.lag >= 0.0 && inertia.lag.is_finite()) {
+            return Err(Error::VirtualInertia);
+        }
+        self.late_governor(rate, actuator, span, [0.0, inertia.share, inertia.lag])
+    }
+
+    /// The governor with what it takes of the estimates: share of the load torque, of the inertia, and their lag.
+    const fn late_governor(
+        &self,
+        rate: Rate,
+        actuator: Actuator,
+        span: f64,
+        taken: [f64; 3],
+    ) -> Result<GovernorDesign, Error> {
         if let Err(error) = self.check() {
             return Err(Error::Machine(error));
         }
@@ -144,11 +212,9 @@ impl TwoMass {
         if !(span > 1.0 && span.is_finite()) {
             return Err(Error::Span);
         }
-        if !(forward.share >= 0.0 && forward.share <= 1.0 && forward.lag >= 0.0 && forward.lag.is_finite()) {
-            return Err(Error::FeedForward);
-        }
+        let [share, inertia, estimate] = taken;
         // The torque acts in the tick after its sample, and is held for a tick: half of one more in the mean.
-        let lateness = delay + lag + 1.5 * period;
+        let lateness = (delay + lag + 1.5 * period) / (1.0 + inertia);
         let proportional = self.total_inertia() / (span * lateness);
         let integral = proportional / (span * span * lateness);
         let open = Loop {
@@ -158,12 +224,13 @@ impl TwoMass {
             proportional,
             integral,
             slip: 0.0,
-            late: Late { delay, lag, share: forward.share, estimate: forward.lag },
+            late: Late { delay, lag, share, inertia, estimate },
         };
         if !open.is_stable(1.0 / (span * lateness)) {
             return Err(Error::GovernorUnstable);
         }
         let margins = open.margins(1.0 / (span * lateness));
-        Ok(GovernorDesign { period, proportional, integral, lateness, share: forward.share, margins })
+        let acceleration = inertia * self.total_inertia() / self.load_inertia;
+        Ok(GovernorDesign { period, proportional, integral, lateness, share, acceleration, margins })
     }
 }

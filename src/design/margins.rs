@@ -36,17 +36,19 @@ pub(super) struct Late {
     /// Dead time and lag of the actuator.
     pub delay: f64,
     pub lag: f64,
-    /// Share of the load torque that is fed forward, and the lag of its estimate.
+    /// Share of the load torque that is fed forward, share of the inertia that is given against the acceleration, and the lag of the
+    /// estimated load torque.
     pub share: f64,
+    pub inertia: f64,
     pub estimate: f64,
 }
 
 impl Late {
     /// Nothing is late.
-    pub(super) const NONE: Self = Late { delay: 0.0, lag: 0.0, share: 0.0, estimate: 0.0 };
+    pub(super) const NONE: Self = Late { delay: 0.0, lag: 0.0, share: 0.0, inertia: 0.0, estimate: 0.0 };
 
     const fn is_none(&self) -> bool {
-        self.delay == 0.0 && self.lag == 0.0 && self.share == 0.0
+        self.delay == 0.0 && self.lag == 0.0 && self.share == 0.0 && self.inertia == 0.0
     }
 }
 
@@ -88,13 +90,16 @@ impl Loop {
         if self.late.is_none() { prompt } else { self.with_late(prompt, z, frequency) }
     }
 
-    /// The response with what is late: `A (L + g F)/(1 - g F A)`.
+    /// The response with what is late: `A (L + (g + s) F)/(1 - g F A + s (1 - F) A)`.
     const fn with_late(&self, prompt: Complex, z: Complex, frequency: f64) -> Complex {
-        let Late { delay, lag, share, estimate } = self.late;
+        let Late { delay, lag, share, inertia, estimate } = self.late;
         let (sine, cosine) = sin_cos(frequency * delay);
         let actuator = over((cosine, -sine), (1.0, frequency * lag));
-        let filter = over(over((share, 0.0), (1.0, frequency * estimate)), z);
-        let fed = times(filter, actuator);
+        let taken = share + inertia;
+        let filter = over(over((taken, 0.0), (1.0, frequency * estimate)), z);
+        // What acts on the told torque: (g + s) F - s/z.
+        let own = over((inertia, 0.0), z);
+        let fed = times((filter.0 - own.0, filter.1 - own.1), actuator);
         over(times(actuator, (prompt.0 + filter.0, prompt.1 + filter.1)), (1.0 - fed.0, -fed.1))
     }
 

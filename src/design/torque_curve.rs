@@ -43,7 +43,7 @@ impl<const K: usize> TorqueCurve<K> {
         if K == 0 { Err(Error::TorqueCurve) } else { Ok(TorqueCurve { points }) }
     }
 
-    /// The curve with no more than `power` [W] at each of its points.
+    /// The curve with no more than `power` \[W\] at each of its points.
     #[must_use]
     pub const fn with_power_limit(mut self, power: f64) -> Self {
         let mut k = 0;

@@ -49,7 +49,7 @@ pub struct Edge<N> {
 const LATEST: f64 = 64.0;
 
 impl<N: Number> Edge<N> {
-    /// How long before its tick the end was passed [ticks], where the motor turned by `turned` in a tick \[rad\]; half a tick where that says nothing
+    /// How long before its tick the end was passed \[ticks\], where the motor turned by `turned` in a tick \[rad\]; half a tick where that says nothing
     /// of it.
     pub fn fraction(&self, turned: f64) -> f64 {
         let fraction = f64::from(self.beyond) * RADIANS / turned;

@@ -73,17 +73,19 @@ pub enum Trip {
     Reverse,
     /// More torque in the shaft than it may carry.
     ShaftOverload,
-    /// The angle was lost.
+    /// A sensor was lost: that of the angle, or that of the actuator's position.
     SensorLoss,
     /// Not at speed in the time that a start may take.
     NotStarted,
     /// Asked for, as by an emergency stop.
     Asked,
+    /// The actuator is not where it was told to be: it sticks, or its position reads wrong.
+    Actuator,
 }
 
 impl Trip {
     /// Every trip with its name.
-    pub const NAMES: [(Trip, &'static str); 7] = [
+    pub const NAMES: [(Trip, &'static str); 8] = [
         (Trip::Overspeed, "overspeed"),
         (Trip::Underspeed, "underspeed"),
         (Trip::Reverse, "reverse"),
@@ -91,6 +93,7 @@ impl Trip {
         (Trip::SensorLoss, "sensor loss"),
         (Trip::NotStarted, "not started"),
         (Trip::Asked, "asked for"),
+        (Trip::Actuator, "actuator"),
     ];
 }
 
@@ -183,6 +186,16 @@ impl Modes {
         true
     }
 
+    /// Trips for a reason that something beside the estimates has found, as [`ActuatorWatch`](super::ActuatorWatch); `false` where the
+    /// machine has tripped already, and the first reason stands.
+    pub fn trip(&mut self, reason: Trip) -> bool {
+        if matches!(self.mode, Mode::Tripped(_)) {
+            return false;
+        }
+        *self = Modes { mode: Mode::Tripped(reason), ..Modes::default() };
+        true
+    }
+
     /// Counts a tick outside the limits, or one within them.
     fn count<N: Number>(&mut self, config: &ModesConfig<N>, estimate: &Estimate<N>, window: &Window<N>) {
         let speed = estimate.motor_speed;
@@ -226,7 +239,11 @@ impl Modes {
                 }
                 duty
             }
-            Mode::Braking if estimate.motor_speed.exceeds(config.standstill) => Duty::Brake,
+            // One that is stopped before its first tick begins at its speed all the same.
+            Mode::Braking if estimate.motor_speed.exceeds(config.standstill) => match duty {
+                Duty::Begin => duty,
+                _ => Duty::Brake,
+            },
             Mode::Braking => {
                 self.mode = Mode::Stopped;
                 Duty::Idle

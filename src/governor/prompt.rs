@@ -1,4 +1,4 @@
-//! Torque beside the loop's own: the estimated load fed forward, the twist damped.
+//! Torque beside the loop's own: the estimated load fed forward, the twist damped, acceleration opposed.
 
 use crate::number::Number;
 use crate::sample::Estimate;
@@ -85,5 +85,34 @@ impl<N: Number> Prompt<N> for ActiveDamping {
     fn oppose(&self, config: &ActiveDampingConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
         let twist_rate = estimate.motor_speed.minus(estimate.load_speed).gain_operand();
         torque.plus(twist_rate.times(config.damping))
+    }
+}
+
+/// Torque against the estimated acceleration of the load, as a flywheel would give it, by the actuator alone: it begins to
+/// act when the load has changed, before the speed has, and lets a loop with a late actuator be quicker
+/// ([`VirtualInertia`](crate::design::VirtualInertia)). At constant speed it gives none, and the droop does not count it.
+///
+/// The acceleration is what the shaft carries beyond the load's torque, over the load's inertia; so it is for a shaft
+/// whose torque does not swing in every cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct AccelerationFeedback;
+
+/// Constants of [`AccelerationFeedback`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct AccelerationFeedbackConfig<N: Number> {
+    /// Torque per torque that accelerates the load, negative, on its [widened](Number::widened) value.
+    pub feedback: N::Coefficient,
+}
+
+impl<N: Number> Prompt<N> for AccelerationFeedback {
+    type Config = AccelerationFeedbackConfig<N>;
+
+    #[inline(always)]
+    fn oppose(&self, config: &AccelerationFeedbackConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
+        // Held within twice the base, of which fixed point has four times in an operand.
+        let accelerating = estimate.shaft_torque.minus(estimate.load_torque).saturated();
+        torque.plus(accelerating.widened().times(config.feedback))
     }
 }

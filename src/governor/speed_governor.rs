@@ -11,7 +11,7 @@
 //! | parameter | parts |
 //! |---|---|
 //! | `S`, the set point | `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred) |
-//! | `F`, added torque | `()`, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping) |
+//! | `F`, added torque | `()`, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping), [`AccelerationFeedback`](super::AccelerationFeedback) |
 //! | `L`, the limit | [`Symmetric`], [`Between`](super::Between), [`Curve`](super::Curve), [`Slew`](super::Slew) or [`Slack`](super::Slack) round any of them |
 //! | `M`, the modes | `()` always at work, [`Modes`](super::Modes) |
 //! | `V`, the view | `()` the estimates as they are, [`Mean`](super::Mean) over an engine's firing interval, [`OverCycle`](super::OverCycle) without what repeats every cycle |
@@ -117,6 +117,7 @@ where
         to: &SpeedGovernorConfigOf<N, S, F, L, M, V>,
         estimate: &Estimate<N>,
     ) {
+        let estimate = &self.view.seen(estimate);
         let target = self.target(from, estimate);
         let error = target.minus(estimate.motor_speed).gain_operand();
         let before = self.wanted(from, estimate, self.integral, error);

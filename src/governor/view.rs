@@ -24,6 +24,11 @@ pub trait View<N: Number>: Default {
         *estimate
     }
 
+    /// What was seen in the last tick, of estimates that have not changed since.
+    fn seen(&self, estimate: &Estimate<N>) -> Estimate<N> {
+        *estimate
+    }
+
     /// What the modes and trips see, of the estimates as they are and as they are seen.
     #[inline(always)]
     fn watched<'e>(_estimate: &'e Estimate<N>, seen: &'e Estimate<N>) -> &'e Estimate<N> {
@@ -86,6 +91,11 @@ impl<N: Number, const K: usize> View<N> for Mean<N, K> {
             self.sum = self.fresh;
             self.fresh = [N::ZERO; 2];
         }
+        self.seen(estimate)
+    }
+
+    #[inline(always)]
+    fn seen(&self, estimate: &Estimate<N>) -> Estimate<N> {
         Estimate { motor_speed: self.sum[0], load_torque: self.sum[1], ..*estimate }
     }
 
@@ -101,7 +111,8 @@ impl<N: Number, const K: usize> View<N> for Mean<N, K> {
 /// The motor's speed without what repeats in every cycle, as the drive's fluctuation has it ([`CycleMean`](crate::fluctuation::CycleMean)); as it
 /// is where the fluctuation does not know. Everything else is seen as it is, and so is the speed by the modes and their trips.
 ///
-/// A load torque that is fed forward brings the ripple back: leave [`FeedForward`](super::FeedForward) out.
+/// A load torque that is fed forward brings the ripple back: leave [`FeedForward`](super::FeedForward) out, or take [`Mean`], which sees the
+/// mean of the load torque as well, where the speed hardly varies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct OverCycle<N> {
@@ -118,6 +129,11 @@ impl<N: Number> View<N> for OverCycle<N> {
 
     #[inline(always)]
     fn see(&mut self, _config: &(), estimate: &Estimate<N>) -> Estimate<N> {
+        self.seen(estimate)
+    }
+
+    #[inline(always)]
+    fn seen(&self, estimate: &Estimate<N>) -> Estimate<N> {
         Estimate { motor_speed: self.steady_speed.unwrap_or(estimate.motor_speed), ..*estimate }
     }
 

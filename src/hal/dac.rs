@@ -1,7 +1,5 @@
 //! A torque as a voltage: a DAC on SPI before a drive's analog input.
 
-use embedded_hal::spi::SpiDevice;
-
 use super::{FullScale, Scaled, TorqueOutput};
 use crate::fault::Faults;
 
@@ -24,7 +22,7 @@ pub struct SpiDac<S, N: Scaled> {
     full_scale: FullScale<N>,
 }
 
-impl<S: SpiDevice, N: Scaled> SpiDac<S, N> {
+impl<S, N: Scaled> SpiDac<S, N> {
     /// A DAC whose largest code is `full_scale`.
     pub const fn new(bus: S, dac: Dac, full_scale: FullScale<N>) -> Self {
         SpiDac { bus, dac, full_scale }
@@ -34,19 +32,19 @@ impl<S: SpiDevice, N: Scaled> SpiDac<S, N> {
     pub fn release(self) -> S {
         self.bus
     }
+}
 
-    fn write(&mut self, fraction: i32) -> Result<(), S::Error> {
-        let code = (fraction + 32768) as u16;
-        let [high, low] = code.to_be_bytes();
+impl<S: embedded_hal::spi::SpiDevice, N: Scaled> SpiDac<S, N> {
+    fn write(&mut self, fraction: i32) -> Result<(), Faults> {
         match self.dac {
-            // power-down bits zero: normal operation
-            Dac::Ad5662 => self.bus.write(&[0, high, low]),
-            Dac::Mcp4921 => self.bus.write(&(0x3000 | (code >> 4)).to_be_bytes()),
+            Dac::Ad5662 => self.bus.write(&ad5662(fraction)),
+            Dac::Mcp4921 => self.bus.write(&mcp4921(fraction)),
         }
+        .map_err(|_| Faults::TORQUE_OUTPUT)
     }
 }
 
-impl<S: SpiDevice, N: Scaled> TorqueOutput<N> for SpiDac<S, N> {
+impl<S: embedded_hal::spi::SpiDevice, N: Scaled> TorqueOutput<N> for SpiDac<S, N> {
     fn set_torque(&mut self, torque: N, _angle: u32) -> Result<(), Faults> {
         let fraction = self.full_scale.fraction(torque);
         let written = self.write(fraction.unwrap_or(0));
@@ -55,4 +53,44 @@ impl<S: SpiDevice, N: Scaled> TorqueOutput<N> for SpiDac<S, N> {
         }
         if written.is_ok() && fraction.is_some() { Ok(()) } else { Err(Faults::TORQUE_OUTPUT) }
     }
+}
+
+#[cfg(feature = "hal-async")]
+impl<S: embedded_hal_async::spi::SpiDevice, N: Scaled> SpiDac<S, N> {
+    async fn write_async(&mut self, fraction: i32) -> Result<(), Faults> {
+        match self.dac {
+            Dac::Ad5662 => self.bus.write(&ad5662(fraction)).await,
+            Dac::Mcp4921 => self.bus.write(&mcp4921(fraction)).await,
+        }
+        .map_err(|_| Faults::TORQUE_OUTPUT)
+    }
+
+    /// [`TorqueOutput::set_torque`], awaited: the same frames and faults. Where the future is dropped, the output may give the last torque or this one:
+    /// [`AwaitedTorque`](super::AwaitedTorque) takes that for a fault.
+    ///
+    /// # Errors
+    /// [`Faults::TORQUE_OUTPUT`] where the torque could not be handed over.
+    pub async fn set_torque_async(&mut self, torque: N) -> Result<(), Faults> {
+        let fraction = self.full_scale.fraction(torque);
+        let written = self.write_async(fraction.unwrap_or(0)).await;
+        if written.is_err() {
+            let _ = self.write_async(0).await;
+        }
+        if written.is_ok() && fraction.is_some() { Ok(()) } else { Err(Faults::TORQUE_OUTPUT) }
+    }
+}
+
+/// The code of a fraction in 1/32768; the middle is none.
+const fn code(fraction: i32) -> u16 {
+    (fraction + 32768) as u16
+}
+
+/// The power-down bits are zero: normal operation.
+const fn ad5662(fraction: i32) -> [u8; 3] {
+    let [high, low] = code(fraction).to_be_bytes();
+    [0, high, low]
+}
+
+const fn mcp4921(fraction: i32) -> [u8; 2] {
+    (0x3000 | (code(fraction) >> 4)).to_be_bytes()
 }

@@ -11,8 +11,6 @@
 //! | offset compensation finished | a chip that has just started, and a line that is stuck low: zeros have an even parity |
 //! | CORDIC overflow, field too strong, field too weak | a magnet that has moved or gone |
 
-use embedded_hal::spi::SpiDevice;
-
 use super::AngleSensor;
 use crate::fault::Faults;
 
@@ -50,11 +48,11 @@ impl Chip {
 pub struct MagneticEncoder<S> {
     bus: S,
     chip: Chip,
-    /// Whether the next answer is a diagnosis.
+    /// Whether the next answer is a diagnosis. It is not while a reading runs, so that one that is cut off is followed by one from the start.
     asked: bool,
 }
 
-impl<S: SpiDevice> MagneticEncoder<S> {
+impl<S> MagneticEncoder<S> {
     /// An encoder on its bus: mode 1, at most 10 MHz.
     pub const fn new(bus: S, chip: Chip) -> Self {
         MagneticEncoder { bus, chip, asked: false }
@@ -65,27 +63,8 @@ impl<S: SpiDevice> MagneticEncoder<S> {
         self.bus
     }
 
-    /// Sends a command and gives the data of the last one's answer.
-    fn exchange(&mut self, register: u16) -> Result<u16, Faults> {
-        let mut frame = with_parity(READ | register).to_be_bytes();
-        self.bus.transfer_in_place(&mut frame).map_err(|_| Faults::ANGLE_MISSING)?;
-        let answer = u16::from_be_bytes(frame);
-        if answer.count_ones() & 1 != 0 || answer & ERROR != 0 {
-            return Err(Faults::ANGLE_MISSING);
-        }
-        Ok(answer & DATA)
-    }
-
-    fn read(&mut self) -> Result<u32, Faults> {
-        let diagnosis = self.chip.diagnosis();
-        if !self.asked {
-            // what this brings was asked for by nobody
-            let mut frame = with_parity(READ | diagnosis).to_be_bytes();
-            self.bus.transfer_in_place(&mut frame).map_err(|_| Faults::ANGLE_MISSING)?;
-        }
-        self.asked = false;
-        let state = self.exchange(ANGLE)?;
-        let angle = self.exchange(diagnosis)?;
+    /// The angle of a reading's two answers, where the diagnosis permits it.
+    fn angle_of(&mut self, state: u16, angle: u16) -> Result<u32, Faults> {
         self.asked = true;
         if state & FINISHED == 0 || state & TROUBLE != 0 {
             return Err(Faults::ANGLE_MISSING);
@@ -94,16 +73,82 @@ impl<S: SpiDevice> MagneticEncoder<S> {
     }
 }
 
-impl<S: SpiDevice> AngleSensor for MagneticEncoder<S> {
+impl<S: embedded_hal::spi::SpiDevice> MagneticEncoder<S> {
+    /// Sends a command and brings what the last one asked for.
+    fn exchange(&mut self, register: u16) -> Result<[u8; 2], Faults> {
+        let mut frame = command(register);
+        self.bus.transfer_in_place(&mut frame).map_err(|_| Faults::ANGLE_MISSING)?;
+        Ok(frame)
+    }
+
+    fn read(&mut self) -> Result<u32, Faults> {
+        let diagnosis = self.chip.diagnosis();
+        if !self.asked {
+            // what this brings was asked for by nobody
+            self.exchange(diagnosis)?;
+        }
+        self.asked = false;
+        let state = data(self.exchange(ANGLE)?)?;
+        let angle = data(self.exchange(diagnosis)?)?;
+        self.angle_of(state, angle)
+    }
+}
+
+impl<S: embedded_hal::spi::SpiDevice> AngleSensor for MagneticEncoder<S> {
     fn angle(&mut self) -> Result<u32, Faults> {
         let angle = self.read();
         if angle.is_err() && !self.asked {
             // reading the errors clears them; what the answer to this is does not matter
-            let mut frame = with_parity(READ | ERRORS).to_be_bytes();
-            let _ = self.bus.transfer_in_place(&mut frame);
+            let _ = self.exchange(ERRORS);
         }
         angle
     }
+}
+
+#[cfg(feature = "hal-async")]
+impl<S: embedded_hal_async::spi::SpiDevice> MagneticEncoder<S> {
+    async fn exchange_async(&mut self, register: u16) -> Result<[u8; 2], Faults> {
+        let mut frame = command(register);
+        self.bus.transfer_in_place(&mut frame).await.map_err(|_| Faults::ANGLE_MISSING)?;
+        Ok(frame)
+    }
+
+    async fn read_async(&mut self) -> Result<u32, Faults> {
+        let diagnosis = self.chip.diagnosis();
+        if !self.asked {
+            self.exchange_async(diagnosis).await?;
+        }
+        self.asked = false;
+        let state = data(self.exchange_async(ANGLE).await?)?;
+        let angle = data(self.exchange_async(diagnosis).await?)?;
+        self.angle_of(state, angle)
+    }
+
+    /// [`AngleSensor::angle`], awaited: the same frames, checks and faults. Where the future is dropped, the next reading starts afresh.
+    ///
+    /// # Errors
+    /// [`Faults::ANGLE_MISSING`] where there is no angle that is new and sound.
+    pub async fn angle_async(&mut self) -> Result<u32, Faults> {
+        let angle = self.read_async().await;
+        if angle.is_err() && !self.asked {
+            let _ = self.exchange_async(ERRORS).await;
+        }
+        angle
+    }
+}
+
+/// The frame that asks for a register.
+const fn command(register: u16) -> [u8; 2] {
+    with_parity(READ | register).to_be_bytes()
+}
+
+/// The data of an answer that is sound.
+fn data(answer: [u8; 2]) -> Result<u16, Faults> {
+    let answer = u16::from_be_bytes(answer);
+    if answer.count_ones() & 1 != 0 || answer & ERROR != 0 {
+        return Err(Faults::ANGLE_MISSING);
+    }
+    Ok(answer & DATA)
 }
 
 /// Makes the number of ones even.

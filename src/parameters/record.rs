@@ -25,6 +25,8 @@ pub enum Refusal {
     Version(u16),
     /// Its parameters are not what the type reads.
     Content,
+    /// The flash does not give it: the check of its own code failed, say, where the power was cut while it was written.
+    Unreadable,
 }
 
 impl fmt::Display for Refusal {
@@ -34,6 +36,7 @@ impl fmt::Display for Refusal {
             Refusal::Foreign(identity) => write!(f, "the record is another firmware's, {identity:#010x}"),
             Refusal::Version(version) => write!(f, "the record is of version {version}"),
             Refusal::Content => f.write_str("the record's parameters cannot be read"),
+            Refusal::Unreadable => f.write_str("the flash does not give the record"),
         }
     }
 }
@@ -86,6 +89,11 @@ pub(super) struct Refused {
     pub worth: Worth,
     /// The count of its save that it claims, where it has one.
     pub count: Option<u32>,
+}
+
+impl Refused {
+    /// A place that the flash does not give.
+    pub(super) const UNREADABLE: Refused = Refused { reason: Refusal::Unreadable, worth: Worth::Nothing, count: None };
 }
 
 /// Reads a record, whatever is behind it, and the count of its save.

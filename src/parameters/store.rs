@@ -17,6 +17,8 @@ pub enum Error<E> {
     Range,
     /// The record does not fit the buffer, or half the range.
     TooLarge,
+    /// What was written is not what is there: a worn page, say. The last record is untouched.
+    Unwritten,
 }
 
 impl<E: fmt::Debug> fmt::Display for Error<E> {
@@ -25,6 +27,7 @@ impl<E: fmt::Debug> fmt::Display for Error<E> {
             Error::Flash(error) => write!(f, "the flash failed: {error:?}"),
             Error::Range => f.write_str("the range of the flash must be of an even number of whole pages"),
             Error::TooLarge => f.write_str("the record must fit the buffer and half the range"),
+            Error::Unwritten => f.write_str("the flash does not hold what was written to it"),
         }
     }
 }
@@ -65,21 +68,29 @@ impl<F: NorFlash> Store<F> {
         Ok(Store { flash, start: range.start, half })
     }
 
-    /// The newest good parameters. `buffer` holds a record and some bytes more; what is in it does not matter.
+    /// The newest good parameters. `buffer` holds a record and some bytes more; what is in it does not matter. A record that the flash does not give is refused,
+    /// and the other one taken.
     ///
     /// # Errors
-    /// What the flash says.
+    /// What the flash says, where it gives neither record.
     pub fn load<P: Parameters>(&mut self, buffer: &mut [u8]) -> Result<Loaded<P>, Error<F::Error>> {
-        Ok(self.newest(buffer)?.0)
+        let Newest { loaded, failed, .. } = self.newest(buffer);
+        match failed {
+            Some(error) => Err(Error::Flash(error)),
+            None => Ok(loaded),
+        }
     }
 
     /// Keeps parameters; they are there once this returns, and until then the last ones are. Where there are none that this firmware reads, those that it
     /// wrote in another form are: what is overwritten is the record that is worth less, or else the older one.
     ///
     /// # Errors
-    /// What the flash says; [`Error::TooLarge`] where the buffer or half the range has no room for them.
+    /// What the flash says; [`Error::TooLarge`] where the buffer or half the range has no room for them; [`Error::Unwritten`] where they are not read back.
     pub fn save<P: Parameters>(&mut self, parameters: &P, buffer: &mut [u8]) -> Result<(), Error<F::Error>> {
-        let (_, kept) = self.newest::<P>(buffer)?;
+        let Newest { kept, failed, .. } = self.newest::<P>(buffer);
+        if let Some(error) = failed {
+            return Err(Error::Flash(error));
+        }
         let (place, count) = kept.map_or((0, 0), |kept| (kept.place ^ 1, kept.count.wrapping_add(1)));
         let length = record::write(parameters, count, buffer).ok_or(Error::TooLarge)?;
         // up to a whole word, as if still erased
@@ -88,7 +99,11 @@ impl<F: NorFlash> Store<F> {
         let bytes = buffer.get(..whole).filter(|bytes| bytes.len() <= self.half as usize).ok_or(Error::TooLarge)?;
         let from = self.start + place * self.half;
         self.flash.erase(from, from + self.half).map_err(Error::Flash)?;
-        self.flash.write(from, bytes).map_err(Error::Flash)
+        self.flash.write(from, bytes).map_err(Error::Flash)?;
+        match self.fetch::<P>(place, buffer).map_err(Error::Flash)? {
+            Some(Ok((_, read))) if read == count => Ok(()),
+            _ => Err(Error::Unwritten),
+        }
     }
 
     /// The flash again.
@@ -97,12 +112,19 @@ impl<F: NorFlash> Store<F> {
     }
 
     /// The newest good record, and the one of both that a save must leave alone.
-    fn newest<P: Parameters>(&mut self, buffer: &mut [u8]) -> Result<Newest<P>, Error<F::Error>> {
+    fn newest<P: Parameters>(&mut self, buffer: &mut [u8]) -> Newest<P, F::Error> {
         let mut parameters = None;
+        let mut failures = 0;
+        let mut failed = None;
         let mut refused: Option<Refused> = None;
         let mut kept: Option<Kept> = None;
         for place in 0..2 {
-            let found = match self.fetch::<P>(place, buffer)? {
+            let fetched = self.fetch::<P>(place, buffer).unwrap_or_else(|error| {
+                failures += 1;
+                failed = Some(error);
+                Some(Err(Refused::UNREADABLE))
+            });
+            let found = match fetched {
                 None => continue,
                 Some(Ok((read, count))) => {
                     let found = Kept { worth: Worth::Good, place, count };
@@ -125,20 +147,27 @@ impl<F: NorFlash> Store<F> {
                 kept = Some(found);
             }
         }
-        Ok((Loaded { parameters, refused: refused.map(|refused| refused.reason) }, kept))
+        let loaded = Loaded { parameters, refused: refused.map(|refused| refused.reason) };
+        Newest { loaded, kept, failed: failed.filter(|_| failures == 2) }
     }
 
-    fn fetch<P: Parameters>(&mut self, place: u32, buffer: &mut [u8]) -> Result<Fetched<P>, Error<F::Error>> {
+    fn fetch<P: Parameters>(&mut self, place: u32, buffer: &mut [u8]) -> Result<Fetched<P>, F::Error> {
         let length = buffer.len().min(self.half as usize);
         let length = length - length % F::READ_SIZE.max(1);
         let bytes = buffer.get_mut(..length).unwrap_or(&mut []);
-        self.flash.read(self.start + place * self.half, bytes).map_err(Error::Flash)?;
+        self.flash.read(self.start + place * self.half, bytes)?;
         Ok((!record::is_erased(bytes)).then(|| record::read(bytes)))
     }
 }
 
-/// What was found, and the record that a save must leave alone.
-type Newest<P> = (Loaded<P>, Option<Kept>);
+/// What was found.
+struct Newest<P, E> {
+    loaded: Loaded<P>,
+    /// The record that a save must leave alone.
+    kept: Option<Kept>,
+    /// What the flash says, where it gives neither record.
+    failed: Option<E>,
+}
 
 /// The parameters of a record and the count of its save, or why it is refused; none where nothing was written.
 type Fetched<P> = Option<Result<(P, u32), Refused>>;

@@ -6,7 +6,7 @@
 
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
-use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU32, Ordering, compiler_fence};
 
 use cortex_m::interrupt::free;
 use cortex_m::peripheral::NVIC;
@@ -14,6 +14,7 @@ use cortex_m_rt::entry;
 use driveline::hal::{FullScale, PwmTorque};
 use driveline::telemetry::{Channel as Column, Kind, Ring};
 use driveline_firmware::asking::{Asking, RELEASE, SPEED};
+use driveline_firmware::attended::Attended;
 use driveline_firmware::balanced::{Adviser, Measurement, Variant, reading, state};
 use driveline_firmware::board::nucleo_g474re::{
     Beside, Channel, Nucleo, Pin, Serial, Vibration, start_tick, tick_taken,
@@ -32,6 +33,7 @@ struct Control {
     scene: Selected,
     turn: Turn<Nucleo<PwmTorque<Channel<0>, f32>>, f32>,
     vibration: Vibration,
+    attended: Attended,
     /// Ticks until the next record.
     left: u32,
 }
@@ -52,6 +54,8 @@ const TICKS: u32 = 10;
 const DESCRIBED: u32 = 1_000;
 
 static RECORDS: Ring<VALUES, 32> = Ring::new();
+/// Turns of the main loop.
+static TURNS: AtomicU32 = AtomicU32::new(0);
 static RELEASED: AtomicBool = AtomicBool::new(false);
 static REFERENCE: AtomicU32 = AtomicU32::new((test_rig::SPEED as f32).to_bits());
 static ANSWER: AtomicU32 = AtomicU32::new(0);
@@ -68,7 +72,11 @@ const COLUMNS: [Column<'static>; VALUES] = {
 fn TIM6_DAC() {
     tick_taken();
     // SAFETY: it was initialised before the interrupt was unmasked; the main loop uses it with interrupts off, and nothing else does.
-    let Control { scene, turn, vibration, left } = unsafe { (*CONTROL.0.get()).assume_init_mut() };
+    let Control { scene, turn, vibration, attended, left } = unsafe { (*CONTROL.0.get()).assume_init_mut() };
+    if !attended.check(TURNS.load(Ordering::Relaxed)) {
+        // until it is started again: not by a main loop that comes back
+        RELEASED.store(false, Ordering::Relaxed);
+    }
     let asked =
         Asked { released: RELEASED.load(Ordering::Relaxed), speed: f32::from_bits(REFERENCE.load(Ordering::Relaxed)) };
     let (input, output) = turn.run(asked, vibration.read(), |input, output| driveline_tick(scene, input, output));
@@ -85,10 +93,18 @@ fn TIM6_DAC() {
 fn main() -> ! {
     let full_scale = const { FullScale::<f32>::new(test_rig::TORQUE_LIMIT) };
     let (nucleo, Beside { vibration, serial, button }) = Nucleo::torque_input(test_rig::COUNTS, full_scale);
-    let control = Control { scene: Selected::new(), turn: Turn::new(nucleo), vibration, left: TICKS };
+    let control = Control {
+        scene: Selected::new(),
+        turn: Turn::new(nucleo),
+        vibration,
+        attended: Attended::default(),
+        left: TICKS,
+    };
     // SAFETY: the interrupt is masked.
     unsafe { (*CONTROL.0.get()).write(control) };
     start_tick(Selected::RATE_HZ);
+    // it is in the memory before the interrupt may come: the registers are volatile, it is not
+    compiler_fence(Ordering::Release);
     // SAFETY: what the interrupt uses is there.
     unsafe { NVIC::unmask(Interrupt::TIM6_DAC) };
 
@@ -96,6 +112,7 @@ fn main() -> ! {
     let mut starter = Starter { resting: button.is_high(), button, pressed: false, turns: 0, stopped: false };
     let mut told = DESCRIBED;
     loop {
+        TURNS.store(TURNS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
         starter.look();
         desk.serve();
         if told >= DESCRIBED {

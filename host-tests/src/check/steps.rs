@@ -33,12 +33,14 @@ fn format(voice: &Voice) -> Result<Count, Failed> {
     cargo::passes(&["fmt", "--all", "--check"], voice)
 }
 
-/// The host's workspace, then the firmware as each core sees it.
+/// The host's workspace, the library with every feature and its documentation, then the firmware as each core sees it.
 fn clippy(voice: &Voice) -> Result<Count, Failed> {
     let host = ["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"];
     let mut count = cargo::passes(&host, voice)?;
     let features = ["clippy", "--package=driveline", "--all-features", "--", "-D", "warnings"];
     count.passed += cargo::passes(&features, voice)?.passed;
+    let links = ["rustdoc", "--package=driveline", "--all-features", "--", "-D", "warnings"];
+    count.passed += cargo::passes(&links, voice)?.passed;
     for board in BOARDS {
         let (target, directory) = (format!("--target={}", board.target), cargo::firmware_directory());
         // the board with a motor is linted with the others of its core, of which the binaries for QEMU take theirs

@@ -12,14 +12,14 @@ use crate::setup;
 /// Run the generator sets' firmware in QEMU against their full plants, and give a verdict by ISO 8528-5 and NEMA SM 23.
 ///
 /// Installs what is missing (as `setup` does), builds the firmware of every variant, runs its load steps with the
-/// estimated load fed forward and without, then a fault on every input; prints tables and writes a page with plots.
+/// estimated load fed forward and without, then a fault on every input and every trip; prints tables and writes a page with plots.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline generator
   cargo driveline generator --variants f32/m4f/diesel --no-faults
   cargo driveline generator --json > generator.json")]
 pub struct Generator {
-    /// Print {verdicts: [...], faults: [...]} and no table
+    /// Print {verdicts: [...], faults: [...], trips: [...]} and no table
     #[arg(long)]
     pub json: bool,
     /// Where the page goes
@@ -66,6 +66,9 @@ impl Generator {
         say(format_args!("load steps\n{}", page::steps(&verdicts)));
         if !verdicts.faults.is_empty() {
             say(format_args!("a fault on every input, diesel at half load\n{}", page::faults(&verdicts)));
+        }
+        if !verdicts.trips.is_empty() {
+            say(format_args!("every trip, diesel\n{}", page::trips(&verdicts)));
         }
         say(format_args!("page: {}", path.display()));
         Ok(())

@@ -1,8 +1,8 @@
 //! `cargo driveline watch`: a running drive's telemetry, live in the terminal and as CSV.
 
-use std::fs::File;
-use std::io::{self, BufWriter, IsTerminal, Read, Write};
-use std::path::PathBuf;
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, Read, Write};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -39,12 +39,12 @@ pub struct Watch {
     /// Stop after so many records
     #[arg(long, value_name = "COUNT")]
     records: Option<u64>,
-    /// Print {records, dropped, damaged, channels: [...]} at the end, and nothing before
+    /// Print {records, dropped, damaged, unknown, channels: [...]} at the end, and nothing before
     #[arg(long)]
     pub json: bool,
 }
 
-/// How often the picture is drawn.
+/// How often the picture is drawn, and what was recorded is put into the file: a stop by Ctrl-C loses no more.
 const DRAWN: Duration = Duration::from_millis(100);
 
 /// Records that wait for the channels' descriptions: four of their periods in our firmware.
@@ -69,6 +69,7 @@ struct Seen {
     records: u64,
     dropped: u32,
     damaged: u64,
+    unknown: u64,
     channels: Vec<Course>,
 }
 
@@ -99,8 +100,11 @@ impl Seen {
             let [name, unit] = [&course.channel.name, &course.channel.unit].map(|text| printable(text, LONGEST));
             format!("  {name:<16} {unit:<6} {last:>12} {least:>12} {most:>12}")
         };
-        let foot =
-            format!("{} records, {} dropped by the drive, {} frames damaged", self.records, self.dropped, self.damaged);
+        let Seen { records, dropped, damaged, unknown, .. } = self;
+        let mut foot = format!("{records} records, {dropped} dropped by the drive, {damaged} frames damaged");
+        if *unknown > 0 {
+            foot.push_str(&format!(", {unknown} of a kind that is not known: a later firmware's"));
+        }
         [head].into_iter().chain(self.channels.iter().map(row)).chain([foot]).collect()
     }
 }
@@ -115,52 +119,50 @@ impl Watch {
             super::onto_itself(source, self.csv.as_deref())?;
         }
         let mut source = self.open()?;
-        let failed = |path: &PathBuf, error: io::Error| Failure::failed(format!("{}: {error}", path.display()));
-        let mut csv = match &self.csv {
-            Some(path) => Some((path, BufWriter::new(File::create(path).map_err(|error| failed(path, error))?))),
-            None => None,
-        };
+        let mut csv = self.csv.as_deref().map(Csv::open).transpose()?;
         let mut seen = Seen::default();
         let mut decoder = Decoder::default();
-        // what comes before the channels have described themselves waits for its column's names
-        let mut waiting = Vec::new();
-        let (mut drawn, mut lines, mut headed) = (Instant::now(), 0, false);
+        let (mut drawn, mut lines) = (Instant::now(), 0);
         let live = io::stderr().is_terminal() && !self.json;
         let mut bytes = vec![0; 65_536];
-        loop {
-            let length = source.read(&mut bytes).map_err(|error| Failure::failed(format!("the source: {error}")))?;
+        let broken = loop {
+            // a source that breaks off has ended, too: what it gave is kept, and then it is said
+            let (length, broken) = match source.read(&mut bytes) {
+                Ok(length) => (length, None),
+                Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+                Err(error) => (0, Some(error)),
+            };
             decoder.take(&bytes[..length], |decoder, told| {
                 if self.records.is_none_or(|most| seen.records < most) {
                     seen.add(decoder, &told);
-                    if self.csv.is_some() {
-                        waiting.push(told);
+                    if let Some(csv) = &mut csv {
+                        csv.waiting.push(told);
                     }
                 }
             });
-            seen.damaged = decoder.damaged;
+            (seen.damaged, seen.unknown) = (decoder.damaged, decoder.unknown);
             let ended = length == 0 || self.records.is_some_and(|most| seen.records >= most);
-            let described = waiting.first().is_some_and(|told| decoder.describes(told.words.len()));
-            if let Some((path, file)) = csv.as_mut().filter(|_| described || ended || waiting.len() >= PATIENCE) {
-                let written = waiting.drain(..).try_for_each(|told| {
-                    let told = &told;
-                    if !headed {
-                        headed = true;
-                        writeln!(file, "{}", header(&decoder, told))?;
-                    }
-                    writeln!(file, "{}", line(&decoder, told))
-                });
-                written.map_err(|error| failed(path, error))?;
+            let due = ended || drawn.elapsed() >= DRAWN;
+            if let Some(csv) = &mut csv {
+                csv.write(&decoder, ended, due)?;
             }
-            if live && (ended || drawn.elapsed() >= DRAWN) {
-                lines = draw(&seen.lines(), lines);
+            if due {
+                if live {
+                    lines = draw(&seen.lines(), lines);
+                }
                 drawn = Instant::now();
             }
             if ended {
-                break;
+                break broken;
             }
+        };
+        let name = self.source.as_deref().map_or("QEMU".into(), |path| path.display().to_string());
+        if let Some(error) = broken {
+            let kept = if seen.records > 0 { format!(", after {} records", seen.records) } else { String::new() };
+            return Err(Failure::failed(format!("{name}: {error}{kept}")));
         }
-        if let Some((path, mut file)) = csv {
-            file.flush().map_err(|error| failed(path, error))?;
+        if seen.records == 0 && self.records != Some(0) {
+            return Err(Failure::failed(nothing(&name, &decoder)));
         }
         if self.json {
             say_json(&seen)
@@ -191,6 +193,60 @@ impl Watch {
                 Ok(Box::new(file))
             }
         }
+    }
+}
+
+/// Why there is nothing to show.
+fn nothing(name: &str, decoder: &Decoder) -> String {
+    let Decoder { bytes, damaged, unknown, .. } = decoder;
+    let why = match (bytes, unknown) {
+        (0, _) => "it gave not a byte".into(),
+        _ if decoder.describes(1) => "its channels described themselves, and none was recorded".into(),
+        (_, 0) => format!("{bytes} bytes came, and {damaged} damaged frames: no telemetry, or the wrong baud rate"),
+        _ => format!("{unknown} frames came of a kind that is not known: the firmware is later than this program"),
+    };
+    format!("{name}: no record; {why}")
+}
+
+/// Records on their way into a file.
+struct Csv<'a> {
+    path: &'a Path,
+    file: BufWriter<File>,
+    /// What comes before the channels have described themselves waits for its column's names.
+    waiting: Vec<Told>,
+    /// Values of a line, once there is one.
+    columns: Option<usize>,
+}
+
+impl<'a> Csv<'a> {
+    /// Opens the file, and leaves in it what is there until there is a record.
+    fn open(path: &'a Path) -> Result<Self, Failure> {
+        let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
+        let file = file.map_err(|error| Failure::failed(format!("{}: {error}", path.display())))?;
+        Ok(Csv { path, file: BufWriter::new(file), waiting: Vec::new(), columns: None })
+    }
+
+    /// Writes what has its columns' names, or all of it where no more comes.
+    fn write(&mut self, decoder: &Decoder, ended: bool, flush: bool) -> Result<(), Failure> {
+        self.put(decoder, ended, flush).map_err(|error| Failure::failed(format!("{}: {error}", self.path.display())))
+    }
+
+    fn put(&mut self, decoder: &Decoder, ended: bool, flush: bool) -> io::Result<()> {
+        let described = self.waiting.first().is_some_and(|told| decoder.describes(told.words.len()));
+        if described || ended || self.waiting.len() >= PATIENCE {
+            for told in self.waiting.drain(..) {
+                if self.columns.is_none() && self.file.get_ref().metadata()?.is_file() {
+                    self.file.get_ref().set_len(0)?;
+                }
+                // a drive that tells something else from now on gets a head of its own
+                if self.columns != Some(told.words.len()) {
+                    self.columns = Some(told.words.len());
+                    writeln!(self.file, "{}", header(decoder, &told))?;
+                }
+                writeln!(self.file, "{}", line(decoder, &told))?;
+            }
+        }
+        if flush { self.file.flush() } else { Ok(()) }
     }
 }
 

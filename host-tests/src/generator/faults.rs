@@ -62,6 +62,63 @@ pub struct Outcome {
     pub torque: [f64; 2],
     /// Largest torque commanded after the trip.
     pub after: f64,
+    /// Whether all that is what is documented.
+    pub as_documented: bool,
+}
+
+/// What a drive is documented to do about a fault, by `firmware/src/scenes/generator.rs`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Documented {
+    /// It rides through, and the frequency stays within these of rated.
+    RidesThrough([f64; 2]),
+    /// It trips for one of these reasons, within a time \[s\].
+    Trips(&'static [Trip], f64),
+}
+
+/// What is documented of a fault that lasts, or passes.
+pub const fn documented(wire: Wire, fault: Fault, lasts: bool) -> Documented {
+    match (wire, fault) {
+        // 5 ms of coasting, or of another torque than the true one: within 1 %.
+        _ if !lasts => Documented::RidesThrough([0.99, 1.01]),
+        // Without an angle nothing is known: 15 ms, and those of the noise that are believed come between.
+        (Wire::Angle, _) => Documented::Trips(&[Trip::SensorLoss], 0.1),
+        // What is read is what is still expected.
+        (Wire::Torque, Fault::Frozen) => Documented::RidesThrough([0.99, 1.01]),
+        // 0.1 s.
+        (Wire::Torque, Fault::NotANumber) => Documented::Trips(&[Trip::SensorLoss], 0.11),
+        (Wire::Torque, Fault::Dropped | Fault::Negated) => Documented::Trips(&[Trip::Actuator], 0.11),
+        // Half the rated torque of noise is beyond a fifth of it in two ticks of three: these less the others take
+        // three times as long. Some are beyond what a rack can stand for.
+        (Wire::Torque, Fault::Noisy) => Documented::Trips(&[Trip::Actuator, Trip::SensorLoss], 0.4),
+        // A set point of zero or below is one: the set slows down by its ramp, to 80 % in a second, and 3 s of
+        // underspeed trip it, unless its load of constant power overloads the coupling before.
+        (Wire::Reference, Fault::Dropped | Fault::Negated) => {
+            Documented::Trips(&[Trip::ShaftOverload, Trip::Underspeed], 4.5)
+        }
+        // The last good one stands.
+        (Wire::Reference, Fault::Frozen | Fault::NotANumber) => Documented::RidesThrough([0.99, 1.01]),
+        // 5 % of noise, of which the ramp lets 0.01 % through in a tick.
+        (Wire::Reference, Fault::Noisy) => Documented::RidesThrough([0.98, 1.02]),
+    }
+}
+
+/// Largest torque that may be commanded, of rated: the curve's, and its rounding in the words.
+pub const MOST: f64 = 1.2001;
+
+impl Outcome {
+    fn is_documented(&self) -> bool {
+        let within = self.torque[0] >= 0.0 && self.torque[1] <= MOST && self.after == 0.0;
+        within
+            && match (documented(self.wire, self.fault, self.lasting.is_none()), &self.trip) {
+                (Documented::RidesThrough([least, most]), None) => {
+                    self.frequency[0] >= least && self.frequency[1] <= most
+                }
+                (Documented::Trips(reasons, time), Some((name, after))) => {
+                    reasons.iter().any(|reason| reason.to_string() == *name) && *after <= time
+                }
+                _ => false,
+            }
+    }
 }
 
 /// When the fault comes [s].
@@ -138,6 +195,7 @@ fn judge(moments: &[Moment], wire: Wire, fault: Fault, lasting: Option<f64>) -> 
         frequency: [f64::INFINITY, 0.0],
         torque: [f64::INFINITY, f64::NEG_INFINITY],
         after: 0.0,
+        as_documented: false,
     };
     for moment in moments {
         let [least, most] = outcome.torque;
@@ -150,5 +208,6 @@ fn judge(moments: &[Moment], wire: Wire, fault: Fault, lasting: Option<f64>) -> 
             outcome.after = outcome.after.max(moment.command.abs());
         }
     }
+    outcome.as_documented = outcome.is_documented();
     outcome
 }

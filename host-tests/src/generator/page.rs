@@ -138,7 +138,8 @@ fn outcome(one: &Outcome) -> String {
 
 /// Faults against outcomes: one row a fault, passing and for good.
 pub fn faults(verdicts: &Verdicts) -> Table {
-    let mut table = Table::new(["variant", "input", "fault", "for 5 ms", "for good", "torque", "after a trip"]);
+    let mut table =
+        Table::new(["variant", "input", "fault", "for 5 ms", "for good", "torque", "after a trip", "as documented"]);
     for pair in verdicts.faults.chunks(2) {
         let [(variant, passing), (_, lasting)] = pair else { continue };
         let [least, most] = [passing.torque[0].min(lasting.torque[0]), passing.torque[1].max(lasting.torque[1])];
@@ -153,6 +154,37 @@ pub fn faults(verdicts: &Verdicts) -> Table {
             outcome(lasting),
             format!("{least:.2} to {most:.2}"),
             format!("{:.2}", passing.after.max(lasting.after)),
+            yes(passing.as_documented && lasting.as_documented).to_owned(),
+        ]);
+    }
+    table
+}
+
+/// Every trip: what brought it about, and whether it stood until it was reset.
+pub fn trips(verdicts: &Verdicts) -> Table {
+    let mut table = Table::new([
+        "variant",
+        "cause",
+        "trip",
+        "after",
+        "torque before",
+        "after it",
+        "stands",
+        "is reset",
+        "as documented",
+    ]);
+    for (variant, one) in &verdicts.trips {
+        let (trip, after) = one.trip.clone().unwrap_or(("none".to_owned(), f64::NAN));
+        table.row([
+            variant.clone(),
+            one.what.to_owned(),
+            trip,
+            if after.is_nan() { String::new() } else { format!("{after:.3} s") },
+            format!("{:.2} to {:.2}", one.torque[0], one.torque[1]),
+            format!("{:.2}", one.after),
+            yes(one.stands).to_owned(),
+            if one.lasting && !one.reset { "not while its cause lasts" } else { yes(one.reset) }.to_owned(),
+            yes(one.as_documented).to_owned(),
         ]);
     }
     table
@@ -188,6 +220,11 @@ pub fn page(verdicts: &Verdicts) -> String {
             format!("gain {gain:.2}, phase {phase:.0}°, modulus {modulus:.2}"),
         ));
     }
+    let with_trips = (!verdicts.trips.is_empty()).then(|| {
+        let text = "On the diesel. The cause goes a second after the time that the trip may take; the run switch goes off half a second later, which \
+            resets it. Torques are of rated.";
+        ("Every trip, brought about".to_owned(), text.to_owned(), trips(verdicts))
+    });
     let with_faults = (!verdicts.faults.is_empty()).then(|| {
         let text = "At half load, on the diesel. What cannot be true is left out; where an input is lost for longer than it can be missed, the \
             drive trips and commands no torque. Torques are of rated.";
@@ -213,7 +250,7 @@ pub fn page(verdicts: &Verdicts) -> String {
             firmware runs in QEMU, tick by tick against the full plant."
             .to_owned(),
         facts,
-        tables: tables.into_iter().chain(with_faults).collect(),
+        tables: tables.into_iter().chain(with_faults).chain(with_trips).collect(),
         plots: verdicts.verdicts.iter().map(plot).collect(),
     }
     .page()

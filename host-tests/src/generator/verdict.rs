@@ -15,6 +15,7 @@ use super::faults::{FAULTS, Outcome, PASSING, WIRES, outcome};
 use super::run::{Moment, Program, run};
 use super::set::Kind;
 use super::standard::{Figures, figures};
+use super::trips::{CAUSES, Latched, latched};
 use crate::image::{Image, Program as Binary, Spread, build};
 use crate::link::Link;
 use crate::run::closed_loop::{OnHost, Ticks};
@@ -74,12 +75,14 @@ pub struct Verdict {
 }
 
 /// Everything that the command says.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Verdicts {
     /// One for each variant and way.
     pub verdicts: Vec<Verdict>,
     /// Faults on each input, on the diesel: number and core, outcome.
     pub faults: Vec<(String, Outcome)>,
+    /// Every trip brought about, on the diesel: number and core, outcome.
+    pub trips: Vec<(String, Latched)>,
 }
 
 /// The loads of a set's run: time [s], share of rated power.
@@ -201,7 +204,7 @@ pub fn run_all(
     says: &dyn Fn(&str),
     step: &dyn Fn(),
 ) -> Result<Verdicts, Box<dyn Error>> {
-    let mut all = Verdicts { verdicts: Vec::new(), faults: Vec::new() };
+    let mut all = Verdicts::default();
     for candidate in variants {
         let key = candidate.key();
         says(&format!("{key}: building"));
@@ -222,6 +225,12 @@ pub fn run_all(
                         link.finish()?;
                     }
                 }
+            }
+            for cause in &CAUSES {
+                says(&format!("{key}: {} in QEMU", cause.what));
+                let mut link = Link::start(&image)?;
+                all.trips.push((name.clone(), latched(candidate.words(), &mut link, cause)?));
+                link.finish()?;
             }
             step();
         }

@@ -147,9 +147,10 @@ impl Survey {
                 }
             }
             Piece::Generator(verdicts) => {
-                let all = self.generator.get_or_insert_with(|| Verdicts { verdicts: Vec::new(), faults: Vec::new() });
+                let all = self.generator.get_or_insert_with(Verdicts::default);
                 all.verdicts.extend(verdicts.verdicts);
                 all.faults.extend(verdicts.faults);
+                all.trips.extend(verdicts.trips);
             }
             Piece::Commissioned(verdict) => {
                 self.commissioned.push(*verdict);

@@ -1,5 +1,6 @@
 //! The composed governor: its design, its parts, its modes and trips; the generator sets that it governs.
 
+mod attack;
 mod barred;
 mod design;
 mod engine;
@@ -9,3 +10,4 @@ mod page;
 mod sets;
 mod sharing;
 mod switch;
+mod watch;

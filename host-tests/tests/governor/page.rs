@@ -4,6 +4,7 @@ use host_tests::generator::faults::{Fault, Outcome, PASSING, Wire};
 use host_tests::generator::page;
 use host_tests::generator::run::Moment;
 use host_tests::generator::standard::{Figures, Steady, Step};
+use host_tests::generator::trips::Latched;
 use host_tests::generator::verdict::{Verdict, Verdicts, Way};
 use host_tests::image::Spread;
 
@@ -34,9 +35,25 @@ fn verdicts() -> Verdicts {
         frequency: [0.99, 1.01],
         torque: [0.0, 0.83],
         after: 0.0,
+        as_documented: true,
     };
     let faults = [outcome(Some(PASSING), None), outcome(None, Some(("sensor loss".into(), 0.016)))];
-    Verdicts { verdicts: vec![verdict], faults: faults.map(|fault| ("f32/m4f".into(), fault)).into() }
+    let latched = Latched {
+        what: "set point 115 %",
+        trip: Some(("overspeed".into(), 0.432)),
+        torque: [0.0, 0.91],
+        top: 1.1,
+        after: 0.0,
+        stands: true,
+        reset: true,
+        lasting: false,
+        as_documented: false,
+    };
+    Verdicts {
+        verdicts: vec![verdict],
+        faults: faults.map(|fault| ("f32/m4f".into(), fault)).into(),
+        trips: vec![("f32/m4f".into(), latched)],
+    }
 }
 
 #[test]
@@ -51,7 +68,13 @@ fn the_tables_say_what_was_measured() {
     assert!(diesel.lines().any(|line| line.contains("G3 allows") && line.contains("7.00 %") && line.contains("3.0 s")));
     let faults = page::faults(&verdicts).to_string();
     let row = faults.lines().find(|line| line.contains("not a number")).unwrap();
-    for text in ["angle", "rides through, 99.0 to 101.0 %", "trips: sensor loss, after 0.016 s", "0.00 to 0.83"] {
+    for text in ["angle", "rides through, 99.0 to 101.0 %", "trips: sensor loss, after 0.016 s", "0.00 to 0.83", "yes"]
+    {
+        assert!(row.contains(text), "{row}: {text}");
+    }
+    let trips = page::trips(&verdicts).to_string();
+    let row = trips.lines().find(|line| line.contains("115 %")).unwrap();
+    for text in ["overspeed", "0.432 s", "0.00 to 0.91", "yes", "NO"] {
         assert!(row.contains(text), "{row}: {text}");
     }
 }
@@ -60,7 +83,15 @@ fn the_tables_say_what_was_measured() {
 fn the_page_has_tables_plots_and_nothing_that_is_no_number() {
     let page = page::page(&verdicts());
     assert!(page.starts_with("<!doctype html>") && !page.contains("NaN") && !page.contains("http"));
-    for text in ["ISO 8528-5", "NEMA SM 23", "A fault on every input", "frequency, %", "<svg", "phase 39°"] {
+    for text in [
+        "ISO 8528-5",
+        "NEMA SM 23",
+        "A fault on every input",
+        "Every trip, brought about",
+        "frequency, %",
+        "<svg",
+        "phase 39°",
+    ] {
         assert!(page.contains(text), "{text}");
     }
 }
@@ -72,4 +103,5 @@ fn the_json_has_every_figure() {
     assert_eq!((one["way"].as_str(), one["class"].as_str()), (Some("feed-forward"), Some("precise")));
     assert_eq!(one["figures"]["steps"][0]["drop"].as_f64(), Some(0.0312));
     assert_eq!(json["faults"][1][1]["trip"][0].as_str(), Some("sensor loss"));
+    assert_eq!(json["trips"][0][1]["trip"][0].as_str(), Some("overspeed"));
 }

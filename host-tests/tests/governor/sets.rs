@@ -1,13 +1,15 @@
 //! The generator sets on the host, in closed loop with their full plants: classes, faults, load that goes and comes.
 
+use driveline::governor::Trip;
 use driveline::number::Fixed;
 use driveline_firmware::Words;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::scenes::generator::{Generator, Of, RATED_SPEED, with};
-use host_tests::generator::faults::{FAULTS, Fault, Outcome, PASSING, WIRES, Wire, outcome};
+use driveline_firmware::scenes::generator::{CHEST_LAG, Generator, Of, RATED_SPEED, VALVE_LAG, with};
+use host_tests::generator::faults::{FAULTS, MOST, PASSING, WIRES, documented, outcome};
 use host_tests::generator::run::{Moment, Program, run};
 use host_tests::generator::set::Kind;
 use host_tests::generator::standard::{CLASSES, Figures, figures};
+use host_tests::generator::trips::{CAUSES, latched};
 use host_tests::generator::verdict::{WAYS, Way, loads, program};
 use host_tests::run::closed_loop::OnHost;
 
@@ -38,23 +40,27 @@ fn the_diesel_is_precise() {
         let [fed, plain] = WAYS.map(|way| judged(Kind::Diesel, words, way));
         for (figures, moments) in [&fed, &plain] {
             assert_eq!(figures.class(), Some("precise"), "{words:?}: {figures:#?}");
-            assert!(moments.iter().all(|moment| moment.mode < 16 && (0.0..=1.2001).contains(&moment.command)));
+            assert!(moments.iter().all(|moment| moment.mode < 16 && (0.0..=MOST).contains(&moment.command)));
             assert_eq!(moments.last().map(|moment| moment.mode), Some(2));
         }
         assert!(fed.0.drop() < 0.65 * plain.0.drop() && fed.0.rise() < 0.65 * plain.0.rise(), "{words:?}");
     }
 }
 
-/// The turbine meets class D with feed-forward. Without it, the loss of the whole load would take it 10 % up.
+/// The turbine meets class D with feed-forward and without, in both numbers. By the energy that the steam brings in
+/// while the valve closes, no governor keeps the speed below a rise of the sum of the lags over the acceleration time.
 #[test]
-fn the_turbine_is_of_class_d_by_its_feed_forward() {
+fn the_turbine_is_of_class_d() {
+    let bound = (VALVE_LAG + CHEST_LAG) / 8.0;
     for words in [Words::Single, Words::Fixed] {
-        let (fed, moments) = judged(Kind::Turbine, words, Way::FeedForward);
-        assert!(fed.meets_class_d(), "{words:?}: {fed:#?}");
-        assert!(moments.iter().all(|moment| moment.mode < 16 && (0.0..=1.2001).contains(&moment.command)));
+        for way in WAYS {
+            let (figures, moments) = judged(Kind::Turbine, words, way);
+            assert!(figures.meets_class_d(), "{words:?} {way:?}: {figures:#?}");
+            assert!(moments.iter().all(|moment| moment.mode < 16 && (0.0..=MOST).contains(&moment.command)));
+            // Less what friction takes and the steam loses by the speed, a tenth of it.
+            assert!(figures.rise() > 0.9 * bound, "{words:?} {way:?}: {figures:#?}");
+        }
     }
-    let (plain, _) = judged(Kind::Turbine, Words::Single, Way::Plain);
-    assert!(!plain.meets_class_d() && plain.rise() > 0.07, "{plain:#?}");
 }
 
 /// In droop the frequency yields by 4 % of the load's share, and comes back.
@@ -70,68 +76,34 @@ fn in_droop_the_frequency_yields_to_the_load() {
     assert!((before - loaded - 0.02).abs() < 0.0015 && (before - after).abs() < 5e-4, "{before} {loaded} {after}");
 }
 
-/// A rack that seizes at half load: the load goes, the set runs away, and trips at 110 % of its speed, its firing's
-/// swing apart.
-#[test]
-fn a_seized_rack_trips_by_overspeed() {
-    let program = Program {
-        speed: RATED_SPEED,
-        on: 0.2,
-        constants: 0,
-        loads: vec![(0.5, 0.5), (4.0, 0.0)],
-        seizes: Some(3.0),
-        duration: 4.6,
-    };
-    let moments = moments(Kind::Diesel, Words::Single, &program);
-    let tripped = moments.iter().find(|moment| moment.mode >= 16).unwrap();
-    // 10 ms and the view's 13 ms late at 65 % a second.
-    assert_eq!(tripped.mode, 16);
-    assert!(tripped.frequency > 1.09 && tripped.frequency < 1.13, "{}", tripped.frequency);
-    assert!(moments.iter().filter(|moment| moment.time > tripped.time).all(|moment| moment.command == 0.0));
-}
-
-/// What is expected of a fault that lasts: a trip by the lost sensor, by whatever the machine then does, or none.
-fn expected(wire: Wire, fault: Fault) -> Option<&'static [&'static str]> {
-    match (wire, fault) {
-        // Without an angle nothing is known.
-        (Wire::Angle, _) => Some(&["sensor loss"]),
-        // A rack that reads wrong is made up for by the integral.
-        (Wire::Torque, _) => None,
-        // A set point of zero or below is one: the set slows down, and its load of constant power overloads the
-        // coupling or it is too slow.
-        (Wire::Reference, Fault::Dropped | Fault::Negated) => Some(&["shaft overload", "underspeed"]),
-        (Wire::Reference, _) => None,
-    }
-}
-
-fn check(words: Words, outcome: &Outcome) {
-    let what = format!("{words:?} {outcome:?}");
-    // Never beyond the limits, never any after a trip.
-    assert!(outcome.torque[0] >= 0.0 && outcome.torque[1] <= 1.2001 && outcome.after == 0.0, "{what}");
-    let expected = if outcome.lasting.is_some() { None } else { expected(outcome.wire, outcome.fault) };
-    match (expected, &outcome.trip) {
-        (None, None) => {
-            // What is ridden through stays within G1's drop and the overspeed limit; what passes within 1 %.
-            let [low, high] = outcome.frequency;
-            let room = if outcome.lasting.is_some() { 0.01 } else { 0.15 };
-            assert!(low > 1.0 - room && high < 1.0 + room.min(0.1), "{what}");
-        }
-        (Some(names), Some((name, _))) => assert!(names.contains(&name.as_str()), "{what}"),
-        _ => panic!("{what}: expected {expected:?}"),
-    }
-}
-
 #[test]
 fn every_fault_on_every_input_ends_as_documented() {
     for wire in WIRES {
         for fault in FAULTS {
             for lasting in [Some(PASSING), None] {
                 let mut drive = OnHost(Generator::<Of<f32, with::Diesel>>::new());
-                check(Words::Single, &outcome(Words::Single, &mut drive, wire, fault, lasting).unwrap());
+                let single = outcome(Words::Single, &mut drive, wire, fault, lasting).unwrap();
+                assert!(single.as_documented, "{single:?}, {:?}", documented(wire, fault, lasting.is_none()));
                 let mut drive = OnHost(Generator::<Of<Fixed, with::Diesel>>::new());
-                check(Words::Fixed, &outcome(Words::Fixed, &mut drive, wire, fault, lasting).unwrap());
+                let fixed = outcome(Words::Fixed, &mut drive, wire, fault, lasting).unwrap();
+                assert!(fixed.as_documented, "{fixed:?}, {:?}", documented(wire, fault, lasting.is_none()));
             }
         }
+    }
+}
+
+/// There is a cause for every trip, and each brings its trip about, in time; no torque is commanded after it, it stands
+/// with its reason when the cause has gone, and a reset leaves it.
+#[test]
+fn every_trip_latches_with_its_reason() {
+    for (trip, name) in Trip::NAMES {
+        assert!(CAUSES.iter().any(|cause| cause.trip == trip), "{name}");
+    }
+    for cause in &CAUSES {
+        let single = latched(Words::Single, &mut OnHost(Generator::<Of<f32, with::Diesel>>::new()), cause).unwrap();
+        assert!(single.as_documented, "{single:?}, {cause:?}");
+        let fixed = latched(Words::Fixed, &mut OnHost(Generator::<Of<Fixed, with::Diesel>>::new()), cause).unwrap();
+        assert!(fixed.as_documented, "{fixed:?}, {cause:?}");
     }
 }
 

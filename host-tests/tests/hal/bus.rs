@@ -77,3 +77,14 @@ impl SpiDevice for Bus {
         self.mock.transaction(operations)
     }
 }
+
+impl embedded_hal_async::spi::SpiDevice for Bus {
+    async fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
+        let number = self.done;
+        self.done += 1;
+        if self.failing.contains(&number) {
+            return Err(ErrorKind::Other);
+        }
+        embedded_hal_async::spi::SpiDevice::transaction(&mut self.mock, operations).await
+    }
+}

@@ -1,9 +1,11 @@
 //! Adapters to `embedded-hal`: what goes over the bus, and what becomes of every fault. Telemetry: what is told, and what is lost. Parameters: what a power cut leaves.
 
 mod angle;
+mod awaited;
 mod axis;
 mod boards;
 mod bus;
+mod chips;
 mod enable;
 mod parameters;
 mod table;

@@ -16,6 +16,11 @@ const RANGE: std::ops::Range<u32> = 0..(PAGES * PAGE) as u32;
 struct Flash {
     bytes: Vec<u8>,
     written: Vec<bool>,
+    /// Whether a word that was being programmed at the cut cannot be read, for its check fails; and such words.
+    checks: bool,
+    torn: Vec<usize>,
+    /// A byte that is worn: it stays zero.
+    worn: Option<usize>,
     /// Bytes until the power is cut.
     left: usize,
     random: u32,
@@ -36,6 +41,9 @@ impl Flash {
         Flash {
             bytes: vec![0xff; length],
             written: vec![false; length / WORD],
+            checks: false,
+            torn: Vec::new(),
+            worn: None,
             left: usize::MAX,
             random: 2_463_534_242,
         }
@@ -59,7 +67,14 @@ impl ReadNorFlash for Flash {
         if self.left == 0 {
             return Err(Cut);
         }
-        bytes.copy_from_slice(&self.bytes[offset as usize..offset as usize + bytes.len()]);
+        let range = offset as usize..offset as usize + bytes.len();
+        if self.torn.iter().any(|word| range.contains(&(word * WORD))) {
+            return Err(Cut);
+        }
+        bytes.copy_from_slice(&self.bytes[range.clone()]);
+        if let Some(worn) = self.worn.filter(|worn| range.contains(worn)) {
+            bytes[worn - range.start] = 0;
+        }
         Ok(())
     }
     fn capacity(&self) -> usize {
@@ -85,6 +100,7 @@ impl NorFlash for Flash {
             self.left -= WORD;
             self.bytes[word * WORD..(word + 1) * WORD].fill(0xff);
             self.written[word] = false;
+            self.torn.retain(|&torn| torn != word);
         }
         Ok(())
     }
@@ -96,6 +112,9 @@ impl NorFlash for Flash {
             self.written[word] = true;
             for (place, &byte) in (word * WORD..).zip(bytes) {
                 if self.left == 0 {
+                    if self.checks {
+                        self.torn.push(word);
+                    }
                     // part of the word is programmed
                     for rest in place..(word + 1) * WORD {
                         self.bytes[rest] &= self.any();
@@ -187,6 +206,95 @@ fn a_power_cut_at_any_byte_leaves_the_old_or_the_new() {
     }
     println!("{points} cuts, {erasing} saves that erase: {old} times the old parameters, {new} times the new ones");
     assert!(points >= 1000 && erasing > 0, "{points} {erasing}");
+}
+
+/// Anything, as [`Kept`] in a sound record; an array has no count before it.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Anything([u8; 13]);
+
+impl Parameters for Anything {
+    const IDENTITY: u32 = Kept::IDENTITY;
+    const VERSION: u16 = Kept::VERSION;
+}
+
+/// The check says that a record is whole, not that its parameters are some: a count of four thousand million values, say.
+#[test]
+fn a_sound_record_of_nonsense_is_refused_and_the_last_good_one_kept() {
+    for count in [[0xff, 0xff, 0xff, 0xff, 0x0f], [0xff; 5], [0x7f; 5], [2, 0, 0, 0, 0]] {
+        let mut flash = Flash::new();
+        save(&mut flash, &kept(1)).unwrap();
+        // two numbers of four bytes, then the count of the values
+        let mut nonsense = [0; 13];
+        nonsense[8..].copy_from_slice(&count);
+        save_other(&mut flash, &Anything(nonsense));
+        let Loaded { parameters, refused } = load::<Kept>(&mut flash);
+        assert_eq!((parameters, refused), (Some(kept(1)), Some(Refusal::Content)), "{count:?}");
+    }
+    // a page of any bytes
+    let mut flash = Flash::new();
+    save(&mut flash, &kept(1)).unwrap();
+    for _ in 0..1000 {
+        for place in PAGE..2 * PAGE {
+            flash.bytes[place] = flash.any();
+        }
+        flash.bytes[PAGE..PAGE + 4].copy_from_slice(b"DLP1");
+        let Loaded { parameters, refused } = load::<Kept>(&mut flash);
+        assert_eq!((parameters, refused), (Some(kept(1)), Some(Refusal::Damaged)));
+    }
+}
+
+/// A flash with a check of each word, as the STM32G4's: what is half programmed cannot be read at all.
+#[test]
+fn a_record_that_the_flash_does_not_give_is_refused_and_the_other_one_taken() {
+    let mut flash = Flash { checks: true, ..Flash::new() };
+    save(&mut flash, &kept(0)).unwrap();
+    save(&mut flash, &kept(1)).unwrap();
+    flash.left = usize::MAX;
+    let mut uncut = flash.clone();
+    save(&mut uncut, &kept(2)).unwrap();
+    let whole = usize::MAX - uncut.left;
+    let mut unreadable = 0;
+    for point in (0..whole).step_by(11) {
+        let mut cut = flash.clone();
+        cut.left = point;
+        assert_eq!(save(&mut cut, &kept(2)), Err(Error::Flash(Cut)), "{point}");
+        let Loaded { parameters, refused } = load::<Kept>(&mut cut);
+        assert_eq!(parameters, Some(kept(1)), "{point}");
+        unreadable += usize::from(refused == Some(Refusal::Unreadable));
+        save(&mut cut, &kept(3)).unwrap();
+        assert_eq!(load(&mut cut), Loaded { parameters: Some(kept(3)), refused: None }, "{point}");
+    }
+    assert!(unreadable > 10, "{unreadable}");
+}
+
+#[test]
+fn a_flash_that_gives_neither_record_is_an_error_and_nothing_is_erased() {
+    let mut flash = Flash::new();
+    save(&mut flash, &kept(1)).unwrap();
+    save(&mut flash, &kept(2)).unwrap();
+    flash.torn = vec![0, PAGE / WORD];
+    let before = flash.bytes.clone();
+    let mut store = Store::new(flash.clone(), RANGE).unwrap();
+    assert_eq!(store.load::<Kept>(&mut [0; 4096]), Err(Error::Flash(Cut)));
+    assert_eq!(store.save(&kept(3), &mut [0; 4096]), Err(Error::Flash(Cut)));
+    assert!(store.release().bytes == before);
+}
+
+#[test]
+fn what_a_worn_page_does_not_hold_is_not_said_to_be_kept() {
+    for worn in (0..800).step_by(3) {
+        let mut flash = Flash::new();
+        save(&mut flash, &kept(1)).unwrap();
+        save(&mut flash, &kept(2)).unwrap();
+        flash.worn = Some(worn);
+        let saved = save(&mut flash, &kept(3));
+        // a byte that is to be zero is none the worse
+        let held = load::<Kept>(&mut flash).parameters;
+        match saved {
+            Ok(()) => assert_eq!(held, Some(kept(3)), "{worn}"),
+            Err(error) => assert_eq!((error, held), (Error::Unwritten, Some(kept(2))), "{worn}"),
+        }
+    }
 }
 
 #[test]

@@ -8,9 +8,9 @@ use std::rc::Rc;
 
 use driveline::fault::Faults;
 use driveline::hal::{
-    AdcVibration, AngleSensor, Chip, Dac, EnableChain, Enabling, FullScale, Line, MagneticEncoder, PerCount,
-    PhaseConfig, PwmTorque, Quadrature, SpiDac, TRIPPING, ThreePhase, Tmc4671, ToothedWheel, TorqueOutput, Trip,
-    VibrationSensor,
+    AdcVibration, Adxl355, Along, AngleSensor, AwaitedAngle, AwaitedTorque, Chip, Dac, EnableChain, Enabling,
+    FullScale, Line, MagneticEncoder, PerCount, PhaseConfig, PwmTorque, Quadrature, Range, SpiDac, TRIPPING,
+    ThreePhase, Tmc4671, ToothedWheel, TorqueOutput, Trip, VibrationSensor,
 };
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Level};
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Duty};
@@ -18,6 +18,7 @@ use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Duty};
 use crate::angle::{Counts, Frames, Wrong};
 use crate::axis::{CAUGHT, CONFIG, Scripted, WANTED, Whole, governing, turned};
 use crate::bus::{Expected, FAILED};
+use crate::chips::{self, Wired, awaited, polled};
 use crate::vibration;
 use crate::wheel::WHEEL;
 
@@ -31,6 +32,9 @@ const HEADER: &str = "\
 
 Written by a test (`host-tests/tests/hal/table.rs`) from runs on mocked buses, and compared with it ever since. The drive is the hoist's, in `f32`
 at 10,000 ticks a second, on an axis that trips as a rule does (`hal::TRIPPING`); the motor turns at 30 rad/s when the fault comes.
+
+The adapters on SPI do the same where they are awaited (feature `hal-async`): whichever transaction fails, both forms give the same and send the same
+(`host-tests/tests/hal/awaited.rs`). A future may be dropped at any point. What was dropped is the fault of the rows that say so.
 
 | adapter | fault | flags in that tick | torque in that tick | if it was one tick | if it stays |
 |---|---|---|---|---|---|
@@ -90,7 +94,12 @@ fn once_cell(ran: &Ran) -> String {
 }
 
 fn trip_cell(after: u64) -> String {
-    if after == 0 { "trips at once".into() } else { format!("trips after {after} ticks, {} ms", after as f64 / 10.0) }
+    let ms = after as f64 / 10.0;
+    match after {
+        0 => "trips at once".into(),
+        1 => format!("trips after a tick, {ms} ms"),
+        _ => format!("trips after {after} ticks, {ms} ms"),
+    }
 }
 
 fn stays_cell(ran: &Ran) -> String {
@@ -153,6 +162,20 @@ fn magnetic(table: &mut Table) {
             with_angle(MagneticEncoder::new(frames.expected.bus(), Chip::As5047P))
         });
     }
+}
+
+fn awaited_angle(table: &mut Table) {
+    angle_row(table, "AwaitedAngle", "it did not come before the tick", |wrong| {
+        let late: Vec<_> = (0..END).map(wrong).collect();
+        let mut angle = AwaitedAngle::new();
+        let mut board = Scripted::sound();
+        board.angle = Box::new(move |tick| {
+            let fetched = angle.fetch(async { (chips::pause().await, Ok(turned(tick))).1 });
+            let _ = polled(fetched, if late[tick as usize] { 1 } else { 2 });
+            angle.angle()
+        });
+        governing(board)
+    });
 }
 
 /// A wheel of 60-2 on the motor, its teeth at the times at which the motor passes them, those of `lost` left out and those of `more` added.
@@ -230,6 +253,22 @@ fn with_torque(mut output: impl TorqueOutput<f32> + 'static) -> Ran {
 
 const FULL: FullScale<f32> = FullScale::<f32>::new(1e9);
 
+/// A torque whose way out is dropped after its first poll, once.
+#[derive(Default)]
+struct Late {
+    torque: AwaitedTorque<f32>,
+    again: bool,
+}
+
+impl TorqueOutput<f32> for Late {
+    fn set_torque(&mut self, torque: f32, angle: u32) -> Result<(), Faults> {
+        let set = self.torque.set_torque(torque, angle);
+        let _ = polled(self.torque.give(async |_| (chips::pause().await, Ok(())).1), if self.again { 2 } else { 1 });
+        self.again = true;
+        set
+    }
+}
+
 fn torque_row(table: &mut Table, adapter: &str, fault: &str, ran: &Ran) {
     let flags = ran.flags.to_string();
     assert!(ran.flags.contains(Faults::TORQUE_OUTPUT | Faults::TRIPPED) && ran.torque == 0.0, "{adapter}: {flags}");
@@ -269,6 +308,7 @@ fn torque(table: &mut Table) {
         }
         torque_row(table, "Tmc4671", fault, &with_torque(Tmc4671::new(expected.bus(), FULL)));
     }
+    torque_row(table, "AwaitedTorque", "it did not arrive before the next tick", &with_torque(Late::default()));
     // a torque that is no number never comes from a drive; an output is asked here all the same
     let mut output = PwmTorque::new(Pwm::new(&[most(), duty()]), FULL);
     assert_eq!(output.set_torque(f32::NAN, 0), Err(Faults::TORQUE_OUTPUT));
@@ -364,6 +404,11 @@ fn vibration_rows(table: &mut Table) {
     let mut waiting = one(&|expected| (0..4).for_each(|_| vibration::burst(expected, 0, 0)));
     (0..3).for_each(|_| assert_eq!(waiting.vibration(), Ok(None)));
     row("Adxl355", "no new sample for three polls, or a line stuck low", waiting.vibration());
+    let chip = Wired::new(chips::Adxl355 { z: 0, ready: true }, None);
+    let dropped = Adxl355::start(chip, Along::Z, Range::G2, PerCount::<f32>::new(1.0), 3);
+    let mut dropped = dropped.map_err(|(faults, _)| faults).unwrap();
+    assert_eq!(polled(dropped.vibration_async(), 2), None);
+    row("Adxl355", "the last read was dropped while it was awaited", awaited(dropped.vibration_async()));
     let mut adc = AdcVibration::new(2048, 4095, PerCount::<f32>::new(0.01));
     adc.mean(&[2048], 1).unwrap();
     row("AdcVibration", "no new transfer", adc.mean(&[2048], 1).map(Some));
@@ -374,7 +419,7 @@ fn vibration_rows(table: &mut Table) {
 #[test]
 fn the_table_is_what_the_runs_give() {
     let table = RefCell::new(Table(HEADER.into()));
-    for rows in [quadrature, magnetic, wheel, torque, enable, vibration_rows] {
+    for rows in [quadrature, magnetic, awaited_angle, wheel, torque, enable, vibration_rows] {
         rows(&mut table.borrow_mut());
     }
     let written = table.into_inner().0;

@@ -231,3 +231,108 @@ fn a_recorded_file_becomes_csv() {
     let written = std::fs::read_to_string(csv).unwrap();
     assert_eq!(written, "tick,dropped,torque [N m],angle [turn]\n0,0,2.5,-0.5\n1,0,-0.125,0.25\n");
 }
+
+/// `watch` over a file: its exit code, what it says, and what it says on errors.
+fn watch(source: &std::ffi::OsStr, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_driveline"));
+    let output = command.arg("watch").arg(source).args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+#[test]
+fn what_is_no_telemetry_is_said_to_be_none_and_the_last_recording_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("run.csv");
+    std::fs::write(&csv, "the last run\n").unwrap();
+    let csv = csv.to_str().unwrap();
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    };
+    let garbage: Vec<u8> = (0..100_000_u32).map(|at| (at.wrapping_mul(0x9e37_79b9) >> 24) as u8).collect();
+    let directory = folder.path().join("directory");
+    std::fs::create_dir(&directory).unwrap();
+    for (source, said) in [
+        (file("empty.bin", &[]), "empty.bin: no record; it gave not a byte"),
+        (file("garbage.bin", &garbage), "bytes came, and"),
+        (file("endless.bin", &[1; 300_000]), "300000 bytes came, and 0 damaged frames"),
+        (directory, "directory: Is a directory"),
+        (folder.path().join("missing.bin"), "missing.bin: No such file"),
+    ] {
+        for json in [&["--csv", csv][..], &["--csv", csv, "--json"]] {
+            let (code, out, err) = watch(source.as_os_str(), json);
+            assert!(matches!(code, Some(1 | 2)) && (err.clone() + &out).contains(said), "{code:?}: {out}{err}");
+            assert!(!err.contains("panicked"), "{err}");
+        }
+        assert_eq!(std::fs::read_to_string(csv).unwrap(), "the last run\n", "{said}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_path_need_not_be_unicode_and_a_recording_may_be_cut_off() {
+    use std::os::unix::ffi::OsStrExt;
+
+    let folder = tempfile::tempdir().unwrap();
+    let ring = Ring::<3, 8>::new();
+    let mut bytes = Vec::new();
+    (0..5).for_each(|tick| ring.record(&awkward(tick)));
+    ring.send(&mut bytes).unwrap();
+    let path = folder.path().join(std::ffi::OsStr::from_bytes(b"run\xff.bin"));
+    let csv = folder.path().join(std::ffi::OsStr::from_bytes(b"run\xff.csv"));
+    let frames = bytes.iter().filter(|&&byte| byte == 0).count();
+    assert_eq!(frames, 5);
+    for length in 0..=bytes.len() {
+        // whatever is behind the last whole frame
+        let whole = bytes[..length].iter().filter(|&&byte| byte == 0).count();
+        let (records, decoder) = decoded(&bytes[..length]);
+        assert_eq!((records.len(), decoder.damaged), (whole, 0));
+    }
+    std::fs::write(&path, &bytes[..bytes.len() - 3]).unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_driveline"));
+    let output = command.arg("watch").arg(&path).arg("--csv").arg(&csv).output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    assert_eq!(std::fs::read_to_string(csv).unwrap().lines().count(), 1 + 4);
+}
+
+/// A frame of a packet, as its description says.
+fn framed(packet: &[u8]) -> Vec<u8> {
+    let crc = packet.iter().fold(0xffff_u16, |crc, &byte| {
+        (0..8).fold(crc ^ u16::from(byte) << 8, |crc, _| if crc >> 15 == 1 { crc << 1 ^ 0x1021 } else { crc << 1 })
+    });
+    let packet = [packet, &crc.to_le_bytes()].concat();
+    let runs = packet.split(|&byte| byte == 0).flat_map(|run| [&[run.len() as u8 + 1], run].concat());
+    runs.chain([0]).collect()
+}
+
+#[test]
+fn frames_of_a_later_firmware_are_counted_and_not_called_damaged() {
+    let later = [
+        // a kind of packet, a kind of channel and a length of a record that there are not
+        &[3, 1, 2, 3][..],
+        &[2, 0, 1, 7, 0, 0, 128, 63, 1, b'x'],
+        &[1, 0, 0, 0, 0, 0, 0, 0, 0, 9],
+        // a name that is longer than its packet
+        &[2, 0, 1, 0, 0, 0, 128, 63, 200, b'x'],
+        &[],
+    ];
+    let mut bytes: Vec<u8> = later.iter().flat_map(|packet| framed(packet)).collect();
+    let (records, decoder) = decoded(&bytes);
+    assert_eq!((records.len(), decoder.damaged, decoder.unknown), (0, 0, 5));
+    assert_eq!(decoder.channel(0).name, "value 0");
+    let folder = tempfile::tempdir().unwrap();
+    let (path, csv) = (folder.path().join("later.bin"), folder.path().join("later.csv"));
+    std::fs::write(&path, &bytes).unwrap();
+    let (code, _, err) = watch(path.as_os_str(), &[]);
+    assert!(code == Some(1) && err.contains("later than this program"), "{err}");
+    // records beside them are shown; where they have another length, a head comes between
+    bytes.extend(framed(&[1, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 0, 0]));
+    bytes.extend(framed(&[1, 1, 0, 0, 0, 0, 0, 0, 0, 6, 0, 0, 0, 7, 0, 0, 0]));
+    std::fs::write(&path, &bytes).unwrap();
+    let (code, out, err) = watch(path.as_os_str(), &["--csv", csv.to_str().unwrap()]);
+    assert!(code == Some(0) && out.contains("5 of a kind that is not known"), "{out}{err}");
+    let table = std::fs::read_to_string(csv).unwrap();
+    assert_eq!(table, "tick,dropped,value 0\n0,0,5\ntick,dropped,value 0,value 1\n1,0,6,7\n");
+}

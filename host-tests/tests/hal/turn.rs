@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use driveline::fault::Faults;
 use driveline::hal::Board;
 use driveline_firmware::asking::{Asking, SPEED};
+use driveline_firmware::attended::{Attended, PATIENCE};
 use driveline_firmware::on_axis::OnAxis;
 use driveline_firmware::scene::{Input, Scene};
 use driveline_firmware::scenes::test_rig::{RATE_HZ, TestRig};
@@ -206,4 +207,22 @@ proptest! {
         bytes[at] ^= 1 << bit;
         prop_assert_eq!(asked(&bytes), Vec::<[u32; 2]>::new());
     }
+}
+
+#[test]
+fn a_main_loop_that_hangs_is_seen_and_one_that_is_busy_is_not() {
+    let mut attended = Attended::default();
+    // turns of a hundredth of a second, over the counter's end
+    for tick in 0..100_000_u32 {
+        assert!(attended.check((u32::MAX - 500).wrapping_add(tick / 100)), "tick {tick}");
+    }
+    // the last turn began a hundred ticks ago
+    let turns = (u32::MAX - 500).wrapping_add(999);
+    let hung = (1..).find(|_| !attended.check(turns)).unwrap();
+    assert_eq!(hung, PATIENCE - 99);
+    assert!(!attended.check(turns));
+    assert!(attended.check(turns + 1));
+    // one that never begins is seen too
+    let mut attended = Attended::default();
+    assert_eq!((1..).find(|_| !attended.check(0)), Some(PATIENCE));
 }

@@ -6,8 +6,8 @@
 //! | PA7, PB0, PB1 | their complements: CH1N, CH2N, CH3N |
 //! | PA6 | BKIN: low switches off, and so does a wire that has broken |
 //!
-//! Off is low on all six, driven. The core's lockup, a double error in the flash and a supply that fails break, too (SYSCFG), and a debugger that stops the
-//! core. What has broken stays off until [`Outputs`] are switched on again.
+//! Off is low on all six, driven. The core's lockup, a double error in the flash and a supply that fails break, too (SYSCFG), a crystal that fails (CSS: the
+//! input's filter needs a clock), and a debugger that stops the core. What has broken stays off until [`Outputs`] are switched on again.
 
 use core::convert::Infallible;
 
@@ -27,6 +27,9 @@ const PWM_HZ: u32 = 20_000;
 const FULL: u16 = (CLOCK_HZ / PWM_HZ / 2) as u16;
 /// Dead time of a microsecond: (64 + 21) x 2 clocks (RM0440, DTG of TIMx_BDTR).
 const DEAD_TIME: u8 = 0b1000_0000 | 21;
+
+/// Clocks until MOE is read as it was written.
+const SYNCHRONISED: u32 = 16;
 
 /// Starts the timer, outputs off.
 pub fn start() {
@@ -123,6 +126,8 @@ impl Enabling for Outputs {
             });
         }
         TIM1.bdtr().modify(|r| r.set_moe(enabled));
+        // MOE is read behind a synchroniser, some clocks later than it is written: RM0440, the break function of TIM1
+        cortex_m::asm::delay(SYNCHRONISED);
         // the break input holds them off
         if outputs_are_on() == enabled { Ok(()) } else { Err(Faults::ENABLE) }
     }

@@ -65,6 +65,8 @@ pub fn start() {
         r.set_adc12sel(Adcsel::SYS);
         r.set_lpuart1sel(Uartsel::PCLK1);
     });
+    // where the crystal fails, TIM1 breaks; the NMI never ends, and the watchdog resets
+    RCC.cr().modify(|r| r.set_csson(true));
     // the bits take two cycles of the bus to act: RM0440, 7.2.17
     let _ = RCC.ccipr().read();
 }

@@ -46,7 +46,7 @@ pub struct Vibration {
 }
 
 impl Vibration {
-    /// Starts converters, DMA and their beat.
+    /// Starts converters and DMA; their beat comes with the ticks.
     pub fn start() -> Self {
         analog('A', 0);
         analog('A', 1);
@@ -59,7 +59,7 @@ impl Vibration {
         start_converter(ADC2, 1, 2);
         TIM4.arr().write(|r| r.set_arr((CLOCK_HZ / CONVERSIONS_HZ - 1) as u16));
         TIM4.cr2().modify(|r| r.set_mms(Mms::UPDATE));
-        TIM4.cr1().modify(|r| r.set_cen(true));
+        // it starts with the ticks: `start_tick`
         let sensor = AdcVibration::new(MOST / 2 + 1, MOST, PER_COUNT);
         Vibration { sensors: [sensor; 2], transfers: [0; 2] }
     }
@@ -100,7 +100,9 @@ impl Vibration {
 /// Calibrates a converter and lets it fill its ring.
 #[inline(always)]
 fn start_converter(converter: Adc, ring: usize, input: u8) {
-    converter.cr().write(|r| r.set_advregen(true));
+    // out of deep power-down first, and only then the regulator: RM0440, 21.4.6
+    converter.cr().write(|r| r.set_advregen(false));
+    converter.cr().modify(|r| r.set_advregen(true));
     // the regulator takes 20 us: DS12288, tADCVREG_SETUP
     cortex_m::asm::delay(CLOCK_HZ / 50_000);
     converter.cr().modify(|r| r.set_adcal(true));

@@ -1,7 +1,7 @@
 //! The generator sets: verdicts by the standards, and a fault on every input.
 
 use super::Section;
-use crate::generator::page::{diesel, faults, steps, turbine};
+use crate::generator::page::{diesel, faults, steps, trips, turbine};
 use crate::survey::{GENERATOR, Survey};
 
 /// The sets.
@@ -17,5 +17,9 @@ pub fn section(survey: &Survey) -> Section {
         return section;
     }
     let text = "On the diesel at half load. Torques are of rated.";
-    section.table("A fault on every input of the governor", text, &faults(verdicts))
+    section.table("A fault on every input of the governor", text, &faults(verdicts)).table(
+        "Every trip of the governor, brought about",
+        "On the diesel. Each stands with its reason, the cause gone, until it is reset.",
+        &trips(verdicts),
+    )
 }

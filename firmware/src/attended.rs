@@ -1,0 +1,22 @@
+//! Whether the main loop still turns. It alone looks at the stop button and hears the terminal, so that without it a drive cannot be stopped.
+
+/// Ticks without a turn of the main loop after which it counts as hung: half a second at 10 kHz. What it does at most in one turn, advice to a balancer
+/// among it, takes milliseconds.
+pub const PATIENCE: u32 = 5_000;
+
+/// What the tick has seen of the main loop.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Attended {
+    turns: u32,
+    ticks: u32,
+}
+
+impl Attended {
+    /// Whether the main loop has turned within the last ticks; `turns` counts its turns, and wraps.
+    #[inline]
+    pub fn check(&mut self, turns: u32) -> bool {
+        self.ticks = if turns == self.turns { self.ticks.saturating_add(1) } else { 0 };
+        self.turns = turns;
+        self.ticks < PATIENCE
+    }
+}
