@@ -64,8 +64,9 @@
 //! [Wang 1989 §1-3]: the mean of both ways is taken.
 //!
 //! # Bounds
-//! Torque and travel stay within the [`TestSettings`], and so does the shaft but for what the limits say. Before the multisine, while it is not
-//! known whether the load is free, the torque takes half of the shaft's room at most, and the first run-up is gentle.
+//! Torque and travel stay within the [`TestSettings`], and so does the shaft but for what the limits say.
+//! Before the multisine, while it is not known whether the load is free, the torque takes half of the shaft's room at
+//! most, and the first run-up is gentle.
 //! A motor that lags too far ([`Reason::NotFollowed`]), a torque that goes from bound to bound
 //! ([`Reason::Unsteady`]), an angle that jumps and a travel that is left end the test without torque: what holds the
 //! load then is the brake. Where data do not support an answer the test ends holding the load, with its [`Reason`].
