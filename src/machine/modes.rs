@@ -175,17 +175,19 @@ const fn singular(mut columns: Columns, shafts: usize) -> ([f64; SHAFTS], Column
     (values, columns)
 }
 
-/// Turns columns p and q orthogonal, the larger one first; false where they already are.
+/// Turns columns p and q orthogonal, the larger one first; false where they already are. One that changes places counts as turned: it has not met
+/// all the others in this sweep.
 const fn rotate(columns: &mut Columns, p: usize, q: usize, rows: usize) -> bool {
     let mut alpha = dot(&columns[p], &columns[p], rows);
     let mut beta = dot(&columns[q], &columns[q], rows);
-    if alpha < beta {
+    let swapped = alpha < beta;
+    if swapped {
         columns.swap(p, q);
         (alpha, beta) = (beta, alpha);
     }
     let gamma = dot(&columns[p], &columns[q], rows);
     if gamma == 0.0 || gamma.abs() <= 0.5 * f64::EPSILON * sqrt(alpha) * sqrt(beta) {
-        return false;
+        return swapped;
     }
     let zeta = (beta - alpha) / (2.0 * gamma);
     let tangent = if zeta.abs() > 1e150 {

@@ -230,3 +230,28 @@ fn wrong_trains_are_refused() {
     }
     assert_eq!(wide.masses().len(), driveline::machine::CAPACITY);
 }
+
+/// A branch on the motor itself: with the motor held, what stands on it comes apart, and two of the three columns that the frequencies are
+/// found from are orthogonal from the start.
+#[test]
+fn a_branch_on_the_motor() {
+    let (k, j) = ([4.3e6, 2.9e6, 2.9e6], [3512.5, 712.5, 176.0, 176.0]);
+    // Both branches bring half of the mass that they stand on.
+    let main = chain(&[0.5 * j[0], 0.5 * j[1]], &k[..1]);
+    let [first, second] = [0, 1].map(|side| chain(&[0.5 * j[side], j[2 + side]], &k[1 + side..2 + side]));
+    let train = Train::of(main).branch(0, ONE, first).branch(1, ONE, second);
+    // By hand: one mass on a spring, and two in a row, J1 J3 x^2 - ((k0 + k2) J3 + k2 J1) x + k0 k2 = 0.
+    let (a, b, c) = (j[1] * j[3], (k[0] + k[2]) * j[3] + k[2] * j[1], k[0] * k[2]);
+    let root = (b * b - 4.0 * a * c).sqrt();
+    let mut expected = [2.0 * c / (b + root), k[1] / j[2], (b + root) / (2.0 * a)].map(f64::sqrt);
+    expected.sort_by(f64::total_cmp);
+    let modes = train.modes();
+    for (found, expected) in modes.antiresonances().iter().zip(expected) {
+        close(*found, expected, 1e-13);
+    }
+    // Resonances and antiresonances alternate, and so the load has an inertia.
+    for (resonance, antiresonance) in modes.resonances().iter().zip(modes.antiresonances()) {
+        assert!(*antiresonance < resonance.frequency);
+    }
+    assert!(train.reduce(Match::ResonanceAntiresonance).load_inertia > 0.0);
+}
