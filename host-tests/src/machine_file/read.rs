@@ -13,7 +13,7 @@ use super::diagnostic::Diagnostic;
 use super::excitation::excitations;
 use super::quantity::Quantity;
 use super::source::{Source, printable};
-use super::station::{Station, begun, stations};
+use super::station::{NOTHING, Station, begun, stations};
 use super::table::Table;
 use super::{Branch, Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
 
@@ -168,7 +168,8 @@ fn elements(
     let mut parts: Vec<Part> = Vec::new();
     let mut chain: Option<Chain> = None;
     let mut last: Range<usize> = 0..0;
-    for (index, (span, mut table)) in table.tables("element")?.into_iter().enumerate() {
+    let listed = if branch { table.tables_of("element", "part of the branch") } else { table.tables("element") };
+    for (index, (span, mut table)) in listed?.into_iter().enumerate() {
         let at = |found: String, expected: &str| {
             Diagnostic::at(source, span.clone(), format!("{heading}element[{index}]"), found, expected)
         };
@@ -233,12 +234,20 @@ fn branches(
         let known = masses.iter().map(|(label, ..)| format!("\"{label}\"")).collect::<Vec<_>>().join(", ");
         let expected = format!("the label of a mass that turns: {known}");
         let at = table.text("at", &expected)?.to_owned();
-        let Some(&(_, node, ratio)) = masses.iter().find(|(label, ..)| *label == at) else {
+        let mut labelled = masses.iter().filter(|(label, ..)| *label == at);
+        let Some(&(_, node, ratio)) = labelled.next() else {
             return Err(table.wrong("at", expected));
         };
+        if labelled.next().is_some() {
+            return Err(table.wrong("at", "a label that one mass alone has"));
+        }
         let key = format!("branch[{index}]");
         let (elements, own) = elements(source, &mut table, &format!("{key}."), &parts)?;
         table.finish()?;
+        if own.masses() == [NOTHING.0] {
+            let expected = "a rotor, a lifted or a driven mass as its last element";
+            return Err(Diagnostic::at(source, span, key, "a branch without a mass", expected));
+        }
         let refused = |error: driveline::machine::Error| {
             let found = format!("a branch that cannot stand here ({error})");
             Diagnostic::at(source, span.clone(), key.clone(), found, "a branch that the train has room for")

@@ -276,4 +276,12 @@ fn a_branch_that_cannot_be_is_told_at_its_place() {
     assert_eq!(key, "branch[0].element[2]");
     let (key, ..) = fault("at = \"pinions\"", "at = \"pinions\"\nside = 1");
     assert_eq!(key, "branch[0].side");
+    // which of two masses is meant is not told by a label that both have
+    let (key, _, text) = fault("label = \"engine\"", "label = \"pinions\"");
+    assert!(key == "branch[0].at" && text.contains("one mass alone"), "{text}");
+    let (start, end) = (SHIP.find("[[branch.element]]").unwrap(), SHIP.rfind("[[branch]]").unwrap());
+    let (key, _, text) = fault(&SHIP[start..end], "");
+    assert!(key == "branch[0].element" && text.contains("part of the branch"), "{text}");
+    let (key, _, text) = fault(&SHIP[start..end], "[[branch.element]]\nkind = \"gear\"\nratio = 2.0\n\n");
+    assert!(key == "branch[0]" && text.contains("without a mass"), "{text}");
 }
