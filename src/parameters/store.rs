@@ -94,8 +94,12 @@ impl<F: NorFlash> Store<F> {
         let (place, count) = kept.map_or((0, 0), |kept| (kept.place ^ 1, kept.count.wrapping_add(1)));
         let length = record::write(parameters, count, buffer).ok_or(Error::TooLarge)?;
         // up to a whole word, as if still erased
-        let whole = length.next_multiple_of(F::WRITE_SIZE);
+        let whole = length.next_multiple_of(F::WRITE_SIZE.max(1));
         buffer.get_mut(length..whole).ok_or(Error::TooLarge)?.fill(0xff);
+        // What cannot be read back whole must not cost a record its page.
+        if length > self.readable(buffer) {
+            return Err(Error::TooLarge);
+        }
         let bytes = buffer.get(..whole).filter(|bytes| bytes.len() <= self.half as usize).ok_or(Error::TooLarge)?;
         let from = self.start + place * self.half;
         self.flash.erase(from, from + self.half).map_err(Error::Flash)?;
@@ -151,9 +155,14 @@ impl<F: NorFlash> Store<F> {
         Newest { loaded, kept, failed: failed.filter(|_| failures == 2) }
     }
 
-    fn fetch<P: Parameters>(&mut self, place: u32, buffer: &mut [u8]) -> Result<Fetched<P>, F::Error> {
+    /// How much of a record is read into a buffer: whole words that half the range has.
+    fn readable(&self, buffer: &[u8]) -> usize {
         let length = buffer.len().min(self.half as usize);
-        let length = length - length % F::READ_SIZE.max(1);
+        length - length % F::READ_SIZE.max(1)
+    }
+
+    fn fetch<P: Parameters>(&mut self, place: u32, buffer: &mut [u8]) -> Result<Fetched<P>, F::Error> {
+        let length = self.readable(buffer);
         let bytes = buffer.get_mut(..length).unwrap_or(&mut []);
         self.flash.read(self.start + place * self.half, bytes)?;
         Ok((!record::is_erased(bytes)).then(|| record::read(bytes)))

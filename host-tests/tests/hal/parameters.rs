@@ -586,3 +586,50 @@ fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
     let resumed: Result<Field, _> = other.resume(Plan { trials_stay: true, ..plan }, &mut [0]);
     assert!(matches!(resumed, Err(balance::Refusal::Record { .. })));
 }
+
+/// A flash that is read by words of 32 bytes and written by single ones.
+#[derive(Clone)]
+struct Coarse(Vec<u8>);
+
+impl ErrorType for Coarse {
+    type Error = Cut;
+}
+
+impl ReadNorFlash for Coarse {
+    const READ_SIZE: usize = 32;
+    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Cut> {
+        assert!(bytes.len().is_multiple_of(Self::READ_SIZE));
+        bytes.copy_from_slice(&self.0[offset as usize..][..bytes.len()]);
+        Ok(())
+    }
+    fn capacity(&self) -> usize {
+        self.0.len()
+    }
+}
+
+impl NorFlash for Coarse {
+    const WRITE_SIZE: usize = 1;
+    const ERASE_SIZE: usize = PAGE;
+    fn erase(&mut self, from: u32, to: u32) -> Result<(), Cut> {
+        self.0[from as usize..to as usize].fill(0xff);
+        Ok(())
+    }
+    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Cut> {
+        self.0[offset as usize..][..bytes.len()].copy_from_slice(bytes);
+        Ok(())
+    }
+}
+
+/// A buffer that holds the record but not the words that it is read in: it is too small, and no page is erased for it.
+#[test]
+fn a_buffer_that_ends_within_a_word_is_too_small() {
+    let small = Kept { inertia: 1.0, stiffness: 0.5, influence: Vec::new() };
+    let mut store = Store::new(Coarse(vec![0xff; PAGES * PAGE]), RANGE).unwrap();
+    // 18 bytes of head, 9 of parameters, 4 of check.
+    for (length, kept) in [(30, false), (31, false), (32, true), (33, true), (63, true)] {
+        let saved = store.save(&small, &mut vec![0; length]);
+        assert_eq!(saved, if kept { Ok(()) } else { Err(Error::TooLarge) }, "{length}");
+        let loaded = store.load::<Kept>(&mut [0; 64]).unwrap();
+        assert_eq!(loaded, Loaded { parameters: kept.then(|| small.clone()), refused: None }, "{length}");
+    }
+}
