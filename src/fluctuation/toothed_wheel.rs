@@ -105,7 +105,8 @@ impl<const PLACES: usize> ToothedWheel<PLACES> {
         self.last = time;
         let limit = u64::from(self.pitch) * (2 + u64::from(config.missing)) / 2;
         let gap = self.pitch != 0 && u64::from(interval) > limit;
-        let longest = u64::from(self.pitch) * (3 + 2 * u64::from(config.missing)) / 2;
+        // More missing teeth than any wheel has places for do not stop the machine.
+        let longest = u64::from(self.pitch).wrapping_mul(3 + 2 * u64::from(config.missing)) / 2;
         if gap && u64::from(interval) > longest {
             self.disturb();
             return;

@@ -124,3 +124,17 @@ proptest! {
         }
     }
 }
+
+/// Constants that nobody made stop no interrupt.
+#[test]
+fn a_wheel_of_any_words_does_not_panic() {
+    let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
+    for (places, missing) in [(u32::MAX, u32::MAX), (60, u32::MAX), (0, 0), (u32::MAX, 2)] {
+        let config = ToothedWheelConfig { cycle, places, missing, cycles: u32::MAX };
+        let mut wheel = ToothedWheel::<60>::default();
+        for time in [0, u32::MAX, 1, 1 << 31, 7, u32::MAX - 1, 0] {
+            wheel.tooth(&config, time);
+            assert!(wheel.take().is_none());
+        }
+    }
+}
