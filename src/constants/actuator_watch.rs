@@ -25,8 +25,11 @@ pub struct ActuatorWatchSettings {
 
 const fn torques(settings: &ActuatorWatchSettings, format: &Format) -> Values<2, 0> {
     let ActuatorWatchSettings { tolerance, most, .. } = *settings;
-    if tolerance > 0.0 && most > tolerance && all_finite(&[tolerance, most]) {
-        Ok(([tolerance / format.bases.torque, most / format.bases.torque], []))
+    let per_unit = tolerance / format.bases.torque;
+    // A tolerance that the number rounds to zero would believe no position.
+    let told = if format.unit == 1.0 { per_unit as f32 > 0.0 } else { per_unit * format.unit >= 1.0 };
+    if told && most > tolerance && all_finite(&[tolerance, most]) {
+        Ok(([per_unit, most / format.bases.torque], []))
     } else {
         Err(Error::Value(WATCH))
     }

@@ -62,14 +62,15 @@ pub(super) const fn single<const K: usize>(values: [f64; K]) -> [f32; K] {
     out
 }
 
-/// A positive value per unit of its base; the error names it.
+/// A positive value per unit of its base, which does not round to zero; the error names it.
 pub(super) const fn per_unit(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
-    if value > 0.0 && value <= 2.0 { Ok(Fixed::from_f64(value)) } else { Err(Error::Value(sentence)) }
+    let fixed = Fixed::from_f64(value);
+    if value <= 2.0 && fixed.to_bits() > 0 { Ok(fixed) } else { Err(Error::Value(sentence)) }
 }
 
-/// A positive value that a float holds; the error names it.
+/// A positive value that a float holds, and not as zero; the error names it.
 pub(super) const fn positive(value: f64, sentence: &'static str) -> Result<f64, Error> {
-    if value > 0.0 && (value as f32).is_finite() { Ok(value) } else { Err(Error::Value(sentence)) }
+    if value as f32 > 0.0 && (value as f32).is_finite() { Ok(value) } else { Err(Error::Value(sentence)) }
 }
 
 /// Unwraps a result in a `const fn` that returns one.

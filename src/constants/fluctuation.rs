@@ -127,7 +127,8 @@ macro_rules! float_mean {
             /// As [`CycleConfig::try_new`], and [`Error::Value`] for segments that are no power of two, or too few or too many for the cycle.
             pub const fn try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64) -> Result<Self, Error> {
                 let (cycle, angle) = get!(mean_cycle(cycle, SEGMENTS, period, Bases::SI));
-                Ok(CycleMeanConfig { cycle, angle, speed: Format::FLOAT.speed_of_turn(period) as $float })
+                let speed = Format::FLOAT.speed_of_turn(period) as $float;
+                if speed.is_finite() { Ok(CycleMeanConfig { cycle, angle, speed }) } else { Err(Error::Value(PERIOD)) }
             }
         }
     };

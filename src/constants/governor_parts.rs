@@ -11,15 +11,15 @@ use crate::number::{Coefficient, Fixed};
 
 const GAIN: &str =
     "a gain of the governor is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
-pub(super) const RAMP: &str =
-    "the ramp of the governor must be positive and finite, and within a tick at most twice the base of the speed";
+const NO_GAIN: &str = "the gains of the governor must be finite, and the proportional one above zero";
+pub(super) const RAMP: &str = "the ramp of the governor must be positive and finite, and within a tick at most twice the base of the speed, in fixed point at least 2^-28 of it";
 const DROOP: &str = "the droop must be zero or above and finite, for a rated speed and torque above zero, and below half a base of the speed per base of the torque in fixed point";
 const SHARE: &str = "the share of the load torque that is fed forward must be from 0 to 1";
 pub(super) const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, and both within twice the base of the torque in fixed point";
 const MODES: &str = "the speeds of the modes must be standstill < underspeed < overspeed, none of them negative, the shaft's torque positive, all finite and within twice their bases in fixed point";
 const TIMES: &str =
     "the times of the modes must be zero or above and below 2^31 ticks, and the period of a tick positive";
-const ACCELERATION: &str = "the acceleration feedback must be less than twice the torque that accelerates the load in fixed point: lower its share";
+const ACCELERATION: &str = "the acceleration feedback must be zero or above and finite, and less than twice the torque that accelerates the load in fixed point: lower its share";
 const DELAY: &str = "the delay of the rack must be zero or above and less than its ring of ticks";
 
 /// The limits of [`Modes`](crate::governor::Modes), in SI units.
@@ -65,13 +65,22 @@ const fn gains(design: &[f64; 5], ramp: f64, format: &Format) -> Values<1, 3> {
     let step = ramp * period / speed;
     // Operands are held within 8 bases, the integral, what is fed forward and what accelerates the load within 2: the sum must stay within 8.
     let sum = 8.0 * scale * (proportional + integral * period + slip.abs()) + 2.0 * acceleration;
-    if !(step > 0.0 && step.is_finite()) {
+    let unwinding = integral * period / proportional;
+    // What the number rounds to zero is no ramp: the reference would stand still.
+    if !(step * format.unit >= least_step(format) && all_finite(&[step])) {
         Err(Error::Value(RAMP))
+    } else if !(proportional > 0.0 && all_finite(&[proportional * scale, integral * period * scale, unwinding])) {
+        Err(Error::Coefficient(NO_GAIN))
     } else if format.unit != 1.0 && !(sum <= 3.99) {
         Err(Error::Coefficient(GAIN))
     } else {
-        Ok(([step], [proportional * scale, integral * period * scale, integral * period / proportional]))
+        Ok(([step], [proportional * scale, integral * period * scale, unwinding]))
     }
+}
+
+/// The least step of a ramp that is not zero, in units of the format.
+pub(super) const fn least_step(format: &Format) -> f64 {
+    if format.unit == 1.0 { f32::MIN_POSITIVE as f64 } else { 1.0 }
 }
 
 const fn droop(droop: f64, rated_speed: f64, rated_torque: f64, format: &Format) -> Values<0, 1> {
@@ -88,7 +97,7 @@ const fn feed_forward(share: f64, format: &Format) -> Values<0, 1> {
 }
 
 const fn acceleration(feedback: f64, format: &Format) -> Values<0, 1> {
-    if feedback >= 0.0 && feedback.is_finite() {
+    if feedback >= 0.0 && all_finite(&[feedback]) {
         Ok(([], [-feedback / format.widened]))
     } else {
         Err(Error::Value(ACCELERATION))
@@ -96,7 +105,8 @@ const fn acceleration(feedback: f64, format: &Format) -> Values<0, 1> {
 }
 
 const fn damping(slip: f64, format: &Format) -> Values<0, 1> {
-    Ok(([], [-slip * format.bases.speed / (format.bases.torque * format.gain)]))
+    let damping = -slip * format.bases.speed / (format.bases.torque * format.gain);
+    if all_finite(&[damping]) { Ok(([], [damping])) } else { Err(Error::Coefficient(NO_GAIN)) }
 }
 
 pub(super) const fn between(least: f64, most: f64, format: &Format) -> Values<2, 0> {
@@ -220,7 +230,7 @@ macro_rules! part {
 
 part!(
     Gains, (design: &GovernorDesign, ramp: f64), GAIN,
-    "[`Error::Value`] for a ramp [rad/s2] that is not positive and finite, [`Error::Coefficient`] for a gain beyond fixed point.",
+    "[`Error::Value`] for a ramp [rad/s2] that is not positive and finite, or that the number rounds to none; [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.",
     |format| gains(&[design.proportional, design.integral, 0.0, design.acceleration, design.period], ramp, &format),
     |cast, [ramp], [proportional, integral, unwinding]| Gains {
         proportional: cast!(proportional),
@@ -246,14 +256,14 @@ part!(
 
 part!(
     AccelerationFeedbackConfig, (design: &GovernorDesign), ACCELERATION,
-    "[`Error`] for a feedback of twice the torque that accelerates the load or more, in fixed point.",
+    "[`Error`] for a feedback that is negative or not finite, or in fixed point of twice the torque that accelerates the load or more.",
     |format| acceleration(design.acceleration, &format),
     |cast, [], [feedback]| AccelerationFeedbackConfig { feedback: cast!(feedback) }
 );
 
 part!(
     ActiveDampingConfig, (design: &SpeedLoopDesign), GAIN,
-    "[`Error::Coefficient`] for a gain beyond fixed point.",
+    "[`Error::Coefficient`] for a gain that is not finite, or beyond fixed point.",
     |format| damping(design.slip, &format),
     |cast, [], [damping]| ActiveDampingConfig { damping: cast!(damping) }
 );

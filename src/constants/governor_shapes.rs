@@ -1,7 +1,7 @@
 //! Constants of the composed governor's parts that are shapes: barred ranges, torque curves, and the slew round another limit.
 
 use super::convert::{get, or_stop};
-use super::governor_parts::{LIMIT, RAMP, Values, all_finite, between, in_fixed};
+use super::governor_parts::{LIMIT, RAMP, Values, all_finite, between, in_fixed, least_step};
 use super::{Bases, Error, Format};
 use crate::design::{BarredSpeeds, TorqueCurve};
 use crate::governor::{BarredConfig, CurveConfig, CurvePiece, SlewConfig, Window};
@@ -14,7 +14,11 @@ const BARRED: &str = "the barred ranges must be as many as the governor has and 
 
 const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
     let step = rate * period / format.bases.torque;
-    if step > 0.0 && all_finite(&[step]) { Ok(([step], [])) } else { Err(Error::Value(SLEW)) }
+    if step * format.unit >= least_step(format) && all_finite(&[step]) {
+        Ok(([step], []))
+    } else {
+        Err(Error::Value(SLEW))
+    }
 }
 
 const fn piece<const K: usize>(curve: &TorqueCurve<K>, k: usize, format: &Format) -> Values<2, 1> {
@@ -41,7 +45,11 @@ const fn range<const K: usize>(barred: &BarredSpeeds<K>, k: usize, format: &Form
 
 const fn quick(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
     let step = rate * period / format.bases.speed;
-    if step > 0.0 && all_finite(&[step]) { Ok(([step], [])) } else { Err(Error::Value(RAMP)) }
+    if step * format.unit >= least_step(format) && all_finite(&[step]) {
+        Ok(([step], []))
+    } else {
+        Err(Error::Value(RAMP))
+    }
 }
 
 macro_rules! float_arrays {

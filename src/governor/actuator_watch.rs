@@ -62,7 +62,7 @@ impl<N: Number, const K: usize> ActuatorWatch<N, K> {
         if told.minus(expected).exceeds(config.tolerance) {
             // One beyond the patience: what mends is believed again after as long a time.
             if self.outside <= config.patient {
-                self.outside += 1;
+                self.outside = self.outside.wrapping_add(1);
             }
             self.absent = told.exceeds(config.most);
             return (expected, Faults::TORQUE);

@@ -122,3 +122,18 @@ fn what_cannot_be_watched_is_refused() {
         matches!(fixed(1.44), Err(Error::Value(sentence)) if sentence.contains("1.5 ticks")) && fixed(1.45).is_ok()
     );
 }
+
+/// A tolerance that the number rounds to zero would believe no position at all.
+#[test]
+fn a_tolerance_that_rounds_to_zero_is_refused() {
+    let settings = |tolerance| ActuatorWatchSettings { tolerance, ..SETTINGS };
+    for tolerance in [1e-60, 0.0, f64::NAN, 1e39] {
+        let refused = ActuatorWatchConfig::<f32, 2>::try_new(&LAGS, &settings(tolerance), PERIOD);
+        assert!(matches!(refused, Err(Error::Value(_))), "{tolerance}");
+    }
+    // A unit in the last place is 2500 N m/2^28.
+    for (tolerance, allowed) in [(9.0e-6, false), (1.0e-5, true)] {
+        let made = ActuatorWatchConfig::<Fixed, 2>::try_new(&LAGS, &settings(tolerance), PERIOD, BASES);
+        assert_eq!(made.is_ok(), allowed, "{tolerance}");
+    }
+}
