@@ -82,8 +82,13 @@ pub struct TestConfig {
     pub(crate) acceleration: f64,
 }
 
+/// In `f32` too, as the tick takes it: what is finite in `f64` alone would be an infinite torque there.
+const fn finite(value: f64) -> bool {
+    (value as f32).is_finite()
+}
+
 const fn positive(value: f64) -> bool {
-    value > 0.0 && value.is_finite()
+    value > 0.0 && finite(value)
 }
 
 impl TestConfig {
@@ -101,10 +106,10 @@ impl TestConfig {
         if !positive(settings.torque) {
             return Err(Reason::Torque);
         }
-        if !settings.held.is_finite() {
+        if !finite(settings.held) {
             return Err(Reason::Held);
         }
-        if !(settings.shaft_torque > settings.held.abs() && settings.shaft_torque.is_finite()) {
+        if !(settings.shaft_torque > settings.held.abs() && finite(settings.shaft_torque)) {
             return Err(Reason::ShaftTorque);
         }
         let [run_up, turns] = LONGEST;
@@ -114,7 +119,7 @@ impl TestConfig {
         if !positive(settings.travel) || settings.travel > 1.0e9 {
             return Err(Reason::Travel);
         }
-        if !positive(settings.inertia) {
+        if !(positive(settings.inertia) && finite(1.0 / settings.inertia)) {
             return Err(Reason::Inertia);
         }
         if !(low >= 0.01 && high > low && high * period <= 0.1) {

@@ -156,6 +156,21 @@ fn settings_that_are_no_numbers() {
     }
 }
 
+/// What `f64` holds and the tick's `f32` does not: the torque would be infinite from the first tick on, or no number.
+#[test]
+fn settings_beyond_single_precision() {
+    let refused = |change: fn(&mut TestSettings)| {
+        let mut settings = SPINDLE;
+        change(&mut settings);
+        TestConfig::try_new(&settings).err()
+    };
+    assert_eq!(refused(|s| (s.held, s.shaft_torque) = (1.0e39, 2.0e39)), Some(Reason::Held));
+    assert_eq!(refused(|s| s.shaft_torque = 1.0e39), Some(Reason::ShaftTorque));
+    assert_eq!(refused(|s| s.torque = 1.0e39), Some(Reason::Torque));
+    // 1/inertia is infinite.
+    assert_eq!(refused(|s| s.inertia = 1.0e-40), Some(Reason::Inertia));
+}
+
 /// What breaks while the test runs.
 #[derive(Clone, Copy, Debug)]
 enum Broken {
