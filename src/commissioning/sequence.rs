@@ -53,6 +53,8 @@ enum Phase {
     Stops,
     /// Stands until the job is solved.
     Waits,
+    /// Is without torque for good.
+    Lost,
 }
 
 /// A test under way. `L` lines of the multisine: 24 as a rule, 16 at least.
@@ -229,7 +231,7 @@ impl<const L: usize> Commissioning<L> {
 
     fn refuse(&mut self, reason: Reason) {
         self.stage = Stage::Refused;
-        self.phase = Phase::Waits;
+        self.phase = Phase::Lost;
         self.next = Next::Refused(reason);
         self.torque = 0.0;
         self.fade = 0.0;
@@ -276,7 +278,6 @@ impl<const L: usize> Commissioning<L> {
 
     fn block(&mut self, config: &TestConfig) {
         let ticks = i64::from(config.ticks);
-        let lost = self.stage == Stage::Refused && self.torque == 0.0 && self.fade == 0.0;
         let meant = self.reference.angle.wrapping_mul(ticks);
         // Before the reference moves on: what was meant in the block that has just ended.
         let deviation = self.sum.wrapping_sub(meant);
@@ -291,7 +292,7 @@ impl<const L: usize> Commissioning<L> {
         self.before = self.sum;
         self.meant = meant;
         self.sum = 0;
-        if lost {
+        if self.phase == Phase::Lost {
             return;
         }
         if self.angle.unsigned_abs() > config.travel.unsigned_abs() {
@@ -459,7 +460,7 @@ impl<const L: usize> Commissioning<L> {
                 self.fade = 0.0;
                 stop(self);
             }
-            (_, Phase::Stops | Phase::Waits) => {
+            (_, Phase::Stops | Phase::Waits | Phase::Lost) => {
                 self.phase = Phase::Waits;
                 self.fade = 0.0;
             }
