@@ -37,6 +37,7 @@ fn every_command_explains_itself_with_examples() {
         "check",
         "setup",
         "sizes",
+        "commission",
     ] {
         let output = driveline(&[command, "--help"]);
         assert!(output.status.success());
@@ -206,4 +207,28 @@ fn a_full_standard_output_is_a_failure() {
     let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
     let status = Command::new(env!("CARGO_BIN_EXE_driveline")).args(["design", HOIST]).stdout(full).status().unwrap();
     assert_eq!(status.code(), Some(1));
+}
+
+#[test]
+fn what_cannot_be_commissioned_is_said_before_anything_runs() {
+    let refused = |arguments: &[&str], code: i32, words: &[&str]| {
+        let output = driveline(arguments);
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", err(&output));
+        for word in words {
+            assert!(err(&output).contains(word), "{arguments:?}: {word} in {}", err(&output));
+        }
+    };
+    const SHIP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/ship.toml");
+    const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/axis.toml");
+    refused(&["commission", SHIP], 2, &["ship.toml:20:1: `branch[0]`", "expected a chain"]);
+    // The load that hangs takes more than half of a half of the largest torque.
+    refused(&["commission", HOIST], 2, &["hoist.toml: the largest torque of the shaft", "--rated 0.5"]);
+    refused(&["commission", AXIS, "--speed", "1e300"], 2, &["axis.toml: the test's speed", "--speed 1e300"]);
+    refused(&["commission", AXIS, "--friction", "nan"], 2, &["--friction must be zero or above"]);
+    refused(&["commission", "spindle", "--speed", "0.5"], 2, &["--speed is for a file `NAME.toml`"]);
+    let folder = env!("CARGO_TARGET_TMPDIR");
+    // Half an hour of the mill is not run for a page that cannot be written.
+    refused(&["commission", "mill", "--html", folder], 1, &["cannot be written"]);
+    let output = driveline(&["commission", SHIP, "--json"]);
+    assert_eq!(json(&err(&output))["at"]["line"], 20);
 }
