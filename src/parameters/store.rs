@@ -72,8 +72,11 @@ impl<F: NorFlash> Store<F> {
     /// and the other one taken.
     ///
     /// # Errors
-    /// What the flash says, where it gives neither record.
+    /// What the flash says, where it gives neither record; [`Error::TooLarge`] where the buffer or half the range has no room for any record.
     pub fn load<P: Parameters>(&mut self, buffer: &mut [u8]) -> Result<Loaded<P>, Error<F::Error>> {
+        if self.room(buffer) < record::LEAST {
+            return Err(Error::TooLarge);
+        }
         let Newest { loaded, failed, .. } = self.newest(buffer);
         match failed {
             Some(error) => Err(Error::Flash(error)),
@@ -151,10 +154,15 @@ impl<F: NorFlash> Store<F> {
         Newest { loaded, kept, failed: failed.filter(|_| failures == 2) }
     }
 
-    fn fetch<P: Parameters>(&mut self, place: u32, buffer: &mut [u8]) -> Result<Fetched<P>, F::Error> {
+    /// Bytes of a half that are read into a buffer.
+    fn room(&self, buffer: &[u8]) -> usize {
         let length = buffer.len().min(self.half as usize);
-        let length = length - length % F::READ_SIZE.max(1);
-        let bytes = buffer.get_mut(..length).unwrap_or(&mut []);
+        length - length % F::READ_SIZE.max(1)
+    }
+
+    fn fetch<P: Parameters>(&mut self, place: u32, buffer: &mut [u8]) -> Result<Fetched<P>, F::Error> {
+        let room = self.room(buffer);
+        let bytes = buffer.get_mut(..room).unwrap_or(&mut []);
         self.flash.read(self.start + place * self.half, bytes)?;
         Ok((!record::is_erased(bytes)).then(|| record::read(bytes)))
     }
