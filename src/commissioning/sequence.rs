@@ -205,7 +205,8 @@ impl<const L: usize> Commissioning<L> {
         self.begin(config);
     }
 
-    /// The answer, where the test has ended.
+    /// The answer, where the test has ended. Take it when it comes: a test that is ticked on holds the motor, and what
+    /// ends that, as an angle that jumps, stands in its place.
     #[must_use]
     pub fn outcome(&self) -> Option<Result<&Identified, Reason>> {
         match (&self.next, self.stage) {
@@ -227,7 +228,16 @@ impl<const L: usize> Commissioning<L> {
         self.angle as f64 * (core::f64::consts::TAU / 4_294_967_296.0)
     }
 
+    /// Whether the test has been ended without torque.
+    fn is_lost(&self) -> bool {
+        self.stage == Stage::Refused && self.torque == 0.0 && self.fade == 0.0
+    }
+
+    /// Ends the test without torque; what a motor without torque does next is no other reason.
     fn refuse(&mut self, reason: Reason) {
+        if self.is_lost() {
+            return;
+        }
         self.stage = Stage::Refused;
         self.phase = Phase::Waits;
         self.next = Next::Refused(reason);
@@ -276,7 +286,7 @@ impl<const L: usize> Commissioning<L> {
 
     fn block(&mut self, config: &TestConfig) {
         let ticks = i64::from(config.ticks);
-        let lost = self.stage == Stage::Refused && self.torque == 0.0 && self.fade == 0.0;
+        let lost = self.is_lost();
         let meant = self.reference.angle.wrapping_mul(ticks);
         // Before the reference moves on: what was meant in the block that has just ended.
         let deviation = self.sum.wrapping_sub(meant);
