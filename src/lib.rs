@@ -86,8 +86,9 @@
 //!
 //! # Features
 //! `defmt`: `defmt::Format` for every public type that can have it. `balancing`: influence coefficients, weights and the procedure, off the
-//! tick. `hal`: adapters to `embedded-hal` 1.0. `telemetry`: records of the ticks as frames. `parameters`: a versioned record in flash. `hal`: adapters to `embedded-hal` 1.0 (`driveline::hal`). `telemetry`: records of the ticks as
-//! frames over `embedded-io` (`driveline::telemetry`). `parameters`: a versioned record in flash (`driveline::parameters`).
+//! tick. `hal`: adapters to `embedded-hal` 1.0 (`driveline::hal`). `hal-async`: those on SPI awaited as well, by `embedded-hal-async` 1.0. `telemetry`:
+//! records of the ticks as frames over `embedded-io` (`driveline::telemetry`). `parameters`: a versioned record in flash
+//! (`driveline::parameters`).
 
 pub mod balance;
 pub mod commissioning;

@@ -82,7 +82,7 @@ pub(crate) fn lines<const L: usize>(hertz: &[f64; L], blocks: u32, config: &Test
     let mut least = 2_u32;
     for (line, hertz) in lines.iter_mut().zip(hertz) {
         let turns = ((hertz * time + 0.5) as u32).max(least);
-        least = turns + 2;
+        least = turns.saturating_add(2);
         let frequency = TAU * f64::from(turns) / time;
         let (sine, cosine) = sin_cos(frequency * config.block);
         *line = Line { frequency, turn: [cosine as f32, sine as f32], ..Line::NONE };

@@ -234,6 +234,11 @@ pub(crate) fn fit(responses: &[Response], unit: f64, between: [f64; 2]) -> Optio
             }
         }
     }
+    // No machine has an inertia below zero, and the refinement knows no bounds.
+    let [g, b, ..] = x;
+    if !(g > 0.0 && b > 0.0) {
+        return None;
+    }
     let freedom = (2 * lines - PARAMETERS) as f64;
     let excess = residual / freedom;
     let inverse = data.normal(&x).matrix.solve(&Matrix::diagonal(&[1.0; PARAMETERS]))?;

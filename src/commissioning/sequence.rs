@@ -207,7 +207,8 @@ impl<const L: usize> Commissioning<L> {
         self.begin(config);
     }
 
-    /// The answer, where the test has ended.
+    /// The answer, where the test has ended. Take it when it comes: a test that is ticked on holds the motor, and what
+    /// ends that, as an angle that jumps, stands in its place.
     #[must_use]
     pub fn outcome(&self) -> Option<Result<&Identified, Reason>> {
         match (&self.next, self.stage) {
@@ -229,7 +230,11 @@ impl<const L: usize> Commissioning<L> {
         self.angle as f64 * (core::f64::consts::TAU / 4_294_967_296.0)
     }
 
+    /// Ends the test without torque; what a motor without torque does next is no other reason.
     fn refuse(&mut self, reason: Reason) {
+        if self.phase == Phase::Lost {
+            return;
+        }
         self.stage = Stage::Refused;
         self.phase = Phase::Lost;
         self.next = Next::Refused(reason);

@@ -5,10 +5,10 @@
 //!    ^                    |  ^                                       |
 //!    +-- standstill -- Braking --------------- stop <----------------+
 //!
-//! any of them but Stopped -- trip --> Tripped(reason) -- reset --> Stopped
+//! any of them -- trip --> Tripped(reason) -- reset --> Stopped
 //! ```
 //!
-//! Stopped and tripped machines are given no torque. A trip keeps its first reason until it is reset.
+//! A stopped machine is not watched: it trips only where it is [asked](Modes::ask) to or [told](Modes::trip). Stopped and tripped machines are given no torque. A trip keeps its first reason until it is reset.
 
 use super::Window;
 use crate::number::Number;

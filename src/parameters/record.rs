@@ -46,6 +46,8 @@ impl core::error::Error for Refusal {}
 const MAGIC: [u8; 4] = *b"DLP1";
 const HEAD: usize = 18;
 const CHECK: usize = 4;
+/// Bytes of the least record, which has no parameters.
+pub(super) const LEAST: usize = HEAD + CHECK;
 
 /// Writes a record; gives its length, `None` where there is no room for it.
 pub(super) fn write<P: Parameters>(parameters: &P, count: u32, bytes: &mut [u8]) -> Option<usize> {

@@ -72,8 +72,11 @@ impl<F: NorFlash> Store<F> {
     /// and the other one taken.
     ///
     /// # Errors
-    /// What the flash says, where it gives neither record.
+    /// What the flash says, where it gives neither record; [`Error::TooLarge`] where the buffer or half the range has no room for any record.
     pub fn load<P: Parameters>(&mut self, buffer: &mut [u8]) -> Result<Loaded<P>, Error<F::Error>> {
+        if self.readable(buffer) < record::LEAST {
+            return Err(Error::TooLarge);
+        }
         let Newest { loaded, failed, .. } = self.newest(buffer);
         match failed {
             Some(error) => Err(Error::Flash(error)),

@@ -64,7 +64,7 @@ pub enum Broken {
 /// Standard deviation of the rack's position sensor, of rated torque.
 const SENSOR: f64 = 0.002;
 
-/// Electrical period [s]: the mean over it is the frequency that a meter shows.
+/// Ticks in an electrical period of 50 Hz: the mean over it is the frequency that a meter shows.
 const ELECTRICAL: usize = RATE_HZ as usize / 50;
 
 /// Runs a program. `spoil` has every input in its hands before the drive does.

@@ -116,6 +116,22 @@ fn an_encoder_that_jumps() {
 }
 
 #[test]
+fn a_first_reason_that_stands() {
+    let config = TestConfig::try_new(&SPINDLE).unwrap();
+    let mut test = Commissioning::<24>::new(&config);
+    // A motor that stands still under any torque does not follow.
+    while test.outcome().is_none() {
+        test.tick(&config, 7);
+    }
+    assert_eq!(test.outcome(), Some(Err(Reason::NotFollowed)));
+    // What turns it then, as a load that falls before its brake is closed, is no other reason.
+    for tick in 1..1000_u32 {
+        assert_eq!(test.tick(&config, tick << 24), 0.0);
+    }
+    assert_eq!(test.outcome(), Some(Err(Reason::NotFollowed)));
+}
+
+#[test]
 fn settings_out_of_range() {
     let with = |change: &dyn Fn(&mut TestSettings)| {
         let mut settings = SPINDLE;

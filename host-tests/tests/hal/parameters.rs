@@ -476,6 +476,9 @@ fn what_does_not_fit_is_said_and_nothing_is_lost() {
     let mut store = Store::new(flash.clone(), RANGE).unwrap();
     assert_eq!(store.save(&large, &mut [0; 65_536]), Err(Error::TooLarge));
     assert_eq!(store.save(&kept(2), &mut [0; 300]), Err(Error::TooLarge));
+    // a buffer that holds no record at all does not say that there is none
+    assert_eq!(store.load::<Kept>(&mut [0; 21]), Err(Error::TooLarge));
+    assert_eq!(store.load::<Kept>(&mut []), Err(Error::TooLarge));
     assert_eq!(store.load(&mut [0; 4096]).unwrap().parameters, Some(kept(1)));
     assert!(Store::new(Flash::new(), 0..PAGE as u32).is_err_and(|error| error == Error::Range));
     assert!(Store::new(Flash::new(), 7..3 * PAGE as u32).is_err_and(|error| error == Error::Range));

@@ -116,6 +116,26 @@ fn what_failed_stands_in_its_place_and_loses_nothing_else() {
 }
 
 #[test]
+fn one_that_diverged_is_the_worst_wherever_it_stands() {
+    let missed = |survey: &Survey| survey_table(survey).to_string().matches("missed").count();
+    let one = |mut survey: Survey| {
+        survey.scenes.truncate(1);
+        survey
+    };
+    let without = missed(&one(survey(0.01)));
+    for place in 0..3 {
+        let mut survey = one(survey(0.01));
+        for (at, run) in survey.scenes[0].runs.iter_mut().enumerate() {
+            run.chosen = true;
+            if at == place {
+                run.variant.shaft_torque.rms = f64::NAN;
+            }
+        }
+        assert_eq!(missed(&survey), without + 1, "{place}");
+    }
+}
+
+#[test]
 fn nothing_and_what_diverged_are_pages_too() {
     assert_sound(&survey_page(&Survey::default()));
     let mut survey = survey(f64::NAN);

@@ -60,7 +60,9 @@ pub fn overview_table(survey: &Survey) -> Table {
             (false, ..) => "differ".to_owned(),
         };
         let mut row = vec![scene.name.clone()];
-        let worst = |of: fn(&Run) -> f64| scene.chosen().map(of).fold(f64::NAN, |a, b| if b <= a { a } else { b });
+        // What is no number is worse than any.
+        let worse = |a: f64, b: f64| if a.is_nan() || b <= a { a } else { b };
+        let worst = |of: fn(&Run) -> f64| scene.chosen().map(of).reduce(worse).unwrap_or(f64::NAN);
         let (torque, speed) = (worst(|run| run.variant.shaft_torque.rms), worst(|run| run.variant.load_speed.rms));
         let Some(first) = scene.chosen().next() else {
             row.extend(["failed".to_owned()]);
