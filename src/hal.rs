@@ -54,8 +54,8 @@
 //! made of adapters. This is a board and its control loop:
 //!
 //! ```
+//! use driveline::fault::Faults;
 //! use driveline::hal::{Axis, Board, Quadrature};
-//! # use driveline::fault::Faults;
 //! # #[derive(Default)] struct Timer; #[derive(Default)] struct Bridge;
 //! # impl driveline::hal::Counter for Timer { type Error = (); fn count(&mut self) -> Result<u32, ()> { Ok(0) } }
 //! # impl Bridge { fn duty(&mut self, _: f32) {} fn enable(&mut self, _: bool) {} }
@@ -81,11 +81,10 @@
 //!
 //! The timer's interrupt then calls [`Axis::tick`].
 //!
-//! # From `cargo add driveline --features hal` to a governed motor
-//! Twenty lines, on any board; the timer's wait here stands for its interrupt:
+//! # From a board to a governed motor
+//! With the feature `hal`, two dozen lines, on any board; the timer's wait here stands for its interrupt:
 //!
 //! ```
-//! # use driveline::fault::Faults;
 //! # struct MyBoard(u32);
 //! # impl driveline::hal::Board<f32> for MyBoard {
 //! #     fn angle(&mut self) -> Result<u32, Faults> { Ok(0) }
@@ -93,7 +92,7 @@
 //! #     fn set_enabled(&mut self, _: bool) -> Result<(), Faults> { Ok(()) }
 //! # }
 //! # impl MyBoard { fn wait_for_timer(&mut self) -> bool { self.0 < 3 } }
-//! use driveline::{constants::*, design::*, drive::*, governor::*, hal::*, machine::*, observer};
+//! use driveline::{constants::*, design::*, drive::*, fault::Faults, governor::*, hal::*, machine::*, observer};
 //!
 //! const TWO: TwoMass = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.35))
 //!     .reduce(Match::ResonanceAntiresonance);

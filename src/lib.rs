@@ -65,7 +65,8 @@
 //! # The rooms
 //! [`machine`] says what the machine is, [`design`] how it will be controlled (both `const fn` in `f64`), and [`constants`] turns a design into
 //! what a [`number`] can hold. [`observer`], [`fluctuation`], [`governor`] and [`balance`] are the parts of a [`drive`], composed by type: a
-//! part that a machine does not need is `()` and costs nothing. [`commissioning`] finds the machine by a test. [`sample`] is what goes in and comes out, [`fault`] what was wrong with it.
+//! part that a machine does not need is `()` and costs nothing. [`commissioning`] finds the machine by a test. [`sample`] is what goes in and
+//! comes out, [`fault`] what was wrong with it.
 //!
 //! # Glossary
 //! | term | meaning | unit |
@@ -89,6 +90,8 @@
 //! tick. `hal`: adapters to `embedded-hal` 1.0 (`driveline::hal`). `hal-async`: those on SPI awaited as well, by `embedded-hal-async` 1.0. `telemetry`:
 //! records of the ticks as frames over `embedded-io` (`driveline::telemetry`). `parameters`: a versioned record in flash
 //! (`driveline::parameters`).
+//! tick. `hal`: adapters to `embedded-hal` 1.0 (`driveline::hal`); `hal-async`: those on SPI awaited as well. `telemetry`: records of the ticks as
+//! frames over `embedded-io` (`driveline::telemetry`). `parameters`: a versioned record in flash (`driveline::parameters`).
 
 pub mod balance;
 pub mod commissioning;

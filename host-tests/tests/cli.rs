@@ -158,6 +158,23 @@ fn wrong_arguments_end_with_2() {
     assert!(json(&err(&output))["error"].as_str().unwrap().contains("--loud"));
 }
 
+/// Who names a variant or a source that is not there is shown what there is, in the words that the option takes.
+#[test]
+fn a_wrong_name_is_answered_with_the_right_ones() {
+    for (arguments, there) in [
+        (&["run", "--variants", "nothing"][..], "fixed/m3/reduced/10000"),
+        (&["run", "balanced-fan", "--variants", "nothing"], "fixed/m3/two-mass/4000"),
+        (&["generator", "--variants", "nothing"], "f32/m4f/diesel/2400"),
+        (&["watch", "--qemu", "nothing"], "hoist/f32/reduced/10000"),
+        (&["watch", "--qemu", "hoist/f32/reduced/10000", "--core", "m7"], "m4f"),
+        (&["watch"], "--qemu VARIANT"),
+    ] {
+        let output = driveline(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(err(&output).contains(there), "{arguments:?}: {}", err(&output));
+    }
+}
+
 #[test]
 fn a_page_that_cannot_be_written_is_found_before_anything_runs() {
     // A file stands where the folder should be.

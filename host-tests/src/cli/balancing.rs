@@ -1,4 +1,4 @@
-//! `cargo driveline run fan`, `flexible`, `spindle`: a rotor balanced by its firmware in QEMU.
+//! `cargo driveline run balanced-fan`, `flexible`, `grinding-spindle`: a rotor balanced by its firmware in QEMU.
 
 use std::path::Path;
 
@@ -7,6 +7,7 @@ use serde_json::json;
 use super::{Failure, Progress, say, say_json};
 use crate::balancing::{Ran, Scene, page, tables};
 use crate::report::write_page;
+use crate::run::plan::Candidate;
 use crate::setup;
 
 /// What is left to chance is the same in every run.
@@ -32,7 +33,10 @@ pub struct Wanted<'a> {
 pub fn run(scene: &Scene, wanted: Wanted<'_>) -> Result<(), Failure> {
     let variants = scene.variants(wanted.filter);
     if let (true, Some(filter)) = (variants.is_empty(), wanted.filter) {
-        return Err(Failure::usage(format!("no variant of `{}` contains `{filter}`", scene.name)));
+        let there: Vec<_> =
+            scene.variants(None).into_iter().map(|(variant, board)| Candidate { variant, board }.key()).collect();
+        let sentence = format!("no variant of `{}` contains `{filter}`; there are {}", scene.name, there.join(", "));
+        return Err(Failure::usage(sentence));
     }
     setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
     let progress = Progress::of(variants.len() as u64);

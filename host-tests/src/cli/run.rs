@@ -69,10 +69,8 @@ impl Run {
         }
         say(format_args!("{}\n{}", report.scene, variants_table(&report.variants)));
         for budget in report.budgets.iter().filter(|budget| !budget.kept()) {
-            say(format_args!(
-                "over budget: {}: {} {}, at most {}",
-                budget.name, budget.measured, budget.unit, budget.limit
-            ));
+            let measured = format!("{} {}", budget.measured, budget.unit);
+            say(format_args!("over budget: {}: {}, at most {}", budget.name, measured.trim_end(), budget.limit));
         }
         say(format_args!("page: {}", path.display()));
         Ok(())

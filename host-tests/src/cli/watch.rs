@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
+use driveline_firmware::board::BOARDS;
 
 use super::{Failure, say, say_json};
 use crate::image::{Program, belongs, board, build};
@@ -25,7 +26,7 @@ use crate::telemetry::{Decoder, Described, Told};
   cargo driveline watch - --json < recorded.bin")]
 pub struct Watch {
     /// A serial port or a file; `-` is standard input
-    #[arg(required_unless_present = "qemu", conflicts_with = "qemu")]
+    #[arg(conflicts_with = "qemu")]
     source: Option<PathBuf>,
     /// Run this variant in QEMU over its built-in inputs
     #[arg(long, value_name = "VARIANT")]
@@ -176,17 +177,24 @@ impl Watch {
 
     fn open(&self) -> Result<Box<dyn Read>, Failure> {
         if let Some(variant) = &self.qemu {
-            let board = board(&self.core).filter(|board| belongs(variant, board));
-            let board = board.ok_or_else(|| Failure::usage(format!("{variant} does not run on `{}`", self.core)))?;
             if !driveline_firmware::selected::VARIANTS.contains(&variant.as_str()) {
-                return Err(Failure::usage(format!("no variant is called `{variant}`")));
+                let names = driveline_firmware::selected::VARIANTS.join(", ");
+                return Err(Failure::usage(format!("no variant is called `{variant}`; there are {names}")));
             }
+            let board = board(&self.core).filter(|board| belongs(variant, board));
+            let board = board.ok_or_else(|| {
+                let cores = BOARDS.iter().filter(|board| belongs(variant, board)).map(|board| board.core);
+                let cores = cores.collect::<Vec<_>>().join(", ");
+                Failure::usage(format!("{variant} does not run on `{}`, but on {cores}", self.core))
+            })?;
             let image = build(variant, board, Program::Told, |line| eprintln!("{line}"));
             let image = image.map_err(|error| Failure::failed(error.to_string()))?;
             return Ok(Box::new(Telling::start(&image).map_err(|error| Failure::failed(error.to_string()))?));
         }
         match self.source.as_deref() {
-            None => Err(Failure::usage("a source is missing")),
+            None => {
+                Err(Failure::usage("there is nothing to watch: name a serial port, a file, `-` or `--qemu VARIANT`"))
+            }
             Some(path) if path.as_os_str() == "-" => Ok(Box::new(io::stdin().lock())),
             Some(path) => {
                 let file = File::open(path).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))?;

@@ -8,7 +8,7 @@ use driveline_firmware::Words;
 use driveline_firmware::board::Facts;
 use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_firmware::scenes::generator::{DIESEL_DESIGNS, RATED_SPEED, TURBINE_DESIGNS};
-use driveline_firmware::selected::{VARIANTS, visit};
+use driveline_firmware::selected::visit;
 use serde::Serialize;
 
 use super::faults::{FAULTS, Outcome, PASSING, WIRES, outcome};
@@ -151,9 +151,9 @@ pub fn variants(filter: Option<&str>) -> Vec<Candidate> {
     candidates("generator", filter).into_iter().filter(|one| fits(&one.board, one.words())).collect()
 }
 
-/// Names of all variants, for a message.
-pub fn names() -> Vec<&'static str> {
-    VARIANTS.iter().copied().filter(|name| name.starts_with("generator/")).collect()
+/// What a filter is compared with, for each variant: for a message.
+pub fn names() -> Vec<String> {
+    variants(None).iter().map(Candidate::key).collect()
 }
 
 /// Runs a variant in a way, in QEMU.

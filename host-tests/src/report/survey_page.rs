@@ -61,8 +61,13 @@ impl Section {
     /// The same with a table.
     fn table(mut self, title: &str, text: &str, table: &Table) -> Self {
         let shown = |column: usize, text: &str| {
-            let number = if table.numeric(column) { "n" } else { "" };
-            Cell { text: text.to_owned(), class: format!("{number} {}", verdict(text)).trim().to_owned() }
+            // a sentence is broken over lines, a number never
+            let kind = match table.numeric(column) {
+                true => "n",
+                false if text.chars().count() > 24 => "long",
+                false => "",
+            };
+            Cell { text: text.to_owned(), class: format!("{kind} {}", verdict(text)).trim().to_owned() }
         };
         let rows = table.filled();
         self.tables.push(Shown {
@@ -103,20 +108,32 @@ const fn kept(is: bool) -> &'static str {
     if is { "kept" } else { "missed" }
 }
 
+/// What the page shows, and what it does not.
+fn summary(survey: &Survey) -> String {
+    let whole = "Every scene in all its variants in QEMU, tick by tick against the full solver of its machine; and every stiff or extreme case \
+                 beside its reference.";
+    let part = "The scenes that were asked for in all their variants in QEMU, tick by tick against the full solver of the machine.";
+    let quick = " A quick run: two seconds of each drivetrain, unproven. Not for figures to quote.";
+    format!("{}{}", if survey.part { part } else { whole }, if survey.quick { quick } else { "" })
+}
+
 /// The page as HTML, one file.
 pub fn survey_page(survey: &Survey) -> String {
     let sections = |all: Vec<Section>| all.into_iter().filter(|section| !section.is_empty()).collect();
     fill(
         "survey.html",
         View {
-            summary: "Every scene in all its variants in QEMU, tick by tick against the full solver of its machine; and every stiff or extreme \
-                      case beside its reference."
-                .to_owned(),
+            summary: summary(survey),
             facts: scenes::facts(survey),
             front: front::costs(survey),
             before: sections(vec![scenes::overview(survey), front::section(survey)]),
             scenes: survey.scenes.iter().map(|scene| scenes::section(survey, scene)).collect(),
-            after: sections(vec![sizes::section(survey), factors::section(survey), cases::section(survey), cases::reversals(survey)]),
+            after: sections(vec![
+                sizes::section(survey),
+                factors::section(survey),
+                cases::section(survey),
+                cases::reversals(survey),
+            ]),
             sweeps: Sweeps::of(&survey.sweeps),
             last: sections(vec![
                 cases::sweep_failures(survey),

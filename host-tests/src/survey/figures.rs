@@ -138,6 +138,10 @@ pub struct Survey {
     pub failures: Vec<Failure>,
     /// How long it all took [s].
     pub seconds: f64,
+    /// Whether it was only tried out: two seconds of each drivetrain, unproven, and a coarse sweep.
+    pub quick: bool,
+    /// Whether only some scenes were asked for.
+    pub part: bool,
 }
 
 impl Survey {

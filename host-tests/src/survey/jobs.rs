@@ -71,7 +71,7 @@ pub const SWEEP: &str = "sweep";
 ///
 /// With `quick` a scene runs for two seconds, unproven, and the sweep is coarse.
 pub fn jobs(wanted: &Wanted, quick: bool) -> (Vec<Job>, Survey) {
-    let (mut jobs, mut survey) = (Vec::new(), Survey::default());
+    let (mut jobs, mut survey) = (Vec::new(), Survey { quick, part: !wanted.everything(), ..Survey::default() });
     if wanted.everything() {
         jobs.extend(of_no_scene(quick));
     }

@@ -68,6 +68,20 @@ fn every_scene_is_on_the_page_with_its_verdict() {
     }
 }
 
+/// A page outlives the command that wrote it: it says itself that it is no page to quote, or not the whole of it.
+#[test]
+fn a_page_that_was_only_tried_out_says_so() {
+    let whole = survey(0.01);
+    let tried = Survey { quick: true, part: true, ..whole.clone() };
+    let [whole, tried] = [&whole, &tried].map(survey_page);
+    assert!(whole.contains("Every scene in all its variants") && !whole.contains("Not for figures to quote"));
+    assert!(tried.contains("The scenes that were asked for") && tried.contains("Not for figures to quote"));
+    let (_, quick) = jobs(&Wanted::scenes(&["fan".to_owned()]).unwrap(), true);
+    assert!(quick.quick && quick.part);
+    let (_, full) = jobs(&Wanted::scenes(&[]).unwrap(), false);
+    assert!(!full.quick && !full.part);
+}
+
 #[test]
 fn the_gentle_governor_stands_beside_the_plain_one_where_a_gap_opens() {
     let survey = survey(0.01);

@@ -48,9 +48,9 @@ pub fn polar(title: &str, unit: &str, arrows: &[Arrow]) -> String {
         let (x, y) = place(ring * rings * 1.13, degrees);
         svg.text("tick", x, y + 4.0, Anchor::Middle, &format!("{degrees}°"));
     }
-    let (x, y) = place(ring * rings, 75.0);
-    let rim = format!("{} {unit}", format::significant_short(ring * rings));
-    svg.text("marked", x + 4.0, y - 2.0, Anchor::Start, rim.trim());
+    // in the corner, where neither an arrow nor an angle's name is
+    let rim = format!("rim {} {unit}", format::significant_short(ring * rings));
+    svg.text("marked", SIZE, top + SIZE - 6.0, Anchor::End, rim.trim());
     for arrow in arrows.iter().filter(|arrow| arrow.amplitude.is_finite() && arrow.degrees.is_finite()) {
         let (x, y) = place(arrow.amplitude, arrow.degrees);
         let class = format!("arrow {}", arrow.class);
