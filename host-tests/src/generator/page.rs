@@ -203,10 +203,14 @@ fn plot(one: &Verdict) -> (String, String, String) {
         Panel { name: "load torque, %", series: vec![("estimate", &estimate), ("truth", &load)], levels: vec![] },
     ];
     let title = format!("{}, {}, {}", one.set, one.variant, one.way.name());
-    let text = "Frequency by the electrical period; lines at 100 % and at the trip. Below, the load as it is (wide) and as it is \
-        estimated tick by tick (fine): the swing is the firing's, of which the governor sees the mean.";
+    let swing =
+        if one.set == "diesel" { ": the swing is the firing's, of which the governor sees the mean" } else { "" };
+    let text = format!(
+        "Frequency by the electrical period; lines at 100 % and at the trip. Below, the load as it is (wide) and as it is estimated tick by \
+            tick (fine){swing}."
+    );
     let svg = panels(&time, &drawn, 500, &title);
-    (title, text.to_owned(), svg)
+    (title, text, svg)
 }
 
 /// The page.
@@ -230,19 +234,16 @@ pub fn page(verdicts: &Verdicts) -> String {
             drive trips and commands no torque. Torques are of rated.";
         ("A fault on every input".to_owned(), text.to_owned(), faults(verdicts))
     });
-    let tables = [
-        (
-            "Diesel set against ISO 8528-5".to_owned(),
-            "Load steps of 0-50-80-100 % and the loss of it all. Frequencies by the electrical period.".to_owned(),
-            diesel(verdicts),
-        ),
-        (
-            "Turbine set against NEMA SM 23".to_owned(),
-            "Load steps of a quarter, and the loss of it all.".to_owned(),
-            turbine(verdicts),
-        ),
-        ("Every load step".to_owned(), String::new(), steps(verdicts)),
-    ];
+    let ran = |set: &str| verdicts.verdicts.iter().any(|one| one.set == set);
+    let with_diesel = ran("diesel").then(|| {
+        let text = "Load steps of 0-50-80-100 % and the loss of it all. Frequencies by the electrical period.";
+        ("Diesel set against ISO 8528-5".to_owned(), text.to_owned(), diesel(verdicts))
+    });
+    let with_turbine = ran("turbine").then(|| {
+        let text = "Load steps of a quarter, and the loss of it all.";
+        ("Turbine set against NEMA SM 23".to_owned(), text.to_owned(), turbine(verdicts))
+    });
+    let with_steps = ("Every load step".to_owned(), String::new(), steps(verdicts));
     PlotsPage {
         kicker: "generator sets".to_owned(),
         name: "Generator sets".to_owned(),
@@ -250,7 +251,7 @@ pub fn page(verdicts: &Verdicts) -> String {
             firmware runs in QEMU, tick by tick against the full plant."
             .to_owned(),
         facts,
-        tables: tables.into_iter().chain(with_faults).chain(with_trips).collect(),
+        tables: [with_diesel, with_turbine, Some(with_steps), with_faults, with_trips].into_iter().flatten().collect(),
         plots: verdicts.verdicts.iter().map(plot).collect(),
     }
     .page()

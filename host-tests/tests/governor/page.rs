@@ -85,7 +85,7 @@ fn the_page_has_tables_plots_and_nothing_that_is_no_number() {
     assert!(page.starts_with("<!doctype html>") && !page.contains("NaN") && !page.contains("http"));
     for text in [
         "ISO 8528-5",
-        "NEMA SM 23",
+        "the swing is the firing",
         "A fault on every input",
         "Every trip, brought about",
         "frequency, %",
@@ -94,6 +94,17 @@ fn the_page_has_tables_plots_and_nothing_that_is_no_number() {
     ] {
         assert!(page.contains(text), "{text}");
     }
+}
+
+/// What did not run has no table of limits without a row, and no engine's words.
+#[test]
+fn the_page_of_one_set_says_nothing_of_the_other() {
+    let diesel = verdicts();
+    assert!(!page::page(&diesel).contains("NEMA SM 23"));
+    let turbine =
+        diesel.verdicts.into_iter().map(|one| Verdict { set: "turbine", class: None, class_d: Some(true), ..one });
+    let page = page::page(&Verdicts { verdicts: turbine.collect(), faults: vec![], trips: vec![] });
+    assert!(page.contains("NEMA SM 23") && !page.contains("ISO 8528-5") && !page.contains("firing"));
 }
 
 #[test]
