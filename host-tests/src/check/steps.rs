@@ -10,13 +10,13 @@ use super::{Count, Failed, Step, Voice, cargo};
 use crate::image::{Cost, ON_NUCLEO, Program, belongs, build, self_test, workspace};
 use crate::setup;
 
-/// All steps.
+/// All steps; the firmware, which is built board beside board, before the tests that ask for its images one by one.
 pub const STEPS: [Step; 7] = [
     Step { name: "setup", repeat: "cargo driveline check --only setup", run: setup_step },
     Step { name: "format", repeat: "cargo fmt --check", run: format },
     Step { name: "clippy", repeat: "cargo driveline check --only clippy", run: clippy },
-    Step { name: "tests", repeat: "cargo test --workspace --no-fail-fast", run: tests },
     Step { name: "firmware", repeat: "cargo driveline check --only firmware", run: firmware },
+    Step { name: "tests", repeat: "cargo test --workspace --no-fail-fast", run: tests },
     Step { name: "self-tests", repeat: "cargo driveline check --only self-tests", run: self_tests },
     Step { name: "budgets", repeat: "cargo driveline check --only budgets", run: budgets },
 ];
