@@ -438,10 +438,10 @@ impl<T: Real, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Proce
     pub fn resume(plan: Plan<T, ROWS, PLANES>, words: &[u32]) -> Result<Self, Refusal> {
         let mut procedure = Procedure::new(plan)?;
         let mut from = Reader { words, at: 0 };
-        from.expect(MARK)?;
+        from.require(MARK)?;
         let sum = from.word()?;
         for number in [plan.rows, plan.planes, usize::from(plan.trials_stay), T::WORDS] {
-            from.expect(number as u32)?;
+            from.require(number as u32)?;
         }
         if from.flag()? {
             procedure.baseline = Some(from.run(plan.rows)?);
@@ -522,7 +522,7 @@ impl Reader<'_> {
         word.ok_or(self.wrong())
     }
 
-    fn expect(&mut self, expected: u32) -> Result<(), Refusal> {
+    fn require(&mut self, expected: u32) -> Result<(), Refusal> {
         if self.word()? == expected { Ok(()) } else { Err(self.wrong()) }
     }
 

@@ -20,7 +20,7 @@ use crate::survey::{Wanted, jobs, work};
 #[command(after_help = "Examples:
   cargo driveline report
   cargo driveline report --scene hoist spindle
-  cargo driveline report --quick --html /tmp/quick.html
+  cargo driveline report --quick --html report/quick.html
   cargo driveline report --json > report.json")]
 pub struct Report {
     /// Only these scenes, and no cases
