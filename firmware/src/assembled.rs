@@ -4,10 +4,9 @@ use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::Governor;
 use driveline::number::Number;
 use driveline::observer::Observer;
-use driveline::sample::Sample;
 
 use crate::expected::Expected;
-use crate::governed::output;
+use crate::governed::advance;
 use crate::scene::{Input, Output, Scene};
 
 /// The parts and constants of one variant of a scene.
@@ -54,14 +53,6 @@ impl<P: Parts> Scene for Assembled<P> {
 
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
-        let word = P::Number::from_word;
-        let reference = word(input.reference);
-        let command = if input.flags & Input::RELEASED != 0 {
-            let sample = Sample { angle: input.angle, torque: word(input.torque), reference };
-            self.drive.tick(self.config, &sample)
-        } else {
-            self.drive.hold(self.config, input.angle, reference)
-        };
-        output(&command, &self.drive.estimate(self.config))
+        advance(&mut self.drive, self.config, input)
     }
 }

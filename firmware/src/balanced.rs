@@ -4,9 +4,8 @@ use driveline::balance::{Doubt, Phasors, Reading, Synchronous};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::observer::Observer;
-use driveline::sample::Sample;
 
-use crate::governed::output;
+use crate::governed::advance;
 use crate::panel::{DONE, Key, MEASURING, refused};
 use crate::scene::{Input, Output, Scene};
 
@@ -80,16 +79,9 @@ impl<V: Variant> Scene for Balanced<V> {
 
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
-        let word = <V::Number as driveline::number::Number>::from_word;
-        let reference = word(input.reference);
-        let command = if input.flags & Input::RELEASED != 0 {
-            let sample = Sample { angle: input.angle, torque: word(input.torque), reference };
-            self.drive.tick(self.config, &sample)
-        } else {
-            self.drive.hold(self.config, input.angle, reference)
-        };
-        self.drive.vibration(self.config, &input.vibration.map(word));
-        output(&command, &self.drive.estimate(self.config))
+        let output = advance(&mut self.drive, self.config, input);
+        self.drive.vibration(self.config, &input.vibration.map(<V::Number as driveline::number::Number>::from_word));
+        output
     }
 
     fn panel(&mut self, asked: [u32; 2]) -> u32 {

@@ -1,7 +1,9 @@
 //! A governed drive as a scene: the words of the link on one side, the library on the other.
 
+use driveline::balance::Balancer;
 use driveline::drive::{ConfigOf, Drive};
-use driveline::governor::SpeedLoop;
+use driveline::fluctuation::Fluctuation;
+use driveline::governor::{Governor, SpeedLoop};
 use driveline::number::Number;
 use driveline::observer::Observer;
 use driveline::sample::{Command, Estimate, Sample};
@@ -101,16 +103,31 @@ impl<V: Variant> Scene for Governed<V> {
 
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
-        let word = V::Number::from_word;
-        let reference = word(input.reference);
-        let command = if input.flags & Input::RELEASED != 0 {
-            let sample = Sample { angle: input.angle, torque: word(input.torque), reference };
-            self.drive.tick(self.config, &sample)
-        } else {
-            self.drive.hold(self.config, input.angle, reference)
-        };
-        output(&command, &self.drive.estimate(self.config))
+        advance(&mut self.drive, self.config, input)
     }
+}
+
+/// One tick of a drive, whatever its parts: at work where it is released, else held, with the set point's word as the torque.
+#[inline(always)]
+pub(crate) fn advance<N, O, F, G, B>(
+    drive: &mut Drive<N, O, F, G, B>,
+    config: &ConfigOf<N, O, F, G, B>,
+    input: &Input,
+) -> Output
+where
+    N: Number,
+    O: Observer<N>,
+    F: Fluctuation<N>,
+    G: Governor<N>,
+    B: Balancer<N>,
+{
+    let reference = N::from_word(input.reference);
+    let command = if input.flags & Input::RELEASED != 0 {
+        drive.tick(config, &Sample { angle: input.angle, torque: N::from_word(input.torque), reference })
+    } else {
+        drive.hold(config, input.angle, reference)
+    };
+    output(&command, &drive.estimate(config))
 }
 
 /// A command and the estimates behind it as words.

@@ -36,9 +36,8 @@ use driveline::machine::{
 };
 use driveline::number::{Fixed, Number};
 use driveline::observer::{self, CrankedConfig};
-use driveline::sample::Sample;
 
-use crate::governed::output;
+use crate::governed::advance;
 use crate::scene::{Input, Output, Scene};
 
 /// Turns of the motor to one of the crank.
@@ -240,15 +239,7 @@ impl<V: Variant> Scene for PunchPress<V> {
 
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
-        let word = V::Number::from_word;
-        let reference = word(input.reference);
-        let command = if input.flags & Input::RELEASED != 0 {
-            let sample = Sample { angle: input.angle, torque: word(input.torque), reference };
-            self.drive.tick(self.config, &sample)
-        } else {
-            self.drive.hold(self.config, input.angle, reference)
-        };
-        output(&command, &self.drive.estimate(self.config))
+        advance(&mut self.drive, self.config, input)
     }
 
     fn panel(&mut self, asked: [u32; 2]) -> u32 {
