@@ -59,7 +59,7 @@ fn margins_are_where_the_loop_turns_unstable() {
         for tuning in [SpeedLoopTuning::USUAL, SpeedLoopTuning { bandwidth: 0.6, damping: 0.8, shaft_damping: 0.5 }] {
             let machine = rig(damping);
             let design = machine.speed_loop(Rate::hz(4000), tuning);
-            let margins = design.margins;
+            let margins = design.margins(&machine);
             println!("{design:?}");
             // Poles of a matrix of mixed units, simple ones: nine digits.
             assert!((radius(&machine, &design, 1.0) - design.spectral_radius).abs() < 1e-9);

@@ -22,6 +22,7 @@ use super::margins::{Late, Loop, Margins};
 use super::tuning::Rate;
 use super::{Error, ExactStep};
 use crate::machine::TwoMass;
+use crate::scalar::sqrt;
 
 /// How late the torque acts after its command.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,8 +113,10 @@ pub struct GovernorDesign {
     pub share: f64,
     /// Torque against the acceleration, per torque that accelerates the load.
     pub acceleration: f64,
-    /// Margins of the loop, cut at the actuator.
-    pub margins: Margins,
+    /// The actuator.
+    pub actuator: Actuator,
+    /// Lag of the estimated load torque \[s\]; 0 where nothing is taken of it.
+    pub lag: f64,
 }
 
 impl TwoMass {
@@ -217,20 +220,36 @@ impl TwoMass {
         let lateness = (delay + lag + 1.5 * period) / (1.0 + inertia);
         let proportional = self.total_inertia() / (span * lateness);
         let integral = proportional / (span * span * lateness);
-        let open = Loop {
-            step: ExactStep::new(self, period),
-            machine: *self,
-            period,
-            proportional,
-            integral,
-            slip: 0.0,
-            late: Late { delay, lag, share, inertia, estimate },
-        };
-        if !open.is_stable(1.0 / (span * lateness)) {
-            return Err(Error::GovernorUnstable);
-        }
-        let margins = open.margins(1.0 / (span * lateness));
         let acceleration = inertia * self.total_inertia() / self.load_inertia;
-        Ok(GovernorDesign { period, proportional, integral, lateness, share, acceleration, margins })
+        let lag = if share == 0.0 && inertia == 0.0 { 0.0 } else { estimate };
+        let design = GovernorDesign { period, proportional, integral, lateness, share, acceleration, actuator, lag };
+        if design.open(self).is_stable(design.crossover()) { Ok(design) } else { Err(Error::GovernorUnstable) }
+    }
+}
+
+impl GovernorDesign {
+    /// Margins of the loop round a machine, cut at the actuator.
+    #[must_use]
+    pub const fn margins(&self, machine: &TwoMass) -> Margins {
+        self.open(machine).margins(self.crossover())
+    }
+
+    /// The integral gain is the proportional one over `a^2 T_s`, so their root is the crossover: `1/(a T_s)`.
+    const fn crossover(&self) -> f64 {
+        sqrt(self.integral / (self.proportional * self.lateness))
+    }
+
+    const fn open(&self, machine: &TwoMass) -> Loop {
+        let inertia = self.acceleration * machine.load_inertia / machine.total_inertia();
+        let Actuator { delay, lag } = self.actuator;
+        Loop {
+            step: ExactStep::new(machine, self.period),
+            machine: *machine,
+            period: self.period,
+            proportional: self.proportional,
+            integral: self.integral,
+            slip: 0.0,
+            late: Late { delay, lag, share: self.share, inertia, estimate: self.lag },
+        }
     }
 }

@@ -49,8 +49,6 @@ pub struct SpeedLoopDesign {
     pub bandwidth: f64,
     /// Natural frequency of the damped shaft \[rad/s\].
     pub shaft_frequency: f64,
-    /// Margins of the discrete loop, cut at the torque.
-    pub margins: Margins,
     /// Largest size of a pole of the discrete closed loop.
     pub spectral_radius: f64,
 }
@@ -58,7 +56,7 @@ pub struct SpeedLoopDesign {
 impl TwoMass {
     /// Designs the speed loop.
     ///
-    /// The gains come from the undamped machine in continuous time; margins and poles from the damped machine, sampled, the
+    /// The gains come from the undamped machine in continuous time; the poles from the damped machine, sampled, the
     /// torque acting one tick after its sample, with estimates taken as exact: the observer's own lag comes on top.
     ///
     /// # Panics
@@ -108,7 +106,6 @@ impl TwoMass {
         if spectral_radius.is_nan() || spectral_radius >= 1.0 {
             return Err(Error::SpeedLoopUnstable);
         }
-        let open = Loop { step, machine: *self, period, proportional, integral, slip, late: Late::NONE };
         Ok(SpeedLoopDesign {
             period,
             proportional,
@@ -116,9 +113,18 @@ impl TwoMass {
             slip,
             bandwidth: w1,
             shaft_frequency: w2,
-            margins: open.margins(w1),
             spectral_radius,
         })
+    }
+}
+
+impl SpeedLoopDesign {
+    /// Margins of the sampled loop round a machine, cut at the torque, with estimates taken as exact.
+    #[must_use]
+    pub const fn margins(&self, machine: &TwoMass) -> Margins {
+        let Self { period, proportional, integral, slip, bandwidth, .. } = *self;
+        let step = ExactStep::new(machine, period);
+        Loop { step, machine: *machine, period, proportional, integral, slip, late: Late::NONE }.margins(bandwidth)
     }
 }
 

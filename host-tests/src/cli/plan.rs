@@ -171,7 +171,7 @@ impl Plan {
             ("load torque", "N m"),
         ];
         let finite = |value: f64| value.is_finite().then_some(value);
-        let margins = &governor.margins;
+        let margins = governor.margins(two);
         Self {
             name: machine.name.clone(),
             need: machine.duty.map(|duty| needed(machine, two, duty)),

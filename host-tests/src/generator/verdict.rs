@@ -7,7 +7,7 @@ use driveline_firmware::Visitor;
 use driveline_firmware::Words;
 use driveline_firmware::board::Facts;
 use driveline_firmware::scene::{Input, Output, Scene};
-use driveline_firmware::scenes::generator::{DIESEL_DESIGNS, RATED_SPEED, TURBINE_DESIGNS};
+use driveline_firmware::scenes::generator::{DIESEL, DIESEL_DESIGNS, RATED_SPEED, TURBINE, TURBINE_DESIGNS};
 use driveline_firmware::selected::visit;
 use serde::Serialize;
 
@@ -105,11 +105,11 @@ pub fn program(kind: Kind, way: Way) -> Program {
 
 /// The margins of a set's design.
 pub fn margins(kind: Kind, way: Way) -> Margins {
-    const MARGINS: [[Margins; 2]; 2] = [
-        [DIESEL_DESIGNS.governors[0].margins, DIESEL_DESIGNS.governors[1].margins],
-        [TURBINE_DESIGNS.governors[0].margins, TURBINE_DESIGNS.governors[1].margins],
-    ];
-    MARGINS[kind as usize][way as usize]
+    let (designs, set) = match kind {
+        Kind::Diesel => (&DIESEL_DESIGNS, &DIESEL),
+        Kind::Turbine => (&TURBINE_DESIGNS, &TURBINE),
+    };
+    designs.governors[way as usize].margins(&set.machine)
 }
 
 /// Ticks that are kept, to be compared with the host's.
