@@ -1,0 +1,112 @@
+//! What estimates are worth.
+
+use driveline::constants::Bases;
+use driveline::design::BacklashDesign;
+use driveline::number::{Fixed, Number};
+use driveline::observer::{Backlash, BacklashConfig, Observer};
+
+use super::case::Case;
+use super::run::Course;
+
+/// Something that estimates from the motor's angle and torque, tick by tick.
+pub trait Estimator {
+    /// Takes the angle after a tick, 2^32 to the turn, and the torque during it [N m].
+    fn tick(&mut self, angle: u32, torque: f64);
+
+    /// Shaft torque [N m] and load speed [rad/s].
+    fn estimate(&self) -> [f64; 2];
+}
+
+/// The library's observer in one of its numbers.
+pub struct Library<N: Number> {
+    config: BacklashConfig<N>,
+    observer: Backlash<N>,
+    bases: Bases,
+    to: fn(f64) -> N,
+    from: fn(N) -> f64,
+}
+
+impl<N: Number> Library<N> {
+    fn with(config: BacklashConfig<N>, bases: Bases, to: fn(f64) -> N, from: fn(N) -> f64) -> Self {
+        Library { config, observer: Backlash::at_rest(&config, 0, N::ZERO), bases, to, from }
+    }
+
+    /// The observer itself.
+    pub fn observer(&self) -> &Backlash<N> {
+        &self.observer
+    }
+}
+
+impl Library<f32> {
+    /// In `f32`.
+    pub fn single(case: &Case) -> Self {
+        Library::with(BacklashConfig::<f32>::new(&case.design()), Bases::SI, |x| x as f32, f64::from)
+    }
+}
+
+impl Library<f64> {
+    /// In `f64`.
+    pub fn double(case: &Case) -> Self {
+        Library::designed(&case.design())
+    }
+
+    /// Of a design of one's own.
+    pub fn designed(design: &BacklashDesign) -> Self {
+        Library::with(BacklashConfig::<f64>::new(design), Bases::SI, |x| x, |x| x)
+    }
+}
+
+impl Library<Fixed> {
+    /// In fixed point.
+    pub fn fixed(case: &Case) -> Self {
+        let bases = case.bases();
+        Library::with(BacklashConfig::<Fixed>::new(&case.design(), bases), bases, Fixed::from_f64, Fixed::to_f64)
+    }
+}
+
+impl<N: Number> Estimator for Library<N> {
+    fn tick(&mut self, angle: u32, torque: f64) {
+        self.observer.step(&self.config, angle, (self.to)(torque / self.bases.torque));
+    }
+
+    fn estimate(&self) -> [f64; 2] {
+        let estimate = self.observer.estimate(&self.config);
+        [(self.from)(estimate.shaft_torque) * self.bases.torque, (self.from)(estimate.load_speed) * self.bases.speed]
+    }
+}
+
+/// Errors over one or more courses.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Score {
+    /// Root mean square error of the shaft torque over its peak.
+    pub shaft_torque: f64,
+    /// Root mean square error of the load's speed over its highest.
+    pub load_speed: f64,
+}
+
+impl Score {
+    /// Lets an estimator run over a course; `watch` sees its estimate in every tick.
+    pub fn watched(course: &Course, estimator: &mut dyn Estimator, mut watch: impl FnMut(usize, [f64; 2])) -> Self {
+        let (mut torque, mut speed) = (0.0, 0.0);
+        for (tick, (&(angle, applied), truth)) in course.sensed.iter().zip(&course.truth).enumerate() {
+            // The first angle is where the estimator starts.
+            if tick > 0 {
+                estimator.tick(angle, applied);
+            }
+            let estimate = estimator.estimate();
+            torque += (estimate[0] - truth[0]).powi(2);
+            speed += (estimate[1] - truth[1]).powi(2);
+            watch(tick, estimate);
+        }
+        let count = course.truth.len().max(1) as f64;
+        Score {
+            shaft_torque: (torque / count).sqrt() / course.peak,
+            load_speed: (speed / count).sqrt() / course.fastest,
+        }
+    }
+
+    /// Lets an estimator run over a course.
+    pub fn of(course: &Course, estimator: &mut dyn Estimator) -> Self {
+        Score::watched(course, estimator, |_, _| {})
+    }
+}

@@ -1,0 +1,166 @@
+//! The whole machine in lock-step with a drive: drivetrain, whirling rotor, sensors.
+
+use std::io;
+
+use driveline_firmware::fingerprint::Fingerprint;
+use driveline_firmware::scene::{Input, Output};
+
+use crate::closed_loop::sensors::Encoder;
+use crate::closed_loop::units::Units;
+use crate::drivetrains::lockstep::Ticks;
+use driveline_solver::noise::Noise;
+use driveline_solver::plant::Plant;
+use driveline_solver::rotor::{Faulty, Turn, Whirl};
+
+/// The drivetrain that turns the rotor, and what loads it.
+pub struct Drivetrain {
+    /// Motor, coupling and rotor.
+    pub plant: Plant,
+    /// The node of the rotor.
+    pub rotor: usize,
+    /// Load torque per square of the speed [N m s2].
+    pub load: f64,
+    /// Ripple of the load: waves a turn and amplitude [N m] at the rated speed, where it is largest.
+    pub ripple: Vec<(f64, f64)>,
+    /// The rated speed [rad/s].
+    pub rated: f64,
+    /// Standard deviation of the torque that the drive believes to have given [N m].
+    pub torque_noise: f64,
+}
+
+/// Drivetrain, rotor and sensors between two ticks of the drive.
+pub struct Machine {
+    drivetrain: Drivetrain,
+    whirl: Whirl,
+    sensors: [Faulty; 2],
+    encoder: Encoder,
+    units: Units,
+    /// What a vibration word of one is.
+    unit: f64,
+    noise: Noise,
+    applied: f64,
+    reference: f64,
+    released: bool,
+    ticks: u64,
+    fingerprint: Fingerprint,
+    /// Most instructions of a tick, and the sum of all.
+    instructions: (u32, u64),
+}
+
+impl Machine {
+    /// A machine at rest; its ticks are those of the whirl, `unit` is what a vibration word of one is in the sensors'
+    /// unit.
+    #[must_use]
+    pub fn new(drivetrain: Drivetrain, whirl: Whirl, sensors: [Faulty; 2], units: Units, unit: f64) -> Self {
+        Machine {
+            drivetrain,
+            whirl,
+            sensors,
+            encoder: Encoder::new(8192),
+            units,
+            unit,
+            noise: Noise::new(11),
+            applied: 0.0,
+            reference: 0.0,
+            released: false,
+            ticks: 0,
+            fingerprint: Fingerprint::new(),
+            instructions: (0, 0),
+        }
+    }
+
+    /// Gives the drive its set point [rad/s] and releases it.
+    pub fn refer(&mut self, speed: f64) {
+        self.reference = speed;
+        self.released = true;
+    }
+
+    /// The drive's set point [rad/s].
+    #[must_use]
+    pub fn reference(&self) -> f64 {
+        self.reference
+    }
+
+    /// Time since the start [s].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.ticks as f64 * self.whirl.tick()
+    }
+
+    /// Duration of a tick [s].
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        self.whirl.tick()
+    }
+
+    /// Speed of the rotor [rad/s].
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.drivetrain.plant.speed(self.drivetrain.rotor)
+    }
+
+    /// The rotor.
+    pub fn whirl(&mut self) -> &mut Whirl {
+        &mut self.whirl
+    }
+
+    /// A number that two runs share if every word of their outputs is the same.
+    #[must_use]
+    pub fn fingerprint(&self) -> u64 {
+        self.fingerprint.value()
+    }
+
+    /// Most instructions of a tick, and their mean; zero on the host.
+    #[must_use]
+    pub fn instructions(&self) -> (u32, f64) {
+        (self.instructions.0, self.instructions.1 as f64 / self.ticks.max(1) as f64)
+    }
+
+    /// One tick of the drive and of everything it drives; the panel is asked `asked`.
+    ///
+    /// # Errors
+    /// What the drive's link says.
+    pub fn tick(&mut self, drive: &mut dyn Ticks, asked: [u32; 2]) -> io::Result<Output> {
+        let (angle, speed) = (self.angle(), self.speed());
+        let mut vibration = [0; 2];
+        for (channel, (word, sensor)) in vibration.iter_mut().zip(&mut self.sensors).enumerate() {
+            let motion = self.whirl.motion(channel).unwrap_or_default();
+            *word = self.units.word(sensor.read(&motion, angle, speed), self.unit);
+        }
+        let input = Input {
+            angle: self.encoder.read(self.drivetrain.plant.motor_angle()),
+            torque: self.units.torque_word(self.applied + self.drivetrain.torque_noise * self.noise.normal()),
+            reference: if self.released { self.units.speed_word(self.reference) } else { self.units.torque_word(0.0) },
+            flags: if self.released { Input::RELEASED } else { 0 },
+            vibration,
+            asked,
+        };
+        let output = drive.tick(&input)?;
+        self.note(&output);
+        self.applied = self.units.torque(output.torque);
+        self.advance(angle, speed);
+        Ok(output)
+    }
+
+    fn angle(&self) -> f64 {
+        self.drivetrain.plant.angle(self.drivetrain.rotor)
+    }
+
+    fn advance(&mut self, angle: f64, speed: f64) {
+        let period = self.whirl.tick();
+        let Drivetrain { plant, rotor, load, ripple, rated, .. } = &mut self.drivetrain;
+        let share = (speed / *rated).powi(2);
+        let waves: f64 = ripple.iter().map(|(order, size)| size * (order * angle).cos()).sum();
+        plant.set_load_torque(*rotor, *load * speed * speed.abs() + share * waves);
+        plant.advance(self.applied, period);
+        let (end_angle, end_speed) = (plant.angle(*rotor), plant.speed(*rotor));
+        self.whirl.advance(&Turn { angle, speed, end_angle, end_speed, duration: period });
+        self.ticks += 1;
+    }
+
+    fn note(&mut self, output: &Output) {
+        self.fingerprint.add(output);
+        self.instructions.0 = self.instructions.0.max(output.instructions);
+        self.instructions.1 += u64::from(output.instructions);
+    }
+}

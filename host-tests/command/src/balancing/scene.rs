@@ -1,0 +1,273 @@
+//! The scenes by name: on the host, in QEMU, and what they leave.
+
+use std::error::Error;
+use std::io;
+
+use driveline_firmware::board::{BOARDS, Facts};
+use driveline_firmware::scene::{Input, Output};
+use driveline_firmware::selected::{VARIANTS, visit};
+use driveline_firmware::{Visitor, Words, scene};
+
+use super::error::BalancingError;
+use super::operator::Operator;
+use super::outcome::{Claim, Outcome, Stage};
+use super::power_cut::PowerCuts;
+use crate::drivetrains::lockstep::{OnHost, Ticks};
+use driveline_qemu::image::{Contents, Image, Program, belongs, build};
+use driveline_qemu::link::Link;
+use driveline_solver::rotor::{Model, Polar};
+
+/// Points of the amplitude over the speed.
+const POINTS: usize = 400;
+
+/// A scene that can be balanced.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is, in a sentence.
+    pub summary: &'static str,
+    balance: fn(Words, &mut dyn Ticks, u64) -> Result<Outcome, BalancingError>,
+}
+
+/// The scenes.
+#[must_use]
+pub const fn scenes() -> [Scene; 3] {
+    [
+        Scene {
+            name: "balanced-fan",
+            summary: "A fan of 180 kg at 1480 r/min, found in grade G 16, balanced in two planes with trial weights. Its sensors are off by \
+                      5 % and 10 degrees, its noise is 20 dB below the vibration, weights are set to 3 % and 2 degrees.",
+            balance: super::fan::run,
+        },
+        Scene {
+            name: "flexible",
+            summary: "A flexible rotor of three discs, balanced in three planes at two speeds, below and above its first critical. Its sensors see \
+                      the shaft's run-out, are off by 5 % and 10 degrees and have 5 % of noise.",
+            balance: super::flexible::run,
+        },
+        Scene {
+            name: "grinding-spindle",
+            summary: "A grinding spindle with a balancing head that moves two masses while it turns at 3000 r/min: balanced in-run, from \
+                      nothing known.",
+            balance: super::spindle::run,
+        },
+    ]
+}
+
+/// What a variant takes of a controller.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Cost {
+    /// Instructions of a tick at most, and on the mean.
+    pub instructions: (u32, f64),
+    /// Most stack of a tick [bytes].
+    pub stack: u32,
+    /// Flash and RAM of the image [bytes].
+    pub flash: u64,
+    /// RAM of the image [bytes].
+    pub ram: u64,
+}
+
+/// A variant that was balanced in QEMU.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Ran {
+    /// Number, core, observer and rate.
+    pub variant: String,
+    /// What came of it.
+    pub outcome: Outcome,
+    /// What it took.
+    pub cost: Cost,
+    /// Whether every word of the ticks was the same on the host, given the same inputs.
+    pub same_on_host: bool,
+}
+
+impl Scene {
+    /// The scene of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        scenes().into_iter().find(|scene| scene.name == name)
+    }
+
+    /// Its variants on the boards that they belong on, whose number/core/observer/rate contains the filter.
+    #[must_use]
+    pub fn variants(&self, filter: Option<&str>) -> Vec<(&'static str, Facts)> {
+        let all = BOARDS.iter().flat_map(|&board| VARIANTS.iter().map(move |&variant| (variant, board)));
+        all.filter(|(variant, board)| {
+            variant.split('/').next() == Some(self.name)
+                && belongs(variant, board)
+                && filter.is_none_or(|filter| key(variant, board).contains(filter))
+        })
+        .collect()
+    }
+
+    /// Balances with a drive whose words are of this kind; `seed` is that of everything that is left to chance.
+    ///
+    /// # Errors
+    /// Why it could not be.
+    pub fn with(&self, words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outcome, BalancingError> {
+        (self.balance)(words, drive, seed)
+    }
+
+    /// Balances a variant on the host.
+    ///
+    /// # Errors
+    /// Why it could not be.
+    ///
+    /// # Panics
+    /// For a variant that is not in the firmware's table.
+    pub fn on_host(&self, variant: &str, seed: u64) -> Result<Outcome, BalancingError> {
+        visit(variant, HostRun { scene: *self, seed }).expect("a variant of the firmware's table")
+    }
+
+    /// Balances a variant on the host, or on a board in QEMU, with a power cut after every entry: the outcome, the cuts, and those after which the
+    /// panel went on otherwise.
+    ///
+    /// # Errors
+    /// A build or a link that failed; why it could not be balanced.
+    ///
+    /// # Panics
+    /// For a variant that is not in the firmware's table.
+    pub fn with_power_cuts(
+        &self,
+        variant: &str,
+        board: Option<Facts>,
+        seed: u64,
+    ) -> Result<(Outcome, usize, usize), Box<dyn Error>> {
+        let image = board.map(|board| build(variant, board, Program::ControlLoop, |_| {})).transpose()?;
+        let run = CutRun { scene: *self, image: image.as_ref(), seed };
+        Ok(visit(variant, run).expect("a variant of the firmware's table")?)
+    }
+
+    /// Balances a variant in QEMU; the same scene on the host is given the same inputs beside it. `seed` is that of everything
+    /// that is left to chance.
+    ///
+    /// # Errors
+    /// A build or a link that failed; why it could not be balanced.
+    ///
+    /// # Panics
+    /// For a variant that is not in the firmware's table.
+    pub fn in_qemu(&self, variant: &str, board: Facts, seed: u64, says: &dyn Fn(&str)) -> Result<Ran, Box<dyn Error>> {
+        let name = key(variant, &board);
+        says(&format!("{name}: building"));
+        let image = build(variant, board, Program::ControlLoop, |_| {})?;
+        let sizes = Contents::read(&image.path)?.sizes;
+        says(&format!("{name}: balancing in QEMU"));
+        let run = QemuRun { scene: *self, link: Link::start(&image)?, seed };
+        let (outcome, stack, same_on_host) = visit(variant, run)
+            .expect("a variant of the firmware's table")
+            .map_err(|error| format!("{name}: {error}"))?;
+        let cost = Cost { instructions: outcome.instructions, stack, flash: sizes.flash(), ram: sizes.ram() };
+        Ok(Ran { variant: name, outcome, cost, same_on_host })
+    }
+}
+
+/// Number, core, observer and rate of a variant on a board.
+fn key(variant: &str, board: &Facts) -> String {
+    let mut parts = variant.split('/').skip(1);
+    let number = parts.next().unwrap_or_default();
+    format!("{number}/{}/{}", board.core, parts.collect::<Vec<_>>().join("/"))
+}
+
+struct HostRun {
+    scene: Scene,
+    seed: u64,
+}
+
+impl Visitor for HostRun {
+    type Outcome = Result<Outcome, BalancingError>;
+
+    fn visit<S: scene::Scene>(self) -> Self::Outcome {
+        (self.scene.balance)(Words::of::<S>(), &mut OnHost(S::new()), self.seed)
+    }
+}
+
+/// A scene in QEMU, and the same on the host beside it.
+struct Beside<S> {
+    link: Link,
+    host: S,
+    same: bool,
+}
+
+impl<S: scene::Scene> Ticks for Beside<S> {
+    fn tick(&mut self, input: &Input) -> io::Result<Output> {
+        let output = self.link.tick(input)?;
+        let host = self.host.exchange(input);
+        // The panel's functions are not the same on host and target to the last bit; those of the tick are.
+        let tick = Output { instructions: 0, answer: 0, ..output };
+        self.same &= tick == Output { answer: 0, ..host };
+        Ok(output)
+    }
+}
+
+struct CutRun<'i> {
+    scene: Scene,
+    image: Option<&'i Image>,
+    seed: u64,
+}
+
+impl Visitor for CutRun<'_> {
+    type Outcome = Result<(Outcome, usize, usize), BalancingError>;
+
+    fn visit<S: scene::Scene>(self) -> Self::Outcome {
+        let start: super::power_cut::Start<'_> = match self.image {
+            Some(image) => Box::new(move || Ok(Box::new(Link::start(image)?))),
+            None => Box::new(|| Ok(Box::new(OnHost(S::new())))),
+        };
+        let mut drive = PowerCuts::new(start)?;
+        let outcome = (self.scene.balance)(Words::of::<S>(), &mut drive, self.seed)?;
+        Ok((outcome, drive.cuts, drive.differing))
+    }
+}
+
+struct QemuRun {
+    scene: Scene,
+    link: Link,
+    seed: u64,
+}
+
+impl Visitor for QemuRun {
+    type Outcome = Result<(Outcome, u32, bool), BalancingError>;
+
+    fn visit<S: scene::Scene>(self) -> Self::Outcome {
+        let mut beside = Beside { link: self.link, host: S::new(), same: true };
+        let outcome = (self.scene.balance)(Words::of::<S>(), &mut beside, self.seed)?;
+        let stack = beside.link.finish()?.stack;
+        Ok((outcome, stack, beside.same))
+    }
+}
+
+/// Puts an outcome together when the work is done; the amplitudes are drawn up to `highest` [rad/s].
+#[allow(clippy::too_many_arguments)]
+pub(super) fn outcome(
+    scene: &str,
+    measure: &str,
+    rows: Vec<String>,
+    stages: Vec<Stage>,
+    claims: Vec<Claim>,
+    operator: Operator<'_>,
+    model: &Model,
+    highest: f64,
+) -> Result<Outcome, BalancingError> {
+    let speeds: Vec<f64> = (POINTS / 10..=POINTS).map(|k| highest * k as f64 / POINTS as f64).collect();
+    let mut amplitudes = Vec::new();
+    for stage in &stages {
+        let unbalance: Vec<_> = stage.unbalance.iter().map(|u| Polar::degrees(u.size, u.angle)).collect();
+        let mut course = Vec::with_capacity(POINTS);
+        for &speed in &speeds {
+            course.push(model.response(speed, &unbalance)?.iter().map(|x| x.norm()).fold(0.0, f64::max));
+        }
+        amplitudes.push(course);
+    }
+    Ok(Outcome {
+        scene: scene.to_owned(),
+        measure: measure.to_owned(),
+        rows,
+        stages,
+        claims,
+        doubts: operator.doubts.iter().map(|&doubt| doubt.to_owned()).collect(),
+        fingerprint: operator.machine.fingerprint(),
+        instructions: operator.machine.instructions(),
+        over_speed: (speeds, amplitudes),
+        time: operator.machine.time(),
+    })
+}

@@ -1,0 +1,75 @@
+//! Cargo as a step: its exit code, or the sum of its test results.
+
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
+
+use super::{Count, Failed, Voice};
+use driveline_qemu::image::{target_directory, workspace};
+use driveline_qemu::setup;
+
+/// Runs cargo as one check.
+pub fn passes(arguments: &[&str], voice: &Voice) -> Result<Count, Failed> {
+    let (success, _) = run(arguments, voice)?;
+    if success { Ok(Count { passed: 1, failed: 0 }) } else { Err(Failed::whole(refused(arguments))) }
+}
+
+/// Runs `cargo test` and counts what its runners report, which is passed on as it comes.
+pub fn tests(arguments: &[&str], voice: &Voice) -> Result<Count, Failed> {
+    let (success, mut count) = run(arguments, voice)?;
+    if success {
+        return Ok(count);
+    }
+    // a test that does not compile reports no result
+    count.failed = count.failed.max(1);
+    Err(Failed { count, message: refused(arguments) })
+}
+
+/// The arguments that keep the firmware's builds apart from the host's.
+pub fn firmware_directory() -> String {
+    format!("--target-dir={}", target_directory().join("firmware").display())
+}
+
+fn run(arguments: &[&str], voice: &Voice) -> Result<(bool, Count), Failed> {
+    let failed = |error: std::io::Error| Failed::whole(format!("cargo {}: {error}", arguments.join(" ")));
+    let mut command = Command::new(setup::cargo());
+    command.args(arguments).current_dir(workspace()).stdin(Stdio::null()).stdout(Stdio::piped());
+    if arguments.iter().any(|argument| argument.starts_with("--target=")) {
+        // these would replace the linker script that .cargo/config.toml names
+        command.env_remove("RUSTFLAGS").env_remove("CARGO_ENCODED_RUSTFLAGS");
+    }
+    let mut child = command.spawn().map_err(failed)?;
+    let mut count = Count::default();
+    for line in child.stdout.take().into_iter().flat_map(|stdout| BufReader::new(stdout).split(b'\n')) {
+        let line = String::from_utf8_lossy(&line.map_err(failed)?).into_owned();
+        voice.say(&line);
+        let (passed, failed) = result(&line).unwrap_or((0, 0));
+        count.passed += passed;
+        count.failed += failed;
+    }
+    Ok((child.wait().map_err(failed)?.success(), count))
+}
+
+/// Passed and failed in a runner's own summary, `test result: ok. 3 passed; 0 failed; ..`.
+fn result(line: &str) -> Option<(u64, u64)> {
+    let (_, counts) = line.trim_start().strip_prefix("test result: ")?.split_once(". ")?;
+    let number =
+        |what: &str| counts.split("; ").find_map(|part| part.trim().strip_suffix(what)?.trim_end().parse().ok());
+    Some((number("passed")?, number("failed")?))
+}
+
+fn refused(arguments: &[&str]) -> String {
+    format!("cargo {} did not pass", arguments.join(" "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::result;
+
+    #[test]
+    fn a_runners_summary_is_counted() {
+        let ok = "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.00s";
+        assert_eq!(result(ok), Some((12, 0)));
+        assert_eq!(result("test result: FAILED. 3 passed; 2 failed; 0 ignored"), Some((3, 2)));
+        assert_eq!(result("test result_of_something ... ok"), None);
+    }
+}

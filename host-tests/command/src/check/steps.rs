@@ -1,0 +1,141 @@
+//! The steps, in order: what is cheap and finds most comes first.
+
+use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
+use driveline_firmware::board::{BOARDS, Facts};
+use driveline_firmware::selected::VARIANTS;
+
+use super::comparison::Comparison;
+use super::{Count, Failed, Step, Voice, cargo};
+use driveline_qemu::image::{ON_NUCLEO, Program, belongs, build, workspace};
+use driveline_qemu::measure::budgets::Budgets;
+use driveline_qemu::measure::{Cost, self_test};
+use driveline_qemu::setup;
+
+/// All steps; the firmware, which is built board beside board, before the tests that ask for its images one by one.
+pub const STEPS: [Step; 7] = [
+    Step { name: "setup", repeat: "cargo driveline check --only setup", run: setup_step },
+    Step { name: "format", repeat: "cargo fmt --check", run: format },
+    Step { name: "clippy", repeat: "cargo driveline check --only clippy", run: clippy },
+    Step { name: "firmware", repeat: "cargo driveline check --only firmware", run: firmware },
+    Step { name: "tests", repeat: "cargo test --workspace --no-fail-fast", run: tests },
+    Step { name: "self-tests", repeat: "cargo driveline check --only self-tests", run: self_tests },
+    Step { name: "budgets", repeat: "cargo driveline check --only budgets", run: budgets },
+];
+
+fn setup_step(voice: &Voice) -> Result<Count, Failed> {
+    let installed = setup::ensure(|command| voice.say(command)).map_err(Failed::whole)?;
+    for name in installed {
+        voice.say(&format!("installed {name}"));
+    }
+    Ok(Count { passed: 1, failed: 0 })
+}
+
+fn format(voice: &Voice) -> Result<Count, Failed> {
+    cargo::passes(&["fmt", "--all", "--check"], voice)
+}
+
+/// The host's workspace, the library with every feature and its documentation, then the firmware as each core sees it.
+fn clippy(voice: &Voice) -> Result<Count, Failed> {
+    let host = ["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"];
+    let mut count = cargo::passes(&host, voice)?;
+    let features = ["clippy", "--package=driveline", "--all-features", "--", "-D", "warnings"];
+    count.passed += cargo::passes(&features, voice)?.passed;
+    let links = ["rustdoc", "--package=driveline", "--all-features", "--", "-D", "warnings"];
+    count.passed += cargo::passes(&links, voice)?.passed;
+    for board in BOARDS {
+        let (target, directory) = (format!("--target={}", board.target), cargo::firmware_directory());
+        // the board with a motor is linted with the others of its core, of which the binaries for QEMU take theirs
+        let of_core = if board.target == NUCLEO.target { ",nucleo-g474re" } else { "" };
+        let features = format!("--features=target,defmt{of_core}");
+        let this = format!("--config=env.DRIVELINE_BOARD='{}'", board.name);
+        let package = ["clippy", &this, "--package=driveline-firmware", &features];
+        let arguments = [&package[..], &[&target, &directory, "--", "-D", "warnings"]].concat();
+        count.passed += cargo::passes(&arguments, voice)?.passed;
+    }
+    Ok(count)
+}
+
+fn tests(voice: &Voice) -> Result<Count, Failed> {
+    cargo::tests(&["test", "--workspace", "--no-fail-fast"], voice)
+}
+
+/// Every image links: no panic can be reached in any.
+fn firmware(voice: &Voice) -> Result<Count, Failed> {
+    let linked = each(|variant, board| {
+        let image = |board: Facts, program| {
+            build(variant, board, program, |_| {}).map_err(|error| error.to_string())?;
+            voice.say(&format!("{variant} for {}: linked", board.name));
+            Ok(())
+        };
+        if variant == ON_NUCLEO {
+            image(NUCLEO, Program::Nucleo)?;
+        }
+        image(board, Program::ControlLoop)
+    })?;
+    let Count { passed, failed } = passed(&linked);
+    // and the one for the board with a motor
+    Ok(Count { passed: passed + 1, failed })
+}
+
+/// The self-test of every observer in every number gives the same bits on the host and in QEMU, at one rate; the budgets compare the others over
+/// the link.
+fn self_tests(voice: &Voice) -> Result<Count, Failed> {
+    let run = each(|variant, board| {
+        if !(variant.starts_with("hoist/") && variant.ends_with("/10000")) {
+            return Ok(());
+        }
+        let fingerprint = self_test(variant, board).map_err(|error| error.to_string())?;
+        voice.say(&format!("{variant} on {}: {fingerprint}", board.name));
+        Ok(())
+    })?;
+    Ok(passed(&run))
+}
+
+/// Every figure is within its budget.
+fn budgets(voice: &Voice) -> Result<Count, Failed> {
+    let budgets = Budgets::read(&workspace().join("budgets.toml")).map_err(Failed::whole)?;
+    let mut costs = each(|variant, board| {
+        let cost = Cost::measure(variant, board, |_| {}).map_err(|error| error.to_string())?;
+        Ok((variant.to_string(), board.core, cost))
+    })?;
+    for &board in BOARDS {
+        let benches = Cost::benches(board).map_err(Failed::whole)?;
+        costs.extend(benches.into_iter().map(|(name, cost)| (name, board.core, cost)));
+    }
+    let comparison = Comparison::of(&budgets, &costs);
+    voice.say(comparison.to_string().trim_end());
+    comparison.count().map_err(|(count, message)| Failed { count, message })
+}
+
+fn passed<T>(done: &[T]) -> Count {
+    Count { passed: done.len() as u64, failed: 0 }
+}
+
+/// Does something for every variant on every board that it belongs on, a board beside the other, each up to its first failure.
+fn each<T: Send>(check: impl Fn(&str, Facts) -> Result<T, String> + Sync) -> Result<Vec<T>, Failed> {
+    let on = |board: Facts| {
+        let mut done = Vec::new();
+        for &variant in VARIANTS.iter().filter(|variant| belongs(variant, &board)) {
+            match check(variant, board) {
+                Ok(value) => done.push(value),
+                Err(error) => return (done, Some(format!("{variant} on {}: {error}", board.name))),
+            }
+        }
+        (done, None)
+    };
+    let boards = std::thread::scope(|scope| {
+        let boards: Vec<_> = BOARDS.iter().map(|board| scope.spawn(|| on(*board))).collect();
+        boards.into_iter().map(|board| board.join()).collect::<Result<Vec<_>, _>>()
+    })
+    .map_err(|_| Failed::whole("a board's thread panicked"))?;
+    let (mut all, mut messages) = (Vec::new(), Vec::new());
+    for (done, message) in boards {
+        all.extend(done);
+        messages.extend(message);
+    }
+    if messages.is_empty() {
+        return Ok(all);
+    }
+    let count = Count { failed: messages.len() as u64, ..passed(&all) };
+    Err(Failed { count, message: messages.join("\n") })
+}

@@ -1,0 +1,64 @@
+//! `cargo driveline backlash`: ways to carry an observer through a gap, compared.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{Failure, Progress, say, say_json};
+use crate::backlash::Comparison;
+use crate::backlash::backlash_page;
+use driveline_report::write_page;
+
+/// Compares ways to carry an observer through backlash, over random reversals of six machines with the full solver.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline backlash
+  cargo driveline backlash --seconds 20 --seed 7
+  cargo driveline backlash --json")]
+pub struct Backlash {
+    /// Seconds of each of the 24 courses, 1 to 1000
+    #[arg(long, default_value_t = 6)]
+    seconds: u32,
+    /// Which random numbers the courses are drawn with
+    #[arg(long, default_value_t = 31)]
+    seed: u64,
+    /// Where the page goes [default: report/backlash.html]
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+    /// Print JSON, and write a page only with --html
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Backlash {
+    /// Runs the comparison and shows it.
+    ///
+    /// # Errors
+    /// Seconds out of range; a page that cannot be written.
+    pub fn execute(&self) -> Result<(), Failure> {
+        if !(1..=1000).contains(&self.seconds) {
+            return Err(Failure::usage(format!("--seconds must be from 1 to 1000, not {}", self.seconds)));
+        }
+        let bar = Progress::of(Comparison::COURSES as u64);
+        let comparison = Comparison::run(f64::from(self.seconds), self.seed, |course| {
+            bar.says(course);
+            bar.step();
+        })
+        .map_err(|error| Failure::failed(error.to_string()))?;
+        drop(bar);
+        let usual = (!self.json).then(|| PathBuf::from("report/backlash.html"));
+        let path = self.html.clone().or(usual);
+        if let Some(path) = &path {
+            write_page(path, &backlash_page(&comparison))
+                .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
+        }
+        if self.json {
+            return say_json(&comparison);
+        }
+        say(comparison.table());
+        if let Some(path) = path {
+            say(format_args!("page: {}", path.display()));
+        }
+        Ok(())
+    }
+}

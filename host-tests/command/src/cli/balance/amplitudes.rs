@@ -1,0 +1,141 @@
+//! The weight from amplitudes alone: one plane, no phases.
+
+use std::fmt::Write as _;
+
+use driveline::balance::{Complex, FromAmplitudes};
+use serde::Serialize;
+
+use super::fault::Fault;
+use super::grade::{Grade, grade};
+use super::weight::{Hole, Polar, arrows_of, fill, told};
+use crate::machine_file::balance::BalanceFile;
+use driveline_report::chart::polar;
+use driveline_report::format::{percent, significant};
+use driveline_report::{BalancePage, Fact, PolarFigure, PolarKey, Table};
+
+/// What comes of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Outcome {
+    name: String,
+    unit: String,
+    weight_unit: &'static str,
+    baseline: f64,
+    /// One weight to add, or two of which one is right.
+    weights: Vec<Polar>,
+    /// How well three or more runs agree.
+    disagreement: f64,
+    /// What each of the weights will do, if it is the right one.
+    answers: Vec<Answer>,
+}
+
+/// What a weight will do.
+#[derive(Clone, Debug, Serialize)]
+struct Answer {
+    weight: Polar,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holes: Option<Vec<Hole>>,
+    /// Amplitude with it, or with its holes.
+    predicted: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    grade: Option<Grade>,
+}
+
+/// Fits the weights into the holes, and judges them.
+///
+/// # Errors
+/// Holes that cannot take a weight; what cannot be judged.
+pub fn outcome(file: &BalanceFile, baseline: f64, found: &FromAmplitudes<f64>) -> Result<Outcome, Fault> {
+    let weights: Vec<Complex<f64>> = [Some(found.weight), found.or].into_iter().flatten().collect();
+    let mut answers = Vec::new();
+    for &weight in &weights {
+        let (placed, holes) = match file.holes.first() {
+            Some(holes) => fill(holes, weight).map(|(sum, used)| (sum, Some(used)))?,
+            None => (weight, None),
+        };
+        answers.push(Answer {
+            weight: Polar::of(weight),
+            holes,
+            // v0 + a w, where a = -v0/weight
+            predicted: baseline * (1.0 - placed / weight).norm(),
+            grade: grade(file, &[weight], &[placed])?,
+        });
+    }
+    Ok(Outcome {
+        name: file.name.clone(),
+        unit: file.unit.clone(),
+        weight_unit: file.weight_unit.name(),
+        baseline,
+        weights: weights.into_iter().map(Polar::of).collect(),
+        disagreement: found.disagreement,
+        answers,
+    })
+}
+
+impl Outcome {
+    fn summary(&self) -> String {
+        let mut said = String::new();
+        for (index, weight) in self.weights.iter().enumerate() {
+            let [amount, angle] = weight.told();
+            let _ = writeln!(said, "{}{amount} {} at {angle}°", ["add ", "or  "][index.min(1)], self.weight_unit);
+        }
+        said.push_str(&if self.weights.len() > 1 {
+            "Two trial runs leave two answers: try one, or make a third run.".to_owned()
+        } else {
+            let contradiction = percent(self.disagreement);
+            format!("The runs contradict each other by {contradiction} of the trial weight's effect.")
+        });
+        said
+    }
+
+    fn facts(&self) -> Vec<Fact> {
+        let unit = &self.unit;
+        let mut facts = vec![Fact { name: "baseline".into(), value: format!("{} {unit}", significant(self.baseline)) }];
+        for (index, answer) in self.answers.iter().enumerate() {
+            let which = if self.answers.len() > 1 { format!("answer {}: ", index + 1) } else { String::new() };
+            let predicted = format!("{} {unit}", significant(answer.predicted));
+            facts.push(Fact { name: format!("{which}predicted"), value: predicted });
+            if answer.holes.is_some() {
+                facts.push(Fact { name: format!("{which}holes"), value: told(answer.holes.as_deref()) });
+            }
+            for fact in answer.grade.iter().flat_map(Grade::facts) {
+                facts.push(Fact { name: format!("{which}{}", fact.name), value: fact.value });
+            }
+        }
+        facts
+    }
+
+    /// All that is said on the terminal.
+    pub fn said(&self) -> String {
+        let facts = self.facts().into_iter().map(|fact| format!("\n{}: {}", fact.name, fact.value.trim_end()));
+        self.summary() + &facts.collect::<String>()
+    }
+
+    /// The page.
+    pub fn page(&self) -> BalancePage {
+        let mut table = Table::new(["answer", &format!("add {}", self.weight_unit), "at °", "holes"]);
+        for (index, answer) in self.answers.iter().enumerate() {
+            let [amount, angle] = answer.weight.told();
+            table.row([(index + 1).to_string(), amount, angle, told(answer.holes.as_deref())]);
+        }
+        let plot = |(index, answer): (usize, &Answer)| {
+            let arrows = arrows_of(answer.weight, answer.holes.as_deref());
+            polar(&format!("answer {}", index + 1), self.weight_unit, &arrows)
+        };
+        BalancePage {
+            name: self.name.clone(),
+            summary: self.summary(),
+            facts: self.facts(),
+            figures: vec![PolarFigure {
+                title: "Weights".to_owned(),
+                text: "What is to be added, and what goes into which hole.".to_owned(),
+                legend: vec![PolarKey { name: "weight", class: "s0" }, PolarKey { name: "in a hole", class: "s3" }],
+                plots: self.answers.iter().enumerate().map(plot).collect(),
+            }],
+            tables: vec![(
+                "Weights".to_owned(),
+                "From amplitudes alone: angles as those of the trial weight.".to_owned(),
+                table,
+            )],
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! The balance quality grade before and after, of the rotor and at each bearing.
+
+use driveline::balance::{Complex, Refusal, Tolerance, two_planes};
+use serde::Serialize;
+
+use crate::machine_file::balance::{Along, BalanceFile};
+use driveline_report::Fact;
+use driveline_report::format::significant;
+
+/// The grade before and after.
+#[derive(Clone, Debug, Serialize)]
+pub struct Grade {
+    /// Permissible residual unbalance.
+    pub permissible_g_mm: f64,
+    /// Unbalance now.
+    pub now_g_mm: f64,
+    /// The grade that goes with it.
+    pub now_grade: f64,
+    /// Unbalance as predicted.
+    pub predicted_g_mm: f64,
+    /// The grade that goes with it.
+    pub predicted_grade: f64,
+    /// Whether what is predicted is within the tolerance: at each bearing, where it is split between them.
+    pub passed: bool,
+    /// At the bearings, where the file says where everything is along the rotor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bearings: Option<[Bearing; 2]>,
+}
+
+/// A bearing's share.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Bearing {
+    /// Permissible residual unbalance in the bearing's plane.
+    pub permissible_g_mm: f64,
+    /// Unbalance now, resolved into the bearings' planes.
+    pub now_g_mm: f64,
+    /// Unbalance as predicted, likewise.
+    pub predicted_g_mm: f64,
+    /// Whether what is predicted is within the tolerance.
+    pub passed: bool,
+}
+
+/// Unbalance now is what the weights would take away; what is left is what they are off by, each plane by its own size.
+///
+/// # Errors
+/// What cannot be judged.
+pub fn grade(file: &BalanceFile, wanted: &[Complex<f64>], placed: &[Complex<f64>]) -> Result<Option<Grade>, Refusal> {
+    let Some(rotor) = &file.rotor else { return Ok(None) };
+    let Some(unbalance) = file.weight_unit.unbalance(rotor.radius) else { return Ok(None) };
+    let tolerance = Tolerance { grade: rotor.grade, mass: rotor.mass, speed: rotor.rpm * std::f64::consts::TAU / 60.0 };
+    let now: f64 = wanted.iter().map(|weight| weight.norm() * unbalance).sum();
+    let left: f64 = wanted.iter().zip(placed).map(|(wanted, placed)| (wanted - placed).norm() * unbalance).sum();
+    let (before, after) = (tolerance.judge(now)?, tolerance.judge(left)?);
+    let bearings = match &rotor.along {
+        Some(along) => Some(bearings(&tolerance, along, unbalance, wanted, placed)?),
+        None => None,
+    };
+    Ok(Some(Grade {
+        permissible_g_mm: tolerance.permissible()? * 1e6,
+        now_g_mm: now * 1e6,
+        now_grade: before.grade,
+        predicted_g_mm: left * 1e6,
+        predicted_grade: after.grade,
+        passed: bearings.map_or(after.passed, |bearings| bearings.iter().all(|bearing| bearing.passed)),
+        bearings,
+    }))
+}
+
+/// The tolerance split between the bearings, and the planes' unbalances resolved into them.
+fn bearings(
+    tolerance: &Tolerance<f64>,
+    along: &Along,
+    unbalance: f64,
+    wanted: &[Complex<f64>],
+    placed: &[Complex<f64>],
+) -> Result<[Bearing; 2], Refusal> {
+    let shares = tolerance.at_bearings(along.centre, along.span)?;
+    let resolved = |of: &dyn Fn(usize) -> Complex<f64>| {
+        two_planes(along.planes.iter().enumerate().map(|(plane, at)| (of(plane) * unbalance, *at)), 0.0, along.span)
+    };
+    let [now, left] = [resolved(&|plane| wanted[plane])?, resolved(&|plane| wanted[plane] - placed[plane])?];
+    let bearing = |at: usize| Bearing {
+        permissible_g_mm: shares[at] * 1e6,
+        now_g_mm: now[at].norm() * 1e6,
+        predicted_g_mm: left[at].norm() * 1e6,
+        passed: left[at].norm() <= shares[at],
+    };
+    Ok([bearing(0), bearing(1)])
+}
+
+impl Grade {
+    /// What there is to say of it.
+    pub fn facts(&self) -> Vec<Fact> {
+        let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
+        let unbalance = |g_mm: f64, grade: f64| format!("{} g mm, G {}", significant(g_mm), significant(grade));
+        let verdict = |passed: bool| if passed { "within it" } else { "beyond it" };
+        let whole = if self.bearings.is_some() { "split between the bearings" } else { verdict(self.passed) };
+        let mut facts = vec![
+            fact("unbalance now", unbalance(self.now_g_mm, self.now_grade)),
+            fact("unbalance predicted", unbalance(self.predicted_g_mm, self.predicted_grade)),
+            fact("permissible", format!("{} g mm: {whole}", significant(self.permissible_g_mm))),
+        ];
+        for (name, bearing) in ["A", "B"].into_iter().zip(self.bearings.iter().flatten()) {
+            let value = format!(
+                "{} g mm now, {} predicted, {} permissible: {}",
+                significant(bearing.now_g_mm),
+                significant(bearing.predicted_g_mm),
+                significant(bearing.permissible_g_mm),
+                verdict(bearing.passed)
+            );
+            facts.push(fact(&format!("at bearing {name}"), value));
+        }
+        facts
+    }
+}

@@ -1,0 +1,76 @@
+//! `cargo driveline run balanced-fan`, `flexible`, `grinding-spindle`: a rotor balanced by its firmware in QEMU.
+
+use std::path::Path;
+
+use serde_json::json;
+
+use super::{Failure, Progress, say, say_json};
+use crate::balancing::{Ran, Scene, page, tables};
+use crate::closed_loop::candidates::Candidate;
+use driveline_qemu::setup;
+use driveline_report::write_page;
+
+/// What is left to chance is the same in every run.
+const SEED: u64 = 1;
+
+/// How a scene is run.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted<'a> {
+    /// Only variants whose number/core/observer/rate contains this.
+    pub filter: Option<&'a str>,
+    /// Where the page goes.
+    pub html: Option<&'a Path>,
+    /// JSON instead of tables.
+    pub json: bool,
+}
+
+/// Balances a scene in all its variants, prints tables or JSON, writes the page.
+///
+/// # Errors
+/// No such variant; what kept one from being balanced; a claim that was missed, a word that differs from the host's; a
+/// page that cannot be
+/// written.
+pub fn run(scene: &Scene, wanted: Wanted<'_>) -> Result<(), Failure> {
+    let variants = scene.variants(wanted.filter);
+    if let (true, Some(filter)) = (variants.is_empty(), wanted.filter) {
+        let there: Vec<_> =
+            scene.variants(None).into_iter().map(|(variant, board)| Candidate { variant, board }.key()).collect();
+        let sentence = format!("no variant of `{}` contains `{filter}`; there are {}", scene.name, there.join(", "));
+        return Err(Failure::usage(sentence));
+    }
+    setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
+    let progress = Progress::of(variants.len() as u64);
+    let mut all: Vec<Ran> = Vec::new();
+    for (variant, board) in variants {
+        let ran = scene.in_qemu(variant, board, SEED, &|text| progress.says(text));
+        all.push(ran.map_err(|error| Failure::failed(error.to_string()))?);
+        progress.step();
+    }
+    drop(progress);
+    let path = wanted.html.map_or_else(|| format!("report/{}.html", scene.name).into(), Path::to_path_buf);
+    write_page(&path, &page(scene, &all))
+        .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
+    if wanted.json {
+        say_json(&json!({ "scene": scene.name, "variants": all }))?;
+    } else {
+        for (title, _, table) in tables(&all) {
+            say(format_args!("{title}\n{table}"));
+        }
+        say(format_args!("page: {}", path.display()));
+    }
+    verdict(&all)
+}
+
+/// Whether every variant kept what it had to show, with the same words as on the host.
+fn verdict(all: &[Ran]) -> Result<(), Failure> {
+    for ran in all {
+        if let Some(claim) = ran.outcome.claims.iter().find(|claim| !claim.holds()) {
+            let sentence = format!("{}: {} is {}, at most {}", ran.variant, claim.name, claim.measured, claim.limit);
+            return Err(Failure::failed(sentence));
+        }
+        if !ran.same_on_host {
+            return Err(Failure::failed(format!("{}: other words in QEMU than on the host", ran.variant)));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,180 @@
+//! `cargo driveline commission`: the test that finds the machine, against its full plant.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use driveline::commissioning::TestConfig;
+use driveline_firmware::board::BOARDS;
+
+use super::{Failure, Progress, onto_itself, say, say_json};
+use crate::commissioning::{Case, Trial, Verdict, in_qemu, named, of_file, on_host, verdict};
+use crate::machine_file::{Diagnostic, MachineFile, Source, read, text};
+use driveline_qemu::setup;
+use driveline_report::{writable, write_page};
+
+/// Commission a machine: run the test that finds its inertias, resonance, damping, friction, gap and encoder's
+/// eccentricity against its full plant, and put what it found beside what is true.
+///
+/// The machine is `hoist`, `mill` or `spindle` as in the scene `commission`, or a file of elements as for `design`. The
+/// motor's torque is off by the file's torque accuracy in every tick, as white noise; the scenes' by 1 % of rated.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline commission mill
+  cargo driveline commission hoist --qemu
+  cargo driveline commission host-tests/command/machines/mill.toml --friction 0.05
+  cargo driveline commission spindle --json > spindle.json")]
+pub struct Commission {
+    /// `hoist`, `mill`, `spindle`, or a TOML file of elements from the motor to the load
+    machine: String,
+    /// Run the firmware in QEMU on the M4F, with the host beside it (not for a file)
+    #[arg(long)]
+    qemu: bool,
+    /// Which random numbers the noise is drawn with
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// For a file: speed of the test, of the largest speed [default: 0.2]
+    #[arg(long, value_name = "SHARE")]
+    speed: Option<f64>,
+    /// For a file: travel either way [rad] [default: 10000]
+    #[arg(long, value_name = "RAD")]
+    travel: Option<f64>,
+    /// For a file: dry friction of the load, of the largest torque [default: 0]
+    #[arg(long, value_name = "SHARE")]
+    friction: Option<f64>,
+    /// For a file: rated torque, of the largest torque [default: 0.5]
+    #[arg(long, value_name = "SHARE")]
+    rated: Option<f64>,
+    /// Where the page goes [default: report/NAME-commission.html]
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+    /// Print JSON, and write a page only with --html
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Stages of a test, for its progress.
+const STAGES: [&str; 7] = ["holding", "friction", "encoder", "backlash", "resonance", "done", "refused"];
+
+impl Commission {
+    /// Runs the test and shows what it found.
+    ///
+    /// # Errors
+    /// No such machine, a setting out of range, what kept QEMU from running; with exit code 1 where the test refused.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let case = self.case()?;
+        let page = self.page(&case.name);
+        if let Some(path) = &page {
+            writable(path).map_err(|error| unwritable(path, &error))?;
+        }
+        let progress = Progress::of(STAGES.len() as u64);
+        let mut last = u32::MAX;
+        let seen = |tick: u64, stage: u32| {
+            if stage != last {
+                last = stage;
+                progress.step();
+            }
+            if tick.is_multiple_of(65_536) {
+                let name = usize::try_from(stage).ok().and_then(|stage| STAGES.get(stage)).copied();
+                let seconds = tick as f64 * case.settings.rate.period().unwrap_or(0.0);
+                progress.says(&format!("{}: {}, {seconds:.0} s at the machine", case.name, name.unwrap_or_default()));
+            }
+        };
+        let run = if self.qemu {
+            setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
+            let Some(board) = BOARDS.iter().find(|board| board.core == "m4f") else {
+                return Err(Failure::failed("there is no board with an M4F"));
+            };
+            in_qemu(&case, *board, self.seed, |_| {}, seen).map(|(course, target)| (course, Some(target)))
+        } else {
+            on_host(&case, self.seed, seen).map(|course| (course, None))
+        };
+        let (course, target) = run.map_err(|error| Failure::failed(format!("{}: {error}", case.name)))?;
+        drop(progress);
+        self.show(&verdict(&case, &course, target), page)
+    }
+
+    /// Where the page goes, if there is to be one.
+    fn page(&self, name: &str) -> Option<PathBuf> {
+        let usual = (!self.json).then(|| PathBuf::from(format!("report/{name}-commission.html")));
+        self.html.clone().or(usual)
+    }
+
+    fn case(&self) -> Result<Case, Failure> {
+        let options = [
+            ("--speed", self.speed),
+            ("--travel", self.travel),
+            ("--friction", self.friction),
+            ("--rated", self.rated),
+        ];
+        if !self.machine.ends_with(".toml") {
+            if let Some((option, _)) = options.iter().find(|(_, value)| value.is_some()) {
+                return Err(Failure::usage(format!("{option} is for a file `NAME.toml`, not for `{}`", self.machine)));
+            }
+            return named(&self.machine).map_err(|error| Failure::usage(format!("{error}, or a file `NAME.toml`")));
+        }
+        if self.qemu {
+            return Err(Failure::usage("--qemu is for the machines of the firmware, not for a file"));
+        }
+        for (option, value) in options {
+            let Some(value) = value else { continue };
+            if option == "--friction" && !(value >= 0.0 && value.is_finite()) {
+                return Err(Failure::usage(format!("--friction must be zero or above and finite, not {value:?}")));
+            }
+            if option != "--friction" && !(value > 0.0 && value.is_finite()) {
+                return Err(Failure::usage(format!("{option} must be above zero and finite, not {value:?}")));
+            }
+        }
+        let path = PathBuf::from(&self.machine);
+        onto_itself(&path, self.html.as_deref())?;
+        let machine = read_chain(&path)?;
+        let trial = Trial {
+            speed: self.speed.unwrap_or(0.2),
+            travel: self.travel.unwrap_or(1.0e4),
+            friction: self.friction.unwrap_or(0.0),
+            rated: self.rated.unwrap_or(0.5),
+        };
+        let case = of_file(&machine, trial).map_err(|error| Failure::usage(format!("{}: {error}", self.machine)))?;
+        if let Err(reason) = TestConfig::try_new(&case.settings) {
+            let Trial { speed, travel, rated, .. } = trial;
+            let tried = format!("with --speed {speed:?} --travel {travel:?} --rated {rated:?}");
+            return Err(Failure::usage(format!("{}: {reason}, {tried}", self.machine)));
+        }
+        Ok(case)
+    }
+
+    fn show(&self, verdict: &Verdict, path: Option<PathBuf>) -> Result<(), Failure> {
+        if let Some(path) = &path {
+            write_page(path, &verdict.page()).map_err(|error| unwritable(path, &error))?;
+        }
+        if self.json {
+            say_json(verdict)?;
+        } else {
+            say(verdict.table());
+            for sentence in verdict.sentences() {
+                say(sentence);
+            }
+            if let Some(path) = path {
+                say(format_args!("page: {}", path.display()));
+            }
+        }
+        match verdict.refused {
+            Some(reason) => Err(Failure::failed(format!("the test refused: {reason}"))),
+            None => Ok(()),
+        }
+    }
+}
+
+fn unwritable(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::failed(format!("{} cannot be written: {error}", path.display()))
+}
+
+/// A machine without branches: the plant of a test is a chain.
+fn read_chain(path: &Path) -> Result<MachineFile, Failure> {
+    let machine = read(path)?;
+    let Some(branch) = machine.branches.first() else { return Ok(machine) };
+    let (name, text) = text(path, "a machine file")?;
+    let source = Source { name: &name, text: &text };
+    let place = text.find("[[branch]]").map_or(0..0, |at| at..at + "[[branch]]".len());
+    let found = format!("a branch at \"{}\"", branch.at);
+    Err(Diagnostic::at(source, place, "branch[0]", found, "a chain alone: the test knows no branches").into())
+}

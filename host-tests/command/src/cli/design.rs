@@ -1,0 +1,159 @@
+//! `cargo driveline design`: observer and governor of a machine.
+
+use std::f64::consts::TAU;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::{Failure, Plan, rust, say, say_json};
+use crate::machine_file::{MachineFile, read};
+use driveline_report::Table;
+use driveline_report::format::{percent, rate, significant};
+
+/// Observer and governor of a machine: reduction, step, gains, poles, predicted deviations, margins.
+///
+/// The same functions design a firmware's constants at compile time; with --emit rust they are printed to paste.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline design host-tests/command/machines/hoist.toml
+  cargo driveline design my.toml --emit rust > src/my_machine.rs
+  cargo driveline design my.toml --json")]
+pub struct Design {
+    /// The machine: a TOML file of elements from the motor to the load
+    file: PathBuf,
+    /// Print what can be pasted into a firmware, instead of the tables
+    #[arg(long, value_name = "LANGUAGE")]
+    emit: Option<Language>,
+    /// Print JSON; with --emit, {"rust": "..."}
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What can be pasted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Language {
+    /// Constants in the words of the library
+    Rust,
+}
+
+impl Design {
+    /// Reads the machine and designs its controller.
+    ///
+    /// # Errors
+    /// A machine file with a fault; a machine that cannot be observed or governed so.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let machine = read(&self.file)?;
+        let refused = |error: driveline::design::Error| {
+            Failure::usage(format!("{}: no controller can be designed: {error}", self.file.display()))
+        };
+        let plan = Plan::of(&machine).map_err(refused)?;
+        match (self.emit, self.json) {
+            (Some(Language::Rust), true) => say_json(&serde_json::json!({ "rust": rust(&machine) })),
+            (Some(Language::Rust), false) => {
+                say(rust(&machine).trim_end());
+                Ok(())
+            }
+            (None, true) => say_json(&plan),
+            (None, false) => {
+                say(text(&machine, &plan));
+                Ok(())
+            }
+        }
+    }
+}
+
+/// The design in words and tables.
+fn text(machine: &MachineFile, plan: &Plan) -> String {
+    let mut text = format!("{}: {} observer at {}\n\n", plan.name, plan.observer, rate(plan.rate_hz));
+    let mut facts = Table::new(["machine at the motor", "value", "unit"]);
+    let mut fact =
+        |name: &str, value: f64, unit: &str| facts.row([name.to_owned(), significant(value), unit.to_owned()]);
+    let sides: &[&str] =
+        if plan.inertias.len() == 1 { &["inertia"] } else { &["motor-side inertia", "load-side inertia"] };
+    for (name, inertia) in sides.iter().zip(&plan.inertias) {
+        fact(name, *inertia, "kg m²");
+    }
+    if let Some(shaft) = &plan.shaft {
+        fact("stiffness", shaft.stiffness, "N m/rad");
+        fact("damping", shaft.damping, "N m s/rad");
+        fact("backlash", shaft.gap, "rad");
+        fact("resonance", shaft.resonance / TAU, "Hz");
+        fact("antiresonance", shaft.antiresonance / TAU, "Hz");
+        fact("reduction error at worst", shaft.reduction_error * 100.0, "% of a jump of the motor's speed");
+    }
+    fact("weight", machine.gravity_torque(), "N m");
+    text.push_str(&format!("{facts}\n"));
+    if let Some(shaft) = &plan.shaft {
+        if shaft.reduction_error > super::controller::Shaft::LARGE_REDUCTION_ERROR {
+            text.push_str(&format!(
+                "warning: two masses are a poor image of this machine: what they leave out may be {} of a jump of the motor's speed; \
+                 see the modes with `cargo driveline modes`\n\n",
+                percent(shaft.reduction_error)
+            ));
+        }
+        let bound = match shaft.semi_implicit_error {
+            Some(error) => format!("off by {} over a period of the resonance", percent(error)),
+            None => "unstable".to_owned(),
+        };
+        let limit = percent(shaft.semi_implicit_threshold);
+        text.push_str(&format!("step: {}, for the semi-implicit one is {bound} (taken up to {limit})\n\n", shaft.step));
+    }
+    if let Some(need) = &plan.need {
+        let missed = |[torque, speed]: [f64; 2]| {
+            format!("{} of the largest torque and {} of the largest speed", percent(torque), percent(speed))
+        };
+        text.push_str(&format!(
+            "needed: the {} observer; without the shaft it would miss {}",
+            need.observer,
+            missed(need.without_shaft)
+        ));
+        if need.without_gap != [0.0; 2] {
+            text.push_str(&format!(", without the gap {}", missed(need.without_gap)));
+        }
+        text.push_str(" (rms; 1 % and 0.15 % are allowed)\n\n");
+    }
+    let mut states = Table::new(["state", "unit", "gain per rad of innovation", "predicted standard deviation"]);
+    for state in &plan.states {
+        states.row([
+            state.name.to_owned(),
+            state.unit.to_owned(),
+            significant(state.gain),
+            significant(state.standard_deviation),
+        ]);
+    }
+    if let Some(shaft) = &plan.shaft {
+        states.row([
+            "shaft torque".to_owned(),
+            "N m".to_owned(),
+            String::new(),
+            significant(shaft.torque_standard_deviation),
+        ]);
+    }
+    text.push_str(&format!("{states}\n"));
+    let poles: Vec<String> = plan
+        .poles
+        .iter()
+        .map(|pole| match pole.im {
+            0.0 => format!("{:.4}", pole.re),
+            im => format!("{:.4}{im:+.4}j", pole.re),
+        })
+        .collect();
+    text.push_str(&format!("poles: {} (largest size {:.6})\n", poles.join(", "), plan.spectral_radius));
+    if let Some(governor) = &plan.speed_loop {
+        let factor = |factor: Option<f64>| factor.map_or_else(|| "any factor".to_owned(), significant);
+        let phase =
+            governor.phase_margin.map_or_else(|| "any".to_owned(), |phase| format!("{:.0}°", phase.to_degrees()));
+        text.push_str(&format!(
+            "\nspeed loop: proportional {} N m s/rad, integral {} N m/rad, slip {} N m s/rad; {} Hz wide\n\
+             margins: gain up {}, gain down {}, phase {phase}, distance from -1 {}\n",
+            significant(governor.proportional),
+            significant(governor.integral),
+            significant(governor.slip),
+            significant(governor.bandwidth / TAU),
+            factor(governor.gain_margin_up),
+            significant(governor.gain_margin_down),
+            significant(governor.modulus),
+        ));
+    }
+    text.trim_end().to_owned()
+}

@@ -1,0 +1,135 @@
+//! A machine as Rust constants to paste into a firmware, in the library's own words.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use driveline::machine::Member;
+
+use super::controller::two_masses;
+use crate::machine_file::{Branch, Element, MachineFile, Part};
+
+/// The constants: the chain, its reduction, the observer's design and, for two masses, the speed loop's.
+pub fn rust(machine: &MachineFile) -> String {
+    let name = machine.constant();
+    let mut words: BTreeSet<&str> = ["Chain"].into();
+    let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
+    for part in machine.elements.iter().chain(branched) {
+        words.extend(words_of(&part.element));
+    }
+    if !machine.branches.is_empty() {
+        words.extend(["Train", "Ratio", "Inertia"]);
+    }
+    let two = two_masses(machine).is_some();
+    words.extend(if two { ["Match", "TwoMass"].as_slice() } else { ["Rigid"].as_slice() });
+    let designs = if two {
+        "Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign"
+    } else {
+        "Disturbance, Encoder, Rate, RigidDesign"
+    };
+    let mut chain = written(&machine.elements, "    ");
+    if !machine.branches.is_empty() {
+        chain = format!("Train::of(\n    {}\n)", written(&machine.elements, "        "));
+    }
+    for Branch { node, ratio, elements, .. } in &machine.branches {
+        let branch = written(elements, "        ");
+        chain.push_str(&format!("\n.branch(\n    {node},\n    Ratio({ratio:?}),\n    {branch},\n)"));
+    }
+    let kind = if machine.branches.is_empty() { "Chain" } else { "Train" };
+    let (torque, step, within) =
+        (machine.disturbance.torque_accuracy, machine.disturbance.load_torque_step, machine.disturbance.within);
+    let (model, make, observer) = if two {
+        ("TwoMass", format!("{name}.reduce(Match::ResonanceAntiresonance)"), "TwoMassDesign")
+    } else {
+        ("Rigid", format!("{name}.rigid()"), "RigidDesign")
+    };
+    let mut text = format!(
+        "//! {title}: the machine and its controller, designed by the compiler.
+
+use driveline::design::{{{designs}}};
+use driveline::machine::{{{words}}};
+
+/// The machine, from the motor to the load.
+pub const {name}: {kind} = {chain};
+
+/// What the observer takes it for.
+pub const {name}_MODEL: {model} = {make};
+
+/// Ticks a second.
+pub const {name}_RATE: Rate = Rate::hz({rate});
+
+/// The observer.
+pub const {name}_OBSERVER: {observer} = {name}_MODEL.observer(
+    {name}_RATE,
+    Encoder::lines({lines}),
+    Disturbance {{ torque_accuracy: {torque:?}, load_torque_step: {step:?}, within: {within:?} }},
+);
+",
+        title = machine.name,
+        words = words.into_iter().collect::<Vec<_>>().join(", "),
+        rate = machine.control.rate_hz,
+        lines = machine.encoder.lines,
+    );
+    if two {
+        // Writing to a `String` cannot fail.
+        let _ = write!(
+            text,
+            "
+/// The speed loop.
+pub const {name}_SPEED_LOOP: SpeedLoopDesign = {name}_MODEL.speed_loop({name}_RATE, SpeedLoopTuning::USUAL);
+"
+        );
+    }
+    let _ = write!(
+        text,
+        "
+/// Largest motor torque [N m].
+pub const {name}_TORQUE: f64 = {:?};
+
+/// Largest motor speed [rad/s].
+pub const {name}_SPEED: f64 = {:?};
+",
+        machine.limits.torque, machine.limits.speed
+    );
+    text
+}
+
+/// The elements of a chain or a branch in the library's words, a line for each.
+fn written(elements: &[Part], indent: &str) -> String {
+    let mut text = String::new();
+    for (index, part) in elements.iter().enumerate() {
+        match part.element {
+            // a branch begins as a chain does
+            Element::Rotor { inertia } if index == 0 => text.push_str(&Element::Motor { inertia }.rust()),
+            element if index == 0 && !matches!(element, Element::Motor { .. }) => {
+                text.push_str(&format!("Chain::motor(Inertia(f64::MIN_POSITIVE))\n{indent}{}", element.rust()));
+            }
+            element if index == 0 => text.push_str(&element.rust()),
+            element => text.push_str(&format!("\n{indent}{}", element.rust())),
+        }
+    }
+    text
+}
+
+/// The library's words that an element is written with.
+const fn words_of(element: &Element) -> &'static [&'static str] {
+    match element {
+        Element::Motor { .. } | Element::Rotor { .. } => &["Inertia"],
+        Element::Shaft { .. } => &["Stiffness", "Damping"],
+        Element::Gear { .. } => &["Ratio", "Efficiency"],
+        Element::Section { .. } => &["Section", "Length", "Diameter", "ShearModulus", "Damping"],
+        Element::Crank { .. } => &["CrankSlider", "Length", "Inertia", "Mass"],
+        Element::Worm { .. } => &["Ratio", "Efficiency"],
+        Element::Planetary { driven: Member::Sun, held: Member::Ring, .. } => {
+            &["Planetary", "Inertia", "Mass", "Efficiency"]
+        }
+        Element::Planetary { .. } => &["Planetary", "PlanetaryGear", "Member", "Inertia", "Mass", "Efficiency"],
+        Element::Belt { .. } => &["Belt", "Diameter", "Stiffness", "LinearDamping", "Efficiency"],
+        Element::Screw { .. } | Element::Slack { .. } => &["Length"],
+        Element::Swinging { .. } => &["Mass", "Length"],
+        Element::Drum { .. } => &["Diameter"],
+        Element::Rope { damping: 0.0, .. } => &["Falls", "Stiffness"],
+        Element::Rope { .. } => &["Falls", "Stiffness", "LinearDamping"],
+        Element::Lifted { .. } | Element::Driven { .. } => &["Mass"],
+        Element::Backlash { .. } => &["Gap"],
+    }
+}

@@ -1,0 +1,115 @@
+//! `cargo driveline modes` of a train of any shape.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+use super::campbell::{Critical, critical, critical_speeds, diagram};
+use crate::cli::Failure;
+use crate::machine_file::TrainFile;
+use driveline_report::chart::Station;
+use driveline_report::format::significant;
+use driveline_report::{Fact, MachinePage, ModeFigure, Table};
+
+/// The vibrations of a train, every part on its own shaft.
+#[derive(Clone, Debug, Serialize)]
+pub struct TrainVibration {
+    /// The train's name.
+    pub name: String,
+    /// Its coordinates.
+    pub coordinates: Vec<String>,
+    /// Motions without strain: turning as a whole, or what no link holds.
+    pub rigid_motions: usize,
+    /// Natural vibrations, lowest first.
+    pub resonances: Vec<TrainResonance>,
+    /// Speeds of the first coordinate at which an excitation meets a natural frequency, the lowest first.
+    pub critical: Vec<Critical>,
+}
+
+/// A natural vibration.
+#[derive(Clone, Debug, Serialize)]
+pub struct TrainResonance {
+    /// Frequency \[rad/s\].
+    pub frequency: f64,
+    /// Frequency \[Hz\].
+    pub hz: f64,
+    /// Share of each coordinate in the kinetic energy, and the sign it moves with: comparable between angles and
+    /// ways.
+    pub energy: Vec<f64>,
+}
+
+impl TrainVibration {
+    /// Of a train with every link in contact at its mean stiffness.
+    ///
+    /// # Errors
+    /// What the solver refuses.
+    pub fn of(file: &TrainFile) -> Result<Self, Failure> {
+        let modes = file.train.modes().map_err(|error| Failure::failed(error.to_string()))?;
+        // eigenvalues of rigid motions are rounding, 1e-16 of the largest; their roots 1e-8 of its root
+        let most = modes.omega.last().copied().unwrap_or(0.0);
+        let inertia = file.train.inertias();
+        let elastic: Vec<usize> = (0..modes.omega.len()).filter(|&i| modes.omega[i] > 1e-6 * most).collect();
+        let resonance = |&i: &usize| {
+            let shape = &modes.shapes[i];
+            let energy = shape.iter().zip(&inertia).map(|(q, j)| q.signum() * q * q * j).collect();
+            TrainResonance { frequency: modes.omega[i], hz: modes.omega[i] / TAU, energy }
+        };
+        let frequencies: Vec<f64> = elastic.iter().map(|&i| modes.omega[i]).collect();
+        Ok(Self {
+            name: file.name.clone(),
+            coordinates: file.coordinates.clone(),
+            rigid_motions: modes.omega.len() - elastic.len(),
+            resonances: elastic.iter().map(resonance).collect(),
+            critical: critical_speeds(&frequencies, file.running.as_ref(), &file.excitations),
+        })
+    }
+
+    /// Title, text and table of each part.
+    pub fn tables(&self) -> Vec<(String, String, Table)> {
+        let headings = ["mode", "Hz", "rad/s"].map(String::from).into_iter().chain(self.coordinates.iter().cloned());
+        let mut table = Table::new(headings);
+        for (index, mode) in self.resonances.iter().enumerate() {
+            let numbers = [mode.hz, mode.frequency].map(significant);
+            let shape = mode.energy.iter().map(|share| format!("{:+.1} %", 100.0 * share));
+            table.row([(index + 1).to_string()].into_iter().chain(numbers).chain(shape));
+        }
+        let text = format!(
+            "Every link in contact at its mean stiffness; shares of the kinetic energy, signed as the parts move. Motions \
+             without strain: {}.",
+            self.rigid_motions
+        );
+        let modes = ("Frequencies and shapes".to_owned(), text, table);
+        [modes].into_iter().chain(critical(&self.critical)).collect()
+    }
+
+    /// The page as HTML.
+    pub fn page(&self, file: &TrainFile) -> String {
+        let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
+        let inertia = file.train.inertias();
+        let total: f64 = inertia.iter().sum();
+        let stations = self.coordinates.iter().zip(&inertia);
+        let figure = |(index, mode): (usize, &TrainResonance)| ModeFigure {
+            title: format!("{}. {} Hz", index + 1, significant(mode.hz)),
+            shape: mode.energy.clone(),
+        };
+        let natural: Vec<f64> = self.resonances.iter().map(|mode| mode.hz).collect();
+        let mut facts = vec![fact("coordinates", self.coordinates.len().to_string())];
+        facts.push(fact("motions without strain", self.rigid_motions.to_string()));
+        if let Some(first) = natural.first() {
+            facts.push(fact("first resonance", format!("{} Hz", significant(*first))));
+        }
+        MachinePage {
+            name: self.name.clone(),
+            summary: "Natural vibrations of the whole train, every part on its own shaft: shares of the kinetic \
+                      energy."
+                .to_owned(),
+            facts,
+            stations: stations.map(|(name, j)| Station { name: name.clone(), share: j / total }).collect(),
+            modes: self.resonances.iter().enumerate().map(figure).collect(),
+            campbell: diagram(&natural, file.running.as_ref(), &file.excitations, &self.critical),
+            tables: self.tables(),
+            ..MachinePage::default()
+        }
+        .page()
+    }
+}

@@ -1,0 +1,86 @@
+//! `cargo driveline report`: every scene and every stiff case on one page.
+
+use std::path::PathBuf;
+use std::thread;
+use std::time::Instant;
+
+use clap::Args;
+
+use super::{Failure, Progress, say, say_json};
+use crate::survey::{Wanted, jobs, work};
+use crate::survey::{survey_page, survey_table};
+use driveline_qemu::setup;
+use driveline_report::{writable, write_page};
+
+/// Run every scene in all its variants, and every stiff or extreme case, and put it all on one page.
+///
+/// Installs what is missing (as `setup` does), builds the firmware that is not built yet, runs the closed loops side by side on
+/// the cores, and writes a page: errors beside the aims and why an aim is missed, error against instructions, flash and RAM, dynamic
+/// factors, verdicts on every case. What fails is reported in its place and loses nothing else.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline report
+  cargo driveline report --scene hoist spindle
+  cargo driveline report --quick --html report/quick.html
+  cargo driveline report --json > report.json")]
+pub struct Report {
+    /// Only these scenes, and no cases
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    scene: Vec<String>,
+    /// Print everything that was measured as JSON, and no table
+    #[arg(long)]
+    pub json: bool,
+    /// Where the page goes
+    #[arg(long, value_name = "FILE", default_value = "report/report.html")]
+    html: PathBuf,
+    /// Two seconds of each scene, unproven, and a coarse sweep: for trying out, not for figures to quote
+    #[arg(long)]
+    quick: bool,
+}
+
+impl Report {
+    /// Runs it all, prints the table or JSON, writes the page.
+    ///
+    /// # Errors
+    /// No such scene; a page that cannot be written; what could not be done, after the page is written.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let wanted = Wanted::scenes(&self.scene).map_err(Failure::usage)?;
+        let unwritable = |error| Failure::failed(format!("{} cannot be written: {error}", self.html.display()));
+        writable(&self.html).map_err(unwritable)?;
+        setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
+        let began = Instant::now();
+        let (jobs, mut survey) = jobs(&wanted, self.quick);
+        let progress = Progress::of(jobs.iter().map(|job| job.weight).sum());
+        let threads = thread::available_parallelism().map_or(1, usize::from);
+        let done = work(jobs, threads, &|text| progress.says(text), &|weight| progress.steps(weight));
+        drop(progress);
+        for outcome in done {
+            match outcome {
+                Ok(piece) => survey.add(piece),
+                Err(failure) => survey.failures.push(failure),
+            }
+        }
+        survey.seconds = began.elapsed().as_secs_f64();
+        write_page(&self.html, &survey_page(&survey)).map_err(unwritable)?;
+        if self.json {
+            say_json(&survey)?;
+        } else {
+            say(survey_table(&survey));
+            for scene in &survey.scenes {
+                for run in &scene.runs {
+                    for reason in &run.reasons {
+                        say(format_args!("{}, {}: {}", scene.name, run.variant.label(), reason.sentence()));
+                    }
+                }
+            }
+            say(format_args!("page: {}", self.html.display()));
+        }
+        match survey.failures.as_slice() {
+            [] => Ok(()),
+            [first, rest @ ..] => {
+                let others = if rest.is_empty() { String::new() } else { format!(", and {} more", rest.len()) };
+                Err(Failure::failed(format!("{}, {}: {}{others}", first.place, first.job, first.reason)))
+            }
+        }
+    }
+}

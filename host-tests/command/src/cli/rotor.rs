@@ -1,0 +1,319 @@
+//! `cargo driveline rotor`: critical speeds, Campbell diagram and unbalance response of a rotor.
+
+use std::f64::consts::TAU;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+
+use super::{Failure, say, say_json};
+use crate::machine_file::{RotorFile, read_rotor};
+use driveline_report::chart::{Curve, Lines};
+use driveline_report::format::{percent, significant};
+use driveline_report::{Fact, Figure, Sheet, Table, write_page};
+use driveline_solver::rotor::{Critical, Modal, Natural, Polar, RotorError, WhirlSense};
+
+/// Critical speeds of a rotor, its natural whirls over the speed, and its vibration by unbalance.
+///
+/// The page with the Campbell diagram opens in any browser.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline rotor host-tests/command/rotors/three_discs.toml
+  cargo driveline rotor my.toml --html my.html
+  cargo driveline rotor my.toml --json")]
+pub struct Rotor {
+    /// The rotor: a TOML file of shaft, discs, bearings, unbalance and sensors
+    file: PathBuf,
+    /// Where the page goes [default: report/NAME-rotor.html]
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+    /// Print JSON, and write a page only with --html
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Speeds of the Campbell diagram, standstill included.
+const SPEEDS: usize = 61;
+/// Speeds of the response: 0.2 % of the highest apart.
+const POINTS: usize = 501;
+/// Whirls that are followed.
+const WHIRLS: usize = 8;
+/// Vibrations that the diagram is made of: what lies above the 32nd moves the lowest eight by less than a line's width.
+const KEPT: usize = 32;
+
+/// What the command finds.
+#[derive(Debug, Serialize)]
+struct Found {
+    name: String,
+    /// Undamped critical speeds up to the highest speed and the first beyond, rad/s.
+    critical_speeds: Vec<Critical>,
+    /// Speeds of the diagram, rad/s.
+    speeds: Vec<f64>,
+    /// The lowest natural whirls at each speed.
+    whirls: Vec<Vec<Natural>>,
+    /// Largest vibration of each sensor by the unbalance.
+    peaks: Vec<Peak>,
+}
+
+/// The largest vibration of a sensor up to the highest speed.
+#[derive(Debug, Serialize)]
+struct Peak {
+    /// Where the sensor is.
+    node: usize,
+    /// Angle from x, degrees.
+    angle: f64,
+    /// Speed, rad/s.
+    speed: f64,
+    /// Amplitude, m.
+    amplitude: f64,
+    /// Angle by which it leads the rotor's zero, degrees.
+    phase: f64,
+}
+
+/// Amplitudes over the speed, a curve a sensor.
+struct Response {
+    speeds: Vec<f64>,
+    amplitudes: Vec<Vec<f64>>,
+}
+
+impl Rotor {
+    /// Reads the rotor and shows its speeds.
+    ///
+    /// # Errors
+    /// A rotor file with a fault; a page that cannot be written.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let rotor = read_rotor(&self.file)?;
+        let failed = |error: RotorError| Failure::failed(error.to_string());
+        let (response, peaks) = response(&rotor).map_err(failed)?;
+        let found = find(&rotor, peaks).map_err(failed)?;
+        let usual = (!self.json).then(|| PathBuf::from(format!("report/{}-rotor.html", rotor.slug())));
+        let path = self.html.clone().or(usual);
+        if let Some(path) = &path {
+            write_page(path, &page(&rotor, &found, &response))
+                .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
+        }
+        if self.json {
+            return say_json(&found);
+        }
+        for (title, _, table) in tables(&found) {
+            say(format_args!("{title}\n{table}"));
+        }
+        if let Some(path) = path {
+            say(format_args!("page: {}", path.display()));
+        }
+        Ok(())
+    }
+}
+
+fn find(rotor: &RotorFile, peaks: Vec<Peak>) -> Result<Found, RotorError> {
+    let criticals = rotor.modal.criticals();
+    let beyond = criticals.iter().position(|critical| critical.speed > rotor.highest);
+    let count = beyond.map_or(criticals.len(), |first| first + 1);
+    let kept = Modal::lowest(&rotor.model, KEPT)?;
+    let speeds: Vec<f64> = (0..SPEEDS).map(|k| rotor.highest * k as f64 / (SPEEDS - 1) as f64).collect();
+    let campbell = kept.campbell(&speeds, WHIRLS)?;
+    Ok(Found {
+        name: rotor.name.clone(),
+        critical_speeds: criticals[..count].to_vec(),
+        speeds,
+        whirls: campbell.whirls,
+        peaks,
+    })
+}
+
+fn response(rotor: &RotorFile) -> Result<(Response, Vec<Peak>), RotorError> {
+    let unbalance = rotor.unbalances();
+    let mut speeds: Vec<f64> = (1..POINTS).map(|k| rotor.highest * k as f64 / (POINTS - 1) as f64).collect();
+    // the top of a narrow peak, too; an undamped one has none
+    speeds.extend(rotor.modal.criticals().iter().map(|critical| critical.speed * (1.0 + 1e-9)));
+    speeds.retain(|&speed| speed <= rotor.highest);
+    speeds.sort_by(f64::total_cmp);
+    let mut amplitudes = vec![Vec::with_capacity(speeds.len()); rotor.sensors.len()];
+    let mut peaks: Vec<Peak> = Vec::new();
+    for &speed in &speeds {
+        let vibration = rotor.model.response(speed, &unbalance)?;
+        for (sensor, (x, course)) in vibration.iter().zip(&mut amplitudes).enumerate() {
+            let (amplitude, phase) = Polar::of(*x);
+            course.push(amplitude);
+            let (node, angle) = rotor.sensors[sensor];
+            let peak = Peak { node, angle, speed, amplitude, phase };
+            match peaks.get_mut(sensor) {
+                Some(highest) if highest.amplitude < amplitude => *highest = peak,
+                Some(_) => {}
+                None => peaks.push(peak),
+            }
+        }
+    }
+    Ok((Response { speeds, amplitudes }, peaks))
+}
+
+const fn word(sense: WhirlSense) -> &'static str {
+    match sense {
+        WhirlSense::Forward => "forward",
+        WhirlSense::Backward => "backward",
+        WhirlSense::Mixed => "mixed",
+    }
+}
+
+const fn class(sense: WhirlSense) -> &'static str {
+    match sense {
+        WhirlSense::Forward => "s0",
+        WhirlSense::Backward => "s1",
+        WhirlSense::Mixed => "s5",
+    }
+}
+
+fn rpm(speed: f64) -> f64 {
+    speed * 30.0 / std::f64::consts::PI
+}
+
+/// The tables as title, explanation and table: for the terminal and the page alike.
+fn tables(found: &Found) -> Vec<(String, String, Table)> {
+    let mut criticals = Table::new(["critical speed", "r/min", "rad/s", "Hz", "whirl"]);
+    for (index, critical) in found.critical_speeds.iter().enumerate() {
+        let numbers = [rpm(critical.speed), critical.speed, critical.speed / TAU].map(|value| format!("{value:.2}"));
+        let row = [(index + 1).to_string()].into_iter().chain(numbers);
+        criticals.row(row.chain([word(critical.sense).to_owned()]));
+    }
+    let text =
+        "Without damping. Where the supports are alike in all directions, unbalance excites the forward ones only.";
+    let mut all = vec![("Critical speeds".to_owned(), text.to_owned(), criticals)];
+    let mut whirls = Table::new(["whirl", "at rest Hz", "damping", "at the highest speed Hz", "damping", "sense"]);
+    if let (Some(first), Some(last)) = (found.whirls.first(), found.whirls.last()) {
+        for (index, (slow, fast)) in first.iter().zip(last).enumerate() {
+            whirls.row([
+                (index + 1).to_string(),
+                format!("{:.3}", slow.frequency / TAU),
+                percent(slow.damping_ratio),
+                format!("{:.3}", fast.frequency / TAU),
+                percent(fast.damping_ratio),
+                word(fast.sense).to_owned(),
+            ]);
+        }
+    }
+    let text = "Damped frequencies, lowest first; a negative damping grows.";
+    all.push(("Natural whirls".to_owned(), text.to_owned(), whirls));
+    if !found.peaks.is_empty() {
+        let mut peaks = Table::new(["sensor", "largest µm", "at r/min", "leads by °"]);
+        for peak in &found.peaks {
+            peaks.row([
+                format!("node {}, {}°", peak.node, significant(peak.angle)),
+                significant(peak.amplitude * 1e6),
+                format!("{:.0}", rpm(peak.speed)),
+                format!("{:.1}", peak.phase),
+            ]);
+        }
+        let text = "Amplitude of the displacement by the unbalance of the file, up to the highest speed.";
+        all.push(("Vibration by unbalance".to_owned(), text.to_owned(), peaks));
+    }
+    all
+}
+
+fn page(rotor: &RotorFile, found: &Found, response: &Response) -> String {
+    let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
+    let length = rotor.places.last().copied().unwrap_or(0.0);
+    let discs: f64 = rotor.discs.iter().map(|disc| disc.1).sum();
+    let mut facts = vec![
+        fact("length", format!("{} m", significant(length))),
+        fact("elements", (rotor.places.len() - 1).to_string()),
+        fact("discs", format!("{}, {} kg", rotor.discs.len(), significant(discs))),
+        fact("bearings", rotor.bearings.len().to_string()),
+    ];
+    let forward = found.critical_speeds.iter().find(|critical| critical.sense == WhirlSense::Forward);
+    if let Some(first) = forward {
+        facts.push(fact("first forward critical", format!("{:.0} r/min", rpm(first.speed))));
+    }
+    let mut figures = vec![Figure {
+        title: "Campbell diagram".to_owned(),
+        text: "Natural frequencies over the speed of rotation. Where the straight line, once a turn, meets a forward whirl, \
+               unbalance meets it too."
+            .to_owned(),
+        legend: [("forward", "s0"), ("backward", "s1"), ("mixed", "s5"), ("once a turn", "truth")]
+            .map(|(name, class)| (name.to_owned(), class.to_owned()))
+            .to_vec(),
+        plots: vec![campbell(found).draw()],
+        beside: false,
+    }];
+    if !response.amplitudes.is_empty() {
+        let named = |(index, (node, angle)): (usize, &(usize, f64))| {
+            (format!("node {node}, {}°", significant(*angle)), format!("s{}", index % 6))
+        };
+        let legend: Vec<(String, String)> = rotor.sensors.iter().enumerate().map(named).collect();
+        let curve = |(values, (_, class)): (&Vec<f64>, &(String, String))| Curve {
+            class: class.clone(),
+            values: values.iter().map(|value| value * 1e6).collect(),
+        };
+        let lines = Lines {
+            label: "Amplitude over the speed".to_owned(),
+            along: "speed, r/min".to_owned(),
+            across: "amplitude, µm".to_owned(),
+            places: response.speeds.iter().map(|&speed| rpm(speed)).collect(),
+            curves: response.amplitudes.iter().zip(&legend).map(curve).collect(),
+            marks: marks(found),
+            points: Vec::new(),
+            logarithmic: true,
+        };
+        figures.push(Figure {
+            title: "Vibration by unbalance".to_owned(),
+            text: "Displacement at the sensors, steady at each speed.".to_owned(),
+            legend,
+            plots: vec![lines.draw()],
+            beside: false,
+        });
+    }
+    let summary = "Natural whirls of the rotor on its bearings, and where its unbalance meets them.".to_owned();
+    Sheet {
+        name: rotor.name.clone(),
+        kicker: "critical speeds".to_owned(),
+        summary,
+        facts,
+        figures,
+        tables: tables(found),
+    }
+    .page()
+}
+
+fn marks(found: &Found) -> Vec<(f64, String)> {
+    let last = found.speeds.last().copied().unwrap_or(0.0);
+    let forward = found.critical_speeds.iter().filter(|c| c.sense != WhirlSense::Backward && c.speed <= last);
+    forward.map(|c| (rpm(c.speed), format!("{:.0} r/min", rpm(c.speed)))).collect()
+}
+
+/// Each whirl by its rank; a curve is drawn where the whirl has its sense, so that colours follow.
+fn campbell(found: &Found) -> Lines {
+    let mut curves =
+        vec![Curve { class: "truth".to_owned(), values: found.speeds.iter().map(|speed| speed / TAU).collect() }];
+    for rank in 0..WHIRLS {
+        for sense in [WhirlSense::Forward, WhirlSense::Backward, WhirlSense::Mixed] {
+            let at = |k: usize| found.whirls.get(k).and_then(|whirls| whirls.get(rank));
+            let of_sense = |k: usize| at(k).is_some_and(|natural| natural.sense == sense);
+            let value = |k: usize| {
+                // joined to a neighbour of its sense, so that a change of sense leaves no gap
+                let joined = of_sense(k) || k > 0 && of_sense(k - 1);
+                at(k).filter(|_| joined).map_or(f64::NAN, |natural| natural.frequency / TAU)
+            };
+            let values: Vec<f64> = (0..found.speeds.len()).map(value).collect();
+            if values.iter().any(|value| value.is_finite()) {
+                curves.push(Curve { class: class(sense).to_owned(), values });
+            }
+        }
+    }
+    Lines {
+        label: "Natural frequencies over the speed".to_owned(),
+        along: "speed, r/min".to_owned(),
+        across: "natural frequency, Hz".to_owned(),
+        places: found.speeds.iter().map(|&speed| rpm(speed)).collect(),
+        curves,
+        marks: marks(found),
+        points: found
+            .critical_speeds
+            .iter()
+            .filter(|critical| critical.speed <= found.speeds.last().copied().unwrap_or(0.0))
+            .map(|c| {
+                let title = format!("{:.1} r/min, {}", rpm(c.speed), word(c.sense));
+                (rpm(c.speed), c.speed / TAU, class(c.sense).to_owned(), title)
+            })
+            .collect(),
+        logarithmic: false,
+    }
+}

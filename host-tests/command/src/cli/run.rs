@@ -1,0 +1,78 @@
+//! `cargo driveline run`: a scene in QEMU, in closed loop with the full solver.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::balancing::{self, Wanted};
+use super::{Failure, Progress, say, say_json};
+use crate::balancing::Scene;
+use crate::drivetrains::Plan;
+use driveline_qemu::setup;
+use driveline_report::{variants_table, writable};
+
+/// Run a scene's variants in QEMU, in closed loop with the full solver, and report what they get wrong and cost.
+///
+/// Installs what is missing (as `setup` does), builds the firmware of every variant, runs it, prints a table and writes a
+/// page with plots that opens in any browser.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline run
+  cargo driveline run hoist --variants f32/m4f --quick
+  cargo driveline run balanced-fan
+  cargo driveline run --json > hoist.json")]
+pub struct Run {
+    /// The scene: hoist or another drivetrain; or balanced-fan, flexible, grinding-spindle, whose rotors are balanced
+    #[arg(default_value = "hoist")]
+    scene: String,
+    /// The scene, as an option
+    #[arg(long = "scene", value_name = "NAME", conflicts_with = "scene")]
+    named: Option<String>,
+    /// Print {scene, variants: [...]} and no table
+    #[arg(long)]
+    pub json: bool,
+    /// Where the page goes [default: report/SCENE.html]
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+    /// Only variants whose number/core/observer/rate contains this text, as `fixed/m3` or `reduced/10000`
+    #[arg(long, value_name = "FILTER")]
+    variants: Option<String>,
+    /// A short run of each variant: for trying out, not for figures to quote
+    #[arg(long)]
+    quick: bool,
+}
+
+impl Run {
+    /// Runs the scene, prints the table or JSON, writes the page.
+    ///
+    /// # Errors
+    /// No such scene or variant; what kept a variant from running; a page that cannot be written.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let scene = self.named.as_deref().unwrap_or(&self.scene);
+        if let Some(scene) = Scene::named(scene) {
+            let (filter, html) = (self.variants.as_deref(), self.html.as_deref());
+            return balancing::run(&scene, Wanted { filter, html, json: self.json });
+        }
+        let plan = Plan::of(scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
+        let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{scene}.html")));
+        let unwritable = |error| Failure::failed(format!("{} cannot be written: {error}", path.display()));
+        writable(&path).map_err(unwritable)?;
+        setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
+        let progress = Progress::of(plan.steps());
+        let report = plan
+            .run(&|text| progress.says(text), &|| progress.step())
+            .map_err(|error| Failure::failed(error.to_string()))?;
+        drop(progress);
+        report.write(&path).map_err(unwritable)?;
+        if self.json {
+            return say_json(&report.json());
+        }
+        say(format_args!("{}\n{}", report.scene, variants_table(&report.variants)));
+        for budget in report.budgets.iter().filter(|budget| !budget.kept()) {
+            let measured = format!("{} {}", budget.measured, budget.unit);
+            say(format_args!("over budget: {}: {}, at most {}", budget.name, measured.trim_end(), budget.limit));
+        }
+        say(format_args!("page: {}", path.display()));
+        Ok(())
+    }
+}

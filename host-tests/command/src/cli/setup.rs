@@ -1,0 +1,46 @@
+//! `cargo driveline setup`: what is missing is installed where that is permitted.
+
+use clap::Args;
+use serde_json::json;
+
+use super::{Failure, say, say_json};
+use driveline_qemu::setup::{ensure, missing};
+
+/// Install what is missing: Rust targets, rustfmt, clippy, QEMU for Arm.
+///
+/// Uses rustup and the system's package manager where it may; otherwise the exact command to type is printed. The other
+/// commands do this by themselves.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  cargo driveline setup\n  cargo driveline setup --dry-run --json")]
+pub struct Setup {
+    /// Only say what is missing
+    #[arg(long)]
+    dry_run: bool,
+    /// Print {missing, installed}
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Setup {
+    /// Installs what is missing.
+    ///
+    /// # Errors
+    /// What is missing and cannot be installed, with the command to type.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let lacking: Vec<String> = missing().iter().map(|need| need.name()).collect();
+        let installed = if self.dry_run {
+            Vec::new()
+        } else {
+            ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?
+        };
+        if self.json {
+            return say_json(&json!({ "missing": lacking, "installed": installed }));
+        }
+        say(match (lacking.is_empty(), self.dry_run) {
+            (true, _) => "nothing is missing".to_owned(),
+            (false, true) => format!("missing: {}", lacking.join(", ")),
+            (false, false) => format!("installed: {}", installed.join(", ")),
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,172 @@
+//! `cargo driveline simulate`: a run of any train by the full solver.
+
+mod result;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{Failure, say, say_json};
+use crate::machine_file::{TrainFile, read_train};
+use driveline_report::chart::Line;
+use driveline_report::format::significant;
+use driveline_report::{Fact, SimulationPage, Table, write_page};
+use result::Simulation;
+
+/// Lines of the events' table.
+const EVENTS: usize = 40;
+/// Lines of a plot; there are no more colours.
+const DRAWN: usize = 6;
+
+/// Runs a machine of any shape by the full solver: forces, speeds, events, dynamic factors.
+///
+/// The file names coordinates and the links between them, or elements from the motor to the load; torques, friction,
+/// the start and the run. Every run is done again by a second integrator; one that does not agree to 1e-8 of its
+/// peaks is refused.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline simulate host-tests/command/trains/gear-pair.toml
+  cargo driveline simulate host-tests/command/trains/hoist-start.toml --csv start.csv
+  cargo driveline simulate my.toml --html my.html --json")]
+pub struct Simulate {
+    /// The train and its run: a TOML file
+    file: PathBuf,
+    /// Where the page goes [default: report/NAME-simulation.html]
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+    /// Write the run as a table, a line for every step
+    #[arg(long, value_name = "PATH")]
+    csv: Option<PathBuf>,
+    /// Show a run that no second integrator has confirmed
+    #[arg(long)]
+    unproven: bool,
+    /// Print JSON, and write a page only with --html
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Simulate {
+    /// Reads the train, runs it and shows the run.
+    ///
+    /// # Errors
+    /// A file with a fault; a run that is not proven; a result that cannot be written.
+    pub fn execute(&self) -> Result<(), Failure> {
+        for result in [&self.csv, &self.html] {
+            super::onto_itself(&self.file, result.as_deref())?;
+        }
+        let file = read_train(&self.file)?;
+        let simulation = Simulation::of(&file, !self.unproven)?;
+        if let (Some(reason), false) = (&simulation.not_proven, self.unproven) {
+            return Err(Failure::failed(format!("the run is refused: {reason}; `--unproven` shows it all the same")));
+        }
+        let usual = (!self.json).then(|| PathBuf::from(format!("report/{}-simulation.html", file.slug())));
+        let path = self.html.clone().or(usual);
+        if let Some(path) = &path {
+            written(path, &page(&file, &simulation))?;
+        }
+        if let Some(path) = &self.csv {
+            written(path, &simulation.csv())?;
+        }
+        if self.json {
+            return say_json(&simulation);
+        }
+        for (title, _, table) in tables(&simulation) {
+            say(format_args!("{title}\n{table}"));
+        }
+        say(proof(&simulation));
+        for (what, path) in [("table", &self.csv), ("page", &path)] {
+            if let Some(path) = path {
+                say(format_args!("{what}: {}", path.display()));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn written(path: &Path, text: &str) -> Result<(), Failure> {
+    write_page(path, text).map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))
+}
+
+fn proof(simulation: &Simulation) -> String {
+    match (simulation.proof, &simulation.not_proven) {
+        (Some([integrator, tightened]), _) => format!(
+            "proven: a second integrator deviates by {integrator:.1e} of the peaks, ten times closer events by \
+             {tightened:.1e}"
+        ),
+        (None, reason) => format!("not proven: {}", reason.as_deref().unwrap_or("unknown")),
+    }
+}
+
+fn tables(simulation: &Simulation) -> Vec<(String, String, Table)> {
+    let mut forces = Table::new(["link", "least N m", "at s", "greatest N m", "at s", "static N m", "K", "contacts"]);
+    for link in &simulation.links {
+        let numbers = [link.least, link.least_time, link.greatest, link.greatest_time, link.static_force];
+        let factor = link.dynamic_factor.map_or_else(|| "none".to_owned(), significant);
+        let rest = [factor, link.contacts.to_string()];
+        forces.row([link.name.clone()].into_iter().chain(numbers.map(significant)).chain(rest));
+    }
+    let mut speeds = Table::new(["coordinate", "least rad/s", "greatest rad/s", "at the end rad/s"]);
+    for coordinate in &simulation.coordinates {
+        let numbers = [coordinate.least, coordinate.greatest, coordinate.last];
+        speeds.row([coordinate.name.clone()].into_iter().chain(numbers.map(significant)));
+    }
+    let text = "Torques of links between angles; along a line of action or a way, forces in N. The dynamic factor K is \
+                the greatest size over the static force: that of the file, or the mean of the second half of the run. \
+                Extremes are found between the lines of the run, not on them.";
+    let mut all = vec![
+        ("Forces".to_owned(), text.to_owned(), forces),
+        ("Speeds".to_owned(), "Of ways in m/s.".to_owned(), speeds),
+    ];
+    if !simulation.events.is_empty() {
+        let mut events = Table::new(["time s", "what", "where"]);
+        for event in simulation.events.iter().take(EVENTS) {
+            events.row([format!("{:.6}", event.time), event.what.clone(), event.place.clone()]);
+        }
+        let (count, shown) = (simulation.events.len(), simulation.events.len().min(EVENTS));
+        all.push(("Events".to_owned(), format!("The first {shown} of {count}."), events));
+    }
+    all
+}
+
+fn page(file: &TrainFile, simulation: &Simulation) -> String {
+    let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
+    let lines = |names: &[String], rows: &[Vec<f64>]| -> Vec<Line> {
+        let line = |(index, (name, row)): (usize, (&String, &Vec<f64>))| Line {
+            name: name.clone(),
+            class: format!("s{index}"),
+            values: row.clone(),
+        };
+        names.iter().zip(rows).take(DRAWN).enumerate().map(line).collect()
+    };
+    let text = |count: usize| {
+        if count > DRAWN { format!("The first {DRAWN} of {count}.") } else { String::new() }
+    };
+    let mut plots = Vec::new();
+    if !file.links.is_empty() {
+        let forces = lines(&file.links, &simulation.forces);
+        plots.push(("Forces".to_owned(), text(file.links.len()), "torque, N m (force, N)".to_owned(), forces));
+    }
+    let speeds = lines(&file.coordinates, &simulation.speeds);
+    plots.push(("Speeds".to_owned(), text(file.coordinates.len()), "speed, rad/s (m/s)".to_owned(), speeds));
+    let mut facts = vec![
+        fact("length of the run", format!("{} s", significant(simulation.time))),
+        fact("events", simulation.events.len().to_string()),
+        fact("proof", proof(simulation)),
+    ];
+    let factor = |l: &result::Carried| l.dynamic_factor.map(|k| (l.name.clone(), k));
+    if let Some((name, k)) = simulation.links.iter().filter_map(factor).max_by(|a, b| a.1.total_cmp(&b.1)) {
+        facts.push(fact("greatest dynamic factor", format!("{} ({name})", significant(k))));
+    }
+    SimulationPage {
+        name: file.name.clone(),
+        summary:
+            "A run of the machine by the full solver: exact between its events, and done again by a second integrator."
+                .to_owned(),
+        facts,
+        time: simulation.times.clone(),
+        marks: simulation.events.iter().map(|event| event.time).collect(),
+        plots,
+        tables: tables(simulation),
+    }
+    .page()
+}

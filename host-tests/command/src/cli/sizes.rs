@@ -1,0 +1,39 @@
+//! `cargo driveline sizes`: flash and RAM of each board's image, by section.
+
+use clap::Args;
+
+use super::{Failure, Progress, say, say_json};
+use driveline_qemu::image::{Footprint, footprints};
+
+/// Builds an image for each board and shows what it takes of flash and RAM, by section.
+///
+/// The hoist for QEMU's boards, start-up, link and measuring included, and the test rig for the board with a motor, balancing, telemetry and
+/// registers included. The stack is not in it.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  cargo driveline sizes\n  cargo driveline sizes --json")]
+pub struct Sizes {
+    /// Print [{board, core, variant, sections, flash, ram, tick_code}]
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Sizes {
+    /// Builds the images and shows them.
+    ///
+    /// # Errors
+    /// An image that does not build.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let bar = Progress::of(7);
+        let all = footprints(|image| {
+            bar.says(image);
+            bar.step();
+        })
+        .map_err(|error| Failure::failed(error.to_string()))?;
+        drop(bar);
+        if self.json {
+            return say_json(&all);
+        }
+        say(Footprint::table(&all));
+        Ok(())
+    }
+}

@@ -1,0 +1,294 @@
+//! `cargo driveline watch`: a running drive's telemetry, live in the terminal and as CSV.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, Read, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use driveline_firmware::board::BOARDS;
+
+use super::{Failure, say, say_json};
+use crate::machine_file::printable;
+use crate::telemetry::{Decoder, Described, Told};
+use driveline_qemu::image::{Program, belongs, board, build};
+use driveline_qemu::link::Telling;
+use driveline_report::format::significant;
+
+/// Watch a running drive: its telemetry from QEMU, a serial port, a file or standard input.
+///
+/// Shows each channel's last value, least and most while frames come, and how many records the drive dropped. A serial port is set up beforehand,
+/// as by `stty -F /dev/ttyACM0 raw 921600`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline watch --qemu hoist/f32/reduced/10000 --records 20000
+  cargo driveline watch /dev/ttyACM0 --csv run.csv
+  cargo driveline watch - --json < recorded.bin")]
+pub struct Watch {
+    /// A serial port or a file; `-` is standard input
+    #[arg(conflicts_with = "qemu")]
+    source: Option<PathBuf>,
+    /// Run this variant in QEMU over its built-in inputs
+    #[arg(long, value_name = "VARIANT")]
+    qemu: Option<String>,
+    /// The core for QEMU: m4f, m3
+    #[arg(long, default_value = "m4f", requires = "qemu")]
+    core: String,
+    /// Record every tick
+    #[arg(long, value_name = "PATH")]
+    csv: Option<PathBuf>,
+    /// Stop after so many records
+    #[arg(long, value_name = "COUNT")]
+    records: Option<u64>,
+    /// Print {records, dropped, damaged, unknown, channels: [...]} at the end, and nothing before
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How often the picture is drawn, and what was recorded is put into the file: a stop by Ctrl-C loses no more.
+const DRAWN: Duration = Duration::from_millis(100);
+
+/// Records that wait for the channels' descriptions: four of their periods in our firmware.
+const PATIENCE: usize = 4096;
+
+/// Longest name or unit of a channel that is shown, in characters; a frame holds some 240.
+const LONGEST: usize = 40;
+
+/// A channel and its course.
+#[derive(Debug, serde::Serialize)]
+struct Course {
+    #[serde(flatten)]
+    channel: Described,
+    last: f64,
+    least: f64,
+    most: f64,
+}
+
+/// All that has been seen.
+#[derive(Debug, Default, serde::Serialize)]
+struct Seen {
+    records: u64,
+    dropped: u32,
+    damaged: u64,
+    unknown: u64,
+    channels: Vec<Course>,
+}
+
+impl Seen {
+    fn add(&mut self, decoder: &Decoder, told: &Told) {
+        self.records += 1;
+        self.dropped = told.dropped;
+        for (index, &word) in told.words.iter().enumerate() {
+            let channel = decoder.channel(index);
+            let value = channel.value(word);
+            match self.channels.get_mut(index) {
+                // one that was not described when it was first seen begins anew
+                Some(course) if course.channel == channel => {
+                    course.last = value;
+                    course.least = course.least.min(value);
+                    course.most = course.most.max(value);
+                }
+                Some(course) => *course = Course { channel, last: value, least: value, most: value },
+                None => self.channels.push(Course { channel, last: value, least: value, most: value }),
+            }
+        }
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let head = format!("  {:<16} {:<6} {:>12} {:>12} {:>12}", "channel", "unit", "now", "least", "most");
+        let row = |course: &Course| {
+            let [last, least, most] = [course.last, course.least, course.most].map(significant);
+            let [name, unit] = [&course.channel.name, &course.channel.unit].map(|text| printable(text, LONGEST));
+            format!("  {name:<16} {unit:<6} {last:>12} {least:>12} {most:>12}")
+        };
+        let Seen { records, dropped, damaged, unknown, .. } = self;
+        let mut foot = format!("{records} records, {dropped} dropped by the drive, {damaged} frames damaged");
+        if *unknown > 0 {
+            foot.push_str(&format!(", {unknown} of a kind that is not known: a later firmware's"));
+        }
+        [head].into_iter().chain(self.channels.iter().map(row)).chain([foot]).collect()
+    }
+}
+
+impl Watch {
+    /// Watches until the source ends.
+    ///
+    /// # Errors
+    /// A source that cannot be opened or read, a variant that is not there, a file that cannot be written.
+    pub fn execute(&self) -> Result<(), Failure> {
+        if let Some(source) = &self.source {
+            super::onto_itself(source, self.csv.as_deref())?;
+        }
+        let mut source = self.open()?;
+        let mut csv = self.csv.as_deref().map(Csv::open).transpose()?;
+        let mut seen = Seen::default();
+        let mut decoder = Decoder::default();
+        let (mut drawn, mut lines) = (Instant::now(), 0);
+        let live = io::stderr().is_terminal() && !self.json;
+        let mut bytes = vec![0; 65_536];
+        let broken = loop {
+            // a source that breaks off has ended, too: what it gave is kept, and then it is said
+            let (length, broken) = match source.read(&mut bytes) {
+                Ok(length) => (length, None),
+                Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+                Err(error) => (0, Some(error)),
+            };
+            decoder.take(&bytes[..length], |decoder, told| {
+                if self.records.is_none_or(|most| seen.records < most) {
+                    seen.add(decoder, &told);
+                    if let Some(csv) = &mut csv {
+                        csv.waiting.push(told);
+                    }
+                }
+            });
+            (seen.damaged, seen.unknown) = (decoder.damaged, decoder.unknown);
+            let ended = length == 0 || self.records.is_some_and(|most| seen.records >= most);
+            let due = ended || drawn.elapsed() >= DRAWN;
+            if let Some(csv) = &mut csv {
+                csv.write(&decoder, ended, due)?;
+            }
+            if due {
+                if live {
+                    lines = draw(&seen.lines(), lines);
+                }
+                drawn = Instant::now();
+            }
+            if ended {
+                break broken;
+            }
+        };
+        let name = self.source.as_deref().map_or("QEMU".into(), |path| path.display().to_string());
+        if let Some(error) = broken {
+            let kept = if seen.records > 0 { format!(", after {} records", seen.records) } else { String::new() };
+            return Err(Failure::failed(format!("{name}: {error}{kept}")));
+        }
+        if seen.records == 0 && self.records != Some(0) {
+            return Err(Failure::failed(nothing(&name, &decoder)));
+        }
+        if self.json {
+            say_json(&seen)
+        } else {
+            if !live {
+                seen.lines().iter().for_each(say);
+            }
+            Ok(())
+        }
+    }
+
+    fn open(&self) -> Result<Box<dyn Read>, Failure> {
+        if let Some(variant) = &self.qemu {
+            if !driveline_firmware::selected::VARIANTS.contains(&variant.as_str()) {
+                let names = driveline_firmware::selected::VARIANTS.join(", ");
+                return Err(Failure::usage(format!("no variant is called `{variant}`; there are {names}")));
+            }
+            let board = board(&self.core).filter(|board| belongs(variant, board));
+            let board = board.ok_or_else(|| {
+                let cores = BOARDS.iter().filter(|board| belongs(variant, board)).map(|board| board.core);
+                let cores = cores.collect::<Vec<_>>().join(", ");
+                Failure::usage(format!("{variant} does not run on `{}`, but on {cores}", self.core))
+            })?;
+            let image = build(variant, board, Program::Told, |line| eprintln!("{line}"));
+            let image = image.map_err(|error| Failure::failed(error.to_string()))?;
+            return Ok(Box::new(Telling::start(&image).map_err(|error| Failure::failed(error.to_string()))?));
+        }
+        match self.source.as_deref() {
+            None => {
+                Err(Failure::usage("there is nothing to watch: name a serial port, a file, `-` or `--qemu VARIANT`"))
+            }
+            Some(path) if path.as_os_str() == "-" => Ok(Box::new(io::stdin().lock())),
+            Some(path) => {
+                let file = File::open(path).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))?;
+                Ok(Box::new(file))
+            }
+        }
+    }
+}
+
+/// Why there is nothing to show.
+fn nothing(name: &str, decoder: &Decoder) -> String {
+    let Decoder { bytes, damaged, unknown, .. } = decoder;
+    let why = match (bytes, unknown) {
+        (0, _) => "it gave not a byte".into(),
+        _ if decoder.describes(1) => "its channels described themselves, and none was recorded".into(),
+        (_, 0) => format!("{bytes} bytes came, and {damaged} damaged frames: no telemetry, or the wrong baud rate"),
+        _ => format!("{unknown} frames came of a kind that is not known: the firmware is later than this program"),
+    };
+    format!("{name}: no record; {why}")
+}
+
+/// Records on their way into a file.
+struct Csv<'a> {
+    path: &'a Path,
+    file: BufWriter<File>,
+    /// What comes before the channels have described themselves waits for its column's names.
+    waiting: Vec<Told>,
+    /// Values of a line, once there is one.
+    columns: Option<usize>,
+}
+
+impl<'a> Csv<'a> {
+    /// Opens the file, and leaves in it what is there until there is a record.
+    fn open(path: &'a Path) -> Result<Self, Failure> {
+        let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
+        let file = file.map_err(|error| Failure::failed(format!("{}: {error}", path.display())))?;
+        Ok(Csv { path, file: BufWriter::new(file), waiting: Vec::new(), columns: None })
+    }
+
+    /// Writes what has its columns' names, or all of it where no more comes.
+    fn write(&mut self, decoder: &Decoder, ended: bool, flush: bool) -> Result<(), Failure> {
+        self.put(decoder, ended, flush).map_err(|error| Failure::failed(format!("{}: {error}", self.path.display())))
+    }
+
+    fn put(&mut self, decoder: &Decoder, ended: bool, flush: bool) -> io::Result<()> {
+        let described = self.waiting.first().is_some_and(|told| decoder.describes(told.words.len()));
+        if described || ended || self.waiting.len() >= PATIENCE {
+            for told in self.waiting.drain(..) {
+                if self.columns.is_none() && self.file.get_ref().metadata()?.is_file() {
+                    self.file.get_ref().set_len(0)?;
+                }
+                // a drive that tells something else from now on gets a head of its own
+                if self.columns != Some(told.words.len()) {
+                    self.columns = Some(told.words.len());
+                    writeln!(self.file, "{}", header(decoder, &told))?;
+                }
+                writeln!(self.file, "{}", line(decoder, &told))?;
+            }
+        }
+        if flush { self.file.flush() } else { Ok(()) }
+    }
+}
+
+/// The first line of the CSV: `tick,dropped,torque [N m],...`. What a drive says of itself may hold anything.
+fn header(decoder: &Decoder, told: &Told) -> String {
+    let mut text = String::from("tick,dropped");
+    for index in 0..told.words.len() {
+        let Described { name, unit, .. } = decoder.channel(index);
+        let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
+        text.push(',');
+        text.push_str(&field(&printable(&format!("{name}{unit}"), usize::MAX)));
+    }
+    text
+}
+
+/// A field of a CSV, in quotes where it has to be [RFC 4180].
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+fn line(decoder: &Decoder, told: &Told) -> String {
+    let mut text = format!("{},{}", told.tick, told.dropped);
+    for (index, &word) in told.words.iter().enumerate() {
+        text.push_str(&format!(",{}", decoder.channel(index).value(word)));
+    }
+    text
+}
+
+/// Draws over the lines of the last picture; gives how many there are now.
+fn draw(lines: &[String], last: usize) -> usize {
+    let mut text = if last > 0 { format!("\x1b[{last}A") } else { String::new() };
+    for line in lines {
+        text.push_str(&format!("\x1b[2K{line}\n"));
+    }
+    eprint!("{text}");
+    lines.len()
+}

@@ -1,0 +1,5 @@
+//! A drive in closed loop with the full solver of its machine: what ticks, what its sensors read, its units.
+
+pub mod candidates;
+pub mod sensors;
+pub mod units;

@@ -1,0 +1,88 @@
+//! The blooming mill's full plant and its runs.
+//!
+//! Three inertias: motor, pinion stand, rolls; the gap in the spindles. Set up here once more from the same figures as
+//! the scene, since direct drive refers nothing.
+
+use driveline_firmware::scenes::blooming_mill as scene;
+
+use super::plant::Body;
+use super::scenario::{Action, Machine, Scenario};
+use crate::closed_loop::sensors::Encoder;
+use driveline_solver::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
+
+/// The rolls and the spindles.
+const LOAD: usize = 2;
+const SPINDLES: usize = 1;
+
+/// Friction of the roll bearings and the pinion stand [N m]: 5 % of rated torque.
+const FRICTION: f64 = 0.05 * scene::RATED_TORQUE;
+
+/// Rolling torque of a middle pass [N m].
+pub const ROLLING: f64 = 0.55 * scene::RATED_TORQUE;
+
+fn spindle_torque(plant: &Body) -> f64 {
+    plant.shaft_torque(SPINDLES)
+}
+
+/// The chain with a rolling torque over time.
+fn chain(program: LoadProgram) -> Result<Plant, PlantError> {
+    Chain::motor(1.1e5)
+        .shaft(Shaft::elastic(1.2e9).damping(3.0e5), 1.0e4)
+        .shaft(Shaft::elastic(2.2e8).damping(1.0e5).gap(0.010), 2.2e4)
+        .coulomb(FRICTION)
+        .program(program)
+        .start(Start::Rest)
+        .build()
+}
+
+/// The mill and its run: two passes with reversals as fast as the motor can.
+///
+/// An ingot fills the bite within 60 ms (0.1 m of contact at 1.6 m/s) and leaves it within 60 ms.
+///
+/// # Errors
+/// A figure of the plant that is out of range, which only a changed scene can bring.
+pub fn machine() -> Result<Machine, PlantError> {
+    let slow = 0.5 * scene::RATED_SPEED;
+    let passes = Scenario {
+        name: "two passes with a reversal between",
+        plant: chain(LoadProgram::table(&[
+            (1.2, 0.0),
+            (1.26, ROLLING),
+            (2.2, ROLLING),
+            (2.26, 0.0),
+            (3.6, 0.0),
+            (3.66, -ROLLING),
+            (4.6, -ROLLING),
+            (4.66, 0.0),
+        ]))?
+        .into(),
+        held: 0.0,
+        actions: vec![
+            (0.1, Action::Release),
+            (0.1, Action::Reference(slow)),
+            (2.5, Action::Reference(-slow)),
+            (4.9, Action::Reference(slow)),
+        ],
+        duration: 6.0,
+        counted: true,
+        marks: vec![(1.2, "bite"), (2.2, "out"), (2.5, "reversal"), (3.6, "bite"), (4.6, "out"), (4.9, "reversal")],
+        law: None,
+    };
+    Ok(Machine {
+        name: "blooming-mill",
+        summary: "A reversing blooming mill with a gap in its spindles: two passes, and reversals as fast as the motor can.",
+        facts: Vec::new(),
+        notes: vec!["The shaft torque is that of the spindles."],
+        chosen: ("slack", 10_000),
+        scenarios: vec![passes],
+        encoder: Encoder::new(32_768),
+        torque_noise: 0.01 * scene::RATED_TORQUE,
+        load: LOAD,
+        shaft_torque: spindle_torque,
+        load_torque: |plant| plant.load_torque(LOAD),
+        told_brake: None,
+        told_friction: 0.0,
+        rated_speed: scene::RATED_SPEED,
+        bases: scene::BASES,
+    })
+}

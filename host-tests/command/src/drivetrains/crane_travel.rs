@@ -1,0 +1,97 @@
+//! The crane's full plant: motors and bridge as one mass, the load on a spring of `m g/l`, travelling resistance and wind.
+
+use driveline_firmware::scenes::crane_travel as scene;
+
+use super::facts;
+use super::plant::Body;
+use super::scenario::{Action, Machine, Scenario};
+use crate::closed_loop::sensors::Encoder;
+use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
+
+/// Gravity [m/s2], the standard value of ISO 80000-3.
+const GRAVITY: f64 = 9.80665;
+
+/// Travel per angle of the motors [m/rad].
+const TRAVEL: f64 = 0.5 / (2.0 * 30.0);
+
+const LOAD: f64 = 15_000.0;
+const BRIDGE: f64 = 25_000.0;
+
+/// What the load's swing pushes with, at the motors [N m/rad].
+const PENDULUM: f64 = LOAD * GRAVITY / 10.0 * TRAVEL * TRAVEL;
+
+/// Travelling resistance at the motors [N m], 6 per mille of the weight.
+const RESISTANCE: f64 = 0.006 * (LOAD + BRIDGE) * GRAVITY * TRAVEL;
+
+/// What of it the drive knows: commissioning has found it to within a tenth.
+const TOLD: f64 = 0.9 * RESISTANCE;
+
+/// Wind on the load at the motors [N m]: 300 N.
+const WIND: f64 = 300.0 * TRAVEL;
+
+/// What of the travelling resistance the drive does not know [N m].
+fn unknown(plant: &Body) -> f64 {
+    match plant.motor_speed() {
+        // At rest it is told to take what the motor gives.
+        0.0 => plant.load_torque(0) - plant.load_torque(0).clamp(-TOLD, TOLD),
+        speed => plant.load_torque(0) - TOLD * speed.signum(),
+    }
+}
+
+/// What passes from the motors' inertia and the bridge's to the outside: the push of the load's swing, and the resistance that is not known.
+fn push(plant: &Body) -> f64 {
+    PENDULUM * plant.twist(0) + unknown(plant)
+}
+
+fn resistance(plant: &Body) -> f64 {
+    unknown(plant) + plant.load_torque(1)
+}
+
+/// The crane and its run.
+///
+/// # Errors
+/// A figure of the plant that is out of range, which only a changed scene can bring.
+pub fn machine() -> Result<Machine, PlantError> {
+    let square = TRAVEL * TRAVEL;
+    let plant = Chain::motor(0.2 + BRIDGE * square)
+        .coulomb(RESISTANCE)
+        .shaft(Shaft::elastic(PENDULUM), LOAD * square)
+        .program(LoadProgram::table(&[(16.0, 0.0), (18.0, WIND), (24.0, WIND), (26.0, 0.0)]))
+        .build()?;
+    let torque_noise = 0.01 * scene::RATED_TORQUE;
+    Ok(Machine {
+        name: "crane-travel",
+        summary: "A bridge crane of 16 t travels with its load swinging.",
+        facts: facts::of_design(&scene::OBSERVER, scene::COUNTS, torque_noise),
+        notes: vec![
+            "The drive is told nine tenths of the travelling resistance, as commissioning finds it. The tenth that it does not know counts to \
+             the shaft torque, which is else the push of the swinging load, and to the load torque, which is else the wind: from the motor's side \
+             resistance in front of the swing and behind it look alike.",
+            "The load is a mass on a spring of m g/l, as for small angles.",
+        ],
+        chosen: ("semi-implicit", scene::RATE_HZ),
+        scenarios: vec![Scenario {
+            name: "travel, a gust, slower",
+            plant: plant.into(),
+            held: 0.0,
+            actions: vec![
+                (0.1, Action::Release),
+                (0.1, Action::Reference(scene::RATED_SPEED)),
+                (28.0, Action::Reference(0.4 * scene::RATED_SPEED)),
+            ],
+            duration: 40.0,
+            counted: true,
+            marks: vec![(0.1, "travel"), (16.0, "gust"), (28.0, "slower")],
+            law: None,
+        }],
+        encoder: Encoder::new(scene::COUNTS),
+        torque_noise,
+        load: 1,
+        shaft_torque: push,
+        load_torque: resistance,
+        told_brake: None,
+        told_friction: TOLD,
+        rated_speed: scene::RATED_SPEED,
+        bases: scene::BASES,
+    })
+}

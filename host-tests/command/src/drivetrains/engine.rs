@@ -1,0 +1,142 @@
+//! Builds the variants, runs them in QEMU against the plant, and puts together what there is to report.
+
+use std::error::Error;
+
+use driveline_firmware::Visitor;
+use driveline_firmware::board::Facts;
+use driveline_firmware::scene::{Output, Scene};
+use driveline_firmware::selected::visit;
+
+use super::figures::{deviations, peaks};
+use super::lockstep;
+use super::lockstep::{OnHost, Ticks, Trace};
+use super::scenario::Machine;
+use crate::closed_loop::candidates::Candidate;
+use crate::closed_loop::units::Units;
+use driveline_qemu::image::{Contents, Program, build, cycles};
+use driveline_qemu::link::Link;
+use driveline_qemu::measure::Spread;
+use driveline_report::{Instructions, Mark, Signal, Trajectory, Variant};
+
+/// A variant that has run.
+pub struct Ran {
+    /// What it is called and what it costs.
+    pub variant: Variant,
+    /// One trace a scenario.
+    pub traces: Vec<Trace>,
+    /// Bytes of code that a tick reaches.
+    pub tick_code: u64,
+}
+
+/// What a run is for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// The first scenario's first seconds only, and no proof.
+    pub quick: bool,
+}
+
+/// How long a quick run is [s].
+const QUICK: f64 = 2.0;
+
+/// Flash and RAM of the image that holds no drive, on a board.
+///
+/// # Errors
+/// What the build or the image says.
+pub fn empty(board: Facts) -> Result<(u64, u64), Box<dyn Error>> {
+    let image = build("empty/f32/none/10000", board, Program::ControlLoop, |_| {})?;
+    let sizes = Contents::read(&image.path)?.sizes;
+    Ok((sizes.flash(), sizes.ram()))
+}
+
+/// Runs a variant through every scenario of its machine: in QEMU, then on the host over the same inputs.
+///
+/// # Errors
+/// A build, link or proof that failed, with the variant's name.
+pub fn run(
+    machine: &Machine,
+    candidate: &Candidate,
+    base: (u64, u64),
+    options: Options,
+    says: &dyn Fn(&str),
+) -> Result<Ran, Box<dyn Error>> {
+    let name = candidate.key();
+    says(&format!("{name}: building"));
+    let image = build(candidate.variant, candidate.board, Program::ControlLoop, |_| {})?;
+    let units = Units::new(candidate.words(), machine.bases);
+    let (mut traces, mut stack, mut bit_exact) = (Vec::new(), 0, true);
+    for scenario in &machine.scenarios {
+        let mut scenario = scenario.clone();
+        if options.quick {
+            scenario.duration = scenario.duration.min(QUICK);
+        }
+        says(&format!("{name}: {} in QEMU", scenario.name));
+        let mut link = Link::start(&image)?;
+        let trace = lockstep::run(machine, &scenario, &units, candidate.rate_hz(), &mut link, |_| {})?;
+        stack = stack.max(link.finish()?.stack);
+        bit_exact &= visit(candidate.variant, Replay(&trace)).unwrap_or(false);
+        if !options.quick {
+            says(&format!("{name}: proving the solver's run"));
+            trace.recording.prove().map_err(|error| format!("{name}, {}: {error}", scenario.name))?;
+        }
+        traces.push(trace);
+        if options.quick {
+            break;
+        }
+    }
+    let contents = Contents::read(&image.path)?;
+    let counted = || traces.iter().zip(&machine.scenarios).filter(|(_, scenario)| scenario.counted).map(|(t, _)| t);
+    let [torque_peak, _, load_peak] = peaks(counted());
+    let [shaft_torque, load_speed, load_torque] = deviations(counted(), [torque_peak, machine.rated_speed, load_peak]);
+    let moments = || traces.iter().flat_map(|trace| &trace.moments);
+    let spread = Spread::of(moments().map(|moment| moment.instructions).collect());
+    let variant = Variant {
+        number: candidate.part(1).into(),
+        core: candidate.board.core.into(),
+        observer: candidate.part(2).into(),
+        rate_hz: candidate.rate_hz(),
+        shaft_torque,
+        load_speed,
+        load_torque,
+        instructions: Instructions { min: spread.min.into(), median: spread.median.into(), max: spread.max.into() },
+        cycles_estimate: cycles::estimate(&image, spread.median)?,
+        flash_bytes: contents.sizes.flash().saturating_sub(base.0),
+        ram_bytes: contents.sizes.ram().saturating_sub(base.1),
+        stack_bytes: stack.into(),
+        bit_exact,
+        ticks: moments().count() as u64,
+    };
+    Ok(Ran { variant, traces, tick_code: contents.tick_code })
+}
+
+/// Runs the variant's scene on the host over a trace's inputs; whether every output has the same bits.
+struct Replay<'t>(&'t Trace);
+
+impl Visitor for Replay<'_> {
+    type Outcome = bool;
+
+    fn visit<S: Scene>(self) -> bool {
+        let mut host = OnHost(S::new());
+        self.0.words.iter().all(|(input, output)| {
+            let target = Output { instructions: 0, ..*output };
+            host.tick(input).is_ok_and(|output| output == target)
+        })
+    }
+}
+
+/// Traces as the page draws them.
+pub fn trajectories(machine: &Machine, ran: &Ran) -> Vec<Trajectory> {
+    let signal = |trace: &Trace, k: usize| Signal {
+        truth: trace.moments.iter().map(|moment| moment.truth[k]).collect(),
+        estimate: trace.moments.iter().map(|moment| moment.estimate[k]).collect(),
+    };
+    let one = |(trace, scenario): (&Trace, &super::scenario::Scenario)| Trajectory {
+        variant: ran.variant.label(),
+        situation: scenario.name.into(),
+        time: trace.moments.iter().map(|moment| moment.time).collect(),
+        shaft_torque: signal(trace, 0),
+        load_speed: signal(trace, 1),
+        load_torque: signal(trace, 2),
+        marks: scenario.marks.iter().map(|(time, label)| Mark { time: *time, label: (*label).into() }).collect(),
+    };
+    ran.traces.iter().zip(&machine.scenarios).map(one).collect()
+}

@@ -1,0 +1,159 @@
+//! The plant and a drive in lock-step.
+
+use std::io;
+
+use driveline_firmware::scene::{Input, Output, Scene};
+
+use super::plant::Body;
+use super::scenario::{Action, Machine, Scenario};
+use crate::closed_loop::units::Units;
+use driveline_qemu::link::Link;
+use driveline_solver::noise::Noise;
+
+/// Something that ticks: a scene on the host, or an image in QEMU.
+pub trait Ticks {
+    /// One tick.
+    ///
+    /// # Errors
+    /// What the link says; never on the host.
+    fn tick(&mut self, input: &Input) -> io::Result<Output>;
+}
+
+/// A scene on the host.
+pub struct OnHost<S>(pub S);
+
+impl<S: Scene> Ticks for OnHost<S> {
+    fn tick(&mut self, input: &Input) -> io::Result<Output> {
+        Ok(self.0.exchange(input))
+    }
+}
+
+impl Ticks for Link {
+    fn tick(&mut self, input: &Input) -> io::Result<Output> {
+        self.exchange(input)
+    }
+}
+
+/// What was true, what was estimated, and what was exchanged, at one tick.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Moment {
+    /// Time [s].
+    pub time: f64,
+    /// Torque commanded [N m].
+    pub torque: f64,
+    /// Speed of the motor [rad/s].
+    pub motor_speed: f64,
+    /// Shaft torque, load speed, load torque as the plant has them [N m, rad/s, N m].
+    pub truth: [f64; 3],
+    /// The same as the drive estimates them.
+    pub estimate: [f64; 3],
+    /// Angular momentum of the whole machine about the motor's shaft [N m s]; NaN where a crank changes an inertia.
+    pub momentum: f64,
+    /// A gap is open or a rope slack.
+    pub open: bool,
+    /// Fault flags.
+    pub faults: u32,
+    /// Instructions of the tick; zero on the host.
+    pub instructions: u32,
+}
+
+impl Moment {
+    /// Estimate less truth.
+    pub fn error(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.estimate[k] - self.truth[k])
+    }
+}
+
+/// What a run left behind.
+pub struct Trace {
+    /// Every tick.
+    pub moments: Vec<Moment>,
+    /// What was sent and what came back.
+    pub words: Vec<(Input, Output)>,
+    /// The plant with everything that was done to it, ready to be proven.
+    pub recording: Body,
+}
+
+/// Runs a scenario to its end with a drive that ticks `rate_hz` times a second.
+///
+/// # Errors
+/// What the drive's link says.
+pub fn run(
+    machine: &Machine,
+    scenario: &Scenario,
+    units: &Units,
+    rate_hz: u32,
+    drive: &mut impl Ticks,
+    mut progress: impl FnMut(u64),
+) -> io::Result<Trace> {
+    let period = 1.0 / f64::from(rate_hz);
+    let ticks = (scenario.duration * f64::from(rate_hz)).round() as usize;
+    let node = machine.load;
+    let mut recording = scenario.plant.clone();
+    let mut noise = Noise::new(1);
+    let mut actions = scenario.actions.iter().peekable();
+    let (mut reference, mut released, mut applied) = (0.0, false, 0.0_f64);
+    let (mut tripped, mut brake) = (false, 0.0);
+    let mut moments = Vec::with_capacity(ticks);
+    let mut words = Vec::with_capacity(ticks);
+    for tick in 0..ticks {
+        let time = tick as f64 * period;
+        // An action belongs to the tick that it falls on: half a period of slack against rounding.
+        while let Some((_, action)) = actions.next_if(|(at, _)| *at < time + 0.5 * period) {
+            match *action {
+                Action::Reference(speed) => reference = speed,
+                Action::Release => released = true,
+                Action::Load(node, torque) => recording.set_load_torque(node, torque),
+                Action::Brake(node, torque) => {
+                    recording.set_brake(node, torque);
+                    if machine.told_brake == Some(node) {
+                        brake = torque;
+                    }
+                }
+                Action::Trip => tripped = true,
+            }
+        }
+        if let Some(law) = scenario.law {
+            let torque = (law.torque)(&recording);
+            recording.set_load_torque(law.node, torque);
+        }
+        let plant = &recording;
+        // What the drive is told of a brake and of friction in the tick that has ended. At rest friction takes what the motor gives; of what a
+        // closed brake then takes nobody knows.
+        let (friction, brake) = if released { (machine.told_friction, brake) } else { (0.0, 0.0) };
+        let slipping = match plant.motor_speed() {
+            0.0 => -applied.clamp(-friction, friction),
+            speed => -(friction + brake) * speed.signum(),
+        };
+        let input = Input {
+            angle: machine.encoder.read(plant.motor_angle() - scenario.plant.motor_angle()),
+            torque: units.torque_word(applied + slipping + machine.torque_noise * noise.normal()),
+            reference: if released { units.speed_word(reference) } else { units.torque_word(scenario.held) },
+            flags: if released { Input::RELEASED } else { 0 },
+            ..Input::default()
+        };
+        let output = drive.tick(&input)?;
+        applied = if tripped { 0.0 } else { units.torque(output.torque) };
+        moments.push(Moment {
+            time,
+            torque: applied,
+            motor_speed: plant.motor_speed(),
+            truth: [(machine.shaft_torque)(plant), plant.speed(node), (machine.load_torque)(plant)],
+            estimate: [
+                units.torque(output.shaft_torque),
+                units.speed(output.load_speed),
+                units.torque(output.load_torque),
+            ],
+            momentum: plant.momentum(),
+            open: plant.is_open(),
+            faults: output.faults,
+            instructions: output.instructions,
+        });
+        words.push((input, output));
+        recording.advance(applied, period);
+        if tick % 1024 == 0 {
+            progress(tick as u64);
+        }
+    }
+    Ok(Trace { moments, words, recording })
+}

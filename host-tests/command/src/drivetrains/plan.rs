@@ -1,0 +1,141 @@
+//! A scene's report, put together from its runs.
+
+use std::error::Error;
+
+use driveline_firmware::board::Facts;
+
+use super::engine::{self, Options, Ran};
+use super::scenario::Machine;
+use super::{SCENES, facts, other_steps};
+use crate::closed_loop::candidates::{Candidate, candidates};
+use crate::sweep;
+use driveline_qemu::image::{compositions, workspace};
+use driveline_qemu::measure::budgets::Budgets;
+use driveline_report::{Budget, Report};
+
+/// A run that is ready to start.
+pub struct Plan {
+    machine: Machine,
+    candidates: Vec<Candidate>,
+    options: Options,
+    /// Whether the sweep and the sizes belong to it: a run of all variants of the first scene.
+    whole: bool,
+}
+
+impl Plan {
+    /// The run of a scene, of the variants whose number/core/observer/rate contains `filter`.
+    ///
+    /// # Errors
+    /// A sentence: no such scene, or no such variant.
+    pub fn of(scene: &str, filter: Option<&str>, quick: bool) -> Result<Self, String> {
+        let Some((_, machine)) = SCENES.iter().find(|(name, _)| *name == scene) else {
+            let balanced = crate::balancing::scenes().map(|scene| scene.name);
+            let names = SCENES.iter().map(|(name, _)| *name).chain(balanced).map(|name| format!("`{name}`"));
+            return Err(format!("there is no scene `{scene}`; there are {}", names.collect::<Vec<_>>().join(", ")));
+        };
+        let machine = machine().map_err(|error| format!("the plant of scene `{scene}`: {error}"))?;
+        let candidates = candidates(scene, filter);
+        if let (true, Some(filter)) = (candidates.is_empty(), filter) {
+            let all = keys(scene);
+            return Err(format!("no variant of `{scene}` contains `{filter}`; there are {all}"));
+        }
+        Ok(Plan { machine, candidates, options: Options { quick }, whole: filter.is_none() && scene == SCENES[0].0 })
+    }
+
+    /// Steps of the run, for its progress.
+    pub fn steps(&self) -> u64 {
+        self.candidates.len() as u64 + if self.whole { 2 } else { 0 }
+    }
+
+    /// Runs it. `says` names what is under way, `step` counts.
+    ///
+    /// # Errors
+    /// What kept a variant from being built, run or proven, with its name.
+    pub fn run(&self, says: &dyn Fn(&str), step: &dyn Fn()) -> Result<Report, Box<dyn Error>> {
+        let mut report = Report {
+            scene: self.machine.name.into(),
+            summary: self.machine.summary.into(),
+            facts: self.machine.facts.clone(),
+            notes: facts::notes(&self.machine, self.options.quick),
+            ..Report::default()
+        };
+        let mut bases: Vec<(Facts, (u64, u64))> = Vec::new();
+        for candidate in &self.candidates {
+            let known = bases.iter().find(|(board, _)| board.core == candidate.board.core);
+            let base = match known {
+                Some(&(_, base)) => base,
+                None => {
+                    let base = engine::empty(candidate.board)?;
+                    bases.push((candidate.board, base));
+                    base
+                }
+            };
+            let ran = engine::run(&self.machine, candidate, base, self.options, says)?;
+            self.add(&mut report, candidate, &ran)?;
+            step();
+        }
+        self.budgets(&mut report)?;
+        // The sweep and the compositions are not the scene's own; they stand with the first one.
+        if self.whole {
+            says("flash and RAM of what a drive is composed of");
+            report.compositions = compositions(|text| says(text))?;
+            step();
+            says("stiff and extreme machines");
+            report.sweeps = sweep::run(self.options.quick, |done, all| {
+                says(&format!("stiff and extreme machines, {done} of {all}"))
+            });
+            step();
+        }
+        Ok(report)
+    }
+
+    /// A variant's figures, its courses where they are worth a plot, and the other steps on its inputs.
+    fn add(&self, report: &mut Report, candidate: &Candidate, ran: &Ran) -> Result<(), Box<dyn Error>> {
+        report.variants.push(ran.variant.clone());
+        let (chosen, rate_hz) = self.machine.chosen;
+        if candidate.rate_hz() == rate_hz && candidate.part(2) != "cut" {
+            let courses = engine::trajectories(&self.machine, ran);
+            // The first is shown first: the design's choice.
+            let at =
+                if candidate.part(2) == chosen && candidate.part(1) == "f32" { 0 } else { report.trajectories.len() };
+            report.trajectories.splice(at..at, courses);
+        }
+        if candidate.part(0) == "hoist" && candidate.part(1) == "f32" && candidate.part(2) == chosen {
+            report.comparisons.extend(other_steps::of_hoist(&self.machine, candidate.rate_hz(), ran)?);
+        }
+        if candidate.part(2) == chosen && candidate.rate_hz() == rate_hz {
+            report.facts.extend(facts::of_sudden(&self.machine, &ran.variant, &ran.traces));
+        }
+        Ok(())
+    }
+
+    /// What `budgets.toml` allows beside what was measured in closed loop.
+    fn budgets(&self, report: &mut Report) -> Result<(), Box<dyn Error>> {
+        let budgets = Budgets::read(&workspace().join("budgets.toml"))?;
+        for (candidate, variant) in self.candidates.iter().zip(&report.variants) {
+            let Some(budget) = budgets.of(candidate.variant, candidate.board.core) else { continue };
+            let figures = [
+                ("instructions at most", variant.instructions.max, budget.instructions.max),
+                ("stack", variant.stack_bytes, budget.stack),
+            ];
+            for (name, measured, limit) in figures {
+                if let Some(limit) = limit {
+                    let unit = if name == "stack" { "byte" } else { "" };
+                    report.budgets.push(Budget {
+                        name: format!("{name}, {}", variant.label()),
+                        unit: unit.into(),
+                        measured: measured as f64,
+                        limit: limit as f64,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The keys of a scene's variants, for a message.
+fn keys(scene: &str) -> String {
+    let keys: Vec<String> = candidates(scene, None).iter().map(Candidate::key).collect();
+    keys.join(", ")
+}

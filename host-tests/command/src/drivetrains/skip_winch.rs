@@ -1,0 +1,146 @@
+//! The skip winch's full plant: motor and disc, drum, skip on a rope that can go slack, and the brake that closes while it turns.
+
+use driveline_firmware::scenes::skip_winch as scene;
+
+use super::facts;
+use super::plant::Body;
+use super::scenario::{Action, Machine, Scenario};
+use crate::closed_loop::sensors::Encoder;
+use driveline_solver::plant::{Chain, PlantError, Shaft, Start};
+
+/// Gravity [m/s2], the standard value of ISO 80000-3.
+const GRAVITY: f64 = 9.80665;
+
+/// Travel per angle of the motor [m/rad].
+const TRAVEL: f64 = 2.0 / (2.0 * 15.0);
+
+const SKIP: f64 = 5_000.0;
+const WEIGHT: f64 = SKIP * GRAVITY * TRAVEL;
+const MOTOR_SHAFT: f64 = 6.0e5;
+const ROPE: f64 = 3.9e5 * TRAVEL * TRAVEL;
+const ROPE_DAMPING: f64 = 1.3e3 * TRAVEL * TRAVEL;
+
+/// When the emergency brake is called for, and how long it takes to close [s].
+const EMERGENCY: f64 = 9.0;
+const CLOSING: f64 = 0.3;
+
+/// When the brake opens, when a stop is called for while hoisting, and how much later than that the brake is called for once the drive has stopped the
+/// winch \[s\].
+const RELEASE: f64 = 0.2;
+const STOPPING: f64 = 6.0;
+const STOPPED: f64 = 1.8;
+
+/// The rope's pull at the motor [N m], without the gear's loss.
+fn rope(plant: &Body) -> f64 {
+    let twist = plant.twist(1);
+    let rate = plant.speed(1) - plant.speed(2);
+    if twist > 0.0 { (ROPE * twist + ROPE_DAMPING * rate).max(0.0) } else { 0.0 }
+}
+
+/// An emergency while hoisting: the set point goes to zero at once, and the brake is called for `later` \[s\].
+fn emergency_stop(name: &'static str, plant: Body, later: f64) -> Scenario {
+    let mut actions =
+        vec![(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
+    // The set point comes up within four seconds.
+    actions.extend(
+        (1..=80).map(|j| (RELEASE + 0.05 * f64::from(j), Action::Reference(scene::RATED_SPEED * f64::from(j) / 80.0))),
+    );
+    actions.push((STOPPING, Action::Reference(0.0)));
+    actions.extend(closing(STOPPING + later));
+    Scenario {
+        name,
+        plant,
+        held: WEIGHT,
+        actions,
+        duration: STOPPING + 3.0,
+        // The rope goes slack, which the observers of two masses and of one do not know.
+        counted: false,
+        marks: vec![(RELEASE, "brake opens"), (STOPPING, "emergency"), (STOPPING + later, "brake")],
+        law: None,
+    }
+}
+
+/// The brake's torque comes in twenty steps.
+fn closing(at: f64) -> impl Iterator<Item = (f64, Action)> {
+    (1..=20)
+        .map(move |j| (at + CLOSING * f64::from(j) / 20.0, Action::Brake(0, scene::BRAKE_TORQUE * f64::from(j) / 20.0)))
+}
+
+/// The winch and its runs.
+///
+/// # Errors
+/// A figure of the plant that is out of range, which only a changed scene can bring.
+pub fn machine() -> Result<Machine, PlantError> {
+    let square = TRAVEL * TRAVEL;
+    let hanging = || {
+        Chain::motor(20.0)
+            .shaft(Shaft::elastic(MOTOR_SHAFT).damping(60.0), 1500.0 / (15.0 * 15.0))
+            .efficiency(0.94)
+            .shaft(Shaft::rope(ROPE).damping(ROPE_DAMPING), SKIP * square)
+            .load(WEIGHT)
+            // As the brake holds it: the rope carries the weight.
+            .start(Start::Given { twists: vec![WEIGHT / MOTOR_SHAFT, WEIGHT / ROPE], speeds: vec![0.0; 3] })
+            .build()
+    };
+    let release = [(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
+    // The inverter goes off, and the brake closes.
+    let lower = (RELEASE, Action::Reference(-0.9 * scene::RATED_SPEED));
+    let emergency = release.into_iter().chain([lower, (EMERGENCY, Action::Trip)]).chain(closing(EMERGENCY)).collect();
+    let hoist = vec![
+        release[0],
+        release[1],
+        release[2],
+        (RELEASE, Action::Reference(scene::RATED_SPEED)),
+        (8.0, Action::Reference(0.3 * scene::RATED_SPEED)),
+    ];
+    let torque_noise = 0.01 * scene::RATED_TORQUE;
+    Ok(Machine {
+        name: "skip-winch",
+        summary: "A mine's skip winch: hoisting, and emergencies: the brake alone while it lowers; drive and brake while it hoists.",
+        facts: facts::of_design(&scene::OBSERVER, scene::COUNTS, torque_noise),
+        notes: vec![
+            "The shaft torque is the rope's pull at the motor, behind the gear's loss.",
+            "The drive is told the brake's torque as it is; a brake that grips harder than it is said to shows as shaft torque. \
+             The run with the inverter off ends shortly before the winch stands.",
+            "In an emergency while hoisting the rope goes slack. The peaks of `slack` and `plain` are to be compared there; the errors are not counted, since the \
+             observers of two masses and of one take the rope for one that pushes, and since a closed brake hides the rope from the drive.",
+        ],
+        chosen: ("semi-implicit", scene::RATE_HZ),
+        scenarios: vec![
+            Scenario {
+                name: "hoisting",
+                plant: hanging()?.into(),
+                held: WEIGHT,
+                actions: hoist,
+                duration: 12.0,
+                counted: true,
+                marks: vec![(RELEASE, "brake opens"), (8.0, "slower")],
+                law: None,
+            },
+            Scenario {
+                name: "emergency brake while lowering",
+                plant: hanging()?.into(),
+                held: WEIGHT,
+                actions: emergency,
+                duration: EMERGENCY + STOP,
+                counted: true,
+                marks: vec![(RELEASE, "brake opens"), (EMERGENCY, "emergency")],
+                law: None,
+            },
+            emergency_stop("emergency stop while hoisting", hanging()?.into(), STOPPED),
+            emergency_stop("emergency brake while hoisting", hanging()?.into(), 0.0),
+        ],
+        encoder: Encoder::new(scene::COUNTS),
+        torque_noise,
+        load: 2,
+        shaft_torque: rope,
+        load_torque: |plant| plant.load_torque(2),
+        told_brake: Some(0),
+        told_friction: 0.0,
+        rated_speed: scene::RATED_SPEED,
+        bases: scene::BASES,
+    })
+}
+
+/// From the call for the brake until shortly before the winch stands [s].
+const STOP: f64 = 1.05;

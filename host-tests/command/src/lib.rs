@@ -1,0 +1,16 @@
+//! The subcommands of `cargo driveline`, machine files, and the runs behind them: scenes in closed loop, balancing, generator sets,
+//! commissioning, backlash, sweeps, the survey of all.
+
+pub mod backlash;
+pub mod balancing;
+pub mod cases;
+pub mod check;
+pub mod cli;
+pub mod closed_loop;
+pub mod commissioning;
+pub mod drivetrains;
+pub mod generator;
+pub mod machine_file;
+pub mod survey;
+pub mod sweep;
+pub mod telemetry;

@@ -1,0 +1,234 @@
+//! Machines that a user wrote: a TOML file of ordered elements, read with every fault placed.
+//!
+//! ```toml
+//! name = "hoist"
+//!
+//! [[element]]              # from the motor to the load
+//! kind = "motor"
+//! inertia = 0.62           # kg m2
+//!
+//! [[element]]
+//! kind = "shaft"
+//! stiffness = 5.0e4        # N m/rad
+//! damping = 2.0            # N m s/rad, 0 where it is left out
+//!
+//! [[element]]
+//! kind = "rotor"
+//! inertia = 0.08           # kg m2
+//!
+//! [encoder]
+//! lines = 2048             # on a turn; four counts a line
+//!
+//! [control]
+//! rate_hz = 10000          # ticks a second
+//!
+//! [disturbance]
+//! torque_accuracy = 4.0    # N m, rms error of the motor torque in a tick
+//! load_torque_step = 150.0 # N m at the motor: the change of load torque that ...
+//! within = 0.2             # s ... may come about in this time
+//!
+//! [limits]
+//! torque = 400.0           # N m, largest motor torque
+//! speed = 160.0            # rad/s, largest motor speed
+//!
+//! [duty]                   # may be left out: which observer the machine needs
+//! change = 150.0           # N m at the motor: the largest change of torque ...
+//! rise = 0.1               # s ... comes about in this time
+//! every = 2.0              # s from one to the next
+//! ```
+//!
+//! | kind | keys (those in brackets may be left out) |
+//! |---|---|
+//! | `motor`, `rotor` | `inertia` \[kg m2\] |
+//! | `shaft` | `stiffness` \[N m/rad\], (`damping` \[N m s/rad\]) |
+//! | `section` | `length` \[m\], `diameter` \[m\], (`end` diameter \[m\]), (`bore` \[m\]), (`modulus` \[Pa\], steel's), (`damping` \[N m s/rad\]); pieces in a row are a stepped shaft |
+//! | `crank` | `inertia`, `radius` \[m\], `rod` \[m\], `slider` \[kg\], (`rod_mass`, `rod_centre` \[m\] from the pin, `rod_inertia`); the mean over a turn |
+//! | `worm` | `ratio`, `efficiency`, `back_efficiency` with the load driving |
+//! | `planetary` | `sun_teeth`, `ring_teeth`, `module` \[m\], `planets`, `sun`, `planet`, `carrier` \[kg m2\], `planet_mass` \[kg\], (`efficiency`, `driven` the member on the motor's side, `held`: `sun`, `ring` or `carrier`; the sun and the ring where they are left out; `ring` \[kg m2\]) |
+//! | `belt` | `driving`, `driven` \[m\], `stiffness` \[N/m\] of a strand, (`damping` \[N s/m\]), (`efficiency`) |
+//! | `screw` | `lead` \[m\] a turn |
+//! | `swinging` | `mass` \[kg\], `length` \[m\] of the pendulum |
+//! | `slack` | `travel` \[m\] along the load's path |
+//! | `gear` | `ratio` motor speed over load speed, (`efficiency`) |
+//! | `drum` | `diameter` \[m\] |
+//! | `rope` | `falls`, `stiffness` \[N/m\] at the load, (`damping` \[N s/m\]) |
+//! | `lifted`, `driven` | `mass` \[kg\]; a lifted one has weight |
+//! | `backlash` | `gap` \[rad\], the whole free angle |
+//!
+//! A machine with branches has, beside its chain of elements, a `[[branch]]` for each: `at`, the label of the element
+//! whose mass it stands on (a motor, rotor, crank or planetary set of the chain or of a branch before it), and
+//! `[[branch.element]]` tables away from there. A branch that turns at another speed begins with a gear.
+//!
+//! ```toml
+//! [[branch]]
+//! at = "pinion"            # an element's label
+//!
+//! [[branch.element]]
+//! kind = "gear"
+//! ratio = 1.6
+//!
+//! [[branch.element]]
+//! kind = "rotor"
+//! label = "gear wheel"
+//! inertia = 800.0          # kg m2
+//! ```
+//!
+//! A rotor that is to be balanced has a file of its own kind: see [`RotorFile`].
+//!
+//! For a diagram of critical speeds, `[running]` gives the speeds `least` and `greatest` of the motor \[rad/s\], and
+//! each
+//! `[[excitation]]` its `name`, its `orders`, and the `ratio` of the motor's speed over that of the shaft that
+//! excites (1 where it is left out). For `simulate` see [`train`].
+//!
+//! Every element may have a `label`, which tables and plots then use. Quantities stand on their own shaft, as a data
+//! sheet gives them; the library refers them to the motor.
+
+pub mod balance;
+mod diagnostic;
+mod element;
+mod excitation;
+mod quantity;
+mod read;
+mod referred;
+mod rotor;
+mod source;
+pub(crate) mod station;
+mod table;
+pub mod train;
+
+pub use diagnostic::{Diagnostic, Fault};
+pub use element::Element;
+pub use excitation::{Excitation, Running};
+pub use quantity::Quantity;
+pub use read::{LARGEST, not_toml, parse, read, text};
+pub use rotor::{RotorFile, parse_rotor, read_rotor};
+pub use source::{Source, printable};
+pub use table::{Item, Table};
+pub use train::{TrainFile, is_train, parse_train, read_train};
+
+use driveline::machine::{Chain, Train};
+use serde::Serialize;
+
+/// A machine as its file describes it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MachineFile {
+    /// Name: letters, digits, `-`, `_` and spaces, at most 40.
+    pub name: String,
+    /// The elements from the motor to the load.
+    pub elements: Vec<Part>,
+    /// The motor's encoder.
+    pub encoder: Encoder,
+    /// The controller.
+    pub control: Control,
+    /// What the observer has to reckon with.
+    pub disturbance: Disturbance,
+    /// What the machine can do at most.
+    pub limits: Limits,
+    /// The speeds it runs at, where the file says so.
+    pub running: Option<Running>,
+    /// What excites it.
+    pub excitations: Vec<Excitation>,
+    /// How the machine is shaken, if the file says.
+    pub duty: Option<Duty>,
+    /// The elements as the library's chain, referred to the motor.
+    #[serde(skip)]
+    pub chain: Chain,
+    /// What stands on masses of the chain, or of branches before it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub branches: Vec<Branch>,
+    /// Chain and branches as the library's train; none where there is no branch.
+    #[serde(skip)]
+    pub train: Option<Train>,
+}
+
+/// A chain of elements that stands on a mass.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Branch {
+    /// Label of the element whose mass it stands on.
+    pub at: String,
+    /// The elements, away from that mass.
+    pub elements: Vec<Part>,
+    /// The elements as the library's chain, referred to that mass.
+    #[serde(skip)]
+    pub chain: Chain,
+    /// Index of that mass.
+    #[serde(skip)]
+    pub node: usize,
+    /// The motor's speed over that of the mass.
+    #[serde(skip)]
+    pub ratio: f64,
+    /// Index of the first mass that the branch adds to the machine.
+    #[serde(skip)]
+    pub first: usize,
+}
+
+/// An element with the name that tables and plots give it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Part {
+    /// Its label, or its kind, numbered from the second of a kind on.
+    pub label: String,
+    /// The element.
+    #[serde(flatten)]
+    pub element: Element,
+}
+
+/// The encoder on the motor.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Encoder {
+    /// Lines on a turn; quadrature gives four counts a line.
+    pub lines: u32,
+}
+
+/// The controller.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Control {
+    /// Ticks a second.
+    pub rate_hz: u32,
+}
+
+/// What the observer has to reckon with.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Disturbance {
+    /// Root mean square of the error of the motor's torque in one tick \[N m\].
+    pub torque_accuracy: f64,
+    /// A change of load torque at the motor \[N m\] ...
+    pub load_torque_step: f64,
+    /// ... that may come about within this time \[s\].
+    pub within: f64,
+}
+
+/// What the machine can do at most, at the motor.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Limits {
+    /// Torque \[N m\].
+    pub torque: f64,
+    /// Speed \[rad/s\].
+    pub speed: f64,
+}
+
+/// How the machine is shaken: what decides which observer it needs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Duty {
+    /// Largest change of torque that comes about at once, at the motor \[N m\].
+    pub change: f64,
+    /// How long it takes \[s\].
+    pub rise: f64,
+    /// Time between two of them \[s\].
+    pub every: f64,
+}
+
+impl MachineFile {
+    /// The name as part of a file name: lower case, `-` for everything but letters and digits.
+    pub fn slug(&self) -> String {
+        let letter = |c: char| {
+            if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }
+        };
+        self.name.chars().map(letter).collect()
+    }
+
+    /// The name as a Rust constant: upper case, `_` for everything but letters and digits.
+    pub fn constant(&self) -> String {
+        let name = self.slug().replace('-', "_").to_ascii_uppercase();
+        if name.starts_with(|c: char| c.is_ascii_digit()) { format!("MACHINE_{name}") } else { name }
+    }
+}

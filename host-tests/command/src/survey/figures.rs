@@ -1,0 +1,152 @@
+//! Everything that was measured.
+
+use serde::Serialize;
+
+use super::{Aim, Factor, Reason};
+use crate::backlash::Comparison;
+use crate::balancing;
+use crate::cases::Case;
+use crate::commissioning::Verdict;
+use crate::generator::verdict::Verdicts;
+use driveline_report::{Sweep, Variant};
+
+/// A variant of a drivetrain.
+#[derive(Clone, Debug, Serialize)]
+pub struct Run {
+    /// What it got wrong and what it costs.
+    pub variant: Variant,
+    /// Whether it is the design's choice, which is what the aims are for.
+    pub chosen: bool,
+    /// What the shaft carried, run by run.
+    pub factors: Vec<Factor>,
+    /// Bytes of code that a tick reaches.
+    pub tick_code: u64,
+    /// Why it misses its aims; empty where it keeps them or is not the design's choice.
+    pub reasons: Vec<Reason>,
+}
+
+impl Run {
+    /// Of the run with the largest peak.
+    pub fn factor(&self) -> Factor {
+        self.factors.iter().max_by(|a, b| a.peak.total_cmp(&b.peak)).cloned().unwrap_or_default()
+    }
+}
+
+/// A gentle governor's peak beside a plain speed loop's.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Gentle {
+    /// The run.
+    pub scenario: String,
+    /// The variant with the plain loop.
+    pub plain: String,
+    /// The gentle one's peak over the plain one's.
+    pub share: f64,
+}
+
+/// A drivetrain in all its variants.
+#[derive(Clone, Debug, Serialize)]
+pub struct SceneFigures {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub summary: String,
+    /// What is aimed at.
+    pub aim: Aim,
+    /// The variants that ran.
+    pub runs: Vec<Run>,
+}
+
+impl SceneFigures {
+    /// The variants of the design's choice.
+    pub fn chosen(&self) -> impl Iterator<Item = &Run> {
+        self.runs.iter().filter(|run| run.chosen)
+    }
+
+    /// The variants whose flash no other of the same number and core and rate is below.
+    pub fn smallest(&self) -> Vec<&Run> {
+        let like = |a: &Variant, b: &Variant| (&a.number, &a.core, a.rate_hz) == (&b.number, &b.core, b.rate_hz);
+        let least = |run: &&Run| {
+            let others = self.runs.iter().filter(|other| like(&other.variant, &run.variant));
+            others.map(|other| other.variant.flash_bytes).min() == Some(run.variant.flash_bytes)
+        };
+        self.runs.iter().filter(least).collect()
+    }
+
+    /// Peaks of the shaft torque over those of the plain speed loop with the same number, core and rate, of a variant that takes
+    /// up slack; of each run in which the plain loop lets a gap open or a rope go slack.
+    ///
+    /// Variants that take up slack are called so. The plain loop is the variant `plain`; where there is none, every other
+    /// is governed by it.
+    pub fn gentle(&self, run: &Run) -> Vec<Gentle> {
+        let of = &run.variant;
+        if of.observer != SLACK {
+            return Vec::new();
+        }
+        let others = || {
+            self.runs.iter().filter(|other| {
+                let other = &other.variant;
+                other.observer != SLACK
+                    && (&other.number, &other.core, other.rate_hz) == (&of.number, &of.core, of.rate_hz)
+            })
+        };
+        let named = others().any(|other| other.variant.observer == PLAIN);
+        let mut gentle = Vec::new();
+        for other in others().filter(|other| !named || other.variant.observer == PLAIN) {
+            for (own, rough) in run.factors.iter().zip(&other.factors).filter(|(_, rough)| rough.opened) {
+                let (scenario, plain) = (own.scenario.clone(), other.variant.observer.clone());
+                gentle.push(Gentle { scenario, plain, share: own.peak / rough.peak });
+            }
+        }
+        gentle
+    }
+}
+
+/// The name of variants that take up slack gently and damp the shaft.
+const SLACK: &str = "slack";
+/// The name of variants with the same observer and a plain speed loop.
+const PLAIN: &str = "plain";
+
+/// What kept a job from being done.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Failure {
+    /// The scene, or the part of the survey.
+    pub place: String,
+    /// What was being done.
+    pub job: String,
+    /// Why it was not.
+    pub reason: String,
+}
+
+/// Everything.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Survey {
+    /// The drivetrains.
+    pub scenes: Vec<SceneFigures>,
+    /// The generator sets, where they were asked for.
+    pub generator: Option<Verdicts>,
+    /// The machines that were commissioned, each beside its true figures.
+    pub commissioned: Vec<Verdict>,
+    /// The rotors that were balanced, by scene.
+    pub balanced: Vec<(String, Vec<balancing::Ran>)>,
+    /// Published and made-up cases that are stiff or extreme.
+    pub cases: Vec<Case>,
+    /// Ways through backlash over random reversals.
+    pub backlash: Option<Comparison>,
+    /// The steps over stiff and extreme machines.
+    pub sweeps: Vec<Sweep>,
+    /// What could not be done.
+    pub failures: Vec<Failure>,
+    /// How long it all took [s].
+    pub seconds: f64,
+    /// Whether it was only tried out: two seconds of each drivetrain, unproven, and a coarse sweep.
+    pub quick: bool,
+    /// Whether only some scenes were asked for.
+    pub part: bool,
+}
+
+impl Survey {
+    /// The failures in a place.
+    pub fn failures_in(&self, place: &str) -> impl Iterator<Item = &Failure> {
+        self.failures.iter().filter(move |failure| failure.place == place)
+    }
+}

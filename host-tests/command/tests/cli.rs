@@ -1,0 +1,252 @@
+//! The command line as a user meets it: results, faults, exit codes, JSON.
+
+use std::process::{Command, Output};
+
+fn driveline(arguments: &[&str]) -> Output {
+    let folder = env!("CARGO_TARGET_TMPDIR");
+    Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+const HOIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/hoist.toml");
+
+#[test]
+fn every_command_explains_itself_with_examples() {
+    for command in [
+        "run",
+        "report",
+        "modes",
+        "design",
+        "rotor",
+        "balance",
+        "generator",
+        "backlash",
+        "simulate",
+        "watch",
+        "check",
+        "setup",
+        "sizes",
+        "commission",
+    ] {
+        let output = driveline(&[command, "--help"]);
+        assert!(output.status.success());
+        let help = out(&output);
+        assert!(
+            help.contains("Examples:") && help.contains("--json") && help.contains("Usage: cargo driveline"),
+            "{help}"
+        );
+    }
+}
+
+#[test]
+fn modes_prints_frequencies_and_writes_a_page() {
+    let page = format!("{}/hoist-modes.html", env!("CARGO_TARGET_TMPDIR"));
+    let output = driveline(&["modes", HOIST, "--html", &page]);
+    assert!(output.status.success(), "{}", err(&output));
+    assert!(err(&output).is_empty());
+    for word in ["Frequencies and shapes", "brake drum", "worth keeping", "same resonance and antiresonance"] {
+        assert!(out(&output).contains(word), "{word}");
+    }
+    let html = std::fs::read_to_string(page).unwrap();
+    assert!(html.starts_with("<!doctype html>") && html.contains("<svg") && !html.contains("NaN"));
+}
+
+#[test]
+fn modes_as_json_are_those_of_the_closed_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("pair.toml");
+    let text = std::fs::read_to_string(HOIST).unwrap();
+    let settings = &text[text.find("[encoder]").unwrap()..];
+    let elements = "name = \"pair\"\n[[element]]\nkind = \"motor\"\ninertia = 2.0\n[[element]]\nkind = \"shaft\"\n\
+                    stiffness = 600.0\n[[element]]\nkind = \"rotor\"\ninertia = 3.0\n";
+    std::fs::write(&file, format!("{elements}{settings}")).unwrap();
+    let output = driveline(&["modes", file.to_str().unwrap(), "--json"]);
+    let modes = json(&out(&output));
+    // omega^2 = k (J1 + J2)/(J1 J2) = 500 and, with the motor held, k/J2 = 200 [Huang 1987 part 2].
+    let frequency = modes["resonances"][0]["frequency"].as_f64().unwrap();
+    assert!((frequency / 500f64.sqrt() - 1.0).abs() < 1e-14);
+    assert!((modes["antiresonances"][0].as_f64().unwrap() / 200f64.sqrt() - 1.0).abs() < 1e-14);
+    // Momentum: J1 a1 + J2 a2 = 0.
+    let shape = [0, 1].map(|mass| modes["resonances"][0]["shape"][mass].as_f64().unwrap());
+    assert!((2.0 * shape[0] + 3.0 * shape[1]).abs() < 1e-14);
+    assert!(modes["worth"][0]["resonance"].is_null());
+}
+
+#[test]
+fn a_rigid_machine_has_no_vibrations_but_a_design() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("rigid.toml");
+    let text = std::fs::read_to_string(HOIST).unwrap();
+    let settings = &text[text.find("[encoder]").unwrap()..];
+    std::fs::write(&file, format!("name = \"7 rigid\"\n[[element]]\nkind = \"motor\"\ninertia = 2.0\n{settings}"))
+        .unwrap();
+    let path = file.to_str().unwrap();
+    assert!(driveline(&["modes", path, "--json"]).status.success());
+    assert!(driveline(&["modes", path]).status.success());
+    let plan = json(&out(&driveline(&["design", path, "--json"])));
+    assert_eq!(plan["observer"], "rigid");
+    let rust = out(&driveline(&["design", path, "--emit", "rust"]));
+    assert!(rust.contains("pub const MACHINE_7_RIGID_MODEL: Rigid"), "{rust}");
+}
+
+#[test]
+fn a_design_is_printed_as_text_json_and_rust() {
+    let text = out(&driveline(&["design", HOIST]));
+    for word in ["gain per rad", "predicted standard deviation", "poles:", "margins:", "step:"] {
+        assert!(text.contains(word), "{word} in {text}");
+    }
+    let plan = json(&out(&driveline(&["design", HOIST, "--json"])));
+    assert_eq!(plan["states"].as_array().unwrap().len(), 5);
+    assert!(plan["spectral_radius"].as_f64().unwrap() < 1.0);
+    let rust = out(&driveline(&["design", HOIST, "--emit", "rust"]));
+    assert!(rust.contains("pub const HOIST: Chain = Chain::motor(Inertia(0.62))"), "{rust}");
+}
+
+#[test]
+fn a_fault_in_a_file_ends_with_2_and_shows_the_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bad.toml");
+    std::fs::write(&file, std::fs::read_to_string(HOIST).unwrap().replace("ratio = 31.5", "ratio = -31.5")).unwrap();
+    for command in ["modes", "design"] {
+        let output = driveline(&[command, file.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(out(&output).is_empty());
+        let shown = err(&output);
+        assert!(shown.starts_with("error: ") && shown.contains("`element[3].ratio`: found -31.5, expected"), "{shown}");
+        assert!(shown.contains("^^^^^"), "{shown}");
+    }
+    let output = driveline(&["modes", file.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(2));
+    let fault = json(&err(&output));
+    assert!(fault["error"].as_str().unwrap().contains("element[3].ratio"));
+    assert_eq!(fault["at"]["key"], "element[3].ratio");
+}
+
+#[test]
+fn a_machine_that_cannot_be_observed_is_refused_with_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("slow.toml");
+    // The shaft of 134 Hz is cut away by the reduction; a rope of 134 Hz is not, and 10 Hz cannot follow it.
+    let text = std::fs::read_to_string(HOIST).unwrap();
+    let text = text.replace("rate_hz = 10000", "rate_hz = 10").replace("stiffness = 2.9e6", "stiffness = 9.0e9");
+    std::fs::write(&file, text).unwrap();
+    let output = driveline(&["design", file.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(2), "{}", out(&output));
+    assert!(json(&err(&output))["error"].as_str().unwrap().contains("sample rate"), "{}", err(&output));
+}
+
+#[test]
+fn wrong_arguments_end_with_2() {
+    for arguments in [&["nothing"][..], &["modes"], &["modes", HOIST, "--loud"], &["design", HOIST, "--emit", "c"]] {
+        let output = driveline(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(!err(&output).is_empty() && out(&output).is_empty());
+    }
+    let output = driveline(&["modes", "--json", "--loud"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(json(&err(&output))["error"].as_str().unwrap().contains("--loud"));
+}
+
+/// Who names a variant or a source that is not there is shown what there is, in the words that the option takes.
+#[test]
+fn a_wrong_name_is_answered_with_the_right_ones() {
+    for (arguments, there) in [
+        (&["run", "--variants", "nothing"][..], "fixed/m3/reduced/10000"),
+        (&["run", "balanced-fan", "--variants", "nothing"], "fixed/m3/two-mass/4000"),
+        (&["generator", "--variants", "nothing"], "f32/m4f/diesel/2400"),
+        (&["watch", "--qemu", "nothing"], "hoist/f32/reduced/10000"),
+        (&["watch", "--qemu", "hoist/f32/reduced/10000", "--core", "m7"], "m4f"),
+        (&["watch"], "--qemu VARIANT"),
+    ] {
+        let output = driveline(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(err(&output).contains(there), "{arguments:?}: {}", err(&output));
+    }
+}
+
+#[test]
+fn a_page_that_cannot_be_written_is_found_before_anything_runs() {
+    // A file stands where the folder should be.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "kept").unwrap();
+    let page = file.join("page.html");
+    let output = driveline(&["run", "--html", page.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("page.html cannot be written") && !err(&output).contains("building"));
+    assert_eq!(std::fs::read_to_string(file).unwrap(), "kept");
+}
+
+#[test]
+fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("three.toml");
+    let text = std::fs::read_to_string(HOIST).unwrap();
+    let settings = &text[text.find("[encoder]").unwrap()..];
+    // A light motor before two heavy masses: ten elevenths of a blow to it go into the second mode.
+    let mass = |kind: &str, inertia: f64| format!("[[element]]\nkind = \"{kind}\"\ninertia = {inertia:?}\n");
+    let shaft = |stiffness: f64| format!("[[element]]\nkind = \"shaft\"\nstiffness = {stiffness:?}\n");
+    let (motor, first, second) = (mass("motor", 0.1), mass("rotor", 1.0), mass("rotor", 1.0));
+    let (stiff, soft) = (shaft(1e5), shaft(10.0));
+    std::fs::write(&file, format!("name = \"three\"\n{motor}{stiff}{first}{soft}{second}{settings}")).unwrap();
+    assert!(out(&driveline(&["design", file.to_str().unwrap()])).contains("warning: two masses are a poor image"));
+    assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
+}
+
+#[test]
+fn a_result_is_not_written_over_what_it_is_made_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("run");
+    std::fs::write(&file, "kept").unwrap();
+    let path = file.to_str().unwrap();
+    for command in ["simulate", "watch"] {
+        let output = driveline(&[command, path, "--csv", path]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(err(&output).contains("written over what it is made from"), "{}", err(&output));
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), "kept");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_a_failure() {
+    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let status =
+        Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["design", HOIST]).stdout(full).status().unwrap();
+    assert_eq!(status.code(), Some(1));
+}
+
+#[test]
+fn what_cannot_be_commissioned_is_said_before_anything_runs() {
+    let refused = |arguments: &[&str], code: i32, words: &[&str]| {
+        let output = driveline(arguments);
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", err(&output));
+        for word in words {
+            assert!(err(&output).contains(word), "{arguments:?}: {word} in {}", err(&output));
+        }
+    };
+    const SHIP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/ship.toml");
+    const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/axis.toml");
+    refused(&["commission", SHIP], 2, &["ship.toml:20:1: `branch[0]`", "expected a chain"]);
+    // The load that hangs takes more than half of a half of the largest torque.
+    refused(&["commission", HOIST], 2, &["hoist.toml: the largest torque of the shaft", "--rated 0.5"]);
+    refused(&["commission", AXIS, "--speed", "1e300"], 2, &["axis.toml: the test's speed", "--speed 1e300"]);
+    refused(&["commission", AXIS, "--friction", "nan"], 2, &["--friction must be zero or above"]);
+    refused(&["commission", "spindle", "--speed", "0.5"], 2, &["--speed is for a file `NAME.toml`"]);
+    let folder = env!("CARGO_TARGET_TMPDIR");
+    // Half an hour of the mill is not run for a page that cannot be written.
+    refused(&["commission", "mill", "--html", folder], 1, &["cannot be written"]);
+    let output = driveline(&["commission", SHIP, "--json"]);
+    assert_eq!(json(&err(&output))["at"]["line"], 20);
+}

@@ -1,0 +1,153 @@
+//! Runs of trains, each proven by the second integrator to 1e-8 of its peaks.
+
+use driveline_solver::plant::train::converge::{BOUND, NotProven, Recording, prove};
+use driveline_solver::plant::train::{
+    Coordinate, Crank, Friction, Harmonic, Link, Motion, Source, Train, Variation, Waveform,
+};
+use driveline_solver::plant::{EventKind, LoadProgram};
+
+/// Runs for some ticks and proves it; gives the motion at the end.
+fn proven(what: &str, motion: Motion, dt: f64, ticks: usize) -> Motion {
+    let mut run = Recording::new(motion);
+    for _ in 0..ticks {
+        run.advance(dt);
+    }
+    let proof = prove(&run).unwrap_or_else(|error| panic!("{what}: {error}"));
+    assert!(proof.integrator.largest <= BOUND && proof.tightened.largest <= BOUND, "{what}");
+    assert!(run.motion().events().iter().all(|event| event.kind != EventKind::Unresolved), "{what}");
+    run.motion().clone()
+}
+
+#[test]
+fn a_branched_train_with_backlash_in_one_branch() {
+    let train = Train::new()
+        .coordinate(Coordinate::new(12.0).source(Source::Starting { torque: 900.0, time: 0.3, power: 2 }))
+        .coordinate(Coordinate::new(3.0).source(Source::Program(LoadProgram::steps(&[(0.05, -300.0), (0.2, 100.0)]))))
+        .coordinate(Coordinate::new(2.0).viscous(0.5).source(Source::Constant(-50.0)))
+        .coordinate(Coordinate::new(0.7))
+        .link(Link::shaft(0, 1, 2.0e5).damping(40.0))
+        .link(Link::geared(0, 2, 3.0, 1.0e5).damping(20.0).gap(0.01))
+        .link(Link::shaft(0, 3, 4.0e4).damping(5.0));
+    let motion = proven("branches", train.build().unwrap(), 1e-3, 400);
+    assert!(motion.events().len() > 4, "{:?}", motion.events());
+}
+
+#[test]
+fn a_closed_loop_of_two_trains_with_backlash_that_share_the_load() {
+    // two motors on one ring gear, joined by a shaft as well
+    let train = Train::new()
+        .coordinate(Coordinate::new(1.0).source(Source::Line { stall: 120.0, slope: 1.0 }))
+        .coordinate(Coordinate::new(1.1).source(Source::Line { stall: 110.0, slope: 0.9 }))
+        .coordinate(Coordinate::new(40.0).source(Source::Waveform(Waveform::square(200.0, 0.2, 9))))
+        .link(Link::geared(0, 2, 5.0, 3.0e4).damping(6.0).gap(0.02))
+        .link(Link::geared(1, 2, 5.0, 3.0e4).damping(6.0).gap(0.02))
+        .link(Link::shaft(0, 1, 900.0).damping(0.5));
+    let motion = proven("loop", train.build().unwrap(), 2e-3, 200);
+    assert!(motion.events().len() > 4, "{:?}", motion.events());
+    // around the loop elongations add up to nothing: what is left is rounding
+    let around = motion.elongation(0) - motion.elongation(1) - motion.elongation(2);
+    assert!(around.abs() < 1e-13, "{around}");
+}
+
+/// Gears whose mesh is driven by errors larger than its load can hold together.
+fn rattling(torque: f64, damping: f64) -> Motion {
+    let swing = |order: f64, cosine: f64, sine: f64| Harmonic { order, cosine, sine };
+    let variation = Variation::Harmonics {
+        frequency: 1200.0,
+        stiffness: vec![swing(1.0, 1.1e8, 2.0e7), swing(2.0, -3.0e7, 1.0e7)],
+        error: vec![swing(1.0, 0.0, 6e-6), swing(0.1, 4e-6, 0.0)],
+    };
+    let train = Train::new()
+        .coordinate(Coordinate::new(0.0021).source(Source::Constant(torque)))
+        .coordinate(Coordinate::new(0.065).source(Source::Constant(-torque * 0.094 / 0.0395)))
+        .link(Link::mesh((0, 0.0395), (1, 0.094), 5.0e8).damping(damping).varying(variation).gap(3e-6));
+    train.build().unwrap()
+}
+
+#[test]
+fn a_mesh_whose_stiffness_swings_with_errors_backlash_and_both_flanks() {
+    let motion = proven("harmonic mesh", rattling(30.0, 1500.0), 5e-5, 200);
+    let on = |side: i8| motion.events().iter().filter(|event| event.new == side).count();
+    assert!(on(1) > 5 && on(-1) > 5, "{:?}", motion.events().len());
+}
+
+#[test]
+fn a_mesh_with_rectangular_stiffness_and_pitch_errors_that_separates() {
+    let variation = Variation::spur(1.6, 3000.0, 6.8e8, 4.0e8, 8e-6);
+    let train = Train::new()
+        .coordinate(Coordinate::new(0.0021).source(Source::Constant(120.0)))
+        .coordinate(Coordinate::new(0.065).source(Source::Constant(-120.0 * 0.094 / 0.0395)))
+        .link(Link::mesh((0, 0.0395), (1, 0.094), 5.68e8).damping(2500.0).varying(variation).gap(1e-4));
+    let motion = proven("rectangular mesh", train.build().unwrap(), 2.3e-5, 400);
+    assert!(motion.events().len() > 10, "{}", motion.events().len());
+}
+
+#[test]
+fn a_press_with_crank_flywheel_belt_and_punching_arc() {
+    let crank = Crank { rod_mass: 25.0, rod_inertia: 0.6, ..Crank::new(0.08, 0.45, 180.0) };
+    let motor = Source::Kloss { breakdown: 90.0, slip: 0.2, synchronous: 157.0 };
+    let train = Train::new()
+        .coordinate(Coordinate::new(0.05).speed(150.0).source(motor))
+        .coordinate(Coordinate::new(8.0).speed(25.0))
+        .coordinate(Coordinate::new(1.5).speed(25.0).crank(crank).source(Source::Arc {
+            torque: -900.0,
+            from: 2.4,
+            to: 3.1,
+        }))
+        .link(Link::geared(0, 1, 6.0, 400.0).damping(0.6))
+        .link(Link::shaft(1, 2, 6.0e4).damping(30.0));
+    let motion = proven("press", train.build().unwrap(), 2e-3, 400);
+    assert!(motion.angle(2) > 2.0 * std::f64::consts::TAU);
+}
+
+#[test]
+fn an_engine_with_orders_and_a_parabola_as_its_load() {
+    let order = |order: f64, cosine: f64, sine: f64| Harmonic { order, cosine, sine };
+    let gas = vec![order(0.5, 30.0, 60.0), order(1.0, -20.0, 80.0), order(1.5, 0.0, 40.0), order(2.0, 10.0, 25.0)];
+    let train = Train::new()
+        .coordinate(Coordinate::new(0.3).speed(60.0).source(Source::Constant(120.0)).source(Source::Orders(gas)))
+        .coordinate(Coordinate::new(2.0).speed(60.0).source(Source::Parabola(-5.0, -0.1, -0.03)))
+        .link(Link::shaft(0, 1, 2.0e4).damping(8.0).elongated(0.004));
+    proven("engine", train.build().unwrap(), 1e-3, 500);
+}
+
+#[test]
+fn a_block_that_sticks_and_slips_on_a_belt_with_another_behind_it() {
+    let train = Train::new()
+        .coordinate(Coordinate::new(1.0))
+        .coordinate(Coordinate::new(0.6))
+        .link(Link::ground(0, 400.0))
+        .link(Link::shaft(0, 1, 900.0).damping(0.4))
+        .friction(Friction::ground(0, 3.0).breakaway(5.0).surface(0.1))
+        .friction(Friction::between(0, 1, 0.3));
+    let motion = proven("stick-slip", train.build().unwrap(), 2e-3, 500);
+    let count = |kind: EventKind| motion.events().iter().filter(|event| event.kind == kind).count();
+    assert!(count(EventKind::Slip) > 2 && count(EventKind::Stop) > 2, "{:?}", motion.events());
+}
+
+#[test]
+fn a_lossy_gear_that_drives_holds_and_is_driven_back() {
+    let load = LoadProgram::table(&[(0.0, -40.0), (0.2, -40.0), (0.3, 90.0), (0.5, -150.0)]);
+    let motor = LoadProgram::steps(&[(0.0, 60.0), (0.15, 5.0), (0.25, -20.0)]);
+    let train = Train::new()
+        .coordinate(Coordinate::new(0.4).source(Source::Program(motor)))
+        .coordinate(Coordinate::new(2.0).source(Source::Program(load)))
+        .link(Link::geared(0, 1, 2.0, 900.0).damping(0.8).efficiency(0.7))
+        .friction(Friction::ground(1, 6.0));
+    let motion = proven("lossy", train.build().unwrap(), 1e-3, 600);
+    let kinds = [EventKind::Stop, EventKind::Flow, EventKind::Slip];
+    assert!(kinds.iter().all(|kind| motion.events().iter().any(|e| e.kind == *kind)), "{:?}", motion.events());
+}
+
+#[test]
+fn a_run_that_chaos_takes_apart_is_refused() {
+    // hardly damped rattling: a difference in the last digit grows with every impact until the two runs have nothing
+    // in common
+    let mut run = Recording::new(rattling(5.0, 20.0));
+    for _ in 0..2000 {
+        run.advance(5e-5);
+    }
+    let refused = prove(&run);
+    assert!(matches!(refused, Err(NotProven::Deviates { .. })), "{refused:?}");
+    assert_eq!(prove(&Recording::new(rattling(5.0, 20.0))), Err(NotProven::Empty));
+}

@@ -1,0 +1,199 @@
+//! `cargo driveline simulate` as a user meets it.
+
+use std::process::{Command, Output};
+
+use cargo_driveline::machine_file::parse_train;
+
+fn simulate(arguments: &[&str]) -> Output {
+    let folder = env!("CARGO_TARGET_TMPDIR");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    command.arg("simulate").args(arguments).current_dir(folder).output().unwrap()
+}
+
+fn machine(name: &str) -> String {
+    format!("{}/trains/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Two masses on an undamped shaft under a constant torque: between 0 and twice the static torque `[Huang 1987 part
+/// 2]`.
+const STEP: &str = "name = \"step\"\n\
+    [[coordinate]]\nname = \"motor\"\ninertia = 1.2\n\
+    [[coordinate]]\nname = \"load\"\ninertia = 0.3\n\
+    [[link]]\nname = \"shaft\"\nbetween = [\"motor\", \"load\"]\nstiffness = 850.0\n\
+    [[torque]]\non = \"motor\"\nkind = \"constant\"\ntorque = 100.0\n\
+    [run]\ntime = 0.5\nstep = 1e-3\n";
+
+#[test]
+fn the_dynamic_factor_of_a_step_is_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let [file, csv, html] = ["step.toml", "step.csv", "step.html"].map(|name| folder.path().join(name));
+    // the shaft carries what the load's share of the inertia takes: 100 x 0.3/1.5
+    let text = STEP.replace("stiffness = 850.0", "stiffness = 850.0\nstatic = 20.0");
+    std::fs::write(&file, text).unwrap();
+    let [csv_path, html_path] = [&csv, &html].map(|path| path.to_str().unwrap());
+    let output = simulate(&[file.to_str().unwrap(), "--json", "--csv", csv_path, "--html", html_path]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let shaft = &found["links"][0];
+    // undamped step, exact to rounding: extremes are found between the samples
+    assert!((shaft["dynamic_factor"].as_f64().unwrap() - 2.0).abs() < 1e-13, "{shaft}");
+    let omega = (850.0_f64 * (1.0 / 1.2 + 1.0 / 0.3)).sqrt();
+    let peak = shaft["greatest_time"].as_f64().unwrap();
+    let swings = (peak * omega / std::f64::consts::PI).round();
+    // near the top an error in time of 1e-8 changes the torque by rounding only
+    assert!(swings % 2.0 == 1.0 && (peak - swings * std::f64::consts::PI / omega).abs() < 1e-6, "{peak}");
+    assert!(found["proof"][0].as_f64().unwrap() < 1e-8);
+    let table = std::fs::read_to_string(csv).unwrap();
+    let mut lines = table.lines();
+    assert_eq!(lines.next(), Some("time,\"motor speed\",\"load speed\",\"shaft force\""));
+    assert_eq!(lines.next(), Some("0,0,0,0"));
+    assert_eq!(table.lines().count(), 502);
+    for line in table.lines().skip(1) {
+        let numbers: Vec<f64> = line.split(',').map(|n| n.parse().unwrap()).collect();
+        let expected = 20.0 * (1.0 - (omega * numbers[0]).cos());
+        // the closed form over five hundred samples, each rounded
+        assert!((numbers[3] - expected).abs() < 1e-10, "{line}");
+    }
+    let page = std::fs::read_to_string(html).unwrap();
+    assert!(page.starts_with("<!doctype html>") && page.contains("<svg") && !page.contains("NaN"));
+}
+
+#[test]
+fn the_machines_in_the_repository_run_and_are_proven() {
+    for (name, words) in [
+        ("gear-pair", ["mesh", "separation"]),
+        ("hoist-start", ["rope", "ground"]),
+        ("tilting", ["train 2", "separation"]),
+    ] {
+        let output = simulate(&[&machine(name)]);
+        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(text.contains("proven: a second integrator"), "{text}");
+        assert!(words.iter().all(|word| text.contains(word)), "{text}");
+    }
+}
+
+#[test]
+fn a_run_that_cannot_be_confirmed_is_refused_with_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("rattle.toml");
+    let text = std::fs::read_to_string(machine("gear-pair")).unwrap();
+    // hardly damped and hardly loaded, between both flanks, for a long time: chaos
+    let text = text
+        .replace("damping = 3561.695654463696", "damping = 10.0")
+        .replace("gap = 1.6e-4", "gap = 4e-6")
+        .replace("elongation = 9.1e-5", "elongation = 2.6e-5")
+        .replace("torque = 250.0", "torque = 5.0")
+        .replace("torque = -595.2380952380952", "torque = -11.904761904761905")
+        .replace("time = 0.02", "time = 0.2");
+    std::fs::write(&file, text).unwrap();
+    let file = file.to_str().unwrap();
+    let output = simulate(&[file, "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let error: serde_json::Value = serde_json::from_slice(&output.stderr).unwrap();
+    let sentence = error["error"].as_str().unwrap();
+    assert!(sentence.contains("the run is refused") && sentence.contains("the second integrator"), "{sentence}");
+    let output = simulate(&[file, "--json", "--unproven"]);
+    assert!(output.status.success());
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(found["proof"].is_null());
+}
+
+#[test]
+fn every_fault_of_a_file_has_its_place() {
+    // what is replaced, by what, where the fault is then told, and a word of the sentence
+    let faults = [
+        ("inertia = 1.2", "inertia = 0", "2.toml:4:11", "kg m²"),
+        ("inertia = 1.2", "", "2.toml:2:1", "inertia"),
+        ("name = \"load\"", "name = \"motor\"", "2.toml:6:8", "no other"),
+        ("[\"motor\", \"load\"]", "[\"motor\", \"lode\"]", "2.toml:10:11", "\"load\""),
+        ("[\"motor\", \"load\"]", "[\"motor\", \"motor\"]", "2.toml:10:11", "two of them"),
+        ("between = [\"motor\", \"load\"]", "terms = { motor = 1, lode = -1 }", "2.toml:10:22", "unknown name"),
+        ("between = [\"motor\", \"load\"]", "terms = { motor = 0 }", "2.toml:10:19", "not zero"),
+        ("stiffness = 850.0", "stiffness = -1", "2.toml:11:13", "N m/rad"),
+        ("stiffness = 850.0", "stiffness = 1\nstifness = 2", "2.toml:12:1", "unknown key"),
+        ("stiffness = 850.0", "stiffness = 1\nrope = 1", "2.toml:12:8", "true or false"),
+        ("kind = \"constant\"", "kind = \"kloss\"", "2.toml:12:1", "breakdown"),
+        ("kind = \"constant\"", "kind = \"constnat\"", "2.toml:14:8", "kloss"),
+        ("kind = \"constant\"\ntorque = 100.0", "kind = \"table\"\npoints = [[0, 1], [0, 2]]", "2.toml:15:10", "after"),
+        ("kind = \"constant\"\ntorque = 100.0", "kind = \"table\"\npoints = [[0, 1], [1]]", "2.toml:15:19", "rows"),
+        ("step = 1e-3", "step = 1e-9", "2.toml:18:8", "time"),
+        ("step = 1e-3", "", "2.toml:16:1", "step"),
+        ("[run]", "[start]\nkind = \"pretensioned\"\nheld = \"motr\"\n[run]", "2.toml:18:8", "\"motor\""),
+        ("[run]\ntime = 0.5\nstep = 1e-3", "", "2.toml:1:1", "run"),
+    ];
+    assert!(parse_train("2.toml", STEP).is_ok());
+    let mut wrong = Vec::new();
+    for (old, new, place, word) in faults {
+        let text = STEP.replacen(old, new, 1);
+        match parse_train("2.toml", &text) {
+            Ok(_) => wrong.push(format!("{old} -> {new} was taken")),
+            Err(fault) => {
+                let sentence = fault.to_string();
+                if !(sentence.starts_with(place) && sentence.contains(word)) {
+                    wrong.push(format!("{old} -> {new}: {sentence}"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A motor, a drum and a load; what is put in for `inertia`, `stiffness` and `damping` belongs to the drum and its shaft.
+fn drum(inertia: &str, stiffness: &str, damping: &str) -> String {
+    format!(
+        "name = \"drum\"\n\
+         [[coordinate]]\nname = \"motor\"\ninertia = 1.2\n\
+         [[coordinate]]\nname = \"drum\"\ninertia = {inertia}\n\
+         [[coordinate]]\nname = \"load\"\ninertia = 0.3\n\
+         [[link]]\nname = \"shaft\"\nbetween = [\"motor\", \"drum\"]\nstiffness = {stiffness}\ndamping = {damping}\n\
+         [[link]]\nname = \"rope\"\nbetween = [\"drum\", \"load\"]\nstiffness = 850.0\ndamping = 0.1\n\
+         [[torque]]\non = \"motor\"\nkind = \"constant\"\ntorque = 100.0\n\
+         [run]\ntime = 0.5\nstep = 1e-3\n"
+    )
+}
+
+#[test]
+fn a_train_that_is_too_stiff_for_its_run_is_refused_at_once_with_place_and_range() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |text: &str| {
+        let file = folder.path().join("stiff.toml");
+        std::fs::write(&file, text).unwrap();
+        let path = file.to_str().unwrap();
+        let output = simulate(&[path, "--json"]);
+        assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(output.stdout.is_empty());
+        let value: serde_json::Value = serde_json::from_slice(&output.stderr).unwrap();
+        (value["at"]["line"].as_u64().unwrap(), value["error"].as_str().unwrap().to_owned())
+    };
+    // 1e11/1e-12 is a decay of 1e23 1/s; what is heavy beside it does not slow it
+    let (line, error) = refused(&drum("1e-12", "850.0", "1e11"));
+    // the damping, 1e12 times the other's, is as odd as the inertia: either may be called
+    assert!(line == 5 || line == 11, "{error}");
+    assert!(error.contains("damping of 1.0e11 on an inertia of 1.0e-12, a rate of 1.0e23 1/s"), "{error}");
+    // sqrt(850 (1/1e-12 + 1/1.2)) = 2.9e7 rad/s; 1e6 in 0.5 s are 2e6 1/s, whose square is less by 2.1e2
+    let (line, error) = refused(&drum("1e-12", "850.0", "0.0").replace("damping = 0.1", "damping = 0.0"));
+    assert_eq!(line, 5, "{error}");
+    assert!(error.contains("a stiffness of 8.5e2 on an inertia of 1.0e-12, a rate of 2.9e7 1/s"), "{error}");
+    let (line, error) = refused(&drum("0.02", "850.0", "1e11"));
+    assert_eq!(line, 11, "{error}");
+    assert!(error.contains("`shaft`") && error.contains("damping of at most"), "{error}");
+    // elements are called by their own place
+    let text = std::fs::read_to_string(machine("hoist-start")).unwrap();
+    let heading = text.lines().position(|line| line.contains("inertia = 0.08")).unwrap() - 2;
+    let (line, error) = refused(&text.replace("inertia = 0.08 ", "inertia = 1e-12 "));
+    assert_eq!(line as usize, heading, "{error}");
+    assert!(error.contains("`brake drum`") && error.contains("an inertia of at least"), "{error}");
+}
+
+#[test]
+fn what_is_stiff_but_not_too_stiff_is_solved_and_proven() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("stiff.toml");
+    // 0.1/2e-6 = 5e4 1/s, and twice that of the shafts' swing together
+    std::fs::write(&file, drum("2e-6", "850.0", "0.0").replace("time = 0.5", "time = 0.05")).unwrap();
+    let output = simulate(&[file.to_str().unwrap(), "--json"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(found["proof"][0].as_f64().unwrap() < 1e-8);
+}

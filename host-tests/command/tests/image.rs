@@ -1,0 +1,126 @@
+//! Images: what is read from them, and that the board counts instructions exactly.
+
+use std::time::Duration;
+
+use driveline_firmware::board::BOARDS;
+use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
+use driveline_qemu::image::{Contents, ON_NUCLEO, Program, board, build, tick_code};
+use driveline_qemu::link;
+use driveline_qemu::measure::{Cost, self_test};
+use object::{Object, ObjectSection, ObjectSymbol};
+
+/// A bench takes well under a second of QEMU.
+const LIMIT: Duration = Duration::from_secs(60);
+
+/// Words of a governed rigid drive: speed, load torque, accelerating torque, residual and angle of the observer; set point,
+/// ramp and integral of the governor; the last command, the count of missed angles, and the pointer to the constants.
+const RIGID_STATE: u64 = 4 * (5 + 3 + 3);
+
+#[test]
+fn ten_and_a_thousand_nops_count_as_ten_and_a_thousand() {
+    for &board in BOARDS {
+        let image = build("hoist/fixed/rigid/10000", board, Program::Bench, |_| {}).unwrap();
+        let lines = link::run(&image, LIMIT).unwrap().lines;
+        for (name, expected) in [("nops/10", 10), ("nops/1000", 1000)] {
+            let line = lines.iter().find(|line| line["bench"] == name).unwrap();
+            for figure in ["min", "median", "max"] {
+                assert_eq!(line[figure], expected, "{figure} of {name} on {}", board.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_self_test_gives_the_hosts_fingerprint() {
+    for variant in ["hoist/f32/rigid/10000", "hoist/fixed/rigid/10000"] {
+        for &board in BOARDS {
+            self_test(variant, board).unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_self_test_of_no_variant_is_an_error_that_names_it() {
+    let error = self_test("hoist", BOARDS[0]).unwrap_err().to_string();
+    assert_eq!(error, "no variant is called `hoist`");
+    // and the firmware's own build says which there are
+    let error = build("hoist", BOARDS[0], Program::SelfTest, |_| {}).unwrap_err().to_string();
+    assert!(error.contains("DRIVELINE_VARIANT is `hoist`; firmware/src/selected.rs has `empty/"), "{error}");
+}
+
+#[test]
+fn each_variant_keeps_an_image_of_its_own() {
+    let read = |variant| {
+        let image = build(variant, BOARDS[1], Program::ControlLoop, |_| {}).unwrap();
+        (image.path.clone(), Contents::read(&image.path).unwrap())
+    };
+    let (empty_path, empty) = read("empty/f32/none/10000");
+    let (single_path, single) = read("hoist/f32/rigid/10000");
+    assert_ne!(empty_path, single_path);
+    assert_eq!(Contents::read(&empty_path).unwrap().sizes, empty.sizes);
+    // on a core without an FPU the tick calls software floating point: its code is more than its own function
+    let own = single.symbol("driveline_tick").unwrap().size;
+    assert!(single.tick_code > own + 500, "{} bytes in all, {own} its own", single.tick_code);
+    assert_eq!(empty.tick_code, empty.symbol("driveline_tick").unwrap().size);
+    // what the scene adds to the image is its tick and its start, constants, and little else; alignment makes up the rest
+    let added = single.sizes.flash() - empty.sizes.flash();
+    assert!(added >= single.tick_code - empty.tick_code, "{added} bytes more in the image");
+    assert_eq!(single.sizes.ram() - empty.sizes.ram(), RIGID_STATE);
+}
+
+#[test]
+fn a_cost_is_the_images_and_the_runs() {
+    let cost = Cost::measure("hoist/fixed/rigid/10000", BOARDS[0], |_| {}).unwrap();
+    let spread = cost.instructions;
+    assert!(0 < spread.min && spread.min <= spread.median && spread.median <= spread.max, "{spread:?}");
+    assert_eq!(u64::from(cost.state), RIGID_STATE);
+    assert!(cost.stack >= 8 && cost.sizes.ram() >= RIGID_STATE && cost.tick_code > 0, "{cost:?}");
+}
+
+/// What a linker may decide is where a function and a table lie; the tick's code is else the same, halfword for halfword, on the board with a motor and in
+/// QEMU on the same core, and so are the tables that it reads and the drive's constants.
+#[test]
+fn the_tick_on_the_board_with_a_motor_is_the_tick_in_qemu() {
+    let in_qemu = build(ON_NUCLEO, board("m4f").unwrap(), Program::ControlLoop, |_| {}).unwrap();
+    let on_board = build(ON_NUCLEO, NUCLEO, Program::Nucleo, |_| {}).unwrap();
+    let [qemu, nucleo] = [&in_qemu, &on_board].map(|image| tick_code(&image.path).unwrap());
+    assert_eq!(qemu[0].name, "driveline_tick");
+    for (here, there) in qemu.iter().zip(&nucleo) {
+        let bytes: usize = here.referents.iter().map(|referent| referent.bytes.len()).sum();
+        println!(
+            "{}: {} bytes, {} addresses, {bytes} bytes of tables",
+            here.name,
+            2 * here.code.len(),
+            here.referents.len()
+        );
+        assert_eq!(here, there);
+    }
+    assert_eq!(qemu.len(), nucleo.len());
+    // what the comparison can see: another variant's tick is another
+    let other = build("hoist/f32/rigid/10000", board("m4f").unwrap(), Program::ControlLoop, |_| {}).unwrap();
+    assert_ne!(tick_code(&other.path).unwrap()[0].code, qemu[0].code);
+}
+
+/// The stack of the board with a motor lies below its variables, at the bottom of the memory: it cannot grow into one.
+#[test]
+fn the_stack_of_the_board_with_a_motor_ends_where_the_memory_ends() {
+    let image = build(ON_NUCLEO, NUCLEO, Program::Nucleo, |_| {}).unwrap();
+    let bytes = std::fs::read(&image.path).unwrap();
+    let file = object::File::parse(&*bytes).unwrap();
+    let address = |name: &str| file.symbols().find(|symbol| symbol.name() == Ok(name)).unwrap().address();
+    // RM0440, 2.2.2: SRAM1 begins here, and below it there is nothing that can be written
+    assert_eq!(address("_stack_end"), 0x2000_0000);
+    assert_eq!(address("_stack_start"), address("_stack_end") + 16 * 1024);
+    for variables in ["__sdata", "__sbss"] {
+        assert!(address(variables) >= address("_stack_start"), "{variables}");
+    }
+    // the handler of faults pushes nothing: TIM1_BDTR's address, then MOE is cleared for ever (Arm DDI 0403E, A7.7)
+    let text = file.section_by_name(".text").unwrap();
+    let handler = text.data_range(address("HardFault") & !1, 18).unwrap().unwrap();
+    let code: Vec<u16> = handler.chunks_exact(2).map(|two| u16::from_le_bytes([two[0], two[1]])).collect();
+    assert_eq!(code, [0xf642, 0x4044, 0xf2c4, 0x0001, 0x6801, 0xf421, 0x4100, 0x6001, 0xe7fa]);
+    // and the core starts there: the first word of the vectors
+    let vectors = file.section_by_name(".vector_table").unwrap();
+    let first = vectors.data_range(vectors.address(), 4).unwrap().unwrap();
+    assert_eq!(u64::from(u32::from_le_bytes(first.try_into().unwrap())), address("_stack_start"));
+}

@@ -1,0 +1,145 @@
+//! The link to QEMU against the same scene on the host, bit for bit.
+
+use std::thread;
+use std::time::Instant;
+
+use driveline_firmware::board::{BOARDS, Facts};
+use driveline_firmware::program::Program as Inputs;
+use driveline_firmware::scene::{Input, Output, Scene};
+use driveline_firmware::selected::{VARIANTS, visit};
+use driveline_firmware::{Visitor, Words};
+use driveline_qemu::image::{Program, board, build};
+use driveline_qemu::link::{Link, Summary};
+
+/// Runs a scene on the host.
+struct OnHost(u32, usize);
+
+impl Visitor for OnHost {
+    type Outcome = Vec<(Input, Output)>;
+
+    fn visit<S: Scene>(self) -> Self::Outcome {
+        let mut scene = S::new();
+        let mut inputs = Inputs::new(self.0, Words::of::<S>());
+        let tick = |_| {
+            let input = inputs.next_input();
+            (input, scene.tick(&input))
+        };
+        (0..self.1).map(tick).collect()
+    }
+}
+
+/// The name that a scene gives itself.
+struct Named;
+
+impl Visitor for Named {
+    type Outcome = &'static str;
+
+    fn visit<S: Scene>(self) -> &'static str {
+        S::NAME
+    }
+}
+
+fn run(variant: &str, board: Facts, inputs: &[(Input, Output)]) -> (Vec<Output>, Summary) {
+    let image = build(variant, board, Program::ControlLoop, |_| {}).unwrap();
+    let mut link = Link::start(&image).unwrap();
+    let outputs = inputs.iter().map(|(input, _)| link.exchange(input).unwrap()).collect();
+    (outputs, link.finish().unwrap())
+}
+
+#[test]
+fn every_variant_is_listed_under_the_name_of_its_scene() {
+    for &name in VARIANTS {
+        assert_eq!(visit(name, Named), Some(name));
+    }
+}
+
+#[test]
+fn outputs_are_those_of_the_host_bit_for_bit() {
+    // The others' bits are compared with their budgets.
+    for variant in ["empty/f32/none/10000", "hoist/f32/exact/10000", "hoist/fixed/exact/10000"] {
+        let expected = visit(variant, OnHost(1, 3000)).unwrap();
+        for &board in BOARDS {
+            let (outputs, summary) = run(variant, board, &expected);
+            for (tick, (output, (input, expected))) in outputs.iter().zip(&expected).enumerate() {
+                let output = Output { instructions: 0, ..*output };
+                assert_eq!(output, *expected, "{variant} on {} at tick {tick} for {input:?}", board.name);
+            }
+            assert_eq!(summary.ticks, 3000);
+            assert_eq!((summary.control_loop.as_str(), summary.board.as_str()), (variant, board.name));
+        }
+    }
+}
+
+#[test]
+fn two_runs_take_the_same_instructions() {
+    let inputs = visit("hoist/f32/rigid/10000", OnHost(7, 2000)).unwrap();
+    let m3 = board("m3").unwrap();
+    let first = run("hoist/f32/rigid/10000", m3, &inputs);
+    assert_eq!(first, run("hoist/f32/rigid/10000", m3, &inputs));
+    let counts: Vec<_> = first.0.iter().map(|output| output.instructions).collect();
+    // software floating point takes longer for some operands than for others
+    assert!(counts.iter().min() < counts.iter().max());
+}
+
+#[test]
+fn a_scene_that_does_nothing_uses_one_frame_and_writes_eight_words() {
+    let inputs = visit("empty/f32/none/10000", OnHost(1, 50)).unwrap();
+    for &board in BOARDS {
+        let (outputs, summary) = run("empty/f32/none/10000", board, &inputs);
+        // the frame pointer and the return address: nothing of the loop itself reaches below the measured call
+        assert_eq!((summary.stack, summary.state), (8, 0), "on {}", board.name);
+        // at most an address, a zero and eight stores
+        assert!(outputs.iter().all(|output| output.instructions <= 12), "{:?}", outputs[0]);
+    }
+}
+
+#[test]
+fn two_links_run_at_once() {
+    let inputs = visit("hoist/fixed/rigid/10000", OnHost(3, 2000)).unwrap();
+    let alone = run("hoist/fixed/rigid/10000", BOARDS[0], &inputs);
+    thread::scope(|scope| {
+        let both = [0, 1].map(|_| scope.spawn(|| run("hoist/fixed/rigid/10000", BOARDS[0], &inputs)));
+        for one in both {
+            assert_eq!(one.join().unwrap(), alone);
+        }
+    });
+}
+
+#[test]
+fn a_link_that_is_dropped_leaves_no_qemu_behind() {
+    let image = build("empty/f32/none/10000", BOARDS[0], Program::ControlLoop, |_| {}).unwrap();
+    for _ in 0..3 {
+        let mut link = Link::start(&image).unwrap();
+        link.exchange(&Input::default()).unwrap();
+        drop(link);
+    }
+    let mut link = Link::start(&image).unwrap();
+    link.exchange(&Input::default()).unwrap();
+    assert_eq!(link.finish().unwrap().ticks, 1);
+}
+
+#[test]
+fn a_qemu_that_dies_is_an_error_that_names_image_and_tick() {
+    // the self-test never opens the link: it prints its line and ends
+    let image = build("empty/f32/none/10000", BOARDS[0], Program::SelfTest, |_| {}).unwrap();
+    let error = Link::start(&image).unwrap().exchange(&Input::default()).unwrap_err().to_string();
+    for expected in ["self_test of empty/f32/none/10000 on mps2-an386 at tick 0", "QEMU has ended", "fingerprint"] {
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+/// Prints the rate; it depends on the machine and its load, so nothing is asserted.
+#[test]
+fn rate_of_round_trips() {
+    const TICKS: usize = 50_000;
+    let inputs = visit("hoist/f32/rigid/10000", OnHost(5, TICKS)).unwrap();
+    let image = build("hoist/f32/rigid/10000", BOARDS[0], Program::ControlLoop, |_| {}).unwrap();
+    let mut link = Link::start(&image).unwrap();
+    link.exchange(&inputs[0].0).unwrap();
+    let started = Instant::now();
+    for (input, _) in &inputs {
+        link.exchange(input).unwrap();
+    }
+    println!("{:.0} round trips a second", TICKS as f64 / started.elapsed().as_secs_f64());
+    link.finish().unwrap();
+}

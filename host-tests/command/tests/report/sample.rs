@@ -1,0 +1,197 @@
+//! A made-up report with everything in it: good and bad variants, a step that diverges, failures in a sweep.
+
+use driveline_report::{
+    Budget, Comparison, Composition, Deviation, Fact, Instructions, Mark, Report, Signal, Sweep, SweepPoint,
+    Trajectory, Variant,
+};
+
+/// The report.
+pub fn report() -> Report {
+    let fact = |name: &str, value: &str| Fact { name: name.into(), value: value.into() };
+    Report {
+        scene: "hoist".into(),
+        summary:
+            "A 12 t bridge-crane hoist, observed and governed from the motor's encoder alone, in closed loop with the \
+                  full solver of the machine. (Made-up figures of a test.)"
+                .into(),
+        facts: vec![
+            fact("motor inertia", "0.62 kg m²"),
+            fact("shaft", "50 kN m/rad"),
+            fact("ratio", "31.5"),
+            fact("load", "12 t"),
+            fact("encoder", "2048 lines"),
+            fact("torque noise", "1 %"),
+            fact("first resonance", "41.2 Hz"),
+            fact("time simulated", "12 s"),
+        ],
+        variants: variants(),
+        trajectories: trajectories(),
+        comparisons: comparisons(),
+        sweeps: vec![sweep("exact impulse form, f32", 1e-5), sweep("semi-implicit, f32", 1e-3)],
+        compositions: compositions(),
+        budgets: vec![
+            budget("exact step, m4f, f32", "instructions", 61.0, 70.0),
+            budget("exact step, m3, fixed", "instructions", 97.0, 110.0),
+            budget("whole tick, m4f, f32", "instructions", 143.0, 150.0),
+            budget("tick code and constants", "byte", 1_612.0, 1_536.0),
+            budget("stack, f32", "byte", 56.0, 64.0),
+        ],
+        notes: vec!["These figures are made up: they show what a page looks like.".into()],
+    }
+}
+
+fn budget(name: &str, unit: &str, measured: f64, limit: f64) -> Budget {
+    Budget { name: name.into(), unit: unit.into(), measured, limit }
+}
+
+fn variants() -> Vec<Variant> {
+    let mut variants = Vec::new();
+    for (number, core, cost, noise) in
+        [("f32", "m4f", 1.0, 1.0), ("fixed", "m4f", 0.85, 1.02), ("fixed", "m3", 0.9, 1.02)]
+    {
+        for (observer, work, error) in [("rigid", 62, 0.21), ("cut", 138, 0.052), ("reduced", 139, 0.0086)] {
+            for (rate_hz, slow) in [(1_000, 2.6), (4_000, 1.35), (10_000, 1.0)] {
+                let median = (f64::from(work) * cost) as u64;
+                let error = error * noise * slow;
+                variants.push(Variant {
+                    number: number.into(),
+                    core: core.into(),
+                    observer: observer.into(),
+                    rate_hz,
+                    shaft_torque: Deviation { rms: error, max: error * 4.2 },
+                    load_speed: Deviation { rms: error * 0.11, max: error * 0.5 },
+                    load_torque: Deviation { rms: error * 1.9, max: error * 7.0 },
+                    instructions: Instructions { min: median - 9, median, max: median + 11 },
+                    cycles_estimate: median * 14 / 10,
+                    flash_bytes: 700 + median * 5,
+                    ram_bytes: 96,
+                    stack_bytes: 48,
+                    bit_exact: true,
+                    ticks: u64::from(rate_hz) * 12,
+                });
+            }
+        }
+    }
+    variants
+}
+
+fn trajectories() -> Vec<Trajectory> {
+    let time: Vec<f64> = (0..24_000).map(|n| f64::from(n) * 5e-4).collect();
+    let mut all = Vec::new();
+    for (observer, wrong) in [("reduced", 0.02), ("cut", 0.1), ("rigid", 0.5)] {
+        for (situation, start) in [("load step and lowering", 2.0), ("slack rope", 4.0)] {
+            let ring = |t: f64, from: f64, hz: f64, decay: f64| {
+                if t < from {
+                    0.0
+                } else {
+                    (-(t - from) * decay).exp() * ((t - from) * hz * std::f64::consts::TAU).sin()
+                }
+            };
+            let step = |t: f64| {
+                if t < start {
+                    60.0
+                } else if t < 8.0 {
+                    96.0
+                } else {
+                    48.0
+                }
+            };
+            let torque = |t: f64| {
+                step(t) + 70.0 * ring(t, 0.05, 6.0, 2.0) + 40.0 * ring(t, start, 6.0, 1.4)
+                    - 55.0 * ring(t, 8.0, 6.0, 1.1)
+            };
+            let speed = |t: f64| {
+                104.0 * (1.0 - (-t * 2.4).exp()) - 9.0 * ring(t, start, 6.0, 1.4) + 7.0 * ring(t, 8.0, 6.0, 1.1)
+            };
+            let made = |truth: &dyn Fn(f64) -> f64, size: f64| Signal {
+                truth: time.iter().map(|&t| truth(t)).collect(),
+                estimate: time
+                    .iter()
+                    .enumerate()
+                    .map(|(n, &t)| {
+                        truth(t - 0.01 * wrong)
+                            + size
+                                * wrong
+                                * (0.1 * ((n * 7_919 % 1_000) as f64 / 500.0 - 1.0) + ring(t, start, 4.0, 0.8))
+                    })
+                    .collect(),
+            };
+            let mark = |time: f64, label: &str| Mark { time, label: label.into() };
+            all.push(Trajectory {
+                variant: format!("f32 · m4f · {observer} · 10 kHz"),
+                situation: situation.into(),
+                shaft_torque: made(&torque, 60.0),
+                load_speed: made(&speed, 8.0),
+                load_torque: made(&step, 50.0),
+                time: time.clone(),
+                marks: vec![mark(0.05, "pretensioned start"), mark(start, "load step +50 %"), mark(8.0, "lowering")],
+            });
+        }
+    }
+    all
+}
+
+fn comparisons() -> Vec<Comparison> {
+    let row = |step: &str, rate_hz, rms: f64| Comparison {
+        step: step.into(),
+        observer: "reduced".into(),
+        rate_hz,
+        shaft_torque: Deviation { rms, max: rms * 4.0 },
+        load_speed: Deviation { rms: rms * 0.12, max: rms * 0.4 },
+        load_torque: Deviation { rms: rms * 1.8, max: rms * 6.0 },
+    };
+    vec![
+        row("exact", 10_000, 0.0085),
+        row("Tustin", 10_000, 0.0091),
+        row("forward Euler", 10_000, 0.031),
+        row("exact", 1_000, 0.022),
+        row("Tustin", 1_000, 0.064),
+        row("forward Euler", 1_000, f64::INFINITY),
+    ]
+}
+
+fn sweep(name: &str, holds: f64) -> Sweep {
+    let decades = |from: i32, to: i32| (from..=to).map(|exponent| 10f64.powi(exponent));
+    let mut points = Vec::new();
+    for damping in [0.0_f64, 0.01, 0.1, 1.0, 10.0, 100.0] {
+        for omega_t in decades(-6, 3) {
+            for inertia_ratio in decades(-6, 6) {
+                let error: f64 =
+                    6e-8 * (1.0 + omega_t).powf(0.8) * (1.0 + damping).powf(0.3) * inertia_ratio.log10().abs().exp2();
+                let passed = error < holds * 1e-1 / (1.0 + omega_t * 1e-2);
+                points.push(SweepPoint {
+                    omega_t,
+                    inertia_ratio,
+                    damping,
+                    error: if passed { error } else { error * 1e4 },
+                    passed,
+                });
+            }
+        }
+    }
+    Sweep {
+        name: name.into(),
+        criterion: "State error against the f64 exact step after 10 000 ticks, relative to the largest state; no growth over 1e8 ticks.".into(),
+        points,
+    }
+}
+
+fn compositions() -> Vec<Composition> {
+    let composition = |name: &str, number: &str, core: &str, text_bytes, rodata_bytes, bss_bytes| Composition {
+        name: name.into(),
+        number: number.into(),
+        core: core.into(),
+        text_bytes,
+        rodata_bytes,
+        data_bytes: 0,
+        bss_bytes,
+    };
+    vec![
+        composition("rigid", "f32", "m4f", 312, 44, 28),
+        composition("two-mass", "f32", "m4f", 604, 76, 36),
+        composition("full", "f32", "m4f", 1_180, 132, 72),
+        composition("rigid", "fixed", "m3", 398, 60, 32),
+        composition("two-mass", "fixed", "m3", 788, 100, 44),
+        composition("full", "fixed", "m3", 1_364, 168, 84),
+    ]
+}

@@ -1,0 +1,130 @@
+//! Building an image with cargo.
+//!
+//! In target directories of its own, `target/firmware/<the compiler's target>`, so that a test or a command that is itself run by
+//! cargo does not wait for cargo's lock, and images for two cores can be built at once. For one of them it is one image at a time: they
+//! share its directory, and each is copied out before the next variant overwrites it.
+
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use driveline_firmware::board::Facts;
+
+use super::fresh::fingerprint;
+use super::{Image, Program};
+
+/// Why an image was not built.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// A file or cargo could not be reached.
+    #[error("{place}: {error}")]
+    Io {
+        /// What was being done.
+        place: String,
+        /// What went wrong.
+        error: io::Error,
+    },
+    /// Cargo refused.
+    #[error("`{command}` failed:\n{output}")]
+    Cargo {
+        /// The command to type.
+        command: String,
+        /// What it printed.
+        output: String,
+    },
+}
+
+/// The root of the workspace.
+pub fn workspace() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap_or(Path::new("."))
+}
+
+/// Cargo's target directory.
+pub fn target_directory() -> PathBuf {
+    let named = std::env::var_os("CARGO_TARGET_DIR").filter(|name| !name.is_empty());
+    let named = named.map_or_else(|| workspace().join("target"), PathBuf::from);
+    std::path::absolute(&named).unwrap_or(named)
+}
+
+/// Builds `program` holding `variant` for `board`, unless the image on disk is what would be built; `progress` is told each line that
+/// cargo prints.
+pub fn build(
+    variant: &str,
+    board: Facts,
+    program: Program,
+    mut progress: impl FnMut(&str),
+) -> Result<Image, BuildError> {
+    let images = target_directory().join("images");
+    let place = |what: String| move |error| BuildError::Io { place: what, error };
+    fs::create_dir_all(&images).map_err(place(format!("making {}", images.display())))?;
+    let lock = images.join(format!(".{}.lock", board.target));
+    let held = File::create(&lock).map_err(place(format!("making {}", lock.display())))?;
+    held.lock().map_err(place(format!("locking {}", lock.display())))?;
+
+    let firmware = target_directory().join("firmware").join(board.target);
+    let arguments = [
+        "build",
+        "--package=driveline-firmware",
+        "--profile=firmware",
+        &format!("--bin={}", program.name()),
+        &format!("--features={}", program.features()),
+        &format!("--target={}", board.target),
+    ];
+    let command = format!(
+        "DRIVELINE_VARIANT={variant} DRIVELINE_BOARD={} DEFMT_LOG=info cargo {}",
+        board.name,
+        arguments.join(" ")
+    );
+    let path = images.join(format!("{}.{}.{}.elf", variant.replace('/', "-"), board.core, program.name()));
+    let stamp = path.with_extension("stamp");
+    let fresh = fingerprint(workspace(), &command).map_err(place("reading the firmware's sources".into()))?;
+    let image = Image { path: path.clone(), variant: variant.into(), board, program };
+    if path.exists() && fs::read_to_string(&stamp).is_ok_and(|old| old == fresh) {
+        return Ok(image);
+    }
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut child = Command::new(cargo)
+        .args(arguments)
+        .arg("--target-dir")
+        .arg(&firmware)
+        .env("DRIVELINE_VARIANT", variant)
+        .env("DRIVELINE_BOARD", board.name)
+        // what is logged below this level is not in the image at all
+        .env("DEFMT_LOG", "info")
+        // these would replace the linker script that .cargo/config.toml names
+        .env_remove("RUSTFLAGS")
+        .env_remove("CARGO_ENCODED_RUSTFLAGS")
+        .current_dir(workspace())
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(place(format!("starting `{command}`")))?;
+    let mut output = String::new();
+    for line in child.stderr.take().into_iter().flat_map(|stderr| BufReader::new(stderr).lines()) {
+        let line = line.map_err(place(format!("reading from `{command}`")))?;
+        progress(&line);
+        output.push_str(&line);
+        output.push('\n');
+    }
+    let status = child.wait().map_err(place(format!("waiting for `{command}`")))?;
+    if !status.success() {
+        return Err(BuildError::Cargo { command, output });
+    }
+    let built = firmware.join(board.target).join("firmware").join(program.name());
+    // Without its stamp a half-copied image is never taken for a fresh one.
+    let _ = fs::remove_file(&stamp);
+    fs::copy(&built, &path).map_err(place(format!("copying {} to {}", built.display(), path.display())))?;
+    fs::write(&stamp, fresh).map_err(place(format!("writing {}", stamp.display())))?;
+    Ok(image)
+}
+
+/// Whether an image links: no where the linker names the symbol that a reachable panic calls.
+pub fn links(variant: &str, board: Facts, program: Program) -> Result<bool, BuildError> {
+    match build(variant, board, program, |_| {}) {
+        Ok(_) => Ok(true),
+        Err(BuildError::Cargo { output, .. }) if output.contains("undefined symbol: panic_is_reachable") => Ok(false),
+        Err(error) => Err(error),
+    }
+}

@@ -1,0 +1,163 @@
+//! What a variant costs on a board: instructions a tick, flash, RAM and stack.
+
+use std::error::Error;
+use std::time::Duration;
+
+use driveline_firmware::Words;
+use driveline_firmware::board::Facts;
+use driveline_firmware::fingerprint::SEED;
+use driveline_firmware::program::Program as Inputs;
+use driveline_firmware::scene::{Input, Output, Scene};
+use driveline_firmware::selected::visit;
+use serde::Serialize;
+
+use crate::image::{Contents, Image, Program, Sizes, build};
+use crate::link::Link;
+
+/// Least, middle and most of a set of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Spread {
+    /// The least.
+    pub min: u32,
+    /// The middle one, the smaller of two.
+    pub median: u32,
+    /// The most.
+    pub max: u32,
+}
+
+impl Spread {
+    /// Of some numbers; zero of none.
+    pub fn of(mut numbers: Vec<u32>) -> Self {
+        numbers.sort_unstable();
+        let at = |index: usize| numbers.get(index).copied().unwrap_or(0);
+        let last = numbers.len().saturating_sub(1);
+        Spread { min: at(0), median: at(last / 2), max: at(last) }
+    }
+}
+
+/// What a variant costs on a board.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Cost {
+    /// Instructions a tick.
+    pub instructions: Spread,
+    /// Bytes of the control loop's image, by section.
+    pub sizes: Sizes,
+    /// Bytes of code that a tick reaches.
+    pub tick_code: u64,
+    /// Bytes of the drive's state and constants in RAM, part of the image's RAM.
+    pub state: u32,
+    /// Most bytes of stack that a tick used.
+    pub stack: u32,
+}
+
+impl Cost {
+    /// Ticks in open loop, over the built-in inputs: the governor's release and every sign of speed and torque occur.
+    const TICKS: usize = 4096;
+
+    /// Builds the control loop of `variant` for `board` and runs it.
+    pub fn measure(variant: &str, board: Facts, progress: impl FnMut(&str)) -> Result<Self, Box<dyn Error>> {
+        let image = build(variant, board, Program::ControlLoop, progress)?;
+        Cost::of(&image)
+    }
+
+    /// Runs the image of a control loop in open loop, and compares every output with the host's.
+    pub fn of(image: &Image) -> Result<Self, Box<dyn Error>> {
+        let words =
+            visit(&image.variant, WordsOf).ok_or_else(|| format!("no variant is called `{}`", image.variant))?;
+        let mut inputs = Inputs::new(SEED, words);
+        let mut link = Link::start(image)?;
+        let mut instructions = Vec::with_capacity(Cost::TICKS);
+        let mut exchanged = Vec::with_capacity(Cost::TICKS);
+        for _ in 0..Cost::TICKS {
+            let input = inputs.next_input();
+            let output = link.exchange(&input)?;
+            instructions.push(output.instructions);
+            exchanged.push((input, Output { instructions: 0, ..output }));
+        }
+        if visit(&image.variant, Replay(&exchanged)) != Some(true) {
+            return Err(format!("{} on {} and on the host give other bits", image.variant, image.board.name).into());
+        }
+        let summary = link.finish()?;
+        let Contents { sizes, tick_code, .. } = Contents::read(&image.path)?;
+        let instructions = Spread::of(instructions);
+        Ok(Cost { instructions, sizes, tick_code, state: summary.state, stack: summary.stack })
+    }
+}
+
+/// Functions that the bench measures and `budgets.toml` may name.
+pub const BENCHES: &[&str] = &[
+    "bench/step/exact",
+    "bench/step/semi-implicit",
+    "bench/step/rigid",
+    "bench/drive/exact",
+    "bench/drive/semi-implicit",
+    "bench/drive/rigid",
+    "bench/phasor/1",
+    "bench/phasor/2",
+    "bench/step/cranked",
+    "bench/step/backlash",
+    "bench/drive/backlash",
+    "bench/balance/least-squares",
+    "bench/balance/min-max",
+    "bench/balance/in-run",
+    "bench/balance/holes",
+    "bench/balance/amplitudes",
+    "bench/balance/procedure",
+    "bench/balance/grade",
+    "bench/fluctuation/extremes",
+    "bench/fluctuation/waveform",
+    "bench/fluctuation/both",
+    "bench/fluctuation/cycle-mean",
+    "bench/governor/core",
+    "bench/governor/whole",
+    "bench/telemetry/record",
+];
+
+impl Cost {
+    /// Instructions of the functions in [`BENCHES`] on a board, in the number that its core is for.
+    ///
+    /// # Errors
+    /// What the build or QEMU says, or that a function was not measured.
+    pub fn benches(board: Facts) -> Result<Vec<(String, Self)>, Box<dyn Error>> {
+        let number = if board.target.ends_with("hf") { "f32" } else { "fixed" };
+        let image = build(&format!("hoist/{number}/reduced/10000"), board, Program::Bench, |_| {})?;
+        let lines = crate::link::run(&image, BENCH_LIMIT)?.lines;
+        let cost = |name: &str| {
+            let line = lines.iter().find(|line| line["bench"].as_str().is_some_and(|bench| name.ends_with(bench)));
+            let figure =
+                |key: &str| line.and_then(|line| line[key].as_u64()).and_then(|value| u32::try_from(value).ok());
+            let (Some(min), Some(median), Some(max)) = (figure("min"), figure("median"), figure("max")) else {
+                return Err(format!("{name} was not measured on {}", board.name).into());
+            };
+            let instructions = Spread { min, median, max };
+            let stack = figure("stack").unwrap_or(0);
+            Ok((name.into(), Cost { instructions, sizes: Sizes::default(), tick_code: 0, state: 0, stack }))
+        };
+        BENCHES.iter().map(|name| cost(name)).collect()
+    }
+}
+
+/// A bench takes a second; this is for a QEMU that hangs.
+const BENCH_LIMIT: Duration = Duration::from_secs(60);
+
+/// Whether the host gives these outputs for these inputs.
+struct Replay<'e>(&'e [(Input, Output)]);
+
+impl driveline_firmware::Visitor for Replay<'_> {
+    type Outcome = bool;
+
+    fn visit<S: Scene>(self) -> bool {
+        let mut scene = S::new();
+        self.0.iter().all(|(input, output)| scene.exchange(input) == *output)
+    }
+}
+
+struct WordsOf;
+
+impl driveline_firmware::Visitor for WordsOf {
+    type Outcome = Words;
+
+    fn visit<S: Scene>(self) -> Words {
+        Words::of::<S>()
+    }
+}

@@ -1,0 +1,26 @@
+//! The plots of the report, each from its data to an `<svg>` element.
+
+mod campbell;
+mod compare;
+mod cost;
+mod heat;
+mod label;
+mod lines;
+mod panels;
+mod pareto;
+mod polar;
+mod response;
+mod shape;
+mod trajectory;
+
+pub use campbell::{Crossing, Ray, campbell};
+pub use compare::step_errors;
+pub use cost::{Cost, Quality, error_against_cost};
+pub use heat::{CLASSES, heat_map};
+pub use lines::{Curve, Line, Lines, over_time};
+pub use panels::{Panel, panels};
+pub use pareto::front;
+pub use polar::{Arrow, polar};
+pub use response::{Response, response};
+pub use shape::{Station, mode_shape};
+pub use trajectory::course;

@@ -1,0 +1,122 @@
+//! Numbers as people read them: in tables, on axes, in labels. What is not finite has a word, never `NaN`.
+
+/// What stands for a number that is not finite.
+pub const DIVERGED: &str = "diverged";
+
+/// A number to three significant digits: plain between 1e-3 and 1e6, with a power of ten elsewhere.
+pub fn significant(value: f64) -> String {
+    if !value.is_finite() {
+        return DIVERGED.to_owned();
+    }
+    let size = value.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e6).contains(&size) {
+        let decimals = (2 - size.log10().floor() as i32).clamp(0, 6) as usize;
+        let text = format!("{value:.decimals$}");
+        if decimals == 0 { grouped(text.parse().unwrap_or(0)) } else { text }
+    } else {
+        format!("{value:.2e}")
+    }
+}
+
+/// A number of one significant digit or a few, as on a logarithmic axis: `0.05`, `200`.
+pub fn significant_short(value: f64) -> String {
+    if value == 0.0 || (1e-4..1e6).contains(&value.abs()) {
+        format!("{}", (value * 1e6).round() / 1e6)
+    } else {
+        format!("{value:.0e}")
+    }
+}
+
+/// A fraction in percent: `0.84 %`.
+pub fn percent(fraction: f64) -> String {
+    if !fraction.is_finite() {
+        DIVERGED.to_owned()
+    } else if fraction != 0.0 && fraction.abs() < 1e-5 {
+        format!("{:.1e} %", fraction * 100.0)
+    } else {
+        let percent = fraction * 100.0;
+        let decimals = if percent.abs() < 0.1 {
+            3
+        } else if percent.abs() < 10.0 {
+            2
+        } else {
+            1
+        };
+        if percent.abs() >= 1e5 { format!("{percent:.1e} %") } else { format!("{percent:.decimals$} %") }
+    }
+}
+
+/// A whole number with a thin space between thousands.
+pub fn grouped(value: i64) -> String {
+    let digits = value.unsigned_abs().to_string();
+    let mut text = String::from(if value < 0 { "−" } else { "" });
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A rate: `10 kHz`, `500 Hz`.
+pub fn rate(hz: u32) -> String {
+    if hz >= 1_000 { format!("{} kHz", f64::from(hz) / 1e3) } else { format!("{hz} Hz") }
+}
+
+/// A label of an axis: as few digits as tell neighbours `step` apart.
+pub fn tick(value: f64, step: f64) -> String {
+    if value == 0.0 || value.abs() < step * 1e-6 {
+        return "0".to_owned();
+    }
+    let decimals = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
+    let text =
+        if value.abs() >= 1e7 || step < 1e-6 { format!("{value:.1e}") } else { format!("{:.decimals$}", value.abs()) };
+    if value < 0.0 && value.abs() < 1e7 { format!("−{text}") } else { text }
+}
+
+/// A power of ten with a raised exponent: `10⁻⁶`; small powers plain.
+pub fn power(exponent: i32) -> String {
+    match exponent {
+        -2..=3 => format!("{}", 10f64.powi(exponent)),
+        _ => format!("10{}", exponent.to_string().chars().map(raised).collect::<String>()),
+    }
+}
+
+fn raised(digit: char) -> char {
+    match digit {
+        '-' => '⁻',
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        _ => '⁹',
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::format::*;
+
+    #[test]
+    fn numbers_read_well() {
+        assert_eq!(significant(0.012_34), "0.0123");
+        assert_eq!(significant(123_456.0), "123\u{202f}456");
+        assert_eq!(significant(1.5e-9), "1.50e-9");
+        assert_eq!(significant(f64::NAN), "diverged");
+        assert_eq!(percent(0.0084), "0.84 %");
+        assert_eq!(percent(0.000_912), "0.091 %");
+        assert_eq!(rate(10_000), "10 kHz");
+        assert_eq!(power(-12), "10⁻¹²");
+        assert_eq!(power(2), "100");
+        assert_eq!(tick(-0.25, 0.05), "−0.25");
+        assert_eq!(grouped(-1_234_567), "−1\u{202f}234\u{202f}567");
+    }
+}

@@ -1,0 +1,49 @@
+//! Puts the report on one page.
+
+mod thinning;
+pub mod view;
+
+use minijinja::value::Serde;
+use minijinja::{AutoEscape, Environment};
+use serde::Serialize;
+
+use super::Report;
+
+/// The page's template and its parts, compiled into the program.
+const TEMPLATES: &[(&str, &str)] = &[
+    ("page.html", include_str!("page/page.html")),
+    ("costs.html", include_str!("page/costs.html")),
+    ("sweeps.html", include_str!("page/sweeps.html")),
+    ("survey.html", include_str!("page/survey.html")),
+    ("machine.html", include_str!("page/machine.html")),
+    ("sheet.html", include_str!("page/sheet.html")),
+    ("simulation.html", include_str!("page/simulation.html")),
+    ("backlash.html", include_str!("page/backlash.html")),
+    ("balance.html", include_str!("page/balance.html")),
+    ("plots.html", include_str!("page/plots.html")),
+    ("frame.html", include_str!("page/frame.html")),
+    ("style.css", include_str!("page/style.css")),
+];
+
+/// Fills a template. Everything is escaped but what is marked as safe: our own SVG and style.
+///
+/// # Panics
+/// Where a template is wrong, which the tests show: the templates are part of the program.
+pub fn fill(template: &str, values: impl Serialize) -> String {
+    let mut environment = Environment::new();
+    environment.set_auto_escape_callback(
+        |name| {
+            if name.ends_with(".html") { AutoEscape::Html } else { AutoEscape::None }
+        },
+    );
+    for &(name, text) in TEMPLATES {
+        environment.add_template(name, text).expect("a template of the report is not well-formed");
+    }
+    let template = environment.get_template(template).expect("the report's template is compiled in");
+    template.render(Serde(values)).expect("a template of the report asks for what it is not given")
+}
+
+/// The report as a page.
+pub fn page(report: &Report) -> String {
+    fill("page.html", view::view(report))
+}

@@ -1,0 +1,140 @@
+//! What the page's template is given: texts ready to read and plots ready to show.
+
+mod tables;
+mod tiles;
+mod variants;
+
+use serde::Serialize;
+
+use super::thinning::fineness;
+use crate::svg::MARKERS;
+use crate::{Fact, Report, Sweep, Trajectory, Variant, chart};
+
+/// Everything on the page.
+#[derive(Serialize)]
+pub struct View<'a> {
+    scene: &'a str,
+    summary: &'a str,
+    facts: &'a [Fact],
+    notes: &'a [String],
+    tiles: Vec<tiles::Tile>,
+    #[serde(flatten)]
+    costs: Costs,
+    rows: Vec<variants::Row>,
+    courses: Courses,
+    comparison: Option<String>,
+    compared: Vec<Vec<String>>,
+    #[serde(flatten)]
+    sweeps: Sweeps,
+    sizes: Vec<tables::Size>,
+    budgets: Vec<tables::Verdict>,
+}
+
+/// Errors against costs, with what colours and markers stand for.
+#[derive(Serialize)]
+pub struct Costs {
+    costs: Vec<variants::Plot>,
+    series: Vec<Named>,
+    shapes: Vec<Named>,
+    markers: [&'static str; 6],
+}
+
+impl Costs {
+    /// The plots of variants that look as they are and are called as `named` has them, in the same order.
+    pub fn named(variants: &[Variant], named: &[Variant]) -> Self {
+        let looks = variants::Looks::of(variants);
+        Costs {
+            costs: variants::costs(named, &looks.each),
+            series: looks.series,
+            shapes: looks.shapes,
+            markers: MARKERS,
+        }
+    }
+}
+
+/// Sweeps, with what the classes of their maps are.
+#[derive(Serialize)]
+pub struct Sweeps {
+    sweeps: Vec<tables::SweepView>,
+    classes: Vec<String>,
+}
+
+impl Sweeps {
+    /// Of these.
+    pub fn of(sweeps: &[Sweep]) -> Self {
+        Sweeps { sweeps: sweeps.iter().map(tables::sweep).collect(), classes: tables::classes() }
+    }
+}
+
+/// A colour or a marker and what it stands for.
+#[derive(Serialize)]
+struct Named {
+    name: String,
+    index: usize,
+}
+
+/// Trajectories, chosen by variant and situation.
+#[derive(Serialize)]
+struct Courses {
+    variants: Vec<String>,
+    situations: Vec<String>,
+    plots: Vec<Course>,
+    left_out: usize,
+}
+
+#[derive(Serialize)]
+struct Course {
+    variant: usize,
+    situation: usize,
+    svg: String,
+}
+
+/// Prepares a report for the page.
+pub fn view(report: &Report) -> View<'_> {
+    let looks = variants::Looks::of(&report.variants);
+    let compared = !report.comparisons.is_empty();
+    View {
+        scene: &report.scene,
+        summary: &report.summary,
+        facts: &report.facts,
+        notes: &report.notes,
+        tiles: tiles::tiles(report),
+        costs: Costs::named(&report.variants, &report.variants),
+        rows: variants::rows(&report.variants, &looks.each),
+        courses: courses(&report.trajectories),
+        comparison: compared.then(|| chart::step_errors(&report.comparisons)),
+        compared: tables::compared(&report.comparisons),
+        sweeps: Sweeps::of(&report.sweeps),
+        sizes: tables::sizes(&report.compositions),
+        budgets: report.budgets.iter().map(tables::verdict).collect(),
+    }
+}
+
+/// The different names, in the order of their first appearance.
+fn names(all: impl Iterator<Item = String>) -> Vec<String> {
+    let mut names = Vec::new();
+    for name in all {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+fn index_of(names: &[String], name: &str) -> usize {
+    names.iter().position(|known| known == name).unwrap_or(0)
+}
+
+fn courses(trajectories: &[Trajectory]) -> Courses {
+    let (drawn, stretches) = fineness(trajectories.len());
+    let shown = &trajectories[..drawn];
+    let variants = names(shown.iter().map(|trajectory| trajectory.variant.clone()));
+    let situations = names(shown.iter().map(|trajectory| trajectory.situation.clone()));
+    let plot = |trajectory: &Trajectory| Course {
+        variant: index_of(&variants, &trajectory.variant),
+        situation: index_of(&situations, &trajectory.situation),
+        svg: chart::course(trajectory, stretches),
+    };
+    let plots = shown.iter().map(plot).collect();
+    Courses { variants, situations, plots, left_out: trajectories.len() - drawn }
+}

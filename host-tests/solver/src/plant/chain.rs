@@ -1,0 +1,151 @@
+//! The description of a chain, from the motor outwards.
+
+use super::error::{PlantError, finite, in_range, not_negative, positive};
+use super::event::Place;
+use super::excitation::{LoadProgram, MotorLaw};
+use super::shaft::Shaft;
+use super::solver::Plant;
+use super::start::Start;
+
+/// One inertia and what acts on it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Node {
+    pub inertia: f64,
+    pub viscous: f64,
+    pub coulomb: f64,
+    pub load: f64,
+    pub efficiency: f64,
+    pub program: Option<LoadProgram>,
+}
+
+impl Node {
+    fn new(inertia: f64) -> Self {
+        Self { inertia, viscous: 0.0, coulomb: 0.0, load: 0.0, efficiency: 1.0, program: None }
+    }
+}
+
+/// A chain of inertias, written from the motor to the load. Properties belong to the node named last.
+///
+/// ```
+/// use driveline_solver::plant::{Chain, Shaft, Start};
+/// // motor, gear box and drum, load on a rope that must be wound up by 0.5 rad of the motor before it pulls
+/// let hoist = Chain::motor(0.62).viscous(0.01)
+///     .shaft(Shaft::elastic(5.0e4).damping(2.0).gap(0.01), 0.08).efficiency(0.94)
+///     .shaft(Shaft::rope(900.0).damping(0.5).gap(0.5), 0.35).load(120.0).coulomb(200.0)
+///     .start(Start::Slack)
+///     .build()?;
+/// # Ok::<(), driveline_solver::plant::PlantError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain {
+    pub(super) nodes: Vec<Node>,
+    pub(super) shafts: Vec<Shaft>,
+    pub(super) start: Start,
+    pub(super) law: MotorLaw,
+}
+
+impl Chain {
+    /// Begins with the motor's inertia, kg m2, above zero.
+    #[must_use]
+    pub fn motor(inertia: f64) -> Self {
+        Self { nodes: vec![Node::new(inertia)], shafts: Vec::new(), start: Start::Rest, law: MotorLaw::Held }
+    }
+
+    /// Goes on by a shaft to the next inertia, kg m2, above zero.
+    #[must_use]
+    pub fn shaft(mut self, shaft: Shaft, inertia: f64) -> Self {
+        self.shafts.push(shaft);
+        self.nodes.push(Node::new(inertia));
+        self
+    }
+
+    /// Viscous friction of the last node, N m s/rad, zero or above.
+    #[must_use]
+    pub fn viscous(self, viscous: f64) -> Self {
+        self.last(|node| node.viscous = viscous)
+    }
+
+    /// Coulomb friction of the last node, N m, zero or above. It holds the node at rest up to this torque.
+    #[must_use]
+    pub fn coulomb(self, torque: f64) -> Self {
+        self.last(|node| node.coulomb = torque)
+    }
+
+    /// Constant load torque of the last node, N m, positive against positive speed.
+    #[must_use]
+    pub fn load(self, torque: f64) -> Self {
+        self.last(|node| node.load = torque)
+    }
+
+    /// Load program of the last node, added to its constant load.
+    #[must_use]
+    pub fn program(self, program: LoadProgram) -> Self {
+        self.last(|node| node.program = Some(program))
+    }
+
+    /// Efficiency, above 0 and up to 1, of a gear at the last node, between it and the shaft that follows. The node
+    /// feels `T/eta` while it drives and `eta T` while it is driven, and is held in between at rest `[Wang 1989 §1-3]`.
+    /// Refused at the end of the chain, where no shaft follows.
+    #[must_use]
+    pub fn efficiency(self, efficiency: f64) -> Self {
+        self.last(|node| node.efficiency = efficiency)
+    }
+
+    /// How the plant starts; at rest without twist if not said.
+    #[must_use]
+    pub fn start(mut self, start: Start) -> Self {
+        self.start = start;
+        self
+    }
+
+    /// The motor's own law, beside the held torque.
+    #[must_use]
+    pub fn motor_law(mut self, law: MotorLaw) -> Self {
+        self.law = law;
+        self
+    }
+
+    /// Checks every number and readies the plant.
+    ///
+    /// # Errors
+    /// [`PlantError`] names the first parameter that is out of range.
+    pub fn build(self) -> Result<Plant, PlantError> {
+        self.validate()?;
+        Plant::new(self)
+    }
+
+    /// Number of inertias.
+    #[must_use]
+    pub fn nodes(&self) -> usize {
+        self.nodes.len()
+    }
+
+    fn last(mut self, change: impl FnOnce(&mut Node)) -> Self {
+        if let Some(node) = self.nodes.last_mut() {
+            change(node);
+        }
+        self
+    }
+
+    fn validate(&self) -> Result<(), PlantError> {
+        for (j, node) in self.nodes.iter().enumerate() {
+            let place = Place::Node(j);
+            positive("inertia", place, node.inertia)?;
+            not_negative("viscous friction", place, node.viscous)?;
+            not_negative("Coulomb friction", place, node.coulomb)?;
+            finite("load torque", place, node.load)?;
+            let eta = node.efficiency;
+            in_range("efficiency", place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
+            let has_shaft = j < self.shafts.len();
+            in_range("efficiency", place, eta, has_shaft || eta == 1.0, "a shaft behind the gear")?;
+            if let Some(program) = &node.program {
+                program.validate(place)?;
+            }
+        }
+        for (s, shaft) in self.shafts.iter().enumerate() {
+            shaft.validate(s)?;
+        }
+        self.law.validate()?;
+        self.start.validate(self)
+    }
+}

@@ -1,0 +1,236 @@
+//! Any drive train: chains, branches and closed loops, gear meshes, torsion with lateral motion, cranks, unbalances,
+//! friction.
+//!
+//! A train is a list of coordinates (angles, or ways of a mass) and of links between any of them. Each link has an
+//! elongation that is a sum over coordinates, so that a shaft, a geared shaft, a bearing and a tooth mesh are the
+//! same thing with other terms:
+//!
+//! `J_j v_j' = torques_j - viscous_j v_j - sum_l c_lj F_l`, `F_l = k_l(t) x_l + d_l dx_l/dt`, `x_l = sum_j c_lj q_j -
+//! error - half the gap` `[Pfützner 1980 (1.6)]`, `[Tang 1994 ch. 1]`; with a crank `J w' + J'(phi) w^2/2` stands on
+//! the left `[Wang 1989 (1-15)]`.
+//!
+//! Between events (a flank met or left, a stop, a slip, a switch of stiffness, a corner of a torque) the motion is
+//! the sum of its Taylor series, which for a linear train is the series of the matrix exponential; a linear train
+//! without events goes through a whole tick by the exponential itself. A stretch is made so short that what is left
+//! out lies below rounding: nothing is approximated but by the last digit of `f64`, not with a stiffness that swings
+//! nor with a motor's curve either. Events are the roots of those polynomials, isolated by bounds, so that a grazing
+//! contact is found whatever the length of the tick.
+//!
+//! | term | meaning | unit |
+//! |---|---|---|
+//! | coordinate | an angle or a way, with its inertia or mass | rad or m; kg m2 or kg |
+//! | link | elongation `x`, stiffness `k`, damping `d`, force `F` | rad or m; N m/rad or N/m; N m or N |
+//! | dynamic factor | greatest force of a link over its static or mean force | 1 |
+//!
+//! ```
+//! use driveline_solver::plant::train::{Coordinate, Link, Signal, Source, Train};
+//! // one motor drives two rolls through a pinion stand: a branch behind each shaft
+//! let mut stand = Train::new()
+//!     .coordinate(Coordinate::new(12.0).source(Source::Constant(800.0)))
+//!     .coordinate(Coordinate::new(3.0).source(Source::Constant(-400.0)))
+//!     .coordinate(Coordinate::new(3.0).source(Source::Constant(-400.0)))
+//!     .link(Link::shaft(0, 1, 2.0e5).damping(40.0))
+//!     .link(Link::shaft(0, 2, 2.0e5).damping(40.0).gap(0.01))
+//!     .build()?;
+//! stand.watch(Signal::Force(0));
+//! for _ in 0..1000 {
+//!     stand.advance(1e-4);
+//! }
+//! let peak = stand.extremes(Signal::Force(0)).map(|e| e.peak);
+//! assert!(peak > Some(500.0));
+//! # Ok::<(), driveline_solver::plant::PlantError>(())
+//! ```
+
+pub mod converge;
+mod crank;
+mod event;
+mod friction;
+mod gear_pair;
+mod leap;
+mod link;
+mod mesh;
+mod modes;
+mod motion;
+mod reading;
+mod series;
+mod source;
+mod start;
+mod stiffest;
+mod stretch;
+mod unbalance;
+
+pub use crank::Crank;
+pub use friction::Friction;
+pub use gear_pair::{GearBody, GearPair};
+pub use link::Link;
+pub use mesh::{Harmonic, Teeth, Variation, Zone};
+pub use modes::TrainModes;
+pub use motion::Motion;
+pub use reading::Signal;
+pub use source::{Source, Waveform};
+pub use stiffest::Stiffest;
+pub use unbalance::Unbalance;
+
+use super::error::{PlantError, finite, not_negative, positive};
+use super::event::Place;
+
+/// An angle or a way, and what acts on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coordinate {
+    inertia: f64,
+    viscous: f64,
+    speed: f64,
+    angle: f64,
+    crank: Option<Crank>,
+    sources: Vec<Source>,
+}
+
+impl Coordinate {
+    /// Of this inertia, kg m2, or mass, kg, above zero; at rest at zero.
+    #[must_use]
+    pub fn new(inertia: f64) -> Self {
+        Self { inertia, viscous: 0.0, speed: 0.0, angle: 0.0, crank: None, sources: Vec::new() }
+    }
+
+    /// With viscous friction to the ground, N m s/rad, zero or above.
+    #[must_use]
+    pub fn viscous(mut self, viscous: f64) -> Self {
+        self.viscous = viscous;
+        self
+    }
+
+    /// With this speed at the start, rad/s.
+    #[must_use]
+    pub fn speed(mut self, speed: f64) -> Self {
+        self.speed = speed;
+        self
+    }
+
+    /// With this angle at the start, rad. It does not stretch a link; see [`Link::elongated`].
+    #[must_use]
+    pub fn angle(mut self, angle: f64) -> Self {
+        self.angle = angle;
+        self
+    }
+
+    /// With a crank, rod and slider.
+    #[must_use]
+    pub fn crank(mut self, crank: Crank) -> Self {
+        self.crank = Some(crank);
+        self
+    }
+
+    /// With a torque more.
+    #[must_use]
+    pub fn source(mut self, source: Source) -> Self {
+        self.sources.push(source);
+        self
+    }
+}
+
+/// The description of a train.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Train {
+    coordinates: Vec<Coordinate>,
+    links: Vec<Link>,
+    frictions: Vec<Friction>,
+    unbalances: Vec<Unbalance>,
+}
+
+impl Train {
+    /// Of nothing yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// With one coordinate more. They are counted from 0.
+    #[must_use]
+    pub fn coordinate(mut self, coordinate: Coordinate) -> Self {
+        self.coordinates.push(coordinate);
+        self
+    }
+
+    /// With a torque more on a coordinate that is there already; on none that is not.
+    #[must_use]
+    pub fn source(mut self, coordinate: usize, source: Source) -> Self {
+        if let Some(coordinate) = self.coordinates.get_mut(coordinate) {
+            coordinate.sources.push(source);
+        }
+        self
+    }
+
+    /// With one link more, counted from 0.
+    #[must_use]
+    pub fn link(mut self, link: Link) -> Self {
+        self.links.push(link);
+        self
+    }
+
+    /// With dry friction, counted from 0.
+    #[must_use]
+    pub fn friction(mut self, friction: Friction) -> Self {
+        self.frictions.push(friction);
+        self
+    }
+
+    /// With an unbalance that couples two coordinates.
+    #[must_use]
+    pub fn unbalance(mut self, unbalance: Unbalance) -> Self {
+        self.unbalances.push(unbalance);
+        self
+    }
+
+    /// Checks every number and readies the motion.
+    ///
+    /// # Errors
+    /// [`PlantError`] names the first parameter that is out of range; a link is called a shaft, a coordinate a node.
+    pub fn build(mut self) -> Result<Motion, PlantError> {
+        self.validate()?;
+        for (l, link) in self.links.iter().enumerate().filter(|(_, link)| link.efficiency < 1.0) {
+            let front = [(link.terms[0].0, 1.0)];
+            let same = |friction: &&mut Friction| friction.terms == front && friction.surface == 0.0;
+            match self.frictions.iter_mut().find(same) {
+                Some(friction) => friction.losses.push(l),
+                None => self.frictions.push(Friction { losses: vec![l], ..Friction::ground(front[0].0, 0.0) }),
+            }
+        }
+        Ok(Motion::new(self))
+    }
+
+    fn validate(&self) -> Result<(), PlantError> {
+        if self.coordinates.is_empty() {
+            return Err(PlantError::Count { name: "coordinates of a train", found: 0, expected: 1 });
+        }
+        for (j, coordinate) in self.coordinates.iter().enumerate() {
+            let place = Place::Node(j);
+            positive("inertia", place, coordinate.inertia)?;
+            not_negative("viscous friction", place, coordinate.viscous)?;
+            finite("speed at the start", place, coordinate.speed)?;
+            finite("angle at the start", place, coordinate.angle)?;
+            coordinate.crank.map_or(Ok(()), |crank| crank.validate(place))?;
+            coordinate.sources.iter().try_for_each(|source| source.validate(place))?;
+        }
+        for (l, link) in self.links.iter().enumerate() {
+            link.validate(l, self.coordinates.len())?;
+        }
+        for friction in &self.frictions {
+            friction.validate(self.coordinates.len())?;
+        }
+        for unbalance in &self.unbalances {
+            unbalance.validate(self)?;
+        }
+        let cranked = |at: usize| self.coordinates[at].crank.is_some();
+        let lossy = self.links.iter().filter(|link| link.efficiency < 1.0).map(|link| link.terms[0].0);
+        let rubbing = self.frictions.iter().flat_map(|friction| friction.terms.iter().map(|term| term.0));
+        match lossy.chain(rubbing).find(|&at| cranked(at)) {
+            Some(at) => Err(PlantError::Parameter {
+                name: "crank with dry friction or a lossy gear",
+                place: Place::Node(at),
+                value: 1.0,
+                expected: "the friction on another coordinate, behind a shaft",
+            }),
+            None => Ok(()),
+        }
+    }
+}
