@@ -72,14 +72,28 @@ pub struct Config<N: Number, O, F = (), G = (), B = ()> {
     pub balancer: B,
 }
 
-/// The constants of a drive composed of these parts.
-pub type ConfigOf<N, O, F = (), G = (), B = ()> = Config<
-    N,
-    <O as Observer<N>>::Config,
-    <F as Fluctuation<N>>::Config,
-    <G as Governor<N>>::Config,
-    <B as Balancer<N>>::Config,
->;
+/// Number and constants of a drive, from its type.
+pub trait Composition {
+    /// The number that it calculates with.
+    type Number: Number;
+    /// Its constants.
+    type Config;
+}
+
+impl<N, O, F, G, B> Composition for Drive<N, O, F, G, B>
+where
+    N: Number,
+    O: Observer<N>,
+    F: Fluctuation<N>,
+    G: Governor<N>,
+    B: Balancer<N>,
+{
+    type Number = N;
+    type Config = Config<N, O::Config, F::Config, G::Config, B::Config>;
+}
+
+/// The constants of a drive, from its type.
+pub type ConfigOf<D> = <D as Composition>::Config;
 
 /// The state of a drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,7 +124,7 @@ where
     B: Balancer<N>,
 {
     /// A drive whose machine stands still at `angle` [2^-32 turn], without torque in its shaft.
-    pub fn new(config: &ConfigOf<N, O, F, G, B>, angle: u32) -> Self {
+    pub fn new(config: &ConfigOf<Self>, angle: u32) -> Self {
         Drive {
             observer: O::at_rest(&config.observer, angle, N::ZERO),
             fluctuation: F::default(),
@@ -123,7 +137,7 @@ where
 
     /// One tick with the governor at work.
     #[inline(always)]
-    pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
+    pub fn tick(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
         if self.missed < 0 {
             return self.search(config, sample);
         }
@@ -141,7 +155,7 @@ where
     /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken to carry
     /// it, and the next [`Drive::tick`] starts from there, within the governor's limit. A torque that is NaN or beyond what a sample may have counts as zero and raises
     /// [`Faults::REFERENCE`]. A governor that has tripped holds with none.
-    pub fn hold(&mut self, config: &ConfigOf<N, O, F, G, B>, angle: u32, torque: N) -> Command<N> {
+    pub fn hold(&mut self, config: &ConfigOf<Self>, angle: u32, torque: N) -> Command<N> {
         let mut command = Command { torque, faults: Faults::NONE };
         if torque.exceeds(config.limits.torque) {
             command = Command { torque: N::ZERO, faults: Faults::REFERENCE };
@@ -159,7 +173,7 @@ where
 
     /// What is known of the machine now.
     #[inline(always)]
-    pub fn estimate(&self, config: &ConfigOf<N, O, F, G, B>) -> Estimate<N> {
+    pub fn estimate(&self, config: &ConfigOf<Self>) -> Estimate<N> {
         self.observer.estimate(&config.observer)
     }
 
@@ -205,7 +219,7 @@ where
 
     /// Gives the balancer the samples of the vibration, taken with the last angle: once a tick.
     #[inline(always)]
-    pub fn vibration(&mut self, config: &ConfigOf<N, O, F, G, B>, vibration: &B::Vibration) {
+    pub fn vibration(&mut self, config: &ConfigOf<Self>, vibration: &B::Vibration) {
         self.balancer.measure(&config.balancer, self.observer.angle(), vibration);
     }
 
@@ -220,7 +234,7 @@ where
     }
 
     #[inline(always)]
-    fn observe(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> (Faults, N) {
+    fn observe(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> (Faults, N) {
         let limits = &config.limits;
         let (mut torque, mut faults) = (sample.torque, Faults::NONE);
         if torque.exceeds(limits.torque) {
@@ -256,7 +270,7 @@ where
     // Out of line: it leaves the registers to the tick.
     #[cold]
     #[inline(never)]
-    fn search(&mut self, config: &ConfigOf<N, O, F, G, B>, sample: &Sample<N>) -> Command<N> {
+    fn search(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
         let limits = &config.limits;
         self.fluctuation.disturb();
         let mut faults = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;

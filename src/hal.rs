@@ -29,11 +29,11 @@
 //!
 //! ```
 //! # #[cfg(feature = "hal-async")] mod awaited {
-//! # use driveline::{drive::ConfigOf, governor::SpeedLoop, observer::TwoMass, fault::Faults};
+//! # use driveline::{drive::{ConfigOf, Drive}, governor::SpeedLoop, observer::TwoMass, fault::Faults};
 //! use driveline::hal::{AwaitedAngle, AwaitedTorque, Axis, Enabling, MagneticEncoder, Parts, SpiDac};
 //! use embedded_hal_async::spi::SpiDevice;
 //!
-//! # type Config = ConfigOf<f32, TwoMass<f32>, (), SpeedLoop<f32>>;
+//! # type Config = ConfigOf<Drive<f32, TwoMass<f32>, (), SpeedLoop<f32>>>;
 //! type OnTask<E> = Axis<Parts<AwaitedAngle, AwaitedTorque<f32>, E>, f32, TwoMass<f32>, (), SpeedLoop<f32>>;
 //!
 //! async fn one_tick<E: Enabling, S: SpiDevice>(
@@ -98,14 +98,14 @@
 //!     .reduce(Match::ResonanceAntiresonance);
 //! const RATE: Rate = Rate::hz(10_000);
 //! const LOAD: Disturbance = Disturbance { torque_accuracy: 2.0, load_torque_step: 100.0, within: 1.0 };
-//! const CONFIG: ConfigOf<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>> = Config {
+//! const CONFIG: ConfigOf<Drive<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>> = Config {
 //!     limits: Limits::<f32>::new(&Screening {
 //!         torque: 500.0, reference: 180.0, innovation: 0.05, standstill: 0.0015, missed: 150,
-//!     }),
-//!     observer: observer::TwoMassConfig::<f32>::new(&TWO.observer(RATE, Encoder::lines(2048), LOAD)),
+//!     }, Bases::SI),
+//!     observer: observer::TwoMassConfig::<f32>::new(&TWO.observer(RATE, Encoder::lines(2048), LOAD), Bases::SI),
 //!     fluctuation: (),
 //!     governor: SpeedLoopConfig::<f32>::new(
-//!         &TWO.speed_loop(RATE, SpeedLoopTuning::USUAL), SpeedLoopSettings { torque_limit: 300.0, ramp: 75.0 }),
+//!         &TWO.speed_loop(RATE, SpeedLoopTuning::USUAL), SpeedLoopSettings { torque_limit: 300.0, ramp: 75.0 }, Bases::SI),
 //!     balancer: (),
 //! };
 //!

@@ -9,7 +9,7 @@
 //! no panic, no unsafe code, the same bits on the host and on the controller.
 //!
 //! ```
-//! use driveline::constants::{Screening, SpeedLoopSettings};
+//! use driveline::constants::{Bases, Screening, SpeedLoopSettings};
 //! use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopTuning, TwoMassDesign};
 //! use driveline::drive::{ConfigOf, Config, Drive, Limits};
 //! use driveline::governor::{SpeedLoop, SpeedLoopConfig};
@@ -27,15 +27,15 @@
 //!     Disturbance { torque_accuracy: 2.0, load_torque_step: 100.0, within: 1.0 },
 //! );
 //! type Mill = Drive<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>; // `()`: no fluctuation is measured
-//! const CONFIG: ConfigOf<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>> = Config {
+//! const CONFIG: ConfigOf<Drive<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>> = Config {
 //!     limits: Limits::<f32>::new(&Screening {
 //!         torque: 500.0, reference: 180.0, innovation: 0.05, standstill: 0.0015, missed: 150,
-//!     }),
-//!     observer: TwoMassConfig::<f32>::new(&DESIGN),
+//!     }, Bases::SI),
+//!     observer: TwoMassConfig::<f32>::new(&DESIGN, Bases::SI),
 //!     fluctuation: (),
 //!     governor: SpeedLoopConfig::<f32>::new(
 //!         &TWO.speed_loop(RATE, SpeedLoopTuning::USUAL),
-//!         SpeedLoopSettings { torque_limit: 300.0, ramp: 75.0 },
+//!         SpeedLoopSettings { torque_limit: 300.0, ramp: 75.0 }, Bases::SI,
 //!     ),
 //!     balancer: (),
 //! };
@@ -95,6 +95,7 @@
 
 pub mod balance;
 pub mod commissioning;
+pub mod configure;
 pub mod constants;
 pub mod design;
 pub mod drive;
@@ -110,6 +111,7 @@ pub mod number;
 pub mod observer;
 #[cfg(feature = "parameters")]
 pub mod parameters;
+pub mod prelude;
 pub mod sample;
 pub mod scalar;
 #[cfg(feature = "telemetry")]

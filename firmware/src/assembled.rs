@@ -22,7 +22,7 @@ pub trait Parts: 'static {
     /// Ticks a second.
     const RATE_HZ: u32;
     /// The drive's constants.
-    const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), Self::Governor>;
+    const CONFIG: &'static ConfigOf<Drive<Self::Number, Self::Observer, (), Self::Governor>>;
 
     /// What the observer's design says of its errors, as [`Scene::expected`].
     fn expected() -> Option<Expected> {
@@ -35,7 +35,7 @@ pub trait Parts: 'static {
 /// While the governor is not released, [`Input::reference`] is the torque that the drive holds.
 pub struct Assembled<P: Parts> {
     // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static ConfigOf<P::Number, P::Observer, (), P::Governor>,
+    config: &'static ConfigOf<Drive<P::Number, P::Observer, (), P::Governor>>,
     drive: Drive<P::Number, P::Observer, (), P::Governor>,
 }
 

@@ -19,7 +19,7 @@ pub const EDGES: usize = 9;
 pub type Measurement<N> = Phasors<N, CHANNELS, EDGES>;
 
 /// The constants of a balanced drive.
-pub type Constants<N, O> = ConfigOf<N, O, (), SpeedLoop<N>, Measurement<N>>;
+pub type Constants<N, O> = ConfigOf<BalancedDrive<N, O>>;
 
 /// The drive of a balanced scene.
 pub type BalancedDrive<N, O> = Drive<N, O, (), SpeedLoop<N>, Measurement<N>>;

@@ -22,7 +22,7 @@ pub trait Variant: 'static {
     /// Ticks a second.
     const RATE_HZ: u32;
     /// The drive's constants.
-    const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), SpeedLoop<Self::Number>>;
+    const CONFIG: &'static ConfigOf<Drive<Self::Number, Self::Observer, (), SpeedLoop<Self::Number>>>;
 
     /// What the observer's design says of its errors, as [`Scene::expected`].
     fn expected() -> Option<Expected> {
@@ -38,7 +38,7 @@ macro_rules! governed {
     ($scene:ident, $name:literal, $rate:literal; $($text:literal: $observer:ident, $config:ident($($design:expr),+);)+) => {
         $(
             $crate::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
-                observer::$observer<f32>, $config::<f32>::new($($design),+); $($design),+;);
+                observer::$observer<f32>, $config::<f32>::new($($design),+, Bases::SI); $($design),+; Bases::SI);
             $crate::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
                 observer::$observer<Fixed>, $config::<Fixed>::new($($design),+, BASES); $($design),+; BASES);
         )+
@@ -48,8 +48,8 @@ macro_rules! governed {
         $(
             $crate::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
                 observer::Geared<observer::$observer<f32>>,
-                GearedConfig::<f32, _>::new($config::<f32>::new($($design),+), &$gear, 1.0 / $rate as f64);
-                $($design),+;);
+                GearedConfig::<f32, _>::new($config::<f32>::new($($design),+, Bases::SI), &$gear, 1.0 / $rate as f64, Bases::SI);
+                $($design),+; Bases::SI);
             $crate::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
                 observer::Geared<observer::$observer<Fixed>>,
                 GearedConfig::<Fixed, _>::new($config::<Fixed>::new($($design),+, BASES), &$gear, 1.0 / $rate as f64, BASES);
@@ -57,17 +57,17 @@ macro_rules! governed {
         )+
     };
     (@variant $scene:ident, $name:literal, $rate:literal, $text:literal, $words:literal, $number:ident,
-     $observer:ty, $config:expr; $first:expr $(, $more:expr)*; $($bases:ident)?) => {
+     $observer:ty, $config:expr; $first:expr $(, $more:expr)*; $bases:expr) => {
         impl $crate::governed::Variant for $scene<$number, $observer> {
             type Number = $number;
             type Observer = $observer;
             const NAME: &'static str = concat!($name, "/", $words, "/", $text, "/", $rate);
             const RATE_HZ: u32 = $rate;
-            const CONFIG: &'static ConfigOf<$number, $observer, (), SpeedLoop<$number>> = &Config {
-                limits: Limits::<$number>::new(&SCREENING $(, $bases)?),
+            const CONFIG: &'static ConfigOf<driveline::drive::Drive<$number, $observer, (), SpeedLoop<$number>>> = &Config {
+                limits: Limits::<$number>::new(&SCREENING, $bases),
                 observer: $config,
                 fluctuation: (),
-                governor: SpeedLoopConfig::<$number>::new(&LOOP, SETTINGS $(, $bases)?),
+                governor: SpeedLoopConfig::<$number>::new(&LOOP, SETTINGS, $bases),
                 balancer: (),
             };
 
@@ -84,7 +84,7 @@ pub(crate) use governed;
 /// While the governor is not released, [`Input::reference`] is the torque that the drive holds.
 pub struct Governed<V: Variant> {
     // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static ConfigOf<V::Number, V::Observer, (), SpeedLoop<V::Number>>,
+    config: &'static ConfigOf<Drive<V::Number, V::Observer, (), SpeedLoop<V::Number>>>,
     drive: Drive<V::Number, V::Observer, (), SpeedLoop<V::Number>>,
 }
 
@@ -111,7 +111,7 @@ impl<V: Variant> Scene for Governed<V> {
 #[inline(always)]
 pub(crate) fn advance<N, O, F, G, B>(
     drive: &mut Drive<N, O, F, G, B>,
-    config: &ConfigOf<N, O, F, G, B>,
+    config: &ConfigOf<Drive<N, O, F, G, B>>,
     input: &Input,
 ) -> Output
 where

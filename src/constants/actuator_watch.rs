@@ -48,8 +48,8 @@ macro_rules! float {
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
             /// returns.
-            pub const fn new(lags: &[f64; K], settings: &ActuatorWatchSettings, period: f64) -> Self {
-                or_stop!(Self::try_new(lags, settings, period))
+            pub const fn new(lags: &[f64; K], settings: &ActuatorWatchSettings, period: f64, bases: Bases) -> Self {
+                or_stop!(Self::try_new(lags, settings, period, bases))
             }
 
             /// The constants as floats.
@@ -61,6 +61,7 @@ macro_rules! float {
                 lags: &[f64; K],
                 settings: &ActuatorWatchSettings,
                 period: f64,
+                _: Bases,
             ) -> Result<Self, Error> {
                 let ([tolerance, most], []) = get!(torques(settings, &Format::FLOAT));
                 let patient = get!(ticks(settings.patience, period));

@@ -62,16 +62,16 @@ macro_rules! float {
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
             /// returns.
-            pub const fn new(design: &BacklashDesign) -> Self {
-                or_stop!(Self::try_new(design))
+            pub const fn new(design: &BacklashDesign, bases: Bases) -> Self {
+                or_stop!(Self::try_new(design, bases))
             }
 
             /// The constants of a design as floats.
             ///
             /// # Errors
             /// [`Error::Value`] for a gap that is not positive and finite.
-            pub const fn try_new(design: &BacklashDesign) -> Result<Self, Error> {
-                let c = TwoMassConfig::<$float>::new(&design.contact);
+            pub const fn try_new(design: &BacklashDesign, bases: Bases) -> Result<Self, Error> {
+                let c = TwoMassConfig::<$float>::new(&design.contact, bases);
                 let a = added(design, &Format::FLOAT);
                 Ok(BacklashConfig {
                     forcing: c.forcing,

@@ -50,15 +50,15 @@ macro_rules! float {
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-            pub const fn new(design: &CrankedDesign) -> Self {
-                or_stop!(Self::try_new(design))
+            pub const fn new(design: &CrankedDesign, bases: Bases) -> Self {
+                or_stop!(Self::try_new(design, bases))
             }
 
             /// [`new`](Self::new), with an error instead of a panic.
             ///
             /// # Errors
             /// [`Error::Value`] for a gear that cannot be followed.
-            pub const fn try_new(design: &CrankedDesign) -> Result<Self, Error> {
+            pub const fn try_new(design: &CrankedDesign, bases: Bases) -> Result<Self, Error> {
                 let exact = design.places(1.0, 1.0);
                 let mut places = [Place { lightness: 0.0, drag: 0.0 }; PLACES];
                 let mut k = 0;
@@ -67,7 +67,7 @@ macro_rules! float {
                     k += 1;
                 }
                 Ok(CrankedConfig {
-                    rigid: RigidConfig::<$float>::new(&design.rigid, design.load_share()),
+                    rigid: RigidConfig::<$float>::new(&design.rigid, design.load_share(), bases),
                     turning: get!(design.turning()),
                     places,
                 })

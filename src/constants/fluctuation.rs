@@ -117,15 +117,15 @@ macro_rules! float_mean {
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-            pub const fn new<const SEGMENTS: usize>(cycle: Cycle, period: f64) -> Self {
-                or_stop!(Self::try_new::<SEGMENTS>(cycle, period))
+            pub const fn new<const SEGMENTS: usize>(cycle: Cycle, period: f64, bases: Bases) -> Self {
+                or_stop!(Self::try_new::<SEGMENTS>(cycle, period, bases))
             }
 
             /// [`new`](Self::new), with an error instead of a panic.
             ///
             /// # Errors
             /// As [`CycleConfig::try_new`], and [`Error::Value`] for segments that are no power of two, or too few or too many for the cycle.
-            pub const fn try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64) -> Result<Self, Error> {
+            pub const fn try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64, _: Bases) -> Result<Self, Error> {
                 let (cycle, angle) = get!(mean_cycle(cycle, SEGMENTS, period, Bases::SI));
                 let speed = Format::FLOAT.speed_of_turn(period) as $float;
                 if speed.is_finite() { Ok(CycleMeanConfig { cycle, angle, speed }) } else { Err(Error::Value(PERIOD)) }

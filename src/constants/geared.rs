@@ -57,15 +57,15 @@ macro_rules! float {
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-            pub const fn new(observer: C, gear: &Gear, period: f64) -> Self {
-                or_stop!(Self::try_new(observer, gear, period))
+            pub const fn new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Self {
+                or_stop!(Self::try_new(observer, gear, period, bases))
             }
 
             /// An observer's constants behind a gear, in ticks of this period \[s\].
             ///
             /// # Errors
             /// [`Error::Value`] for a figure of the gear that is out of its range.
-            pub const fn try_new(observer: C, gear: &Gear, period: f64) -> Result<Self, Error> {
+            pub const fn try_new(observer: C, gear: &Gear, period: f64, _: Bases) -> Result<Self, Error> {
                 let [friction, firmness, play] = get!(gear.losses(period));
                 Ok(GearedConfig {
                     observer,

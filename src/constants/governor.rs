@@ -41,15 +41,19 @@ macro_rules! float {
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-            pub const fn new(design: &SpeedLoopDesign, settings: SpeedLoopSettings) -> Self {
-                or_stop!(Self::try_new(design, settings))
+            pub const fn new(design: &SpeedLoopDesign, settings: SpeedLoopSettings, bases: Bases) -> Self {
+                or_stop!(Self::try_new(design, settings, bases))
             }
 
             /// The constants of a design as floats.
             ///
             /// # Errors
             /// [`Error::Value`] for a torque limit or a ramp that is not positive and finite.
-            pub const fn try_new(design: &SpeedLoopDesign, settings: SpeedLoopSettings) -> Result<Self, Error> {
+            pub const fn try_new(
+                design: &SpeedLoopDesign,
+                settings: SpeedLoopSettings,
+                _: Bases,
+            ) -> Result<Self, Error> {
                 let c = speed_loop(design, &settings, &Format::FLOAT);
                 Ok(SpeedLoopConfig {
                     proportional: c.proportional as $float,

@@ -210,15 +210,15 @@ macro_rules! part {
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
             /// returns.
-            pub const fn new($($argument: $type),*) -> Self {
-                or_stop!(Self::try_new($($argument),*))
+            pub const fn new($($argument: $type,)* bases: Bases) -> Self {
+                or_stop!(Self::try_new($($argument,)* bases))
             }
 
             /// The constants as floats.
             ///
             /// # Errors
             #[doc = $errors]
-            pub const fn try_new($($argument: $type),*) -> Result<Self, Error> {
+            pub const fn try_new($($argument: $type,)* _: Bases) -> Result<Self, Error> {
                 macro_rules! $cast { ($value:expr) => { $value as $float }; }
                 let $format = Format::FLOAT;
                 let ($n, $c) = get!($values);
@@ -297,22 +297,30 @@ part!(
     }
 );
 
-impl Gains<f32> {
-    /// The gains of a speed loop, for a torque-controlled drive, as floats; [`ActiveDampingConfig`] takes the rest of it.
-    ///
-    /// # Panics
-    /// At compile time in a constant, where the ramp [rad/s2] is not positive and finite.
-    pub const fn of_speed_loop(design: &SpeedLoopDesign, ramp: f64) -> Self {
-        let design = [design.proportional, design.integral, design.slip, 0.0, design.period];
-        let ([ramp], [proportional, integral, unwinding]) = or_stop!(gains(&design, ramp, &Format::FLOAT));
-        Gains {
-            proportional: proportional as f32,
-            integral: integral as f32,
-            unwinding: unwinding as f32,
-            ramp: ramp as f32,
+macro_rules! gains_of_speed_loop {
+    ($float:ident) => {
+        impl Gains<$float> {
+            /// The gains of a speed loop, for a torque-controlled drive, as floats; [`ActiveDampingConfig`] takes the
+            /// rest of it.
+            ///
+            /// # Panics
+            /// At compile time in a constant, where the ramp [rad/s2] is not positive and finite.
+            pub const fn of_speed_loop(design: &SpeedLoopDesign, ramp: f64, _: Bases) -> Self {
+                let design = [design.proportional, design.integral, design.slip, 0.0, design.period];
+                let ([ramp], [proportional, integral, unwinding]) = or_stop!(gains(&design, ramp, &Format::FLOAT));
+                Gains {
+                    proportional: proportional as $float,
+                    integral: integral as $float,
+                    unwinding: unwinding as $float,
+                    ramp: ramp as $float,
+                }
+            }
         }
-    }
+    };
 }
+
+gains_of_speed_loop!(f32);
+gains_of_speed_loop!(f64);
 
 impl Gains<Fixed> {
     /// The gains of a speed loop, for a torque-controlled drive, in fixed point; [`ActiveDampingConfig`] takes the rest of

@@ -60,15 +60,20 @@ macro_rules! float_arrays {
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
             /// returns.
-            pub const fn new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64) -> Self {
-                or_stop!(Self::try_new(barred, quick_ramp, period))
+            pub const fn new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64, bases: Bases) -> Self {
+                or_stop!(Self::try_new(barred, quick_ramp, period, bases))
             }
 
             /// The constants as floats.
             ///
             /// # Errors
             /// [`Error::Value`] for other than `K` ranges, or a quick ramp [rad/s2] that is not positive and finite.
-            pub const fn try_new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64) -> Result<Self, Error> {
+            pub const fn try_new(
+                barred: &BarredSpeeds<K>,
+                quick_ramp: f64,
+                period: f64,
+                _: Bases,
+            ) -> Result<Self, Error> {
                 let format = Format::FLOAT;
                 let ([step], []) = get!(quick(quick_ramp, period, &format));
                 let mut ranges = [Window { middle: 0.0, half: 0.0 }; K];
@@ -88,15 +93,15 @@ macro_rules! float_arrays {
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
             /// returns.
-            pub const fn new(curve: &TorqueCurve<K>, least: f64) -> Self {
-                or_stop!(Self::try_new(curve, least))
+            pub const fn new(curve: &TorqueCurve<K>, least: f64, bases: Bases) -> Self {
+                or_stop!(Self::try_new(curve, least, bases))
             }
 
             /// The constants as floats; `least` is the smallest torque, zero or below [N m].
             ///
             /// # Errors
             /// [`Error::Value`] for a least torque above zero or not finite.
-            pub const fn try_new(curve: &TorqueCurve<K>, least: f64) -> Result<Self, Error> {
+            pub const fn try_new(curve: &TorqueCurve<K>, least: f64, _: Bases) -> Result<Self, Error> {
                 let format = Format::FLOAT;
                 let ([least, _], []) = get!(between(least, 1.0, &format));
                 let mut pieces = [CurvePiece::<$float> { speed: 0.0, torque: 0.0, slope: 0.0 }; K];
@@ -116,15 +121,15 @@ macro_rules! float_arrays {
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
             /// returns.
-            pub const fn new(rate: f64, limit: L, period: f64) -> Self {
-                or_stop!(Self::try_new(rate, limit, period))
+            pub const fn new(rate: f64, limit: L, period: f64, bases: Bases) -> Self {
+                or_stop!(Self::try_new(rate, limit, period, bases))
             }
 
             /// The constants as floats.
             ///
             /// # Errors
             /// [`Error::Value`] for a rate that is not positive and finite.
-            pub const fn try_new(rate: f64, limit: L, period: f64) -> Result<Self, Error> {
+            pub const fn try_new(rate: f64, limit: L, period: f64, _: Bases) -> Result<Self, Error> {
                 let ([step], []) = get!(slew(rate, period, &Format::FLOAT));
                 Ok(SlewConfig { step: step as $float, limit })
             }

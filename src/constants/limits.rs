@@ -51,15 +51,15 @@ macro_rules! float {
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-            pub const fn new(screening: &Screening) -> Self {
-                or_stop!(Self::try_new(screening))
+            pub const fn new(screening: &Screening, bases: Bases) -> Self {
+                or_stop!(Self::try_new(screening, bases))
             }
 
             /// The limits as floats.
             ///
             /// # Errors
             /// [`Error::Value`] for one that is not positive and finite.
-            pub const fn try_new(screening: &Screening) -> Result<Self, Error> {
+            pub const fn try_new(screening: &Screening, _: Bases) -> Result<Self, Error> {
                 let [torque, reference, innovation, standstill] = get!(checked(screening));
                 Ok(Limits {
                     torque: torque as $float,

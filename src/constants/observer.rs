@@ -92,14 +92,14 @@ const fn rigid(design: &RigidDesign, load_share: f64, format: &Format) -> RigidC
 
 impl TwoMassConfig<f64> {
     /// The constants of a design in `f64`.
-    pub const fn new(design: &TwoMassDesign) -> Self {
+    pub const fn new(design: &TwoMassDesign, _: Bases) -> Self {
         two_mass(design, &Format::FLOAT)
     }
 }
 
 impl TwoMassConfig<f32> {
     /// The constants of a design in `f32`.
-    pub const fn new(design: &TwoMassDesign) -> Self {
+    pub const fn new(design: &TwoMassDesign, _: Bases) -> Self {
         let c = two_mass(design, &Format::FLOAT);
         let pair = [c.twist[0], c.twist[1], c.twist_rate[0], c.twist_rate[1]];
         let [a, b, d, e] = single(pair);
@@ -167,14 +167,14 @@ impl TwoMassConfig<Fixed> {
 
 impl SemiImplicitConfig<f64> {
     /// The constants of a design in `f64`.
-    pub const fn new(design: &TwoMassDesign) -> Self {
+    pub const fn new(design: &TwoMassDesign, _: Bases) -> Self {
         semi_implicit(design, &Format::FLOAT)
     }
 }
 
 impl SemiImplicitConfig<f32> {
     /// The constants of a design in `f32`.
-    pub const fn new(design: &TwoMassDesign) -> Self {
+    pub const fn new(design: &TwoMassDesign, _: Bases) -> Self {
         let c = semi_implicit(design, &Format::FLOAT);
         SemiImplicitConfig {
             motor: c.motor as f32,
@@ -223,7 +223,7 @@ impl RigidConfig<f64> {
     ///
     /// # Panics
     /// At compile time in a constant, for a share outside 0 to 1.
-    pub const fn new(design: &RigidDesign, load_share: f64) -> Self {
+    pub const fn new(design: &RigidDesign, load_share: f64, _: Bases) -> Self {
         or_stop!(share(load_share));
         rigid(design, load_share, &Format::FLOAT)
     }
@@ -234,7 +234,7 @@ impl RigidConfig<f32> {
     ///
     /// # Panics
     /// At compile time in a constant, for a share outside 0 to 1.
-    pub const fn new(design: &RigidDesign, load_share: f64) -> Self {
+    pub const fn new(design: &RigidDesign, load_share: f64, _: Bases) -> Self {
         or_stop!(share(load_share));
         let c = rigid(design, load_share, &Format::FLOAT);
         RigidConfig {

@@ -30,15 +30,15 @@ macro_rules! float {
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
             /// returns.
-            pub const fn new(design: &SlackDesign, limit: L) -> Self {
-                or_stop!(Self::try_new(design, limit))
+            pub const fn new(design: &SlackDesign, limit: L, bases: Bases) -> Self {
+                or_stop!(Self::try_new(design, limit, bases))
             }
 
             /// The constants of a design as floats, round another limit.
             ///
             /// # Errors
             /// [`Error::Value`] for a figure that is not positive and finite.
-            pub const fn try_new(design: &SlackDesign, limit: L) -> Result<Self, Error> {
+            pub const fn try_new(design: &SlackDesign, limit: L, _: Bases) -> Result<Self, Error> {
                 let [torque, step, most, braking, damping] = slack(design, &Format::FLOAT);
                 Ok(SlackConfig {
                     torque: get!(positive(torque, TORQUE)) as $float,

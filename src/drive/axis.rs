@@ -21,7 +21,7 @@ where
     ///
     /// It coasts, as for an angle that cannot be believed, and raises [`Faults::ANGLE_MISSING`]; after more than the limit of such ticks also
     /// [`Faults::ANGLE_LOST`], and commands no torque. Torque and set point are screened as in [`Drive::tick`].
-    pub fn tick_blind(&mut self, config: &ConfigOf<N, O, F, G, B>, torque: N, reference: N) -> Command<N> {
+    pub fn tick_blind(&mut self, config: &ConfigOf<Self>, torque: N, reference: N) -> Command<N> {
         let limits = &config.limits;
         let (mut torque, mut faults) = (torque, Faults::ANGLE_MISSING);
         if torque.exceeds(limits.torque) {
@@ -57,7 +57,7 @@ where
     }
 
     /// The governor starts anew, from the speed that the machine has and no torque; its set point is a standstill. The estimates stand.
-    pub fn engage(&mut self, config: &ConfigOf<N, O, F, G, B>) {
+    pub fn engage(&mut self, config: &ConfigOf<Self>) {
         let estimate = self.estimate(config);
         self.governor.start(&config.governor, &estimate, N::ZERO);
         self.commanded = N::ZERO;

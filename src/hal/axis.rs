@@ -36,7 +36,7 @@ where
     B: Balancer<N>,
 {
     /// An axis that the faults of `tripping` trip. The power stage is switched off; where that fails the first tick says so.
-    pub fn new(board: P, config: &ConfigOf<N, O, F, G, B>, tripping: Faults) -> Self {
+    pub fn new(board: P, config: &ConfigOf<Drive<N, O, F, G, B>>, tripping: Faults) -> Self {
         let mut board = board;
         // where there is none yet, the drive finds it later
         let drive = Drive::new(config, board.angle().unwrap_or(0));
@@ -50,7 +50,7 @@ where
     ///
     /// # Errors
     /// What kept it off, [`Faults::ANGLE_LOST`] or what the board says: it stays off.
-    pub fn start(&mut self, config: &ConfigOf<N, O, F, G, B>) -> Result<(), Faults> {
+    pub fn start(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>) -> Result<(), Faults> {
         let lost = if self.drive.is_lost() { Err(Faults::ANGLE_LOST) } else { Ok(()) };
         self.drive.engage(config);
         self.set = N::ZERO;
@@ -79,7 +79,7 @@ where
     /// One tick: angle in, drive, torque out. While the axis is tripped it estimates, gives no torque, raises [`Faults::TRIPPED`], and asks
     /// a line that has not obeyed again.
     #[inline]
-    pub fn tick(&mut self, config: &ConfigOf<N, O, F, G, B>, reference: N) -> Command<N> {
+    pub fn tick(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>, reference: N) -> Command<N> {
         let (torque, mut faults) = match self.board.torque(self.set) {
             Ok(torque) => (torque, Faults::NONE),
             Err(faults) => (self.set, faults),
@@ -117,7 +117,7 @@ where
     /// whose reading is doubted then, and comes back.
     pub fn vibration(
         &mut self,
-        config: &ConfigOf<N, O, F, G, B>,
+        config: &ConfigOf<Drive<N, O, F, G, B>>,
         sample: Result<Option<B::Vibration>, Faults>,
     ) -> Faults {
         match sample {

@@ -16,7 +16,7 @@ const DESIGN: CrankedDesign = PRESS.observer(
     Encoder::lines(2048),
     Disturbance { torque_accuracy: 1.0, load_torque_step: 60.0, within: 0.05 },
 );
-static SINGLE: CrankedConfig<f32> = CrankedConfig::<f32>::new(&DESIGN);
+static SINGLE: CrankedConfig<f32> = CrankedConfig::<f32>::new(&DESIGN, Bases::SI);
 static FIXED: CrankedConfig<Fixed> = CrankedConfig::<Fixed>::new(&DESIGN, Bases::rigid(1_200.0, 200.0));
 
 /// The step in `f32`.

@@ -111,7 +111,8 @@ fn step<N: Number, O: Observer<N>>(config: &O::Config, observer: &mut O, angle: 
 }
 
 type Whole<V> = Drive<<V as Variant>::Number, <V as Variant>::Observer, (), SpeedLoop<<V as Variant>::Number>>;
-type Constants<V> = ConfigOf<<V as Variant>::Number, <V as Variant>::Observer, (), SpeedLoop<<V as Variant>::Number>>;
+type Constants<V> =
+    ConfigOf<Drive<<V as Variant>::Number, <V as Variant>::Observer, (), SpeedLoop<<V as Variant>::Number>>>;
 
 /// The whole tick, checks and flags included, good and bad samples alike.
 fn drive<B: Board, V: Variant>(bench: &mut Bench<'_, B>, name: &str) {

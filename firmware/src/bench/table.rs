@@ -24,7 +24,11 @@ pub fn run<S: Scene, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<S, Input
             steps::single(bench);
             cranked::single(bench);
             phasors::single(bench);
-            fluctuation::all::<B, f32>(bench, Bases::SI, CycleMeanConfig::<f32>::new::<4>(fluctuation::QUARTER, 1e-4));
+            fluctuation::all::<B, f32>(
+                bench,
+                Bases::SI,
+                CycleMeanConfig::<f32>::new::<4>(fluctuation::QUARTER, 1e-4, Bases::SI),
+            );
             governors::single(bench);
         }
         Words::Fixed => {

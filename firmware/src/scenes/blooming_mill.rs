@@ -20,7 +20,7 @@ use driveline::design::{
     BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, SlackDesign, SlackTuning, SpeedLoopDesign,
     SpeedLoopTuning, TwoMassDesign,
 };
-use driveline::drive::{Config, ConfigOf, Limits};
+use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{
     Gains, Slack, SlackConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, Symmetric,
     SymmetricConfig,
@@ -141,7 +141,7 @@ macro_rules! variant {
                 _ => panic!("the blooming mill runs at 10000 ticks a second"),
             };
             const RATE_HZ: u32 = R;
-            const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), SpeedLoop<$number>> =
+            const CONFIG: &'static ConfigOf<Drive<Self::Number, Self::Observer, (), SpeedLoop<$number>>> =
                 &Config { limits: $limits, observer: $config, fluctuation: (), governor: $governor, balancer: () };
 
             fn expected() -> Option<Expected> {
@@ -160,8 +160,8 @@ macro_rules! single {
             observer::$observer<f32>,
             $design,
             $config,
-            Limits::<f32>::new(&screening(R)),
-            SpeedLoopConfig::<f32>::new(&speed_loop(R), SETTINGS)
+            Limits::<f32>::new(&screening(R), Bases::SI),
+            SpeedLoopConfig::<f32>::new(&speed_loop(R), SETTINGS, Bases::SI)
         );
     };
 }
@@ -181,8 +181,8 @@ macro_rules! fixed {
     };
 }
 
-single!(Backlash, "f32/backlash", Backlash, backlash, BacklashConfig::<f32>::new(&backlash(R)));
-single!(Exact, "f32/exact", TwoMass, two_mass, TwoMassConfig::<f32>::new(&two_mass(R)));
+single!(Backlash, "f32/backlash", Backlash, backlash, BacklashConfig::<f32>::new(&backlash(R), Bases::SI));
+single!(Exact, "f32/exact", TwoMass, two_mass, TwoMassConfig::<f32>::new(&two_mass(R), Bases::SI));
 fixed!(Backlash, "fixed/backlash", Backlash, backlash, BacklashConfig::<Fixed>::new(&backlash(R), BASES));
 fixed!(Exact, "fixed/exact", TwoMass, two_mass, TwoMassConfig::<Fixed>::new(&two_mass(R), BASES));
 
@@ -190,26 +190,26 @@ fixed!(Exact, "fixed/exact", TwoMass, two_mass, TwoMassConfig::<Fixed>::new(&two
 pub type Governor<N> = SpeedGovernor<N, (), (), Slack<N, Symmetric>>;
 
 macro_rules! slack {
-    ($number:ident, $text:literal $(, $bases:ident)?) => {
+    ($number:ident, $text:literal, $bases:expr) => {
         impl Parts for BloomingMill<$number, with::Slack, 10_000> {
             type Number = $number;
             type Observer = observer::Backlash<$number>;
             type Governor = Governor<$number>;
             const NAME: &'static str = concat!("blooming-mill/", $text, "/slack/10000");
             const RATE_HZ: u32 = 10_000;
-            const CONFIG: &'static ConfigOf<$number, Self::Observer, (), Self::Governor> = &Config {
-                limits: Limits::<$number>::new(&screening(10_000) $(, $bases)?),
-                observer: BacklashConfig::<$number>::new(&backlash(10_000) $(, $bases)?),
+            const CONFIG: &'static ConfigOf<Drive<$number, Self::Observer, (), Self::Governor>> = &Config {
+                limits: Limits::<$number>::new(&screening(10_000), $bases),
+                observer: BacklashConfig::<$number>::new(&backlash(10_000), $bases),
                 fluctuation: (),
                 governor: SpeedGovernorConfig {
                     view: (),
-                    gains: Gains::<$number>::of_speed_loop(&speed_loop(10_000), SETTINGS.ramp $(, $bases)?),
+                    gains: Gains::<$number>::of_speed_loop(&speed_loop(10_000), SETTINGS.ramp, $bases),
                     set_point: (),
                     prompt: (),
                     limit: SlackConfig::<$number, _>::new(
                         &take_up(10_000),
-                        SymmetricConfig::<$number>::new(SETTINGS.torque_limit $(, $bases)?)
-                        $(, $bases)?
+                        SymmetricConfig::<$number>::new(SETTINGS.torque_limit, $bases),
+                        $bases,
                     ),
                     supervisor: (),
                 },
@@ -223,5 +223,5 @@ macro_rules! slack {
     };
 }
 
-slack!(f32, "f32");
+slack!(f32, "f32", Bases::SI);
 slack!(Fixed, "fixed", BASES);

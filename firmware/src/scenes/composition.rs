@@ -34,7 +34,7 @@ pub trait Composition: 'static {
     /// Scene, number, parts and rate.
     const NAME: &'static str;
     /// The constants.
-    const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, Self::Fluctuation, Self::Governor>;
+    const CONFIG: &'static ConfigOf<Drive<Self::Number, Self::Observer, Self::Fluctuation, Self::Governor>>;
 }
 
 /// A number, an observer, a governor and a measurement of the fluctuation, with the hoist's constants.
@@ -43,7 +43,7 @@ pub struct Of<N, O, G, F = ()>(PhantomData<(N, O, G, F)>);
 /// A drive of these parts.
 pub struct Composed<C: Composition> {
     // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static ConfigOf<C::Number, C::Observer, C::Fluctuation, C::Governor>,
+    config: &'static ConfigOf<Drive<C::Number, C::Observer, C::Fluctuation, C::Governor>>,
     drive: Drive<C::Number, C::Observer, C::Fluctuation, C::Governor>,
 }
 
@@ -76,7 +76,7 @@ macro_rules! compositions {
             type Fluctuation = ();
             type Governor = ();
             const NAME: &'static str = concat!("composition/", $text, "/", $name, "-observer/10000");
-            const CONFIG: &'static ConfigOf<$number, $observer> =
+            const CONFIG: &'static ConfigOf<Drive<$number, $observer>> =
                 &Config { limits: $limits, observer: $config, fluctuation: (), governor: (), balancer: () };
         }
 
@@ -86,7 +86,7 @@ macro_rules! compositions {
             type Fluctuation = ();
             type Governor = SpeedLoop<$number>;
             const NAME: &'static str = concat!("composition/", $text, "/", $name, "-governed/10000");
-            const CONFIG: &'static ConfigOf<$number, $observer, (), SpeedLoop<$number>> =
+            const CONFIG: &'static ConfigOf<Drive<$number, $observer, (), SpeedLoop<$number>>> =
                 &Config { limits: $limits, observer: $config, fluctuation: (), governor: $governor, balancer: () };
         }
     )+};
@@ -108,7 +108,7 @@ macro_rules! measured {
             type Fluctuation = $fluctuation;
             type Governor = ();
             const NAME: &'static str = concat!("composition/", $text, "/two-mass-", $name, "/10000");
-            const CONFIG: &'static ConfigOf<$number, TwoMass<$number>, $fluctuation> = &Config {
+            const CONFIG: &'static ConfigOf<Drive<$number, TwoMass<$number>, $fluctuation>> = &Config {
                 limits: $limits,
                 observer: $observer,
                 fluctuation: $config,
@@ -120,7 +120,7 @@ macro_rules! measured {
 }
 
 measured! {
-    f32, "f32", Limits::<f32>::new(&screening(RATE_HZ)), TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ));
+    f32, "f32", Limits::<f32>::new(&screening(RATE_HZ), Bases::SI), TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI);
     "extremes": Extremes<f32> = waveform(Bases::SI).cycle;
     "waveform": Waveform<f32, 64> = waveform(Bases::SI);
 }
@@ -133,12 +133,12 @@ measured! {
 }
 
 compositions! {
-    f32, "f32", Limits::<f32>::new(&screening(RATE_HZ)), SpeedLoopConfig::<f32>::new(&speed_loop(RATE_HZ), SETTINGS),
-    "rigid": Rigid<f32> = RigidConfig::<f32>::new(&rigid(RATE_HZ), LOAD_SHARE);
-    "semi-implicit": SemiImplicit<f32> = SemiImplicitConfig::<f32>::new(&observer(&REDUCED, RATE_HZ));
-    "two-mass": TwoMass<f32> = TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ));
+    f32, "f32", Limits::<f32>::new(&screening(RATE_HZ), Bases::SI), SpeedLoopConfig::<f32>::new(&speed_loop(RATE_HZ), SETTINGS, Bases::SI),
+    "rigid": Rigid<f32> = RigidConfig::<f32>::new(&rigid(RATE_HZ), LOAD_SHARE, Bases::SI);
+    "semi-implicit": SemiImplicit<f32> = SemiImplicitConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI);
+    "two-mass": TwoMass<f32> = TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI);
     "two-mass-geared": Geared<TwoMass<f32>> = GearedConfig::<f32, _>::new(
-        TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ)), &GEAR, PERIOD
+        TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI), &GEAR, PERIOD, Bases::SI
     );
 }
 
@@ -160,7 +160,7 @@ const ONE: i32 = NONE_YET + 1;
 /// An observer called by hand with the screening of [`driveline::drive`], without a drive: what a drive of nothing but an observer is
 /// measured against. It follows `Drive::observe` and `Drive::search` line by line.
 pub struct ByHand<N: Number + 'static, O: Observer<N, Config: 'static> + 'static> {
-    config: &'static ConfigOf<N, O>,
+    config: &'static ConfigOf<Drive<N, O>>,
     observer: O,
     torque: N,
     missed: i32,

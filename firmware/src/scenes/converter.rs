@@ -20,7 +20,7 @@ use driveline::design::{
     BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, SlackDesign, SlackTuning, SpeedLoopDesign,
     SpeedLoopTuning,
 };
-use driveline::drive::{Config, ConfigOf, Limits};
+use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{Gains, Slack, SlackConfig, SpeedGovernor, SpeedGovernorConfig, Symmetric, SymmetricConfig};
 use driveline::machine::{Chain, Damping, Efficiency, Gap, Inertia, Match, Ratio, Stiffness, TwoMass};
 use driveline::number::Fixed;
@@ -115,20 +115,20 @@ pub mod with {
 pub struct Converter<N, G>(PhantomData<(N, G)>);
 
 macro_rules! variant {
-    ($with:ident, $number:ident, $name:literal, $limit:ty, $config:expr $(, $bases:ident)?) => {
+    ($with:ident, $number:ident, $name:literal, $limit:ty, $config:expr, $bases:expr) => {
         impl Parts for Converter<$number, with::$with> {
             type Number = $number;
             type Observer = Backlash<$number>;
             type Governor = SpeedGovernor<$number, (), (), $limit>;
             const NAME: &'static str = concat!("converter/", $name, "/10000");
             const RATE_HZ: u32 = RATE_HZ;
-            const CONFIG: &'static ConfigOf<$number, Self::Observer, (), Self::Governor> = &Config {
-                limits: Limits::<$number>::new(&SCREENING $(, $bases)?),
-                observer: BacklashConfig::<$number>::new(&OBSERVER $(, $bases)?),
+            const CONFIG: &'static ConfigOf<Drive<$number, Self::Observer, (), Self::Governor>> = &Config {
+                limits: Limits::<$number>::new(&SCREENING, $bases),
+                observer: BacklashConfig::<$number>::new(&OBSERVER, $bases),
                 fluctuation: (),
                 governor: SpeedGovernorConfig {
                     view: (),
-                    gains: Gains::<$number>::of_speed_loop(&SPEED_LOOP, RAMP $(, $bases)?),
+                    gains: Gains::<$number>::of_speed_loop(&SPEED_LOOP, RAMP, $bases),
                     set_point: (),
                     prompt: (),
                     limit: $config,
@@ -144,12 +144,12 @@ macro_rules! variant {
     };
 }
 
-const SINGLE: SymmetricConfig<f32> = SymmetricConfig::<f32>::new(TORQUE_LIMIT);
+const SINGLE: SymmetricConfig<f32> = SymmetricConfig::<f32>::new(TORQUE_LIMIT, Bases::SI);
 const FIXED: SymmetricConfig<Fixed> = SymmetricConfig::<Fixed>::new(TORQUE_LIMIT, BASES);
 
-variant!(Plain, f32, "f32/plain", Symmetric, SINGLE);
+variant!(Plain, f32, "f32/plain", Symmetric, SINGLE, Bases::SI);
 variant!(Plain, Fixed, "fixed/plain", Symmetric, FIXED, BASES);
-variant!(Slack, f32, "f32/slack", Slack<f32, Symmetric>, SlackConfig::<f32, _>::new(&TAKE_UP, SINGLE));
+variant!(Slack, f32, "f32/slack", Slack<f32, Symmetric>, SlackConfig::<f32, _>::new(&TAKE_UP, SINGLE, Bases::SI), Bases::SI);
 variant!(
     Slack,
     Fixed,

@@ -272,7 +272,7 @@ pub const FIRING: usize = 32;
 
 /// The governor of a set: the diesel's, or with what else adds torque.
 pub type Governor<N, F = FeedForward> = SpeedGovernor<N, (Droop, Barred<1>), F, Curve<4>, Modes, Mean<N, FIRING>>;
-type Constants<N, F> = ConfigOf<N, TwoMass<N>, (), Governor<N, F>>;
+type Constants<N, F> = ConfigOf<DriveOf<N, F>>;
 /// The drive of a set.
 pub type DriveOf<N, F = FeedForward> = Drive<N, TwoMass<N>, (), Governor<N, F>>;
 
@@ -415,37 +415,37 @@ pub mod with {
 pub struct Of<N, S>(PhantomData<(N, S)>);
 
 macro_rules! variant {
-    (Diesel $number:ident, $name:literal $(, $bases:expr)?) => {
+    (Diesel $number:ident, $name:literal, $bases:expr) => {
         variant!(@of Diesel, DIESEL, DIESEL_DESIGNS, $number, $name, FeedForward, |design|
-            FeedForwardConfig::<$number>::new(design.share $(, $bases)?) $(, $bases)?);
+            FeedForwardConfig::<$number>::new(design.share, $bases), $bases);
     };
-    (Turbine $number:ident, $name:literal $(, $bases:expr)?) => {
+    (Turbine $number:ident, $name:literal, $bases:expr) => {
         variant!(@of Turbine, TURBINE, TURBINE_DESIGNS, $number, $name, (FeedForward, AccelerationFeedback), |design| (
-            FeedForwardConfig::<$number>::new(design.share $(, $bases)?),
-            AccelerationFeedbackConfig::<$number>::new(design $(, $bases)?),
-        ) $(, $bases)?);
+            FeedForwardConfig::<$number>::new(design.share, $bases),
+            AccelerationFeedbackConfig::<$number>::new(design, $bases),
+        ), $bases);
     };
     (
         @of $set:ident, $constants:ident, $designs:ident, $number:ident, $name:literal, $added:ty,
-        |$design:ident| $prompt:expr $(, $bases:expr)?
+        |$design:ident| $prompt:expr, $bases:expr
     ) => {
         impl Of<$number, with::$set> {
             const fn config($design: &GovernorDesign, droop: f64) -> Constants<$number, $added> {
                 Config {
-                    limits: Limits::<$number>::new(&$constants.screening() $(, $bases)?),
-                    observer: TwoMassConfig::<$number>::new(&$designs.observer $(, $bases)?),
+                    limits: Limits::<$number>::new(&$constants.screening(), $bases),
+                    observer: TwoMassConfig::<$number>::new(&$designs.observer, $bases),
                     fluctuation: (),
                     governor: SpeedGovernorConfig {
-                        gains: Gains::<$number>::new($design, $constants.ramp $(, $bases)?),
+                        gains: Gains::<$number>::new($design, $constants.ramp, $bases),
                         set_point: (
-                            DroopConfig::<$number>::new(droop, RATED_SPEED, $constants.rated_torque $(, $bases)?),
+                            DroopConfig::<$number>::new(droop, RATED_SPEED, $constants.rated_torque, $bases),
                             BarredConfig::<$number, 1>::new(
-                                &$constants.barred, 4.0 * $constants.ramp, PERIOD $(, $bases)?
+                                &$constants.barred, 4.0 * $constants.ramp, PERIOD, $bases
                             ),
                         ),
                         prompt: $prompt,
-                        limit: CurveConfig::<$number, 4>::new(&$constants.curve, 0.0 $(, $bases)?),
-                        supervisor: ModesConfig::<$number>::new(&$constants.modes(), PERIOD $(, $bases)?),
+                        limit: CurveConfig::<$number, 4>::new(&$constants.curve, 0.0, $bases),
+                        supervisor: ModesConfig::<$number>::new(&$constants.modes(), PERIOD, $bases),
                         view: MeanConfig::<$number, FIRING>::of_ticks(),
                     },
                     balancer: (),
@@ -465,12 +465,12 @@ macro_rules! variant {
                 ];
             const RACK: RackConfig<RING> = RackConfig::new($constants.delay, PERIOD);
             const WATCH: ActuatorWatchConfig<$number, 2> =
-                ActuatorWatchConfig::<$number, 2>::new(&$constants.lags, &$constants.watch(), PERIOD $(, $bases)?);
+                ActuatorWatchConfig::<$number, 2>::new(&$constants.lags, &$constants.watch(), PERIOD, $bases);
         }
     };
 }
 
-variant!(Diesel f32, "generator/f32/diesel/2400");
+variant!(Diesel f32, "generator/f32/diesel/2400", Bases::SI);
 variant!(Diesel Fixed, "generator/fixed/diesel/2400", DIESEL.bases());
-variant!(Turbine f32, "generator/f32/turbine/2400");
+variant!(Turbine f32, "generator/f32/turbine/2400", Bases::SI);
 variant!(Turbine Fixed, "generator/fixed/turbine/2400", TURBINE.bases());

@@ -101,10 +101,10 @@ impl Variant for GrindingSpindle<f32> {
     const RATE_HZ: u32 = RATE_HZ;
     const UNIT: f32 = 1.0;
     const CONFIG: &'static Constants<f32, observer::TwoMass<f32>> = &Config {
-        limits: Limits::<f32>::new(&SCREENING),
-        observer: TwoMassConfig::<f32>::new(&OBSERVER),
+        limits: Limits::<f32>::new(&SCREENING, Bases::SI),
+        observer: TwoMassConfig::<f32>::new(&OBSERVER, Bases::SI),
         fluctuation: (),
-        governor: SpeedLoopConfig::<f32>::new(&GOVERNOR, SETTINGS),
+        governor: SpeedLoopConfig::<f32>::new(&GOVERNOR, SETTINGS, Bases::SI),
         balancer: PhasorsConfig::<f32, 2>::new(&MEASURED, [VIBRATION_LIMIT; 2]),
     };
 }

@@ -11,7 +11,7 @@ use driveline::constants::{Bases, Gear, Screening, SpeedLoopSettings};
 use driveline::design::{
     Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, StepChoice, TwoMassDesign,
 };
-use driveline::drive::{Config, ConfigOf, Limits};
+use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Match, Ratio, Stiffness, TwoMass,
@@ -123,10 +123,10 @@ pub struct Hoist<N, O, const RATE_HZ: u32>(PhantomData<(N, O)>);
 macro_rules! limits_and_governor {
     (f32, $observer:expr) => {
         &Config {
-            limits: Limits::<f32>::new(&screening(R)),
-            observer: GearedConfig::<f32, _>::new($observer, &GEAR, 1.0 / R as f64),
+            limits: Limits::<f32>::new(&screening(R), Bases::SI),
+            observer: GearedConfig::<f32, _>::new($observer, &GEAR, 1.0 / R as f64, Bases::SI),
             fluctuation: (),
-            governor: SpeedLoopConfig::<f32>::new(&speed_loop(R), SETTINGS),
+            governor: SpeedLoopConfig::<f32>::new(&speed_loop(R), SETTINGS, Bases::SI),
             balancer: (),
         }
     };
@@ -154,7 +154,7 @@ macro_rules! variant {
                 _ => panic!("the hoist runs at 1000, 4000 or 10000 ticks a second"),
             };
             const RATE_HZ: u32 = R;
-            const CONFIG: &'static ConfigOf<Self::Number, Self::Observer, (), SpeedLoop<$number>> =
+            const CONFIG: &'static ConfigOf<Drive<Self::Number, Self::Observer, (), SpeedLoop<$number>>> =
                 limits_and_governor!($number, $config);
 
             fn expected() -> Option<Expected> {
@@ -164,16 +164,23 @@ macro_rules! variant {
     };
 }
 
-variant!(Rigid, "f32/rigid", f32, Rigid, rigid(R), RigidConfig::<f32>::new(&rigid(R), LOAD_SHARE));
-variant!(Cut, "f32/cut", f32, TwoMass, observer(&CUT, R), TwoMassConfig::<f32>::new(&observer(&CUT, R)));
-variant!(Exact, "f32/exact", f32, TwoMass, observer(&REDUCED, R), TwoMassConfig::<f32>::new(&observer(&REDUCED, R)));
+variant!(Rigid, "f32/rigid", f32, Rigid, rigid(R), RigidConfig::<f32>::new(&rigid(R), LOAD_SHARE, Bases::SI));
+variant!(Cut, "f32/cut", f32, TwoMass, observer(&CUT, R), TwoMassConfig::<f32>::new(&observer(&CUT, R), Bases::SI));
+variant!(
+    Exact,
+    "f32/exact",
+    f32,
+    TwoMass,
+    observer(&REDUCED, R),
+    TwoMassConfig::<f32>::new(&observer(&REDUCED, R), Bases::SI)
+);
 variant!(
     Reduced,
     "f32/reduced",
     f32,
     SemiImplicit,
     observer(&REDUCED, R),
-    SemiImplicitConfig::<f32>::new(&observer(&REDUCED, R))
+    SemiImplicitConfig::<f32>::new(&observer(&REDUCED, R), Bases::SI)
 );
 variant!(Rigid, "fixed/rigid", Fixed, Rigid, rigid(R), RigidConfig::<Fixed>::new(&rigid(R), LOAD_SHARE, BASES));
 variant!(Cut, "fixed/cut", Fixed, TwoMass, observer(&CUT, R), TwoMassConfig::<Fixed>::new(&observer(&CUT, R), BASES));

@@ -199,12 +199,7 @@ pub trait Variant: Sized + 'static {
 }
 
 /// The constants of a variant.
-pub type Constants<V> = ConfigOf<
-    <V as Variant>::Number,
-    observer::Cranked<<V as Variant>::Number>,
-    <V as Variant>::Fluctuation,
-    <V as Variant>::Governor,
->;
+pub type Constants<V> = ConfigOf<PressDrive<V>>;
 
 /// The drive of a variant.
 pub type PressDrive<V> = Drive<
@@ -291,7 +286,7 @@ pub type Measured<N> = (CycleMean<N, SEGMENTS>, Waveform<N, BINS>);
 pub type OnMean<N> = SpeedGovernor<N, (), (), Symmetric, (), OverCycle<N>>;
 
 macro_rules! variants {
-    ($number:ident, $text:literal, $of:expr $(, $bases:ident)?) => {
+    ($number:ident, $text:literal, $bases:expr) => {
         impl Variant for Of<$number, with::Plain> {
             type Number = $number;
             type Fluctuation = ();
@@ -299,10 +294,10 @@ macro_rules! variants {
             type Notes = ();
             const NAME: &'static str = concat!("punch-press/", $text, "/plain/10000");
             const CONFIG: &'static Constants<Self> = &Config {
-                limits: Limits::<$number>::new(&SCREENING $(, $bases)?),
-                observer: CrankedConfig::<$number>::new(&OBSERVER $(, $bases)?),
+                limits: Limits::<$number>::new(&SCREENING, $bases),
+                observer: CrankedConfig::<$number>::new(&OBSERVER, $bases),
                 fluctuation: (),
-                governor: SpeedLoopConfig::<$number>::new(&LOOP, SETTINGS $(, $bases)?),
+                governor: SpeedLoopConfig::<$number>::new(&LOOP, SETTINGS, $bases),
                 balancer: (),
             };
         }
@@ -314,17 +309,17 @@ macro_rules! variants {
             type Notes = Notes<$number>;
             const NAME: &'static str = concat!("punch-press/", $text, "/mean/10000");
             const CONFIG: &'static Constants<Self> = &Config {
-                limits: Limits::<$number>::new(&SCREENING $(, $bases)?),
-                observer: CrankedConfig::<$number>::new(&OBSERVER $(, $bases)?),
+                limits: Limits::<$number>::new(&SCREENING, $bases),
+                observer: CrankedConfig::<$number>::new(&OBSERVER, $bases),
                 fluctuation: (
-                    CycleMeanConfig::<$number>::new::<SEGMENTS>(STROKE, PERIOD $(, $bases)?),
-                    WaveformConfig::new::<BINS>(CycleConfig::new(STROKE, PERIOD, $of), STROKES),
+                    CycleMeanConfig::<$number>::new::<SEGMENTS>(STROKE, PERIOD, $bases),
+                    WaveformConfig::new::<BINS>(CycleConfig::new(STROKE, PERIOD, $bases), STROKES),
                 ),
                 governor: SpeedGovernorConfig {
-                    gains: Gains::<$number>::new(&OVER_STROKE, SETTINGS.ramp $(, $bases)?),
+                    gains: Gains::<$number>::new(&OVER_STROKE, SETTINGS.ramp, $bases),
                     set_point: (),
                     prompt: (),
-                    limit: SymmetricConfig::<$number>::new(TORQUE_LIMIT $(, $bases)?),
+                    limit: SymmetricConfig::<$number>::new(TORQUE_LIMIT, $bases),
                     supervisor: (),
                     view: (),
                 },
@@ -342,4 +337,4 @@ macro_rules! variants {
 }
 
 variants!(f32, "f32", Bases::SI);
-variants!(Fixed, "fixed", BASES, BASES);
+variants!(Fixed, "fixed", BASES);

@@ -24,7 +24,7 @@ use driveline::design::{
     Aim, BacklashDesign, BacklashTuning, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, RigidDesign,
     SlackDesign, SlackTuning, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
 };
-use driveline::drive::{Config, ConfigOf, Limits};
+use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{
     Gains, Slack, SlackConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, Symmetric,
     SymmetricConfig,
@@ -180,25 +180,25 @@ pub mod with {
 }
 
 macro_rules! rope {
-    ($with:ident, $number:ident, $name:literal, $limit:ty, $config:expr $(, $bases:ident)?) => {
+    ($with:ident, $number:ident, $name:literal, $limit:ty, $config:expr, $bases:expr) => {
         impl Parts for SkipWinch<$number, with::$with> {
             type Number = $number;
             type Observer = Geared<observer::Backlash<$number>>;
             type Governor = SpeedGovernor<$number, (), (), $limit>;
             const NAME: &'static str = concat!("skip-winch/", $name, "/2000");
             const RATE_HZ: u32 = RATE_HZ;
-            const CONFIG: &'static ConfigOf<$number, Self::Observer, (), Self::Governor> = &Config {
-                limits: Limits::<$number>::new(&ROPE_SCREENING $(, $bases)?),
+            const CONFIG: &'static ConfigOf<Drive<$number, Self::Observer, (), Self::Governor>> = &Config {
+                limits: Limits::<$number>::new(&ROPE_SCREENING, $bases),
                 observer: GearedConfig::<$number, _>::new(
-                    BacklashConfig::<$number>::new(&SLACK_ROPE $(, $bases)?),
+                    BacklashConfig::<$number>::new(&SLACK_ROPE, $bases),
                     &GEAR,
-                    1.0 / RATE_HZ as f64
-                    $(, $bases)?
+                    1.0 / RATE_HZ as f64,
+                    $bases,
                 ),
                 fluctuation: (),
                 governor: SpeedGovernorConfig {
                     view: (),
-                    gains: Gains::<$number>::of_speed_loop(&PLAIN, EMERGENCY_RAMP $(, $bases)?),
+                    gains: Gains::<$number>::of_speed_loop(&PLAIN, EMERGENCY_RAMP, $bases),
                     set_point: (),
                     prompt: (),
                     limit: $config,
@@ -210,12 +210,12 @@ macro_rules! rope {
     };
 }
 
-const SINGLE: SymmetricConfig<f32> = SymmetricConfig::<f32>::new(TORQUE_LIMIT);
+const SINGLE: SymmetricConfig<f32> = SymmetricConfig::<f32>::new(TORQUE_LIMIT, Bases::SI);
 const FIXED: SymmetricConfig<Fixed> = SymmetricConfig::<Fixed>::new(TORQUE_LIMIT, BASES);
 
-rope!(Plain, f32, "f32/plain", Symmetric, SINGLE);
+rope!(Plain, f32, "f32/plain", Symmetric, SINGLE, Bases::SI);
 rope!(Plain, Fixed, "fixed/plain", Symmetric, FIXED, BASES);
-rope!(Slack, f32, "f32/slack", Slack<f32, Symmetric>, SlackConfig::<f32, _>::new(&TAKE_UP, SINGLE));
+rope!(Slack, f32, "f32/slack", Slack<f32, Symmetric>, SlackConfig::<f32, _>::new(&TAKE_UP, SINGLE, Bases::SI), Bases::SI);
 rope!(
     Slack,
     Fixed,

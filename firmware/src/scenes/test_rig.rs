@@ -6,7 +6,7 @@
 //! velocity sensors stand on the disc's bearings, and the disc has holes for weights in two planes. All can be bought or turned; it is no machine that exists.
 
 use driveline::balance::PhasorsConfig;
-use driveline::constants::{Measured, Screening, SpeedLoopSettings};
+use driveline::constants::{Bases, Measured, Screening, SpeedLoopSettings};
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
 use driveline::drive::{Config, Limits};
 use driveline::governor::SpeedLoopConfig;
@@ -91,10 +91,10 @@ impl Variant for TestRig {
     const RATE_HZ: u32 = RATE_HZ;
     const UNIT: f32 = 1.0;
     const CONFIG: &'static Constants<f32, observer::TwoMass<f32>> = &Config {
-        limits: Limits::<f32>::new(&SCREENING),
-        observer: TwoMassConfig::<f32>::new(&OBSERVER),
+        limits: Limits::<f32>::new(&SCREENING, Bases::SI),
+        observer: TwoMassConfig::<f32>::new(&OBSERVER, Bases::SI),
         fluctuation: (),
-        governor: SpeedLoopConfig::<f32>::new(&LOOP, SETTINGS),
+        governor: SpeedLoopConfig::<f32>::new(&LOOP, SETTINGS, Bases::SI),
         balancer: PhasorsConfig::<f32, 2>::new(&MEASURED, [VIBRATION_LIMIT; 2]),
     };
 }

@@ -16,7 +16,7 @@ use driveline::design::{
     Aim, BarredSpeeds, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, SpeedLoopDesign, SpeedLoopTuning,
     TwoMassDesign, USUAL_MARGIN,
 };
-use driveline::drive::{Config, ConfigOf, Limits};
+use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{
     Barred, BarredConfig, Gains, SpeedGovernor, SpeedGovernorConfig, Symmetric, SymmetricConfig,
 };
@@ -135,23 +135,23 @@ pub mod with {
 pub struct VibratingScreen<N, G>(PhantomData<(N, G)>);
 
 macro_rules! variant {
-    ($with:ident, $number:ident, $name:literal, $shape:ty, $set_point:expr $(, $bases:ident)?) => {
+    ($with:ident, $number:ident, $name:literal, $shape:ty, $set_point:expr, $bases:expr) => {
         impl Parts for VibratingScreen<$number, with::$with> {
             type Number = $number;
             type Observer = observer::TwoMass<$number>;
             type Governor = SpeedGovernor<$number, $shape, (), Symmetric>;
             const NAME: &'static str = concat!("vibrating-screen/", $name, "/4000");
             const RATE_HZ: u32 = RATE_HZ;
-            const CONFIG: &'static ConfigOf<$number, Self::Observer, (), Self::Governor> = &Config {
-                limits: Limits::<$number>::new(&SCREENING $(, $bases)?),
-                observer: TwoMassConfig::<$number>::new(&OBSERVER $(, $bases)?),
+            const CONFIG: &'static ConfigOf<Drive<$number, Self::Observer, (), Self::Governor>> = &Config {
+                limits: Limits::<$number>::new(&SCREENING, $bases),
+                observer: TwoMassConfig::<$number>::new(&OBSERVER, $bases),
                 fluctuation: (),
                 governor: SpeedGovernorConfig {
                     view: (),
-                    gains: Gains::<$number>::of_speed_loop(&LOOP, RAMP $(, $bases)?),
+                    gains: Gains::<$number>::of_speed_loop(&LOOP, RAMP, $bases),
                     set_point: $set_point,
                     prompt: (),
-                    limit: SymmetricConfig::<$number>::new(TORQUE_LIMIT $(, $bases)?),
+                    limit: SymmetricConfig::<$number>::new(TORQUE_LIMIT, $bases),
                     supervisor: (),
                 },
                 balancer: (),
@@ -162,7 +162,14 @@ macro_rules! variant {
 
 const PERIOD: f64 = 1.0 / RATE_HZ as f64;
 
-variant!(Quick, f32, "f32/exact", Barred<2>, BarredConfig::<f32, 2>::new(&BARRED, QUICK_RAMP, PERIOD));
+variant!(
+    Quick,
+    f32,
+    "f32/exact",
+    Barred<2>,
+    BarredConfig::<f32, 2>::new(&BARRED, QUICK_RAMP, PERIOD, Bases::SI),
+    Bases::SI
+);
 variant!(
     Quick,
     Fixed,
@@ -171,4 +178,4 @@ variant!(
     BarredConfig::<Fixed, 2>::new(&BARRED, QUICK_RAMP, PERIOD, BASES),
     BASES
 );
-variant!(Plain, f32, "f32/plain", (), ());
+variant!(Plain, f32, "f32/plain", (), (), Bases::SI);

@@ -7,7 +7,7 @@ use driveline::sample::Estimate;
 #[allow(dead_code)]
 mod single {
     // listing: single
-    use driveline::constants::{Screening, SpeedLoopSettings};
+    use driveline::constants::{Bases, Screening, SpeedLoopSettings};
     use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
     use driveline::drive::{Config, ConfigOf, Drive, Limits};
     use driveline::governor::{SpeedLoop, SpeedLoopConfig};
@@ -32,11 +32,11 @@ mod single {
         Screening { torque: 800.0, reference: 180.0, innovation: 0.05, standstill: 1.5e-3, missed: 150 };
 
     type Roll = Drive<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>;
-    static CONFIG: ConfigOf<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>> = Config {
-        limits: Limits::<f32>::new(&SCREENING),
-        observer: TwoMassConfig::<f32>::new(&OBSERVER),
+    static CONFIG: ConfigOf<Drive<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>> = Config {
+        limits: Limits::<f32>::new(&SCREENING, Bases::SI),
+        observer: TwoMassConfig::<f32>::new(&OBSERVER, Bases::SI),
         fluctuation: (),
-        governor: SpeedLoopConfig::<f32>::new(&GOVERNOR, SETTINGS),
+        governor: SpeedLoopConfig::<f32>::new(&GOVERNOR, SETTINGS, Bases::SI),
         balancer: (),
     };
 
@@ -79,7 +79,7 @@ mod fixed {
     const BASES: Bases = Bases::of(&OBSERVER, 900.0, 200.0); // N m and rad/s that a healthy machine stays below
 
     type Roll = Drive<Fixed, observer::TwoMass<Fixed>, (), SpeedLoop<Fixed>>;
-    static CONFIG: ConfigOf<Fixed, observer::TwoMass<Fixed>, (), SpeedLoop<Fixed>> = Config {
+    static CONFIG: ConfigOf<Drive<Fixed, observer::TwoMass<Fixed>, (), SpeedLoop<Fixed>>> = Config {
         limits: Limits::<Fixed>::new(&SCREENING, BASES),
         observer: TwoMassConfig::<Fixed>::new(&OBSERVER, BASES),
         fluctuation: (),

@@ -5,7 +5,7 @@ use cargo_driveline::drivetrains::approximate::{ApproximateObserver, StepOf};
 use cargo_driveline::drivetrains::hoist;
 use cargo_driveline::drivetrains::lockstep::{OnHost, Trace, run};
 use cargo_driveline::drivetrains::other_steps::{Recorded, comparison, comparisons, recorded};
-use driveline::constants::{Gear, Screening};
+use driveline::constants::{Bases, Gear, Screening};
 use driveline::design::{Disturbance, Encoder, Rate, TwoMassDesign};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass as Machine};
@@ -68,9 +68,14 @@ fn with_the_exact_step_it_is_the_drive() {
     type Observer = Geared<TwoMass<f64>>;
     let design = design(10_000);
     let screening = Screening { torque: 1e4, reference: 1e3, innovation: 0.5, standstill: 0.5, missed: 200 };
-    let config: ConfigOf<f64, Observer> = Config {
-        limits: Limits::<f64>::new(&screening),
-        observer: GearedConfig::<f64, _>::new(TwoMassConfig::<f64>::new(&design), &GEAR, design.period),
+    let config: ConfigOf<Drive<f64, Observer>> = Config {
+        limits: Limits::<f64>::new(&screening, Bases::SI),
+        observer: GearedConfig::<f64, _>::new(
+            TwoMassConfig::<f64>::new(&design, Bases::SI),
+            &GEAR,
+            design.period,
+            Bases::SI,
+        ),
         fluctuation: (),
         governor: (),
         balancer: (),

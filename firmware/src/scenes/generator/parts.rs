@@ -1,42 +1,37 @@
 //! The constants of the diesel's parts one by one, for the bench.
 
 macro_rules! parts {
-    ($module:ident, $number:ident $(, $bases:expr)?) => {
+    ($module:ident, $number:ident, $bases:expr) => {
         /// The parts with this number.
         pub mod $module {
             use super::super::*;
-            use driveline::governor::{BetweenConfig, ActiveDampingConfig, SlewConfig, SymmetricConfig};
             use crate::scenes::hoist;
+            use driveline::governor::{ActiveDampingConfig, BetweenConfig, SlewConfig, SymmetricConfig};
 
             /// Gains and ramp.
-            pub const GAINS: Gains<$number> = Gains::<$number>::new(&DIESEL_PLAIN, DIESEL.ramp $(, $bases)?);
+            pub const GAINS: Gains<$number> = Gains::<$number>::new(&DIESEL_PLAIN, DIESEL.ramp, $bases);
             /// Droop.
             pub const DROOP: DroopConfig<$number> =
-                DroopConfig::<$number>::new(super::super::DROOP, RATED_SPEED, DIESEL_TORQUE $(, $bases)?);
+                DroopConfig::<$number>::new(super::super::DROOP, RATED_SPEED, DIESEL_TORQUE, $bases);
             /// Barred speeds.
             pub const BARRED: BarredConfig<$number, 1> =
-                BarredConfig::<$number, 1>::new(&DIESEL.barred, 4.0 * DIESEL.ramp, PERIOD $(, $bases)?);
+                BarredConfig::<$number, 1>::new(&DIESEL.barred, 4.0 * DIESEL.ramp, PERIOD, $bases);
             /// Feed-forward.
-            pub const FORWARD: FeedForwardConfig<$number> =
-                FeedForwardConfig::<$number>::new(DIESEL.share $(, $bases)?);
+            pub const FORWARD: FeedForwardConfig<$number> = FeedForwardConfig::<$number>::new(DIESEL.share, $bases);
             /// Active damping, the hoist's.
             pub const DAMPING: ActiveDampingConfig<$number> =
-                ActiveDampingConfig::<$number>::new(&hoist::speed_loop(10_000) $(, $bases)?);
+                ActiveDampingConfig::<$number>::new(&hoist::speed_loop(10_000), $bases);
             /// A limit either way.
-            pub const SYMMETRIC: SymmetricConfig<$number> =
-                SymmetricConfig::<$number>::new(DIESEL_TORQUE $(, $bases)?);
+            pub const SYMMETRIC: SymmetricConfig<$number> = SymmetricConfig::<$number>::new(DIESEL_TORQUE, $bases);
             /// A limit from zero on.
-            pub const BETWEEN: BetweenConfig<$number> =
-                BetweenConfig::<$number>::new(0.0, DIESEL_TORQUE $(, $bases)?);
+            pub const BETWEEN: BetweenConfig<$number> = BetweenConfig::<$number>::new(0.0, DIESEL_TORQUE, $bases);
             /// The curve.
-            pub const CURVE: CurveConfig<$number, 4> =
-                CurveConfig::<$number, 4>::new(&DIESEL.curve, 0.0 $(, $bases)?);
+            pub const CURVE: CurveConfig<$number, 4> = CurveConfig::<$number, 4>::new(&DIESEL.curve, 0.0, $bases);
             /// The mean over a firing interval.
             pub const MEAN: MeanConfig<$number, FIRING> = MeanConfig::<$number, FIRING>::of_ticks();
             /// Slew, from nothing to the rated torque in 50 ms.
-            pub const SLEW: SlewConfig<$number, SymmetricConfig<$number>> = SlewConfig::<$number, _>::new(
-                20.0 * DIESEL_TORQUE, SYMMETRIC, PERIOD $(, $bases)?
-            );
+            pub const SLEW: SlewConfig<$number, SymmetricConfig<$number>> =
+                SlewConfig::<$number, _>::new(20.0 * DIESEL_TORQUE, SYMMETRIC, PERIOD, $bases);
             /// Modes that the bench's wandering inputs do not trip.
             pub const WIDE: ModesConfig<$number> = ModesConfig::<$number>::new(
                 &ModesSettings {
@@ -46,12 +41,12 @@ macro_rules! parts {
                     shaft_torque: 3.0 * DIESEL_TORQUE,
                     ..DIESEL.modes()
                 },
-                PERIOD
-                $(, $bases)?
+                PERIOD,
+                $bases,
             );
         }
     };
 }
 
-parts!(single, f32);
+parts!(single, f32, Bases::SI);
 parts!(fixed, Fixed, DIESEL.bases());

@@ -40,7 +40,7 @@ impl<N: Number> Library<N> {
 impl Library<f32> {
     /// In `f32`.
     pub fn single(case: &Case) -> Self {
-        Library::with(BacklashConfig::<f32>::new(&case.design()), Bases::SI, |x| x as f32, f64::from)
+        Library::with(BacklashConfig::<f32>::new(&case.design(), Bases::SI), Bases::SI, |x| x as f32, f64::from)
     }
 }
 
@@ -52,7 +52,7 @@ impl Library<f64> {
 
     /// Of a design of one's own.
     pub fn designed(design: &BacklashDesign) -> Self {
-        Library::with(BacklashConfig::<f64>::new(design), Bases::SI, |x| x, |x| x)
+        Library::with(BacklashConfig::<f64>::new(design, Bases::SI), Bases::SI, |x| x, |x| x)
     }
 }
 

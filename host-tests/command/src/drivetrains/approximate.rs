@@ -4,7 +4,7 @@
 //! mean motion and wrapped angle stay what they are, so that only the step differs. No sample is screened: a step that diverges
 //! is seen to diverge.
 
-use driveline::constants::Gear;
+use driveline::constants::{Bases, Gear};
 use driveline::design::{ApproximateStep, TwoMassDesign};
 use driveline::observer::{Geared, GearedConfig, Observer, TwoMass, TwoMassConfig};
 
@@ -46,7 +46,7 @@ impl ApproximateObserver {
     /// # Errors
     /// For a gear out of its range.
     pub fn new(design: &TwoMassDesign, step: StepOf, gear: &Gear) -> Result<Self, driveline::constants::Error> {
-        let mut config = TwoMassConfig::<f64>::new(design);
+        let mut config = TwoMassConfig::<f64>::new(design, Bases::SI);
         let other = match step {
             StepOf::Exact => None,
             StepOf::Tustin => Some(ApproximateStep::tustin(&design.machine, design.period)),
@@ -56,7 +56,7 @@ impl ApproximateObserver {
             config.twist = [step.n11, step.n12, step.g1];
             config.twist_rate = [step.n21, step.n22, step.g2];
         }
-        let config = GearedConfig::<f64, _>::try_new(config, gear, design.period)?;
+        let config = GearedConfig::<f64, _>::try_new(config, gear, design.period, Bases::SI)?;
         Ok(ApproximateObserver { observer: Geared::at_rest(&config, 0, 0.0), config })
     }
 

@@ -140,8 +140,16 @@ macro_rules! steps {
     };
 }
 
-steps!(f32, |design, _bases| Ok(TwoMassConfig::<f32>::new(design)), Ok(SemiImplicitConfig::<f32>::new(design)));
-steps!(f64, |design, _bases| Ok(TwoMassConfig::<f64>::new(design)), Ok(SemiImplicitConfig::<f64>::new(design)));
+steps!(
+    f32,
+    |design, bases| Ok(TwoMassConfig::<f32>::new(design, bases)),
+    Ok(SemiImplicitConfig::<f32>::new(design, bases))
+);
+steps!(
+    f64,
+    |design, bases| Ok(TwoMassConfig::<f64>::new(design, bases)),
+    Ok(SemiImplicitConfig::<f64>::new(design, bases))
+);
 steps!(
     Fixed,
     |design, bases| TwoMassConfig::<Fixed>::try_new(design, bases),

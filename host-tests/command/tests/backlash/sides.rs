@@ -2,6 +2,7 @@
 
 use cargo_driveline::backlash::{Case, GAP, cases};
 use cargo_driveline::closed_loop::sensors::Encoder;
+use driveline::constants::Bases;
 use driveline::observer::{Backlash, BacklashConfig, Observer};
 use driveline_solver::plant::{Chain, Plant, Shaft, Start};
 
@@ -22,7 +23,7 @@ fn plant(case: &Case, twist: f64, speeds: [f64; 2], load: f64) -> Plant {
 #[test]
 fn a_lost_side_is_found_again() {
     for case in cases() {
-        let config = BacklashConfig::<f64>::new(&case.design());
+        let config = BacklashConfig::<f64>::new(&case.design(), Bases::SI);
         let torque = 0.5 * case.rated;
         let twist = torque / case.machine.stiffness + 0.5 * case.machine.gap;
         let mut plant = plant(&case, twist, [0.0; 2], torque);
@@ -50,7 +51,7 @@ fn a_lost_side_is_found_again() {
 fn the_twist_is_kept_through_free_flight() {
     for case in cases() {
         let design = case.design();
-        let config = BacklashConfig::<f64>::new(&design);
+        let config = BacklashConfig::<f64>::new(&design, Bases::SI);
         let torque = 0.2 * case.rated;
         // In contact on the left, which carries the load; then the motor drives to the right with all it has: it
         // leaves, flies and meets the right flank.
@@ -79,7 +80,7 @@ fn the_twist_is_kept_through_free_flight() {
 #[test]
 fn it_starts_on_the_side_of_the_torque_and_in_the_middle_without_one() {
     let case = &cases()[0];
-    let config = BacklashConfig::<f64>::new(&case.design());
+    let config = BacklashConfig::<f64>::new(&case.design(), Bases::SI);
     for torque in [10.0, -10.0] {
         let observer = Backlash::<f64>::at_rest(&config, 0, torque);
         assert!(!observer.is_open(&config));

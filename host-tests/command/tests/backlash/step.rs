@@ -1,5 +1,6 @@
 //! The prediction through the gap against the full solver, which finds every flank to 1e-14 s.
 
+use driveline::constants::Bases;
 use driveline::design::{BacklashTuning, Disturbance, Encoder, Rate};
 use driveline::machine::{Damping, Gap, Inertia, Stiffness, TwoMass};
 use driveline::observer::{Backlash, BacklashConfig, Observer};
@@ -19,7 +20,7 @@ fn predicted(resonance_hz: f64, damping_ratio: f64) -> (f64, usize) {
     let disturbance = Disturbance { torque_accuracy: 0.01 * rated, load_torque_step: rated, within: 1.0 };
     let rate = 10_000;
     let design = machine.backlash_observer(Rate::hz(rate), Encoder::lines(2048), disturbance, BacklashTuning::USUAL);
-    let config = BacklashConfig::<f64>::new(&design);
+    let config = BacklashConfig::<f64>::new(&design, Bases::SI);
     let mut observer = Backlash::<f64>::at_rest(&config, 0, 0.0);
     let shaft = Shaft::elastic(stiffness).damping(damping).gap(0.01);
     let mut plant = Chain::motor(motor).shaft(shaft, load).build().unwrap();

@@ -103,9 +103,9 @@ fn errors<N: Number, O: Observer<N>>(config: &O::Config, torque_base: f64, speed
 
 #[test]
 fn the_crank_is_not_taken_for_load() {
-    let cranked = errors::<f32, observer::Cranked<f32>>(&CrankedConfig::<f32>::new(&DESIGN), 1.0, 1.0);
+    let cranked = errors::<f32, observer::Cranked<f32>>(&CrankedConfig::<f32>::new(&DESIGN, Bases::SI), 1.0, 1.0);
     let rigid = errors::<f32, observer::Rigid<f32>>(
-        &RigidConfig::<f32>::new(&MEAN, 1.0 - 0.5 / PRESS.mean_inertia()),
+        &RigidConfig::<f32>::new(&MEAN, 1.0 - 0.5 / PRESS.mean_inertia(), Bases::SI),
         1.0,
         1.0,
     );
@@ -118,8 +118,8 @@ fn the_crank_is_not_taken_for_load() {
 
 #[test]
 fn numbers_agree() {
-    let double = errors::<f64, observer::Cranked<f64>>(&CrankedConfig::<f64>::new(&DESIGN), 1.0, 1.0);
-    let single = errors::<f32, observer::Cranked<f32>>(&CrankedConfig::<f32>::new(&DESIGN), 1.0, 1.0);
+    let double = errors::<f64, observer::Cranked<f64>>(&CrankedConfig::<f64>::new(&DESIGN, Bases::SI), 1.0, 1.0);
+    let single = errors::<f32, observer::Cranked<f32>>(&CrankedConfig::<f32>::new(&DESIGN, Bases::SI), 1.0, 1.0);
     let fixed = errors::<Fixed, observer::Cranked<Fixed>>(&CrankedConfig::<Fixed>::new(&DESIGN, BASES), 1_200.0, 200.0);
     println!("{double:?} {single:?} {fixed:?}");
     for k in 0..3 {
@@ -132,7 +132,7 @@ fn numbers_agree() {
 #[test]
 fn a_free_crank_drive_has_no_load() {
     // Nothing drives and nothing brakes: the speed swings by a tenth, and all of it is the inertia's.
-    let config = CrankedConfig::<f64>::new(&DESIGN);
+    let config = CrankedConfig::<f64>::new(&DESIGN, Bases::SI);
     let mut press = Press::new(150.0);
     let mut observer = observer::Cranked::<f64>::steady(&config, 0, 0.0, 150.0);
     let (mut slow, mut fast, mut worst, mut peak) = (f64::INFINITY, 0.0_f64, 0.0_f64, 0.0_f64);
@@ -153,7 +153,7 @@ fn a_free_crank_drive_has_no_load() {
 
 #[test]
 fn the_crank_stays_known_through_a_brake_and_a_restart() {
-    let config = CrankedConfig::<f64>::new(&DESIGN);
+    let config = CrankedConfig::<f64>::new(&DESIGN, Bases::SI);
     let mut observer = observer::Cranked::<f64>::at_rest(&config, 0, 0.0);
     observer.home(&config, 1 << 30);
     // Three turns of the motor in steps of a twentieth, against a closed brake that slips.

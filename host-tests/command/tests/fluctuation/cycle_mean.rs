@@ -27,7 +27,7 @@ trait Built: Number {
 
 impl Built for f64 {
     fn config() -> CycleMeanConfig<f64> {
-        CycleMeanConfig::<f64>::new::<64>(STROKE, PERIOD)
+        CycleMeanConfig::<f64>::new::<64>(STROKE, PERIOD, Bases::SI)
     }
     fn of(speed: f64) -> f64 {
         speed
@@ -39,7 +39,7 @@ impl Built for f64 {
 
 impl Built for f32 {
     fn config() -> CycleMeanConfig<f32> {
-        CycleMeanConfig::<f32>::new::<64>(STROKE, PERIOD)
+        CycleMeanConfig::<f32>::new::<64>(STROKE, PERIOD, Bases::SI)
     }
     fn of(speed: f64) -> f32 {
         speed as f32
@@ -184,10 +184,15 @@ fn there_is_none_where_nothing_is_known() {
 fn cycles_that_cannot_be_are_refused() {
     let turn = Cycle::TURN;
     let of = |error: Result<CycleMeanConfig<f32>, Error>| error.unwrap_err().to_string();
-    assert!(of(CycleMeanConfig::<f32>::try_new::<3>(turn, PERIOD)).contains("a power of two from 4 to 1024"));
-    assert!(of(CycleMeanConfig::<f32>::try_new::<32>(STROKE, PERIOD)).contains("a quarter of a turn"));
-    assert!(of(CycleMeanConfig::<f32>::try_new::<64>(turn, 0.0)).contains("the time between two ticks"));
-    assert!(of(CycleMeanConfig::<f32>::try_new::<64>(Cycle { turns: 0, cycles: 1 }, PERIOD)).contains("at least 1"));
+    assert!(
+        of(CycleMeanConfig::<f32>::try_new::<3>(turn, PERIOD, Bases::SI)).contains("a power of two from 4 to 1024")
+    );
+    assert!(of(CycleMeanConfig::<f32>::try_new::<32>(STROKE, PERIOD, Bases::SI)).contains("a quarter of a turn"));
+    assert!(of(CycleMeanConfig::<f32>::try_new::<64>(turn, 0.0, Bases::SI)).contains("the time between two ticks"));
+    assert!(
+        of(CycleMeanConfig::<f32>::try_new::<64>(Cycle { turns: 0, cycles: 1 }, PERIOD, Bases::SI))
+            .contains("at least 1")
+    );
     let slow = CycleMeanConfig::<Fixed>::try_new::<64>(turn, 1e-6, Bases::rigid(1.0, 0.01)).unwrap_err();
     assert!(slow.to_string().contains("turns too little in a tick"), "{slow}");
 }

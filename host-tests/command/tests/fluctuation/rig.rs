@@ -41,7 +41,7 @@ const SCREENING: Screening =
 
 pub type Parts<N> = (Extremes<N>, Waveform<N, BINS>);
 pub type Measured<N> = Drive<N, observer::TwoMass<N>, Parts<N>>;
-pub type Constants<N> = ConfigOf<N, observer::TwoMass<N>, Parts<N>>;
+pub type Constants<N> = ConfigOf<Drive<N, observer::TwoMass<N>, Parts<N>>>;
 
 /// A number that the drive can be built in.
 pub trait Built: Number {
@@ -57,8 +57,8 @@ macro_rules! float {
             fn constants(cycle: Cycle, cycles: u32) -> Constants<Self> {
                 let cycle = CycleConfig::new(cycle, PERIOD, Bases::SI);
                 Config {
-                    limits: Limits::<$float>::new(&SCREENING),
-                    observer: TwoMassConfig::<$float>::new(&DESIGN),
+                    limits: Limits::<$float>::new(&SCREENING, Bases::SI),
+                    observer: TwoMassConfig::<$float>::new(&DESIGN, Bases::SI),
                     fluctuation: (cycle, WaveformConfig::new::<BINS>(cycle, cycles)),
                     governor: (),
                     balancer: (),

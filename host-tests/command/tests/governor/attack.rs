@@ -67,29 +67,32 @@ trait Wired: Number {
 }
 
 macro_rules! wired {
-    ($number:ident, $unit:expr, |$value:ident| $of:expr $(, $bases:expr)?) => {
+    ($number:ident, $unit:expr, |$value:ident| $of:expr, $bases:expr) => {
         impl Wired for $number {
             const UNIT: [f64; 2] = $unit;
             fn governors(slew: f64) -> [Constants<Self>; 2] {
                 [(&FED, 0.0), (&HEAVY, 0.04)].map(|(design, droop)| SpeedGovernorConfig {
-                    gains: Gains::<$number>::new(design, RAMP $(, $bases)?),
-                    set_point: DroopConfig::<$number>::new(droop, SPEED, TORQUE $(, $bases)?),
+                    gains: Gains::<$number>::new(design, RAMP, $bases),
+                    set_point: DroopConfig::<$number>::new(droop, SPEED, TORQUE, $bases),
                     prompt: (
-                        FeedForwardConfig::<$number>::new(design.share $(, $bases)?),
-                        AccelerationFeedbackConfig::<$number>::new(design $(, $bases)?),
+                        FeedForwardConfig::<$number>::new(design.share, $bases),
+                        AccelerationFeedbackConfig::<$number>::new(design, $bases),
                     ),
                     limit: SlewConfig::<$number, _>::new(
-                        slew, SymmetricConfig::<$number>::new(TORQUE $(, $bases)?), PERIOD $(, $bases)?
+                        slew,
+                        SymmetricConfig::<$number>::new(TORQUE, $bases),
+                        PERIOD,
+                        $bases,
                     ),
-                    supervisor: ModesConfig::<$number>::new(&MODES, PERIOD $(, $bases)?),
+                    supervisor: ModesConfig::<$number>::new(&MODES, PERIOD, $bases),
                     view: MeanConfig::<$number, 32>::of_ticks(),
                 })
             }
             fn limits() -> Limits<Self> {
-                Limits::<$number>::new(&SCREENING $(, $bases)?)
+                Limits::<$number>::new(&SCREENING, $bases)
             }
             fn observer() -> TwoMassConfig<Self> {
-                TwoMassConfig::<$number>::new(&OBSERVER $(, $bases)?)
+                TwoMassConfig::<$number>::new(&OBSERVER, $bases)
             }
             fn of($value: f64) -> Self {
                 $of
@@ -98,7 +101,7 @@ macro_rules! wired {
     };
 }
 
-wired!(f32, [1.0, 1.0], |value| value as f32);
+wired!(f32, [1.0, 1.0], |value| value as f32, Bases::SI);
 wired!(Fixed, [BASES.torque, BASES.speed], |value| Fixed::from_f64(value), BASES);
 
 /// What is done to a drive.
@@ -145,12 +148,8 @@ fn act() -> impl Strategy<Value = Act> {
 /// Runs a drive through it all.
 fn attack<N: Wired>(acts: &[Act]) -> Result<(), TestCaseError> {
     let [torque_unit, speed_unit] = N::UNIT;
-    let configs: [ConfigOf<N, TwoMass<N>, (), Whole<N>>; 2] = N::governors(20.0 * TORQUE).map(|governor| Config {
-        limits: N::limits(),
-        observer: N::observer(),
-        fluctuation: (),
-        governor,
-        balancer: (),
+    let configs: [ConfigOf<Drive<N, TwoMass<N>, (), Whole<N>>>; 2] = N::governors(20.0 * TORQUE).map(|governor| {
+        Config { limits: N::limits(), observer: N::observer(), fluctuation: (), governor, balancer: () }
     });
     // A unit in the last place of what the words hold.
     let most = N::of(TORQUE * (1.0 + 1e-6) / torque_unit);

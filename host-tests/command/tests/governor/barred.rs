@@ -1,5 +1,6 @@
 //! Barred speeds: where they lie, and that no set point stays in one.
 
+use driveline::constants::Bases;
 use driveline::design::{Actuator, BarredSpeeds, Error, LoadFeedForward, Rate, USUAL_MARGIN};
 use driveline::governor::{Barred, BarredConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, SymmetricConfig};
 use driveline::machine::{Chain, Damping, Inertia, Stiffness};
@@ -67,10 +68,10 @@ fn a_range_is_passed_quickly_and_never_stayed_in() {
         LoadFeedForward::NONE,
     );
     let config = SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&design, 10.0),
-        set_point: BarredConfig::<f64, 2>::new(&barred, 40.0, PERIOD),
+        gains: Gains::<f64>::new(&design, 10.0, Bases::SI),
+        set_point: BarredConfig::<f64, 2>::new(&barred, 40.0, PERIOD, Bases::SI),
         prompt: (),
-        limit: SymmetricConfig::<f64>::new(100.0),
+        limit: SymmetricConfig::<f64>::new(100.0, Bases::SI),
         supervisor: (),
         view: (),
     };

@@ -231,17 +231,17 @@ fn firing_delay_is_half_an_interval_and_a_quarter_turn() {
 #[test]
 fn constants_that_the_number_does_not_hold_are_refused() {
     let good = design(2.5, Actuator { delay: 0.01, lag: 0.02 });
-    assert!(Gains::<f32>::try_new(&good, 1.0).is_ok());
+    assert!(Gains::<f32>::try_new(&good, 1.0, Bases::SI).is_ok());
     for gain in [f64::NAN, f64::INFINITY, 1e39, 0.0, -1.0] {
         let bad = GovernorDesign { proportional: gain, ..good };
-        assert!(matches!(Gains::<f32>::try_new(&bad, 1.0), Err(constants::Error::Coefficient(_))), "{gain}");
+        assert!(matches!(Gains::<f32>::try_new(&bad, 1.0, Bases::SI), Err(constants::Error::Coefficient(_))), "{gain}");
     }
     let bad = GovernorDesign { integral: f64::NAN, ..good };
-    assert!(matches!(Gains::<f32>::try_new(&bad, 1.0), Err(constants::Error::Coefficient(_))));
+    assert!(matches!(Gains::<f32>::try_new(&bad, 1.0, Bases::SI), Err(constants::Error::Coefficient(_))));
     let bad = GovernorDesign { acceleration: 1e39, ..good };
-    assert!(AccelerationFeedbackConfig::<f32>::try_new(&bad).is_err());
+    assert!(AccelerationFeedbackConfig::<f32>::try_new(&bad, Bases::SI).is_err());
 
-    assert!(matches!(Gains::<f32>::try_new(&good, 1e-45), Err(constants::Error::Value(_))));
+    assert!(matches!(Gains::<f32>::try_new(&good, 1e-45, Bases::SI), Err(constants::Error::Value(_))));
     let bases = Bases::new(&machine(), 20_000.0, 210.0);
     // A unit in the last place a tick: 210 rad/s/2^28 in 0.5 ms are 1.56e-3 rad/s2.
     for (ramp, allowed) in [(1.5e-3, false), (1.6e-3, true)] {
@@ -252,5 +252,5 @@ fn constants_that_the_number_does_not_hold_are_refused() {
             "{ramp}"
         );
     }
-    assert!(CycleMeanConfig::<f32>::try_new::<8>(Cycle::TURN, 1e-60).is_err());
+    assert!(CycleMeanConfig::<f32>::try_new::<8>(Cycle::TURN, 1e-60, Bases::SI).is_err());
 }

@@ -53,10 +53,10 @@ impl Law {
 
 fn single() -> SpeedGovernorConfigOf<f32, Droop, FeedForward, Curve<3>> {
     SpeedGovernorConfig {
-        gains: Gains::<f32>::new(&DESIGN, RAMP),
-        set_point: DroopConfig::<f32>::new(0.04, SPEED, TORQUE),
-        prompt: FeedForwardConfig::<f32>::new(0.9),
-        limit: CurveConfig::<f32, 3>::new(&CURVE, -100.0),
+        gains: Gains::<f32>::new(&DESIGN, RAMP, Bases::SI),
+        set_point: DroopConfig::<f32>::new(0.04, SPEED, TORQUE, Bases::SI),
+        prompt: FeedForwardConfig::<f32>::new(0.9, Bases::SI),
+        limit: CurveConfig::<f32, 3>::new(&CURVE, -100.0, Bases::SI),
         supervisor: (),
         view: (),
     }
@@ -132,7 +132,7 @@ proptest! {
 fn the_integral_does_not_wind_up_behind_any_limit() {
     fn leaves<L: Limit<f64>>(limit: L::Config) -> f64 {
         let config = SpeedGovernorConfig {
-            gains: Gains::<f64>::new(&DESIGN, 1e9),
+            gains: Gains::<f64>::new(&DESIGN, 1e9, Bases::SI),
             set_point: (),
             prompt: (),
             limit,
@@ -153,22 +153,22 @@ fn the_integral_does_not_wind_up_behind_any_limit() {
     let prompt = 5.0 * DESIGN.proportional;
     let flat = TorqueCurve::through([[0.0, TORQUE], [1.0, TORQUE], [2.0, TORQUE]]);
     for fall in [
-        leaves::<Symmetric>(SymmetricConfig::<f64>::new(TORQUE)),
-        leaves::<Between>(BetweenConfig::<f64>::new(0.0, TORQUE)),
-        leaves::<Curve<3>>(CurveConfig::<f64, 3>::new(&flat, 0.0)),
+        leaves::<Symmetric>(SymmetricConfig::<f64>::new(TORQUE, Bases::SI)),
+        leaves::<Between>(BetweenConfig::<f64>::new(0.0, TORQUE, Bases::SI)),
+        leaves::<Curve<3>>(CurveConfig::<f64, 3>::new(&flat, 0.0, Bases::SI)),
     ] {
         assert!((fall - prompt).abs() < 45.0, "{fall} {prompt}");
     }
     // At 100 kN m/s a tick is 50 N m.
-    let slew = SlewConfig::<f64, _>::new(1e5, SymmetricConfig::<f64>::new(TORQUE), PERIOD);
+    let slew = SlewConfig::<f64, _>::new(1e5, SymmetricConfig::<f64>::new(TORQUE, Bases::SI), PERIOD, Bases::SI);
     assert!((leaves::<Slew<f64, Symmetric>>(slew) - 50.0).abs() < 1e-9);
 }
 
 #[test]
 fn slew_and_limit_hold_in_every_tick() {
-    let slew = SlewConfig::<f64, _>::new(1e5, BetweenConfig::<f64>::new(0.0, TORQUE), PERIOD);
+    let slew = SlewConfig::<f64, _>::new(1e5, BetweenConfig::<f64>::new(0.0, TORQUE, Bases::SI), PERIOD, Bases::SI);
     let config = SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&DESIGN, 1e9),
+        gains: Gains::<f64>::new(&DESIGN, 1e9, Bases::SI),
         set_point: (),
         prompt: (),
         limit: slew,
@@ -194,14 +194,15 @@ fn with_damping_and_nothing_else_it_is_the_speed_loop() {
     use driveline::governor::{SpeedLoop, SpeedLoopConfig};
     let design = MACHINE.speed_loop(Rate::hz(2000), SpeedLoopTuning::USUAL);
     let config = SpeedGovernorConfig {
-        gains: Gains::<f32>::of_speed_loop(&design, RAMP),
+        gains: Gains::<f32>::of_speed_loop(&design, RAMP, Bases::SI),
         set_point: (),
-        prompt: ActiveDampingConfig::<f32>::new(&design),
-        limit: SymmetricConfig::<f32>::new(TORQUE),
+        prompt: ActiveDampingConfig::<f32>::new(&design, Bases::SI),
+        limit: SymmetricConfig::<f32>::new(TORQUE, Bases::SI),
         supervisor: (),
         view: (),
     };
-    let loop_config = SpeedLoopConfig::<f32>::new(&design, SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP });
+    let loop_config =
+        SpeedLoopConfig::<f32>::new(&design, SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP }, Bases::SI);
     let mut governor = SpeedGovernor::<f32, (), ActiveDamping>::default();
     let mut speed_loop = SpeedLoop::default();
     for tick in 0..4000 {
@@ -222,7 +223,7 @@ fn a_power_limit_is_kept() {
     let power = 300e3;
     let points =
         [[0.0, 2500.0], [110.0, 2500.0], [121.0, 2500.0], [133.1, 2500.0], [146.41, 2500.0], [161.051, 2500.0]];
-    let config = CurveConfig::<f64, 6>::new(&TorqueCurve::through(points).with_power_limit(power), 0.0);
+    let config = CurveConfig::<f64, 6>::new(&TorqueCurve::through(points).with_power_limit(power), 0.0, Bases::SI);
     for step in 0..=1610 {
         let speed = 0.1 * f64::from(step);
         let most = config.most(speed);

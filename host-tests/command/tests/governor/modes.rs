@@ -1,6 +1,6 @@
 //! Modes and trips: every transition, every reason, and that a trip commands no torque.
 
-use driveline::constants::{Error, ModesSettings};
+use driveline::constants::{Bases, Error, ModesSettings};
 use driveline::design::{Actuator, LoadFeedForward, Rate};
 use driveline::governor::{
     Gains, Governor, Mode, Modes, ModesConfig, Request, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf,
@@ -29,11 +29,11 @@ fn config() -> SpeedGovernorConfigOf<f64, (), (), Symmetric, Modes> {
     let actuator = Actuator { delay: 0.02, lag: 0.02 };
     let design = MACHINE.governor(Rate::every(PERIOD), actuator, 3.0, LoadFeedForward::NONE);
     SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&design, 20.0),
+        gains: Gains::<f64>::new(&design, 20.0, Bases::SI),
         set_point: (),
         prompt: (),
-        limit: SymmetricConfig::<f64>::new(400.0),
-        supervisor: ModesConfig::<f64>::new(&LIMITS, PERIOD),
+        limit: SymmetricConfig::<f64>::new(400.0, Bases::SI),
+        supervisor: ModesConfig::<f64>::new(&LIMITS, PERIOD, Bases::SI),
         view: (),
     }
 }
@@ -200,9 +200,9 @@ fn limits_out_of_order_are_refused() {
         ModesSettings { reverse: -1.0, ..LIMITS },
         ModesSettings { shaft_torque: f64::NAN, ..LIMITS },
     ] {
-        let error = ModesConfig::<f64>::try_new(&wrong, PERIOD).unwrap_err();
+        let error = ModesConfig::<f64>::try_new(&wrong, PERIOD, Bases::SI).unwrap_err();
         assert!(matches!(error, Error::Value(sentence) if sentence.contains("standstill < underspeed")), "{error}");
     }
-    let error = ModesConfig::<f64>::try_new(&ModesSettings { start: -1.0, ..LIMITS }, PERIOD).unwrap_err();
+    let error = ModesConfig::<f64>::try_new(&ModesSettings { start: -1.0, ..LIMITS }, PERIOD, Bases::SI).unwrap_err();
     assert!(error.message().contains("times"));
 }

@@ -1,5 +1,6 @@
 //! Sets that turn together share the load by their droop.
 
+use driveline::constants::Bases;
 use driveline::design::{Actuator, GovernorDesign, LoadFeedForward, Rate};
 use driveline::governor::{
     Between, BetweenConfig, Droop, DroopConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig,
@@ -20,10 +21,10 @@ fn settled(rated: [f64; 2], droop: [f64; 2], load: f64) -> (f64, [f64; 2]) {
         machine.governor(Rate::every(PERIOD), Actuator { delay: 0.0, lag: 0.05 }, 3.0, LoadFeedForward::NONE)
     });
     let config = [0, 1].map(|k: usize| SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&design[k], 40.0),
-        set_point: DroopConfig::<f64>::new(droop[k], SPEED, rated[k]),
+        gains: Gains::<f64>::new(&design[k], 40.0, Bases::SI),
+        set_point: DroopConfig::<f64>::new(droop[k], SPEED, rated[k], Bases::SI),
         prompt: (),
-        limit: BetweenConfig::<f64>::new(0.0, 1.1 * rated[k]),
+        limit: BetweenConfig::<f64>::new(0.0, 1.1 * rated[k], Bases::SI),
         supervisor: (),
         view: (),
     });

@@ -1,5 +1,6 @@
 //! Constants change, modes change, the set point changes: without a jolt.
 
+use driveline::constants::Bases;
 use driveline::design::{Actuator, LoadFeedForward, Rate};
 use driveline::governor::{
     Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig,
@@ -16,10 +17,14 @@ type Switched = SpeedGovernor<f64, Droop, FeedForward>;
 fn config(span: f64, droop: f64, share: f64) -> SpeedGovernorConfigOf<f64, Droop, FeedForward> {
     let actuator = Actuator { delay: 0.02, lag: 0.02 };
     SpeedGovernorConfig {
-        gains: Gains::<f64>::new(&MACHINE.governor(Rate::hz(2000), actuator, span, LoadFeedForward::NONE), 40.0),
-        set_point: DroopConfig::<f64>::new(droop, 157.0, 2500.0),
-        prompt: FeedForwardConfig::<f64>::new(share),
-        limit: SymmetricConfig::<f64>::new(3000.0),
+        gains: Gains::<f64>::new(
+            &MACHINE.governor(Rate::hz(2000), actuator, span, LoadFeedForward::NONE),
+            40.0,
+            Bases::SI,
+        ),
+        set_point: DroopConfig::<f64>::new(droop, 157.0, 2500.0, Bases::SI),
+        prompt: FeedForwardConfig::<f64>::new(share, Bases::SI),
+        limit: SymmetricConfig::<f64>::new(3000.0, Bases::SI),
         supervisor: (),
         view: (),
     }

@@ -13,7 +13,7 @@ const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e
 const BASES: Bases = Bases::new(&MACHINE, 2500.0, 210.0);
 
 fn single() -> ActuatorWatchConfig<f32, 2> {
-    ActuatorWatchConfig::<f32, 2>::new(&LAGS, &SETTINGS, PERIOD)
+    ActuatorWatchConfig::<f32, 2>::new(&LAGS, &SETTINGS, PERIOD, Bases::SI)
 }
 
 /// The torque that a step of the command to 1000 N m has come to after so many ticks, through the two lags.
@@ -103,7 +103,8 @@ fn a_trip_from_outside_latches_as_every_other() {
 
 #[test]
 fn what_cannot_be_watched_is_refused() {
-    let refused = |lags, settings| ActuatorWatchConfig::<f32, 2>::try_new(&lags, &settings, PERIOD).unwrap_err();
+    let refused =
+        |lags, settings| ActuatorWatchConfig::<f32, 2>::try_new(&lags, &settings, PERIOD, Bases::SI).unwrap_err();
     for settings in [
         ActuatorWatchSettings { tolerance: 0.0, ..SETTINGS },
         ActuatorWatchSettings { tolerance: f64::NAN, ..SETTINGS },
@@ -128,7 +129,7 @@ fn what_cannot_be_watched_is_refused() {
 fn a_tolerance_that_rounds_to_zero_is_refused() {
     let settings = |tolerance| ActuatorWatchSettings { tolerance, ..SETTINGS };
     for tolerance in [1e-60, 0.0, f64::NAN, 1e39] {
-        let refused = ActuatorWatchConfig::<f32, 2>::try_new(&LAGS, &settings(tolerance), PERIOD);
+        let refused = ActuatorWatchConfig::<f32, 2>::try_new(&LAGS, &settings(tolerance), PERIOD, Bases::SI);
         assert!(matches!(refused, Err(Error::Value(_))), "{tolerance}");
     }
     // A unit in the last place is 2500 N m/2^28.

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::f64::consts::TAU;
 use std::rc::Rc;
 
-use driveline::drive::ConfigOf;
+use driveline::drive::{ConfigOf, Drive};
 use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
 use driveline::hal::{Axis, Board, TRIPPING};
@@ -13,7 +13,8 @@ use driveline_firmware::governed::Variant;
 use driveline_firmware::scenes::hoist::{Hoist, with};
 
 pub type Observer = Geared<SemiImplicit<f32>>;
-pub const CONFIG: &ConfigOf<f32, Observer, (), SpeedLoop<f32>> = <Hoist<f32, with::Reduced, 10_000> as Variant>::CONFIG;
+pub const CONFIG: &ConfigOf<Drive<f32, Observer, (), SpeedLoop<f32>>> =
+    <Hoist<f32, with::Reduced, 10_000> as Variant>::CONFIG;
 
 /// The speed at which the motor turns [rad/s], and what is wanted of it: more, so that there is torque.
 pub const SPEED: f64 = 30.0;

@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use driveline::constants::{Gear, SpeedLoopSettings};
+use driveline::constants::{Bases, Gear, SpeedLoopSettings};
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopTuning};
 use driveline::drive::{Config, Limits};
 use driveline::governor::SpeedLoopConfig;
@@ -58,21 +58,21 @@ fn test<const R: u32>() {
     let bases = black_box(BASES);
 
     macro_rules! config {
-        ($number:ident, $with:ident, $observer:expr $(, $bases:expr)?) => {{
+        ($number:ident, $with:ident, $observer:expr, $bases:expr) => {{
             let run = Config {
-                limits: Limits::<$number>::new(&hoist::screening(rate) $(, $bases)?),
-                observer: GearedConfig::<$number, _>::new($observer, &gear, period $(, $bases)?),
+                limits: Limits::<$number>::new(&hoist::screening(rate), $bases),
+                observer: GearedConfig::<$number, _>::new($observer, &gear, period, $bases),
                 fluctuation: (),
-                governor: SpeedLoopConfig::<$number>::new(&speed_loop, settings() $(, $bases)?),
+                governor: SpeedLoopConfig::<$number>::new(&speed_loop, settings(), $bases),
                 balancer: (),
             };
             same(<Hoist<$number, with::$with, R> as Variant>::CONFIG, &run);
         }};
     }
-    config!(f32, Rigid, RigidConfig::<f32>::new(&rigid, share));
-    config!(f32, Cut, TwoMassConfig::<f32>::new(&cut));
-    config!(f32, Exact, TwoMassConfig::<f32>::new(&design));
-    config!(f32, Reduced, SemiImplicitConfig::<f32>::new(&design));
+    config!(f32, Rigid, RigidConfig::<f32>::new(&rigid, share, Bases::SI), Bases::SI);
+    config!(f32, Cut, TwoMassConfig::<f32>::new(&cut, Bases::SI), Bases::SI);
+    config!(f32, Exact, TwoMassConfig::<f32>::new(&design, Bases::SI), Bases::SI);
+    config!(f32, Reduced, SemiImplicitConfig::<f32>::new(&design, Bases::SI), Bases::SI);
     config!(Fixed, Rigid, RigidConfig::<Fixed>::new(&rigid, share, bases), bases);
     config!(Fixed, Cut, TwoMassConfig::<Fixed>::new(&cut, bases), bases);
     config!(Fixed, Exact, TwoMassConfig::<Fixed>::new(&design, bases), bases);

@@ -1,6 +1,7 @@
 //! Coasting keeps momentum: without corrections the mean speed changes by T (tau_m - tau_L)/J a tick and by nothing else, however the
 //! shaft swings.
 
+use driveline::constants::Bases;
 use driveline::design::Rate;
 use driveline::number::{Fixed, Number};
 use driveline::observer::{Observer, SemiImplicit, SemiImplicitConfig, TwoMass, TwoMassConfig};
@@ -51,14 +52,14 @@ fn fixed(_: f64) -> f64 {
 #[test]
 fn the_exact_step_keeps_momentum() {
     let design = hoist::observer(&REDUCED, 10_000);
-    coasts::<f32, TwoMass<f32>>(&TwoMassConfig::<f32>::new(&design), single);
+    coasts::<f32, TwoMass<f32>>(&TwoMassConfig::<f32>::new(&design, Bases::SI), single);
     coasts::<Fixed, TwoMass<Fixed>>(&TwoMassConfig::<Fixed>::new(&design, BASES), fixed);
 }
 
 #[test]
 fn the_semi_implicit_step_keeps_momentum() {
     let design = hoist::observer(&REDUCED, 10_000);
-    coasts::<f32, SemiImplicit<f32>>(&SemiImplicitConfig::<f32>::new(&design), single);
+    coasts::<f32, SemiImplicit<f32>>(&SemiImplicitConfig::<f32>::new(&design, Bases::SI), single);
     coasts::<Fixed, SemiImplicit<Fixed>>(&SemiImplicitConfig::<Fixed>::new(&design, BASES), fixed);
 }
 
@@ -74,8 +75,8 @@ fn a_balanced_machine_stays() {
         assert_eq!(observer, start);
     }
     let design = hoist::observer(&REDUCED, 10_000);
-    stays::<f32, TwoMass<f32>>(&TwoMassConfig::<f32>::new(&design));
+    stays::<f32, TwoMass<f32>>(&TwoMassConfig::<f32>::new(&design, Bases::SI));
     stays::<Fixed, TwoMass<Fixed>>(&TwoMassConfig::<Fixed>::new(&design, BASES));
-    stays::<f32, SemiImplicit<f32>>(&SemiImplicitConfig::<f32>::new(&design));
+    stays::<f32, SemiImplicit<f32>>(&SemiImplicitConfig::<f32>::new(&design, Bases::SI));
     stays::<Fixed, SemiImplicit<Fixed>>(&SemiImplicitConfig::<Fixed>::new(&design, BASES));
 }

@@ -26,8 +26,8 @@ proptest! {
     /// in `f64`, to what `f32` and fixed point resolve.
     #[test]
     fn the_torque_is_the_laws(errors in prop::collection::vec((-8.0..8.0_f64, -4.0..4.0_f64, -40.0..40.0_f64), 1..200)) {
-        let (mut exact, exact_config) = (SpeedLoop::default(), SpeedLoopConfig::<f64>::new(&design(), settings(1e9)));
-        let (mut single, single_config) = (SpeedLoop::default(), SpeedLoopConfig::<f32>::new(&design(), settings(1e9)));
+        let (mut exact, exact_config) = (SpeedLoop::default(), SpeedLoopConfig::<f64>::new(&design(), settings(1e9), Bases::SI));
+        let (mut single, single_config) = (SpeedLoop::default(), SpeedLoopConfig::<f32>::new(&design(), settings(1e9), Bases::SI));
         // In fixed point a ramp crosses no more than twice the base in a tick.
         let ramp = 1.9 * BASES.speed * 1e4;
         let (mut fixed, fixed_config) = (SpeedLoop::default(), SpeedLoopConfig::<Fixed>::new(&design(), settings(ramp), BASES));
@@ -101,7 +101,7 @@ fn the_integral_does_not_wind_up() {
     let (period, limit) = (1e-4, 100.0);
     let runs = |unwinding: f64| {
         let settings = SpeedLoopSettings { torque_limit: limit, ramp: 1e9 };
-        let mut config = SpeedLoopConfig::<f64>::new(&design(), settings);
+        let mut config = SpeedLoopConfig::<f64>::new(&design(), settings, Bases::SI);
         config.unwinding *= unwinding;
         let (mut governor, mut speed, mut top, mut limited) = (SpeedLoop::default(), 0.0, 0.0_f64, 0);
         for _ in 0..60_000 {

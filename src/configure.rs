@@ -1,0 +1,177 @@
+//! Configuration: the constants of a drive's parts, derived from the machine.
+//!
+//! A [`Machine`] says what the machine, its motor, its encoder and its tick rate are. [`Configure`] says what the constants of a part are for
+//! such a machine; it is implemented once per part and number, and for compositions of parts. [`Drive::configure`] asks all parts of a drive
+//! at once. All of it is evaluated by the compiler: the firmware holds the coefficients, and a machine that cannot be controlled is a
+//! compile error with its sentence.
+//!
+//! ```
+//! use driveline::observer::Geared;
+//! use driveline::prelude::*;
+//!
+//! struct Roll;
+//! impl Machine for Roll {
+//!     const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.05))
+//!         .gear(Ratio(5.0), Efficiency(0.97)).shaft(Stiffness(9.0e4), Damping(10.0)).rotor(Inertia(12.0));
+//!     const RATING: Rating = Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 };
+//!     const ENCODER: Encoder = Encoder::lines(2048);
+//!     const RATE_HZ: u32 = 10_000;
+//!     // a derived constant that is named is overridden: here the acceleration of the set point [rad/s2]
+//!     const RAMP: f64 = 40.0;
+//! }
+//! type RollDrive<N> = Drive<N, Geared<TwoMassObserver<N>>, (), SpeedLoop<N>>;
+//! static SINGLE: ConfigOf<RollDrive<f32>> = RollDrive::<f32>::configure::<Roll>();
+//! static FIXED: ConfigOf<RollDrive<Fixed>> = RollDrive::<Fixed>::configure::<Roll>();
+//! assert_eq!(SINGLE.governor.ramp, 40.0 * 1e-4);
+//! ```
+//!
+//! # Parts
+//! | part | constants | needs |
+//! |---|---|---|
+//! | [`TwoMass`](crate::observer::TwoMass), [`SemiImplicit`](crate::observer::SemiImplicit) | [`Machine::OBSERVER`] | |
+//! | [`Rigid`](crate::observer::Rigid) | [`Machine::RIGID_OBSERVER`], [`Machine::LOAD_SHARE`] | |
+//! | [`Backlash`](crate::observer::Backlash) | [`Machine::BACKLASH_OBSERVER`] | a gap in the chain |
+//! | [`Cranked`](crate::observer::Cranked) | [`HasCrank::CRANK_OBSERVER`] | [`HasCrank`] |
+//! | [`Geared`](crate::observer::Geared) | those of its observer, [`Machine::GEAR`] | |
+//! | [`SpeedLoop`](crate::governor::SpeedLoop) | [`Machine::SPEED_LOOP`], [`Machine::RAMP`], torque limit | |
+//! | [`SpeedGovernor`](crate::governor::SpeedGovernor) | [`Machine::GAINS`], [`Machine::RAMP`], those of its parts | |
+//! | [`Symmetric`](crate::governor::Symmetric), [`Between`](crate::governor::Between) | torque limit, [`Machine::LEAST_TORQUE`] | |
+//! | [`Curve`](crate::governor::Curve) | [`HasTorqueCurve::CURVE`], [`Machine::LEAST_TORQUE`] | [`HasTorqueCurve`] |
+//! | [`Slew`](crate::governor::Slew) | [`HasSlew::SLEW`], those of its limit | [`HasSlew`] |
+//! | [`Slack`](crate::governor::Slack) | [`HasBacklash::TAKE_UP`], those of its limit | [`HasBacklash`] |
+//! | [`Droop`](crate::governor::Droop) | [`HasDroop::DROOP`] | [`HasDroop`] |
+//! | [`Barred`](crate::governor::Barred) | [`HasBarredSpeeds::BARRED`] | [`HasBarredSpeeds`] |
+//! | [`FeedForward`](crate::governor::FeedForward), [`AccelerationFeedback`](crate::governor::AccelerationFeedback) | [`Machine::GAINS`] | [`GainSource::Governor`] |
+//! | [`ActiveDamping`](crate::governor::ActiveDamping) | [`Machine::SPEED_LOOP`] | |
+//! | [`Modes`](crate::governor::Modes) | [`HasModes::MODES`] | [`HasModes`] |
+//! | [`Mean`](crate::governor::Mean), [`OverCycle`](crate::governor::OverCycle) | none | |
+//! | [`Extremes`](crate::fluctuation::Extremes), [`Waveform`](crate::fluctuation::Waveform), [`CycleMean`](crate::fluctuation::CycleMean) | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
+//! | [`Phasors`](crate::balance::Phasors) | [`HasVibration::MEASURED`] | [`HasVibration`] |
+//!
+//! A part of one's own implements [`Configure`] for itself and any machine; a part of the library that a machine uses with constants of its
+//! own is a newtype.
+//!
+//! # One file for several drives
+//! A machine that is driven in several ways is one type with a parameter, or several types that share constants:
+//!
+//! ```
+//! # use driveline::prelude::*;
+//! /// The hoist at a tick rate: `Hoist<1_000>` and `Hoist<10_000>` are two machines.
+//! struct Hoist<const RATE_HZ: u32>;
+//! impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
+//!     const CHAIN: Chain = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.35));
+//!     const RATING: Rating = Rating { torque: 200.0, speed: 150.0, torque_limit: 300.0 };
+//!     const ENCODER: Encoder = Encoder::lines(2048);
+//!     const RATE_HZ: u32 = RATE_HZ;
+//! }
+//! /// Anything that has a machine and a drive gets its constants without a macro.
+//! trait Scene {
+//!     type Machine: Machine;
+//!     type Drive: driveline::drive::Composition;
+//!     const CONFIG: ConfigOf<Self::Drive>;
+//! }
+//! struct Scene1k;
+//! impl Scene for Scene1k {
+//!     type Machine = Hoist<1_000>;
+//!     type Drive = Drive<Fixed, TwoMassObserver<Fixed>, (), SpeedLoop<Fixed>>;
+//!     const CONFIG: ConfigOf<Self::Drive> = Self::Drive::configure::<Self::Machine>();
+//! }
+//! assert_eq!(Scene1k::CONFIG.limits.missed, 17);
+//! ```
+//!
+//! Generic code asks for `D: Composition + Configure<M, D::Number, Config = ConfigOf<D>>` and takes `D::CONFIG`.
+
+mod fluctuation;
+mod governor;
+mod limits;
+mod machine;
+mod observer;
+mod units;
+mod vibration;
+
+pub use governor::{GainSource, HasBacklash, HasBarredSpeeds, HasDroop, HasModes, HasSlew, HasTorqueCurve};
+pub use machine::{Machine, Rating};
+pub use observer::HasCrank;
+pub use units::Units;
+pub use vibration::HasVibration;
+
+use crate::balance::Balancer;
+use crate::drive::{Config, ConfigOf, Drive, Limits};
+use crate::fluctuation::Fluctuation;
+use crate::governor::Governor;
+use crate::number::Number;
+use crate::observer::Observer;
+
+/// The constants of a part in the number `N`, for the machine `M`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no constants for the machine `{M}` in `{N}`",
+    note = "what has no sensible default is a trait of its own: see the table of parts in `driveline::configure`"
+)]
+pub trait Configure<M: Machine, N: Number> {
+    /// What the part's constants are.
+    type Config;
+    /// The constants.
+    const CONFIG: Self::Config;
+}
+
+/// Nothing: a part that is left out.
+impl<M: Machine, N: Number> Configure<M, N> for () {
+    type Config = ();
+    const CONFIG: () = ();
+}
+
+impl<M: Machine, N: Number, A: Configure<M, N>, B: Configure<M, N>> Configure<M, N> for (A, B) {
+    type Config = (A::Config, B::Config);
+    const CONFIG: Self::Config = (A::CONFIG, B::CONFIG);
+}
+
+impl<M, N, A, B, C> Configure<M, N> for (A, B, C)
+where
+    M: Machine,
+    N: Number,
+    A: Configure<M, N>,
+    B: Configure<M, N>,
+    C: Configure<M, N>,
+{
+    type Config = (A::Config, B::Config, C::Config);
+    const CONFIG: Self::Config = (A::CONFIG, B::CONFIG, C::CONFIG);
+}
+
+impl<M, N, O, F, G, B> Configure<M, N> for Drive<N, O, F, G, B>
+where
+    M: Machine,
+    N: Number,
+    Limits<N>: Configure<M, N, Config = Limits<N>>,
+    O: Observer<N> + Configure<M, N, Config = <O as Observer<N>>::Config>,
+    F: Fluctuation<N> + Configure<M, N, Config = <F as Fluctuation<N>>::Config>,
+    G: Governor<N> + Configure<M, N, Config = <G as Governor<N>>::Config>,
+    B: Balancer<N> + Configure<M, N, Config = <B as Balancer<N>>::Config>,
+{
+    type Config = ConfigOf<Self>;
+    const CONFIG: Self::Config = Config {
+        limits: <Limits<N> as Configure<M, N>>::CONFIG,
+        observer: O::CONFIG,
+        fluctuation: F::CONFIG,
+        governor: G::CONFIG,
+        balancer: B::CONFIG,
+    };
+}
+
+impl<N, O, F, G, B> Drive<N, O, F, G, B>
+where
+    N: Number,
+    O: Observer<N>,
+    F: Fluctuation<N>,
+    G: Governor<N>,
+    B: Balancer<N>,
+{
+    /// The constants of this drive for the machine `M`.
+    ///
+    /// In a `static` or a constant the compiler evaluates them, and a machine that cannot be controlled stops it with a sentence.
+    pub const fn configure<M: Machine>() -> ConfigOf<Self>
+    where
+        Self: Configure<M, N, Config = ConfigOf<Self>>,
+    {
+        <Self as Configure<M, N>>::CONFIG
+    }
+}

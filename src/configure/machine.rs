@@ -1,0 +1,174 @@
+//! The machine, its rating, and what follows from them.
+
+use super::GainSource;
+use crate::constants::{Bases, Cycle, Gear, Screening, SpeedLoopSettings};
+use crate::design::{
+    BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
+    TwoMassDesign,
+};
+use crate::governor::SpeedLoopConfig;
+use crate::machine::{Chain, Match, TwoMass};
+use crate::number::Fixed;
+use crate::observer::TwoMassConfig;
+
+/// What the motor is rated for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Rating {
+    /// Rated torque \[N m\].
+    pub torque: f64,
+    /// Rated speed \[rad/s\].
+    pub speed: f64,
+    /// Largest torque that may be commanded, either way \[N m\].
+    pub torque_limit: f64,
+}
+
+impl Rating {
+    /// The drive holds its torque to 1 % of rated in a tick, as a current-controlled motor does; the load torque wanders by half of rated
+    /// in 10 s, so that the observer follows a step of the rated torque in some tens of milliseconds.
+    #[must_use]
+    pub const fn disturbance(&self) -> Disturbance {
+        Disturbance { torque_accuracy: 0.01 * self.torque, load_torque_step: 0.5 * self.torque, within: 10.0 }
+    }
+
+    /// Limits of a sample: torque two thirds over its limit, which no healthy drive reaches; set point a fifth over rated speed; innovation
+    /// 1/128 turn, half of what fixed point holds; two counts of the encoder for an angle that stands still; and as many ticks without an
+    /// angle as the motor needs for half a turn at the largest set point, after which the angle is ambiguous.
+    ///
+    /// # Panics
+    /// At compile time in a constant, for an encoder without lines or a rate that is not positive.
+    #[must_use]
+    pub const fn screening(&self, encoder: Encoder, rate: Rate) -> Screening {
+        let reference = 1.2 * self.speed;
+        Screening {
+            torque: 1.67 * self.torque_limit,
+            reference,
+            innovation: core::f64::consts::TAU / 128.0,
+            standstill: 2.0 * count(encoder),
+            missed: (core::f64::consts::PI / (reference * period(rate))) as u32,
+        }
+    }
+
+    /// Acceleration of the set point \[rad/s2\]: rated speed in two seconds, or what half of the torque limit gives this inertia
+    /// \[kg m2\] where that is less, so that the other half is left for the load.
+    #[must_use]
+    pub const fn ramp(&self, inertia: f64) -> f64 {
+        let (usual, possible) = (self.speed / 2.0, 0.5 * self.torque_limit / inertia);
+        if usual < possible { usual } else { possible }
+    }
+
+    /// Bases of fixed point: twice the torque limit, since the shaft swings by as much as the motor gives, and a third over rated speed.
+    ///
+    /// The base of the torque is doubled until the gains of observer and speed loop fit, at most twelve times: a fine encoder or a stiff shaft
+    /// makes them large. Each doubling takes a bit of the torque's 28.
+    #[must_use]
+    pub const fn bases(&self, observer: &TwoMassDesign, speed_loop: &SpeedLoopDesign) -> Bases {
+        let settings = SpeedLoopSettings { torque_limit: self.torque_limit, ramp: self.speed };
+        let mut bases = Bases::of(observer, 2.0 * self.torque_limit, 1.34 * self.speed);
+        let mut doubled = 0;
+        while doubled < 12
+            && (TwoMassConfig::<Fixed>::try_new(observer, bases).is_err()
+                || SpeedLoopConfig::<Fixed>::try_new(speed_loop, settings, bases).is_err())
+        {
+            bases = Bases::of(observer, 2.0 * bases.torque, bases.speed);
+            doubled += 1;
+        }
+        bases
+    }
+}
+
+/// A machine with its motor, its encoder and its tick rate: four constants, and those that follow from them.
+///
+/// Every constant with a default says how it follows. To override it, name it; what follows from it follows then. A constant that no part of
+/// the drive uses is never evaluated. The defaults have been compared with the 18 machines of the project's firmware, each tuned on a full
+/// simulation; "n of 18" says how many of them keep the default.
+pub trait Machine {
+    /// The machine, from the motor to the load.
+    const CHAIN: Chain;
+    /// Rating of the motor.
+    const RATING: Rating;
+    /// The encoder on the motor's shaft.
+    const ENCODER: Encoder;
+    /// Ticks a second.
+    const RATE_HZ: u32;
+
+    /// The tick rate.
+    const RATE: Rate = Rate::hz(Self::RATE_HZ);
+    /// Time between two ticks \[s\].
+    const PERIOD: f64 = period(Self::RATE);
+
+    /// Two masses that stand for the chain: those with its first resonance and antiresonance.
+    ///
+    /// A machine with a gap is rather cut at the gap, by [`Match::TextbookCut`].
+    const TWO_MASS: TwoMass = Self::CHAIN.reduce(Match::ResonanceAntiresonance);
+    /// Share of the inertia on the load side of the shaft, from the two masses.
+    const LOAD_SHARE: f64 = Self::TWO_MASS.load_inertia / (Self::TWO_MASS.motor_inertia + Self::TWO_MASS.load_inertia);
+
+    /// How torque and load torque wander: [`Rating::disturbance`].
+    ///
+    /// The torque's 1 % is kept by 15 of 18. The load's wandering is the tuning of the observer: loads that hardly change take 100 s instead
+    /// of 10 s, loads that come at once take 1 s.
+    const DISTURBANCE: Disturbance = Self::RATING.disturbance();
+    /// The observer of two masses, from machine, rate, encoder and disturbance.
+    const OBSERVER: TwoMassDesign = Self::TWO_MASS.observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE);
+    /// The observer of one mass, from the whole chain's inertia, rate, encoder and disturbance.
+    const RIGID_OBSERVER: RigidDesign = Self::CHAIN.rigid().observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE);
+    /// How the observer of backlash searches for the flank.
+    const BACKLASH_TUNING: BacklashTuning = BacklashTuning::USUAL;
+    /// The observer of backlash, from the two masses with their gap.
+    const BACKLASH_OBSERVER: BacklashDesign =
+        Self::TWO_MASS.backlash_observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE, Self::BACKLASH_TUNING);
+    /// The gear's losses as the observer has to know them: the chain's efficiency, the inertia on the motor side, and eight counts of the
+    /// encoder by which the motor can turn while friction holds the gear. All three machines with a lossy gear keep it.
+    const GEAR: Gear = Gear {
+        efficiency: Self::CHAIN.efficiency(),
+        inertia: Self::TWO_MASS.motor_inertia,
+        play: 8.0 * count(Self::ENCODER),
+    };
+
+    /// How brisk the speed loop is: 0.4 of the antiresonance, damping ratios 1 and 0.4.
+    ///
+    /// Kept by 3 of 18. A machine that has more than one resonance within reach, or a motor much heavier than its load, takes a bandwidth of
+    /// 0.1 and a damping ratio of the shaft of 0.1.
+    const TUNING: SpeedLoopTuning = SpeedLoopTuning::USUAL;
+    /// The speed loop, from the two masses, rate and tuning.
+    const SPEED_LOOP: SpeedLoopDesign = Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING);
+    /// Acceleration of the set point \[rad/s2\]: [`Rating::ramp`] with the inertia of the whole chain.
+    const RAMP: f64 = Self::RATING.ramp(Self::CHAIN.total_inertia());
+    /// What the composed governor takes its gains from: the speed loop.
+    const GAINS: GainSource = GainSource::SpeedLoop(Self::SPEED_LOOP);
+    /// Smallest torque of a motor whose limits differ \[N m\], zero or below: zero, as an engine cannot brake.
+    const LEAST_TORQUE: f64 = 0.0;
+
+    /// Limits of what a sample can be: [`Rating::screening`].
+    ///
+    /// Torque and set point are kept by 15 of 18, the innovation by 15. With an encoder of more than 2^17 counts a smaller one is found out
+    /// sooner.
+    const SCREENING: Screening = Self::RATING.screening(Self::ENCODER, Self::RATE);
+    /// Bases of fixed point: [`Rating::bases`] with observer and speed loop.
+    ///
+    /// Kept by 9 of 18; the others have a fine encoder or a soft governor, or leave more room for the speed. A machine of one mass, or one whose
+    /// shaft no observer can follow, names [`Bases::rigid`] or [`Bases::new`].
+    const BASES: Bases = Self::RATING.bases(&Self::OBSERVER, &Self::SPEED_LOOP);
+
+    /// What repeats, for the measurement of the speed's fluctuation: a turn of the motor.
+    const CYCLE: Cycle = Cycle::TURN;
+    /// Cycles in a window of the waveform.
+    const CYCLES: u32 = 16;
+}
+
+/// Angle of a count of the encoder \[rad\].
+const fn count(encoder: Encoder) -> f64 {
+    match encoder.resolution() {
+        Ok(count) => count,
+        Err(error) => error.stop(),
+    }
+}
+
+/// Time between two ticks \[s\].
+const fn period(rate: Rate) -> f64 {
+    match rate.period() {
+        Ok(period) => period,
+        Err(error) => error.stop(),
+    }
+}

@@ -1,0 +1,10 @@
+//! The prelude: what a first drive needs, by one `use`.
+
+pub use crate::configure::{Machine, Rating};
+pub use crate::design::Encoder;
+pub use crate::drive::{ConfigOf, Drive};
+pub use crate::governor::SpeedLoop;
+pub use crate::machine::{Chain, Damping, Efficiency, Inertia, Ratio, Stiffness};
+pub use crate::number::Fixed;
+pub use crate::observer::TwoMass as TwoMassObserver;
+pub use crate::sample::Sample;
