@@ -22,7 +22,7 @@
 //! type RollDrive<N> = Drive<N, Geared<TwoMassObserver<N>>, (), SpeedLoop<N>>;
 //! static SINGLE: ConfigOf<RollDrive<f32>> = RollDrive::<f32>::configure::<Roll>();
 //! static FIXED: ConfigOf<RollDrive<Fixed>> = RollDrive::<Fixed>::configure::<Roll>();
-//! assert_eq!(SINGLE.governor.ramp, 40.0 * 1e-4);
+//! assert_eq!(SINGLE.governor.ramp, 0.004); // in a tick
 //! ```
 //!
 //! # Parts
