@@ -16,11 +16,11 @@ use driveline::number::Number;
 
 use crate::Words;
 use crate::board::Board;
-use crate::fingerprint::SEED;
+use crate::board::json_line::Line;
 use crate::measure::count::{Counter, Measured, Stepped};
 use crate::measure::stack;
-use crate::program::Program;
-use crate::report::Line;
+use crate::self_test::fingerprint::SEED;
+use crate::self_test::inputs::Program;
 
 /// Calls of each function; odd, so that the median is one of them.
 const CALLS: usize = 1001;

@@ -4,6 +4,7 @@
 //! the choice below, and, where its memory is not that of `mps2.x`, a `.x` file of the same name. A board with a motor ([`nucleo_g474re`]) implements
 //! [`driveline::hal::Board`] instead; `doc/boards.md` says how.
 
+pub mod json_line;
 pub mod mps2_an385;
 pub mod mps2_an386;
 pub mod mps2_an500;
@@ -12,8 +13,12 @@ pub mod nucleo_g474re;
 
 #[cfg(all(feature = "target", target_os = "none"))]
 mod cmsdk_timer;
+#[cfg(all(feature = "target", feature = "defmt", target_os = "none"))]
+mod logger;
 #[cfg(all(feature = "target", target_os = "none"))]
-pub(crate) mod semihosting;
+mod panic;
+#[cfg(all(feature = "target", target_os = "none"))]
+mod semihosting;
 #[cfg(all(feature = "target", target_os = "none"))]
 pub use semihosting::Sink;
 

@@ -4,7 +4,15 @@
 //! type (`f32` in SI units, or fixed point per unit of the scene's limits), so that host and target can be
 //! compared bit for bit and the link needs no conversion.
 
-use crate::expected::Expected;
+pub mod assembled;
+pub mod balanced;
+pub mod expected;
+pub mod governed;
+pub mod on_axis;
+pub mod panel_keys;
+pub mod table;
+
+use expected::Expected;
 
 /// What a tick is given: eight words, as they travel over the link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

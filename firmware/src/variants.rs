@@ -1,153 +1,142 @@
-//! The table of variants: as names, as the type that an image holds, and as types that a host can visit.
+//! The variants that can be flashed.
+//!
+//! One line a variant: its name (the scene's [`Scene::NAME`](crate::scene::Scene::NAME): scene, number, observer,
+//! ticks a second) and its type. `DRIVELINE_VARIANT` chooses the line when a binary is built:
+//! [`selected!`](crate::selected!) gives the binary that type as `Selected`.
 
-use crate::scene::Scene;
+use driveline::fluctuation::{Extremes, Waveform};
+use driveline::governor::SpeedLoop;
+use driveline::number::Fixed;
+use driveline::observer::{Geared, Rigid, SemiImplicit, TwoMass};
 
-/// What is to be done with the type behind a variant's name, for [`visit`](crate::selected::visit).
-pub trait Visitor {
-    /// What doing it gives.
-    type Outcome;
-    /// Does it with scene `S`.
-    fn visit<S: Scene>(self) -> Self::Outcome;
-}
+use crate::scene::assembled::Assembled;
+use crate::scene::balanced::Balanced;
+use crate::scene::governed::Governed;
+use crate::scene::on_axis::OnAxis;
+use crate::scene::table::variants;
+use crate::scenes::balanced_fan::BalancedFan;
+use crate::scenes::blooming_mill::{self, BloomingMill};
+use crate::scenes::commission::Commission;
+use crate::scenes::composition::{ByHand, Composed, Of};
+use crate::scenes::converter::{self, Converter};
+use crate::scenes::crane_travel::CraneTravel;
+use crate::scenes::empty::Empty;
+use crate::scenes::fan::Fan;
+use crate::scenes::flexible::Flexible;
+use crate::scenes::gear_drive::GearDrive;
+use crate::scenes::generator::{self, Generator};
+use crate::scenes::grinding_spindle::GrindingSpindle;
+use crate::scenes::hoist::{Hoist, with};
+use crate::scenes::planetary_drive::PlanetaryDrive;
+use crate::scenes::punch_press::{self, PunchPress};
+use crate::scenes::skip_winch::{self, SkipWinch};
+use crate::scenes::spindle::Spindle;
+use crate::scenes::strip_mill::StripMill;
+use crate::scenes::test_rig::TestRig;
+use crate::scenes::vibrating_screen::{self, VibratingScreen};
 
-/// The type behind line `LINE` of the table of variants.
-pub trait Select<const LINE: usize> {
-    /// The type.
-    type Scene: Scene;
-}
-
-/// The table of variants, whose lines are chosen by [`Select`].
-#[derive(Clone, Copy, Debug)]
-pub struct Table;
-
-/// The line of the variant called `name`.
-///
-/// # Panics
-/// When there is none, with the names that there are; at compile time, where the binaries call it.
-pub const fn line(name: &str, names: &[&str]) -> usize {
-    let mut line = 0;
-    while line < names.len() {
-        if same(names[line].as_bytes(), name.as_bytes()) {
-            return line;
-        }
-        line += 1;
-    }
-    let mut text = [0; 8192];
-    let mut length = append(&mut text, 0, &["DRIVELINE_VARIANT is `", name, "`; firmware/src/selected.rs has"]);
-    let mut line = 0;
-    while line < names.len() {
-        length = append(&mut text, length, &[" `", names[line], "`"]);
-        line += 1;
-    }
-    match core::str::from_utf8(text.split_at(length).0) {
-        Ok(text) => panic!("{}", text),
-        Err(_) => panic!("DRIVELINE_VARIANT names no line of firmware/src/selected.rs"),
-    }
-}
-
-const fn same(one: &[u8], other: &[u8]) -> bool {
-    let mut at = 0;
-    while at < one.len() && at < other.len() && one[at] == other[at] {
-        at += 1;
-    }
-    at == one.len() && at == other.len()
-}
-
-/// Writes parts one after another from `at` on, as far as they fit, and gives the end.
-const fn append(text: &mut [u8], mut at: usize, parts: &[&str]) -> usize {
-    let mut part = 0;
-    while part < parts.len() {
-        let bytes = parts[part].as_bytes();
-        let mut byte = 0;
-        while byte < bytes.len() && at < text.len() {
-            text[at] = bytes[byte];
-            at += 1;
-            byte += 1;
-        }
-        part += 1;
-    }
-    at
-}
-
-/// Gives a binary `Selected`, the scene that `DRIVELINE_VARIANT` names, and `driveline_tick`, its tick as a function of its own, so that
-/// its code and instructions can be measured.
-///
-/// `selected!("name")` is for a binary with another default than the hoist's. Only the binary depends on the choice: the library with all scenes is compiled once for all variants.
-#[macro_export]
-macro_rules! selected {
-    () => {
-        $crate::selected!("hoist/f32/reduced/10000");
-    };
-    ($default:literal) => {
-        /// The line that this image holds; the default where none is named.
-        const LINE: usize = $crate::variants::line(
-            match option_env!("DRIVELINE_VARIANT") {
-                Some(name) => name,
-                None => $default,
-            },
-            $crate::selected::VARIANTS,
-        );
-        /// The scene that this image holds.
-        type Selected = <$crate::variants::Table as $crate::variants::Select<LINE>>::Scene;
-
-        /// One tick of the scene that this image holds.
-        #[unsafe(no_mangle)]
-        #[unsafe(link_section = ".text.driveline_tick")]
-        #[inline(never)]
-        extern "Rust" fn driveline_tick(
-            scene: &mut Selected,
-            input: &$crate::scene::Input,
-            output: &mut $crate::scene::Output,
-        ) {
-            *output = $crate::scene::Scene::tick(scene, input);
-        }
-    };
-}
-
-/// Defines `VARIANTS`, the lines of [`Table`] and `visit` from lines of `"name" => Type`.
-macro_rules! variants {
-    ($($name:literal => $scene:ty,)+) => {
-        /// The names of all variants.
-        pub const VARIANTS: &[&str] = &[$($name),+];
-
-        $(
-            impl $crate::variants::Select<{ $crate::variants::line($name, VARIANTS) }> for $crate::variants::Table {
-                type Scene = $scene;
-            }
-        )+
-
-        /// Calls the visitor with the type of the variant called `name`; `None` where there is no such variant.
-        pub fn visit<V: $crate::Visitor>(name: &str, visitor: V) -> Option<V::Outcome> {
-            match name {
-                $($name => Some(visitor.visit::<$scene>()),)+
-                _ => None,
-            }
-        }
-    };
-}
-pub(crate) use variants;
-
-/// The number type that a variant's words are bit patterns of, from its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Words {
-    /// `f32` in SI units.
-    Single,
-    /// `i32`, per unit of the scene's limits.
-    Fixed,
-}
-
-impl Words {
-    /// The words of scene `S`: the second part of its name, `f32` or else fixed point.
-    pub const fn of<S: Scene>() -> Self {
-        let name = S::NAME.as_bytes();
-        let mut at = 0;
-        while at + 4 < name.len() {
-            if name[at] == b'/' {
-                let single = name[at + 1] == b'f' && name[at + 2] == b'3' && name[at + 3] == b'2';
-                return if single { Words::Single } else { Words::Fixed };
-            }
-            at += 1;
-        }
-        Words::Fixed
-    }
+variants! {
+    "empty/f32/none/10000" => Empty,
+    "composition/f32/rigid-observer/10000" => Composed<Of<f32, Rigid<f32>, ()>>,
+    "composition/f32/rigid-governed/10000" => Composed<Of<f32, Rigid<f32>, SpeedLoop<f32>>>,
+    "composition/f32/semi-implicit-observer/10000" => Composed<Of<f32, SemiImplicit<f32>, ()>>,
+    "composition/f32/semi-implicit-governed/10000" => Composed<Of<f32, SemiImplicit<f32>, SpeedLoop<f32>>>,
+    "composition/f32/two-mass-observer/10000" => Composed<Of<f32, TwoMass<f32>, ()>>,
+    "composition/f32/two-mass-governed/10000" => Composed<Of<f32, TwoMass<f32>, SpeedLoop<f32>>>,
+    "composition/f32/two-mass-geared-observer/10000" => Composed<Of<f32, Geared<TwoMass<f32>>, ()>>,
+    "composition/f32/two-mass-geared-governed/10000" => Composed<Of<f32, Geared<TwoMass<f32>>, SpeedLoop<f32>>>,
+    "composition/f32/two-mass-extremes/10000" => Composed<Of<f32, TwoMass<f32>, (), Extremes<f32>>>,
+    "composition/f32/two-mass-waveform/10000" => Composed<Of<f32, TwoMass<f32>, (), Waveform<f32, 64>>>,
+    "composition/f32/two-mass-by-hand/10000" => ByHand<f32, TwoMass<f32>>,
+    "composition/fixed/rigid-observer/10000" => Composed<Of<Fixed, Rigid<Fixed>, ()>>,
+    "composition/fixed/rigid-governed/10000" => Composed<Of<Fixed, Rigid<Fixed>, SpeedLoop<Fixed>>>,
+    "composition/fixed/semi-implicit-observer/10000" => Composed<Of<Fixed, SemiImplicit<Fixed>, ()>>,
+    "composition/fixed/semi-implicit-governed/10000" => Composed<Of<Fixed, SemiImplicit<Fixed>, SpeedLoop<Fixed>>>,
+    "composition/fixed/two-mass-observer/10000" => Composed<Of<Fixed, TwoMass<Fixed>, ()>>,
+    "composition/fixed/two-mass-governed/10000" => Composed<Of<Fixed, TwoMass<Fixed>, SpeedLoop<Fixed>>>,
+    "composition/fixed/two-mass-geared-observer/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, ()>>,
+    "composition/fixed/two-mass-geared-governed/10000" => Composed<Of<Fixed, Geared<TwoMass<Fixed>>, SpeedLoop<Fixed>>>,
+    "composition/fixed/two-mass-extremes/10000" => Composed<Of<Fixed, TwoMass<Fixed>, (), Extremes<Fixed>>>,
+    "composition/fixed/two-mass-waveform/10000" => Composed<Of<Fixed, TwoMass<Fixed>, (), Waveform<Fixed, 64>>>,
+    "composition/fixed/two-mass-by-hand/10000" => ByHand<Fixed, TwoMass<Fixed>>,
+    "generator/f32/diesel/2400" => Generator<generator::Of<f32, generator::with::Diesel>>,
+    "generator/f32/turbine/2400" => Generator<generator::Of<f32, generator::with::Turbine>>,
+    "generator/fixed/diesel/2400" => Generator<generator::Of<Fixed, generator::with::Diesel>>,
+    "generator/fixed/turbine/2400" => Generator<generator::Of<Fixed, generator::with::Turbine>>,
+    "balanced-fan/f32/two-mass/4000" => Balanced<BalancedFan<f32>>,
+    "balanced-fan/fixed/two-mass/4000" => Balanced<BalancedFan<Fixed>>,
+    "flexible/f32/two-mass/4000" => Balanced<Flexible<f32>>,
+    "flexible/fixed/two-mass/4000" => Balanced<Flexible<Fixed>>,
+    "commission/f32/two-mass/10000" => Commission,
+    "hoist/f32/rigid/1000" => Governed<Hoist<f32, with::Rigid, 1000>>,
+    "hoist/f32/rigid/4000" => Governed<Hoist<f32, with::Rigid, 4000>>,
+    "hoist/f32/rigid/10000" => Governed<Hoist<f32, with::Rigid, 10000>>,
+    "hoist/f32/cut/1000" => Governed<Hoist<f32, with::Cut, 1000>>,
+    "hoist/f32/cut/4000" => Governed<Hoist<f32, with::Cut, 4000>>,
+    "hoist/f32/cut/10000" => Governed<Hoist<f32, with::Cut, 10000>>,
+    "hoist/f32/exact/1000" => Governed<Hoist<f32, with::Exact, 1000>>,
+    "hoist/f32/exact/4000" => Governed<Hoist<f32, with::Exact, 4000>>,
+    "hoist/f32/exact/10000" => Governed<Hoist<f32, with::Exact, 10000>>,
+    "hoist/f32/reduced/1000" => Governed<Hoist<f32, with::Reduced, 1000>>,
+    "hoist/f32/reduced/4000" => Governed<Hoist<f32, with::Reduced, 4000>>,
+    "hoist/f32/reduced/10000" => Governed<Hoist<f32, with::Reduced, 10000>>,
+    "hoist/fixed/rigid/1000" => Governed<Hoist<Fixed, with::Rigid, 1000>>,
+    "hoist/fixed/rigid/4000" => Governed<Hoist<Fixed, with::Rigid, 4000>>,
+    "hoist/fixed/rigid/10000" => Governed<Hoist<Fixed, with::Rigid, 10000>>,
+    "hoist/fixed/cut/1000" => Governed<Hoist<Fixed, with::Cut, 1000>>,
+    "hoist/fixed/cut/4000" => Governed<Hoist<Fixed, with::Cut, 4000>>,
+    "hoist/fixed/cut/10000" => Governed<Hoist<Fixed, with::Cut, 10000>>,
+    "hoist/fixed/exact/1000" => Governed<Hoist<Fixed, with::Exact, 1000>>,
+    "hoist/fixed/exact/4000" => Governed<Hoist<Fixed, with::Exact, 4000>>,
+    "hoist/fixed/exact/10000" => Governed<Hoist<Fixed, with::Exact, 10000>>,
+    "hoist/fixed/reduced/1000" => Governed<Hoist<Fixed, with::Reduced, 1000>>,
+    "hoist/fixed/reduced/4000" => Governed<Hoist<Fixed, with::Reduced, 4000>>,
+    "hoist/fixed/reduced/10000" => Governed<Hoist<Fixed, with::Reduced, 10000>>,
+    "blooming-mill/f32/backlash/10000" => Governed<BloomingMill<f32, blooming_mill::with::Backlash, 10000>>,
+    "blooming-mill/f32/exact/10000" => Governed<BloomingMill<f32, blooming_mill::with::Exact, 10000>>,
+    "blooming-mill/fixed/backlash/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Backlash, 10000>>,
+    "blooming-mill/fixed/exact/10000" => Governed<BloomingMill<Fixed, blooming_mill::with::Exact, 10000>>,
+    "blooming-mill/f32/slack/10000" => Assembled<BloomingMill<f32, blooming_mill::with::Slack, 10000>>,
+    "blooming-mill/fixed/slack/10000" => Assembled<BloomingMill<Fixed, blooming_mill::with::Slack, 10000>>,
+    "converter/f32/plain/10000" => Assembled<Converter<f32, converter::with::Plain>>,
+    "converter/f32/slack/10000" => Assembled<Converter<f32, converter::with::Slack>>,
+    "converter/fixed/plain/10000" => Assembled<Converter<Fixed, converter::with::Plain>>,
+    "converter/fixed/slack/10000" => Assembled<Converter<Fixed, converter::with::Slack>>,
+    "fan/f32/rigid/1000" => Governed<Fan<f32, Rigid<f32>>>,
+    "fan/fixed/rigid/1000" => Governed<Fan<Fixed, Rigid<Fixed>>>,
+    "spindle/f32/rigid/10000" => Governed<Spindle<f32, Rigid<f32>>>,
+    "spindle/f32/exact/10000" => Governed<Spindle<f32, TwoMass<f32>>>,
+    "spindle/fixed/rigid/10000" => Governed<Spindle<Fixed, Rigid<Fixed>>>,
+    "spindle/fixed/exact/10000" => Governed<Spindle<Fixed, TwoMass<Fixed>>>,
+    "strip-mill/f32/rigid/10000" => Governed<StripMill<f32, Rigid<f32>>>,
+    "strip-mill/f32/semi-implicit/10000" => Governed<StripMill<f32, SemiImplicit<f32>>>,
+    "strip-mill/fixed/rigid/10000" => Governed<StripMill<Fixed, Rigid<Fixed>>>,
+    "strip-mill/fixed/semi-implicit/10000" => Governed<StripMill<Fixed, SemiImplicit<Fixed>>>,
+    "planetary/f32/rigid/4000" => Governed<PlanetaryDrive<f32, Geared<Rigid<f32>>>>,
+    "planetary/f32/exact/4000" => Governed<PlanetaryDrive<f32, Geared<TwoMass<f32>>>>,
+    "planetary/fixed/rigid/4000" => Governed<PlanetaryDrive<Fixed, Geared<Rigid<Fixed>>>>,
+    "planetary/fixed/exact/4000" => Governed<PlanetaryDrive<Fixed, Geared<TwoMass<Fixed>>>>,
+    "crane-travel/f32/rigid/1000" => Governed<CraneTravel<f32, Rigid<f32>>>,
+    "crane-travel/f32/semi-implicit/1000" => Governed<CraneTravel<f32, SemiImplicit<f32>>>,
+    "crane-travel/fixed/rigid/1000" => Governed<CraneTravel<Fixed, Rigid<Fixed>>>,
+    "crane-travel/fixed/semi-implicit/1000" => Governed<CraneTravel<Fixed, SemiImplicit<Fixed>>>,
+    "skip-winch/f32/rigid/2000" => Governed<SkipWinch<f32, Geared<Rigid<f32>>>>,
+    "skip-winch/f32/semi-implicit/2000" => Governed<SkipWinch<f32, Geared<SemiImplicit<f32>>>>,
+    "skip-winch/fixed/rigid/2000" => Governed<SkipWinch<Fixed, Geared<Rigid<Fixed>>>>,
+    "skip-winch/fixed/semi-implicit/2000" => Governed<SkipWinch<Fixed, Geared<SemiImplicit<Fixed>>>>,
+    "gear-drive/f32/exact/4000" => Governed<GearDrive<f32, TwoMass<f32>>>,
+    "gear-drive/fixed/exact/4000" => Governed<GearDrive<Fixed, TwoMass<Fixed>>>,
+    "vibrating-screen/f32/exact/4000" => Assembled<VibratingScreen<f32, vibrating_screen::with::Quick>>,
+    "vibrating-screen/fixed/exact/4000" => Assembled<VibratingScreen<Fixed, vibrating_screen::with::Quick>>,
+    "punch-press/f32/plain/10000" => PunchPress<punch_press::Of<f32, punch_press::with::Plain>>,
+    "punch-press/fixed/plain/10000" => PunchPress<punch_press::Of<Fixed, punch_press::with::Plain>>,
+    "punch-press/f32/mean/10000" => PunchPress<punch_press::Of<f32, punch_press::with::Mean>>,
+    "punch-press/fixed/mean/10000" => PunchPress<punch_press::Of<Fixed, punch_press::with::Mean>>,
+    "skip-winch/f32/plain/2000" => Assembled<SkipWinch<f32, skip_winch::with::Plain>>,
+    "skip-winch/f32/slack/2000" => Assembled<SkipWinch<f32, skip_winch::with::Slack>>,
+    "skip-winch/fixed/plain/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Plain>>,
+    "skip-winch/fixed/slack/2000" => Assembled<SkipWinch<Fixed, skip_winch::with::Slack>>,
+    "grinding-spindle/f32/two-mass/4000" => Balanced<GrindingSpindle<f32>>,
+    "grinding-spindle/fixed/two-mass/4000" => Balanced<GrindingSpindle<Fixed>>,
+    "test-rig/f32/two-mass/10000" => OnAxis<TestRig>,
 }

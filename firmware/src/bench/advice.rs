@@ -10,8 +10,8 @@ use driveline::parameters::Store;
 use super::Bench;
 use crate::Words;
 use crate::board::Board;
-use crate::pages::Pages;
-use crate::program::Program;
+use crate::panel::flash_model::Pages;
+use crate::self_test::inputs::Program;
 
 /// Measures all of it.
 pub fn all<B: Board>(bench: &mut Bench<'_, B>) {

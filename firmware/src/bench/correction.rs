@@ -5,7 +5,7 @@ use driveline::balance::{Aim, Complex, Entry, Influence, Objective};
 use super::Bench;
 use crate::Words;
 use crate::board::Board;
-use crate::program::Program;
+use crate::self_test::inputs::Program;
 
 type Readings = [Complex<f32>; 6];
 

@@ -9,7 +9,7 @@ use driveline::sample::Estimate;
 
 use super::Bench;
 use crate::board::Board;
-use crate::program::Program;
+use crate::self_test::inputs::Program;
 
 /// Bins of the waveform.
 const BINS: usize = 64;

@@ -9,10 +9,10 @@ use driveline::sample::{Command, Estimate};
 
 use super::Bench;
 use crate::board::Board;
-use crate::governed::Variant;
-use crate::program::Program;
+use crate::scene::governed::Variant;
 use crate::scenes::generator::{self, parts};
 use crate::scenes::hoist::{Hoist, with};
+use crate::self_test::inputs::Program;
 
 /// One call's state: the constants and the governor.
 type Governed<'c, N, G> = (&'c <G as Governor<N>>::Config, G);

@@ -6,7 +6,7 @@ use driveline::number::Fixed;
 
 use super::Bench;
 use crate::board::Board;
-use crate::program::Program;
+use crate::self_test::inputs::Program;
 
 /// A rotor behind a gear, a block every second turn so that both occur among the calls: the end of a block, and a turn's
 /// end within one, which is the longest tick of a single channel.

@@ -8,19 +8,22 @@ use driveline::sample::{Command, Sample};
 
 use super::Bench;
 use crate::board::Board;
-use crate::governed::Variant;
-use crate::program::Program;
-use crate::rattle::{self, Rattle};
+use crate::control_loop::telemetry::{Told, VALUES};
+use crate::scene::governed::Variant;
 use crate::scenes::blooming_mill::{self, BASES, BloomingMill};
 use crate::scenes::hoist::{Hoist, with};
-use crate::told::{Told, VALUES};
+use crate::self_test::backlash_inputs::{self, Rattle};
+use crate::self_test::inputs::Program;
 
 /// The steps in `f32`.
 pub fn single<B: Board>(bench: &mut Bench<'_, B>) {
     all::<B, f32, Hoist<f32, with::Exact, 10_000>, Hoist<f32, with::Reduced, 10_000>, Hoist<f32, with::Rigid, 10_000>>(
         bench,
     );
-    backlash::<B, f32, BloomingMill<f32, blooming_mill::with::Backlash, { rattle::RATE_HZ }>>(bench, |torque| torque);
+    backlash::<B, f32, BloomingMill<f32, blooming_mill::with::Backlash, { backlash_inputs::RATE_HZ }>>(
+        bench,
+        |torque| torque,
+    );
 }
 
 /// The steps in fixed point.
@@ -34,7 +37,7 @@ pub fn fixed<B: Board>(bench: &mut Bench<'_, B>) {
     >(bench);
     // To 2^-24 of the base.
     let word = |torque: f32| Fixed::from_bits(((torque * (16_777_216.0 / BASES.torque as f32)) as i32) << 4);
-    backlash::<B, Fixed, BloomingMill<Fixed, blooming_mill::with::Backlash, { rattle::RATE_HZ }>>(bench, word);
+    backlash::<B, Fixed, BloomingMill<Fixed, blooming_mill::with::Backlash, { backlash_inputs::RATE_HZ }>>(bench, word);
 }
 
 /// The observer of backlash on a machine that rattles through its gap: every regime, every crossing.

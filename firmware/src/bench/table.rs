@@ -10,9 +10,9 @@ use super::{advice, correction, cranked, fluctuation, governors, phasors, steps}
 use crate::Words;
 use crate::board::Board;
 use crate::measure::count::Measured;
-use crate::program::Program;
 use crate::scene::{Input, Output, Scene};
 use crate::scenes::hoist::BASES;
+use crate::self_test::inputs::Program;
 
 /// Measures everything; `tick` is that of scene `S`.
 pub fn run<S: Scene, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<S, Input, Output>) {

@@ -6,9 +6,9 @@ use cortex_m_rt::entry;
 use driveline_firmware::Words;
 use driveline_firmware::bench::{self, Bench};
 use driveline_firmware::board::{Board, ThisBoard};
-use driveline_firmware::fingerprint::SEED;
-use driveline_firmware::program::Program;
 use driveline_firmware::scene::Scene;
+use driveline_firmware::self_test::fingerprint::SEED;
+use driveline_firmware::self_test::inputs::Program;
 
 driveline_firmware::selected!();
 

@@ -5,10 +5,10 @@
 use core::mem::MaybeUninit;
 
 use cortex_m_rt::entry;
+use driveline_firmware::board::json_line::Line;
 use driveline_firmware::board::{Board, Link, ThisBoard};
 use driveline_firmware::measure::count::Counter;
 use driveline_firmware::measure::stack;
-use driveline_firmware::report::Line;
 use driveline_firmware::scene::{Input, Output, Scene};
 
 driveline_firmware::selected!();

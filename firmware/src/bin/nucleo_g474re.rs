@@ -13,17 +13,17 @@ use cortex_m::peripheral::NVIC;
 use cortex_m_rt::entry;
 use driveline::hal::{FullScale, PwmTorque};
 use driveline::telemetry::{Channel as Column, Kind, Ring};
-use driveline_firmware::asking::{Asking, RELEASE, SPEED};
-use driveline_firmware::attended::Attended;
-use driveline_firmware::balanced::{Adviser, Measurement, Variant, reading, state};
 use driveline_firmware::board::nucleo_g474re::{
     Beside, Channel, Nucleo, Pin, Serial, Vibration, start_tick, tick_taken,
 };
-use driveline_firmware::panel::{DONE, Key};
+use driveline_firmware::control_loop::main_loop_watch::Attended;
+use driveline_firmware::control_loop::step::{Asked, Turn};
+use driveline_firmware::control_loop::telemetry;
+use driveline_firmware::panel::serial_request::{Asking, RELEASE, SPEED};
 use driveline_firmware::scene::Scene;
+use driveline_firmware::scene::balanced::{Adviser, Measurement, Variant, reading, state};
+use driveline_firmware::scene::panel_keys::{DONE, Key};
 use driveline_firmware::scenes::test_rig::{self, TestRig};
-use driveline_firmware::told;
-use driveline_firmware::turn::{Asked, Turn};
 use stm32_metapac::{Interrupt, interrupt};
 
 driveline_firmware::selected!("test-rig/f32/two-mass/10000");
@@ -47,7 +47,7 @@ unsafe impl Sync for Owned {}
 static CONTROL: Owned = Owned(UnsafeCell::new(MaybeUninit::uninit()));
 
 /// Values of a record: those of a scene, the two velocities, the last answer.
-const VALUES: usize = told::VALUES + 3;
+const VALUES: usize = telemetry::VALUES + 3;
 /// Ticks between two records: a thousand of 57 bytes a second, two thirds of what the port takes.
 const TICKS: u32 = 10;
 /// Records between two descriptions of the channels.
@@ -61,7 +61,7 @@ static REFERENCE: AtomicU32 = AtomicU32::new((test_rig::SPEED as f32).to_bits())
 static ANSWER: AtomicU32 = AtomicU32::new(0);
 
 const COLUMNS: [Column<'static>; VALUES] = {
-    let [a, b, c, d, e, f, g, h] = told::channels::<Selected>();
+    let [a, b, c, d, e, f, g, h] = telemetry::channels::<Selected>();
     let first = Column { name: "vibration 1", unit: "m/s", kind: Kind::Single };
     let second = Column { name: "vibration 2", unit: "m/s", kind: Kind::Single };
     [a, b, c, d, e, f, g, h, first, second, Column { name: "answer", unit: "", kind: Kind::Integer(1.0) }]
@@ -83,7 +83,7 @@ fn TIM6_DAC() {
     *left = left.wrapping_sub(1);
     if *left == 0 {
         *left = TICKS;
-        let [a, b, c, d, e, f, g, h] = told::values(&input, &output);
+        let [a, b, c, d, e, f, g, h] = telemetry::values(&input, &output);
         let [first, second] = input.vibration;
         RECORDS.record(&[a, b, c, d, e, f, g, h, first, second, ANSWER.load(Ordering::Relaxed)]);
     }

@@ -3,10 +3,10 @@
 //! The fingerprint of the selected scene over the built-in inputs, to be compared with the host's.
 
 use cortex_m_rt::entry;
+use driveline_firmware::board::json_line::Line;
 use driveline_firmware::board::{Board, ThisBoard};
-use driveline_firmware::fingerprint;
-use driveline_firmware::report::Line;
 use driveline_firmware::scene::Scene;
+use driveline_firmware::self_test::fingerprint;
 
 driveline_firmware::selected!();
 

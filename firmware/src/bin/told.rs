@@ -6,10 +6,10 @@ use cortex_m_rt::entry;
 use driveline::telemetry::Channel;
 use driveline_firmware::Words;
 use driveline_firmware::board::{Board, Sink, ThisBoard};
-use driveline_firmware::fingerprint::SEED;
-use driveline_firmware::program::Program;
+use driveline_firmware::control_loop::telemetry::{Told, channels, values};
 use driveline_firmware::scene::Scene;
-use driveline_firmware::told::{Told, channels, values};
+use driveline_firmware::self_test::fingerprint::SEED;
+use driveline_firmware::self_test::inputs::Program;
 
 driveline_firmware::selected!();
 

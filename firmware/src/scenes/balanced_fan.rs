@@ -17,8 +17,8 @@ use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
 
-use crate::balanced::{Constants, Variant};
-use crate::trial_weights::{Goal, TrialWeights};
+use crate::panel::trial_weights::{Goal, TrialWeights};
+use crate::scene::balanced::{Constants, Variant};
 
 /// Motor, coupling, fan.
 pub const CHAIN: Chain = Chain::motor(Inertia(1.3)).shaft(Stiffness(6.0e4), Damping(12.0)).rotor(Inertia(11.0));

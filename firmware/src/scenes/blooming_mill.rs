@@ -29,9 +29,9 @@ use driveline::machine::{Chain, Damping, Gap, Inertia, Match, Stiffness, TwoMass
 use driveline::number::Fixed;
 use driveline::observer::{self, BacklashConfig, TwoMassConfig};
 
-use crate::assembled::Parts;
-use crate::expected::{Expected, Expects};
-use crate::governed::Variant;
+use crate::scene::assembled::Parts;
+use crate::scene::expected::{Expected, Expects};
+use crate::scene::governed::Variant;
 
 /// The gap of the spindles \[rad\].
 pub const GAP: f64 = 10.0e-3;

@@ -16,7 +16,7 @@ use driveline::observer::{
 use driveline::sample::{Command, Sample};
 
 use super::hoist::{BASES, GEAR, LOAD_SHARE, REDUCED, SETTINGS, observer, rigid, screening, speed_loop};
-use crate::governed::output;
+use crate::scene::governed::output;
 use crate::scene::{Input, Output, Scene};
 
 const RATE_HZ: u32 = 10_000;

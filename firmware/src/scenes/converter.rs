@@ -26,8 +26,8 @@ use driveline::machine::{Chain, Damping, Efficiency, Gap, Inertia, Match, Ratio,
 use driveline::number::Fixed;
 use driveline::observer::{Backlash, BacklashConfig};
 
-use crate::assembled::Parts;
-use crate::expected::{Expected, Expects};
+use crate::scene::assembled::Parts;
+use crate::scene::expected::{Expected, Expects};
 
 /// Motor turns per turn of the trunnion.
 pub const RATIO: f64 = 690.0;

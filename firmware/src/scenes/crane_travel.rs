@@ -21,7 +21,7 @@ use driveline::machine::{Chain, Diameter, Efficiency, Inertia, Length, Mass, Mat
 use driveline::number::Fixed;
 use driveline::observer::{self, RigidConfig, SemiImplicitConfig};
 
-use crate::governed::governed;
+use crate::scene::governed::governed;
 
 /// The machine, from the motors to the load.
 pub const CHAIN: Chain = Chain::motor(Inertia(0.2))

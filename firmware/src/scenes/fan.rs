@@ -15,7 +15,7 @@ use driveline::machine::{Chain, Damping, Inertia, Match, Rigid, Stiffness, TwoMa
 use driveline::number::Fixed;
 use driveline::observer::{self, RigidConfig};
 
-use crate::governed::governed;
+use crate::scene::governed::governed;
 
 /// The machine.
 pub const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(1.2e5), Damping(8.0)).rotor(Inertia(4.5));

@@ -16,8 +16,8 @@ use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
 
-use crate::balanced::{Constants, Variant};
-use crate::trial_weights::{Goal, TrialWeights};
+use crate::panel::trial_weights::{Goal, TrialWeights};
+use crate::scene::balanced::{Constants, Variant};
 
 /// Motor, coupling, rotor.
 pub const CHAIN: Chain = Chain::motor(Inertia(0.4)).shaft(Stiffness(9.0e3), Damping(3.0)).rotor(Inertia(1.05));

@@ -22,7 +22,7 @@ use driveline::machine::{
 use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
 
-use crate::governed::governed;
+use crate::scene::governed::governed;
 
 /// Teeth of pinion and wheel.
 pub const TEETH: [u32; 2] = [21, 50];

@@ -50,7 +50,7 @@ use driveline::number::{Fixed, Number};
 use driveline::observer::{TwoMass, TwoMassConfig};
 use driveline::sample::Sample;
 
-use crate::governed::output;
+use crate::scene::governed::output;
 use crate::scene::{Input, Output, Scene};
 
 /// Ticks a second: 32 to the firing interval of the diesel at rated speed.

@@ -15,8 +15,8 @@ use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
 
-use crate::balanced::{Constants, Variant};
-use crate::head::{Head, HeadPanel};
+use crate::panel::balancing_head::{Head, HeadPanel};
+use crate::scene::balanced::{Constants, Variant};
 
 /// Motor, belt, spindle.
 pub const CHAIN: Chain = Chain::motor(Inertia(0.02)).shaft(Stiffness(1.5e3), Damping(0.2)).rotor(Inertia(0.18));

@@ -19,8 +19,8 @@ use driveline::machine::{
 use driveline::number::Fixed;
 use driveline::observer::{self, Geared, GearedConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
 
-use crate::expected::{Expected, Expects};
-use crate::governed::Variant;
+use crate::scene::expected::{Expected, Expects};
+use crate::scene::governed::Variant;
 
 /// Efficiency of the gearbox.
 pub const EFFICIENCY: Efficiency = Efficiency(0.94);

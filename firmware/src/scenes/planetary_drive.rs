@@ -19,7 +19,7 @@ use driveline::machine::{
 use driveline::number::Fixed;
 use driveline::observer::{self, GearedConfig, RigidConfig, TwoMassConfig};
 
-use crate::governed::governed;
+use crate::scene::governed::governed;
 
 /// The planetary set, its ring held.
 pub const SET: Planetary = Planetary {

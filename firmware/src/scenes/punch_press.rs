@@ -37,7 +37,7 @@ use driveline::machine::{
 use driveline::number::{Fixed, Number};
 use driveline::observer::{self, CrankedConfig};
 
-use crate::governed::advance;
+use crate::scene::governed::advance;
 use crate::scene::{Input, Output, Scene};
 
 /// Turns of the motor to one of the crank.

@@ -35,8 +35,8 @@ use driveline::machine::{
 use driveline::number::Fixed;
 use driveline::observer::{self, BacklashConfig, Geared, GearedConfig, RigidConfig, SemiImplicitConfig};
 
-use crate::assembled::Parts;
-use crate::governed::governed;
+use crate::scene::assembled::Parts;
+use crate::scene::governed::governed;
 
 /// Efficiency of the gear.
 pub const EFFICIENCY: Efficiency = Efficiency(0.94);

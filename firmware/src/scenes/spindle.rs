@@ -18,7 +18,7 @@ use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Match, Secti
 use driveline::number::Fixed;
 use driveline::observer::{self, RigidConfig, TwoMassConfig};
 
-use crate::governed::governed;
+use crate::scene::governed::governed;
 
 /// The shaft between rotor and tool.
 pub const SHAFT: [Section; 2] = [

@@ -17,7 +17,7 @@ use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, RigidConfig, SemiImplicitConfig};
 
-use crate::governed::governed;
+use crate::scene::governed::governed;
 
 /// The machine, from the motor to the rolls.
 pub const CHAIN: Chain = Chain::motor(Inertia(3000.0))

@@ -13,8 +13,8 @@ use driveline::governor::SpeedLoopConfig;
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Match, Section, ShearModulus, TwoMass, stepped};
 use driveline::observer::{self, TwoMassConfig};
 
-use crate::balanced::{Constants, Variant};
-use crate::trial_weights::{Goal, TrialWeights};
+use crate::panel::trial_weights::{Goal, TrialWeights};
+use crate::scene::balanced::{Constants, Variant};
 
 /// The rod.
 pub const ROD: [Section; 1] = [Section::solid(Length(0.150), Diameter(0.005))];

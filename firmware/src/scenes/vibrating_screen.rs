@@ -25,7 +25,7 @@ use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
 use driveline::scalar::sqrt;
 
-use crate::assembled::Parts;
+use crate::scene::assembled::Parts;
 
 /// Mass of the box with its charge, and of the frame [kg].
 pub const MASSES: [f64; 2] = [8000.0, 5000.0];

@@ -6,10 +6,11 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
+use driveline_firmware::Visitor;
 use driveline_firmware::board::Facts;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::selected::visit;
-use driveline_firmware::{Visitor, fingerprint};
+use driveline_firmware::self_test::fingerprint;
+use driveline_firmware::variants::visit;
 use driveline_qemu::image::{Contents, Program, board, build};
 
 const CORES: [(&str, &str); 2] = [("f32", "m4f"), ("fixed", "m3")];

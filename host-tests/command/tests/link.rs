@@ -4,9 +4,9 @@ use std::thread;
 use std::time::Instant;
 
 use driveline_firmware::board::{BOARDS, Facts};
-use driveline_firmware::program::Program as Inputs;
 use driveline_firmware::scene::{Input, Output, Scene};
-use driveline_firmware::selected::{VARIANTS, visit};
+use driveline_firmware::self_test::inputs::Program as Inputs;
+use driveline_firmware::variants::{VARIANTS, visit};
 use driveline_firmware::{Visitor, Words};
 use driveline_qemu::image::{Program, board, build};
 use driveline_qemu::link::{Link, Summary};

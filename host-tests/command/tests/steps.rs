@@ -13,7 +13,7 @@ use driveline::observer::{Geared, GearedConfig, TwoMass, TwoMassConfig};
 use driveline::sample::Sample;
 use driveline_firmware::scene::Scene;
 use driveline_firmware::scenes::hoist as scene;
-use driveline_firmware::{Visitor, Words, selected};
+use driveline_firmware::{Visitor, Words, variants};
 
 const GEAR: Gear = Gear { efficiency: 0.94, inertia: 0.7, play: 0.01 };
 
@@ -121,7 +121,7 @@ fn the_hoists_recordings_are_understood() {
         }
     }
     let design = scene::observer(&scene::REDUCED, 1_000);
-    let runs = selected::visit("hoist/f32/exact/1000", Record).unwrap();
+    let runs = variants::visit("hoist/f32/exact/1000", Record).unwrap();
     for (trace, units) in runs {
         let run = recorded(&trace, &units);
         let compared = comparisons(&design, &scene::GEAR, &run, scene::RATED_SPEED).unwrap();

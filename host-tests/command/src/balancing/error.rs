@@ -19,7 +19,7 @@ pub enum BalancingError {
     #[error("the panel refused {key:?} with {answer}")]
     Refused {
         /// What it was asked.
-        key: driveline_firmware::panel::Key,
+        key: driveline_firmware::scene::panel_keys::Key,
         /// What it answered.
         answer: u32,
     },

@@ -1,7 +1,7 @@
 //! The fan: two planes, trial weights, one correction and one trim.
 
 use driveline_firmware::Words;
-use driveline_firmware::panel::{Key, next};
+use driveline_firmware::scene::panel_keys::{Key, next};
 use driveline_firmware::scenes::balanced_fan as scene;
 use nalgebra::Complex;
 

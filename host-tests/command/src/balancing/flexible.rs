@@ -1,7 +1,7 @@
 //! The flexible rotor: three planes, two speeds, one correction.
 
 use driveline_firmware::Words;
-use driveline_firmware::panel::{Key, next};
+use driveline_firmware::scene::panel_keys::{Key, next};
 use driveline_firmware::scenes::flexible as scene;
 use nalgebra::Complex;
 

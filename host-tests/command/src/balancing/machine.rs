@@ -2,8 +2,8 @@
 
 use std::io;
 
-use driveline_firmware::fingerprint::Fingerprint;
 use driveline_firmware::scene::{Input, Output};
+use driveline_firmware::self_test::fingerprint::Fingerprint;
 
 use crate::closed_loop::sensors::Encoder;
 use crate::closed_loop::units::Units;

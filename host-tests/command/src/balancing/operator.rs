@@ -1,7 +1,7 @@
 //! Who operates the machine: starts it, waits, presses keys on its panel, stops it.
 
-use driveline_firmware::balanced::DOUBTS;
-use driveline_firmware::panel::{DONE, Key, MEASURING, REFUSED};
+use driveline_firmware::scene::balanced::DOUBTS;
+use driveline_firmware::scene::panel_keys::{DONE, Key, MEASURING, REFUSED};
 use nalgebra::Complex;
 
 use super::error::BalancingError;

@@ -2,8 +2,8 @@
 
 use std::io;
 
-use driveline_firmware::pages::WORDS;
-use driveline_firmware::panel::{DONE, Key};
+use driveline_firmware::panel::flash_model::WORDS;
+use driveline_firmware::scene::panel_keys::{DONE, Key};
 use driveline_firmware::scene::{Input, Output};
 
 use crate::drivetrains::lockstep::Ticks;

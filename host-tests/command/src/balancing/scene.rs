@@ -5,7 +5,7 @@ use std::io;
 
 use driveline_firmware::board::{BOARDS, Facts};
 use driveline_firmware::scene::{Input, Output};
-use driveline_firmware::selected::{VARIANTS, visit};
+use driveline_firmware::variants::{VARIANTS, visit};
 use driveline_firmware::{Visitor, Words, scene};
 
 use super::error::BalancingError;

@@ -1,7 +1,7 @@
 //! The grinding spindle: a balancing head, in-run, from nothing known.
 
 use driveline_firmware::Words;
-use driveline_firmware::panel::Key;
+use driveline_firmware::scene::panel_keys::Key;
 use driveline_firmware::scenes::grinding_spindle as scene;
 use nalgebra::Complex;
 use serde::Serialize;

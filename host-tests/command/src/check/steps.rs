@@ -2,7 +2,7 @@
 
 use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
 use driveline_firmware::board::{BOARDS, Facts};
-use driveline_firmware::selected::VARIANTS;
+use driveline_firmware::variants::VARIANTS;
 
 use super::comparison::Comparison;
 use super::{Count, Failed, Step, Voice, cargo};

@@ -177,8 +177,8 @@ impl Watch {
 
     fn open(&self) -> Result<Box<dyn Read>, Failure> {
         if let Some(variant) = &self.qemu {
-            if !driveline_firmware::selected::VARIANTS.contains(&variant.as_str()) {
-                let names = driveline_firmware::selected::VARIANTS.join(", ");
+            if !driveline_firmware::variants::VARIANTS.contains(&variant.as_str()) {
+                let names = driveline_firmware::variants::VARIANTS.join(", ");
                 return Err(Failure::usage(format!("no variant is called `{variant}`; there are {names}")));
             }
             let board = board(&self.core).filter(|board| belongs(variant, board));

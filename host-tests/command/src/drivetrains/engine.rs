@@ -5,7 +5,7 @@ use std::error::Error;
 use driveline_firmware::Visitor;
 use driveline_firmware::board::Facts;
 use driveline_firmware::scene::{Output, Scene};
-use driveline_firmware::selected::visit;
+use driveline_firmware::variants::visit;
 
 use super::figures::{deviations, peaks};
 use super::lockstep;

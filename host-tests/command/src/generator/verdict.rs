@@ -8,7 +8,7 @@ use driveline_firmware::Words;
 use driveline_firmware::board::Facts;
 use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_firmware::scenes::generator::{DIESEL, DIESEL_DESIGNS, RATED_SPEED, TURBINE, TURBINE_DESIGNS};
-use driveline_firmware::selected::visit;
+use driveline_firmware::variants::visit;
 use serde::Serialize;
 
 use super::faults::{FAULTS, Outcome, PASSING, WIRES, outcome};

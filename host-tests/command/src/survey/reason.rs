@@ -11,8 +11,8 @@
 
 use core::f64::consts::TAU;
 
-use driveline_firmware::expected::Expected;
 use driveline_firmware::scene::Scene;
+use driveline_firmware::scene::expected::Expected;
 use driveline_firmware::{Visitor, Words};
 use serde::Serialize;
 
@@ -117,7 +117,7 @@ pub fn reasons(
     let mut traces = Vec::new();
     let mut expected = None;
     for scenario in counted() {
-        let (trace, says) = driveline_firmware::selected::visit(candidate.variant, Quiet { machine: &quiet, scenario })
+        let (trace, says) = driveline_firmware::variants::visit(candidate.variant, Quiet { machine: &quiet, scenario })
             .ok_or_else(|| format!("there is no variant `{}`", candidate.variant))?
             .map_err(|error| error.to_string())?;
         traces.push(trace);

@@ -2,9 +2,9 @@
 
 use driveline::number::{Fixed, Number};
 use driveline::observer::{Backlash, Observer};
-use driveline_firmware::governed::Variant;
-use driveline_firmware::rattle::{RATE_HZ, Rattle};
+use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::blooming_mill::{BASES, BloomingMill, with};
+use driveline_firmware::self_test::backlash_inputs::{RATE_HZ, Rattle};
 
 type Mill<N> = BloomingMill<N, with::Backlash, { RATE_HZ }>;
 

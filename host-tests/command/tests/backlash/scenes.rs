@@ -12,7 +12,7 @@ use driveline::governor::{SlackConfig, SymmetricConfig};
 use driveline::number::Fixed;
 use driveline_firmware::scene::Scene;
 use driveline_firmware::scenes::blooming_mill;
-use driveline_firmware::selected::visit;
+use driveline_firmware::variants::visit;
 use driveline_firmware::{Visitor, Words};
 
 struct Ran<'m>(&'m Machine);

@@ -6,7 +6,7 @@ use cargo_driveline::drivetrains::figures::{deviations, peaks};
 use cargo_driveline::drivetrains::lockstep::{OnHost, Trace, run};
 use cargo_driveline::drivetrains::scenario::Machine;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::selected::visit;
+use driveline_firmware::variants::visit;
 use driveline_firmware::{Visitor, Words};
 
 struct Runs<'m>(&'m Machine, &'static str);

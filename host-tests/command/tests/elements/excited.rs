@@ -7,8 +7,8 @@ use cargo_driveline::drivetrains::scenario::Machine;
 use cargo_driveline::drivetrains::{gear_drive as gears, vibrating_screen as screen};
 use driveline::design::{ObserverChoice, USUAL_MARGIN};
 use driveline_firmware::Words;
-use driveline_firmware::assembled::Assembled;
 use driveline_firmware::scene::Scene;
+use driveline_firmware::scene::assembled::Assembled;
 use driveline_firmware::scenes::gear_drive;
 use driveline_firmware::scenes::vibrating_screen::{self, VibratingScreen, with};
 use driveline_solver::plant::train::{GearPair, Signal};
@@ -104,6 +104,7 @@ fn their_runs_are_proven() {
     let machine = screen::machine().unwrap();
     ran::<Assembled<VibratingScreen<f32, with::Quick>>>(&machine, 2.5).recording.prove().unwrap();
     let machine = gears::machine().unwrap();
-    type Drive = driveline_firmware::governed::Governed<gear_drive::GearDrive<f32, driveline::observer::TwoMass<f32>>>;
+    type Drive =
+        driveline_firmware::scene::governed::Governed<gear_drive::GearDrive<f32, driveline::observer::TwoMass<f32>>>;
     ran::<Drive>(&machine, 0.3).recording.prove().unwrap();
 }

@@ -6,7 +6,7 @@ use cargo_driveline::drivetrains::figures::{deviations, peaks};
 use cargo_driveline::drivetrains::lockstep::{OnHost, Trace, run};
 use cargo_driveline::drivetrains::scenario::Machine;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::selected::{VARIANTS, visit};
+use driveline_firmware::variants::{VARIANTS, visit};
 use driveline_firmware::{Visitor, Words};
 
 /// Runs every counted scenario of a machine with one variant.

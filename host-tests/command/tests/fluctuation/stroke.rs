@@ -9,7 +9,7 @@ use cargo_driveline::drivetrains::punch_press::{CRANK, machine, press, stamping}
 use cargo_driveline::drivetrains::scenario::{Law, Machine, Scenario};
 use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_firmware::scenes::punch_press::{OVER_STROKE, RATE_HZ, RATED_SPEED, REDUCED, TORQUE_LIMIT, panel};
-use driveline_firmware::selected::visit;
+use driveline_firmware::variants::visit;
 use driveline_firmware::{Visitor, Words};
 
 /// Asks the panel for an advice in the last ticks, and keeps the answers.

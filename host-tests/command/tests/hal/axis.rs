@@ -9,7 +9,7 @@ use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
 use driveline::hal::{Axis, Board, TRIPPING};
 use driveline::observer::{Geared, SemiImplicit};
-use driveline_firmware::governed::Variant;
+use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{Hoist, with};
 
 pub type Observer = Geared<SemiImplicit<f32>>;

@@ -5,11 +5,11 @@ use std::thread;
 use cargo_driveline::telemetry::{Decoder, Told};
 use driveline::telemetry::{Channel, Kind, Ring};
 use driveline_firmware::Words;
-use driveline_firmware::fingerprint::SEED;
-use driveline_firmware::program::Program as Inputs;
+use driveline_firmware::control_loop::telemetry::{VALUES, values};
 use driveline_firmware::scene::Scene;
-use driveline_firmware::selected::visit;
-use driveline_firmware::told::{VALUES, values};
+use driveline_firmware::self_test::fingerprint::SEED;
+use driveline_firmware::self_test::inputs::Program as Inputs;
+use driveline_firmware::variants::visit;
 use driveline_qemu::image::{Program, board, build};
 use driveline_qemu::link::Telling;
 

@@ -4,12 +4,12 @@ use std::cell::RefCell;
 
 use driveline::fault::Faults;
 use driveline::hal::Board;
-use driveline_firmware::asking::{Asking, SPEED};
-use driveline_firmware::attended::{Attended, PATIENCE};
-use driveline_firmware::on_axis::OnAxis;
+use driveline_firmware::control_loop::main_loop_watch::{Attended, PATIENCE};
+use driveline_firmware::control_loop::step::{Asked, Turn};
+use driveline_firmware::panel::serial_request::{Asking, SPEED};
+use driveline_firmware::scene::on_axis::OnAxis;
 use driveline_firmware::scene::{Input, Scene};
 use driveline_firmware::scenes::test_rig::{RATE_HZ, TestRig};
-use driveline_firmware::turn::{Asked, Turn};
 use proptest::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

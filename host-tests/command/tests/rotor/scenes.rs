@@ -2,7 +2,7 @@
 
 use cargo_driveline::balancing::{Course, Outcome, Scene, SpindleStart, spindle};
 use cargo_driveline::drivetrains::lockstep::OnHost;
-use driveline_firmware::selected::visit;
+use driveline_firmware::variants::visit;
 use driveline_firmware::{Visitor, Words, scene};
 use driveline_qemu::image::{Contents, Program, board, build};
 

@@ -1,7 +1,7 @@
 //! Nothing depends on the absolute angle: a shift of all angles gives the same bits, whatever wraps on the way.
 
 use driveline::drive::Drive;
-use driveline_firmware::governed::Variant;
+use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::RATED_SPEED;
 
 use super::rig::{DriveOf, Rig, Scaled, Seen, for_every_variant};

@@ -11,7 +11,7 @@ use driveline::machine::{
 };
 use driveline::number::Fixed;
 use driveline::observer::{GearedConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
-use driveline_firmware::governed::Variant;
+use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{self, BASES, Hoist, with};
 
 /// The hoist's chain, built where no compiler sees its figures.

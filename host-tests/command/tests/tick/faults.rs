@@ -8,7 +8,7 @@
 use driveline::fault::Faults;
 use driveline::number::Fixed;
 use driveline::sample::Sample;
-use driveline_firmware::governed::Variant;
+use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{self, CUT, RATED_SPEED, REDUCED};
 
 use super::rig::{Rig, Scaled, for_every_variant};

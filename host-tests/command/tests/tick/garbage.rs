@@ -7,7 +7,7 @@ use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::number::Fixed;
 use driveline::observer::{Geared, Observer};
 use driveline::sample::Sample;
-use driveline_firmware::governed::Variant;
+use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{Hoist, RATED_SPEED, with};
 use proptest::prelude::*;
 

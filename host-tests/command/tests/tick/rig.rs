@@ -7,7 +7,7 @@ use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
 use driveline::number::{Fixed, Number};
 use driveline::sample::{Command, Estimate, Sample};
-use driveline_firmware::governed::Variant;
+use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{BASES, RATED_SPEED, REDUCED};
 use driveline_solver::plant::{Chain, Plant, Shaft};
 

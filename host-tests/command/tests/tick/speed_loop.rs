@@ -7,7 +7,7 @@ use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
 use driveline::sample::Estimate;
-use driveline_firmware::governed::Variant;
+use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{BASES, RATED_SPEED, REDUCED, TORQUE_LIMIT};
 use proptest::prelude::*;
 

@@ -3,7 +3,7 @@
 use driveline::fault::Faults;
 use driveline::number::Number;
 use driveline::sample::Sample;
-use driveline_firmware::governed::Variant;
+use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::RATED_SPEED;
 
 use super::rig::{DriveOf, Scaled, Seen, check, for_every_variant};

@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use driveline_firmware::Words;
 use driveline_firmware::board::Facts;
-use driveline_firmware::fingerprint::SEED;
-use driveline_firmware::program::Program as Inputs;
 use driveline_firmware::scene::{Input, Output, Scene};
-use driveline_firmware::selected::visit;
+use driveline_firmware::self_test::fingerprint::SEED;
+use driveline_firmware::self_test::inputs::Program as Inputs;
+use driveline_firmware::variants::visit;
 use serde::Serialize;
 
 use crate::image::{Contents, Image, Program, Sizes, build};

@@ -3,10 +3,11 @@
 use std::error::Error;
 use std::time::Duration;
 
+use driveline_firmware::Visitor;
 use driveline_firmware::board::Facts;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::selected::visit;
-use driveline_firmware::{Visitor, fingerprint};
+use driveline_firmware::self_test::fingerprint;
+use driveline_firmware::variants::visit;
 
 use crate::image::{Program, build};
 use crate::link;

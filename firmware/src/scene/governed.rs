@@ -8,7 +8,7 @@ use driveline::number::Number;
 use driveline::observer::Observer;
 use driveline::sample::{Command, Estimate, Sample};
 
-use crate::expected::Expected;
+use crate::scene::expected::Expected;
 use crate::scene::{Input, Output, Scene};
 
 /// The parts and constants of one variant of a scene.
@@ -37,20 +37,20 @@ pub trait Variant: 'static {
 macro_rules! governed {
     ($scene:ident, $name:literal, $rate:literal; $($text:literal: $observer:ident, $config:ident($($design:expr),+);)+) => {
         $(
-            $crate::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
+            $crate::scene::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
                 observer::$observer<f32>, $config::<f32>::new($($design),+, Bases::SI); $($design),+; Bases::SI);
-            $crate::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
+            $crate::scene::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
                 observer::$observer<Fixed>, $config::<Fixed>::new($($design),+, BASES); $($design),+; BASES);
         )+
     };
     ($scene:ident, $name:literal, $rate:literal, behind $gear:ident;
      $($text:literal: $observer:ident, $config:ident($($design:expr),+);)+) => {
         $(
-            $crate::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
+            $crate::scene::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
                 observer::Geared<observer::$observer<f32>>,
                 GearedConfig::<f32, _>::new($config::<f32>::new($($design),+, Bases::SI), &$gear, 1.0 / $rate as f64, Bases::SI);
                 $($design),+; Bases::SI);
-            $crate::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
+            $crate::scene::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
                 observer::Geared<observer::$observer<Fixed>>,
                 GearedConfig::<Fixed, _>::new($config::<Fixed>::new($($design),+, BASES), &$gear, 1.0 / $rate as f64, BASES);
                 $($design),+; BASES);
@@ -58,7 +58,7 @@ macro_rules! governed {
     };
     (@variant $scene:ident, $name:literal, $rate:literal, $text:literal, $words:literal, $number:ident,
      $observer:ty, $config:expr; $first:expr $(, $more:expr)*; $bases:expr) => {
-        impl $crate::governed::Variant for $scene<$number, $observer> {
+        impl $crate::scene::governed::Variant for $scene<$number, $observer> {
             type Number = $number;
             type Observer = $observer;
             const NAME: &'static str = concat!($name, "/", $words, "/", $text, "/", $rate);
@@ -71,8 +71,8 @@ macro_rules! governed {
                 balancer: (),
             };
 
-            fn expected() -> Option<$crate::expected::Expected> {
-                Some($crate::expected::Expects::expected($first))
+            fn expected() -> Option<$crate::scene::expected::Expected> {
+                Some($crate::scene::expected::Expects::expected($first))
             }
         }
     };

@@ -5,8 +5,8 @@ use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::observer::Observer;
 
-use crate::governed::advance;
-use crate::panel::{DONE, Key, MEASURING, refused};
+use crate::scene::governed::advance;
+use crate::scene::panel_keys::{DONE, Key, MEASURING, refused};
 use crate::scene::{Input, Output, Scene};
 
 /// Vibration channels.

@@ -3,7 +3,7 @@
 //! | byte | |
 //! |---|---|
 //! | 0 | 0x5a |
-//! | 1 | the key: [`RELEASE`], [`SPEED`], or one of the panel's ([`Key`](crate::panel::Key)) |
+//! | 1 | the key: [`RELEASE`], [`SPEED`], or one of the panel's ([`Key`](crate::scene::panel_keys::Key)) |
 //! | 2 to 5 | the value, least significant byte first: an integer, or the bits of an `f32` |
 //! | 6 | sum of the bytes 0 to 5, modulo 256 |
 

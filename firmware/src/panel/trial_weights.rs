@@ -8,9 +8,9 @@ use core::marker::PhantomData;
 use driveline::balance::{Complex, Correction, Phasor, Plan, Procedure, Record, Refusal, Run, Step};
 use driveline::parameters::Store;
 
-use crate::balanced::{Adviser, CHANNELS, Measured};
-use crate::pages::{self, Pages};
-use crate::panel::{DONE, Key, next, refused};
+use super::flash_model::{self, Pages};
+use crate::scene::balanced::{Adviser, CHANNELS, Measured};
+use crate::scene::panel_keys::{DONE, Key, next, refused};
 
 /// What is good enough.
 pub trait Goal {
@@ -37,7 +37,7 @@ const WORDS: usize = 192;
 const RUN_OUT: usize = 2 * CHANNELS;
 const BYTES: usize = 1024;
 /// The whole flash.
-const RANGE: core::ops::Range<u32> = 0..4 * pages::WORDS as u32;
+const RANGE: core::ops::Range<u32> = 0..4 * flash_model::WORDS as u32;
 
 const ZERO: Complex<f32> = Complex { re: 0.0, im: 0.0 };
 

@@ -5,7 +5,7 @@
 
 use core::cell::UnsafeCell;
 
-use crate::board::semihosting::Sink;
+use super::semihosting::Sink;
 
 #[defmt::global_logger]
 struct Logger;

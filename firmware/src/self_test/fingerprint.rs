@@ -1,8 +1,8 @@
 //! One number for all bits that a scene gives back over a run: equal on host and target, or the run was not the same.
 
 use crate::Words;
-use crate::program::Program;
 use crate::scene::{Output, Scene};
+use crate::self_test::inputs::Program;
 
 /// Ticks in a self-test.
 pub const TICKS: u32 = 10_000;

@@ -5,8 +5,8 @@ use driveline::governor::Governor;
 use driveline::number::Number;
 use driveline::observer::Observer;
 
-use crate::expected::Expected;
-use crate::governed::advance;
+use crate::scene::expected::Expected;
+use crate::scene::governed::advance;
 use crate::scene::{Input, Output, Scene};
 
 /// The parts and constants of one variant of a scene.

@@ -4,8 +4,8 @@ use core::marker::PhantomData;
 
 use driveline::balance::{Advice, Complex, Halt, InRun, InRunConfig, Phasor};
 
-use crate::balanced::{Adviser, CHANNELS, Measured};
-use crate::panel::{DONE, Key, refused};
+use crate::scene::balanced::{Adviser, CHANNELS, Measured};
+use crate::scene::panel_keys::{DONE, Key, refused};
 
 /// The balancing head of a scene.
 pub trait Head {

@@ -1,6 +1,6 @@
 //! One turn of the control loop on a board with a motor: read, tick, do. It is the body of the timer's interrupt.
 //!
-//! Between reading and doing stands a tick over words ([`OnAxis`](crate::on_axis::OnAxis)). Torque goes on after the enable chain and off before it. What
+//! Between reading and doing stands a tick over words ([`OnAxis`](crate::scene::on_axis::OnAxis)). Torque goes on after the enable chain and off before it. What
 //! the board refuses is taken back in the same turn, and told to the next tick, which trips.
 
 use driveline::fault::Faults;

@@ -1,7 +1,7 @@
 //! An axis as a scene: the drive and what becomes of a board's faults, over an image of what the board reads and does.
 //!
 //! What was read goes in, what is to be done comes out, and nothing in between touches a register. So the tick is the same machine code on a board
-//! with a motor, where [`Turn`](crate::turn::Turn) reads and does, and in QEMU, where the host does.
+//! with a motor, where [`Turn`](crate::control_loop::step::Turn) reads and does, and in QEMU, where the host does.
 //!
 //! Into [`Input::flags`] go [`Input::RELEASED`] and the board's faults as bits of [`Faults`]: of this reading (angle, torque, vibration) and of
 //! what was to be done after the last tick (torque output, enable). [`Output::faults`] has [`Faults::TRIPPED`] while the power stage is to be off.
@@ -11,9 +11,9 @@ use driveline::governor::SpeedLoop;
 use driveline::hal::{Axis, Board, TRIPPING};
 use driveline::number::Number;
 
-use crate::balanced::{Constants, Measurement, Variant, state};
-use crate::governed::output;
-use crate::panel::{DONE, Key, refused};
+use crate::scene::balanced::{Constants, Measurement, Variant, state};
+use crate::scene::governed::output;
+use crate::scene::panel_keys::{DONE, Key, refused};
 use crate::scene::{Input, Output, Scene};
 
 /// The faults that a board tells in the flags of an input.
