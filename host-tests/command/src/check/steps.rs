@@ -23,7 +23,7 @@ pub const STEPS: [Step; 7] = [
 ];
 
 fn setup_step(voice: &Voice) -> Result<Count, Failed> {
-    let installed = setup::ensure(|command| voice.say(command)).map_err(Failed::whole)?;
+    let installed = setup::ensure(&setup::Need::all(), |command| voice.say(command)).map_err(Failed::whole)?;
     for name in installed {
         voice.say(&format!("installed {name}"));
     }

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use serde_json::json;
 
+use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::balancing::{Ran, Scene, page, tables};
 use crate::closed_loop::candidates::Candidate;
-use driveline_qemu::setup;
+use driveline_qemu::setup::Need;
 use driveline_report::write_page;
 
 /// What is left to chance is the same in every run.
@@ -38,7 +39,7 @@ pub fn run(scene: &Scene, wanted: Wanted<'_>) -> Result<(), Failure> {
         let sentence = format!("no variant of `{}` contains `{filter}`; there are {}", scene.name, there.join(", "));
         return Err(Failure::usage(sentence));
     }
-    setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
+    ready(&Need::to_run(variants.iter().map(|(_, board)| board)))?;
     let progress = Progress::of(variants.len() as u64);
     let mut all: Vec<Ran> = Vec::new();
     for (variant, board) in variants {

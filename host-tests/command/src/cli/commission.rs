@@ -6,10 +6,11 @@ use clap::Args;
 use driveline::commissioning::TestConfig;
 use driveline_firmware::board::BOARDS;
 
+use super::setup::ready;
 use super::{Failure, Progress, onto_itself, say, say_json};
 use crate::commissioning::{Case, Trial, Verdict, in_qemu, named, of_file, on_host, verdict};
 use crate::machine_file::{Diagnostic, MachineFile, Source, read, text};
-use driveline_qemu::setup;
+use driveline_qemu::setup::Need;
 use driveline_report::{writable, write_page};
 
 /// Commission a machine: run the test that finds its inertias, resonance, damping, friction, gap and encoder's
@@ -80,10 +81,10 @@ impl Commission {
             }
         };
         let run = if self.qemu {
-            setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
             let Some(board) = BOARDS.iter().find(|board| board.core == "m4f") else {
                 return Err(Failure::failed("there is no board with an M4F"));
             };
+            ready(&Need::to_run([board]))?;
             in_qemu(&case, *board, self.seed, |_| {}, seen).map(|(course, target)| (course, Some(target)))
         } else {
             on_host(&case, self.seed, seen).map(|course| (course, None))

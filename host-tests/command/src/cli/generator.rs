@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::generator::{page, verdict};
-use driveline_qemu::setup;
+use driveline_qemu::setup::Need;
 use driveline_report::write_page;
 
 /// Run the generator sets' firmware in QEMU against their full plants, and give a verdict by ISO 8528-5 and NEMA SM 23.
@@ -45,7 +46,7 @@ impl Generator {
             let names = verdict::names().join(", ");
             return Err(Failure::usage(format!("no variant contains `{filter}`; there are {names}")));
         }
-        setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
+        ready(&Need::to_run(variants.iter().map(|one| &one.board)))?;
         let progress = Progress::of(verdict::steps(&variants, !self.no_faults));
         let verdicts = verdict::run_all(&variants, !self.no_faults, &|text| progress.says(text), &|| progress.step())
             .map_err(|error| Failure::failed(error.to_string()))?;

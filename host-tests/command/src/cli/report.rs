@@ -5,11 +5,13 @@ use std::thread;
 use std::time::Instant;
 
 use clap::Args;
+use driveline_firmware::board::BOARDS;
 
+use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::survey::{Wanted, jobs, work};
 use crate::survey::{survey_page, survey_table};
-use driveline_qemu::setup;
+use driveline_qemu::setup::Need;
 use driveline_report::{writable, write_page};
 
 /// Run every scene in all its variants, and every stiff or extreme case, and put it all on one page.
@@ -47,7 +49,7 @@ impl Report {
         let wanted = Wanted::scenes(&self.scene).map_err(Failure::usage)?;
         let unwritable = |error| Failure::failed(format!("{} cannot be written: {error}", self.html.display()));
         writable(&self.html).map_err(unwritable)?;
-        setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
+        ready(&Need::to_run(BOARDS))?;
         let began = Instant::now();
         let (jobs, mut survey) = jobs(&wanted, self.quick);
         let progress = Progress::of(jobs.iter().map(|job| job.weight).sum());

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::balancing::{self, Wanted};
+use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::balancing::Scene;
 use crate::drivetrains::Plan;
-use driveline_qemu::setup;
+use driveline_qemu::setup::Need;
 use driveline_report::{variants_table, writable};
 
 /// Run a scene's variants in QEMU, in closed loop with the full solver, and report what they get wrong and cost.
@@ -57,7 +58,7 @@ impl Run {
         let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{scene}.html")));
         let unwritable = |error| Failure::failed(format!("{} cannot be written: {error}", path.display()));
         writable(&path).map_err(unwritable)?;
-        setup::ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?;
+        ready(&Need::to_run(plan.boards()))?;
         let progress = Progress::of(plan.steps());
         let report = plan
             .run(&|text| progress.says(text), &|| progress.step())

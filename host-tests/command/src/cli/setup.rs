@@ -4,12 +4,12 @@ use clap::Args;
 use serde_json::json;
 
 use super::{Failure, say, say_json};
-use driveline_qemu::setup::{ensure, missing};
+use driveline_qemu::setup::{Need, ensure, missing};
 
 /// Install what is missing: Rust targets, rustfmt, clippy, QEMU for Arm.
 ///
 /// Uses rustup and the system's package manager where it may; otherwise the exact command to type is printed. The other
-/// commands do this by themselves.
+/// commands install what they need by themselves. Nothing is ever removed.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  cargo driveline setup\n  cargo driveline setup --dry-run --json")]
 pub struct Setup {
@@ -21,18 +21,20 @@ pub struct Setup {
     pub json: bool,
 }
 
+/// Installs what of some needs is missing, with each command on standard error; the names of what was installed.
+pub(super) fn ready(needs: &[Need]) -> Result<Vec<String>, Failure> {
+    ensure(needs, |command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))
+}
+
 impl Setup {
     /// Installs what is missing.
     ///
     /// # Errors
     /// What is missing and cannot be installed, with the command to type.
     pub fn execute(&self) -> Result<(), Failure> {
-        let lacking: Vec<String> = missing().iter().map(|need| need.name()).collect();
-        let installed = if self.dry_run {
-            Vec::new()
-        } else {
-            ensure(|command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))?
-        };
+        let needs = Need::all();
+        let lacking: Vec<String> = missing(&needs).iter().map(|need| need.name()).collect();
+        let installed = if self.dry_run { Vec::new() } else { ready(&needs)? };
         if self.json {
             return say_json(&json!({ "missing": lacking, "installed": installed }));
         }

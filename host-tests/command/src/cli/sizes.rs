@@ -1,9 +1,12 @@
 //! `cargo driveline sizes`: flash and RAM of each board's image, by section.
 
 use clap::Args;
+use driveline_firmware::board::{BOARDS, FURTHER};
 
+use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use driveline_qemu::image::{Footprint, footprints};
+use driveline_qemu::setup::Need;
 
 /// Builds an image for each board and shows what it takes of flash and RAM, by section.
 ///
@@ -23,6 +26,7 @@ impl Sizes {
     /// # Errors
     /// An image that does not build.
     pub fn execute(&self) -> Result<(), Failure> {
+        ready(&Need::to_build(BOARDS.iter().chain(FURTHER)))?;
         let bar = Progress::of(7);
         let all = footprints(|image| {
             bar.says(image);

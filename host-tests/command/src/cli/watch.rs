@@ -8,11 +8,13 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use driveline_firmware::board::BOARDS;
 
+use super::setup::ready;
 use super::{Failure, say, say_json};
 use crate::machine_file::printable;
 use crate::telemetry::{Decoder, Described, Told};
 use driveline_qemu::image::{Program, belongs, board, build};
 use driveline_qemu::link::Telling;
+use driveline_qemu::setup::Need;
 use driveline_report::format::significant;
 
 /// Watch a running drive: its telemetry from QEMU, a serial port, a file or standard input.
@@ -187,6 +189,7 @@ impl Watch {
                 let cores = cores.collect::<Vec<_>>().join(", ");
                 Failure::usage(format!("{variant} does not run on `{}`, but on {cores}", self.core))
             })?;
+            ready(&Need::to_run([&board]))?;
             let image = build(variant, board, Program::Told, |line| eprintln!("{line}"));
             let image = image.map_err(|error| Failure::failed(error.to_string()))?;
             return Ok(Box::new(Telling::start(&image).map_err(|error| Failure::failed(error.to_string()))?));

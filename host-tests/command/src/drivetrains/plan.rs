@@ -42,6 +42,11 @@ impl Plan {
         Ok(Plan { machine, candidates, options: Options { quick }, whole: filter.is_none() && scene == SCENES[0].0 })
     }
 
+    /// The boards that it runs on.
+    pub fn boards(&self) -> impl Iterator<Item = &Facts> {
+        self.candidates.iter().map(|candidate| &candidate.board)
+    }
+
     /// Steps of the run, for its progress.
     pub fn steps(&self) -> u64 {
         self.candidates.len() as u64 + if self.whole { 2 } else { 0 }

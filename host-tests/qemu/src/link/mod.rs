@@ -7,6 +7,7 @@
 //! QEMU.
 
 mod affinity;
+mod emulator;
 mod pipes;
 mod qemu;
 mod telemetry;
@@ -24,7 +25,7 @@ use affinity::Pinned;
 use pipes::Pipes;
 use qemu::Qemu;
 
-pub use qemu::PROGRAM as QEMU;
+pub use emulator::{Emulator, PROGRAM as QEMU};
 pub use telemetry::Telling;
 
 /// Longest wait for one output: a tick takes microseconds, a stalled machine some seconds.

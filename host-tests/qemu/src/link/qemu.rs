@@ -2,17 +2,16 @@
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::TempDir;
 
+use super::emulator::{Emulator, PROGRAM};
 use crate::image::Image;
 
-/// The program.
-pub const PROGRAM: &str = "qemu-system-arm";
 /// One instruction is 2^10 ns of virtual time, which the timer's arithmetic on the board relies on.
 const INSTRUCTION_COUNT: &str = "shift=10,align=off,sleep=off";
 
@@ -27,7 +26,9 @@ impl Qemu {
     /// Starts an image with `directory` as working directory, where its console and QEMU's own words are kept.
     pub fn start(image: &Image, directory: TempDir) -> io::Result<Self> {
         let said = File::create(directory.path().join("said"))?;
-        let child = Command::new(PROGRAM)
+        let child = Emulator::find()
+            .unwrap_or(Emulator::Installed)
+            .command()
             .args(["-machine", image.board.name, "-display", "none", "-monitor", "none", "-serial", "none"])
             .args(["-icount", INSTRUCTION_COUNT])
             .args(["-chardev", "file,id=console,path=console"])
@@ -42,7 +43,7 @@ impl Qemu {
             .map_err(|error| match error.kind() {
                 ErrorKind::NotFound => io::Error::new(
                     ErrorKind::NotFound,
-                    format!("{PROGRAM} is not installed; `cargo driveline check` installs it or says how"),
+                    format!("{PROGRAM} is not installed; `cargo driveline setup` installs it or says how"),
                 ),
                 _ => error,
             })?;

@@ -1,20 +1,22 @@
 //! What a machine needs beside Rust: found, and installed where that is permitted.
 //!
-//! Needed: the compiler's targets of the boards, `rustfmt` and `clippy`, and QEMU for Arm. Rust's own parts come through `rustup`, QEMU through
-//! the system's package manager as root or through `sudo` where it asks for no password. What cannot be installed is an
-//! error with the command to type.
+//! Needed: the compiler's targets of the boards, `rustfmt` and `clippy`, and QEMU for Arm. Rust's own parts come through
+//! `rustup`, QEMU through the system's package manager as root or through `sudo` where it asks for no password. Nothing is
+//! ever removed: where `apt-get` would have to, or may not be used, QEMU is unpacked into the user's cache. What cannot be
+//! installed is an error with the command to type.
 
 mod packages;
+mod private_copy;
 
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use driveline_firmware::board::{BOARDS, FURTHER};
+use driveline_firmware::board::{BOARDS, FURTHER, Facts};
 
-use crate::link::QEMU;
-use packages::{Manager, Rights};
+use crate::link::{Emulator, QEMU};
+use packages::{Manager, Rights, Trial};
 
 /// Something that is needed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,11 +42,24 @@ pub struct SetupError {
 }
 
 impl Need {
-    /// All that is needed.
+    /// All that is needed: to build for every board, to run in QEMU, to check the source.
     pub fn all() -> Vec<Need> {
-        let targets: BTreeSet<_> = BOARDS.iter().chain(FURTHER).map(|board| board.target).collect();
-        let targets = targets.into_iter().map(Need::Target);
-        targets.chain([Need::Component("rustfmt", "fmt"), Need::Component("clippy", "clippy"), Need::Qemu]).collect()
+        let mut all = Self::to_build(BOARDS.iter().chain(FURTHER));
+        all.extend([Need::Component("rustfmt", "fmt"), Need::Component("clippy", "clippy"), Need::Qemu]);
+        all
+    }
+
+    /// What building for some boards needs.
+    pub fn to_build<'b>(boards: impl IntoIterator<Item = &'b Facts>) -> Vec<Need> {
+        let targets: BTreeSet<_> = boards.into_iter().map(|board| board.target).collect();
+        targets.into_iter().map(Need::Target).collect()
+    }
+
+    /// What building for some boards and running there in QEMU needs.
+    pub fn to_run<'b>(boards: impl IntoIterator<Item = &'b Facts>) -> Vec<Need> {
+        let mut needs = Self::to_build(boards);
+        needs.push(Need::Qemu);
+        needs
     }
 
     /// Whether it is there.
@@ -52,7 +67,7 @@ impl Need {
         match self {
             Need::Target(target) => has_target(target),
             Need::Component(_, subcommand) => succeeds(&cargo(), &[subcommand, "--version"]),
-            Need::Qemu => succeeds(OsStr::new(QEMU), &["--version"]),
+            Need::Qemu => Emulator::find().is_some_and(|emulator| emulator.answers()),
         }
     }
 
@@ -64,65 +79,135 @@ impl Need {
             Need::Qemu => QEMU.into(),
         }
     }
+}
 
-    /// The commands that install it, each with its arguments.
-    fn commands(&self, manager: Option<Manager>, rights: Rights) -> Vec<Vec<String>> {
-        let words = |line: &str| line.split(' ').map(String::from).collect();
-        match self {
-            Need::Target(target) => vec![words(&format!("rustup target add {target}"))],
-            Need::Component(name, _) => vec![words(&format!("rustup component add {name}"))],
-            Need::Qemu => manager.map_or_else(Vec::new, |manager| manager.install_qemu(rights)),
-        }
+/// What of some needs is missing.
+pub fn missing(needs: &[Need]) -> Vec<Need> {
+    needs.iter().filter(|need| !need.is_met()).cloned().collect()
+}
+
+/// Installs what of some needs is missing, `progress` being given each command before it runs; the names of what was
+/// installed.
+///
+/// # Errors
+/// What could not be installed, why, and what to type.
+pub fn ensure(needs: &[Need], mut progress: impl FnMut(&str)) -> Result<Vec<String>, SetupError> {
+    let mut runner = Runner(&mut progress);
+    missing(needs).into_iter().map(|need| install(&need, &mut runner).map(|()| need.name())).collect()
+}
+
+fn install(need: &Need, runner: &mut Runner) -> Result<(), SetupError> {
+    match need {
+        Need::Target(target) => rustup(need, &["rustup", "target", "add", target], runner),
+        Need::Component(name, _) => rustup(need, &["rustup", "component", "add", name], runner),
+        Need::Qemu => qemu(runner),
+    }?;
+    let command = "cargo driveline setup".to_owned();
+    let reason = "it was installed and is still not found".to_owned();
+    if need.is_met() { Ok(()) } else { Err(SetupError { what: need.name(), reason, command }) }
+}
+
+/// A part of Rust, through `rustup`.
+fn rustup(need: &Need, command: &[&str], runner: &mut Runner) -> Result<(), SetupError> {
+    let line = command.join(" ");
+    let failed = |reason: String, command: String| SetupError { what: need.name(), reason, command };
+    if !on_path("rustup") {
+        let reason = "`rustup` is not on the path, and Rust's own parts come through it".to_owned();
+        let other = "or install the part with the package manager that Rust came with";
+        return Err(failed(reason, format!("(install rustup as https://rustup.rs says, then) {line}, {other}")));
     }
+    let words: Vec<String> = command.iter().map(|&word| word.into()).collect();
+    runner.run(&words).map_err(|reason| failed(reason, line))
 }
 
-/// What is missing of all that is needed.
-pub fn missing() -> Vec<Need> {
-    Need::all().into_iter().filter(|need| !need.is_met()).collect()
-}
-
-/// Installs what is missing, telling `progress` each command before it runs; the names of what was installed.
-pub fn ensure(mut progress: impl FnMut(&str)) -> Result<Vec<String>, SetupError> {
-    missing().into_iter().map(|need| install(&need, &mut progress).map(|()| need.name())).collect()
-}
-
-fn install(need: &Need, progress: &mut impl FnMut(&str)) -> Result<(), SetupError> {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let manager = Manager::find(|program| find(program, &path).is_some());
-    let rights = Rights::find();
-    let commands = need.commands(manager, rights);
-    let lines: Vec<_> = commands.iter().map(|command| command.join(" ")).collect();
-    let failed = |reason: String| SetupError {
-        what: need.name(),
-        reason,
-        command: if lines.is_empty() {
-            format!("(your system's way to install {})", need.name())
-        } else {
-            lines.join(" && ")
-        },
+/// QEMU, through the package manager, else as a private copy.
+fn qemu(runner: &mut Runner) -> Result<(), SetupError> {
+    let what = || QEMU.to_owned();
+    let Some(manager) = Manager::find(on_path) else {
+        let reason = "no package manager known here: apt-get, dnf, pacman or brew".to_owned();
+        return Err(SetupError { what: what(), reason, command: format!("(your system's way to install {QEMU})") });
     };
-    if commands.is_empty() {
-        return Err(failed("no package manager known here: apt-get, dnf, pacman or brew".into()));
+    let rights = Rights::find();
+    let Err(reason) = installed(manager, rights, runner) else { return Ok(()) };
+    let command = manager.install(rights).join(" ");
+    if !private_copy::is_possible(manager) {
+        return Err(SetupError { what: what(), reason, command });
     }
-    if *need == Need::Qemu && !rights.suffice(manager) {
-        return Err(failed("that takes root, and sudo asks for a password or is not there".into()));
+    runner.say(&format!("{reason}; {QEMU} is unpacked into {} instead", Emulator::folder().display()));
+    let refused = |second| SetupError { what: what(), reason: format!("{reason}; {second}"), command };
+    private_copy::make(runner).map_err(refused)
+}
+
+/// Installs QEMU for the whole system, if that needs no user and removes nothing; else a sentence.
+fn installed(manager: Manager, rights: Rights, runner: &mut Runner) -> Result<(), String> {
+    if !rights.suffice(manager) {
+        return Err("installing takes root, and sudo asks for a password or is not there".to_owned());
     }
-    for (command, line) in commands.iter().zip(&lines) {
-        progress(line);
-        let (program, arguments) = command.split_first().ok_or_else(|| failed("no command".into()))?;
-        let status = Command::new(program)
-            .args(arguments)
-            .env("DEBIAN_FRONTEND", "noninteractive")
-            .stdin(Stdio::null())
-            // standard output is for the check's own lines
-            .stdout(std::io::stderr())
-            .status()
-            .map_err(|error| failed(format!("`{line}`: {error}")))?;
-        if !status.success() {
-            return Err(failed(format!("`{line}` ended with {status}")));
+    if let Some(update) = manager.update(rights)
+        && let Err(error) = runner.run(&update)
+    {
+        // a source that does not answer need not be the one that has QEMU
+        runner.say(&format!("{error}; the package lists stay as they are"));
+    }
+    let command = manager.install(rights);
+    if manager == Manager::Apt {
+        let trial = runner.trial(&manager.install(Rights::Root))?;
+        if !trial.removed.is_empty() {
+            return Err(format!("installing {QEMU} would remove {}", trial.removed.join(", ")));
         }
+        runner.say(&trial.sentence());
     }
-    if need.is_met() { Ok(()) } else { Err(failed("it was installed and is still not found".into())) }
+    runner.run(&command)
+}
+
+/// What runs commands, and says which.
+struct Runner<'p>(&'p mut dyn FnMut(&str));
+
+impl Runner<'_> {
+    fn say(&mut self, line: &str) {
+        (self.0)(line);
+    }
+
+    /// Runs a command and shows what it prints; an error says how it ended.
+    fn run(&mut self, words: &[String]) -> Result<(), String> {
+        let line = words.join(" ");
+        self.say(&line);
+        // standard output is for the caller's own lines
+        let status = command(words).stdout(std::io::stderr()).status().map_err(|error| format!("`{line}`: {error}"))?;
+        if status.success() { Ok(()) } else { Err(format!("`{line}` ended with {status}")) }
+    }
+
+    /// Runs a command, called `name`, of which nothing is shown; gives the last line of its warnings, or of its error.
+    fn quietly(&mut self, words: &[String], name: &str) -> Result<String, String> {
+        let output = command(words).output().map_err(|error| format!("{name}: {error}"))?;
+        let last = format!("{name}: {}", last_line(&output.stderr));
+        if output.status.success() { Ok(last) } else { Err(last) }
+    }
+
+    /// What an `apt-get install` would do; asking takes no rights.
+    fn trial(&mut self, words: &[String]) -> Result<Trial, String> {
+        let name = words.join(" ");
+        let output = command(words).arg("--simulate").env("LC_ALL", "C").output();
+        let output = output.map_err(|error| format!("`{name}`: {error}"))?;
+        let trial = Trial::read(&String::from_utf8_lossy(&output.stdout));
+        if output.status.success() || !trial.removed.is_empty() {
+            return Ok(trial);
+        }
+        Err(format!("`{name}`: {}", last_line(&output.stderr)))
+    }
+}
+
+/// The last line of what a program printed, as its reason.
+fn last_line(text: &[u8]) -> String {
+    let text = String::from_utf8_lossy(text);
+    text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("no reason given").trim_start_matches("E: ").to_owned()
+}
+
+/// A command of some words, that asks nothing.
+fn command(words: &[String]) -> Command {
+    let mut command = Command::new(words.first().map_or("", String::as_str));
+    command.args(words.iter().skip(1)).env("DEBIAN_FRONTEND", "noninteractive").stdin(Stdio::null());
+    command
 }
 
 /// The cargo that runs this program, else the one on the path.
@@ -144,7 +229,8 @@ fn succeeds(program: &OsStr, arguments: &[&str]) -> bool {
     status.is_ok_and(|status| status.success())
 }
 
-/// The program on a search path.
-fn find(program: &str, path: &OsStr) -> Option<PathBuf> {
-    std::env::split_paths(path).map(|directory| directory.join(program)).find(|file| file.is_file())
+/// Whether a program is on the search path.
+fn on_path(program: &str) -> bool {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&path).map(|directory| directory.join(program)).any(|file: PathBuf| file.is_file())
 }
