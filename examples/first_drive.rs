@@ -3,11 +3,16 @@
 use driveline::configure::Units;
 use driveline::prelude::*;
 
-/// Motor, coupling and roll.
+/// Motor, coupling, gear and roll; every part on its own shaft.
 struct Roll;
 
 impl Machine for Roll {
-    const CHAIN: Chain = Chain::motor(Inertia(0.35)).shaft(Stiffness(2.0e4), Damping(0.5)).rotor(Inertia(0.48));
+    const CHAIN: Chain = Chain::motor(Inertia(0.35))
+        .shaft(Stiffness(2.0e4), Damping(0.5))
+        .rotor(Inertia(0.05))
+        .gear(Ratio(5.0), Efficiency(0.97))
+        .shaft(Stiffness(9.0e4), Damping(10.0))
+        .rotor(Inertia(12.0));
     const RATING: Rating = Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 10_000;
@@ -17,76 +22,80 @@ type RollDrive<N> = Drive<N, TwoMassObserver<N>, (), SpeedLoop<N>>;
 static SINGLE: ConfigOf<RollDrive<f32>> = RollDrive::<f32>::configure::<Roll>();
 static FIXED: ConfigOf<RollDrive<Fixed>> = RollDrive::<Fixed>::configure::<Roll>();
 
-/// Two masses on a damped spring, and an encoder: what the drive does not see of the machine.
+/// Motor, coupling and roll as three masses on the motor's shaft: nothing of the library's, and no loss in the gear.
 #[derive(Default)]
 struct Plant {
-    angle: [f64; 2],
-    speed: [f64; 2],
+    angle: [f64; 3],
+    speed: [f64; 3],
+    shaft: [f64; 2],
 }
 
 impl Plant {
-    /// A tick of the drive, in steps of 1 us: next to a resonance of 315 rad/s their error is a few parts in 10^4.
+    const INERTIA: [f64; 3] = [0.35, 0.05, 12.0 / 25.0];
+    const STIFFNESS: [f64; 2] = [2.0e4, 9.0e4 / 25.0];
+    const DAMPING: [f64; 2] = [0.5, 10.0 / 25.0];
+
+    /// A tick of the drive, in 20 steps.
     fn advance(&mut self, torque: f64, load: f64) {
-        const STEP: f64 = 1e-6;
-        for _ in 0..100 {
-            let twist = self.angle[0] - self.angle[1];
-            let shaft = 2.0e4 * twist + 0.5 * (self.speed[0] - self.speed[1]);
-            self.speed[0] += STEP * (torque - shaft) / 0.35;
-            self.speed[1] += STEP * (shaft - load) / 0.48;
-            self.angle[0] += STEP * self.speed[0];
-            self.angle[1] += STEP * self.speed[1];
+        const STEP: f64 = 5e-6;
+        for _ in 0..20 {
+            let ([a, b, c], [u, v, w]) = (self.angle, self.speed);
+            let shaft = |j: usize, twist, rate| Self::STIFFNESS[j] * twist + Self::DAMPING[j] * rate;
+            self.shaft = [shaft(0, a - b, u - v), shaft(1, b - c, v - w)];
+            let [first, second] = self.shaft;
+            for (j, sum) in [torque - first, first - second, second - load].into_iter().enumerate() {
+                self.speed[j] += STEP * sum / Self::INERTIA[j];
+                self.angle[j] += STEP * self.speed[j];
+            }
         }
     }
 
-    /// Counts of a motor's encoder of 2048 lines, as a fraction of 2^32.
-    fn counts(&self) -> u32 {
-        let counts = (self.angle[0] / std::f64::consts::TAU * 8192.0).floor() as i64;
-        (counts as u32) << 19
+    /// The encoder's count of 8192 to the turn, as a part of 2^32.
+    fn encoder(&self) -> u32 {
+        let count = (self.angle[0] / std::f64::consts::TAU * 8192.0).floor() as i64;
+        (count << 19) as u32
     }
 }
 
-/// Up to rated speed in two seconds, then a load of 200 N m at 3 s; gives the speeds and load torques, true and estimated, every half second.
-fn run<N: Units>(config: &ConfigOf<RollDrive<N>>) -> Vec<[f64; 4]> {
+/// Time \[s\], true and estimated speed of the roll \[rad/s\], true and estimated torque of the shaft \[N m\], of each tick: up to 100 rad/s,
+/// then a load of 150 N m from 3 s on.
+fn run<N: Units>(config: &ConfigOf<RollDrive<N>>) -> Vec<[f64; 5]> {
     let (mut drive, mut plant, mut torque) = (RollDrive::<N>::new(config, 0), Plant::default(), 0.0);
     let mut rows = Vec::new();
-    for tick in 1..=50_000 {
-        let load = if tick > 30_000 { 200.0 } else { 0.0 };
-        plant.advance(torque, load);
+    for tick in 1..=60_000 {
+        plant.advance(f64::from(torque), if tick <= 30_000 { 0.0 } else { 150.0 });
         // the torque of the tick that has just ended, and the set point
-        let command = drive.tick(config, &Sample::si::<Roll>(plant.counts(), torque as f32, 150.0));
+        let command = drive.tick(config, &Sample::si::<Roll>(plant.encoder(), torque, 100.0));
         assert!(command.faults.is_none(), "{} in tick {tick}", command.faults);
-        torque = f64::from(command.torque_si::<Roll>());
-        if tick % 5_000 == 0 {
-            let estimate = drive.estimate(config).si::<Roll>();
-            rows.push([plant.speed[1], f64::from(estimate.load_speed), load, f64::from(estimate.load_torque)]);
-        }
+        torque = command.torque_si::<Roll>();
+        let estimate = drive.estimate(config).si::<Roll>();
+        let ([_, _, speed], [_, shaft]) = (plant.speed, plant.shaft);
+        rows.push([1e-4 * f64::from(tick), speed, estimate.load_speed.into(), shaft, estimate.shaft_torque.into()]);
     }
     rows
 }
 
 fn main() {
     for (number, rows) in [("f32", run(&SINGLE)), ("Fixed", run(&FIXED))] {
-        println!("{number}: load speed (rad/s) and load torque (N m), true and estimated");
-        for (k, [speed, estimated, load, torque]) in rows.iter().enumerate() {
-            println!("{:4.1} s  {speed:8.2} {estimated:8.2}  {load:6.1} {torque:8.1}", 0.5 * (k + 1) as f64);
+        println!("{number}: speed of the roll (rad/s) and torque of the shaft (N m), true and estimated");
+        for [time, speed, estimated, shaft, torque] in rows.iter().skip(4_999).step_by(5_000) {
+            println!("{time:4.1} s  {speed:8.2} {estimated:8.2}  {shaft:8.1} {torque:8.1}");
         }
     }
 }
 
-/// Both numbers reach the set point, hold it under the load, and find the load.
-///
-/// Speed: 0.3 % of rated, the project's aim for the load's speed. Torque: 2 % of the rated torque, its aim for torques; the estimate's
-/// predicted standard deviation is well below either.
+/// In the last of six seconds, under the load, the errors are below the standard deviations that the design predicts: the torque here is known
+/// exactly, which the design does not count on. The integral leaves no mean error of the speed; a thousandth is for what the encoder's counts
+/// make of it within the second.
 #[test]
-fn both_numbers_hold_the_speed_and_find_the_load() {
-    let (single, fixed) = (run(&SINGLE), run(&FIXED));
-    for rows in [&single, &fixed] {
-        // half a second after the ramp, and two after the load has come
-        for k in [5, 9] {
-            let [speed, estimated, load, torque] = rows[k];
-            assert!((speed - 150.0).abs() < 0.003 * 150.0, "{rows:?}");
-            assert!((estimated - speed).abs() < 0.003 * 150.0, "{rows:?}");
-            assert!((torque - load).abs() < 0.02 * 300.0, "{rows:?}");
-        }
+fn both_numbers_govern_the_roll() {
+    let predicted = Roll::OBSERVER.standard_deviation;
+    for rows in [run(&SINGLE), run(&FIXED)] {
+        let last = &rows[50_000..];
+        let mean = |of: fn(&[f64; 5]) -> f64| last.iter().map(of).sum::<f64>() / last.len() as f64;
+        let speed = mean(|row| (row[1] - row[2]).powi(2)).sqrt();
+        let torque = mean(|row| (row[3] - row[4]).powi(2)).sqrt();
+        assert!(speed < predicted.load_speed && torque < predicted.shaft_torque, "{speed} rad/s, {torque} N m");
+        assert!((mean(|row| row[1]) - 100.0).abs() < 0.1);
     }
 }

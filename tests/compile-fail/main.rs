@@ -3,12 +3,13 @@
 //! A test of the root package: the compiler that it starts needs the library alone, not what the host's programs depend on.
 
 /// What each file beside this one must be told; the sentence of the error, and the file's name.
-const SENTENCES: [(&str, &str); 5] = [
+const SENTENCES: [(&str, &str); 6] = [
     ("negative_inertia", driveline::machine::Error::RotorInertia.message()),
     ("efficiency_out_of_range", driveline::machine::Error::GearEfficiency.message()),
     ("unobservable_pair", driveline::design::Error::Unobservable.message()),
     ("rate_below_the_shaft", driveline::design::Error::SampleRate.message()),
     ("encoder_without_lines", driveline::design::Error::EncoderLines.message()),
+    ("first_drive_too_slow", driveline::design::Error::SampleRate.message()),
 ];
 
 /// What is refused where the type is used, and not in a constant: such a case has to be built, and one that compiles makes the compiler build.
@@ -41,5 +42,31 @@ fn the_compiler_says_the_sentence_of_the_error() {
     for (file, sentence) in SENTENCES.iter().chain(&BUILT) {
         let path = format!("{}/tests/compile-fail/{file}.stderr", env!("CARGO_MANIFEST_DIR"));
         assert!(std::fs::read_to_string(path).unwrap().contains(*sentence), "{file}");
+    }
+}
+
+/// The README's listing keeps within 20 lines and 12 names of the prelude, and is the same for both numbers but for one word: both are built
+/// and run.
+#[test]
+fn the_first_drive_differs_in_one_word_between_the_numbers() {
+    let (_, after) = include_str!("../../README.md").split_once("```rust\n").unwrap();
+    let (listing, _) = after.split_once("```").unwrap();
+    assert!(listing.lines().count() <= 20, "{listing}");
+    let words = |text: &'static str| text.split(|c: char| !c.is_alphanumeric() && c != '_');
+    let code = || listing.lines().flat_map(|line| line.split("//").next());
+    let named = |name: &str| code().flat_map(words).any(|word| word == name);
+    // every name that the prelude gives; the module paths are in small letters
+    let prelude: std::collections::HashSet<_> = words(include_str!("../../src/prelude.rs"))
+        .filter(|word| word.starts_with(|c: char| c.is_uppercase()) && named(word))
+        .collect();
+    assert!(prelude.len() <= 12, "{prelude:?}");
+
+    let cases = trybuild::TestCases::new();
+    for number in ["f32", "Fixed"] {
+        let changed = listing.replace("type Number = f32;", &format!("type Number = {number};"));
+        let body = changed.replace("use driveline::prelude::*;", "");
+        let path = format!("{}/first_drive_{number}.rs", env!("CARGO_TARGET_TMPDIR"));
+        std::fs::write(&path, format!("use driveline::prelude::*;\n\nfn main() {{\n{body}}}\n")).unwrap();
+        cases.pass(path);
     }
 }

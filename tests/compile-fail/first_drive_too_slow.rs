@@ -1,0 +1,17 @@
+use driveline::prelude::*;
+
+struct Spindle;
+
+impl Machine for Spindle {
+    const CHAIN: Chain = Chain::motor(Inertia(0.01)).shaft(Stiffness(2.0e5), Damping(0.0)).rotor(Inertia(0.01));
+    const RATING: Rating = Rating { torque: 70.0, speed: 300.0, torque_limit: 110.0 };
+    const ENCODER: Encoder = Encoder::lines(2048);
+    const RATE_HZ: u32 = 1_000;
+}
+
+type SpindleDrive = Drive<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>;
+static CONFIG: ConfigOf<SpindleDrive> = SpindleDrive::configure::<Spindle>();
+
+fn main() {
+    SpindleDrive::new(&CONFIG, 0);
+}
