@@ -120,7 +120,7 @@ impl Plan {
         for (candidate, variant) in self.candidates.iter().zip(&report.variants) {
             let Some(budget) = budgets.of(candidate.variant, candidate.board.core) else { continue };
             let figures = [
-                ("instructions at most", variant.instructions.max, budget.instructions.max),
+                ("instructions at most", variant.instructions.max, budget.instructions),
                 ("stack", variant.stack_bytes, budget.stack),
             ];
             for (name, measured, limit) in figures {
