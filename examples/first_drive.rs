@@ -64,7 +64,7 @@ fn run<N: Units>(config: &ConfigOf<RollDrive<N>>) -> Vec<[f64; 5]> {
     let mut rows = Vec::new();
     for tick in 1..=60_000 {
         plant.advance(f64::from(torque), if tick <= 30_000 { 0.0 } else { 150.0 });
-        // the torque of the tick that has just ended, and the set point
+        // the torque of the tick that has just ended, and the setpoint
         let command = drive.tick(config, &Sample::si::<Roll>(plant.encoder(), torque, 100.0));
         assert!(command.faults.is_none(), "{} in tick {tick}", command.faults);
         torque = command.torque_si::<Roll>();

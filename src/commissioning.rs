@@ -12,9 +12,9 @@
 //! | [`Stage::Resonance`] | turns slowly under a multisine, first small, then as large as the shaft may carry, both ways | inertias, stiffness, damping |
 //!
 //! A stage ends with a [`Job`]: a copy of its sums, solved in `f64` outside the tick ([`Job::solve`]) while the tick
-//! holds the motor, and handed back ([`Commissioning::accept`]). The last one gives [`Identified`]: the two-mass
+//! holds the motor, and handed back ([`Commissioning::accept`]). The last one gives [`CommissioningResult`]: the two-mass
 //! machine, with standard deviations, for the same [`try_observer`](crate::machine::TwoMass::try_observer) and
-//! [`try_speed_loop`](crate::machine::TwoMass::try_speed_loop) that the compiler uses; or a [`Reason`] why the data do
+//! [`try_speed_loop`](crate::machine::TwoMass::try_speed_loop) that the compiler uses; or a [`Error`] why the data do
 //! not support an answer.
 //!
 //! ```
@@ -44,7 +44,7 @@
 //! }
 //! assert_eq!(test.stage(), Stage::Holding);
 //! # assert!((torque - 190.0).abs() < 1.0);
-//! # Ok::<(), driveline::commissioning::Reason>(())
+//! # Ok::<(), driveline::commissioning::Error>(())
 //! ```
 //!
 //! # How it is found
@@ -67,9 +67,9 @@
 //! Torque and travel stay within the [`TestSettings`], and so does the shaft but for what the limits say.
 //! Before the multisine, while it is not known whether the load is free, the torque takes half of the shaft's room at
 //! most, and the first run-up is gentle.
-//! A motor that lags too far ([`Reason::NotFollowed`]), a torque that goes from bound to bound
-//! ([`Reason::Unsteady`]), an angle that jumps and a travel that is left end the test without torque: what holds the
-//! load then is the brake. Where data do not support an answer the test ends holding the load, with its [`Reason`].
+//! A motor that lags too far ([`Error::NotFollowed`]), a torque that goes from bound to bound
+//! ([`Error::Unsteady`]), an angle that jumps and a travel that is left end the test without torque: what holds the
+//! load then is the brake. Where data do not support an answer the test ends holding the load, with its [`Error`].
 //!
 //! # Limits
 //! - The arithmetic in the tick is in `f32`: for cores with an FPU. A record's solving, in `f64`, takes 163 million
@@ -83,7 +83,7 @@
 //!   meets its bounds; the shaft may carry more than `shaft_torque` by then: begin the band low.
 //! - A gap is seen as one, wherever it lies, and no wider than a tenth of a turn of the motor.
 //! - The gap is seen only where friction holds the load and no weight presses the gap shut: else
-//!   [`Reason::LoadNotHeld`] or [`Reason::Preloaded`].
+//!   [`Error::LoadNotHeld`] or [`Error::Preloaded`].
 //! - While there is a gap the multisine stays below what friction holds: a light friction means long records.
 //! - What lies before the gap is taken to turn freely under half of the friction.
 //! - The eccentricity is told from an unbalance's torque by nothing: at the test's speed the rotor's own swing must be
@@ -91,26 +91,26 @@
 
 mod complex;
 mod eccentricity;
+mod error;
 mod excitation;
 mod fit;
 mod friction;
 mod gap;
-mod identified;
+mod harmonic;
 mod job;
 mod multisine;
-mod order;
-mod reason;
 mod reference;
 mod response;
+mod result;
 mod sequence;
 mod servo;
 mod settings;
 
 pub use eccentricity::Eccentricity;
+pub use error::Error;
 pub use friction::Friction;
-pub use identified::{Figure, Identified};
 pub use job::{Findings, Job};
-pub use reason::Reason;
 pub use response::Response;
+pub use result::{CommissioningResult, Figure};
 pub use sequence::{Commissioning, Stage};
 pub use settings::{TestConfig, TestSettings};

@@ -6,7 +6,7 @@
 //! compile error with its sentence.
 //!
 //! ```
-//! use driveline::observer::Geared;
+//! use driveline::observer::GearedObserver;
 //! use driveline::prelude::*;
 //!
 //! struct Roll;
@@ -16,10 +16,10 @@
 //!     const RATING: Rating = Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 };
 //!     const ENCODER: Encoder = Encoder::lines(2048);
 //!     const RATE_HZ: u32 = 10_000;
-//!     // a derived constant that is named is overridden: here the acceleration of the set point [rad/s2]
+//!     // a derived constant that is named is overridden: here the acceleration of the setpoint [rad/s2]
 //!     const RAMP: f64 = 40.0;
 //! }
-//! type RollDrive<N> = Drive<N, Geared<TwoMassObserver<N>>, (), SpeedLoop<N>>;
+//! type RollDrive<N> = Drive<N, GearedObserver<TwoMassObserver<N>>, (), SpeedLoop<N>>;
 //! static SINGLE: ConfigOf<RollDrive<f32>> = RollDrive::<f32>::configure::<Roll>();
 //! static FIXED: ConfigOf<RollDrive<Fixed>> = RollDrive::<Fixed>::configure::<Roll>();
 //! assert_eq!(SINGLE.governor.ramp, 0.004); // in a tick
@@ -28,25 +28,25 @@
 //! # Parts
 //! | part | constants | needs |
 //! |---|---|---|
-//! | [`TwoMass`](crate::observer::TwoMass), [`SemiImplicit`](crate::observer::SemiImplicit) | [`Machine::OBSERVER`] | |
-//! | [`Rigid`](crate::observer::Rigid) | [`Machine::RIGID_OBSERVER`], [`Machine::LOAD_SHARE`] | |
-//! | [`Backlash`](crate::observer::Backlash) | [`Machine::BACKLASH_OBSERVER`] | a gap in the chain |
-//! | [`Cranked`](crate::observer::Cranked) | [`HasCrank::CRANK_OBSERVER`] | [`HasCrank`] |
-//! | [`Geared`](crate::observer::Geared) | those of its observer, [`Machine::GEAR`] | |
+//! | [`TwoMassObserver`](crate::observer::TwoMassObserver), [`SemiImplicitObserver`](crate::observer::SemiImplicitObserver) | [`Machine::OBSERVER`] | |
+//! | [`RigidObserver`](crate::observer::RigidObserver) | [`Machine::RIGID_OBSERVER`], [`Machine::LOAD_SHARE`] | |
+//! | [`BacklashObserver`](crate::observer::BacklashObserver) | [`Machine::BACKLASH_OBSERVER`] | a gap in the chain |
+//! | [`CrankObserver`](crate::observer::CrankObserver) | [`HasCrank::CRANK_OBSERVER`] | [`HasCrank`] |
+//! | [`GearedObserver`](crate::observer::GearedObserver) | those of its observer, [`Machine::GEAR`] | |
 //! | [`SpeedLoop`](crate::governor::SpeedLoop) | [`Machine::SPEED_LOOP`], [`Machine::RAMP`], torque limit | |
 //! | [`SpeedGovernor`](crate::governor::SpeedGovernor) | [`Machine::GAINS`], [`Machine::RAMP`], those of its parts | |
-//! | [`Symmetric`](crate::governor::Symmetric), [`Between`](crate::governor::Between) | torque limit, [`Machine::LEAST_TORQUE`] | |
+//! | [`SymmetricLimit`](crate::governor::SymmetricLimit), [`TorqueRange`](crate::governor::TorqueRange) | torque limit, [`Machine::LEAST_TORQUE`] | |
 //! | [`Curve`](crate::governor::Curve) | [`HasTorqueCurve::CURVE`], [`Machine::LEAST_TORQUE`] | [`HasTorqueCurve`] |
 //! | [`Slew`](crate::governor::Slew) | [`HasSlew::SLEW`], those of its limit | [`HasSlew`] |
-//! | [`Slack`](crate::governor::Slack) | [`HasBacklash::TAKE_UP`], those of its limit | [`HasBacklash`] |
+//! | [`BacklashTakeUp`](crate::governor::BacklashTakeUp) | [`HasBacklash::TAKE_UP`], those of its limit | [`HasBacklash`] |
 //! | [`Droop`](crate::governor::Droop) | [`HasDroop::DROOP`] | [`HasDroop`] |
 //! | [`Barred`](crate::governor::Barred) | [`HasBarredSpeeds::BARRED`] | [`HasBarredSpeeds`] |
 //! | [`FeedForward`](crate::governor::FeedForward), [`AccelerationFeedback`](crate::governor::AccelerationFeedback) | [`Machine::GAINS`] | [`GainSource::Governor`] |
 //! | [`ActiveDamping`](crate::governor::ActiveDamping) | [`Machine::SPEED_LOOP`] | |
-//! | [`Modes`](crate::governor::Modes) | [`HasModes::MODES`] | [`HasModes`] |
-//! | [`Mean`](crate::governor::Mean), [`OverCycle`](crate::governor::OverCycle) | none | |
+//! | [`Sequencer`](crate::governor::Sequencer) | [`HasSequencer::SEQUENCER`] | [`HasSequencer`] |
+//! | [`MovingAverage`](crate::governor::MovingAverage), [`CycleAverage`](crate::governor::CycleAverage) | none | |
 //! | [`Extremes`](crate::fluctuation::Extremes), [`Waveform`](crate::fluctuation::Waveform), [`CycleMean`](crate::fluctuation::CycleMean) | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
-//! | [`Phasors`](crate::balance::Phasors) | [`HasVibration::MEASURED`] | [`HasVibration`] |
+//! | [`Phasors`](crate::balancing::Phasors) | [`HasVibration::PHASORS`] | [`HasVibration`] |
 //!
 //! A part of one's own implements [`Configure`] for itself and any machine; a part of the library that a machine uses with constants of its
 //! own is a newtype.
@@ -76,7 +76,7 @@
 //!     type Drive = Drive<Fixed, TwoMassObserver<Fixed>, (), SpeedLoop<Fixed>>;
 //!     const CONFIG: ConfigOf<Self::Drive> = Self::Drive::configure::<Self::Machine>();
 //! }
-//! assert_eq!(Scene1k::CONFIG.limits.missed, 17);
+//! assert_eq!(Scene1k::CONFIG.limits.max_coast, 17);
 //! ```
 //!
 //! Generic code asks for `D: Composition + Configure<M, D::Number, Config = ConfigOf<D>>` and takes `D::CONFIG`.
@@ -89,13 +89,13 @@ mod observer;
 mod units;
 mod vibration;
 
-pub use governor::{GainSource, HasBacklash, HasBarredSpeeds, HasDroop, HasModes, HasSlew, HasTorqueCurve};
+pub use governor::{GainSource, HasBacklash, HasBarredSpeeds, HasDroop, HasSequencer, HasSlew, HasTorqueCurve};
 pub use machine::{Machine, Rating};
 pub use observer::HasCrank;
 pub use units::Units;
 pub use vibration::HasVibration;
 
-use crate::balance::Balancer;
+use crate::balancing::Balancer;
 use crate::drive::{Config, ConfigOf, Drive, Limits};
 use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;

@@ -9,10 +9,10 @@
 //! | sample | flag | the tick |
 //! |---|---|---|
 //! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque that was last commanded; without a governor, the last one that was believed |
-//! | set point NaN, infinite, beyond its limit | [`Faults::REFERENCE`] | keeps the last good one |
+//! | setpoint NaN, infinite, beyond its limit | [`Faults::SETPOINT`] | keeps the last good one |
 //! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
 //! | angle unchanged though the motor should have turned by more than the standstill limit, or far from the prediction | [`Faults::ANGLE_FROZEN`] | coasts |
-//! | no angle at all ([`Drive::tick_blind`]) | [`Faults::ANGLE_MISSING`] | coasts |
+//! | no angle at all ([`Drive::coast`]) | [`Faults::ANGLE_MISSING`] | coasts |
 //! | after more than the limit of such ticks | [`Faults::ANGLE_LOST`] as well | keeps the estimates and commands no torque until there are two angles in a row that differ |
 //!
 //! Without an angle the drive is blind: it gives no torque, and what holds the machine then is for its brake. The governor starts anew when the angle
@@ -21,14 +21,14 @@
 //! Of two such angles the second is taken as it comes. If they differ by the speed that is known, to the standstill limit, the estimates stand: the
 //! angle has merely moved elsewhere. If not, the observer starts anew at the speed that they show, as if the machine turned steadily under the
 //! torque that is applied: so a machine is caught that was spinning when the drive was switched on, or that has changed its speed unseen. A speed
-//! beyond twice the largest set point is not believed.
+//! beyond twice the largest setpoint is not believed.
 //!
 //! Below the speed at which the motor turns by the standstill limit in a tick, a frozen encoder and a machine that something holds
 //! look alike from the motor's side; the estimate of the load torque then shows what it would take to hold it.
 
 mod axis;
 
-use crate::balance::Balancer;
+use crate::balancing::Balancer;
 use crate::fault::Faults;
 use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;
@@ -42,18 +42,18 @@ use crate::sample::{Command, Estimate, Sample};
 pub struct Limits<N: Number> {
     /// Largest applied torque that is believed [N m].
     pub torque: N,
-    /// Largest set point that is believed [rad/s].
-    pub reference: N,
+    /// Largest setpoint that is believed [rad/s].
+    pub setpoint: N,
     /// Largest innovation that is believed [2^-32 turn].
     pub innovation: N,
     /// Largest predicted turn in a tick that an unchanged angle is believed with, as [`Number::less_turn`] takes it.
-    pub standstill: N,
+    pub frozen_turn: N,
     /// Ticks without a usable angle, less those with one, after which it counts as lost: no more than the motor needs for half a turn at the
-    /// largest set point, after which its angle says no longer how far it has turned.
+    /// largest setpoint, after which its angle says no longer how far it has turned.
     ///
     /// Less, and not in a row: where the estimated speed is far off, a prediction of the angle comes past the measured one now and then, and
     /// is none the better for it.
-    pub missed: u32,
+    pub max_coast: u32,
 }
 
 /// The constants of a drive.
@@ -106,7 +106,7 @@ pub struct Drive<N, O, F = (), G = (), B = ()> {
     /// What stands in for a torque that cannot be believed.
     commanded: N,
     /// Ticks without a usable angle, less those with one; while the angle is lost [`NONE_YET`] or [`ONE`].
-    missed: i32,
+    coasted: i32,
 }
 
 /// The angle is lost, and none has been seen since.
@@ -131,20 +131,20 @@ where
             governor: G::default(),
             balancer: B::default(),
             commanded: N::ZERO,
-            missed: 0,
+            coasted: 0,
         }
     }
 
     /// One tick with the governor at work.
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
-        if self.missed < 0 {
-            return self.search(config, sample);
+        if self.coasted < 0 {
+            return self.reacquire(config, sample);
         }
         let (faults, applied) = self.observe(config, sample);
         let estimate = self.estimate(config);
         self.fluctuation.measure(&config.fluctuation, self.observer.angle(), applied, &estimate);
-        self.governor.follow(self.fluctuation.steady_speed());
+        self.governor.set_steady_speed(self.fluctuation.steady_speed());
         let torque = self.governor.command(&config.governor, &estimate);
         if G::COMMANDS {
             self.commanded = torque;
@@ -154,11 +154,11 @@ where
 
     /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken to carry
     /// it, and the next [`Drive::tick`] starts from there, within the governor's limit. A torque that is NaN or beyond what a sample may have counts as zero and raises
-    /// [`Faults::REFERENCE`]. A governor that has tripped holds with none.
+    /// [`Faults::SETPOINT`]. A governor that has tripped holds with none.
     pub fn hold(&mut self, config: &ConfigOf<Self>, angle: u32, torque: N) -> Command<N> {
         let mut command = Command { torque, faults: Faults::NONE };
         if torque.exceeds(config.limits.torque) {
-            command = Command { torque: N::ZERO, faults: Faults::REFERENCE };
+            command = Command { torque: N::ZERO, faults: Faults::SETPOINT };
         }
         if !self.governor.permits() {
             command.torque = N::ZERO;
@@ -167,7 +167,7 @@ where
         self.fluctuation.disturb();
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;
-        self.missed = 0;
+        self.coasted = 0;
         command
     }
 
@@ -243,24 +243,24 @@ where
         } else if !G::COMMANDS {
             self.commanded = torque;
         }
-        if sample.reference.exceeds(limits.reference) {
-            faults |= Faults::REFERENCE;
+        if sample.setpoint.exceeds(limits.setpoint) {
+            faults |= Faults::SETPOINT;
         } else {
-            self.governor.refer(sample.reference);
+            self.governor.set_setpoint(sample.setpoint);
         }
-        let missed = self.missed;
+        let coasted = self.coasted;
         let predicted = self.observer.predict(&config.observer, sample.angle, torque);
         let unchanged = sample.angle == self.observer.angle();
-        let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
+        let frozen = unchanged && predicted.turn().exceeds(limits.frozen_turn);
         if frozen || predicted.innovation().exceeds(limits.innovation) {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
-            self.missed = if (missed as u32) < limits.missed { missed.wrapping_add(1) } else { NONE_YET };
+            self.coasted = if (coasted as u32) < limits.max_coast { coasted.wrapping_add(1) } else { NONE_YET };
             self.fluctuation.disturb();
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
-            if missed != 0 {
-                self.missed = missed - 1;
+            if coasted != 0 {
+                self.coasted = coasted - 1;
             }
         }
         (faults | Faults::range(self.observer.beyond_base()), torque)
@@ -270,7 +270,7 @@ where
     // Out of line: it leaves the registers to the tick.
     #[cold]
     #[inline(never)]
-    fn search(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
+    fn reacquire(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
         let limits = &config.limits;
         self.fluctuation.disturb();
         let mut faults = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
@@ -284,23 +284,23 @@ where
         let speed = O::speed_of_turn(&config.observer, turned);
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
-            self.missed = NONE_YET;
-        } else if self.missed == NONE_YET || speed.exceeds(limits.reference.plus(limits.reference)) {
-            self.observer.synchronise(sample.angle);
-            self.missed = ONE;
+            self.coasted = NONE_YET;
+        } else if self.coasted == NONE_YET || speed.exceeds(limits.setpoint.plus(limits.setpoint)) {
+            self.observer.resync(sample.angle);
+            self.coasted = ONE;
         } else {
-            let count = O::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.standstill)).magnitude();
+            let count = O::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
             let known = self.estimate(config).motor_speed;
             if speed.minus(known).exceeds(count) {
                 self.observer.restart(&config.observer, sample.angle, torque, speed);
             } else {
-                self.observer.synchronise(sample.angle);
+                self.observer.resync(sample.angle);
             }
-            self.missed = limits.missed as i32 & i32::MAX;
+            self.coasted = limits.max_coast as i32 & i32::MAX;
         }
         self.commanded = N::ZERO;
         let estimate = self.estimate(config);
-        self.governor.lost(&config.governor, &estimate);
+        self.governor.angle_lost(&config.governor, &estimate);
         Command { torque: N::ZERO, faults }
     }
 }
@@ -309,12 +309,12 @@ where
 mod tests {
     use super::{Config, Drive, Limits, NONE_YET, ONE};
     use crate::fault::Faults;
-    use crate::observer::{Rigid, RigidConfig};
+    use crate::observer::{RigidConfig, RigidObserver};
     use crate::sample::Sample;
 
     /// 2^32 per turn and ticks as units of angle and time, an inertia of one: no encoder, gains of a third.
     const CONFIG: Config<f64, RigidConfig<f64>> = Config {
-        limits: Limits { torque: 10.0, reference: 1e6, innovation: 1000.0, standstill: 10.0, missed: 3 },
+        limits: Limits { torque: 10.0, setpoint: 1e6, innovation: 1000.0, frozen_turn: 10.0, max_coast: 3 },
         observer: RigidConfig {
             acceleration: 1.0,
             turn: 0.5,
@@ -328,9 +328,9 @@ mod tests {
         balancer: (),
     };
 
-    fn tick(drive: &mut Drive<f64, Rigid<f64>>, angle: u32) -> (Faults, i32) {
-        let faults = drive.tick(&CONFIG, &Sample { angle, torque: 0.0, reference: 0.0 }).faults;
-        (faults, drive.missed)
+    fn tick(drive: &mut Drive<f64, RigidObserver<f64>>, angle: u32) -> (Faults, i32) {
+        let faults = drive.tick(&CONFIG, &Sample { angle, torque: 0.0, setpoint: 0.0 }).faults;
+        (faults, drive.coasted)
     }
 
     #[test]
@@ -366,16 +366,16 @@ mod tests {
             tick(&mut drive, angle);
         }
         assert_eq!(tick(&mut drive, angle + 5000).0, Faults::ANGLE_JUMP | Faults::ANGLE_LOST);
-        let command = drive.tick(&CONFIG, &Sample { angle: angle + 10_000, torque: 0.0, reference: 0.0 });
+        let command = drive.tick(&CONFIG, &Sample { angle: angle + 10_000, torque: 0.0, setpoint: 0.0 });
         assert_eq!((command.faults, drive.estimate(&CONFIG).motor_speed), (Faults::NONE, 5000.0));
     }
 
     #[test]
     fn without_a_governor_the_last_torque_that_was_believed_stands_in() {
-        let mut drive = Drive::<f64, Rigid<f64>>::new(&CONFIG, 0);
-        drive.tick(&CONFIG, &Sample { angle: 0, torque: 1.0, reference: 0.0 });
+        let mut drive = Drive::<f64, RigidObserver<f64>>::new(&CONFIG, 0);
+        drive.tick(&CONFIG, &Sample { angle: 0, torque: 1.0, setpoint: 0.0 });
         for torque in [f64::NAN, f64::INFINITY, -10.1] {
-            let command = drive.tick(&CONFIG, &Sample { angle: 0, torque, reference: 0.0 });
+            let command = drive.tick(&CONFIG, &Sample { angle: 0, torque, setpoint: 0.0 });
             assert_eq!((command.faults, drive.commanded), (Faults::TORQUE, 1.0));
         }
     }

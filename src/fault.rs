@@ -12,10 +12,10 @@ impl Faults {
     /// Nothing wrong.
     pub const NONE: Faults = Faults(0);
     /// The applied torque of the sample was NaN, infinite or beyond the drive's limit; the tick used the last command instead, or without a governor
-    /// the last torque that was believed. From an [`ActuatorWatch`](crate::governor::ActuatorWatch): not the torque that was commanded; the expected one was used.
+    /// the last torque that was believed. From an [`ActuatorMonitor`](crate::governor::ActuatorMonitor): not the torque that was commanded; the expected one was used.
     pub const TORQUE: Faults = Faults(1 << 5);
-    /// The speed set point was NaN, infinite or beyond the drive's limit; the last good one stands.
-    pub const REFERENCE: Faults = Faults(1 << 1);
+    /// The speed setpoint was NaN, infinite or beyond the drive's limit; the last good one stands.
+    pub const SETPOINT: Faults = Faults(1 << 1);
     /// The motor angle jumped further from the prediction than any torque could have moved the motor; the tick
     /// went by the prediction alone.
     pub const ANGLE_JUMP: Faults = Faults(1 << 2);
@@ -43,7 +43,7 @@ impl Faults {
     /// Every flag with its name.
     pub const NAMES: [(Faults, &'static str); 12] = [
         (Faults::TORQUE, "torque"),
-        (Faults::REFERENCE, "reference"),
+        (Faults::SETPOINT, "setpoint"),
         (Faults::ANGLE_JUMP, "angle jump"),
         (Faults::ANGLE_FROZEN, "angle frozen"),
         (Faults::ANGLE_LOST, "angle lost"),

@@ -26,7 +26,7 @@
 //! half orders must have a phase, the phase of a cam is to be added.
 //!
 //! ```
-//! use driveline::constants::{Bases, Cycle};
+//! use driveline::settings::{Bases, Cycle};
 //! use driveline::fluctuation::{CycleConfig, Fluctuation, MachineClass, Waveform, WaveformConfig};
 //! use driveline::sample::Estimate;
 //!
@@ -54,20 +54,20 @@
 //! half order of the engine. *Delta*: (omega_max - omega_min)/omega_m [Notes ch. 5]. *Ripple*: what repeats every cycle; *trend*: what
 //! does not.
 
-mod behind;
 mod cycle_mean;
 mod extremes;
 mod flywheel;
+mod load_side;
 mod position;
 mod series;
 mod toothed_wheel;
 mod waveform;
 mod window;
 
-pub use behind::{Behind, Drivetrain};
 pub use cycle_mean::{CycleMean, CycleMeanConfig};
 pub use extremes::{Extreme, Extremes, Fluctuations, Reading};
 pub use flywheel::{Balance, Flywheel, MachineClass, Remedy};
+pub use load_side::{Drivetrain, LoadSide};
 pub use position::{CycleConfig, Edge};
 pub use series::{Order, Series};
 pub use toothed_wheel::{ToothErrors, ToothWindow, ToothedWheel, ToothedWheelConfig};
@@ -90,7 +90,7 @@ pub trait Fluctuation<N: Number>: Default {
     fn disturb(&mut self);
 
     /// The motor's speed without what repeats in every cycle, where the measurement knows it: what a governor acts on that is to leave the ripple
-    /// alone, by [`OverCycle`](crate::governor::OverCycle).
+    /// alone, by [`CycleAverage`](crate::governor::CycleAverage).
     #[inline(always)]
     fn steady_speed(&self) -> Option<N> {
         None

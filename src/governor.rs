@@ -1,41 +1,42 @@
 //! Act: the torque that the motor is to produce.
 //!
 //! # Terms
-//! *Set point*: the motor speed that is wanted. *Anti-windup*: the integral stops where the torque is limited.
+//! *Setpoint*: the motor speed that is wanted. *Anti-windup*: the integral stops where the torque is limited.
 //! *Active damping*: torque against the rate of twist, as a damper between motor and load would give it, by the motor alone.
-//! *Droop*: how much the set point yields to the load. *Isochronous*: without droop. *Trip*: a stop that stands until it is reset.
+//! *Droop*: how much the setpoint yields to the load. *Isochronous*: without droop. *Trip*: a stop that stands until it is reset.
 //!
 //! | governor | for |
 //! |---|---|
 //! | [`SpeedLoop`] | a drive that is always at work: proportional, integral, active damping |
 //! | [`SpeedGovernor`] | anything more, composed of parts: droop, feed-forward, limits by a curve, modes and trips |
 
-mod actuator_watch;
+mod actuator_monitor;
+mod backlash_takeup;
+mod compensation;
 mod limit;
-mod modes;
-mod prompt;
-mod rack;
-mod set_point;
-mod slack;
+mod sequencer;
+mod setpoint;
+mod speed_filter;
 mod speed_governor;
 mod speed_loop;
-mod view;
+mod transport_delay;
 
-pub use actuator_watch::{ActuatorWatch, ActuatorWatchConfig};
+pub use actuator_monitor::{ActuatorMonitor, ActuatorMonitorConfig};
+pub use backlash_takeup::{BacklashTakeUp, BacklashTakeUpConfig};
+pub use compensation::{
+    AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, Compensation, FeedForward,
+    FeedForwardConfig,
+};
 pub use limit::{
-    Between, BetweenConfig, Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, Symmetric, SymmetricConfig,
+    Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
+    TorqueRangeConfig,
 };
-pub use modes::{Duty, Mode, Modes, ModesConfig, Request, Supervisor, Trip};
-pub use prompt::{
-    AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, FeedForward,
-    FeedForwardConfig, Prompt,
-};
-pub use rack::{Rack, RackConfig};
-pub use set_point::{Barred, BarredConfig, Droop, DroopConfig, SetPoint, Window};
-pub use slack::{Slack, SlackConfig};
+pub use sequencer::{RunAction, RunRequest, RunState, Sequence, Sequencer, SequencerConfig, Trip};
+pub use setpoint::{Barred, BarredConfig, Droop, DroopConfig, SetpointShape, SpeedRange};
+pub use speed_filter::{CycleAverage, MovingAverage, MovingAverageConfig, SpeedFilter};
 pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};
-pub use view::{Mean, MeanConfig, OverCycle, View};
+pub use transport_delay::{TransportDelay, TransportDelayConfig};
 
 use crate::number::Number;
 use crate::sample::Estimate;
@@ -48,13 +49,13 @@ pub trait Governor<N: Number>: Default {
     /// Whether it commands the torque. Where it does not, something else does.
     const COMMANDS: bool;
 
-    /// Takes a set point that can be believed; it stands until the next.
-    fn refer(&mut self, reference: N);
+    /// Takes a setpoint that can be believed; it stands until the next.
+    fn set_setpoint(&mut self, setpoint: N);
 
     /// Takes what the measurement of the fluctuation says of the speed without its ripple, `None` where it says nothing: once a tick, before
     /// [`command`](Self::command).
     #[inline(always)]
-    fn follow(&mut self, _steady_speed: Option<N>) {}
+    fn set_steady_speed(&mut self, _steady_speed: Option<N>) {}
 
     /// The torque for the tick that begins.
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N;
@@ -65,7 +66,7 @@ pub trait Governor<N: Number>: Default {
 
     /// The angle is lost: starts anew without torque, as after every further tick without it.
     #[inline(always)]
-    fn lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
+    fn angle_lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
         self.start(config, estimate, N::ZERO);
     }
 
@@ -83,7 +84,7 @@ impl<N: Number> Governor<N> for () {
     const COMMANDS: bool = false;
 
     #[inline(always)]
-    fn refer(&mut self, _reference: N) {}
+    fn set_setpoint(&mut self, _setpoint: N) {}
 
     #[inline(always)]
     fn command(&mut self, _config: &(), _estimate: &Estimate<N>) -> N {

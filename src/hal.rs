@@ -9,7 +9,7 @@
 //! | [`ThreePhase`] | three `SetDutyCycle` | the bridge of a small synchronous motor |
 //! | [`SpiDac`] | `SpiDevice` | a drive's torque input in volts |
 //! | [`Tmc4671`] | `SpiDevice` | a drive that controls the current itself |
-//! | [`EnableChain`], [`Trip`] | `OutputPin` | what permits the power stage, what drops the contactor |
+//! | [`EnableChain`], [`TripLine`] | `OutputPin` | what permits the power stage, what drops the contactor |
 //! | [`Adxl355`] | `SpiDevice` | vibration, digital |
 //! | [`AdcVibration`] | a slice of conversions | vibration, analog |
 //! | `AwaitedAngle`, `AwaitedTorque` | what was awaited between two ticks | the four on `SpiDevice` under `embedded-hal-async` |
@@ -29,12 +29,12 @@
 //!
 //! ```
 //! # #[cfg(feature = "hal-async")] mod awaited {
-//! # use driveline::{drive::{ConfigOf, Drive}, governor::SpeedLoop, observer::TwoMass, fault::Faults};
+//! # use driveline::{drive::{ConfigOf, Drive}, governor::SpeedLoop, observer::TwoMassObserver, fault::Faults};
 //! use driveline::hal::{AwaitedAngle, AwaitedTorque, Axis, Enabling, MagneticEncoder, Parts, SpiDac};
 //! use embedded_hal_async::spi::SpiDevice;
 //!
-//! # type Config = ConfigOf<Drive<f32, TwoMass<f32>, (), SpeedLoop<f32>>>;
-//! type OnTask<E> = Axis<Parts<AwaitedAngle, AwaitedTorque<f32>, E>, f32, TwoMass<f32>, (), SpeedLoop<f32>>;
+//! # type Config = ConfigOf<Drive<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>>;
+//! type OnTask<E> = Axis<Parts<AwaitedAngle, AwaitedTorque<f32>, E>, f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>;
 //!
 //! async fn one_tick<E: Enabling, S: SpiDevice>(
 //!     axis: &mut OnTask<E>, config: &Config, encoder: &mut MagneticEncoder<S>, dac: &mut SpiDac<S, f32>,
@@ -92,15 +92,15 @@
 //! #     fn set_enabled(&mut self, _: bool) -> Result<(), Faults> { Ok(()) }
 //! # }
 //! # impl MyBoard { fn wait_for_timer(&mut self) -> bool { self.0 < 3 } }
-//! use driveline::{constants::*, design::*, drive::*, fault::Faults, governor::*, hal::*, machine::*, observer};
+//! use driveline::{settings::*, design::*, drive::*, fault::Faults, governor::*, hal::*, machine::*, observer};
 //!
 //! const TWO: TwoMass = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.35))
 //!     .reduce(Match::ResonanceAntiresonance);
 //! const RATE: Rate = Rate::hz(10_000);
 //! const LOAD: Disturbance = Disturbance { torque_accuracy: 2.0, load_torque_step: 100.0, within: 1.0 };
-//! const CONFIG: ConfigOf<Drive<f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>> = Config {
+//! const CONFIG: ConfigOf<Drive<f32, observer::TwoMassObserver<f32>, (), SpeedLoop<f32>>> = Config {
 //!     limits: Limits::<f32>::new(&Screening {
-//!         torque: 500.0, reference: 180.0, innovation: 0.05, standstill: 0.0015, missed: 150,
+//!         torque: 500.0, setpoint: 180.0, innovation: 0.05, frozen_turn: 0.0015, max_coast: 150,
 //!     }, Bases::SI),
 //!     observer: observer::TwoMassConfig::<f32>::new(&TWO.observer(RATE, Encoder::lines(2048), LOAD), Bases::SI),
 //!     fluctuation: (),
@@ -110,7 +110,7 @@
 //! };
 //!
 //! fn run(board: MyBoard) -> Result<(), Faults> {
-//!     let mut mill = Axis::<_, f32, observer::TwoMass<f32>, (), SpeedLoop<f32>>::new(board, &CONFIG, TRIPPING);
+//!     let mut mill = Axis::<_, f32, observer::TwoMassObserver<f32>, (), SpeedLoop<f32>>::new(board, &CONFIG, TRIPPING);
 //!     mill.start(&CONFIG)?;
 //!     while mill.board().wait_for_timer() {
 //!         mill.tick(&CONFIG, 150.0);
@@ -148,7 +148,7 @@ pub use awaited::{AwaitedAngle, AwaitedTorque};
 pub use axis::{Axis, TRIPPING};
 pub use board::{Board, Parts};
 pub use dac::{Dac, SpiDac};
-pub use enable::{EnableChain, Enabling, Line, Trip};
+pub use enable::{EnableChain, EnableLine, Enabling, TripLine};
 pub use magnetic::{Chip, MagneticEncoder};
 pub use pwm::PwmTorque;
 pub use quadrature::{Counter, Quadrature};

@@ -18,8 +18,8 @@
 //! ```
 //!
 //! # The rooms
-//! [`machine`] says what the machine is, [`design`] how it will be controlled (both `const fn` in `f64`), and [`constants`] turns a design into
-//! what a [`number`] can hold. [`observer`], [`fluctuation`], [`governor`] and [`balance`] are the parts of a [`drive`], composed by type: a
+//! [`machine`] says what the machine is, [`design`] how it will be controlled (both `const fn` in `f64`), and [`settings`] turns a design into
+//! what a [`number`] can hold. [`observer`], [`fluctuation`], [`governor`] and [`balancing`] are the parts of a [`drive`], composed by type: a
 //! part that a machine does not need is `()` and costs nothing. [`commissioning`] finds the machine by a test. [`sample`] is what goes in and
 //! comes out, [`fault`] what was wrong with it.
 //!
@@ -40,10 +40,10 @@
 //! | coast | a tick by prediction alone, since the angle cannot be used | |
 //! | base | what a fixed-point number is a fraction of | |
 
-pub mod balance;
+pub mod angle;
+pub mod balancing;
 pub mod commissioning;
 pub mod configure;
-pub mod constants;
 pub mod design;
 pub mod drive;
 pub mod fault;
@@ -54,12 +54,13 @@ pub mod hal;
 #[cfg(feature = "defmt")]
 mod logged;
 pub mod machine;
+pub mod math;
 pub mod number;
 pub mod observer;
 #[cfg(feature = "parameters")]
 pub mod parameters;
 pub mod prelude;
 pub mod sample;
-pub mod scalar;
+pub mod settings;
 #[cfg(feature = "telemetry")]
 pub mod telemetry;

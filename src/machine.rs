@@ -43,10 +43,10 @@ mod reduce;
 mod refer;
 mod rigid;
 mod section;
+mod sensitivity;
 mod train;
 mod train_reduce;
 mod two_mass;
-mod worth;
 
 pub use belt::Belt;
 pub use chain::{CAPACITY, Chain, Shaft};
@@ -56,7 +56,9 @@ pub use error::Error;
 pub use linear::STANDARD_GRAVITY;
 pub use modes::{Mode, Modes};
 pub use planetary::{Member, Planetary, PlanetaryGear};
-pub use prime_mover::{Combustion, Induction, Line, Mixture, Parabola, Series, Shunt, StartCondition, StartingLaw};
+pub use prime_mover::{
+    Combustion, CombustionType, Induction, Line, Parabola, Series, Shunt, StartCondition, StartingLaw,
+};
 pub use quantity::{
     Damping, Density, Diameter, Efficiency, Falls, Gap, Inertia, Length, LinearDamping, Mass, Ratio, ShearModulus,
     Speed, Stiffness, Torque,
@@ -65,6 +67,6 @@ pub use reduce::{Match, ReductionError};
 pub use refer::{Flow, Side, parallel, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};
 pub use rigid::Rigid;
 pub use section::{Section, stepped, try_stepped};
+pub use sensitivity::{Element, Part, Sensitivity};
 pub use train::{Joint, TRAIN_SHAFTS, Train};
 pub use two_mass::TwoMass;
-pub use worth::{Element, Part, Worth};

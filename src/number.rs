@@ -20,8 +20,8 @@ pub use fixed::{Coefficient, Fixed};
 pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// What a number is multiplied by. In fixed point a fraction of 2^32.
     type Coefficient: Copy + Default + PartialEq + core::fmt::Debug;
-    /// How firmly a standing gear is held: a factor for floats; in fixed point always [`FIRMNESS`].
-    type Firmness: Copy + Default + PartialEq + core::fmt::Debug;
+    /// How firmly a standing gear is held: a factor for floats; in fixed point always [`STICTION_GAIN`].
+    type StictionGain: Copy + Default + PartialEq + core::fmt::Debug;
     /// What one sum leaves to the next.
     type Carry: Copy;
     /// The number as an integer that rises with it among numbers of one sign; that of a float below zero falls.
@@ -92,7 +92,7 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     fn gain_operand(self) -> Self;
 
     /// The torque that brings a speed to rest; in fixed point it ends at twice the base.
-    fn braked(self, firmness: Self::Firmness) -> Self;
+    fn braked(self, stiction_gain: Self::StictionGain) -> Self;
 
     /// The speed at which the motor turns by this angle difference in a tick; held within four times the base in fixed point.
     fn speed_of_turn(self, c: Self::Coefficient) -> Self;
@@ -125,7 +125,7 @@ pub const TURN_SHIFT: u32 = 7;
 pub const INNOVATION_SHIFT: u32 = 5;
 
 /// Torque per speed, per unit, that brings a standing gear to rest in fixed point.
-pub const FIRMNESS: f64 = 16.0;
+pub const STICTION_GAIN: f64 = 16.0;
 
 /// Largest innovation in 2^-32 turns that fixed point can correct by: 2^26, 5.6 degrees of the motor.
 pub const INNOVATION_RANGE: f64 = 67_108_863.0;

@@ -6,13 +6,13 @@
 //!
 //! | observer | states | for |
 //! |---|---|---|
-//! | [`Rigid`] | speed, load torque | shafts that are rigid to the controller |
-//! | [`TwoMass`] | mean speed, twist rate, twist, load torque | any stiffness, any tick rate |
-//! | [`Backlash`] | those of [`TwoMass`], the twist through the gap | shafts with a gap that opens |
-//! | [`SemiImplicit`] | motor speed, load speed, shaft torque, load torque | soft shafts sampled fast |
-//! | [`Cranked`] | speed, load torque, crank angle | rigid machines with a crank: an inertia that depends on the angle |
+//! | [`RigidObserver`] | speed, load torque | shafts that are rigid to the controller |
+//! | [`TwoMassObserver`] | mean speed, twist rate, twist, load torque | any stiffness, any tick rate |
+//! | [`BacklashObserver`] | those of [`TwoMassObserver`], the twist through the gap | shafts with a gap that opens |
+//! | [`SemiImplicitObserver`] | motor speed, load speed, shaft torque, load torque | soft shafts sampled fast |
+//! | [`CrankObserver`] | speed, load torque, crank angle | rigid machines with a crank: an inertia that depends on the angle |
 //!
-//! [`Geared`] puts any of them behind a gear with losses.
+//! [`GearedObserver`] puts any of them behind a gear with losses.
 //!
 //! # The angle
 //! No observer stores the angle it estimates. It stores the last measured angle as a `u32` of 2^32 per turn, and its
@@ -31,12 +31,12 @@ mod rigid;
 mod semi_implicit;
 mod two_mass;
 
-pub use backlash::{Backlash, BacklashConfig, BacklashPrediction, Contact, Correction, FreeFlight};
-pub use cranked::{Cranked, CrankedConfig, CrankedPrediction, PLACES, Place};
-pub use geared::{Geared, GearedConfig, GearedPrediction};
-pub use rigid::{Rigid, RigidConfig, RigidPrediction};
-pub use semi_implicit::{SemiImplicit, SemiImplicitConfig, SemiImplicitPrediction};
-pub use two_mass::{TwoMass, TwoMassConfig, TwoMassPrediction};
+pub use backlash::{BacklashConfig, BacklashObserver, BacklashPrediction, Contact, Correction, FreeFlight};
+pub use cranked::{CrankConfig, CrankObserver, CrankPrediction, TABLE_POINTS, TablePoint};
+pub use geared::{GearedConfig, GearedObserver, GearedPrediction};
+pub use rigid::{RigidConfig, RigidObserver, RigidPrediction};
+pub use semi_implicit::{SemiImplicitConfig, SemiImplicitObserver, SemiImplicitPrediction};
+pub use two_mass::{TwoMassConfig, TwoMassObserver, TwoMassPrediction};
 
 use crate::number::Number;
 use crate::sample::Estimate;
@@ -66,7 +66,7 @@ pub trait Observer<N: Number>: Sized {
     fn speed_of_turn(config: &Self::Config, turned: N) -> N;
 
     /// Takes the angle as it comes, whatever was predicted.
-    fn synchronise(&mut self, angle: u32);
+    fn resync(&mut self, angle: u32);
 
     /// Predicts the tick that has just ended, in which `torque` was applied and at the end of which `angle` was measured.
     fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Self::Prediction;

@@ -23,5 +23,5 @@
 mod record;
 mod store;
 
-pub use record::{Parameters, Refusal};
+pub use record::{Parameters, RecordError};
 pub use store::{Error, Loaded, Store};

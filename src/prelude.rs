@@ -6,5 +6,5 @@ pub use crate::drive::{ConfigOf, Drive};
 pub use crate::governor::SpeedLoop;
 pub use crate::machine::{Chain, Damping, Efficiency, Inertia, Ratio, Stiffness};
 pub use crate::number::Fixed;
-pub use crate::observer::TwoMass as TwoMassObserver;
+pub use crate::observer::TwoMassObserver;
 pub use crate::sample::Sample;

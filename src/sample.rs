@@ -13,7 +13,7 @@ pub struct Sample<N> {
     /// Air-gap torque of the motor over the tick that has just ended; positive accelerates forwards.
     pub torque: N,
     /// Speed that the motor is wanted to have.
-    pub reference: N,
+    pub setpoint: N,
 }
 
 /// What the observer knows at the beginning of a tick, everything referred to the motor.

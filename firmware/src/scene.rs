@@ -22,8 +22,8 @@ pub struct Input {
     pub angle: u32,
     /// Motor torque applied during the tick that has just ended, as bits of the scene's number.
     pub torque: u32,
-    /// Speed set point, as bits of the scene's number.
-    pub reference: u32,
+    /// Speed setpoint, as bits of the scene's number.
+    pub setpoint: u32,
     /// Bits for the drive: [`Input::RELEASED`].
     pub flags: u32,
     /// Vibration samples, as bits of the scene's number.
@@ -33,7 +33,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// Flag: the brake is open and the governor at work; without it the scene holds, and [`Input::reference`] is the torque that it holds with.
+    /// Flag: the brake is open and the governor at work; without it the scene holds, and [`Input::setpoint`] is the torque that it holds with.
     pub const RELEASED: u32 = 1;
 }
 

@@ -1,6 +1,6 @@
 //! Complex numbers in `f64`, for what is solved outside the tick.
 
-use crate::scalar::sin_cos;
+use crate::math::sin_cos;
 
 /// A complex number.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

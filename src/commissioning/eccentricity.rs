@@ -1,9 +1,9 @@
 //! Eccentricity of the encoder: an angle of once a turn that no torque explains.
 
 use super::complex::Complex;
-use super::identified::Figure;
-use super::order::Order;
-use crate::scalar::{atan2, sqrt};
+use super::harmonic::Harmonic;
+use super::result::Figure;
+use crate::math::{atan2, sqrt};
 
 /// Eccentricity of the encoder, of first order: what it reads is the angle and `amplitude cos(angle - phase)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Eccentricity {
 }
 
 /// Phasor of one order, per block: the angle that torque does not explain for a machine of this inertia.
-fn unexplained(order: &Order, halves: f64, mean_speed: f64, inertia: f64, block: f64, sum: f64) -> Complex {
+fn unexplained(order: &Harmonic, halves: f64, mean_speed: f64, inertia: f64, block: f64, sum: f64) -> Complex {
     let complex = |[re, im]: [f32; 2]| Complex::new(f64::from(re), f64::from(im)).scaled(2.0 / sum);
     let speed = 0.5 * halves * mean_speed;
     let turn = Complex::new(1.0, 0.0).minus(Complex::direction(-speed * block));
@@ -31,7 +31,7 @@ fn unexplained(order: &Order, halves: f64, mean_speed: f64, inertia: f64, block:
 ///
 /// `start` is the absolute angle at which the test began \[rad\].
 pub(crate) fn of(
-    orders: &[Order; 3],
+    orders: &[Harmonic; 3],
     mean_speed: f64,
     inertia: f64,
     block: f64,

@@ -6,7 +6,7 @@ use core::f64::consts::{PI, TAU};
 use super::TestConfig;
 use super::fit::Fit;
 use super::multisine::Line;
-use crate::scalar::{exp, ln, sin_cos, sqrt};
+use crate::math::{exp, ln, sin_cos, sqrt};
 
 /// Most of a sum of many sines over its root mean square: passed in less than 1e-4 of the time.
 const CREST: f64 = 3.9;

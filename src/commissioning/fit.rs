@@ -7,10 +7,10 @@
 use core::f64::consts::TAU;
 
 use super::complex::Complex;
-use super::identified::Figure;
 use super::response::Response;
+use super::result::Figure;
 use crate::design::Matrix;
-use crate::scalar::{exp, ln, sqrt};
+use crate::math::{exp, ln, sqrt};
 
 /// Parameters: g, b, R, ln w, ln z.
 const PARAMETERS: usize = 5;

@@ -1,9 +1,9 @@
 //! Friction and total inertia from the mean torques of eight segments: two speeds and the ramps between, both ways.
 
-use super::Reason;
-use super::identified::Figure;
+use super::Error;
+use super::result::Figure;
 use crate::design::Matrix;
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 /// Segments of the test.
 pub(crate) const SEGMENTS: usize = 8;
@@ -47,7 +47,7 @@ pub struct Friction {
 }
 
 /// Least squares of `torque = weight + coulomb sign(speed) + viscous speed + inertia acceleration`.
-pub(crate) fn fit(segments: &[Segment; SEGMENTS]) -> Result<Friction, Reason> {
+pub(crate) fn fit(segments: &[Segment; SEGMENTS]) -> Result<Friction, Error> {
     let row = |segment: &Segment| [1.0, segment.speed.signum(), segment.speed, segment.acceleration];
     // Columns of like size.
     let mut scale = [0.0_f64; 4];
@@ -57,7 +57,7 @@ pub(crate) fn fit(segments: &[Segment; SEGMENTS]) -> Result<Friction, Reason> {
         }
     }
     if !scale.iter().all(|scale| *scale > 0.0) {
-        return Err(Reason::InertiaUnclear);
+        return Err(Error::InertiaUnclear);
     }
     let scaled = |segment: &Segment| {
         let mut row = row(segment);
@@ -76,7 +76,7 @@ pub(crate) fn fit(segments: &[Segment; SEGMENTS]) -> Result<Friction, Reason> {
             right[0] += a * segment.torque;
         }
     }
-    let Some(inverse) = normal.solve(&Matrix::diagonal(&[1.0; 4])) else { return Err(Reason::InertiaUnclear) };
+    let Some(inverse) = normal.solve(&Matrix::diagonal(&[1.0; 4])) else { return Err(Error::InertiaUnclear) };
     let x = inverse.times(&right);
     let mut residual = 0.0;
     for segment in segments {
@@ -99,6 +99,6 @@ pub(crate) fn fit(segments: &[Segment; SEGMENTS]) -> Result<Friction, Reason> {
     if inertia.value > 0.0 && inertia.standard_deviation < 0.2 * inertia.value {
         Ok(friction)
     } else {
-        Err(Reason::InertiaUnclear)
+        Err(Error::InertiaUnclear)
     }
 }

@@ -1,8 +1,8 @@
 //! The gap: how far the motor creeps from one flank to the other while friction holds the load.
 
-use super::identified::Figure;
-use super::{Reason, TestConfig};
-use crate::scalar::sqrt;
+use super::result::Figure;
+use super::{Error, TestConfig};
+use crate::math::sqrt;
 
 /// Pushes against the flanks, by turns; the first only finds a flank.
 pub(crate) const PUSHES: usize = 9;
@@ -25,12 +25,12 @@ pub(crate) type Push = (f64, f64);
 /// # Errors
 /// Where friction did not hold the load, where the ways did not repeat, and where the gap is less than three deviations
 /// and a count.
-pub(crate) fn gap(pushes: &[Push; PUSHES], widest: f64, config: &TestConfig) -> Result<Figure, Reason> {
+pub(crate) fn gap(pushes: &[Push; PUSHES], widest: f64, config: &TestConfig) -> Result<Figure, Error> {
     let (mut sum, mut square, mut way, mut count) = (0.0, 0.0, 0.0, 0.0);
     for (from, to) in pushes.iter().zip(pushes.iter().skip(1)).skip(1) {
         let (whole, eased) = ((to.0 - from.0).abs(), (to.1 - from.1).abs());
         if whole >= 0.95 * widest {
-            return Err(Reason::LoadNotHeld);
+            return Err(Error::LoadNotHeld);
         }
         let free = (eased - EASED * whole) / (1.0 - EASED);
         sum += free;
@@ -49,11 +49,11 @@ pub(crate) fn gap(pushes: &[Push; PUSHES], widest: f64, config: &TestConfig) -> 
         _ => 0.0,
     };
     if drift > (0.2 * way).max(3.0 * config.resolution) {
-        return Err(Reason::GapUnclear);
+        return Err(Error::GapUnclear);
     }
     if mean > 3.0 * deviation + config.resolution {
         Ok(Figure { value: mean, standard_deviation: deviation })
     } else {
-        Err(Reason::GapBelowResolution)
+        Err(Error::GapBelowResolution)
     }
 }

@@ -6,12 +6,12 @@ use super::excitation::{about, lines, over_band, peak, set, time};
 use super::fit::{Derived, Fit, fit};
 use super::friction::{SEGMENTS, Segment};
 use super::gap::{PUSH, PUSHES, Push, gap};
-use super::identified::{Figure, Identified};
+use super::harmonic::Harmonic;
 use super::multisine::{Line, Window};
-use super::order::Order;
+use super::result::{CommissioningResult, Figure};
 use super::servo::Servo;
-use super::{Eccentricity, Friction, Reason, Response, Stage, TestConfig};
-use crate::scalar::sqrt;
+use super::{Eccentricity, Error, Friction, Response, Stage, TestConfig};
+use crate::math::sqrt;
 
 /// What is done next.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,9 +30,9 @@ pub(crate) enum Next {
     /// A record of the multisine: blocks of it and before it, and which way.
     Record { blocks: u32, settle: u32, way: f64 },
     /// There is an answer.
-    Done(Identified),
+    Done(CommissioningResult),
     /// There is a reason.
-    Refused(Reason),
+    Refused(Error),
 }
 
 /// What is known so far.
@@ -45,7 +45,7 @@ pub(crate) struct Known<const L: usize> {
     pub eccentricity: Eccentricity,
     /// Cosine and sine part of the eccentricity, from where the test began \[rad\].
     pub eccentric: [f64; 2],
-    gap: Result<Figure, Reason>,
+    gap: Result<Figure, Error>,
     /// Ways that have a fit that is good enough.
     fits: [Option<Fit>; 2],
     /// The last fit that shows a resonance.
@@ -69,7 +69,7 @@ impl<const L: usize> Known<L> {
             friction: Friction::default(),
             eccentricity: Eccentricity::default(),
             eccentric: [0.0; 2],
-            gap: Err(Reason::LoadNotHeld),
+            gap: Err(Error::LoadNotHeld),
             fits: [None; 2],
             last: None,
             responses: [[Response::default(); L]; 2],
@@ -90,7 +90,7 @@ pub struct Job<const L: usize> {
     pub(crate) known: Known<L>,
     pub(crate) next: Next,
     pub(crate) lines: [Line; L],
-    pub(crate) orders: [Order; 3],
+    pub(crate) orders: [Harmonic; 3],
     pub(crate) segments: [Segment; SEGMENTS],
     pub(crate) pushes: [Push; PUSHES],
     pub(crate) mean_speed: f64,
@@ -156,7 +156,7 @@ impl<const L: usize> Job<L> {
                 known.inertia = friction.inertia.value;
                 let needed = f64::from(config.turns()) * config.block * config.settings.speed;
                 if needed + self.angle.abs() > 0.8 * config.settings.travel {
-                    return Next::Refused(Reason::Travel);
+                    return Next::Refused(Error::Travel);
                 }
                 known.window = Window::over(config.turns());
                 Next::Turns
@@ -176,9 +176,9 @@ impl<const L: usize> Job<L> {
         let friction = &known.friction;
         let (coulomb, weight) = (friction.coulomb, friction.weight.value.abs());
         if weight > coulomb.value.max(config.settings.torque_accuracy) {
-            known.gap = Err(Reason::Preloaded);
+            known.gap = Err(Error::Preloaded);
         } else if coulomb.value < 5.0 * coulomb.standard_deviation || coulomb.value < config.settings.torque_accuracy {
-            known.gap = Err(Reason::LoadNotHeld);
+            known.gap = Err(Error::LoadNotHeld);
         } else {
             let torque = PUSH * coulomb.value;
             // So slow that the flanks meet with a tenth of the push, for the stiffest shaft whose resonance is in the
@@ -201,7 +201,7 @@ impl<const L: usize> Job<L> {
         let room = SHARE * config.room(friction.weight.value.abs() + friction.coulomb.value.max(0.0));
         match known.gap {
             // One whose ends did not repeat may be there.
-            Ok(_) | Err(Reason::GapUnclear) => room.min(PRELOAD * friction.coulomb.value),
+            Ok(_) | Err(Error::GapUnclear) => room.min(PRELOAD * friction.coulomb.value),
             Err(_) => room,
         }
     }
@@ -235,7 +235,7 @@ impl<const L: usize> Job<L> {
         let way = if known.records.is_multiple_of(2) { 1.0 } else { -1.0 };
         known.records += 1;
         if known.records > RECORDS {
-            return Next::Refused(known.last.map_or(Reason::Rigid, |_| Reason::ResonanceUnclear));
+            return Next::Refused(known.last.map_or(Error::Rigid, |_| Error::ResonanceUnclear));
         }
         let steady = 6.0 / config.servo;
         let speed = config.settings.speed;
@@ -250,7 +250,7 @@ impl<const L: usize> Job<L> {
         let room = config.settings.travel - way * self.angle - aside;
         let most = 0.95 * room / speed;
         if most < 0.5 * needed || most < steady {
-            return Next::Refused(Reason::TravelTooShort);
+            return Next::Refused(Error::TravelTooShort);
         }
         known.time = known.time.min(most);
         let blocks = config.blocks(known.time);
@@ -261,7 +261,7 @@ impl<const L: usize> Job<L> {
     }
 
     fn resonance(&self, known: &mut Known<L>, config: &TestConfig) -> Next {
-        let Next::Record { blocks, way, .. } = self.next else { return Next::Refused(Reason::ResonanceUnclear) };
+        let Next::Record { blocks, way, .. } = self.next else { return Next::Refused(Error::ResonanceUnclear) };
         let viscous = known.friction.viscous;
         // A friction that is not told from none is none.
         let viscous = if viscous.value > 3.0 * viscous.standard_deviation { viscous.value } else { 0.0 };
@@ -289,7 +289,7 @@ impl<const L: usize> Job<L> {
         }
         let was_fine = known.last.is_some();
         if !fitted.within(band) {
-            return Next::Refused(Reason::ResonanceOutside);
+            return Next::Refused(Error::ResonanceOutside);
         }
         known.last = Some(fitted);
         let missed = (resonance.relative() / AIM[0]).max(load.relative() / AIM[1]);
@@ -307,9 +307,9 @@ impl<const L: usize> Job<L> {
                 }
             } else if last_chance {
                 return Next::Refused(if resonance.relative() >= ENOUGH[0] {
-                    Reason::ResonanceUnclear
+                    Error::ResonanceUnclear
                 } else {
-                    Reason::AntiresonanceUnclear
+                    Error::AntiresonanceUnclear
                 });
             }
         }
@@ -356,7 +356,7 @@ impl<const L: usize> Job<L> {
         } else if known.records < 6 {
             known.time *= 2.0;
         } else {
-            return Next::Refused(Reason::Rigid);
+            return Next::Refused(Error::Rigid);
         }
         self.search(known, config)
     }
@@ -368,7 +368,7 @@ impl<const L: usize> Job<L> {
         }
         let [total_inertia, motor_inertia, load_inertia, resonance, antiresonance, stiffness, damping, damping_ratio] =
             mean;
-        Next::Done(Identified {
+        Next::Done(CommissioningResult {
             total_inertia,
             motor_inertia,
             load_inertia,

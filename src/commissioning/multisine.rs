@@ -61,7 +61,7 @@ impl Window {
 
     /// A window over so many blocks.
     pub(crate) fn over(blocks: u32) -> Self {
-        let (sine, cosine) = crate::scalar::sin_cos(core::f64::consts::TAU / f64::from(blocks.max(1)));
+        let (sine, cosine) = crate::math::sin_cos(core::f64::consts::TAU / f64::from(blocks.max(1)));
         Self { turn: [cosine as f32, sine as f32], phasor: [1.0, 0.0] }
     }
 

@@ -3,7 +3,7 @@
 use super::TestConfig;
 use super::complex::Complex;
 use super::multisine::Line;
-use crate::scalar::{sin_cos, sqrt};
+use crate::math::{sin_cos, sqrt};
 
 /// Response of the motor's acceleration to its torque at one frequency.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

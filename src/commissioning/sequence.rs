@@ -2,14 +2,14 @@
 
 use super::friction::{SEGMENTS, Segment, ends_of};
 use super::gap::{EASED, PUSHES, Push};
-use super::identified::Identified;
+use super::harmonic::{HALVES, Harmonic};
 use super::job::{Findings, Job, Known, Next};
 use super::multisine::{Line, Window};
-use super::order::{HALVES, Order};
 use super::reference::Reference;
+use super::result::CommissioningResult;
 use super::servo::{Deviation, Servo};
-use super::{Reason, TestConfig};
-use crate::balance::Synchronous;
+use super::{Error, TestConfig};
+use crate::angle::Synchronous;
 
 /// Where the test is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,7 +93,7 @@ pub struct Commissioning<const L: usize> {
     reference: Reference,
     window: Window,
     lines: [Line; L],
-    orders: [Order; 3],
+    orders: [Harmonic; 3],
     segments: [Segment; SEGMENTS],
     pushes: [Push; PUSHES],
     /// Sums of a phase: of the torque, the window, the angle.
@@ -136,7 +136,7 @@ impl<const L: usize> Commissioning<L> {
             reference: Reference::default(),
             window: Window::NONE,
             lines: [Line::NONE; L],
-            orders: [Order::default(); 3],
+            orders: [Harmonic::default(); 3],
             segments: [Segment::default(); SEGMENTS],
             pushes: [(0.0, 0.0); PUSHES],
             total: 0.0,
@@ -157,7 +157,7 @@ impl<const L: usize> Commissioning<L> {
         self.last = Some(angle);
         self.angle = self.angle.wrapping_add(i64::from(moved));
         if moved.unsigned_abs() > config.jump {
-            self.refuse(Reason::AngleJump);
+            self.refuse(Error::AngleJump);
         }
         self.sum = self.sum.wrapping_add(self.angle);
         self.ticks += 1;
@@ -210,7 +210,7 @@ impl<const L: usize> Commissioning<L> {
     /// The answer, where the test has ended. Take it when it comes: a test that is ticked on holds the motor, and what
     /// ends that, as an angle that jumps, stands in its place.
     #[must_use]
-    pub fn outcome(&self) -> Option<Result<&Identified, Reason>> {
+    pub fn outcome(&self) -> Option<Result<&CommissioningResult, Error>> {
         match (&self.next, self.stage) {
             (Next::Done(identified), Stage::Done) => Some(Ok(identified)),
             (Next::Refused(reason), Stage::Refused) => Some(Err(*reason)),
@@ -231,7 +231,7 @@ impl<const L: usize> Commissioning<L> {
     }
 
     /// Ends the test without torque; what a motor without torque does next is no other reason.
-    fn refuse(&mut self, reason: Reason) {
+    fn refuse(&mut self, reason: Error) {
         if self.phase == Phase::Lost {
             return;
         }
@@ -257,7 +257,7 @@ impl<const L: usize> Commissioning<L> {
             }
             Next::Turns => {
                 self.stage = Stage::Encoder;
-                self.orders = [Order::default(); 3];
+                self.orders = [Harmonic::default(); 3];
                 self.reference.go(speed, rate);
             }
             Next::Reversals { speed, .. } => {
@@ -301,14 +301,14 @@ impl<const L: usize> Commissioning<L> {
             return;
         }
         if self.angle.unsigned_abs() > config.travel.unsigned_abs() {
-            self.refuse(Reason::TravelExceeded);
+            self.refuse(Error::TravelExceeded);
             return;
         }
         let h = config.block_f32;
         self.servo.observe(&mut self.deviation, h, measured, self.torque, self.reference.acceleration);
         // So written that what is no number is not followed either.
         if !(self.deviation.angle.abs() <= config.lag) {
-            self.refuse(Reason::NotFollowed);
+            self.refuse(Error::NotFollowed);
             return;
         }
         let measures = self.phase == Phase::Measures;
@@ -370,7 +370,7 @@ impl<const L: usize> Commissioning<L> {
             self.reversals += u32::from(given * self.bound < 0.0);
             self.bound = given;
             if self.reversals > REVERSALS {
-                self.refuse(Reason::Unsteady);
+                self.refuse(Error::Unsteady);
             }
         }
     }

@@ -45,7 +45,7 @@ impl Servo {
 
     fn of(config: &TestConfig, inertia: f64, w: f64) -> Self {
         let h = config.block;
-        let rho = crate::scalar::exp(-3.0 * w * h);
+        let rho = crate::math::exp(-3.0 * w * h);
         let left = 1.0 - rho;
         let square = left * left;
         Self {

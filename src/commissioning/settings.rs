@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use super::Reason;
+use super::Error;
 use crate::design::{Encoder, Rate};
 
 /// What is known before the test, and its bounds; all at the motor.
@@ -96,40 +96,40 @@ impl TestConfig {
     ///
     /// # Errors
     /// The first setting that is out of range.
-    pub const fn try_new(settings: &TestSettings) -> Result<Self, Reason> {
-        let Ok(period) = settings.rate.period() else { return Err(Reason::Rate) };
-        let Ok(resolution) = settings.encoder.resolution() else { return Err(Reason::EncoderLines) };
+    pub const fn try_new(settings: &TestSettings) -> Result<Self, Error> {
+        let Ok(period) = settings.rate.period() else { return Err(Error::Rate) };
+        let Ok(resolution) = settings.encoder.resolution() else { return Err(Error::EncoderLines) };
         let [low, high] = settings.band;
         if resolution < TAU / 2_147_483_648.0 {
-            return Err(Reason::EncoderLines);
+            return Err(Error::EncoderLines);
         }
         if !positive(settings.torque) {
-            return Err(Reason::Torque);
+            return Err(Error::Torque);
         }
         if !finite(settings.held) {
-            return Err(Reason::Held);
+            return Err(Error::Held);
         }
         if !(settings.shaft_torque > settings.held.abs() && finite(settings.shaft_torque)) {
-            return Err(Reason::ShaftTorque);
+            return Err(Error::ShaftTorque);
         }
         let [run_up, turns] = LONGEST;
         if !(settings.speed * turns >= 8.0 * TAU && settings.speed * period < 0.25 * TAU) {
-            return Err(Reason::Speed);
+            return Err(Error::Speed);
         }
         if !positive(settings.travel) || settings.travel > 1.0e9 {
-            return Err(Reason::Travel);
+            return Err(Error::Travel);
         }
         if !(positive(settings.inertia) && finite(1.0 / settings.inertia)) {
-            return Err(Reason::Inertia);
+            return Err(Error::Inertia);
         }
         if !(low >= 0.01 && high > low && high * period <= 0.1) {
-            return Err(Reason::Band);
+            return Err(Error::Band);
         }
         if !positive(settings.torque_accuracy) {
-            return Err(Reason::TorqueAccuracy);
+            return Err(Error::TorqueAccuracy);
         }
         if !(settings.delay >= 0.0 && settings.delay.is_finite()) {
-            return Err(Reason::Delay);
+            return Err(Error::Delay);
         }
         // A cast to an integer saturates, and the settings are in range.
         let ticks = 1.0 / (BLOCKS * high * period);
@@ -146,7 +146,7 @@ impl TestConfig {
         let slow = if STEADY * room < most { STEADY * room } else { most };
         let acceleration = 0.15 * most / settings.inertia;
         if !(acceleration * run_up >= settings.speed && acceleration.is_finite()) {
-            return Err(Reason::Torque);
+            return Err(Error::Torque);
         }
         let servo = TAU * low / 6.0;
         let turn = 4_294_967_296.0;

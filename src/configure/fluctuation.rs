@@ -1,9 +1,9 @@
 //! Measurements of the speed's fluctuation for a machine.
 
 use super::{Configure, Machine};
-use crate::constants::Bases;
 use crate::fluctuation::{CycleConfig, CycleMean, CycleMeanConfig, Extremes, Waveform, WaveformConfig};
 use crate::number::Fixed;
+use crate::settings::Bases;
 
 macro_rules! measurements {
     ($number:ident, $bases:expr) => {

@@ -1,16 +1,19 @@
 //! Governors and their parts for a machine.
 
 use super::{Configure, Machine};
-use crate::constants::{Bases, ModesSettings, SpeedLoopSettings};
-use crate::design::{BarredSpeeds, GovernorDesign, SlackDesign, SlackTuning, SpeedLoopDesign, TorqueCurve};
+use crate::design::{
+    BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, GovernorDesign, SpeedLoopDesign, TorqueCurve,
+};
 use crate::governor::{
-    AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, Barred, BarredConfig,
-    Between, BetweenConfig, Curve, CurveConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Limit, Mean,
-    MeanConfig, Modes, ModesConfig, OverCycle, Prompt, SetPoint, Slack, SlackConfig, Slew, SlewConfig, SpeedGovernor,
-    SpeedGovernorConfig, SpeedGovernorConfigOf, SpeedLoop, SpeedLoopConfig, Supervisor, Symmetric, SymmetricConfig,
-    View,
+    AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
+    BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CycleAverage, Droop, DroopConfig,
+    FeedForward, FeedForwardConfig, Gains, Limit, MovingAverage, MovingAverageConfig, Sequence, Sequencer,
+    SequencerConfig, SetpointShape, Slew, SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig,
+    SpeedGovernorConfigOf, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
+    TorqueRangeConfig,
 };
 use crate::number::{Fixed, Number};
+use crate::settings::{Bases, SequencerSettings, SpeedLoopSettings};
 
 /// What [`SpeedGovernor`] takes its gains from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,12 +39,12 @@ impl GainSource {
 /// A machine whose backlash or slack rope is taken up.
 pub trait HasBacklash: Machine {
     /// How it is taken up.
-    const TAKING_UP: SlackTuning;
+    const TAKING_UP: BacklashTakeUpTuning;
     /// The taking up, from the two masses, rate and tuning.
-    const TAKE_UP: SlackDesign = Self::TWO_MASS.take_up(Self::RATE, Self::TAKING_UP);
+    const TAKE_UP: BacklashTakeUpDesign = Self::TWO_MASS.take_up(Self::RATE, Self::TAKING_UP);
 }
 
-/// A machine whose set point yields to the load.
+/// A machine whose setpoint yields to the load.
 pub trait HasDroop: Machine {
     /// Fraction of the rated speed, at rated torque.
     const DROOP: f64;
@@ -69,9 +72,9 @@ pub trait HasSlew: Machine {
 }
 
 /// A machine that starts, runs, stops and trips.
-pub trait HasModes: Machine {
+pub trait HasSequencer: Machine {
     /// Limits of the modes.
-    const MODES: ModesSettings;
+    const SEQUENCER: SequencerSettings;
 }
 
 impl<M, N, S, F, L, U, V> Configure<M, N> for SpeedGovernor<N, S, F, L, U, V>
@@ -79,25 +82,25 @@ where
     M: Machine,
     N: Number,
     Gains<N>: Configure<M, N, Config = Gains<N>>,
-    S: SetPoint<N> + Configure<M, N, Config = <S as SetPoint<N>>::Config>,
-    F: Prompt<N> + Configure<M, N, Config = <F as Prompt<N>>::Config>,
+    S: SetpointShape<N> + Configure<M, N, Config = <S as SetpointShape<N>>::Config>,
+    F: Compensation<N> + Configure<M, N, Config = <F as Compensation<N>>::Config>,
     L: Limit<N> + Configure<M, N, Config = <L as Limit<N>>::Config>,
-    U: Supervisor<N> + Configure<M, N, Config = <U as Supervisor<N>>::Config>,
-    V: View<N> + Configure<M, N, Config = <V as View<N>>::Config>,
+    U: Sequence<N> + Configure<M, N, Config = <U as Sequence<N>>::Config>,
+    V: SpeedFilter<N> + Configure<M, N, Config = <V as SpeedFilter<N>>::Config>,
 {
     type Config = SpeedGovernorConfigOf<N, S, F, L, U, V>;
     const CONFIG: Self::Config = SpeedGovernorConfig {
         gains: <Gains<N> as Configure<M, N>>::CONFIG,
-        set_point: S::CONFIG,
-        prompt: F::CONFIG,
+        shape: S::CONFIG,
+        compensation: F::CONFIG,
         limit: L::CONFIG,
-        supervisor: U::CONFIG,
-        view: V::CONFIG,
+        sequence: U::CONFIG,
+        filter: V::CONFIG,
     };
 }
 
 /// Nothing: what is renewed over a cycle comes from the measurement of the fluctuation.
-impl<M: Machine, N: Number> Configure<M, N> for OverCycle<N> {
+impl<M: Machine, N: Number> Configure<M, N> for CycleAverage<N> {
     type Config = ();
     const CONFIG: () = ();
 }
@@ -131,14 +134,14 @@ macro_rules! governors {
                 AccelerationFeedbackConfig::<$number>::new(M::GAINS.governor(), $bases);
             [] Machine, ActiveDamping => ActiveDampingConfig<$number>,
                 ActiveDampingConfig::<$number>::new(&M::SPEED_LOOP, $bases);
-            [] Machine, Symmetric => SymmetricConfig<$number>,
-                SymmetricConfig::<$number>::new(M::RATING.torque_limit, $bases);
-            [] Machine, Between => BetweenConfig<$number>,
-                BetweenConfig::<$number>::new(M::LEAST_TORQUE, M::RATING.torque_limit, $bases);
+            [] Machine, SymmetricLimit => SymmetricLimitConfig<$number>,
+                SymmetricLimitConfig::<$number>::new(M::RATING.torque_limit, $bases);
+            [] Machine, TorqueRange => TorqueRangeConfig<$number>,
+                TorqueRangeConfig::<$number>::new(M::LEAST_TORQUE, M::RATING.torque_limit, $bases);
             [K] HasTorqueCurve<K>, Curve<K> => CurveConfig<$number, K>,
                 CurveConfig::<$number, K>::new(&M::CURVE, M::LEAST_TORQUE, $bases);
-            [] HasModes, Modes => ModesConfig<$number>, ModesConfig::<$number>::new(&M::MODES, M::PERIOD, $bases);
-            [K] Machine, Mean<$number, K> => MeanConfig<$number, K>, MeanConfig::<$number, K>::of_ticks();
+            [] HasSequencer, Sequencer => SequencerConfig<$number>, SequencerConfig::<$number>::new(&M::SEQUENCER, M::PERIOD, $bases);
+            [K] Machine, MovingAverage<$number, K> => MovingAverageConfig<$number, K>, MovingAverageConfig::<$number, K>::of_ticks();
         }
 
         impl<M: HasSlew, L> Configure<M, $number> for Slew<$number, L>
@@ -150,13 +153,13 @@ macro_rules! governors {
                 SlewConfig::<$number, _>::new(M::SLEW, <L as Configure<M, $number>>::CONFIG, M::PERIOD, $bases);
         }
 
-        impl<M: HasBacklash, L> Configure<M, $number> for Slack<$number, L>
+        impl<M: HasBacklash, L> Configure<M, $number> for BacklashTakeUp<$number, L>
         where
             L: Limit<$number, Config: Copy> + Configure<M, $number, Config = <L as Limit<$number>>::Config>,
         {
-            type Config = SlackConfig<$number, <L as Limit<$number>>::Config>;
+            type Config = BacklashTakeUpConfig<$number, <L as Limit<$number>>::Config>;
             const CONFIG: Self::Config =
-                SlackConfig::<$number, _>::new(&M::TAKE_UP, <L as Configure<M, $number>>::CONFIG, $bases);
+                BacklashTakeUpConfig::<$number, _>::new(&M::TAKE_UP, <L as Configure<M, $number>>::CONFIG, $bases);
         }
     };
 }

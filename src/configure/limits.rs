@@ -1,9 +1,9 @@
 //! What a sample can be, for a machine.
 
 use super::{Configure, Machine};
-use crate::constants::Bases;
 use crate::drive::Limits;
 use crate::number::Fixed;
+use crate::settings::Bases;
 
 macro_rules! limits {
     ($number:ident, $bases:expr) => {

@@ -1,7 +1,6 @@
 //! The machine, its rating, and what follows from them.
 
 use super::GainSource;
-use crate::constants::{Bases, Cycle, Gear, Screening, SpeedLoopSettings};
 use crate::design::{
     BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
     TwoMassDesign,
@@ -10,6 +9,7 @@ use crate::governor::SpeedLoopConfig;
 use crate::machine::{Chain, Match, TwoMass};
 use crate::number::Fixed;
 use crate::observer::TwoMassConfig;
+use crate::settings::{Bases, Cycle, Gear, Screening, SpeedLoopSettings};
 
 /// What the motor is rated for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,25 +31,25 @@ impl Rating {
         Disturbance { torque_accuracy: 0.01 * self.torque, load_torque_step: 0.5 * self.torque, within: 10.0 }
     }
 
-    /// Limits of a sample: torque two thirds over its limit, which no healthy drive reaches; set point a fifth over rated speed; innovation
+    /// Limits of a sample: torque two thirds over its limit, which no healthy drive reaches; setpoint a fifth over rated speed; innovation
     /// 1/128 turn, half of what fixed point holds; two counts of the encoder for an angle that stands still; and as many ticks without an
-    /// angle as the motor needs for half a turn at the largest set point, after which the angle is ambiguous.
+    /// angle as the motor needs for half a turn at the largest setpoint, after which the angle is ambiguous.
     ///
     /// # Panics
     /// At compile time in a constant, for an encoder without lines or a rate that is not positive.
     #[must_use]
     pub const fn screening(&self, encoder: Encoder, rate: Rate) -> Screening {
-        let reference = 1.2 * self.speed;
+        let setpoint = 1.2 * self.speed;
         Screening {
             torque: 1.67 * self.torque_limit,
-            reference,
+            setpoint,
             innovation: core::f64::consts::TAU / 128.0,
-            standstill: 2.0 * count(encoder),
-            missed: (core::f64::consts::PI / (reference * period(rate))) as u32,
+            frozen_turn: 2.0 * count(encoder),
+            max_coast: (core::f64::consts::PI / (setpoint * period(rate))) as u32,
         }
     }
 
-    /// Acceleration of the set point \[rad/s2\]: rated speed in two seconds, or what half of the torque limit gives this inertia
+    /// Acceleration of the setpoint \[rad/s2\]: rated speed in two seconds, or what half of the torque limit gives this inertia
     /// \[kg m2\] where that is less, so that the other half is left for the load.
     #[must_use]
     pub const fn ramp(&self, inertia: f64) -> f64 {
@@ -123,7 +123,7 @@ pub trait Machine {
     const GEAR: Gear = Gear {
         efficiency: Self::CHAIN.efficiency(),
         inertia: Self::TWO_MASS.motor_inertia,
-        play: 8.0 * count(Self::ENCODER),
+        deadband: 8.0 * count(Self::ENCODER),
     };
 
     /// How brisk the speed loop is: 0.4 of the antiresonance, damping ratios 1 and 0.4.
@@ -133,7 +133,7 @@ pub trait Machine {
     const TUNING: SpeedLoopTuning = SpeedLoopTuning::USUAL;
     /// The speed loop, from the two masses, rate and tuning.
     const SPEED_LOOP: SpeedLoopDesign = Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING);
-    /// Acceleration of the set point \[rad/s2\]: [`Rating::ramp`] with the inertia of the whole chain.
+    /// Acceleration of the setpoint \[rad/s2\]: [`Rating::ramp`] with the inertia of the whole chain.
     const RAMP: f64 = Self::RATING.ramp(Self::CHAIN.total_inertia());
     /// What the composed governor takes its gains from: the speed loop.
     const GAINS: GainSource = GainSource::SpeedLoop(Self::SPEED_LOOP);
@@ -142,7 +142,7 @@ pub trait Machine {
 
     /// Limits of what a sample can be: [`Rating::screening`].
     ///
-    /// Torque and set point are kept by 15 of 18, the innovation by 15. With an encoder of more than 2^17 counts a smaller one is found out
+    /// Torque and setpoint are kept by 15 of 18, the innovation by 15. With an encoder of more than 2^17 counts a smaller one is found out
     /// sooner.
     const SCREENING: Screening = Self::RATING.screening(Self::ENCODER, Self::RATE);
     /// Bases of fixed point: [`Rating::bases`] with observer and speed loop.

@@ -1,13 +1,13 @@
 //! Observers for a machine.
 
 use super::{Configure, Machine};
-use crate::constants::Bases;
 use crate::design::CrankedDesign;
 use crate::number::Fixed;
 use crate::observer::{
-    Backlash, BacklashConfig, Cranked, CrankedConfig, Geared, GearedConfig, Observer, Rigid, RigidConfig, SemiImplicit,
-    SemiImplicitConfig, TwoMass, TwoMassConfig,
+    BacklashConfig, BacklashObserver, CrankConfig, CrankObserver, GearedConfig, GearedObserver, Observer, RigidConfig,
+    RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
 };
+use crate::settings::Bases;
 
 /// A machine with a crank: an inertia that depends on the angle.
 pub trait HasCrank: Machine {
@@ -19,32 +19,32 @@ pub trait HasCrank: Machine {
 
 macro_rules! observers {
     ($number:ident, $bases:expr) => {
-        impl<M: Machine> Configure<M, $number> for TwoMass<$number> {
+        impl<M: Machine> Configure<M, $number> for TwoMassObserver<$number> {
             type Config = TwoMassConfig<$number>;
             const CONFIG: Self::Config = TwoMassConfig::<$number>::new(&M::OBSERVER, $bases);
         }
 
-        impl<M: Machine> Configure<M, $number> for SemiImplicit<$number> {
+        impl<M: Machine> Configure<M, $number> for SemiImplicitObserver<$number> {
             type Config = SemiImplicitConfig<$number>;
             const CONFIG: Self::Config = SemiImplicitConfig::<$number>::new(&M::OBSERVER, $bases);
         }
 
-        impl<M: Machine> Configure<M, $number> for Rigid<$number> {
+        impl<M: Machine> Configure<M, $number> for RigidObserver<$number> {
             type Config = RigidConfig<$number>;
             const CONFIG: Self::Config = RigidConfig::<$number>::new(&M::RIGID_OBSERVER, M::LOAD_SHARE, $bases);
         }
 
-        impl<M: Machine> Configure<M, $number> for Backlash<$number> {
+        impl<M: Machine> Configure<M, $number> for BacklashObserver<$number> {
             type Config = BacklashConfig<$number>;
             const CONFIG: Self::Config = BacklashConfig::<$number>::new(&M::BACKLASH_OBSERVER, $bases);
         }
 
-        impl<M: HasCrank> Configure<M, $number> for Cranked<$number> {
-            type Config = CrankedConfig<$number>;
-            const CONFIG: Self::Config = CrankedConfig::<$number>::new(&M::CRANK_OBSERVER, $bases);
+        impl<M: HasCrank> Configure<M, $number> for CrankObserver<$number> {
+            type Config = CrankConfig<$number>;
+            const CONFIG: Self::Config = CrankConfig::<$number>::new(&M::CRANK_OBSERVER, $bases);
         }
 
-        impl<M: Machine, O> Configure<M, $number> for Geared<O>
+        impl<M: Machine, O> Configure<M, $number> for GearedObserver<O>
         where
             O: Observer<$number, Config: Copy> + Configure<M, $number, Config = <O as Observer<$number>>::Config>,
         {

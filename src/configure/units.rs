@@ -66,10 +66,10 @@ impl Units for Fixed {
 }
 
 impl<N: Units> Sample<N> {
-    /// A sample in SI units: angle \[2^-32 turn\], torque \[N m\], set point \[rad/s\].
+    /// A sample in SI units: angle \[2^-32 turn\], torque \[N m\], setpoint \[rad/s\].
     #[inline(always)]
-    pub fn si<M: Machine>(angle: u32, torque: f32, reference: f32) -> Self {
-        Sample { angle, torque: N::from_torque::<M>(torque), reference: N::from_speed::<M>(reference) }
+    pub fn si<M: Machine>(angle: u32, torque: f32, setpoint: f32) -> Self {
+        Sample { angle, torque: N::from_torque::<M>(torque), setpoint: N::from_speed::<M>(setpoint) }
     }
 }
 

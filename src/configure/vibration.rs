@@ -1,14 +1,14 @@
 //! Measurements of a rotor's vibration for a machine.
 
 use super::{Configure, Machine};
-use crate::balance::{Phasors, PhasorsConfig};
-use crate::constants::Measured;
+use crate::balancing::{Phasors, PhasorsConfig};
 use crate::number::Fixed;
+use crate::settings::PhasorSettings;
 
 /// A machine whose rotor's vibration is measured.
 pub trait HasVibration: Machine {
     /// The rotor that is measured, and how: the motor's shaft, eight turns a block.
-    const MEASURED: Measured = Measured::DIRECT;
+    const PHASORS: PhasorSettings = PhasorSettings::DIRECT;
     /// The largest sample of each channel that is not clipped \[unit of the sensors\].
     const VIBRATION_LIMIT: f64;
     /// Base of the samples in fixed point \[unit of the sensors\]: twice the limit.
@@ -21,7 +21,7 @@ macro_rules! phasors {
             for Phasors<$number, CHANNELS, EDGES>
         {
             type Config = PhasorsConfig<$number, CHANNELS>;
-            const CONFIG: Self::Config = PhasorsConfig::<$number, CHANNELS>::new(&M::MEASURED, [$limit; CHANNELS]);
+            const CONFIG: Self::Config = PhasorsConfig::<$number, CHANNELS>::new(&M::PHASORS, [$limit; CHANNELS]);
         }
     };
 }

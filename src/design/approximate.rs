@@ -2,7 +2,7 @@
 
 use super::ExactStep;
 use crate::machine::TwoMass;
-use crate::scalar::{atan2, hypot, ln, sqrt};
+use crate::math::{atan2, hypot, ln, sqrt};
 
 /// Ticks over which the state error is followed, at the most.
 const LONGEST_HORIZON: u32 = 4096;

@@ -13,7 +13,7 @@
 use super::tuning::{Disturbance, Encoder, Rate};
 use super::{Error, ExactStep, Kalman, Matrix, TwoMassDesign};
 use crate::machine::TwoMass;
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 /// How the observer looks for the flank after an open gap.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -49,7 +49,7 @@ sentences! {
     Bandwidth => "the bandwidth of the speed loop must be above zero and below the antiresonance of the machine",
     DampingRatio => "the damping ratios of the speed loop must be above zero and finite",
     Actuator => "the actuator's delay and lag must be zero or above and finite (s), its engine must have cylinders and turn",
-    Span => "the span of the governor must be above 1 and finite: from 2 (brisk) to 4 (quiet)",
+    OptimumFactor => "the span of the governor must be above 1 and finite: from 2 (brisk) to 4 (quiet)",
     VirtualInertia => "the virtual inertia must be from 0 to 1 of the machine's own, the lag of the estimate zero or above and finite (s)",
     FeedForward => "the share of the load torque that is fed forward must be from 0 to 1, the lag of its estimate zero or above and finite (s)",
     GovernorUnstable => "the governor is unstable with this actuator and shaft: raise its span",

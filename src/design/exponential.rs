@@ -1,7 +1,7 @@
 //! The matrix exponential, by balancing, scaling and squaring with the Padé approximant of degree 13.
 
 use super::Matrix;
-use crate::scalar::scale_by_power_of_two;
+use crate::math::scale_by_power_of_two;
 
 /// Coefficients of the Padé approximant [Higham 2005, SIAM J. Matrix Anal. Appl. 26(4)].
 const PADE: [f64; 14] = [

@@ -22,7 +22,7 @@ use super::margins::{Late, Loop, Margins};
 use super::tuning::Rate;
 use super::{Error, ExactStep};
 use crate::machine::TwoMass;
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 /// How late the torque acts after its command.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,7 +108,7 @@ pub struct GovernorDesign {
     /// Integral gain \[N m/rad\].
     pub integral: f64,
     /// Sum of all that is late \[s\], less what a virtual inertia takes of it.
-    pub lateness: f64,
+    pub equivalent_delay: f64,
     /// Share of the load torque that is fed forward.
     pub share: f64,
     /// Torque against the acceleration, per torque that accelerates the load.
@@ -120,7 +120,7 @@ pub struct GovernorDesign {
 }
 
 impl TwoMass {
-    /// Designs a governor for a late actuator. `span` is a of the symmetrical optimum, above 1; from 2 (brisk) to 4
+    /// Designs a governor for a late actuator. `optimum_factor` is a of the symmetrical optimum, above 1; from 2 (brisk) to 4
     /// (quiet).
     ///
     /// # Panics
@@ -131,10 +131,10 @@ impl TwoMass {
         &self,
         rate: Rate,
         actuator: Actuator,
-        span: f64,
+        optimum_factor: f64,
         forward: LoadFeedForward,
     ) -> GovernorDesign {
-        match self.try_governor(rate, actuator, span, forward) {
+        match self.try_governor(rate, actuator, optimum_factor, forward) {
             Ok(design) => design,
             Err(error) => error.stop(),
         }
@@ -148,13 +148,13 @@ impl TwoMass {
         &self,
         rate: Rate,
         actuator: Actuator,
-        span: f64,
+        optimum_factor: f64,
         forward: LoadFeedForward,
     ) -> Result<GovernorDesign, Error> {
         if !(forward.share >= 0.0 && forward.share <= 1.0 && forward.lag >= 0.0 && forward.lag.is_finite()) {
             return Err(Error::FeedForward);
         }
-        self.late_governor(rate, actuator, span, [forward.share, 0.0, forward.lag])
+        self.late_governor(rate, actuator, optimum_factor, [forward.share, 0.0, forward.lag])
     }
 
     /// [`governor`](Self::governor) with a virtual inertia instead of feed-forward.
@@ -167,10 +167,10 @@ impl TwoMass {
         &self,
         rate: Rate,
         actuator: Actuator,
-        span: f64,
+        optimum_factor: f64,
         inertia: VirtualInertia,
     ) -> GovernorDesign {
-        match self.try_governor_with_inertia(rate, actuator, span, inertia) {
+        match self.try_governor_with_inertia(rate, actuator, optimum_factor, inertia) {
             Ok(design) => design,
             Err(error) => error.stop(),
         }
@@ -184,13 +184,13 @@ impl TwoMass {
         &self,
         rate: Rate,
         actuator: Actuator,
-        span: f64,
+        optimum_factor: f64,
         inertia: VirtualInertia,
     ) -> Result<GovernorDesign, Error> {
         if !(inertia.share >= 0.0 && inertia.share <= 1.0 && inertia.lag >= 0.0 && inertia.lag.is_finite()) {
             return Err(Error::VirtualInertia);
         }
-        self.late_governor(rate, actuator, span, [0.0, inertia.share, inertia.lag])
+        self.late_governor(rate, actuator, optimum_factor, [0.0, inertia.share, inertia.lag])
     }
 
     /// The governor with what it takes of the estimates: share of the load torque, of the inertia, and their lag.
@@ -198,7 +198,7 @@ impl TwoMass {
         &self,
         rate: Rate,
         actuator: Actuator,
-        span: f64,
+        optimum_factor: f64,
         taken: [f64; 3],
     ) -> Result<GovernorDesign, Error> {
         if let Err(error) = self.check() {
@@ -212,17 +212,18 @@ impl TwoMass {
         if !(delay >= 0.0 && delay.is_finite() && lag >= 0.0 && lag.is_finite()) {
             return Err(Error::Actuator);
         }
-        if !(span > 1.0 && span.is_finite()) {
-            return Err(Error::Span);
+        if !(optimum_factor > 1.0 && optimum_factor.is_finite()) {
+            return Err(Error::OptimumFactor);
         }
         let [share, inertia, estimate] = taken;
         // The torque acts in the tick after its sample, and is held for a tick: half of one more in the mean.
-        let lateness = (delay + lag + 1.5 * period) / (1.0 + inertia);
-        let proportional = self.total_inertia() / (span * lateness);
-        let integral = proportional / (span * span * lateness);
+        let equivalent_delay = (delay + lag + 1.5 * period) / (1.0 + inertia);
+        let proportional = self.total_inertia() / (optimum_factor * equivalent_delay);
+        let integral = proportional / (optimum_factor * optimum_factor * equivalent_delay);
         let acceleration = inertia * self.total_inertia() / self.load_inertia;
         let lag = if share == 0.0 && inertia == 0.0 { 0.0 } else { estimate };
-        let design = GovernorDesign { period, proportional, integral, lateness, share, acceleration, actuator, lag };
+        let design =
+            GovernorDesign { period, proportional, integral, equivalent_delay, share, acceleration, actuator, lag };
         if design.open(self).is_stable(design.crossover()) { Ok(design) } else { Err(Error::GovernorUnstable) }
     }
 }
@@ -236,7 +237,7 @@ impl GovernorDesign {
 
     /// The integral gain is the proportional one over `a^2 T_s`, so their root is the crossover: `1/(a T_s)`.
     const fn crossover(&self) -> f64 {
-        sqrt(self.integral / (self.proportional * self.lateness))
+        sqrt(self.integral / (self.proportional * self.equivalent_delay))
     }
 
     const fn open(&self, machine: &TwoMass) -> Loop {
@@ -248,7 +249,7 @@ impl GovernorDesign {
             period: self.period,
             proportional: self.proportional,
             integral: self.integral,
-            slip: 0.0,
+            damping: 0.0,
             late: Late { delay, lag, share: self.share, inertia, estimate: self.lag },
         }
     }

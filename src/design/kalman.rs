@@ -2,7 +2,7 @@
 
 use super::exponential::balance;
 use super::{Error, Matrix, doubling, eigenvalues};
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 /// A steady-state filter for `x+ = F x + B u + w`, `y = H x + e`, `E[w w^T] = Q`, `E[e e^T] = R`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::ExactStep;
 use crate::machine::TwoMass;
-use crate::scalar::{atan2, exp, hypot, ln, sin_cos};
+use crate::math::{atan2, exp, hypot, ln, sin_cos};
 
 /// How far a loop is from instability.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub(super) struct Loop {
     pub period: f64,
     pub proportional: f64,
     pub integral: f64,
-    pub slip: f64,
+    pub damping: f64,
     pub late: Late,
 }
 
@@ -76,17 +76,17 @@ impl Loop {
         let determinant = times(a, b);
         let determinant = (determinant.0 - n.n12 * n.n21, determinant.1);
         let numerator = (n.n21 * n.g1 + a.0 * n.g2, a.1 * n.g2);
-        let slip = over(numerator, determinant);
-        let slip = (slip.0 / self.machine.motor_inertia, slip.1 / self.machine.motor_inertia);
+        let twist_rate = over(numerator, determinant);
+        let twist_rate = (twist_rate.0 / self.machine.motor_inertia, twist_rate.1 / self.machine.motor_inertia);
         let total = self.machine.total_inertia();
         let mean = over((self.period / total, 0.0), d);
         let load = self.machine.load_inertia / total;
-        let motor = (mean.0 + load * slip.0, mean.1 + load * slip.1);
+        let motor = (mean.0 + load * twist_rate.0, mean.1 + load * twist_rate.1);
         let integral = over(z, d);
         let controller =
             (self.proportional + self.integral * self.period * integral.0, self.integral * self.period * integral.1);
         let speed = times(controller, motor);
-        let prompt = over((speed.0 + self.slip * slip.0, speed.1 + self.slip * slip.1), z);
+        let prompt = over((speed.0 + self.damping * twist_rate.0, speed.1 + self.damping * twist_rate.1), z);
         if self.late.is_none() { prompt } else { self.with_late(prompt, z, frequency) }
     }
 

@@ -6,7 +6,7 @@
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
 use super::{Error, ExactStep, Kalman, Matrix, SemiImplicitStep, StepChoice};
 use crate::machine::TwoMass;
-use crate::scalar::{exp, sqrt};
+use crate::math::{exp, sqrt};
 
 /// Share of a swing that may survive one tick where the resonance lies above half the sample rate.
 const SURVIVING_SWING: f64 = 0.1;

@@ -4,7 +4,7 @@
 //! shift [Golub and Van Loan, Matrix Computations, §7]. Taking one off keeps the digits of slow poles close to 1.
 
 use super::Matrix;
-use crate::scalar::{hypot, sqrt};
+use crate::math::{hypot, sqrt};
 
 /// A complex number: real and imaginary part.
 type Complex = (f64, f64);

@@ -5,7 +5,7 @@
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
 use super::{Error, Kalman, Matrix};
 use crate::machine::Rigid;
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 /// A finished observer of a rigid machine.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,7 +14,7 @@ use super::margins::{Late, Loop, Margins};
 use super::tuning::Rate;
 use super::{Error, ExactStep, Matrix, eigenvalues, spectral_radius};
 use crate::machine::TwoMass;
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 /// How the speed loop is to behave.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +44,7 @@ pub struct SpeedLoopDesign {
     /// Integral gain \[N m/rad\].
     pub integral: f64,
     /// Gain on the slip (motor speed less load speed) \[N m s/rad\], taken off the torque.
-    pub slip: f64,
+    pub damping: f64,
     /// Natural frequency of the speed \[rad/s\].
     pub bandwidth: f64,
     /// Natural frequency of the damped shaft \[rad/s\].
@@ -110,7 +110,7 @@ impl TwoMass {
             period,
             proportional,
             integral,
-            slip,
+            damping: slip,
             bandwidth: w1,
             shaft_frequency: w2,
             spectral_radius,
@@ -122,9 +122,10 @@ impl SpeedLoopDesign {
     /// Margins of the sampled loop round a machine, cut at the torque, with estimates taken as exact.
     #[must_use]
     pub const fn margins(&self, machine: &TwoMass) -> Margins {
-        let Self { period, proportional, integral, slip, bandwidth, .. } = *self;
+        let Self { period, proportional, integral, damping: slip, bandwidth, .. } = *self;
         let step = ExactStep::new(machine, period);
-        Loop { step, machine: *machine, period, proportional, integral, slip, late: Late::NONE }.margins(bandwidth)
+        Loop { step, machine: *machine, period, proportional, integral, damping: slip, late: Late::NONE }
+            .margins(bandwidth)
     }
 }
 

@@ -11,7 +11,7 @@
 //! from critical damping.
 
 use crate::machine::TwoMass;
-use crate::scalar::{exp, exp_m1, sin_cos, sqrt};
+use crate::math::{exp, exp_m1, sin_cos, sqrt};
 
 /// Exact zero-order-hold step in increments:
 /// `delta += n11 delta + n12 v + g1 s`, `v += n21 delta + n22 v + g2 s`, right sides at the old tick.

@@ -1,7 +1,7 @@
 //! What an axis asks of a drive beside its ticks: one without an angle, and to start while the machine turns.
 
 use super::{ConfigOf, Drive, NONE_YET};
-use crate::balance::Balancer;
+use crate::balancing::Balancer;
 use crate::fault::Faults;
 use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;
@@ -20,8 +20,8 @@ where
     /// One tick whose angle did not come: the sensor's bus failed, or what it gave was not sound or not new.
     ///
     /// It coasts, as for an angle that cannot be believed, and raises [`Faults::ANGLE_MISSING`]; after more than the limit of such ticks also
-    /// [`Faults::ANGLE_LOST`], and commands no torque. Torque and set point are screened as in [`Drive::tick`].
-    pub fn tick_blind(&mut self, config: &ConfigOf<Self>, torque: N, reference: N) -> Command<N> {
+    /// [`Faults::ANGLE_LOST`], and commands no torque. Torque and setpoint are screened as in [`Drive::tick`].
+    pub fn coast(&mut self, config: &ConfigOf<Self>, torque: N, setpoint: N) -> Command<N> {
         let limits = &config.limits;
         let (mut torque, mut faults) = (torque, Faults::ANGLE_MISSING);
         if torque.exceeds(limits.torque) {
@@ -31,23 +31,23 @@ where
             self.commanded = torque;
         }
         self.fluctuation.disturb();
-        if self.missed < 0 {
+        if self.coasted < 0 {
             // the search for two angles in a row begins anew
-            self.missed = NONE_YET;
+            self.coasted = NONE_YET;
             let estimate = self.estimate(config);
-            self.governor.lost(&config.governor, &estimate);
+            self.governor.angle_lost(&config.governor, &estimate);
             self.commanded = N::ZERO;
             return Command { torque: N::ZERO, faults: faults | Faults::ANGLE_LOST };
         }
-        if reference.exceeds(limits.reference) {
-            faults |= Faults::REFERENCE;
+        if setpoint.exceeds(limits.setpoint) {
+            faults |= Faults::SETPOINT;
         } else {
-            self.governor.refer(reference);
+            self.governor.set_setpoint(setpoint);
         }
         let last = self.observer.angle();
         let predicted = self.observer.predict(&config.observer, last, torque);
         self.observer.coast(predicted, last);
-        self.missed = if (self.missed as u32) < limits.missed { self.missed.wrapping_add(1) } else { NONE_YET };
+        self.coasted = if (self.coasted as u32) < limits.max_coast { self.coasted.wrapping_add(1) } else { NONE_YET };
         let estimate = self.estimate(config);
         let torque = self.governor.command(&config.governor, &estimate);
         if G::COMMANDS {
@@ -56,7 +56,7 @@ where
         Command { torque, faults: faults | Faults::range(self.observer.beyond_base()) }
     }
 
-    /// The governor starts anew, from the speed that the machine has and no torque; its set point is a standstill. The estimates stand.
+    /// The governor starts anew, from the speed that the machine has and no torque; its setpoint is a standstill. The estimates stand.
     pub fn engage(&mut self, config: &ConfigOf<Self>) {
         let estimate = self.estimate(config);
         self.governor.start(&config.governor, &estimate, N::ZERO);
@@ -65,6 +65,6 @@ where
 
     /// Whether the angle is lost: [`Faults::ANGLE_LOST`] was raised and no two angles in a row have been found since.
     pub fn is_lost(&self) -> bool {
-        self.missed < 0
+        self.coasted < 0
     }
 }

@@ -22,7 +22,7 @@ use crate::sample::Estimate;
 /// Ticks that a cycle may last: 419 s at 10 kHz.
 const LONGEST: u32 = 1 << 22;
 
-/// Constants of [`CycleMean`]. Made by [`crate::constants`].
+/// Constants of [`CycleMean`]. Made by [`crate::settings`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CycleMeanConfig<N: Number> {

@@ -90,7 +90,7 @@ enum Slice {
     LastCycle,
     Direction,
     /// The angle was elsewhere, or a tick was left out on the way here.
-    Doubt,
+    ReadingFault,
     TakeMotorMax,
     RenewMotorMax,
     TakeMotorMin,
@@ -203,7 +203,7 @@ impl<N: Number> Extremes<N> {
             }
             Slice::Jump => {
                 position.jump(config, self.edge.beyond);
-                Slice::Doubt
+                Slice::ReadingFault
             }
             Slice::Beyond => {
                 let beyond = position.beyond_cycle(self.edge.beyond);
@@ -246,7 +246,7 @@ impl<N: Number> Extremes<N> {
                 self.forward = self.ahead;
                 Slice::TakeMotorMax
             }
-            Slice::Doubt => {
+            Slice::ReadingFault => {
                 position.unsure = false;
                 self.good = 0;
                 Slice::Watch

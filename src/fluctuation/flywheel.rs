@@ -7,7 +7,7 @@
 
 use super::series::{Circle, GRID, Grid, Series, circle};
 use super::{CycleConfig, Ripple};
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 /// A kind of machine and what it stands of delta [Notes ch. 5].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

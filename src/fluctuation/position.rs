@@ -7,7 +7,7 @@ use core::f64::consts::TAU;
 
 use crate::number::Number;
 
-/// A cycle as the tick needs it. Made by [`crate::constants`].
+/// A cycle as the tick needs it. Made by [`crate::settings`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CycleConfig {

@@ -1,7 +1,7 @@
 //! A quantity over the angle of a cycle as a Fourier series.
 
 use super::extremes::{Extreme, Fluctuations};
-use crate::scalar::{atan2, hypot, sin_cos};
+use crate::math::{atan2, hypot, sin_cos};
 
 /// The highest order of a cycle that is looked at.
 pub const MAX_ORDER: usize = 16;

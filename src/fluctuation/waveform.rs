@@ -20,7 +20,7 @@ const LONGEST: u32 = 1 << 22;
 /// Binary places of a bin in the upper word of an angle times the scale.
 pub(crate) const PLACES: u32 = 18;
 
-/// Constants of [`Waveform`]. Made by [`crate::constants`].
+/// Constants of [`Waveform`]. Made by [`crate::settings`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WaveformConfig {
@@ -87,7 +87,7 @@ enum Slice {
     MeasureBack,
     LastCycle,
     /// The angle was elsewhere, a tick was left out on the way here, or the motor has turned back.
-    Doubt,
+    ReadingFault,
     /// What the end of the cycle is to the window.
     Decide,
     Open,
@@ -232,16 +232,16 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
             }
             Slice::CountUp => {
                 position.count(1);
-                if self.forward { Slice::Watch } else { Slice::Doubt }
+                if self.forward { Slice::Watch } else { Slice::ReadingFault }
             }
             Slice::CountDown => {
                 position.count(-1);
-                if self.forward { Slice::Doubt } else { Slice::Watch }
+                if self.forward { Slice::ReadingFault } else { Slice::Watch }
             }
             Slice::Away => {
                 position.jump(cycle, Position::away(cycle, position.within(angle)));
                 self.base = position.segment.wrapping_mul(config.per_segment);
-                Slice::Doubt
+                Slice::ReadingFault
             }
             Slice::Beyond => {
                 let beyond = position.beyond_cycle(position.within(angle).wrapping_sub(cycle.length));
@@ -275,7 +275,7 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
                 self.base = (BINS as u32).wrapping_sub(config.per_segment);
                 Slice::Decide
             }
-            Slice::Doubt => {
+            Slice::ReadingFault => {
                 position.unsure = false;
                 if self.stage == Stage::Filling {
                     self.stage = Stage::Void;
@@ -305,7 +305,7 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
                 if self.ahead { Slice::Note } else { Slice::NoteBack }
             }
             // The motor has turned back meanwhile.
-            Slice::Note if (position.within(angle) as i32) < 0 => Slice::Doubt,
+            Slice::Note if (position.within(angle) as i32) < 0 => Slice::ReadingFault,
             Slice::Note => {
                 self.edge = Edge { tick, angle, beyond: position.within(angle), speed: estimate.motor_speed };
                 self.stage = self.then;
@@ -314,7 +314,7 @@ impl<N: Number, const BINS: usize> Waveform<N, BINS> {
             Slice::NoteBack => {
                 let beyond = position.behind_end(cycle, position.within(angle));
                 if (beyond as i32) < 0 {
-                    Slice::Doubt
+                    Slice::ReadingFault
                 } else {
                     self.edge = Edge { tick, angle, beyond, speed: estimate.motor_speed };
                     self.stage = self.then;

@@ -5,8 +5,8 @@ use core::f64::consts::TAU;
 use super::extremes::{Extreme, Fluctuations};
 use super::series::{GRID, Order, Series, circle};
 use super::{Bin, Edge, WaveformConfig};
+use crate::math::sin_cos;
 use crate::number::Number;
-use crate::scalar::sin_cos;
 
 pub use super::series::MAX_ORDER;
 

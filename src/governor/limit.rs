@@ -19,18 +19,18 @@ pub trait Limit<N: Number>: Default {
 /// As much either way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Symmetric;
+pub struct SymmetricLimit;
 
-/// Constants of [`Symmetric`].
+/// Constants of [`SymmetricLimit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SymmetricConfig<N> {
+pub struct SymmetricLimitConfig<N> {
     /// Largest torque, either way [N m].
     pub torque: N,
 }
 
-impl<N: Number> Limit<N> for Symmetric {
-    type Config = SymmetricConfig<N>;
+impl<N: Number> Limit<N> for SymmetricLimit {
+    type Config = SymmetricLimitConfig<N>;
 
     #[inline(always)]
     fn limit(&mut self, config: &Self::Config, _estimate: &Estimate<N>, wanted: N) -> N {
@@ -41,36 +41,36 @@ impl<N: Number> Limit<N> for Symmetric {
 /// Between two torques: an engine or a turbine, which drives and does not brake.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Between;
+pub struct TorqueRange;
 
-/// Constants of [`Between`].
+/// Constants of [`TorqueRange`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct BetweenConfig<N> {
+pub struct TorqueRangeConfig<N> {
     /// Smallest torque, zero or below [N m].
-    pub least: N,
+    pub min: N,
     /// Largest torque, above zero [N m].
-    pub most: N,
+    pub max: N,
 }
 
 /// Written so that a NaN comes out as the least.
 #[inline(always)]
-fn between<N: Number>(wanted: N, least: N, most: N) -> N {
-    if wanted > most {
-        most
-    } else if wanted > least {
+fn between<N: Number>(wanted: N, min: N, max: N) -> N {
+    if wanted > max {
+        max
+    } else if wanted > min {
         wanted
     } else {
-        least
+        min
     }
 }
 
-impl<N: Number> Limit<N> for Between {
-    type Config = BetweenConfig<N>;
+impl<N: Number> Limit<N> for TorqueRange {
+    type Config = TorqueRangeConfig<N>;
 
     #[inline(always)]
     fn limit(&mut self, config: &Self::Config, _estimate: &Estimate<N>, wanted: N) -> N {
-        between(wanted, config.least, config.most)
+        between(wanted, config.min, config.max)
     }
 }
 
@@ -98,13 +98,13 @@ pub struct CurveConfig<N: Number, const K: usize> {
     /// The pieces, speeds rising from zero; the last one is level.
     pub pieces: [CurvePiece<N>; K],
     /// Smallest torque, zero or below [N m].
-    pub least: N,
+    pub min: N,
 }
 
 impl<N: Number, const K: usize> CurveConfig<N, K> {
     /// The largest torque at a speed, either way.
     #[inline(always)]
-    pub fn most(&self, speed: N) -> N {
+    pub fn max_torque(&self, speed: N) -> N {
         let speed = speed.magnitude();
         let (mut torque, mut slope, mut from) = (N::ZERO, N::Coefficient::default(), N::ZERO);
         for piece in &self.pieces {
@@ -121,7 +121,7 @@ impl<N: Number, const K: usize> Limit<N> for Curve<K> {
 
     #[inline(always)]
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
-        between(wanted, config.least, config.most(estimate.motor_speed))
+        between(wanted, config.min, config.max_torque(estimate.motor_speed))
     }
 }
 

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! limited to the drive's torque. What the limit cuts off is taken from the integral at the rate at which it would
-//! otherwise have grown (back-calculation with the integral's own time constant), so that it does not wind up. The set point moves by at
+//! otherwise have grown (back-calculation with the integral's own time constant), so that it does not wind up. The setpoint moves by at
 //! most the ramp's step a tick.
 
 use super::Governor;
@@ -23,10 +23,10 @@ pub struct SpeedLoopConfig<N: Number> {
     /// Active damping -k_d [N m s/rad], on the twist rate.
     pub damping: N::Coefficient,
     /// The share of what the limit cuts off that is taken from the integral in a tick, k_i T/k_p.
-    pub unwinding: N::Coefficient,
+    pub anti_windup: N::Coefficient,
     /// Largest torque, either way [N m].
     pub torque_limit: N,
-    /// Largest change of the set point in a tick [rad/s].
+    /// Largest change of the setpoint in a tick [rad/s].
     pub ramp: N,
 }
 
@@ -35,14 +35,14 @@ pub struct SpeedLoopConfig<N: Number> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoop<N> {
     integral: N,
-    set_point: N,
-    reference: N,
+    ramped: N,
+    setpoint: N,
 }
 
 impl<N: Copy> SpeedLoop<N> {
     /// Where the ramp stands [rad/s].
-    pub fn set_point(&self) -> N {
-        self.set_point
+    pub fn ramped_setpoint(&self) -> N {
+        self.ramped
     }
 }
 
@@ -52,28 +52,28 @@ impl<N: Number> Governor<N> for SpeedLoop<N> {
     const COMMANDS: bool = true;
 
     #[inline(always)]
-    fn refer(&mut self, reference: N) {
-        self.reference = reference;
+    fn set_setpoint(&mut self, setpoint: N) {
+        self.setpoint = setpoint;
     }
 
     #[inline(always)]
     fn command(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>) -> N {
         let mut carry = N::CARRY;
-        let step = self.reference.minus(self.set_point).limited(config.ramp);
-        self.set_point = self.set_point.plus(step);
-        let error = self.set_point.minus(estimate.motor_speed).gain_operand();
+        let step = self.setpoint.minus(self.ramped).limited(config.ramp);
+        self.ramped = self.ramped.plus(step);
+        let error = self.ramped.minus(estimate.motor_speed).gain_operand();
         let twist_rate = estimate.motor_speed.minus(estimate.load_speed).gain_operand();
         let integral = self.integral.accumulate(&mut carry, config.integral, error);
         let prompt = N::times2([config.proportional, config.damping], [error, twist_rate]);
         let wanted = integral.plus(prompt);
         let torque = wanted.limited(config.torque_limit);
-        self.integral = integral.accumulate(&mut carry, config.unwinding, torque.minus(wanted)).saturated();
+        self.integral = integral.accumulate(&mut carry, config.anti_windup, torque.minus(wanted)).saturated();
         torque
     }
 
     fn start(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>, torque: N) {
-        self.set_point = estimate.motor_speed;
-        self.reference = N::ZERO;
+        self.ramped = estimate.motor_speed;
+        self.setpoint = N::ZERO;
         self.integral = torque.limited(config.torque_limit);
     }
 }

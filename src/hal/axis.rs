@@ -1,7 +1,7 @@
 //! A drive on a board: one call a tick, and what becomes of a fault.
 
 use super::Board;
-use crate::balance::Balancer;
+use crate::balancing::Balancer;
 use crate::drive::{ConfigOf, Drive};
 use crate::fault::Faults;
 use crate::fluctuation::Fluctuation;
@@ -79,16 +79,16 @@ where
     /// One tick: angle in, drive, torque out. While the axis is tripped it estimates, gives no torque, raises [`Faults::TRIPPED`], and asks
     /// a line that has not obeyed again.
     #[inline]
-    pub fn tick(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>, reference: N) -> Command<N> {
+    pub fn tick(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>, setpoint: N) -> Command<N> {
         let (torque, mut faults) = match self.board.torque(self.set) {
             Ok(torque) => (torque, Faults::NONE),
             Err(faults) => (self.set, faults),
         };
         let Command { torque, faults: found } = match self.board.angle() {
-            Ok(angle) => self.drive.tick(config, &Sample { angle, torque, reference }),
+            Ok(angle) => self.drive.tick(config, &Sample { angle, torque, setpoint }),
             Err(missing) => {
                 faults |= missing;
-                self.drive.tick_blind(config, torque, reference)
+                self.drive.coast(config, torque, setpoint)
             }
         };
         faults |= found;

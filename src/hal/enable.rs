@@ -18,20 +18,20 @@ pub trait Enabling {
 
 /// A pin and the level at which it permits torque.
 #[derive(Clone, Copy, Debug)]
-pub struct Line<P> {
+pub struct EnableLine<P> {
     pin: P,
     on: PinState,
 }
 
-impl<P: OutputPin> Line<P> {
+impl<P: OutputPin> EnableLine<P> {
     /// Permits torque while high.
     pub const fn high(pin: P) -> Self {
-        Line { pin, on: PinState::High }
+        EnableLine { pin, on: PinState::High }
     }
 
     /// Permits torque while low.
     pub const fn low(pin: P) -> Self {
-        Line { pin, on: PinState::Low }
+        EnableLine { pin, on: PinState::Low }
     }
 
     /// The pin again.
@@ -49,17 +49,17 @@ impl<P: OutputPin> Line<P> {
 /// `&mut dyn OutputPin<Error = _>`.
 #[derive(Clone, Copy, Debug)]
 pub struct EnableChain<P, const LINES: usize> {
-    lines: [Line<P>; LINES],
+    lines: [EnableLine<P>; LINES],
 }
 
 impl<P: OutputPin, const LINES: usize> EnableChain<P, LINES> {
     /// A chain; it is not switched here.
-    pub const fn new(lines: [Line<P>; LINES]) -> Self {
+    pub const fn new(lines: [EnableLine<P>; LINES]) -> Self {
         EnableChain { lines }
     }
 
     /// The lines again.
-    pub fn release(self) -> [Line<P>; LINES] {
+    pub fn release(self) -> [EnableLine<P>; LINES] {
         self.lines
     }
 
@@ -88,28 +88,28 @@ impl<P: OutputPin, const LINES: usize> Enabling for EnableChain<P, LINES> {
 
 /// A trip output: a pin that is on while the axis is healthy, and off to trip a contactor or a superior control.
 #[derive(Clone, Copy, Debug)]
-pub struct Trip<P>(Line<P>);
+pub struct TripLine<P>(EnableLine<P>);
 
-impl<P: OutputPin> Trip<P> {
+impl<P: OutputPin> TripLine<P> {
     /// A trip output, tripped at once.
     ///
     /// # Errors
     /// [`Faults::ENABLE`] and the line where it did not obey.
-    pub fn new(line: Line<P>) -> Result<Self, (Faults, Line<P>)> {
+    pub fn new(line: EnableLine<P>) -> Result<Self, (Faults, EnableLine<P>)> {
         let mut line = line;
         match line.set(false) {
-            Ok(()) => Ok(Trip(line)),
+            Ok(()) => Ok(TripLine(line)),
             Err(faults) => Err((faults, line)),
         }
     }
 
     /// The line again.
-    pub fn release(self) -> Line<P> {
+    pub fn release(self) -> EnableLine<P> {
         self.0
     }
 }
 
-impl<P: OutputPin> Enabling for Trip<P> {
+impl<P: OutputPin> Enabling for TripLine<P> {
     fn set_enabled(&mut self, enabled: bool) -> Result<(), Faults> {
         let set = self.0.set(enabled);
         if set.is_err() && enabled {

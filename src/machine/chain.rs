@@ -96,14 +96,14 @@ impl Chain {
     /// Refers what follows with the losses of starting: inertias and stiffnesses over the efficiency [Huang 1987 ch. 1].
     #[must_use]
     pub const fn starting(mut self) -> Self {
-        self.flow = Flow::Starting;
+        self.flow = Flow::Motoring;
         self
     }
 
     /// Refers what follows with the losses of braking: inertias and stiffnesses times the efficiency [Huang 1987 ch. 1].
     #[must_use]
     pub const fn braking(mut self) -> Self {
-        self.flow = Flow::Braking;
+        self.flow = Flow::Overhauling;
         self
     }
 
@@ -218,8 +218,8 @@ impl Chain {
     /// The efficiency that the chain is referred with.
     pub(super) const fn loss(&self) -> f64 {
         match self.flow {
-            Flow::Braking => self.back_efficiency,
-            Flow::Starting | Flow::Lossless => self.efficiency,
+            Flow::Overhauling => self.back_efficiency,
+            Flow::Motoring | Flow::Lossless => self.efficiency,
         }
     }
 

@@ -11,7 +11,7 @@ use core::f64::consts::TAU;
 
 use super::error::{not_negative, positive};
 use super::{Error, Inertia, Length, Mass};
-use crate::scalar::{sin_cos, sqrt};
+use crate::math::{sin_cos, sqrt};
 
 /// A crank, a rod and a slider in line with the crank's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]

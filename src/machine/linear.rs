@@ -197,8 +197,8 @@ impl Chain {
         let kept = linear * self.travel * self.travel;
         match self.flow {
             Flow::Lossless => kept,
-            Flow::Starting => kept / self.efficiency,
-            Flow::Braking => kept * self.back_efficiency,
+            Flow::Motoring => kept / self.efficiency,
+            Flow::Overhauling => kept * self.back_efficiency,
         }
     }
 }

@@ -6,7 +6,7 @@
 //! frequency at stiffness ratios of 1e15 [Demmel and Veselić 1992, SIAM J. Matrix Anal. Appl. 13(4)].
 
 use super::chain::{CAPACITY, Chain};
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 pub(super) const SHAFTS: usize = CAPACITY - 1;
 

@@ -98,7 +98,7 @@ pub struct PlanetaryGear {
     /// Inertia of the ring \[kg m2\].
     pub ring: Inertia,
     /// The member on the motor's side.
-    pub driven: Member,
+    pub input: Member,
     /// The member that stands still.
     pub held: Member,
 }
@@ -108,7 +108,7 @@ impl PlanetaryGear {
     const fn speeds(&self) -> [f64; 4] {
         let (sun, ring) = (self.set.sun_teeth as f64, self.set.ring_teeth as f64);
         let both = sun + ring;
-        let [w_sun, w_ring, w_carrier] = match (self.driven, self.held) {
+        let [w_sun, w_ring, w_carrier] = match (self.input, self.held) {
             (Member::Sun, Member::Ring) => [1.0, 0.0, sun / both],
             (Member::Carrier, Member::Ring) => [both / sun, 0.0, 1.0],
             (Member::Ring, Member::Sun) => [0.0, 1.0, ring / both],
@@ -127,7 +127,7 @@ impl PlanetaryGear {
     #[must_use]
     pub const fn ratio(&self) -> f64 {
         let [sun, ring, carrier, _] = self.speeds();
-        1.0 / match (self.driven, self.held) {
+        1.0 / match (self.input, self.held) {
             (Member::Ring | Member::Carrier, Member::Carrier | Member::Ring) => sun,
             (Member::Sun | Member::Carrier, Member::Carrier | Member::Sun) => ring,
             _ => carrier,
@@ -163,7 +163,7 @@ impl Chain {
     /// [`Error::PlanetaryMembers`], and those of [`try_planetary`](Self::try_planetary).
     pub const fn try_planetary_gear(self, gear: PlanetaryGear) -> Result<Self, Error> {
         if matches!(
-            (gear.driven, gear.held),
+            (gear.input, gear.held),
             (Member::Sun, Member::Sun) | (Member::Ring, Member::Ring) | (Member::Carrier, Member::Carrier)
         ) {
             return Err(Error::PlanetaryMembers);

@@ -26,7 +26,7 @@ mod direct_current;
 mod induction;
 mod starting;
 
-pub use combustion::{Combustion, Mixture};
+pub use combustion::{Combustion, CombustionType};
 pub use curve::{Line, Parabola};
 pub use direct_current::{Series, Shunt};
 pub use induction::Induction;

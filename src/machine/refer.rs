@@ -10,9 +10,9 @@ pub enum Flow {
     /// No loss: energy is kept.
     Lossless,
     /// The motor drives the load.
-    Starting,
+    Motoring,
     /// The load drives the motor.
-    Braking,
+    Overhauling,
 }
 
 /// On which side of the gear the quantity is given.
@@ -28,8 +28,8 @@ pub enum Side {
 const fn with_loss(value: f64, efficiency: f64, side: Side, flow: Flow) -> f64 {
     match (side, flow) {
         (_, Flow::Lossless) => value,
-        (Side::Load, Flow::Starting) | (Side::Motor, Flow::Braking) => value / efficiency,
-        (Side::Load, Flow::Braking) | (Side::Motor, Flow::Starting) => value * efficiency,
+        (Side::Load, Flow::Motoring) | (Side::Motor, Flow::Overhauling) => value / efficiency,
+        (Side::Load, Flow::Overhauling) | (Side::Motor, Flow::Motoring) => value * efficiency,
     }
 }
 

@@ -23,7 +23,7 @@ use super::error::not_negative;
 use super::error::positive;
 use super::modes::{Columns, Modes, SHAFTS};
 use super::{Damping, Error, Ratio, Rigid, Stiffness};
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 /// The most shafts that a train can hold, those that close loops included.
 pub const TRAIN_SHAFTS: usize = 2 * SHAFTS;

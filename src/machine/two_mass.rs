@@ -2,7 +2,7 @@
 
 use super::error::{not_negative, positive};
 use super::{Damping, Error, Gap, Inertia, ReductionError, Stiffness, Torque};
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 /// A motor and a load joined by one damped shaft, all referred to the motor [Huang 1987 part 2].
 ///

@@ -87,7 +87,7 @@ fn open(x: Fixed, carry: u32) -> i64 {
 
 impl Number for Fixed {
     type Coefficient = Coefficient;
-    type Firmness = ();
+    type StictionGain = ();
     type Carry = u32;
     type Rank = i32;
     type Total = i64;

@@ -6,7 +6,7 @@ macro_rules! float {
     ($float:ident, $integer:ident) => {
         impl Number for $float {
             type Coefficient = $float;
-            type Firmness = $float;
+            type StictionGain = $float;
             type Carry = ();
             type Rank = $integer;
             type Total = $float;
@@ -144,8 +144,8 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn braked(self, firmness: Self) -> Self {
-                firmness * self
+            fn braked(self, stiction_gain: Self) -> Self {
+                stiction_gain * self
             }
 
             #[inline(always)]

@@ -3,7 +3,7 @@
 //!
 //! With delta the twist from the middle of the gap and h half the gap, the shaft's stretch is x = delta - h on the
 //! right flank, delta + h on the left one, and zero between. In contact the pair of stretch and twist rate v moves as
-//! in [`TwoMass`](super::TwoMass); in free flight, with s the twist forcing,
+//! in [`TwoMassObserver`](super::TwoMassObserver); in free flight, with s the twist forcing,
 //!
 //! ```text
 //! delta' = delta + T v + T^2/2 s        v' = v + T s
@@ -69,7 +69,7 @@ pub struct Correction<N: Number> {
     pub angle: N::Coefficient,
 }
 
-/// Constants of [`Backlash`]. Made by [`crate::constants`] from a design; the fields are in SI units for floats.
+/// Constants of [`BacklashObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for floats.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashConfig<N: Number> {
@@ -104,7 +104,7 @@ pub struct BacklashConfig<N: Number> {
 /// State of the observer of backlash.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Backlash<N> {
+pub struct BacklashObserver<N> {
     twist: N,
     twist_rate: N,
     load_torque: N,
@@ -115,7 +115,7 @@ pub struct Backlash<N> {
     searching: u32,
 }
 
-/// The state of [`Backlash`] at the end of a tick as the torque alone would have it.
+/// The state of [`BacklashObserver`] at the end of a tick as the torque alone would have it.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashPrediction<N: Number> {
@@ -154,7 +154,7 @@ fn put_right<N: Number>(
     (twist.accumulate(carry, catch_up, passed), twist_rate)
 }
 
-impl<N: Number> Backlash<N> {
+impl<N: Number> BacklashObserver<N> {
     /// The twist from the middle of the gap \[rad\]: beyond half the gap the shaft is stretched.
     pub fn twist(&self) -> N {
         self.twist
@@ -167,7 +167,7 @@ impl<N: Number> Backlash<N> {
     }
 }
 
-impl<N: Number> Observer<N> for Backlash<N> {
+impl<N: Number> Observer<N> for BacklashObserver<N> {
     type Config = BacklashConfig<N>;
     type Prediction = BacklashPrediction<N>;
 
@@ -175,13 +175,13 @@ impl<N: Number> Observer<N> for Backlash<N> {
     fn steady(config: &BacklashConfig<N>, angle: u32, torque: N, speed: N) -> Self {
         let stretch = N::product(&mut { N::CARRY }, config.compliance, torque.widened());
         let flank = if torque == N::ZERO { N::ZERO } else { torque.flank(config.half_gap) };
-        Backlash {
+        BacklashObserver {
             twist: stretch.plus(flank),
             load_torque: torque,
             speed: speed.saturated(),
             angle,
             searching: config.hold,
-            ..Backlash::default()
+            ..BacklashObserver::default()
         }
     }
 
@@ -189,7 +189,7 @@ impl<N: Number> Observer<N> for Backlash<N> {
         turned.speed_of_turn(config.speed)
     }
 
-    fn synchronise(&mut self, angle: u32) {
+    fn resync(&mut self, angle: u32) {
         self.angle = angle;
         self.residual = N::ZERO;
     }

@@ -14,62 +14,62 @@
 //! ```
 //!
 //! under which a machine of constant inertia would move as this one does. `J/J(phi)` and `1/2 J'(phi)` come from a table of constants over a
-//! turn of the crank, straight between its places.
+//! turn of the crank, straight between its points.
 //!
-//! The crank's angle follows from the motor's, exactly whatever the gear, once it is known: [`Cranked::home`].
+//! The crank's angle follows from the motor's, exactly whatever the gear, once it is known: [`CrankObserver::home`].
 
-use super::{Observer, Predicted, Rigid, RigidConfig, RigidPrediction};
-use crate::balance::{Turning, TurningConfig};
+use super::{Observer, Predicted, RigidConfig, RigidObserver, RigidPrediction};
+use crate::angle::{RotorAngle, RotorAngleConfig};
 use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Places of the table on a turn of the crank. A second harmonic of the inertia is off by 0.5 % of its amplitude at most.
-pub const PLACES: usize = 64;
+pub const TABLE_POINTS: usize = 64;
 
 /// Binary places of an angle below the table's.
-const BELOW: u32 = 32 - PLACES.trailing_zeros();
+const BELOW: u32 = 32 - TABLE_POINTS.trailing_zeros();
 
 /// The machine with its crank at one angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Place<N> {
+pub struct TablePoint<N> {
     /// Mean inertia over the inertia here.
-    pub lightness: N,
+    pub inertia_ratio: N,
     /// Torque that the turning crank takes at the base of the speed, or at 1 rad/s: half the derivative of the inertia [N m s2/rad2].
-    pub drag: N,
+    pub inertia_slope: N,
 }
 
-/// Constants of [`Cranked`]. Made by [`crate::constants`] from a design; the fields are in SI units for floats.
+/// Constants of [`CrankObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for floats.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CrankedConfig<N: Number> {
+pub struct CrankConfig<N: Number> {
     /// Constants of the rigid observer of the mean inertia.
     pub rigid: RigidConfig<N>,
     /// Turns of the crank to those of the motor.
-    pub turning: TurningConfig,
+    pub turning: RotorAngleConfig,
     /// The machine from the crank's outer dead centre on.
-    pub places: [Place<N>; PLACES],
+    pub points: [TablePoint<N>; TABLE_POINTS],
 }
 
 /// State of the observer of a cranked machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Cranked<N> {
-    rigid: Rigid<N>,
+pub struct CrankObserver<N> {
+    rigid: RigidObserver<N>,
     /// Motor torque less the torque that the rigid observer was given.
-    withheld: N,
-    turning: Turning,
+    inertia_torque: N,
+    turning: RotorAngle,
 }
 
-/// The state of [`Cranked`] at the end of a tick as the torque alone would have it.
+/// The state of [`CrankObserver`] at the end of a tick as the torque alone would have it.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CrankedPrediction<N, P> {
+pub struct CrankPrediction<N, P> {
     rigid: P,
-    withheld: N,
+    inertia_torque: N,
 }
 
-impl<N: Number, P: Predicted<N>> Predicted<N> for CrankedPrediction<N, P> {
+impl<N: Number, P: Predicted<N>> Predicted<N> for CrankPrediction<N, P> {
     #[inline(always)]
     fn innovation(&self) -> N {
         self.rigid.innovation()
@@ -81,82 +81,85 @@ impl<N: Number, P: Predicted<N>> Predicted<N> for CrankedPrediction<N, P> {
     }
 }
 
-impl<N: Number> Cranked<N> {
+impl<N: Number> CrankObserver<N> {
     /// Says where the crank is: its angle from the outer dead centre [2^-32 turn], positive as the motor's.
     ///
     /// Until then it counts from where the observer was started. It stays known as long as the drive sees the motor's angle at least every
     /// half turn; a drive that has lost the angle takes the shorter way, so a crank behind a gear is to be homed again after [`crate::fault::Faults::ANGLE_LOST`].
-    pub fn home(&mut self, config: &CrankedConfig<N>, crank_angle: u32) {
+    pub fn home(&mut self, config: &CrankConfig<N>, crank_angle: u32) {
         self.turning.set(&config.turning, crank_angle);
     }
 
     /// The crank's angle from the outer dead centre [2^-32 turn], with the resolution of 2^-26 turns.
-    pub fn crank_angle(&self, config: &CrankedConfig<N>) -> u32 {
+    pub fn crank_angle(&self, config: &CrankConfig<N>) -> u32 {
         self.turning.angle(&config.turning)
     }
 
     #[inline(always)]
-    fn follow(&mut self, config: &TurningConfig, angle: u32) {
+    fn follow(&mut self, config: &RotorAngleConfig, angle: u32) {
         if !self.turning.follow(config, angle) {
             self.turning.wrap(config);
         }
     }
 }
 
-/// Lightness and drag at an angle of the crank.
+/// Inertia ratio and slope at an angle of the crank.
 #[inline(always)]
-fn at<N: Number>(places: &[Place<N>; PLACES], angle: u32) -> Place<N> {
+fn at<N: Number>(points: &[TablePoint<N>; TABLE_POINTS], angle: u32) -> TablePoint<N> {
     let index = (angle >> BELOW) as usize;
-    let from = places.get(index).copied().unwrap_or_default();
-    let to = places.get((index + 1) & (PLACES - 1)).copied().unwrap_or_default();
+    let from = points.get(index).copied().unwrap_or_default();
+    let to = points.get((index + 1) & (TABLE_POINTS - 1)).copied().unwrap_or_default();
     let part = N::fraction(angle << (32 - BELOW));
-    Place {
-        lightness: from.lightness.plus(to.lightness.minus(from.lightness).scaled(part)),
-        drag: from.drag.plus(to.drag.minus(from.drag).scaled(part)),
+    TablePoint {
+        inertia_ratio: from.inertia_ratio.plus(to.inertia_ratio.minus(from.inertia_ratio).scaled(part)),
+        inertia_slope: from.inertia_slope.plus(to.inertia_slope.minus(from.inertia_slope).scaled(part)),
     }
 }
 
-impl<N: Number> Observer<N> for Cranked<N> {
-    type Config = CrankedConfig<N>;
-    type Prediction = CrankedPrediction<N, RigidPrediction<N>>;
+impl<N: Number> Observer<N> for CrankObserver<N> {
+    type Config = CrankConfig<N>;
+    type Prediction = CrankPrediction<N, RigidPrediction<N>>;
 
     /// The crank is at its outer dead centre.
-    fn steady(config: &CrankedConfig<N>, angle: u32, torque: N, speed: N) -> Self {
-        let mut cranked = Cranked { rigid: Rigid::steady(&config.rigid, angle, torque, speed), ..Cranked::default() };
+    fn steady(config: &CrankConfig<N>, angle: u32, torque: N, speed: N) -> Self {
+        let mut cranked = CrankObserver {
+            rigid: RigidObserver::steady(&config.rigid, angle, torque, speed),
+            ..CrankObserver::default()
+        };
         cranked.follow(&config.turning, angle);
         cranked.home(config, 0);
         cranked
     }
 
     /// The crank has turned with the motor since the angle that was last believed.
-    fn restart(&mut self, config: &CrankedConfig<N>, angle: u32, torque: N, speed: N) {
+    fn restart(&mut self, config: &CrankConfig<N>, angle: u32, torque: N, speed: N) {
         self.rigid.restart(&config.rigid, angle, torque, speed);
-        self.withheld = N::ZERO;
+        self.inertia_torque = N::ZERO;
         self.follow(&config.turning, angle);
     }
 
-    fn speed_of_turn(config: &CrankedConfig<N>, turned: N) -> N {
-        Rigid::speed_of_turn(&config.rigid, turned)
+    fn speed_of_turn(config: &CrankConfig<N>, turned: N) -> N {
+        RigidObserver::speed_of_turn(&config.rigid, turned)
     }
 
-    fn synchronise(&mut self, angle: u32) {
-        self.rigid.synchronise(angle);
+    fn resync(&mut self, angle: u32) {
+        self.rigid.resync(angle);
     }
 
     #[inline(always)]
-    fn predict(&self, config: &CrankedConfig<N>, angle: u32, torque: N) -> Self::Prediction {
-        let Place { lightness, drag } = at(&config.places, self.turning.angle(&config.turning));
+    fn predict(&self, config: &CrankConfig<N>, angle: u32, torque: N) -> Self::Prediction {
+        let TablePoint { inertia_ratio, inertia_slope } = at(&config.points, self.turning.angle(&config.turning));
         let Estimate { motor_speed, load_torque, .. } = self.rigid.estimate(&config.rigid);
-        let taken = drag.scaled(motor_speed.scaled(motor_speed));
+        let taken = inertia_slope.scaled(motor_speed.scaled(motor_speed));
         let accelerating = torque.minus(load_torque).minus(taken).saturated();
-        let given = lightness.scaled(accelerating).plus(load_torque);
-        CrankedPrediction { rigid: self.rigid.predict(&config.rigid, angle, given), withheld: torque.minus(given) }
+        let given = inertia_ratio.scaled(accelerating).plus(load_torque);
+        CrankPrediction { rigid: self.rigid.predict(&config.rigid, angle, given), inertia_torque: torque.minus(given) }
     }
 
     #[inline(always)]
-    fn correct(&mut self, config: &CrankedConfig<N>, predicted: Self::Prediction, angle: u32) {
+    fn correct(&mut self, config: &CrankConfig<N>, predicted: Self::Prediction, angle: u32) {
         self.rigid.correct(&config.rigid, predicted.rigid, angle);
-        self.withheld = predicted.withheld;
+        self.inertia_torque = predicted.inertia_torque;
         self.follow(&config.turning, angle);
     }
 
@@ -164,14 +167,14 @@ impl<N: Number> Observer<N> for Cranked<N> {
     #[inline(always)]
     fn coast(&mut self, predicted: Self::Prediction, angle: u32) {
         self.rigid.coast(predicted.rigid, angle);
-        self.withheld = predicted.withheld;
+        self.inertia_torque = predicted.inertia_torque;
     }
 
     /// The shaft is the one between the motor and the crank drive: it carries what the motor gives less what its own inertia takes.
     #[inline(always)]
-    fn estimate(&self, config: &CrankedConfig<N>) -> Estimate<N> {
+    fn estimate(&self, config: &CrankConfig<N>) -> Estimate<N> {
         let rigid = self.rigid.estimate(&config.rigid);
-        Estimate { shaft_torque: rigid.shaft_torque.plus(self.withheld), ..rigid }
+        Estimate { shaft_torque: rigid.shaft_torque.plus(self.inertia_torque), ..rigid }
     }
 
     #[inline(always)]

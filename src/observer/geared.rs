@@ -19,7 +19,7 @@ use super::{Observer, Predicted};
 use crate::number::Number;
 use crate::sample::Estimate;
 
-/// Constants of [`Geared`].
+/// Constants of [`GearedObserver`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GearedConfig<N: Number, C> {
@@ -28,15 +28,15 @@ pub struct GearedConfig<N: Number, C> {
     /// Friction per shaft torque in motion, lambda.
     pub friction: N::Coefficient,
     /// How firmly a standing gear is held, c [N m s/rad].
-    pub firmness: N::Firmness,
+    pub stiction_gain: N::StictionGain,
     /// Largest innovation that a held gear leaves out [2^-32 turn].
-    pub play: N,
+    pub deadband: N,
 }
 
 /// An observer behind a gear with losses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Geared<O> {
+pub struct GearedObserver<O> {
     observer: O,
 }
 
@@ -60,7 +60,7 @@ impl<N, P: Predicted<N>> Predicted<N> for GearedPrediction<P> {
     }
 }
 
-impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
+impl<N: Number, O: Observer<N>> Observer<N> for GearedObserver<O> {
     type Config = GearedConfig<N, O::Config>;
     type Prediction = GearedPrediction<O::Prediction>;
 
@@ -69,22 +69,22 @@ impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
     }
 
     fn steady(config: &Self::Config, angle: u32, torque: N, speed: N) -> Self {
-        Geared { observer: O::steady(&config.observer, angle, torque, speed) }
+        GearedObserver { observer: O::steady(&config.observer, angle, torque, speed) }
     }
 
     fn speed_of_turn(config: &Self::Config, turned: N) -> N {
         O::speed_of_turn(&config.observer, turned)
     }
 
-    fn synchronise(&mut self, angle: u32) {
-        self.observer.synchronise(angle);
+    fn resync(&mut self, angle: u32) {
+        self.observer.resync(angle);
     }
 
     #[inline(always)]
     fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Self::Prediction {
         let now = self.observer.estimate(&config.observer);
         let limit = now.shaft_torque.times(config.friction).magnitude();
-        let holding = torque.minus(now.shaft_torque).plus(now.motor_speed.braked(config.firmness));
+        let holding = torque.minus(now.shaft_torque).plus(now.motor_speed.braked(config.stiction_gain));
         let friction = holding.limited(limit);
         GearedPrediction {
             observer: self.observer.predict(&config.observer, angle, torque.minus(friction)),
@@ -94,7 +94,7 @@ impl<N: Number, O: Observer<N>> Observer<N> for Geared<O> {
 
     #[inline(always)]
     fn correct(&mut self, config: &Self::Config, predicted: Self::Prediction, angle: u32) {
-        if predicted.held && !predicted.innovation().exceeds(config.play) {
+        if predicted.held && !predicted.innovation().exceeds(config.deadband) {
             // Moving is the rule: one instruction less on the M3.
             core::hint::cold_path();
             self.observer.coast(predicted.observer, angle);

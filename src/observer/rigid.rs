@@ -10,7 +10,7 @@ use super::{Observer, Predicted};
 use crate::number::Number;
 use crate::sample::Estimate;
 
-/// Constants of [`Rigid`]. Made by [`crate::constants`] from a design; the fields are in SI units for floats.
+/// Constants of [`RigidObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for floats.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RigidConfig<N: Number> {
@@ -31,7 +31,7 @@ pub struct RigidConfig<N: Number> {
 /// State of the rigid observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Rigid<N> {
+pub struct RigidObserver<N> {
     speed: N,
     load_torque: N,
     accelerating: N,
@@ -39,7 +39,7 @@ pub struct Rigid<N> {
     angle: u32,
 }
 
-/// The state of [`Rigid`] at the end of a tick as the torque alone would have it.
+/// The state of [`RigidObserver`] at the end of a tick as the torque alone would have it.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RigidPrediction<N: Number> {
@@ -62,19 +62,19 @@ impl<N: Number> Predicted<N> for RigidPrediction<N> {
     }
 }
 
-impl<N: Number> Observer<N> for Rigid<N> {
+impl<N: Number> Observer<N> for RigidObserver<N> {
     type Config = RigidConfig<N>;
     type Prediction = RigidPrediction<N>;
 
     fn steady(_config: &RigidConfig<N>, angle: u32, torque: N, speed: N) -> Self {
-        Rigid { speed: speed.saturated(), load_torque: torque, angle, ..Rigid::default() }
+        RigidObserver { speed: speed.saturated(), load_torque: torque, angle, ..RigidObserver::default() }
     }
 
     fn speed_of_turn(config: &RigidConfig<N>, turned: N) -> N {
         turned.speed_of_turn(config.speed)
     }
 
-    fn synchronise(&mut self, angle: u32) {
+    fn resync(&mut self, angle: u32) {
         self.angle = angle;
         self.residual = N::ZERO;
     }

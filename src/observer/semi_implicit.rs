@@ -15,7 +15,7 @@ use super::{Observer, Predicted};
 use crate::number::Number;
 use crate::sample::Estimate;
 
-/// Constants of [`SemiImplicit`]. Made by [`crate::constants`] from a design; the fields are in SI units for floats.
+/// Constants of [`SemiImplicitObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for floats.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SemiImplicitConfig<N: Number> {
@@ -38,7 +38,7 @@ pub struct SemiImplicitConfig<N: Number> {
 /// State of the semi-implicit two-mass observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SemiImplicit<N> {
+pub struct SemiImplicitObserver<N> {
     shaft_torque: N,
     load_speed: N,
     load_torque: N,
@@ -47,7 +47,7 @@ pub struct SemiImplicit<N> {
     angle: u32,
 }
 
-/// The state of [`SemiImplicit`] at the end of a tick as the torque alone would have it.
+/// The state of [`SemiImplicitObserver`] at the end of a tick as the torque alone would have it.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SemiImplicitPrediction<N: Number> {
@@ -71,19 +71,19 @@ impl<N: Number> Predicted<N> for SemiImplicitPrediction<N> {
     }
 }
 
-impl<N: Number> Observer<N> for SemiImplicit<N> {
+impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
     type Config = SemiImplicitConfig<N>;
     type Prediction = SemiImplicitPrediction<N>;
 
     fn steady(_config: &SemiImplicitConfig<N>, angle: u32, torque: N, speed: N) -> Self {
         let speed = speed.saturated();
-        SemiImplicit {
+        SemiImplicitObserver {
             motor_speed: speed,
             load_speed: speed,
             shaft_torque: torque,
             load_torque: torque,
             angle,
-            ..SemiImplicit::default()
+            ..SemiImplicitObserver::default()
         }
     }
 
@@ -91,7 +91,7 @@ impl<N: Number> Observer<N> for SemiImplicit<N> {
         turned.speed_of_turn(config.speed)
     }
 
-    fn synchronise(&mut self, angle: u32) {
+    fn resync(&mut self, angle: u32) {
         self.angle = angle;
         self.residual = N::ZERO;
     }

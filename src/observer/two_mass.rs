@@ -19,7 +19,7 @@ use super::{Observer, Predicted};
 use crate::number::Number;
 use crate::sample::Estimate;
 
-/// Constants of [`TwoMass`]. Made by [`crate::constants`] from a design; the fields are in SI units for floats.
+/// Constants of [`TwoMassObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for floats.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TwoMassConfig<N: Number> {
@@ -50,7 +50,7 @@ pub struct TwoMassConfig<N: Number> {
 /// State of the exact two-mass observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct TwoMass<N> {
+pub struct TwoMassObserver<N> {
     twist: N,
     twist_rate: N,
     load_torque: N,
@@ -59,7 +59,7 @@ pub struct TwoMass<N> {
     angle: u32,
 }
 
-/// The state of [`TwoMass`] at the end of a tick as the torque alone would have it.
+/// The state of [`TwoMassObserver`] at the end of a tick as the torque alone would have it.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TwoMassPrediction<N: Number> {
@@ -83,17 +83,17 @@ impl<N: Number> Predicted<N> for TwoMassPrediction<N> {
     }
 }
 
-impl<N: Number> Observer<N> for TwoMass<N> {
+impl<N: Number> Observer<N> for TwoMassObserver<N> {
     type Config = TwoMassConfig<N>;
     type Prediction = TwoMassPrediction<N>;
 
     fn steady(config: &TwoMassConfig<N>, angle: u32, torque: N, speed: N) -> Self {
-        TwoMass {
+        TwoMassObserver {
             twist: N::product(&mut { N::CARRY }, config.compliance, torque.widened()),
             load_torque: torque,
             speed: speed.saturated(),
             angle,
-            ..TwoMass::default()
+            ..TwoMassObserver::default()
         }
     }
 
@@ -101,7 +101,7 @@ impl<N: Number> Observer<N> for TwoMass<N> {
         turned.speed_of_turn(config.speed)
     }
 
-    fn synchronise(&mut self, angle: u32) {
+    fn resync(&mut self, angle: u32) {
         self.angle = angle;
         self.residual = N::ZERO;
     }

@@ -16,7 +16,7 @@ pub trait Parameters: Serialize + DeserializeOwned {
 /// Why a record is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Refusal {
+pub enum RecordError {
     /// It is not whole, or a bit of it has changed.
     Damaged,
     /// It is another firmware's, whose identity this is.
@@ -29,19 +29,19 @@ pub enum Refusal {
     Unreadable,
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for RecordError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::Damaged => f.write_str("the record is damaged"),
-            Refusal::Foreign(identity) => write!(f, "the record is another firmware's, {identity:#010x}"),
-            Refusal::Version(version) => write!(f, "the record is of version {version}"),
-            Refusal::Content => f.write_str("the record's parameters cannot be read"),
-            Refusal::Unreadable => f.write_str("the flash does not give the record"),
+            RecordError::Damaged => f.write_str("the record is damaged"),
+            RecordError::Foreign(identity) => write!(f, "the record is another firmware's, {identity:#010x}"),
+            RecordError::Version(version) => write!(f, "the record is of version {version}"),
+            RecordError::Content => f.write_str("the record's parameters cannot be read"),
+            RecordError::Unreadable => f.write_str("the flash does not give the record"),
         }
     }
 }
 
-impl core::error::Error for Refusal {}
+impl core::error::Error for RecordError {}
 
 const MAGIC: [u8; 4] = *b"DLP1";
 const HEAD: usize = 18;
@@ -71,7 +71,7 @@ pub(super) fn is_erased(bytes: &[u8]) -> bool {
 
 /// How much a record in the flash is worth keeping to whom reads it as `P`, in rising order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Worth {
+pub(super) enum Sensitivity {
     /// Nothing is there, or nothing that is whole.
     Nothing,
     /// It begins as a record does, and is longer than the buffer: nobody knows.
@@ -87,27 +87,28 @@ pub(super) enum Worth {
 /// A record that is refused.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refused {
-    pub reason: Refusal,
-    pub worth: Worth,
+    pub reason: RecordError,
+    pub worth: Sensitivity,
     /// The count of its save that it claims, where it has one.
     pub count: Option<u32>,
 }
 
 impl Refused {
     /// A place that the flash does not give.
-    pub(super) const UNREADABLE: Refused = Refused { reason: Refusal::Unreadable, worth: Worth::Nothing, count: None };
+    pub(super) const UNREADABLE: Refused =
+        Refused { reason: RecordError::Unreadable, worth: Sensitivity::Nothing, count: None };
 }
 
 /// Reads a record, whatever is behind it, and the count of its save.
 pub(super) fn read<P: Parameters>(bytes: &[u8]) -> Result<(P, u32), Refused> {
-    let damaged = Refused { reason: Refusal::Damaged, worth: Worth::Nothing, count: None };
+    let damaged = Refused { reason: RecordError::Damaged, worth: Sensitivity::Nothing, count: None };
     let (head, after) = bytes.split_first_chunk::<HEAD>().ok_or(damaged)?;
     let &[m0, m1, m2, m3, i0, i1, i2, i3, v0, v1, c0, c1, c2, c3, l0, l1, l2, l3] = head;
     let length = u32::from_le_bytes([l0, l1, l2, l3]) as usize;
     if [m0, m1, m2, m3] != MAGIC {
         return Err(damaged);
     }
-    let longer = Refused { worth: Worth::Unknown, ..damaged };
+    let longer = Refused { worth: Sensitivity::Unknown, ..damaged };
     let (content, check) = after.split_at_checked(length).ok_or(longer)?;
     let check = check.first_chunk::<CHECK>().ok_or(longer)?;
     if bytes.get(..HEAD + length).map(crc) != Some(u32::from_le_bytes(*check)) {
@@ -118,14 +119,14 @@ pub(super) fn read<P: Parameters>(bytes: &[u8]) -> Result<(P, u32), Refused> {
     let count = u32::from_le_bytes([c0, c1, c2, c3]);
     let refused = |reason, worth| Err(Refused { reason, worth, count: Some(count) });
     if identity != P::IDENTITY {
-        return refused(Refusal::Foreign(identity), Worth::Foreign);
+        return refused(RecordError::Foreign(identity), Sensitivity::Foreign);
     }
     if version != P::VERSION {
-        return refused(Refusal::Version(version), Worth::Other);
+        return refused(RecordError::Version(version), Sensitivity::Other);
     }
     match postcard::take_from_bytes(content) {
         Ok((parameters, [])) => Ok((parameters, count)),
-        _ => refused(Refusal::Content, Worth::Other),
+        _ => refused(RecordError::Content, Sensitivity::Other),
     }
 }
 

@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use embedded_storage::nor_flash::NorFlash;
 
-use super::record::{self, Parameters, Refusal, Refused, Worth};
+use super::record::{self, Parameters, RecordError, Refused, Sensitivity};
 
 /// Why parameters were not kept or found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +41,7 @@ pub struct Loaded<P> {
     /// The parameters of the newest good record, if there is one.
     pub parameters: Option<P>,
     /// Why a record was refused; where both were, the newer one's reason.
-    pub refused: Option<Refusal>,
+    pub refused: Option<RecordError>,
 }
 
 /// Parameters in a range of a flash.
@@ -134,7 +134,7 @@ impl<F: NorFlash> Store<F> {
             let found = match fetched {
                 None => continue,
                 Some(Ok((read, count))) => {
-                    let found = Kept { worth: Worth::Good, place, count };
+                    let found = Kept { worth: Sensitivity::Good, place, count };
                     if kept.is_none_or(|kept| found.before(&kept)) {
                         parameters = Some(read);
                     }
@@ -150,7 +150,7 @@ impl<F: NorFlash> Store<F> {
                     Kept { worth: reason.worth, place, count: reason.count.unwrap_or(0) }
                 }
             };
-            if found.worth > Worth::Nothing && kept.is_none_or(|kept| found.before(&kept)) {
+            if found.worth > Sensitivity::Nothing && kept.is_none_or(|kept| found.before(&kept)) {
                 kept = Some(found);
             }
         }
@@ -187,7 +187,7 @@ type Fetched<P> = Option<Result<(P, u32), Refused>>;
 /// A record that stands in the flash.
 #[derive(Clone, Copy)]
 struct Kept {
-    worth: Worth,
+    worth: Sensitivity,
     place: u32,
     count: u32,
 }

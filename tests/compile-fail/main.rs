@@ -15,7 +15,7 @@ const SENTENCES: [(&str, &str); 6] = [
 /// What is refused where the type is used, and not in a constant: such a case has to be built, and one that compiles makes the compiler build.
 #[cfg(feature = "balancing")]
 const BUILT: [(&str, &str); 1] =
-    [("more_planes_than_readings", driveline::balance::Refusal::MORE_PLANES_THAN_READINGS)];
+    [("more_planes_than_readings", driveline::balancing::Error::MORE_PLANES_THAN_READINGS)];
 #[cfg(not(feature = "balancing"))]
 const BUILT: [(&str, &str); 0] = [];
 

@@ -1,4 +1,4 @@
-use driveline::balance::{Plan, Procedure};
+use driveline::balancing::{Plan, Procedure};
 
 /// Two sensors at one speed, three planes.
 type Field = Procedure<f32, 2, 3>;

@@ -1,9 +1,9 @@
 //! What else is off the tick, each once as a panel calls it: in-run balancing, holes, amplitudes alone, the procedure from
 //! its beginning to its record and back, sensors and grades. That this image links says that none of it can panic.
 
-use driveline::balance::{
-    Advice, Aim, Complex, Entry, Holes, InRun, InRunConfig, Influence, Mode, Motion, Objective, Phasor, Plan,
-    Procedure, Record, Refusal, Run, Sensor, Tolerance, degrees, from_amplitudes, resultant, two_planes,
+use driveline::balancing::{
+    Action, Aim, Complex, CorrectionMethod, Entry, Error, Holes, InRun, InRunConfig, Influence, Motion, Objective,
+    Phasor, Plan, Procedure, Record, Run, Sensor, Tolerance, degrees, from_amplitudes, resultant, two_planes,
 };
 use driveline::parameters::Store;
 
@@ -54,11 +54,11 @@ fn in_run(_: &mut (), readings: &Readings<8>, weights: &mut [Complex<f32>; 2]) {
     for reading in readings {
         for in_run in [&mut blind, &mut known] {
             match in_run.advise(reading, 1e-4) {
-                Advice::Move(to) | Advice::Stop(to, _) => {
-                    in_run.placed(&to);
+                Action::Set(to) | Action::Abort(to, _) => {
+                    in_run.installed(&to);
                     *weights = to;
                 }
-                Advice::Rest => *weights = *in_run.weights(),
+                Action::Hold => *weights = *in_run.weights(),
             }
         }
     }
@@ -71,8 +71,8 @@ fn in_run(_: &mut (), readings: &Readings<8>, weights: &mut [Complex<f32>; 2]) {
 #[inline(never)]
 fn holes(_: &mut (), wanted: &Complex<f32>, sum: &mut Complex<f32>) {
     let angles: [f32; 12] = core::array::from_fn(|hole| hole as f32 * (core::f32::consts::TAU / 12.0));
-    let mode = if wanted.re > 0.0 { Mode::Adding } else { Mode::Removing };
-    let holes = Holes { angles: &angles, weights: &[0.1, 0.2, 0.5, 1.0, 2.0, 5.0], mode };
+    let mode = if wanted.re > 0.0 { CorrectionMethod::Adding } else { CorrectionMethod::Removing };
+    let holes = Holes { angles: &angles, weights: &[0.1, 0.2, 0.5, 1.0, 2.0, 5.0], method: mode };
     if let Ok(fitted) = holes.fit(*wanted) {
         *sum = fitted.sum;
     }
@@ -88,7 +88,7 @@ fn by_amplitudes(_: &mut (), amplitudes: &[f32; 5], weights: &mut [Complex<f32>;
     let [baseline, a, b, c, d] = *amplitudes;
     let runs = [(0.0, a), (1.5, b), (3.0, c), (4.5, d)];
     for (weight, count) in weights.iter_mut().zip([4, 2]) {
-        if let Ok(found) = runs.get(..count).map_or(Err(Refusal::Size), |runs| from_amplitudes(baseline, 1.0, runs)) {
+        if let Ok(found) = runs.get(..count).map_or(Err(Error::Size), |runs| from_amplitudes(baseline, 1.0, runs)) {
             *weight = found.or.unwrap_or(found.weight);
         }
     }
@@ -105,35 +105,35 @@ fn procedure(_: &mut (), readings: &Readings<8>, weights: &mut [Complex<f32>; 2]
 }
 
 #[inline(always)]
-fn field(readings: &Readings<8>) -> Result<[Complex<f32>; 2], Refusal> {
+fn field(readings: &Readings<8>) -> Result<[Complex<f32>; 2], Error> {
     let mut entry = Entry::new();
     let trial = entry.polar(1.0, 40.0);
     let mut aim = Aim { objective: Objective::LeastSquares, ..Aim::default() };
     aim.limits[0] = Some(degrees(trial).0 * 100.0);
     let plan = Plan { aim, ..Plan::usual(2, 2, 0.1) };
     let mut field = Field::new(plan)?;
-    let run = |at: usize| readings.get(at).map_or(Err(Refusal::Size), |readings| Run::new(readings, &[100.0; 2]));
+    let run = |at: usize| readings.get(at).map_or(Err(Error::Size), |readings| Run::new(readings, &[100.0; 2]));
     field.baseline(&run(0)?)?;
     field.trial(0, trial, &run(1)?)?;
     field.trial(1, trial, &run(2)?)?;
     field.trial(1, trial, &run(3)?)?;
-    field.further_trial(0, trial, &run(4)?)?;
-    field.placed(&field.correction()?.weights)?;
+    field.extra_trial(0, trial, &run(4)?)?;
+    field.installed(&field.correction()?.weights)?;
     field.verified(&run(5)?)?;
-    field.take_back();
+    field.undo();
     field.verified(&run(6)?)?;
     entry.check()?;
 
     let mut flash = Pages::new();
-    let Ok(mut store) = Store::new(&mut flash, 0..2048) else { return Err(Refusal::Size) };
+    let Ok(mut store) = Store::new(&mut flash, 0..2048) else { return Err(Error::Size) };
     let record = Record::<{ Field::words(2, 2) + 1 }>::of(&field, &[7])?;
     if store.save(&record, &mut [0; 1024]).is_err() {
-        return Err(Refusal::Size);
+        return Err(Error::Size);
     }
     let Ok(loaded) = store.load::<Record<{ Field::words(2, 2) + 1 }>>(&mut [0; 1024]) else {
-        return Err(Refusal::Size);
+        return Err(Error::Size);
     };
-    let field: Field = loaded.parameters.ok_or(Refusal::Size)?.resume(plan, &mut [0])?;
+    let field: Field = loaded.parameters.ok_or(Error::Size)?.resume(plan, &mut [0])?;
     let mut known = Field::new(plan)?.with_coefficients(field.influence()?)?;
     known.baseline(&run(7)?)?;
     known.next();

@@ -1,6 +1,6 @@
 //! What is off the tick: a full solve of three planes and six readings in `f32`, trial runs included.
 
-use driveline::balance::{Aim, Complex, Entry, Influence, Objective};
+use driveline::balancing::{Aim, Complex, Entry, Influence, Objective};
 
 use super::Bench;
 use crate::Words;

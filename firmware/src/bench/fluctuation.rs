@@ -1,11 +1,11 @@
 //! The measurement of the speed's fluctuation, on a motor that turns at 1425 r/min, a little faster and slower by turns.
 
-use driveline::constants::{Bases, Cycle};
 use driveline::fluctuation::{
     CycleConfig, CycleMean, CycleMeanConfig, Extremes, Fluctuation, Waveform, WaveformConfig,
 };
 use driveline::number::Number;
 use driveline::sample::Estimate;
+use driveline::settings::{Bases, Cycle};
 
 use super::Bench;
 use crate::board::Board;

@@ -1,8 +1,8 @@
 //! The governor alone, and what each of its parts adds, on the diesel set's constants.
 
 use driveline::governor::{
-    ActiveDamping, Barred, Between, Curve, Droop, FeedForward, Governor, Mean, Modes, Request, Slew, SpeedGovernor,
-    SpeedGovernorConfig, SpeedLoop, Symmetric,
+    ActiveDamping, Barred, Curve, Droop, FeedForward, Governor, MovingAverage, RunRequest, Sequencer, Slew,
+    SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SymmetricLimit, TorqueRange,
 };
 use driveline::number::{Fixed, Number};
 use driveline::sample::{Command, Estimate};
@@ -27,10 +27,10 @@ fn input<N: Number>(inputs: &mut Program) -> (Estimate<N>, N) {
 #[inline(never)]
 fn command<N: Number, G: Governor<N>>(
     state: &mut Governed<'_, N, G>,
-    (estimate, reference): &(Estimate<N>, N),
+    (estimate, setpoint): &(Estimate<N>, N),
     command: &mut Command<N>,
 ) {
-    state.1.refer(*reference);
+    state.1.set_setpoint(*setpoint);
     command.torque = state.1.command(state.0, estimate);
 }
 
@@ -43,7 +43,7 @@ macro_rules! governors {
             macro_rules! one {
                 ($name:literal, $set_point:ty, $prompt:ty, $limit:ty, $modes:ty, $s:expr, $f:expr, $l:expr, $m:expr) => {
                     let config =
-                        SpeedGovernorConfig { gains: GAINS, set_point: $s, prompt: $f, limit: $l, supervisor: $m, view: () };
+                        SpeedGovernorConfig { gains: GAINS, shape: $s, compensation: $f, limit: $l, sequence: $m, filter: () };
                     let governor = SpeedGovernor::<N, $set_point, $prompt, $limit, $modes>::default();
                     bench.measure($name, (&config, governor), input::<N>, command);
                 };
@@ -51,38 +51,38 @@ macro_rules! governors {
             use parts::$run as p;
             let hoist = &<Hoist<N, with::Reduced, 10_000> as Variant>::CONFIG.governor;
             bench.measure("governor/speed-loop", (hoist, SpeedLoop::default()), input::<N>, command);
-            one!("governor/core", (), (), Symmetric, (), (), (), p::SYMMETRIC, ());
-            one!("governor/between", (), (), Between, (), (), (), p::BETWEEN, ());
-            one!("governor/droop", Droop, (), Symmetric, (), p::DROOP, (), p::SYMMETRIC, ());
-            one!("governor/barred", Barred<1>, (), Symmetric, (), p::BARRED, (), p::SYMMETRIC, ());
-            one!("governor/feed-forward", (), FeedForward, Symmetric, (), (), p::FORWARD, p::SYMMETRIC, ());
-            one!("governor/damping", (), ActiveDamping, Symmetric, (), (), p::DAMPING, p::SYMMETRIC, ());
+            one!("governor/core", (), (), SymmetricLimit, (), (), (), p::SYMMETRIC, ());
+            one!("governor/between", (), (), TorqueRange, (), (), (), p::BETWEEN, ());
+            one!("governor/droop", Droop, (), SymmetricLimit, (), p::DROOP, (), p::SYMMETRIC, ());
+            one!("governor/barred", Barred<1>, (), SymmetricLimit, (), p::BARRED, (), p::SYMMETRIC, ());
+            one!("governor/feed-forward", (), FeedForward, SymmetricLimit, (), (), p::FORWARD, p::SYMMETRIC, ());
+            one!("governor/damping", (), ActiveDamping, SymmetricLimit, (), (), p::DAMPING, p::SYMMETRIC, ());
             one!("governor/curve", (), (), Curve<4>, (), (), (), p::CURVE, ());
-            one!("governor/slew", (), (), Slew<N, Symmetric>, (), (), (), p::SLEW, ());
+            one!("governor/slew", (), (), Slew<N, SymmetricLimit>, (), (), (), p::SLEW, ());
             let config =
-                SpeedGovernorConfig { gains: GAINS, set_point: (), prompt: (), limit: p::SYMMETRIC, supervisor: (), view: p::MEAN };
-            let governor = SpeedGovernor::<N, (), (), Symmetric, (), Mean<N, { generator::FIRING }>>::default();
+                SpeedGovernorConfig { gains: GAINS, shape: (), compensation: (), limit: p::SYMMETRIC, sequence: (), filter: p::MEAN };
+            let governor = SpeedGovernor::<N, (), (), SymmetricLimit, (), MovingAverage<N, { generator::FIRING }>>::default();
             bench.measure("governor/mean", (&config, governor), input::<N>, command);
-            let mut modes = SpeedGovernor::<N, (), (), Symmetric, Modes>::default();
-            modes.supervisor_mut().ask(Request::Start);
+            let mut modes = SpeedGovernor::<N, (), (), SymmetricLimit, Sequencer>::default();
+            modes.sequence_mut().request(RunRequest::Start);
             let config = SpeedGovernorConfig {
                 gains: GAINS,
-                set_point: (),
-                prompt: (),
+                shape: (),
+                compensation: (),
                 limit: p::SYMMETRIC,
-                supervisor: p::WIDE,
-view: (),
+                sequence: p::WIDE,
+filter: (),
             };
             bench.measure("governor/modes", (&config, modes), input::<N>, command);
             let mut whole = generator::Governor::<N>::default();
-            whole.supervisor_mut().ask(Request::Start);
+            whole.sequence_mut().request(RunRequest::Start);
             let config = SpeedGovernorConfig {
                 gains: GAINS,
-                set_point: (p::DROOP, p::BARRED),
-                prompt: p::FORWARD,
+                shape: (p::DROOP, p::BARRED),
+                compensation: p::FORWARD,
                 limit: p::CURVE,
-                supervisor: p::WIDE,
-                view: p::MEAN,
+                sequence: p::WIDE,
+                filter: p::MEAN,
             };
             bench.measure("governor/whole", (&config, whole), input::<N>, command);
         }

@@ -1,8 +1,9 @@
 //! The measurement of the rotor's vibration, of one channel and of two.
 
-use driveline::balance::{Balancer, Phasors, PhasorsConfig, Synchronous};
-use driveline::constants::Measured;
+use driveline::angle::Synchronous;
+use driveline::balancing::{Balancer, Phasors, PhasorsConfig};
 use driveline::number::Fixed;
+use driveline::settings::PhasorSettings;
 
 use super::Bench;
 use crate::board::Board;
@@ -10,7 +11,7 @@ use crate::self_test::inputs::Program;
 
 /// A rotor behind a gear, a block every second turn so that both occur among the calls: the end of a block, and a turn's
 /// end within one, which is the longest tick of a single channel.
-const GEARED: Measured = Measured { rotor_turns: 31, motor_turns: 47, turns: 2, ..Measured::DIRECT };
+const GEARED: PhasorSettings = PhasorSettings { rotor_turns: 31, motor_turns: 47, turns: 2, ..PhasorSettings::DIRECT };
 
 static SINGLE: (PhasorsConfig<f32, 1>, PhasorsConfig<f32, 2>) =
     (PhasorsConfig::<f32, 1>::new(&GEARED, [7.5]), PhasorsConfig::<f32, 2>::new(&GEARED, [7.5; 2]));

@@ -3,7 +3,9 @@
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::number::{Fixed, Number};
-use driveline::observer::{Backlash, Geared, Observer, Rigid, SemiImplicit, TwoMass};
+use driveline::observer::{
+    BacklashObserver, GearedObserver, Observer, RigidObserver, SemiImplicitObserver, TwoMassObserver,
+};
 use driveline::sample::{Command, Sample};
 
 use super::Bench;
@@ -41,7 +43,7 @@ pub fn fixed<B: Board>(bench: &mut Bench<'_, B>) {
 }
 
 /// The observer of backlash on a machine that rattles through its gap: every regime, every crossing.
-fn backlash<B: Board, N: Number, V: Variant<Number = N, Observer = Backlash<N>>>(
+fn backlash<B: Board, N: Number, V: Variant<Number = N, Observer = BacklashObserver<N>>>(
     bench: &mut Bench<'_, B>,
     number: impl Fn(f32) -> N,
 ) {
@@ -51,17 +53,23 @@ fn backlash<B: Board, N: Number, V: Variant<Number = N, Observer = Backlash<N>>>
         let (angle, torque) = rattle.next_input();
         (angle, number(torque))
     };
-    bench.measure_step("step/backlash", config, Backlash::at_rest(config, 0, N::ZERO), input, step::<N, Backlash<N>>);
+    bench.measure_step(
+        "step/backlash",
+        config,
+        BacklashObserver::at_rest(config, 0, N::ZERO),
+        input,
+        step::<N, BacklashObserver<N>>,
+    );
     let mut rattle = Rattle::new();
     let input = |inputs: &mut Program| {
         let (angle, torque) = rattle.next_input();
         // A bad sample now and then, as the other drives have.
         let bad = inputs.next_input();
-        let reference = V::Number::from_word(bad.reference);
+        let setpoint = V::Number::from_word(bad.setpoint);
         Sample {
             angle: if bad.torque.is_multiple_of(64) { bad.angle } else { angle },
             torque: number(torque),
-            reference,
+            setpoint,
         }
     };
     bench.measure("drive/backlash", (V::CONFIG, Drive::new(V::CONFIG, 0)), input, tick::<V>);
@@ -71,13 +79,13 @@ fn all<B, N, E, R, G>(bench: &mut Bench<'_, B>)
 where
     B: Board,
     N: Number + 'static,
-    E: Variant<Number = N, Observer = Geared<TwoMass<N>>>,
-    R: Variant<Number = N, Observer = Geared<SemiImplicit<N>>>,
-    G: Variant<Number = N, Observer = Geared<Rigid<N>>>,
+    E: Variant<Number = N, Observer = GearedObserver<TwoMassObserver<N>>>,
+    R: Variant<Number = N, Observer = GearedObserver<SemiImplicitObserver<N>>>,
+    G: Variant<Number = N, Observer = GearedObserver<RigidObserver<N>>>,
 {
-    observer::<B, N, TwoMass<N>>(bench, "step/exact", &E::CONFIG.observer.observer);
-    observer::<B, N, SemiImplicit<N>>(bench, "step/semi-implicit", &R::CONFIG.observer.observer);
-    observer::<B, N, Rigid<N>>(bench, "step/rigid", &G::CONFIG.observer.observer);
+    observer::<B, N, TwoMassObserver<N>>(bench, "step/exact", &E::CONFIG.observer.observer);
+    observer::<B, N, SemiImplicitObserver<N>>(bench, "step/semi-implicit", &R::CONFIG.observer.observer);
+    observer::<B, N, RigidObserver<N>>(bench, "step/rigid", &G::CONFIG.observer.observer);
     drive::<B, E>(bench, "drive/exact");
     drive::<B, R>(bench, "drive/semi-implicit");
     drive::<B, G>(bench, "drive/rigid");
@@ -87,7 +95,7 @@ where
         if inputs.ticks().is_multiple_of(100) {
             while TOLD.take().is_some() {}
         }
-        [input.angle, input.torque, input.reference, input.flags, 1, 2, 3, 4]
+        [input.angle, input.torque, input.setpoint, input.flags, 1, 2, 3, 4]
     };
     bench.measure("telemetry/record", (), emptied, told);
 }
@@ -122,7 +130,7 @@ fn drive<B: Board, V: Variant>(bench: &mut Bench<'_, B>, name: &str) {
     let input = |inputs: &mut Program| {
         let input = inputs.next_input();
         let number = V::Number::from_word;
-        Sample { angle: input.angle, torque: number(input.torque), reference: number(input.reference) }
+        Sample { angle: input.angle, torque: number(input.torque), setpoint: number(input.setpoint) }
     };
     bench.measure(name, (V::CONFIG, Drive::new(V::CONFIG, 0)), input, tick::<V>);
 }

@@ -1,8 +1,8 @@
 //! What the bench measures: a line a function, with its state, its inputs and the function.
 
-use driveline::constants::Bases;
 use driveline::fluctuation::CycleMeanConfig;
 use driveline::number::Fixed;
+use driveline::settings::Bases;
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};

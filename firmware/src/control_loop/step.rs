@@ -66,7 +66,7 @@ impl<B: Board<N>, N: Number> Turn<B, N> {
         let input = Input {
             angle: self.angle,
             torque: torque.to_word(),
-            reference: asked.speed.to_word(),
+            setpoint: asked.speed.to_word(),
             flags: faults.bits() & !Input::RELEASED | if asked.released { Input::RELEASED } else { 0 },
             vibration: vibration.map(Number::to_word),
             asked: [0; 2],

@@ -15,7 +15,7 @@ pub type Told = Ring<VALUES, 32>;
 #[inline(always)]
 pub fn values(input: &Input, output: &Output) -> [u32; VALUES] {
     [
-        input.reference,
+        input.setpoint,
         input.angle,
         output.torque,
         output.motor_speed,

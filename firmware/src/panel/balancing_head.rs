@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use driveline::balance::{Advice, Complex, Halt, InRun, InRunConfig, Phasor};
+use driveline::balancing::{AbortReason, Action, Complex, InRun, InRunConfig, Phasor};
 
 use crate::scene::balanced::{Adviser, CHANNELS, Measured};
 use crate::scene::panel_keys::{DONE, Key, refused};
@@ -30,17 +30,17 @@ impl<H: Head> HeadPanel<H> {
         self.reading = measured.readings.map(|reading| reading.phasor);
         let variance = measured.readings.iter().fold(0.0, |most: f32, reading| most.max(reading.variance));
         match in_run.advise(&self.reading.map(Complex::from), variance) {
-            Advice::Move([place]) => {
+            Action::Set([place]) => {
                 self.place = place;
                 DONE
             }
-            Advice::Rest => DONE,
-            Advice::Stop([place], halt) => {
+            Action::Hold => DONE,
+            Action::Abort([place], halt) => {
                 self.place = place;
                 refused(match halt {
-                    Halt::Diverging => 4,
-                    Halt::Stalled => 5,
-                    Halt::NoReading => 6,
+                    AbortReason::Diverging => 4,
+                    AbortReason::Stalled => 5,
+                    AbortReason::NoReading => 6,
                 })
             }
         }

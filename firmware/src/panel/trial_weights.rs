@@ -5,7 +5,7 @@
 
 use core::marker::PhantomData;
 
-use driveline::balance::{Complex, Correction, Phasor, Plan, Procedure, Record, Refusal, Run, Step};
+use driveline::balancing::{Complex, Correction, Error, Phasor, Plan, Procedure, ProcedureStep, Record, Run};
 use driveline::parameters::Store;
 
 use super::flash_model::{self, Pages};
@@ -53,7 +53,7 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> TrialWeights<G, ROWS, PLAN
     /// Gives the procedure the run.
     fn give(
         &mut self,
-        entry: impl FnOnce(&mut Procedure<f32, ROWS, PLANES>, &Run<f32, ROWS>) -> Result<(), Refusal>,
+        entry: impl FnOnce(&mut Procedure<f32, ROWS, PLANES>, &Run<f32, ROWS>) -> Result<(), Error>,
     ) -> u32 {
         let Some(procedure) = &mut self.procedure else { return NO_PROCEDURE };
         match Run::new(&self.run, &self.speeds).and_then(|run| entry(procedure, &run)) {
@@ -118,7 +118,7 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> TrialWeights<G, ROWS, PLAN
 
     fn placed(&mut self) -> u32 {
         match (&mut self.procedure, &self.solution) {
-            (Some(procedure), Some(solution)) => match procedure.placed(&solution.weights) {
+            (Some(procedure), Some(solution)) => match procedure.installed(&solution.weights) {
                 Ok(()) => self.save(),
                 Err(_) => BY_PROCEDURE,
             },
@@ -128,12 +128,12 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> TrialWeights<G, ROWS, PLAN
 
     fn next(&self) -> u32 {
         match self.procedure.as_ref().map(Procedure::next) {
-            Some(Step::Baseline) => next::BASELINE,
-            Some(Step::Trial { plane }) => next::TRIAL + plane as u32,
-            Some(Step::Correction) => next::CORRECTION,
-            Some(Step::Verify) => next::VERIFY,
-            Some(Step::Trim) => next::TRIM,
-            Some(Step::Done) => next::DONE,
+            Some(ProcedureStep::Baseline) => next::BASELINE,
+            Some(ProcedureStep::Trial { plane }) => next::TRIAL + plane as u32,
+            Some(ProcedureStep::Correction) => next::CORRECTION,
+            Some(ProcedureStep::Verify) => next::VERIFY,
+            Some(ProcedureStep::Trim) => next::TRIM,
+            Some(ProcedureStep::Done) => next::DONE,
             None => 0,
         }
     }
@@ -185,7 +185,7 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> Adviser for TrialWeights<G
             (Key::AddIm, _) => self.weight(value).im.to_bits(),
             (Key::Placed, _) => self.placed(),
             (Key::Verified, _) => self.give(Procedure::verified),
-            (Key::TakeBack, _) => match self.procedure.as_mut().and_then(Procedure::take_back) {
+            (Key::TakeBack, _) => match self.procedure.as_mut().and_then(Procedure::undo) {
                 Some(_) => self.save(),
                 None => NO_PROCEDURE,
             },

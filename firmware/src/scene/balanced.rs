@@ -1,6 +1,7 @@
 //! A governed drive whose rotor is balanced, as a scene: two vibration channels on the tick, and a panel between ticks.
 
-use driveline::balance::{Doubt, Phasors, Reading, Synchronous};
+use driveline::angle::Synchronous;
+use driveline::balancing::{Phasors, Reading, ReadingFault};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::observer::Observer;
@@ -102,7 +103,7 @@ impl<V: Variant> Scene for Balanced<V> {
 ///
 /// # Errors
 /// Why it is no reading, or not yet.
-pub fn reading<V: Variant>(measurement: &Measurement<V::Number>) -> Result<Measured, Doubt> {
+pub fn reading<V: Variant>(measurement: &Measurement<V::Number>) -> Result<Measured, ReadingFault> {
     let read = |channel| {
         let reading = measurement.reading(&V::CONFIG.balancer, channel)?;
         let (phasor, variance) = (reading.phasor.scaled(V::UNIT), reading.variance * V::UNIT * V::UNIT);
@@ -118,7 +119,7 @@ pub fn reading<V: Variant>(measurement: &Measurement<V::Number>) -> Result<Measu
 pub fn state<V: Variant>(measurement: &Measurement<V::Number>) -> u32 {
     match reading::<V>(measurement) {
         Ok(_) => DONE,
-        Err(Doubt::Incomplete { .. }) => MEASURING,
+        Err(ReadingFault::Incomplete { .. }) => MEASURING,
         Err(doubt) => refused(number(&doubt)),
     }
 }
@@ -135,15 +136,15 @@ pub const DOUBTS: [&str; 8] = [
     "samples missing",
 ];
 
-fn number(doubt: &Doubt) -> u32 {
+fn number(doubt: &ReadingFault) -> u32 {
     match doubt {
-        Doubt::NoChannel => 0,
-        Doubt::Backwards { .. } => 1,
-        Doubt::TooFast => 2,
-        Doubt::Clipped => 3,
-        Doubt::SpeedMoved { .. } => 4,
-        Doubt::Drifting { .. } => 5,
-        Doubt::Missing { .. } => 7,
+        ReadingFault::NoChannel => 0,
+        ReadingFault::Backwards { .. } => 1,
+        ReadingFault::TooFast => 2,
+        ReadingFault::Clipped => 3,
+        ReadingFault::SpeedMoved { .. } => 4,
+        ReadingFault::Drifting { .. } => 5,
+        ReadingFault::Missing { .. } => 7,
         _ => 6,
     }
 }

@@ -1,6 +1,6 @@
 //! A governed drive as a scene: the words of the link on one side, the library on the other.
 
-use driveline::balance::Balancer;
+use driveline::balancing::Balancer;
 use driveline::drive::{ConfigOf, Drive};
 use driveline::fluctuation::Fluctuation;
 use driveline::governor::{Governor, SpeedLoop};
@@ -47,11 +47,11 @@ macro_rules! governed {
      $($text:literal: $observer:ident, $config:ident($($design:expr),+);)+) => {
         $(
             $crate::scene::governed::governed!(@variant $scene, $name, $rate, $text, "f32", f32,
-                observer::Geared<observer::$observer<f32>>,
+                observer::GearedObserver<observer::$observer<f32>>,
                 GearedConfig::<f32, _>::new($config::<f32>::new($($design),+, Bases::SI), &$gear, 1.0 / $rate as f64, Bases::SI);
                 $($design),+; Bases::SI);
             $crate::scene::governed::governed!(@variant $scene, $name, $rate, $text, "fixed", Fixed,
-                observer::Geared<observer::$observer<Fixed>>,
+                observer::GearedObserver<observer::$observer<Fixed>>,
                 GearedConfig::<Fixed, _>::new($config::<Fixed>::new($($design),+, BASES), &$gear, 1.0 / $rate as f64, BASES);
                 $($design),+; BASES);
         )+
@@ -107,7 +107,7 @@ impl<V: Variant> Scene for Governed<V> {
     }
 }
 
-/// One tick of a drive, whatever its parts: at work where it is released, else held, with the set point's word as the torque.
+/// One tick of a drive, whatever its parts: at work where it is released, else held, with the setpoint's word as the torque.
 #[inline(always)]
 pub(crate) fn advance<N, O, F, G, B>(
     drive: &mut Drive<N, O, F, G, B>,
@@ -121,11 +121,11 @@ where
     G: Governor<N>,
     B: Balancer<N>,
 {
-    let reference = N::from_word(input.reference);
+    let setpoint = N::from_word(input.setpoint);
     let command = if input.flags & Input::RELEASED != 0 {
-        drive.tick(config, &Sample { angle: input.angle, torque: N::from_word(input.torque), reference })
+        drive.tick(config, &Sample { angle: input.angle, torque: N::from_word(input.torque), setpoint })
     } else {
-        drive.hold(config, input.angle, reference)
+        drive.hold(config, input.angle, setpoint)
     };
     output(&command, &drive.estimate(config))
 }

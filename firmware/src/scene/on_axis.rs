@@ -107,7 +107,7 @@ impl<V: Variant> Scene for OnAxis<V> {
                 self.axis.trip();
             }
         }
-        let mut command = self.axis.tick(config, word(input.reference));
+        let mut command = self.axis.tick(config, word(input.setpoint));
         let vibration = self.axis.board().unless(Faults::VIBRATION_MISSING).map(|()| Some(input.vibration.map(word)));
         command.faults |= self.axis.vibration(config, vibration);
         output(&command, &self.axis.drive().estimate(config))

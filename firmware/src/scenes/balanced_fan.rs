@@ -8,14 +8,14 @@
 
 use core::marker::PhantomData;
 
-use driveline::balance::{PhasorsConfig, Steadiness};
-use driveline::constants::{Bases, Measured, Screening, SpeedLoopSettings};
+use driveline::balancing::{PhasorsConfig, Steadiness};
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
 use driveline::drive::{Config, Limits};
 use driveline::governor::SpeedLoopConfig;
 use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
+use driveline::settings::{Bases, PhasorSettings, Screening, SpeedLoopSettings};
 
 use crate::panel::trial_weights::{Goal, TrialWeights};
 use crate::scene::balanced::{Constants, Variant};
@@ -59,14 +59,14 @@ const GOVERNOR: SpeedLoopDesign =
 const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE_LIMIT, ramp: RATED_SPEED / 4.0 };
 const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 128.0,
-    standstill: 2.0 * core::f64::consts::TAU / 8192.0,
-    missed: RATE_HZ / 67,
+    frozen_turn: 2.0 * core::f64::consts::TAU / 8192.0,
+    max_coast: RATE_HZ / 67,
 };
 /// Eight blocks of twelve turns, 4 s: the vibration that is left after the correction is no more than the noise.
-const MEASURED: Measured =
-    Measured { turns: 12, steadiness: Steadiness { floor: 2e-3, ..Steadiness::USUAL }, ..Measured::DIRECT };
+const MEASURED: PhasorSettings =
+    PhasorSettings { turns: 12, steadiness: Steadiness { floor: 2e-3, ..Steadiness::USUAL }, ..PhasorSettings::DIRECT };
 
 /// Good enough.
 pub struct Quiet;
@@ -81,12 +81,12 @@ pub struct BalancedFan<N>(PhantomData<N>);
 
 impl Variant for BalancedFan<f32> {
     type Number = f32;
-    type Observer = observer::TwoMass<f32>;
+    type Observer = observer::TwoMassObserver<f32>;
     type Adviser = TrialWeights<Quiet, 2, 2>;
     const NAME: &'static str = "balanced-fan/f32/two-mass/4000";
     const RATE_HZ: u32 = RATE_HZ;
     const UNIT: f32 = 1.0;
-    const CONFIG: &'static Constants<f32, observer::TwoMass<f32>> = &Config {
+    const CONFIG: &'static Constants<f32, observer::TwoMassObserver<f32>> = &Config {
         limits: Limits::<f32>::new(&SCREENING, Bases::SI),
         observer: TwoMassConfig::<f32>::new(&OBSERVER, Bases::SI),
         fluctuation: (),
@@ -97,12 +97,12 @@ impl Variant for BalancedFan<f32> {
 
 impl Variant for BalancedFan<Fixed> {
     type Number = Fixed;
-    type Observer = observer::TwoMass<Fixed>;
+    type Observer = observer::TwoMassObserver<Fixed>;
     type Adviser = TrialWeights<Quiet, 2, 2>;
     const NAME: &'static str = "balanced-fan/fixed/two-mass/4000";
     const RATE_HZ: u32 = RATE_HZ;
     const UNIT: f32 = VIBRATION_BASE as f32;
-    const CONFIG: &'static Constants<Fixed, observer::TwoMass<Fixed>> = &Config {
+    const CONFIG: &'static Constants<Fixed, observer::TwoMassObserver<Fixed>> = &Config {
         limits: Limits::<Fixed>::new(&SCREENING, BASES),
         observer: TwoMassConfig::<Fixed>::new(&OBSERVER, BASES),
         fluctuation: (),

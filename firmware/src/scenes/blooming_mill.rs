@@ -15,19 +15,19 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Screening, SpeedLoopSettings};
 use driveline::design::{
-    BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, SlackDesign, SlackTuning, SpeedLoopDesign,
-    SpeedLoopTuning, TwoMassDesign,
+    BacklashDesign, BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder, Rate,
+    SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
 };
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{
-    Gains, Slack, SlackConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, Symmetric,
-    SymmetricConfig,
+    BacklashTakeUp, BacklashTakeUpConfig, Gains, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
+    SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::machine::{Chain, Damping, Gap, Inertia, Match, Stiffness, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, BacklashConfig, TwoMassConfig};
+use driveline::settings::{Bases, Screening, SpeedLoopSettings};
 
 use crate::scene::assembled::Parts;
 use crate::scene::expected::{Expected, Expects};
@@ -72,10 +72,10 @@ pub const BASES: Bases = Bases::new(&MACHINE, 2.0 * TORQUE_LIMIT, 2.0 * RATED_SP
 pub const fn screening(rate_hz: u32) -> Screening {
     Screening {
         torque: 1.67 * TORQUE_LIMIT,
-        reference: 1.5 * RATED_SPEED,
+        setpoint: 1.5 * RATED_SPEED,
         innovation: core::f64::consts::TAU / 128.0,
-        standstill: 2.0 * core::f64::consts::TAU / 32_768.0,
-        missed: rate_hz / 4,
+        frozen_turn: 2.0 * core::f64::consts::TAU / 32_768.0,
+        max_coast: rate_hz / 4,
     }
 }
 
@@ -89,21 +89,21 @@ pub const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.12, damping: 
 
 /// The plain speed loop at a rate: the design's proportional and integral gains, without its damping.
 pub const fn speed_loop(rate_hz: u32) -> SpeedLoopDesign {
-    SpeedLoopDesign { slip: 0.0, ..MACHINE.speed_loop(Rate::hz(rate_hz), TUNING) }
+    SpeedLoopDesign { damping: 0.0, ..MACHINE.speed_loop(Rate::hz(rate_hz), TUNING) }
 }
 
 /// How slack is taken up: half of rated torque in the gap, and three times rated torque within a period of the
 /// spindles, which is as much as their swing allows.
-pub const TAKING_UP: SlackTuning = SlackTuning {
+pub const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
     impact: 0.9 * RATED_TORQUE,
     torque: 0.5 * RATED_TORQUE,
     rise: 3.0 * RATED_TORQUE,
-    most: TORQUE_LIMIT,
+    max_torque: TORQUE_LIMIT,
     damping: 0.1,
 };
 
 /// The taking up of slack at a rate.
-pub const fn take_up(rate_hz: u32) -> SlackDesign {
+pub const fn take_up(rate_hz: u32) -> BacklashTakeUpDesign {
     MACHINE.take_up(Rate::hz(rate_hz), TAKING_UP)
 }
 
@@ -181,19 +181,19 @@ macro_rules! fixed {
     };
 }
 
-single!(Backlash, "f32/backlash", Backlash, backlash, BacklashConfig::<f32>::new(&backlash(R), Bases::SI));
-single!(Exact, "f32/exact", TwoMass, two_mass, TwoMassConfig::<f32>::new(&two_mass(R), Bases::SI));
-fixed!(Backlash, "fixed/backlash", Backlash, backlash, BacklashConfig::<Fixed>::new(&backlash(R), BASES));
-fixed!(Exact, "fixed/exact", TwoMass, two_mass, TwoMassConfig::<Fixed>::new(&two_mass(R), BASES));
+single!(Backlash, "f32/backlash", BacklashObserver, backlash, BacklashConfig::<f32>::new(&backlash(R), Bases::SI));
+single!(Exact, "f32/exact", TwoMassObserver, two_mass, TwoMassConfig::<f32>::new(&two_mass(R), Bases::SI));
+fixed!(Backlash, "fixed/backlash", BacklashObserver, backlash, BacklashConfig::<Fixed>::new(&backlash(R), BASES));
+fixed!(Exact, "fixed/exact", TwoMassObserver, two_mass, TwoMassConfig::<Fixed>::new(&two_mass(R), BASES));
 
 /// The governor that takes up slack.
-pub type Governor<N> = SpeedGovernor<N, (), (), Slack<N, Symmetric>>;
+pub type Governor<N> = SpeedGovernor<N, (), (), BacklashTakeUp<N, SymmetricLimit>>;
 
 macro_rules! slack {
     ($number:ident, $text:literal, $bases:expr) => {
         impl Parts for BloomingMill<$number, with::Slack, 10_000> {
             type Number = $number;
-            type Observer = observer::Backlash<$number>;
+            type Observer = observer::BacklashObserver<$number>;
             type Governor = Governor<$number>;
             const NAME: &'static str = concat!("blooming-mill/", $text, "/slack/10000");
             const RATE_HZ: u32 = 10_000;
@@ -202,16 +202,16 @@ macro_rules! slack {
                 observer: BacklashConfig::<$number>::new(&backlash(10_000), $bases),
                 fluctuation: (),
                 governor: SpeedGovernorConfig {
-                    view: (),
+                    filter: (),
                     gains: Gains::<$number>::of_speed_loop(&speed_loop(10_000), SETTINGS.ramp, $bases),
-                    set_point: (),
-                    prompt: (),
-                    limit: SlackConfig::<$number, _>::new(
+                    shape: (),
+                    compensation: (),
+                    limit: BacklashTakeUpConfig::<$number, _>::new(
                         &take_up(10_000),
-                        SymmetricConfig::<$number>::new(SETTINGS.torque_limit, $bases),
+                        SymmetricLimitConfig::<$number>::new(SETTINGS.torque_limit, $bases),
                         $bases,
                     ),
-                    supervisor: (),
+                    sequence: (),
                 },
                 balancer: (),
             };

@@ -9,7 +9,7 @@
 //! What the test may know of a machine is on its name plates: rates, torques, speeds, the motor's inertia, and where
 //! about the resonance is looked for.
 
-use driveline::commissioning::{Commissioning, Figure, Identified, Reason, Stage, TestConfig, TestSettings};
+use driveline::commissioning::{Commissioning, CommissioningResult, Error, Figure, Stage, TestConfig, TestSettings};
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopTuning};
 use driveline::machine::TwoMass;
 
@@ -113,7 +113,7 @@ pub const STAGES: [Stage; 7] =
     [Stage::Holding, Stage::Friction, Stage::Encoder, Stage::Backlash, Stage::Resonance, Stage::Done, Stage::Refused];
 
 /// The figures by their numbers.
-pub fn figures(identified: &Identified) -> [Figure; 14] {
+pub fn figures(identified: &CommissioningResult) -> [Figure; 14] {
     let none = Figure { value: f64::NAN, standard_deviation: f64::NAN };
     let friction = &identified.friction;
     let eccentricity = &identified.eccentricity;
@@ -150,7 +150,7 @@ pub fn design(machine: &TwoMass, settings: &TestSettings) -> Option<[f64; 8]> {
     let tuning = SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.1 };
     let [a, b, c, d, e] = machine.try_observer(settings.rate, settings.encoder, disturbance).ok()?.gains;
     let speed_loop = machine.try_speed_loop(settings.rate, tuning).ok()?;
-    Some([a, b, c, d, e, speed_loop.proportional, speed_loop.integral, speed_loop.slip])
+    Some([a, b, c, d, e, speed_loop.proportional, speed_loop.integral, speed_loop.damping])
 }
 
 /// A commissioning under way, as a scene: the tick gives the torque, the panel's turn solves what a stage has measured.
@@ -236,6 +236,6 @@ impl Scene for Commission {
 }
 
 /// The reason of a number that the panel gave.
-pub fn reason(number: u32) -> Option<Reason> {
-    Reason::ALL.get(number.checked_sub(1)? as usize).copied()
+pub fn reason(number: u32) -> Option<Error> {
+    Error::ALL.get(number.checked_sub(1)? as usize).copied()
 }

@@ -3,17 +3,17 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Cycle};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Waveform, WaveformConfig};
 use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
 use driveline::number::{Fixed, Number};
 use driveline::observer::{
-    Geared, GearedConfig, Observer, Predicted, Rigid, RigidConfig, SemiImplicit, SemiImplicitConfig, TwoMass,
-    TwoMassConfig,
+    GearedConfig, GearedObserver, Observer, Predicted, RigidConfig, RigidObserver, SemiImplicitConfig,
+    SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
 };
 use driveline::sample::{Command, Sample};
+use driveline::settings::{Bases, Cycle};
 
 use super::hoist::{BASES, GEAR, LOAD_SHARE, REDUCED, SETTINGS, observer, rigid, screening, speed_loop};
 use crate::scene::governed::output;
@@ -65,7 +65,7 @@ impl<C: Composition> Scene for Composed<C> {
 #[inline(always)]
 fn sample<N: Number>(input: &Input) -> Sample<N> {
     let word = N::from_word;
-    Sample { angle: input.angle, torque: word(input.torque), reference: word(input.reference) }
+    Sample { angle: input.angle, torque: word(input.torque), setpoint: word(input.setpoint) }
 }
 
 macro_rules! compositions {
@@ -102,13 +102,13 @@ const fn waveform(bases: Bases) -> WaveformConfig {
 macro_rules! measured {
     ($number:ident, $text:literal, $limits:expr, $observer:expr;
         $($name:literal: $fluctuation:ty = $config:expr;)+) => {$(
-        impl Composition for Of<$number, TwoMass<$number>, (), $fluctuation> {
+        impl Composition for Of<$number, TwoMassObserver<$number>, (), $fluctuation> {
             type Number = $number;
-            type Observer = TwoMass<$number>;
+            type Observer = TwoMassObserver<$number>;
             type Fluctuation = $fluctuation;
             type Governor = ();
             const NAME: &'static str = concat!("composition/", $text, "/two-mass-", $name, "/10000");
-            const CONFIG: &'static ConfigOf<Drive<$number, TwoMass<$number>, $fluctuation>> = &Config {
+            const CONFIG: &'static ConfigOf<Drive<$number, TwoMassObserver<$number>, $fluctuation>> = &Config {
                 limits: $limits,
                 observer: $observer,
                 fluctuation: $config,
@@ -134,10 +134,10 @@ measured! {
 
 compositions! {
     f32, "f32", Limits::<f32>::new(&screening(RATE_HZ), Bases::SI), SpeedLoopConfig::<f32>::new(&speed_loop(RATE_HZ), SETTINGS, Bases::SI),
-    "rigid": Rigid<f32> = RigidConfig::<f32>::new(&rigid(RATE_HZ), LOAD_SHARE, Bases::SI);
-    "semi-implicit": SemiImplicit<f32> = SemiImplicitConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI);
-    "two-mass": TwoMass<f32> = TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI);
-    "two-mass-geared": Geared<TwoMass<f32>> = GearedConfig::<f32, _>::new(
+    "rigid": RigidObserver<f32> = RigidConfig::<f32>::new(&rigid(RATE_HZ), LOAD_SHARE, Bases::SI);
+    "semi-implicit": SemiImplicitObserver<f32> = SemiImplicitConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI);
+    "two-mass": TwoMassObserver<f32> = TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI);
+    "two-mass-geared": GearedObserver<TwoMassObserver<f32>> = GearedConfig::<f32, _>::new(
         TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI), &GEAR, PERIOD, Bases::SI
     );
 }
@@ -145,10 +145,10 @@ compositions! {
 compositions! {
     Fixed, "fixed", Limits::<Fixed>::new(&screening(RATE_HZ), BASES),
     SpeedLoopConfig::<Fixed>::new(&speed_loop(RATE_HZ), SETTINGS, BASES),
-    "rigid": Rigid<Fixed> = RigidConfig::<Fixed>::new(&rigid(RATE_HZ), LOAD_SHARE, BASES);
-    "semi-implicit": SemiImplicit<Fixed> = SemiImplicitConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES);
-    "two-mass": TwoMass<Fixed> = TwoMassConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES);
-    "two-mass-geared": Geared<TwoMass<Fixed>> = GearedConfig::<Fixed, _>::new(
+    "rigid": RigidObserver<Fixed> = RigidConfig::<Fixed>::new(&rigid(RATE_HZ), LOAD_SHARE, BASES);
+    "semi-implicit": SemiImplicitObserver<Fixed> = SemiImplicitConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES);
+    "two-mass": TwoMassObserver<Fixed> = TwoMassConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES);
+    "two-mass-geared": GearedObserver<TwoMassObserver<Fixed>> = GearedConfig::<Fixed, _>::new(
         TwoMassConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES), &GEAR, PERIOD, BASES
     );
 }
@@ -183,17 +183,17 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
         } else {
             self.torque = torque;
         }
-        if sample.reference.exceeds(limits.reference) {
-            faults |= Faults::REFERENCE;
+        if sample.setpoint.exceeds(limits.setpoint) {
+            faults |= Faults::SETPOINT;
         }
         let missed = self.missed;
         let predicted = self.observer.predict(config, sample.angle, torque);
         let unchanged = sample.angle == self.observer.angle();
-        let frozen = unchanged && predicted.turn().exceeds(limits.standstill);
+        let frozen = unchanged && predicted.turn().exceeds(limits.frozen_turn);
         if frozen || predicted.innovation().exceeds(limits.innovation) {
             faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
             self.observer.coast(predicted, sample.angle);
-            self.missed = if (missed as u32) < limits.missed { missed.wrapping_add(1) } else { NONE_YET };
+            self.missed = if (missed as u32) < limits.max_coast { missed.wrapping_add(1) } else { NONE_YET };
         } else {
             self.observer.correct(config, predicted, sample.angle);
             if missed != 0 {
@@ -219,18 +219,18 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
             self.missed = NONE_YET;
-        } else if self.missed == NONE_YET || speed.exceeds(limits.reference.plus(limits.reference)) {
-            self.observer.synchronise(sample.angle);
+        } else if self.missed == NONE_YET || speed.exceeds(limits.setpoint.plus(limits.setpoint)) {
+            self.observer.resync(sample.angle);
             self.missed = ONE;
         } else {
-            let count = O::speed_of_turn(&self.config.observer, N::ZERO.less_turn(limits.standstill)).magnitude();
+            let count = O::speed_of_turn(&self.config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
             let known = self.observer.estimate(&self.config.observer).motor_speed;
             if speed.minus(known).exceeds(count) {
                 self.observer = O::steady(&self.config.observer, sample.angle, torque, speed);
             } else {
-                self.observer.synchronise(sample.angle);
+                self.observer.resync(sample.angle);
             }
-            self.missed = limits.missed as i32 & i32::MAX;
+            self.missed = limits.max_coast as i32 & i32::MAX;
         }
         self.torque = N::ZERO;
         faults
@@ -239,12 +239,12 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
 
 macro_rules! by_hand {
     ($number:ident, $text:literal) => {
-        impl Scene for ByHand<$number, TwoMass<$number>> {
+        impl Scene for ByHand<$number, TwoMassObserver<$number>> {
             const NAME: &'static str = concat!("composition/", $text, "/two-mass-by-hand/10000");
             const RATE_HZ: u32 = RATE_HZ;
 
             fn new() -> Self {
-                let config = <Of<$number, TwoMass<$number>, ()> as Composition>::CONFIG;
+                let config = <Of<$number, TwoMassObserver<$number>, ()> as Composition>::CONFIG;
                 let observer = Observer::<$number>::at_rest(&config.observer, 0, <$number as Number>::ZERO);
                 ByHand { config, observer, torque: <$number as Number>::ZERO, missed: 0 }
             }

@@ -15,16 +15,19 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Screening};
 use driveline::design::{
-    BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, SlackDesign, SlackTuning, SpeedLoopDesign,
-    SpeedLoopTuning,
+    BacklashDesign, BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder, Rate,
+    SpeedLoopDesign, SpeedLoopTuning,
 };
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
-use driveline::governor::{Gains, Slack, SlackConfig, SpeedGovernor, SpeedGovernorConfig, Symmetric, SymmetricConfig};
+use driveline::governor::{
+    BacklashTakeUp, BacklashTakeUpConfig, Gains, SpeedGovernor, SpeedGovernorConfig, SymmetricLimit,
+    SymmetricLimitConfig,
+};
 use driveline::machine::{Chain, Damping, Efficiency, Gap, Inertia, Match, Ratio, Stiffness, TwoMass};
 use driveline::number::Fixed;
-use driveline::observer::{Backlash, BacklashConfig};
+use driveline::observer::{BacklashConfig, BacklashObserver};
+use driveline::settings::{Bases, Screening};
 
 use crate::scene::assembled::Parts;
 use crate::scene::expected::{Expected, Expects};
@@ -71,13 +74,13 @@ pub const RATE_HZ: u32 = 10_000;
 /// motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.5 * RATED_SPEED,
+    setpoint: 1.5 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 128.0,
-    standstill: 2.0 * core::f64::consts::TAU / 8192.0,
-    missed: RATE_HZ / 34,
+    frozen_turn: 2.0 * core::f64::consts::TAU / 8192.0,
+    max_coast: RATE_HZ / 34,
 };
 
-/// The set point follows the operator's lever: rated speed in a fifth of a second, which is more than the motors can
+/// The setpoint follows the operator's lever: rated speed in a fifth of a second, which is more than the motors can
 /// [rad/s2].
 pub const RAMP: f64 = 5.0 * RATED_SPEED;
 
@@ -85,23 +88,24 @@ pub const RAMP: f64 = 5.0 * RATED_SPEED;
 pub const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.3, damping: 1.0, shaft_damping: 0.2 };
 
 /// The plain speed loop: the design's proportional and integral gains, without its damping.
-pub const SPEED_LOOP: SpeedLoopDesign = SpeedLoopDesign { slip: 0.0, ..MACHINE.speed_loop(Rate::hz(RATE_HZ), TUNING) };
+pub const SPEED_LOOP: SpeedLoopDesign =
+    SpeedLoopDesign { damping: 0.0, ..MACHINE.speed_loop(Rate::hz(RATE_HZ), TUNING) };
 
 /// The observer.
 pub const OBSERVER: BacklashDesign =
     MACHINE.backlash_observer(Rate::hz(RATE_HZ), ENCODER, DISTURBANCE, BacklashTuning::USUAL);
 
 /// How slack is taken up: a tenth of rated torque in the gap, three tenths of it within a period of the shaft.
-pub const TAKING_UP: SlackTuning = SlackTuning {
+pub const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
     impact: 0.2 * RATED_TORQUE,
     torque: 0.1 * RATED_TORQUE,
     rise: 0.3 * RATED_TORQUE,
-    most: TORQUE_LIMIT,
+    max_torque: TORQUE_LIMIT,
     damping: 0.2,
 };
 
 /// The taking up of slack.
-pub const TAKE_UP: SlackDesign = MACHINE.take_up(Rate::hz(RATE_HZ), TAKING_UP);
+pub const TAKE_UP: BacklashTakeUpDesign = MACHINE.take_up(Rate::hz(RATE_HZ), TAKING_UP);
 
 /// What the converter is tried with.
 pub mod with {
@@ -118,7 +122,7 @@ macro_rules! variant {
     ($with:ident, $number:ident, $name:literal, $limit:ty, $config:expr, $bases:expr) => {
         impl Parts for Converter<$number, with::$with> {
             type Number = $number;
-            type Observer = Backlash<$number>;
+            type Observer = BacklashObserver<$number>;
             type Governor = SpeedGovernor<$number, (), (), $limit>;
             const NAME: &'static str = concat!("converter/", $name, "/10000");
             const RATE_HZ: u32 = RATE_HZ;
@@ -127,12 +131,12 @@ macro_rules! variant {
                 observer: BacklashConfig::<$number>::new(&OBSERVER, $bases),
                 fluctuation: (),
                 governor: SpeedGovernorConfig {
-                    view: (),
+                    filter: (),
                     gains: Gains::<$number>::of_speed_loop(&SPEED_LOOP, RAMP, $bases),
-                    set_point: (),
-                    prompt: (),
+                    shape: (),
+                    compensation: (),
                     limit: $config,
-                    supervisor: (),
+                    sequence: (),
                 },
                 balancer: (),
             };
@@ -144,17 +148,17 @@ macro_rules! variant {
     };
 }
 
-const SINGLE: SymmetricConfig<f32> = SymmetricConfig::<f32>::new(TORQUE_LIMIT, Bases::SI);
-const FIXED: SymmetricConfig<Fixed> = SymmetricConfig::<Fixed>::new(TORQUE_LIMIT, BASES);
+const SINGLE: SymmetricLimitConfig<f32> = SymmetricLimitConfig::<f32>::new(TORQUE_LIMIT, Bases::SI);
+const FIXED: SymmetricLimitConfig<Fixed> = SymmetricLimitConfig::<Fixed>::new(TORQUE_LIMIT, BASES);
 
-variant!(Plain, f32, "f32/plain", Symmetric, SINGLE, Bases::SI);
-variant!(Plain, Fixed, "fixed/plain", Symmetric, FIXED, BASES);
-variant!(Slack, f32, "f32/slack", Slack<f32, Symmetric>, SlackConfig::<f32, _>::new(&TAKE_UP, SINGLE, Bases::SI), Bases::SI);
+variant!(Plain, f32, "f32/plain", SymmetricLimit, SINGLE, Bases::SI);
+variant!(Plain, Fixed, "fixed/plain", SymmetricLimit, FIXED, BASES);
+variant!(Slack, f32, "f32/slack", BacklashTakeUp<f32, SymmetricLimit>, BacklashTakeUpConfig::<f32, _>::new(&TAKE_UP, SINGLE, Bases::SI), Bases::SI);
 variant!(
     Slack,
     Fixed,
     "fixed/slack",
-    Slack<Fixed, Symmetric>,
-    SlackConfig::<Fixed, _>::new(&TAKE_UP, FIXED, BASES),
+    BacklashTakeUp<Fixed, SymmetricLimit>,
+    BacklashTakeUpConfig::<Fixed, _>::new(&TAKE_UP, FIXED, BASES),
     BASES
 );

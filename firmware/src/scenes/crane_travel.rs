@@ -10,16 +10,16 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Screening, SpeedLoopSettings};
 use driveline::design::{
-    Aim, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
-    TwoMassDesign,
+    Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Rate, Requirement, RigidDesign,
+    SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
 };
 use driveline::drive::{Config, ConfigOf, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{Chain, Diameter, Efficiency, Inertia, Length, Mass, Match, Ratio, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, RigidConfig, SemiImplicitConfig};
+use driveline::settings::{Bases, Screening, SpeedLoopSettings};
 
 use crate::scene::governed::governed;
 
@@ -60,8 +60,8 @@ pub const OBSERVER: TwoMassDesign = MACHINE.observer(Rate::hz(RATE_HZ), Encoder:
 pub const RIGID: RigidDesign = CHAIN.rigid().observer(Rate::hz(RATE_HZ), Encoder::lines(COUNTS / 4), DISTURBANCE);
 
 /// What it needs for a start within a second.
-pub const NEED: Need = MACHINE.need(
-    &Duty {
+pub const SELECTION: ObserverSelection = MACHINE.select_observer(
+    &LoadCycle {
         speed: RATED_SPEED,
         torque: 0.4 * RATED_TORQUE,
         change: 0.4 * RATED_TORQUE,
@@ -69,11 +69,11 @@ pub const NEED: Need = MACHINE.need(
         every: 12.0,
         reverses: true,
     },
-    &Aim::USUAL,
+    &Requirement::USUAL,
     1.0 / RATE_HZ as f64,
 );
 
-const _: () = assert!(matches!(NEED.chosen, ObserverChoice::SemiImplicit));
+const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::SemiImplicit));
 
 /// The load's share of the inertia.
 pub const LOAD_SHARE: f64 = MACHINE.load_inertia / (MACHINE.motor_inertia + MACHINE.load_inertia);
@@ -91,16 +91,16 @@ pub const BASES: Bases = Bases::new(&MACHINE, 2.0 * TORQUE_LIMIT, 1.34 * RATED_S
 /// Limits of what a sample can be. In 15 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 128.0,
-    standstill: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    missed: RATE_HZ / 67,
+    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
+    max_coast: RATE_HZ / 67,
 };
 
 /// The drive with a number and an observer.
 pub struct CraneTravel<N, O>(PhantomData<(N, O)>);
 
 governed! { CraneTravel, "crane-travel", 1000;
-    "rigid": Rigid, RigidConfig(&RIGID, LOAD_SHARE);
-    "semi-implicit": SemiImplicit, SemiImplicitConfig(&OBSERVER);
+    "rigid": RigidObserver, RigidConfig(&RIGID, LOAD_SHARE);
+    "semi-implicit": SemiImplicitObserver, SemiImplicitConfig(&OBSERVER);
 }

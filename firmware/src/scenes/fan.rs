@@ -5,15 +5,16 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Screening, SpeedLoopSettings};
 use driveline::design::{
-    Aim, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
+    Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Rate, Requirement, RigidDesign,
+    SpeedLoopDesign, SpeedLoopTuning,
 };
 use driveline::drive::{Config, ConfigOf, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{Chain, Damping, Inertia, Match, Rigid, Stiffness, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, RigidConfig};
+use driveline::settings::{Bases, Screening, SpeedLoopSettings};
 
 use crate::scene::governed::governed;
 
@@ -49,8 +50,8 @@ pub const OBSERVER: RigidDesign = MACHINE.observer(
 );
 
 /// What it needs: torques that change within a tenth of a second do not shake the coupling.
-pub const NEED: Need = REDUCED.need(
-    &Duty {
+pub const SELECTION: ObserverSelection = REDUCED.select_observer(
+    &LoadCycle {
         speed: RATED_SPEED,
         torque: RATED_TORQUE,
         change: 0.5 * RATED_TORQUE,
@@ -58,11 +59,11 @@ pub const NEED: Need = REDUCED.need(
         every: 5.0,
         reverses: false,
     },
-    &Aim::USUAL,
+    &Requirement::USUAL,
     1.0 / RATE_HZ as f64,
 );
 
-const _: () = assert!(matches!(NEED.chosen, ObserverChoice::Rigid));
+const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::Rigid));
 
 /// The load's share of the inertia, which the coupling accelerates.
 pub const LOAD_SHARE: f64 = 4.5 / MACHINE.inertia;
@@ -80,15 +81,15 @@ pub const BASES: Bases = Bases::rigid(2.0 * TORQUE_LIMIT, 1.34 * RATED_SPEED);
 /// Limits of what a sample can be. In 15 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 128.0,
-    standstill: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    missed: RATE_HZ / 67,
+    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
+    max_coast: RATE_HZ / 67,
 };
 
 /// The fan with a number and an observer.
 pub struct Fan<N, O>(PhantomData<(N, O)>);
 
 governed! { Fan, "fan", 1000;
-    "rigid": Rigid, RigidConfig(&OBSERVER, LOAD_SHARE);
+    "rigid": RigidObserver, RigidConfig(&OBSERVER, LOAD_SHARE);
 }

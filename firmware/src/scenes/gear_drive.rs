@@ -10,9 +10,9 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Screening, SpeedLoopSettings};
 use driveline::design::{
-    Aim, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
+    Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Rate, Requirement, SpeedLoopDesign,
+    SpeedLoopTuning, TwoMassDesign,
 };
 use driveline::drive::{Config, ConfigOf, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
@@ -21,6 +21,7 @@ use driveline::machine::{
 };
 use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
+use driveline::settings::{Bases, Screening, SpeedLoopSettings};
 
 use crate::scene::governed::governed;
 
@@ -73,8 +74,8 @@ pub const DISTURBANCE: Disturbance =
 pub const OBSERVER: TwoMassDesign = REDUCED.observer(Rate::hz(RATE_HZ), Encoder::lines(COUNTS / 4), DISTURBANCE);
 
 /// What it needs for a load that comes within 20 ms.
-pub const NEED: Need = REDUCED.need(
-    &Duty {
+pub const SELECTION: ObserverSelection = REDUCED.select_observer(
+    &LoadCycle {
         speed: RATED_SPEED,
         torque: 1.5 * RATED_TORQUE,
         change: 0.5 * RATED_TORQUE,
@@ -82,11 +83,11 @@ pub const NEED: Need = REDUCED.need(
         every: 0.5,
         reverses: false,
     },
-    &Aim::USUAL,
+    &Requirement::USUAL,
     1.0 / RATE_HZ as f64,
 );
 
-const _: () = assert!(matches!(NEED.chosen, ObserverChoice::Exact));
+const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::Exact));
 
 /// The speed loop: a tenth of the antiresonance.
 pub const LOOP: SpeedLoopDesign =
@@ -101,15 +102,15 @@ pub const BASES: Bases = Bases::new(&REDUCED, 16.0 * TORQUE_LIMIT, 1.34 * RATED_
 /// Limits of what a sample can be. In 15 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 128.0,
-    standstill: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    missed: RATE_HZ / 67,
+    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
+    max_coast: RATE_HZ / 67,
 };
 
 /// The drive with a number and an observer.
 pub struct GearDrive<N, O>(PhantomData<(N, O)>);
 
 governed! { GearDrive, "gear-drive", 4000;
-    "exact": TwoMass, TwoMassConfig(&OBSERVER);
+    "exact": TwoMassObserver, TwoMassConfig(&OBSERVER);
 }

@@ -19,7 +19,7 @@
 //! the set's inertia more would ([`VirtualInertia`]), which raises the margins as well.
 //!
 //! # Inputs that fail
-//! An [`ActuatorWatch`] compares rack or chest with what was commanded. What becomes of a fault on each input:
+//! An [`ActuatorMonitor`] compares rack or chest with what was commanded. What becomes of a fault on each input:
 //!
 //! | input | for 5 ms | for good |
 //! |---|---|---|
@@ -27,28 +27,29 @@
 //! | rack: dropped, noisy, negated | the expected torque instead | trips: actuator, after 0.1 s and more |
 //! | rack: no number | the same | trips: sensor loss, after 0.1 s |
 //! | rack: frozen | believed | believed until the command moves by a fifth of the rated torque, then as dropped |
-//! | set point: frozen, noisy, no number | the ramp hardly moves; the last good one | rides through |
-//! | set point: dropped, negated | the ramp hardly moves | is one: the set slows down, and trips by underspeed, or its coupling by overload |
+//! | setpoint: frozen, noisy, no number | the ramp hardly moves; the last good one | rides through |
+//! | setpoint: dropped, negated | the ramp hardly moves | is one: the set slows down, and trips by underspeed, or its coupling by overload |
 
 pub mod parts;
 
 use core::marker::PhantomData;
 
-use driveline::constants::{ActuatorWatchSettings, Bases, ModesSettings, Screening};
 use driveline::design::{
     Actuator, BarredSpeeds, Disturbance, Encoder, GovernorDesign, LoadFeedForward, Rate, TorqueCurve, TwoMassDesign,
     USUAL_MARGIN, VirtualInertia,
 };
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{
-    AccelerationFeedback, AccelerationFeedbackConfig, ActuatorWatch, ActuatorWatchConfig, Barred, BarredConfig, Curve,
-    CurveConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Mean, MeanConfig, Mode, Modes, ModesConfig,
-    Prompt, Rack, RackConfig, Request, SpeedGovernor, SpeedGovernorConfig, Trip,
+    AccelerationFeedback, AccelerationFeedbackConfig, ActuatorMonitor, ActuatorMonitorConfig, Barred, BarredConfig,
+    Compensation, Curve, CurveConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, MovingAverage,
+    MovingAverageConfig, RunRequest, RunState, Sequencer, SequencerConfig, SpeedGovernor, SpeedGovernorConfig,
+    TransportDelay, TransportDelayConfig, Trip,
 };
 use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass as Machine};
 use driveline::number::{Fixed, Number};
-use driveline::observer::{TwoMass, TwoMassConfig};
+use driveline::observer::{TwoMassConfig, TwoMassObserver};
 use driveline::sample::Sample;
+use driveline::settings::{ActuatorMonitorSettings, Bases, Screening, SequencerSettings};
 
 use crate::scene::governed::output;
 use crate::scene::{Input, Output, Scene};
@@ -79,7 +80,7 @@ pub struct Set {
     /// Lag of the estimated load torque [s], as measured on a step.
     pub estimate_lag: f64,
     /// Span of the governor's loop, with feed-forward and without.
-    pub span: [f64; 2],
+    pub optimum_factor: [f64; 2],
     /// Share of the load torque that is fed forward.
     pub share: f64,
     /// Share of the inertia that is given against the acceleration, without feed-forward.
@@ -87,10 +88,10 @@ pub struct Set {
     /// Lags of the actuator from the command to what the drive is told [s].
     pub lags: [f64; 2],
     /// How long the actuator may be elsewhere than it was told to be [s].
-    pub patience: f64,
+    pub timeout: f64,
     /// Largest torque against speed.
     pub curve: TorqueCurve<4>,
-    /// Acceleration of the set point [rad/s2].
+    /// Acceleration of the setpoint [rad/s2].
     pub ramp: f64,
     /// Barred speeds.
     pub barred: BarredSpeeds<1>,
@@ -125,12 +126,12 @@ pub const DIESEL: Set = Set {
     delay: TORQUE_DELAY,
     disturbance: Disturbance { torque_accuracy: 0.25 * DIESEL_TORQUE, load_torque_step: DIESEL_TORQUE, within: 1.0 },
     estimate_lag: 0.018,
-    span: [2.5, 2.0],
+    optimum_factor: [2.5, 2.0],
     share: 0.9,
     inertia: 0.0,
     // one lag; two ticks of it stand for the second
     lags: [RACK_LAG - 2.0 * PERIOD, 2.0 * PERIOD],
-    patience: 0.1,
+    timeout: 0.1,
     curve: TorqueCurve::through([
         [0.0, 0.5 * DIESEL_TORQUE],
         [0.4 * RATED_SPEED, 0.7 * DIESEL_TORQUE],
@@ -166,11 +167,11 @@ pub const TURBINE: Set = Set {
     delay: 0.0,
     disturbance: Disturbance { torque_accuracy: 0.01 * TURBINE_TORQUE, load_torque_step: TURBINE_TORQUE, within: 2.0 },
     estimate_lag: 0.05,
-    span: [3.0, 2.5],
+    optimum_factor: [3.0, 2.5],
     share: 0.5,
     inertia: 0.5,
     lags: [VALVE_LAG, CHEST_LAG],
-    patience: 0.3,
+    timeout: 0.3,
     curve: TorqueCurve::through([
         [0.0, 1.2 * TURBINE_TORQUE],
         [0.5 * RATED_SPEED, 1.15 * TURBINE_TORQUE],
@@ -210,10 +211,10 @@ impl Set {
     pub const fn governor(&self, forward: bool) -> GovernorDesign {
         if forward {
             let forward = LoadFeedForward { share: self.share, lag: self.estimate_lag };
-            return self.machine.governor(RATE, self.actuator, self.span[0], forward);
+            return self.machine.governor(RATE, self.actuator, self.optimum_factor[0], forward);
         }
         let inertia = VirtualInertia { share: self.inertia, lag: self.estimate_lag };
-        self.machine.governor_with_inertia(RATE, self.actuator, self.span[1], inertia)
+        self.machine.governor_with_inertia(RATE, self.actuator, self.optimum_factor[1], inertia)
     }
 
     /// The observer.
@@ -232,33 +233,33 @@ impl Set {
     pub const fn screening(&self) -> Screening {
         Screening {
             torque: 1.4 * self.rated_torque,
-            reference: 1.2 * RATED_SPEED,
+            setpoint: 1.2 * RATED_SPEED,
             innovation: core::f64::consts::TAU / 128.0,
-            standstill: 2.0 * core::f64::consts::TAU / 8192.0,
-            missed: RATE_HZ * 3 / 200,
+            frozen_turn: 2.0 * core::f64::consts::TAU / 8192.0,
+            max_coast: RATE_HZ * 3 / 200,
         }
     }
 
     /// The watch on the actuator: a fifth of the rated torque beside what was commanded; nine sixteenths over it is none.
-    pub const fn watch(&self) -> ActuatorWatchSettings {
-        ActuatorWatchSettings {
+    pub const fn watch(&self) -> ActuatorMonitorSettings {
+        ActuatorMonitorSettings {
             tolerance: 0.2 * self.rated_torque,
-            most: 1.5625 * self.rated_torque,
-            patience: self.patience,
+            max_torque: 1.5625 * self.rated_torque,
+            timeout: self.timeout,
         }
     }
 
     /// Limits of the modes: overspeed 110 %; underspeed 80 % for 3 s; no turning backwards; three times the rated
     /// torque in the coupling, for 10 ms; 30 s for a start.
-    pub const fn modes(&self) -> ModesSettings {
-        ModesSettings {
+    pub const fn modes(&self) -> SequencerSettings {
+        SequencerSettings {
             overspeed: 1.1 * RATED_SPEED,
             underspeed: 0.8 * RATED_SPEED,
             reverse: 0.02 * RATED_SPEED,
             shaft_torque: 3.0 * self.rated_torque,
             standstill: 0.01 * RATED_SPEED,
-            prompt: 0.01,
-            patient: 3.0,
+            trip_delay: 0.01,
+            underspeed_delay: 3.0,
             start: 30.0,
         }
     }
@@ -271,28 +272,29 @@ pub const RING: usize = 32;
 pub const FIRING: usize = 32;
 
 /// The governor of a set: the diesel's, or with what else adds torque.
-pub type Governor<N, F = FeedForward> = SpeedGovernor<N, (Droop, Barred<1>), F, Curve<4>, Modes, Mean<N, FIRING>>;
+pub type Governor<N, F = FeedForward> =
+    SpeedGovernor<N, (Droop, Barred<1>), F, Curve<4>, Sequencer, MovingAverage<N, FIRING>>;
 type Constants<N, F> = ConfigOf<DriveOf<N, F>>;
 /// The drive of a set.
-pub type DriveOf<N, F = FeedForward> = Drive<N, TwoMass<N>, (), Governor<N, F>>;
+pub type DriveOf<N, F = FeedForward> = Drive<N, TwoMassObserver<N>, (), Governor<N, F>>;
 
 /// A set and a number.
 pub trait Variant: 'static {
     /// What it calculates with.
     type Number: Number + 'static;
     /// What adds torque.
-    type Added: Prompt<Self::Number, Config: 'static> + 'static;
+    type Added: Compensation<Self::Number, Config: 'static> + 'static;
     /// Scene, number, set and rate.
     const NAME: &'static str;
     /// With feed-forward and isochronous, without feed-forward, with droop.
     const CONFIGS: &'static [Constants<Self::Number, Self::Added>; 3];
     /// The rack.
-    const RACK: RackConfig<RING>;
+    const RACK: TransportDelayConfig<RING>;
     /// The watch on it.
-    const WATCH: ActuatorWatchConfig<Self::Number, 2>;
+    const WATCH: ActuatorMonitorConfig<Self::Number, 2>;
 }
 
-/// The set points and switches of the panel, as keys of what it asks.
+/// The setpoints and switches of the panel, as keys of what it asks.
 pub mod panel {
     /// Chooses the constants: 0 with feed-forward, 1 without, 2 with droop.
     pub const CONSTANTS: u32 = 1;
@@ -304,13 +306,13 @@ pub mod panel {
 
 /// A mode as a word: 0 stopped, 1 starting, 2 running, 3 braking, from 16 on tripped, in the order of
 /// [`Trip::NAMES`](driveline::governor::Trip::NAMES).
-pub fn mode_word(mode: Mode) -> u32 {
+pub fn mode_word(mode: RunState) -> u32 {
     match mode {
-        Mode::Stopped => 0,
-        Mode::Starting => 1,
-        Mode::Running => 2,
-        Mode::Braking => 3,
-        Mode::Tripped(trip) => 16 + trip as u32,
+        RunState::Stopped => 0,
+        RunState::Starting => 1,
+        RunState::Running => 2,
+        RunState::Braking => 3,
+        RunState::Tripped(trip) => 16 + trip as u32,
     }
 }
 
@@ -320,8 +322,8 @@ pub struct Generator<V: Variant> {
     // By reference: folded into the code, the constants cost more instructions than loaded from a table.
     config: &'static Constants<V::Number, V::Added>,
     drive: DriveOf<V::Number, V::Added>,
-    watch: ActuatorWatch<V::Number, 2>,
-    rack: Rack<V::Number, RING>,
+    watch: ActuatorMonitor<V::Number, 2>,
+    rack: TransportDelay<V::Number, RING>,
     released: bool,
 }
 
@@ -333,17 +335,17 @@ impl<V: Variant> Generator<V> {
 
     #[cold]
     fn trip(&mut self, reason: Trip) {
-        self.drive.governor_mut().supervisor_mut().trip(reason);
+        self.drive.governor_mut().sequence_mut().trip(reason);
     }
 
     #[cold]
     fn switched(&mut self, released: bool) {
         self.released = released;
-        let modes = self.drive.governor_mut().supervisor_mut();
+        let modes = self.drive.governor_mut().sequence_mut();
         if released {
-            modes.ask(Request::Start);
-        } else if !modes.ask(Request::Stop) {
-            modes.ask(Request::Reset);
+            modes.request(RunRequest::Start);
+        } else if !modes.request(RunRequest::Stop) {
+            modes.request(RunRequest::Reset);
         }
     }
 }
@@ -358,8 +360,8 @@ impl<V: Variant> Scene for Generator<V> {
             configs: V::CONFIGS,
             config,
             drive: Drive::new(config, 0),
-            watch: ActuatorWatch::new(),
-            rack: Rack::new(),
+            watch: ActuatorMonitor::new(),
+            rack: TransportDelay::new(),
             released: false,
         }
     }
@@ -371,12 +373,12 @@ impl<V: Variant> Scene for Generator<V> {
         if released != self.released {
             self.switched(released);
         }
-        let (told, unlike) = self.watch.believe(&V::WATCH, word(input.torque));
-        if let Some(reason) = self.watch.lost(&V::WATCH) {
+        let (told, unlike) = self.watch.check(&V::WATCH, word(input.torque));
+        if let Some(reason) = self.watch.trip(&V::WATCH) {
             self.trip(reason);
         }
         let torque = self.rack.delayed(&V::RACK, told);
-        let sample = Sample { angle: input.angle, torque, reference: word(input.reference) };
+        let sample = Sample { angle: input.angle, torque, setpoint: word(input.setpoint) };
         let mut command = self.drive.tick(self.config, &sample);
         command.faults |= unlike;
         self.watch.advance(&V::WATCH, command.torque);
@@ -394,10 +396,10 @@ impl<V: Variant> Scene for Generator<V> {
                 value
             }
             panel::TRIP => {
-                self.trip(Trip::Asked);
-                mode_word(self.drive.governor().supervisor().mode())
+                self.trip(Trip::Requested);
+                mode_word(self.drive.governor().sequence().state())
             }
-            panel::MODE => mode_word(self.drive.governor().supervisor().mode()),
+            panel::MODE => mode_word(self.drive.governor().sequence().state()),
             _ => 0,
         }
     }
@@ -437,16 +439,16 @@ macro_rules! variant {
                     fluctuation: (),
                     governor: SpeedGovernorConfig {
                         gains: Gains::<$number>::new($design, $constants.ramp, $bases),
-                        set_point: (
+                        shape: (
                             DroopConfig::<$number>::new(droop, RATED_SPEED, $constants.rated_torque, $bases),
                             BarredConfig::<$number, 1>::new(
                                 &$constants.barred, 4.0 * $constants.ramp, PERIOD, $bases
                             ),
                         ),
-                        prompt: $prompt,
+                        compensation: $prompt,
                         limit: CurveConfig::<$number, 4>::new(&$constants.curve, 0.0, $bases),
-                        supervisor: ModesConfig::<$number>::new(&$constants.modes(), PERIOD, $bases),
-                        view: MeanConfig::<$number, FIRING>::of_ticks(),
+                        sequence: SequencerConfig::<$number>::new(&$constants.modes(), PERIOD, $bases),
+                        filter: MovingAverageConfig::<$number, FIRING>::of_ticks(),
                     },
                     balancer: (),
                 }
@@ -463,9 +465,9 @@ macro_rules! variant {
                     Self::config(&$designs.governors[1], 0.0),
                     Self::config(&$designs.governors[1], DROOP),
                 ];
-            const RACK: RackConfig<RING> = RackConfig::new($constants.delay, PERIOD);
-            const WATCH: ActuatorWatchConfig<$number, 2> =
-                ActuatorWatchConfig::<$number, 2>::new(&$constants.lags, &$constants.watch(), PERIOD, $bases);
+            const RACK: TransportDelayConfig<RING> = TransportDelayConfig::new($constants.delay, PERIOD);
+            const WATCH: ActuatorMonitorConfig<$number, 2> =
+                ActuatorMonitorConfig::<$number, 2>::new(&$constants.lags, &$constants.watch(), PERIOD, $bases);
         }
     };
 }

@@ -6,14 +6,14 @@
 
 use core::marker::PhantomData;
 
-use driveline::balance::{InRunConfig, PhasorsConfig, Steadiness};
-use driveline::constants::{Bases, Measured, Screening, SpeedLoopSettings};
+use driveline::balancing::{InRunConfig, PhasorsConfig, Steadiness};
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
 use driveline::drive::{Config, Limits};
 use driveline::governor::SpeedLoopConfig;
 use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
+use driveline::settings::{Bases, PhasorSettings, Screening, SpeedLoopSettings};
 
 use crate::panel::balancing_head::{Head, HeadPanel};
 use crate::scene::balanced::{Constants, Variant};
@@ -60,16 +60,16 @@ const GOVERNOR: SpeedLoopDesign =
 const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE_LIMIT, ramp: RATED_SPEED / 1.0 };
 const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 128.0,
-    standstill: 2.0 * core::f64::consts::TAU / 8192.0,
-    missed: RATE_HZ / 67,
+    frozen_turn: 2.0 * core::f64::consts::TAU / 8192.0,
+    max_coast: RATE_HZ / 67,
 };
 /// Eight blocks of six turns, 1 s.
-const MEASURED: Measured = Measured {
+const MEASURED: PhasorSettings = PhasorSettings {
     turns: 8,
     steadiness: Steadiness { drift: 0.1, scatter: 0.3, floor: 0.4, ..Steadiness::USUAL },
-    ..Measured::DIRECT
+    ..PhasorSettings::DIRECT
 };
 
 /// The balancing head.
@@ -95,12 +95,12 @@ pub struct GrindingSpindle<N>(PhantomData<N>);
 
 impl Variant for GrindingSpindle<f32> {
     type Number = f32;
-    type Observer = observer::TwoMass<f32>;
+    type Observer = observer::TwoMassObserver<f32>;
     type Adviser = HeadPanel<TheHead>;
     const NAME: &'static str = "grinding-spindle/f32/two-mass/4000";
     const RATE_HZ: u32 = RATE_HZ;
     const UNIT: f32 = 1.0;
-    const CONFIG: &'static Constants<f32, observer::TwoMass<f32>> = &Config {
+    const CONFIG: &'static Constants<f32, observer::TwoMassObserver<f32>> = &Config {
         limits: Limits::<f32>::new(&SCREENING, Bases::SI),
         observer: TwoMassConfig::<f32>::new(&OBSERVER, Bases::SI),
         fluctuation: (),
@@ -111,12 +111,12 @@ impl Variant for GrindingSpindle<f32> {
 
 impl Variant for GrindingSpindle<Fixed> {
     type Number = Fixed;
-    type Observer = observer::TwoMass<Fixed>;
+    type Observer = observer::TwoMassObserver<Fixed>;
     type Adviser = HeadPanel<TheHead>;
     const NAME: &'static str = "grinding-spindle/fixed/two-mass/4000";
     const RATE_HZ: u32 = RATE_HZ;
     const UNIT: f32 = VIBRATION_BASE as f32;
-    const CONFIG: &'static Constants<Fixed, observer::TwoMass<Fixed>> = &Config {
+    const CONFIG: &'static Constants<Fixed, observer::TwoMassObserver<Fixed>> = &Config {
         limits: Limits::<Fixed>::new(&SCREENING, BASES),
         observer: TwoMassConfig::<Fixed>::new(&OBSERVER, BASES),
         fluctuation: (),

@@ -7,7 +7,6 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Gear, Screening, SpeedLoopSettings};
 use driveline::design::{
     Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, StepChoice, TwoMassDesign,
 };
@@ -17,7 +16,8 @@ use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Match, Ratio, Stiffness, TwoMass,
 };
 use driveline::number::Fixed;
-use driveline::observer::{self, Geared, GearedConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
+use driveline::observer::{self, GearedConfig, GearedObserver, RigidConfig, SemiImplicitConfig, TwoMassConfig};
+use driveline::settings::{Bases, Gear, Screening, SpeedLoopSettings};
 
 use crate::scene::expected::{Expected, Expects};
 use crate::scene::governed::Variant;
@@ -52,7 +52,7 @@ pub const CUT: TwoMass = CHAIN.reduce(Match::TextbookShaft(1));
 /// The gearbox as the observer knows it. Held by its friction at the largest load, about 80 N m, the motor turns by 1.6 mrad on its own shaft,
 /// two counts of the encoder: the play is eight.
 pub const GEAR: Gear =
-    Gear { efficiency: EFFICIENCY.0, inertia: REDUCED.motor_inertia, play: 8.0 * core::f64::consts::TAU / 8192.0 };
+    Gear { efficiency: EFFICIENCY.0, inertia: REDUCED.motor_inertia, deadband: 8.0 * core::f64::consts::TAU / 8192.0 };
 
 /// The encoder.
 pub const ENCODER: Encoder = Encoder::lines(2048);
@@ -70,10 +70,10 @@ pub const BASES: Bases = Bases::new(&REDUCED, 2.0 * TORQUE_LIMIT, 1.34 * RATED_S
 pub const fn screening(rate_hz: u32) -> Screening {
     Screening {
         torque: 1.67 * TORQUE_LIMIT,
-        reference: 1.2 * RATED_SPEED,
+        setpoint: 1.2 * RATED_SPEED,
         innovation: core::f64::consts::TAU / 128.0,
-        standstill: 2.0 * core::f64::consts::TAU / 8192.0,
-        missed: rate_hz / 67,
+        frozen_turn: 2.0 * core::f64::consts::TAU / 8192.0,
+        max_coast: rate_hz / 67,
     }
 }
 
@@ -146,7 +146,7 @@ macro_rules! variant {
         // Generic over the rate: the compiler designs only those that an image holds.
         impl<const R: u32> Variant for Hoist<$number, with::$with, R> {
             type Number = $number;
-            type Observer = Geared<observer::$observer<$number>>;
+            type Observer = GearedObserver<observer::$observer<$number>>;
             const NAME: &'static str = match R {
                 1_000 => concat!("hoist/", $text, "/1000"),
                 4_000 => concat!("hoist/", $text, "/4000"),
@@ -164,13 +164,20 @@ macro_rules! variant {
     };
 }
 
-variant!(Rigid, "f32/rigid", f32, Rigid, rigid(R), RigidConfig::<f32>::new(&rigid(R), LOAD_SHARE, Bases::SI));
-variant!(Cut, "f32/cut", f32, TwoMass, observer(&CUT, R), TwoMassConfig::<f32>::new(&observer(&CUT, R), Bases::SI));
+variant!(Rigid, "f32/rigid", f32, RigidObserver, rigid(R), RigidConfig::<f32>::new(&rigid(R), LOAD_SHARE, Bases::SI));
+variant!(
+    Cut,
+    "f32/cut",
+    f32,
+    TwoMassObserver,
+    observer(&CUT, R),
+    TwoMassConfig::<f32>::new(&observer(&CUT, R), Bases::SI)
+);
 variant!(
     Exact,
     "f32/exact",
     f32,
-    TwoMass,
+    TwoMassObserver,
     observer(&REDUCED, R),
     TwoMassConfig::<f32>::new(&observer(&REDUCED, R), Bases::SI)
 );
@@ -178,17 +185,24 @@ variant!(
     Reduced,
     "f32/reduced",
     f32,
-    SemiImplicit,
+    SemiImplicitObserver,
     observer(&REDUCED, R),
     SemiImplicitConfig::<f32>::new(&observer(&REDUCED, R), Bases::SI)
 );
-variant!(Rigid, "fixed/rigid", Fixed, Rigid, rigid(R), RigidConfig::<Fixed>::new(&rigid(R), LOAD_SHARE, BASES));
-variant!(Cut, "fixed/cut", Fixed, TwoMass, observer(&CUT, R), TwoMassConfig::<Fixed>::new(&observer(&CUT, R), BASES));
+variant!(Rigid, "fixed/rigid", Fixed, RigidObserver, rigid(R), RigidConfig::<Fixed>::new(&rigid(R), LOAD_SHARE, BASES));
+variant!(
+    Cut,
+    "fixed/cut",
+    Fixed,
+    TwoMassObserver,
+    observer(&CUT, R),
+    TwoMassConfig::<Fixed>::new(&observer(&CUT, R), BASES)
+);
 variant!(
     Exact,
     "fixed/exact",
     Fixed,
-    TwoMass,
+    TwoMassObserver,
     observer(&REDUCED, R),
     TwoMassConfig::<Fixed>::new(&observer(&REDUCED, R), BASES)
 );
@@ -196,7 +210,7 @@ variant!(
     Reduced,
     "fixed/reduced",
     Fixed,
-    SemiImplicit,
+    SemiImplicitObserver,
     observer(&REDUCED, R),
     SemiImplicitConfig::<Fixed>::new(&observer(&REDUCED, R), BASES)
 );

@@ -6,10 +6,9 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Gear, Screening, SpeedLoopSettings};
 use driveline::design::{
-    Aim, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
-    TwoMassDesign,
+    Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Rate, Requirement, RigidDesign,
+    SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
 };
 use driveline::drive::{Config, ConfigOf, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
@@ -18,6 +17,7 @@ use driveline::machine::{
 };
 use driveline::number::Fixed;
 use driveline::observer::{self, GearedConfig, RigidConfig, TwoMassConfig};
+use driveline::settings::{Bases, Gear, Screening, SpeedLoopSettings};
 
 use crate::scene::governed::governed;
 
@@ -62,7 +62,7 @@ pub const COUNTS: u32 = 8_192;
 pub const GEAR: Gear = Gear {
     efficiency: SET.efficiency.0,
     inertia: MACHINE.motor_inertia,
-    play: 8.0 * core::f64::consts::TAU / COUNTS as f64,
+    deadband: 8.0 * core::f64::consts::TAU / COUNTS as f64,
 };
 
 /// The load may wander by half of rated torque in 100 s: noise and lag are least together so.
@@ -78,8 +78,8 @@ pub const RIGID: RigidDesign =
 
 /// What it needs for a belt that breaks loose within 0.2 s: one mass. The scene overrules it, since a rigid observer has to be tuned so lively, lest the speed
 /// loop excite the shaft, that its noise costs more than the second mass.
-pub const NEED: Need = MACHINE.need(
-    &Duty {
+pub const SELECTION: ObserverSelection = MACHINE.select_observer(
+    &LoadCycle {
         speed: RATED_SPEED,
         torque: 0.78 * RATED_TORQUE,
         change: 0.5 * RATED_TORQUE,
@@ -87,11 +87,11 @@ pub const NEED: Need = MACHINE.need(
         every: 4.0,
         reverses: false,
     },
-    &Aim::USUAL,
+    &Requirement::USUAL,
     1.0 / RATE_HZ as f64,
 );
 
-const _: () = assert!(matches!(NEED.chosen, ObserverChoice::Rigid));
+const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::Rigid));
 
 /// The load's share of the inertia.
 pub const LOAD_SHARE: f64 = MACHINE.load_inertia / (MACHINE.motor_inertia + MACHINE.load_inertia);
@@ -109,16 +109,16 @@ pub const BASES: Bases = Bases::new(&MACHINE, 2.0 * TORQUE_LIMIT, 1.34 * RATED_S
 /// Limits of what a sample can be. In 15 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 128.0,
-    standstill: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    missed: RATE_HZ / 67,
+    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
+    max_coast: RATE_HZ / 67,
 };
 
 /// The drive with a number and an observer.
 pub struct PlanetaryDrive<N, O>(PhantomData<(N, O)>);
 
 governed! { PlanetaryDrive, "planetary", 4000, behind GEAR;
-    "rigid": Rigid, RigidConfig(&RIGID, LOAD_SHARE);
-    "exact": TwoMass, TwoMassConfig(&OBSERVER);
+    "rigid": RigidObserver, RigidConfig(&RIGID, LOAD_SHARE);
+    "exact": TwoMassObserver, TwoMassConfig(&OBSERVER);
 }

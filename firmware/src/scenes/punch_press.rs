@@ -17,7 +17,6 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Cycle, Screening, SpeedLoopSettings};
 use driveline::design::{
     Actuator, CrankedDesign, Disturbance, Encoder, GovernorDesign, LoadFeedForward, Rate, SpeedLoopDesign,
     SpeedLoopTuning,
@@ -28,14 +27,15 @@ use driveline::fluctuation::{
     Window,
 };
 use driveline::governor::{
-    Gains, Governor, OverCycle, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, Symmetric,
-    SymmetricConfig,
+    CycleAverage, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit,
+    SymmetricLimitConfig,
 };
 use driveline::machine::{
     Chain, CrankSlider, Cranked, Damping, Efficiency, Inertia, Length, Mass, Match, Ratio, Stiffness, TwoMass,
 };
 use driveline::number::{Fixed, Number};
-use driveline::observer::{self, CrankedConfig};
+use driveline::observer::{self, CrankConfig};
+use driveline::settings::{Bases, Cycle, Screening, SpeedLoopSettings};
 
 use crate::scene::governed::advance;
 use crate::scene::{Input, Output, Scene};
@@ -88,7 +88,7 @@ pub const OBSERVER: CrankedDesign = MACHINE.observer(Rate::hz(RATE_HZ), Encoder:
 
 /// A speed loop as any other drive has it: three hundredths of the antiresonance, 3 Hz.
 pub const LOOP: SpeedLoopDesign = SpeedLoopDesign {
-    slip: 0.0,
+    damping: 0.0,
     ..REDUCED.speed_loop(Rate::hz(RATE_HZ), SpeedLoopTuning { bandwidth: 0.03, damping: 1.0, shaft_damping: 0.04 })
 };
 
@@ -101,10 +101,10 @@ pub const BASES: Bases = Bases::rigid(10_000.0, 1.34 * RATED_SPEED);
 /// Limits of what a sample can be. In 25 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 128.0,
-    standstill: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    missed: RATE_HZ / 40,
+    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
+    max_coast: RATE_HZ / 40,
 };
 
 /// Where the crank is when the press is switched on: at its top, half a turn from the outer dead centre [2^-32 turn].
@@ -204,7 +204,7 @@ pub type Constants<V> = ConfigOf<PressDrive<V>>;
 /// The drive of a variant.
 pub type PressDrive<V> = Drive<
     <V as Variant>::Number,
-    observer::Cranked<<V as Variant>::Number>,
+    observer::CrankObserver<<V as Variant>::Number>,
     <V as Variant>::Fluctuation,
     <V as Variant>::Governor,
 >;
@@ -283,7 +283,7 @@ impl<N: Number> Notes<N> {
 pub type Measured<N> = (CycleMean<N, SEGMENTS>, Waveform<N, BINS>);
 
 /// What it governs with.
-pub type OnMean<N> = SpeedGovernor<N, (), (), Symmetric, (), OverCycle<N>>;
+pub type OnMean<N> = SpeedGovernor<N, (), (), SymmetricLimit, (), CycleAverage<N>>;
 
 macro_rules! variants {
     ($number:ident, $text:literal, $bases:expr) => {
@@ -295,7 +295,7 @@ macro_rules! variants {
             const NAME: &'static str = concat!("punch-press/", $text, "/plain/10000");
             const CONFIG: &'static Constants<Self> = &Config {
                 limits: Limits::<$number>::new(&SCREENING, $bases),
-                observer: CrankedConfig::<$number>::new(&OBSERVER, $bases),
+                observer: CrankConfig::<$number>::new(&OBSERVER, $bases),
                 fluctuation: (),
                 governor: SpeedLoopConfig::<$number>::new(&LOOP, SETTINGS, $bases),
                 balancer: (),
@@ -310,18 +310,18 @@ macro_rules! variants {
             const NAME: &'static str = concat!("punch-press/", $text, "/mean/10000");
             const CONFIG: &'static Constants<Self> = &Config {
                 limits: Limits::<$number>::new(&SCREENING, $bases),
-                observer: CrankedConfig::<$number>::new(&OBSERVER, $bases),
+                observer: CrankConfig::<$number>::new(&OBSERVER, $bases),
                 fluctuation: (
                     CycleMeanConfig::<$number>::new::<SEGMENTS>(STROKE, PERIOD, $bases),
                     WaveformConfig::new::<BINS>(CycleConfig::new(STROKE, PERIOD, $bases), STROKES),
                 ),
                 governor: SpeedGovernorConfig {
                     gains: Gains::<$number>::new(&OVER_STROKE, SETTINGS.ramp, $bases),
-                    set_point: (),
-                    prompt: (),
-                    limit: SymmetricConfig::<$number>::new(TORQUE_LIMIT, $bases),
-                    supervisor: (),
-                    view: (),
+                    shape: (),
+                    compensation: (),
+                    limit: SymmetricLimitConfig::<$number>::new(TORQUE_LIMIT, $bases),
+                    sequence: (),
+                    filter: (),
                 },
                 balancer: (),
             };

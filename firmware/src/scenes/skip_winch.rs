@@ -19,21 +19,21 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Gear, Screening, SpeedLoopSettings};
 use driveline::design::{
-    Aim, BacklashDesign, BacklashTuning, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, RigidDesign,
-    SlackDesign, SlackTuning, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
+    BacklashDesign, BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder, LoadCycle,
+    ObserverChoice, ObserverSelection, Rate, Requirement, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
 };
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{
-    Gains, Slack, SlackConfig, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, Symmetric,
-    SymmetricConfig,
+    BacklashTakeUp, BacklashTakeUpConfig, Gains, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
+    SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Falls, Gap, Inertia, LinearDamping, Mass, Match, Ratio, Stiffness, TwoMass,
 };
 use driveline::number::Fixed;
-use driveline::observer::{self, BacklashConfig, Geared, GearedConfig, RigidConfig, SemiImplicitConfig};
+use driveline::observer::{self, BacklashConfig, GearedConfig, GearedObserver, RigidConfig, SemiImplicitConfig};
+use driveline::settings::{Bases, Gear, Screening, SpeedLoopSettings};
 
 use crate::scene::assembled::Parts;
 use crate::scene::governed::governed;
@@ -75,7 +75,7 @@ pub const COUNTS: u32 = 8192;
 pub const GEAR: Gear = Gear {
     efficiency: EFFICIENCY.0,
     inertia: REDUCED.motor_inertia,
-    play: 8.0 * core::f64::consts::TAU / COUNTS as f64,
+    deadband: 8.0 * core::f64::consts::TAU / COUNTS as f64,
 };
 
 /// The load hardly changes on its way.
@@ -90,8 +90,8 @@ pub const RIGID: RigidDesign =
     CHAIN.rigid().observer(Rate::hz(RATE_HZ), Encoder::lines(COUNTS / 4), Disturbance { within: 1.0, ..DISTURBANCE });
 
 /// What it needs when the brake closes within 0.3 s.
-pub const NEED: Need = REDUCED.need(
-    &Duty {
+pub const SELECTION: ObserverSelection = REDUCED.select_observer(
+    &LoadCycle {
         speed: RATED_SPEED,
         torque: 1.8 * RATED_TORQUE,
         change: BRAKE_TORQUE,
@@ -99,11 +99,11 @@ pub const NEED: Need = REDUCED.need(
         every: 5.0,
         reverses: false,
     },
-    &Aim::USUAL,
+    &Requirement::USUAL,
     1.0 / RATE_HZ as f64,
 );
 
-const _: () = assert!(matches!(NEED.chosen, ObserverChoice::SemiImplicit));
+const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::SemiImplicit));
 
 /// The load's share of the inertia.
 pub const LOAD_SHARE: f64 = REDUCED.load_inertia / (REDUCED.motor_inertia + REDUCED.load_inertia);
@@ -120,18 +120,18 @@ pub const BASES: Bases = Bases::new(&REDUCED, 2.0 * TORQUE_LIMIT, 1.34 * RATED_S
 /// Limits of what a sample can be. In 40 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 128.0,
-    standstill: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    missed: RATE_HZ / 25,
+    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
+    max_coast: RATE_HZ / 25,
 };
 
 /// The winch with a number and an observer.
 pub struct SkipWinch<N, O>(PhantomData<(N, O)>);
 
 governed! { SkipWinch, "skip-winch", 2000, behind GEAR;
-    "rigid": Rigid, RigidConfig(&RIGID, LOAD_SHARE);
-    "semi-implicit": SemiImplicit, SemiImplicitConfig(&OBSERVER);
+    "rigid": RigidObserver, RigidConfig(&RIGID, LOAD_SHARE);
+    "semi-implicit": SemiImplicitObserver, SemiImplicitConfig(&OBSERVER);
 }
 
 /// The rope as a shaft with a gap: pulled on one flank, and so far from the other that it is never met \[rad\].
@@ -151,25 +151,25 @@ pub const SEARCH: BacklashTuning = BacklashTuning { wander: 0.01, hold: 0.6 };
 pub const SLACK_ROPE: BacklashDesign =
     ON_ROPE.backlash_observer(Rate::hz(RATE_HZ), Encoder::lines(COUNTS / 4), DISTURBANCE, SEARCH);
 
-/// The set point of the emergency stop: from rated speed in an eighth of a second, which is more than motor and brake
+/// The setpoint of the emergency stop: from rated speed in an eighth of a second, which is more than motor and brake
 /// can \[rad/s2\].
 pub const EMERGENCY_RAMP: f64 = 8.0 * RATED_SPEED;
 
 /// The plain speed loop: the design's proportional and integral gains, without its damping.
-pub const PLAIN: SpeedLoopDesign = SpeedLoopDesign { slip: 0.0, ..LOOP };
+pub const PLAIN: SpeedLoopDesign = SpeedLoopDesign { damping: 0.0, ..LOOP };
 
 /// How slack is taken up. While the rope is slack, rated torque holds the drum to the skip's speed, also against the brake. A tight rope's torque rises by
 /// as much within a period of the swing, which is damped as far as motor and drum, as heavy as the skip, can.
-pub const TAKING_UP: SlackTuning = SlackTuning {
+pub const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
     impact: 0.2 * RATED_TORQUE,
     torque: RATED_TORQUE,
     rise: RATED_TORQUE,
-    most: TORQUE_LIMIT,
+    max_torque: TORQUE_LIMIT,
     damping: 0.7,
 };
 
 /// The taking up of slack.
-pub const TAKE_UP: SlackDesign = REDUCED.take_up(Rate::hz(RATE_HZ), TAKING_UP);
+pub const TAKE_UP: BacklashTakeUpDesign = REDUCED.take_up(Rate::hz(RATE_HZ), TAKING_UP);
 
 /// What the emergency stop is tried with.
 pub mod with {
@@ -183,7 +183,7 @@ macro_rules! rope {
     ($with:ident, $number:ident, $name:literal, $limit:ty, $config:expr, $bases:expr) => {
         impl Parts for SkipWinch<$number, with::$with> {
             type Number = $number;
-            type Observer = Geared<observer::Backlash<$number>>;
+            type Observer = GearedObserver<observer::BacklashObserver<$number>>;
             type Governor = SpeedGovernor<$number, (), (), $limit>;
             const NAME: &'static str = concat!("skip-winch/", $name, "/2000");
             const RATE_HZ: u32 = RATE_HZ;
@@ -197,12 +197,12 @@ macro_rules! rope {
                 ),
                 fluctuation: (),
                 governor: SpeedGovernorConfig {
-                    view: (),
+                    filter: (),
                     gains: Gains::<$number>::of_speed_loop(&PLAIN, EMERGENCY_RAMP, $bases),
-                    set_point: (),
-                    prompt: (),
+                    shape: (),
+                    compensation: (),
                     limit: $config,
-                    supervisor: (),
+                    sequence: (),
                 },
                 balancer: (),
             };
@@ -210,17 +210,17 @@ macro_rules! rope {
     };
 }
 
-const SINGLE: SymmetricConfig<f32> = SymmetricConfig::<f32>::new(TORQUE_LIMIT, Bases::SI);
-const FIXED: SymmetricConfig<Fixed> = SymmetricConfig::<Fixed>::new(TORQUE_LIMIT, BASES);
+const SINGLE: SymmetricLimitConfig<f32> = SymmetricLimitConfig::<f32>::new(TORQUE_LIMIT, Bases::SI);
+const FIXED: SymmetricLimitConfig<Fixed> = SymmetricLimitConfig::<Fixed>::new(TORQUE_LIMIT, BASES);
 
-rope!(Plain, f32, "f32/plain", Symmetric, SINGLE, Bases::SI);
-rope!(Plain, Fixed, "fixed/plain", Symmetric, FIXED, BASES);
-rope!(Slack, f32, "f32/slack", Slack<f32, Symmetric>, SlackConfig::<f32, _>::new(&TAKE_UP, SINGLE, Bases::SI), Bases::SI);
+rope!(Plain, f32, "f32/plain", SymmetricLimit, SINGLE, Bases::SI);
+rope!(Plain, Fixed, "fixed/plain", SymmetricLimit, FIXED, BASES);
+rope!(Slack, f32, "f32/slack", BacklashTakeUp<f32, SymmetricLimit>, BacklashTakeUpConfig::<f32, _>::new(&TAKE_UP, SINGLE, Bases::SI), Bases::SI);
 rope!(
     Slack,
     Fixed,
     "fixed/slack",
-    Slack<Fixed, Symmetric>,
-    SlackConfig::<Fixed, _>::new(&TAKE_UP, FIXED, BASES),
+    BacklashTakeUp<Fixed, SymmetricLimit>,
+    BacklashTakeUpConfig::<Fixed, _>::new(&TAKE_UP, FIXED, BASES),
     BASES
 );

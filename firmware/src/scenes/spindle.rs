@@ -7,16 +7,16 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Screening, SpeedLoopSettings};
 use driveline::design::{
-    Aim, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
-    TwoMassDesign,
+    Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Rate, Requirement, RigidDesign,
+    SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
 };
 use driveline::drive::{Config, ConfigOf, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Match, Section, ShearModulus, TwoMass, stepped};
 use driveline::number::Fixed;
 use driveline::observer::{self, RigidConfig, TwoMassConfig};
+use driveline::settings::{Bases, Screening, SpeedLoopSettings};
 
 use crate::scene::governed::governed;
 
@@ -59,8 +59,8 @@ pub const OBSERVER: TwoMassDesign = MACHINE.observer(Rate::hz(RATE_HZ), Encoder:
 pub const RIGID: RigidDesign = CHAIN.rigid().observer(Rate::hz(RATE_HZ), Encoder::lines(COUNTS / 4), DISTURBANCE);
 
 /// What it needs for a tool that hits the work within 3 ms, three times a second; twelve samples on a swing are too few for the semi-implicit step.
-pub const NEED: Need = MACHINE.need(
-    &Duty {
+pub const SELECTION: ObserverSelection = MACHINE.select_observer(
+    &LoadCycle {
         speed: RATED_SPEED,
         torque: 0.66 * RATED_TORQUE,
         change: 0.64 * RATED_TORQUE,
@@ -68,11 +68,11 @@ pub const NEED: Need = MACHINE.need(
         every: 0.3,
         reverses: false,
     },
-    &Aim::USUAL,
+    &Requirement::USUAL,
     1.0 / RATE_HZ as f64,
 );
 
-const _: () = assert!(matches!(NEED.chosen, ObserverChoice::Exact));
+const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::Exact));
 
 /// The load's share of the inertia.
 pub const LOAD_SHARE: f64 = MACHINE.load_inertia / (MACHINE.motor_inertia + MACHINE.load_inertia);
@@ -90,16 +90,16 @@ pub const BASES: Bases = Bases::new(&MACHINE, 40.0 * TORQUE_LIMIT, 1.34 * RATED_
 /// Limits of what a sample can be. In 6 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 256.0,
-    standstill: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    missed: RATE_HZ / 167,
+    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
+    max_coast: RATE_HZ / 167,
 };
 
 /// The spindle with a number and an observer.
 pub struct Spindle<N, O>(PhantomData<(N, O)>);
 
 governed! { Spindle, "spindle", 10000;
-    "rigid": Rigid, RigidConfig(&RIGID, LOAD_SHARE);
-    "exact": TwoMass, TwoMassConfig(&OBSERVER);
+    "rigid": RigidObserver, RigidConfig(&RIGID, LOAD_SHARE);
+    "exact": TwoMassObserver, TwoMassConfig(&OBSERVER);
 }

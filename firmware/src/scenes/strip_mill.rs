@@ -6,16 +6,16 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Screening, SpeedLoopSettings};
 use driveline::design::{
-    Aim, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
-    TwoMassDesign,
+    Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Rate, Requirement, RigidDesign,
+    SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign,
 };
 use driveline::drive::{Config, ConfigOf, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass};
 use driveline::number::Fixed;
 use driveline::observer::{self, RigidConfig, SemiImplicitConfig};
+use driveline::settings::{Bases, Screening, SpeedLoopSettings};
 
 use crate::scene::governed::governed;
 
@@ -57,8 +57,8 @@ pub const OBSERVER: TwoMassDesign = REDUCED.observer(Rate::hz(RATE_HZ), Encoder:
 pub const RIGID: RigidDesign = CHAIN.rigid().observer(Rate::hz(RATE_HZ), Encoder::lines(COUNTS / 4), DISTURBANCE);
 
 /// What it needs for a strip that bites within 50 ms.
-pub const NEED: Need = REDUCED.need(
-    &Duty {
+pub const SELECTION: ObserverSelection = REDUCED.select_observer(
+    &LoadCycle {
         speed: RATED_SPEED,
         torque: 0.7 * RATED_TORQUE,
         change: 0.6 * RATED_TORQUE,
@@ -66,11 +66,11 @@ pub const NEED: Need = REDUCED.need(
         every: 1.0,
         reverses: false,
     },
-    &Aim::USUAL,
+    &Requirement::USUAL,
     1.0 / RATE_HZ as f64,
 );
 
-const _: () = assert!(matches!(NEED.chosen, ObserverChoice::SemiImplicit));
+const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::SemiImplicit));
 
 /// The load's share of the inertia.
 pub const LOAD_SHARE: f64 = REDUCED.load_inertia / (REDUCED.motor_inertia + REDUCED.load_inertia);
@@ -89,16 +89,16 @@ pub const BASES: Bases = Bases::new(&REDUCED, 20.0 * TORQUE_LIMIT, 4.0 * RATED_S
 /// Limits of what a sample can be. In 0.2 s the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 512.0,
-    standstill: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    missed: RATE_HZ / 5,
+    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
+    max_coast: RATE_HZ / 5,
 };
 
 /// The stand with a number and an observer.
 pub struct StripMill<N, O>(PhantomData<(N, O)>);
 
 governed! { StripMill, "strip-mill", 10000;
-    "rigid": Rigid, RigidConfig(&RIGID, LOAD_SHARE);
-    "semi-implicit": SemiImplicit, SemiImplicitConfig(&OBSERVER);
+    "rigid": RigidObserver, RigidConfig(&RIGID, LOAD_SHARE);
+    "semi-implicit": SemiImplicitObserver, SemiImplicitConfig(&OBSERVER);
 }

@@ -5,13 +5,13 @@
 //! takes the torque as a voltage of +-10 V, here for +-1.27 N m: at that the rod is stressed by 52 MPa. Two
 //! velocity sensors stand on the disc's bearings, and the disc has holes for weights in two planes. All can be bought or turned; it is no machine that exists.
 
-use driveline::balance::PhasorsConfig;
-use driveline::constants::{Bases, Measured, Screening, SpeedLoopSettings};
+use driveline::balancing::PhasorsConfig;
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
 use driveline::drive::{Config, Limits};
 use driveline::governor::SpeedLoopConfig;
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Match, Section, ShearModulus, TwoMass, stepped};
 use driveline::observer::{self, TwoMassConfig};
+use driveline::settings::{Bases, PhasorSettings, Screening, SpeedLoopSettings};
 
 use crate::panel::trial_weights::{Goal, TrialWeights};
 use crate::scene::balanced::{Constants, Variant};
@@ -64,13 +64,13 @@ const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE_LIM
 /// an angle.
 const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 128.0,
-    standstill: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    missed: RATE_HZ / 67,
+    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
+    max_coast: RATE_HZ / 67,
 };
 /// Eight blocks of twelve turns.
-const MEASURED: Measured = Measured { turns: 12, ..Measured::DIRECT };
+const MEASURED: PhasorSettings = PhasorSettings { turns: 12, ..PhasorSettings::DIRECT };
 
 /// Good enough.
 pub struct Quiet;
@@ -85,12 +85,12 @@ pub struct TestRig;
 
 impl Variant for TestRig {
     type Number = f32;
-    type Observer = observer::TwoMass<f32>;
+    type Observer = observer::TwoMassObserver<f32>;
     type Adviser = TrialWeights<Quiet, 2, 2>;
     const NAME: &'static str = "test-rig/f32/two-mass/10000";
     const RATE_HZ: u32 = RATE_HZ;
     const UNIT: f32 = 1.0;
-    const CONFIG: &'static Constants<f32, observer::TwoMass<f32>> = &Config {
+    const CONFIG: &'static Constants<f32, observer::TwoMassObserver<f32>> = &Config {
         limits: Limits::<f32>::new(&SCREENING, Bases::SI),
         observer: TwoMassConfig::<f32>::new(&OBSERVER, Bases::SI),
         fluctuation: (),

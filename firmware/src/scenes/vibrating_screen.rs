@@ -11,19 +11,19 @@
 
 use core::marker::PhantomData;
 
-use driveline::constants::{Bases, Screening};
 use driveline::design::{
-    Aim, BarredSpeeds, Disturbance, Duty, Encoder, Need, ObserverChoice, Rate, SpeedLoopDesign, SpeedLoopTuning,
-    TwoMassDesign, USUAL_MARGIN,
+    BarredSpeeds, Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Rate, Requirement,
+    SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign, USUAL_MARGIN,
 };
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{
-    Barred, BarredConfig, Gains, SpeedGovernor, SpeedGovernorConfig, Symmetric, SymmetricConfig,
+    Barred, BarredConfig, Gains, SpeedGovernor, SpeedGovernorConfig, SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Match, Section, ShearModulus, TwoMass};
+use driveline::math::sqrt;
 use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
-use driveline::scalar::sqrt;
+use driveline::settings::{Bases, Screening};
 
 use crate::scene::assembled::Parts;
 
@@ -83,8 +83,8 @@ pub const DISTURBANCE: Disturbance =
 pub const OBSERVER: TwoMassDesign = MACHINE.observer(Rate::hz(RATE_HZ), Encoder::lines(COUNTS / 4), DISTURBANCE);
 
 /// What it needs for the box's push: at speed `S^2 w^2/2M` either way, twice a turn.
-pub const NEED: Need = MACHINE.need(
-    &Duty {
+pub const SELECTION: ObserverSelection = MACHINE.select_observer(
+    &LoadCycle {
         speed: RATED_SPEED,
         torque: 2.0 * RATED_TORQUE,
         change: UNBALANCE * UNBALANCE * RATED_SPEED * RATED_SPEED / MASSES[0],
@@ -92,15 +92,15 @@ pub const NEED: Need = MACHINE.need(
         every: 0.5 * core::f64::consts::PI / RATED_SPEED,
         reverses: true,
     },
-    &Aim::USUAL,
+    &Requirement::USUAL,
     1.0 / RATE_HZ as f64,
 );
 
-const _: () = assert!(matches!(NEED.chosen, ObserverChoice::Exact));
+const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::Exact));
 
 /// The speed loop: a tenth of the antiresonance, without damping of the shaft.
 pub const LOOP: SpeedLoopDesign = SpeedLoopDesign {
-    slip: 0.0,
+    damping: 0.0,
     ..MACHINE.speed_loop(Rate::hz(RATE_HZ), SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.03 })
 };
 
@@ -117,10 +117,10 @@ pub const BASES: Bases = Bases::new(&MACHINE, 1000.0 * TORQUE_LIMIT, 2.0 * RATED
 /// Limits of what a sample can be. In 20 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
-    reference: 1.2 * RATED_SPEED,
+    setpoint: 1.2 * RATED_SPEED,
     innovation: core::f64::consts::TAU / 256.0,
-    standstill: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    missed: RATE_HZ / 50,
+    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
+    max_coast: RATE_HZ / 50,
 };
 
 /// How the screen passes its resonances.
@@ -138,8 +138,8 @@ macro_rules! variant {
     ($with:ident, $number:ident, $name:literal, $shape:ty, $set_point:expr, $bases:expr) => {
         impl Parts for VibratingScreen<$number, with::$with> {
             type Number = $number;
-            type Observer = observer::TwoMass<$number>;
-            type Governor = SpeedGovernor<$number, $shape, (), Symmetric>;
+            type Observer = observer::TwoMassObserver<$number>;
+            type Governor = SpeedGovernor<$number, $shape, (), SymmetricLimit>;
             const NAME: &'static str = concat!("vibrating-screen/", $name, "/4000");
             const RATE_HZ: u32 = RATE_HZ;
             const CONFIG: &'static ConfigOf<Drive<$number, Self::Observer, (), Self::Governor>> = &Config {
@@ -147,12 +147,12 @@ macro_rules! variant {
                 observer: TwoMassConfig::<$number>::new(&OBSERVER, $bases),
                 fluctuation: (),
                 governor: SpeedGovernorConfig {
-                    view: (),
+                    filter: (),
                     gains: Gains::<$number>::of_speed_loop(&LOOP, RAMP, $bases),
-                    set_point: $set_point,
-                    prompt: (),
-                    limit: SymmetricConfig::<$number>::new(TORQUE_LIMIT, $bases),
-                    supervisor: (),
+                    shape: $set_point,
+                    compensation: (),
+                    limit: SymmetricLimitConfig::<$number>::new(TORQUE_LIMIT, $bases),
+                    sequence: (),
                 },
                 balancer: (),
             };

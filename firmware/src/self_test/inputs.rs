@@ -1,8 +1,8 @@
 //! A pseudo-random run of inputs, the same bits on host and target.
 //!
-//! A machine that wanders: its speed walks within +-0.005 turns a tick, its torque and set point within +-8 (SI units,
+//! A machine that wanders: its speed walks within +-0.005 turns a tick, its torque and setpoint within +-8 (SI units,
 //! or one part in 16 of the fixed-point range), the governor is released after 16 ticks and again after every
-//! 1024th. Now and then a sample is bad: the angle jumps or stands still, torque or set point are any bits. Only the good angle is continuous; nothing is in closed loop. It is for comparing bits and counting instructions,
+//! 1024th. Now and then a sample is bad: the angle jumps or stands still, torque or setpoint are any bits. Only the good angle is continuous; nothing is in closed loop. It is for comparing bits and counting instructions,
 //! not for judging control.
 
 use crate::Words;
@@ -44,13 +44,13 @@ impl Program {
         // Primes, so that every pair of faults meets.
         let jump = if self.tick % 61 < 4 { self.next_signed() as u32 } else { 0 };
         let torque = if self.tick % 67 < 3 { self.next_signed() as u32 } else { self.next_word() };
-        let reference = if self.tick % 71 < 3 { self.next_signed() as u32 } else { self.next_word() };
+        let setpoint = if self.tick % 71 < 3 { self.next_signed() as u32 } else { self.next_word() };
         let angle = if self.tick % 73 < 3 { self.seen } else { self.angle.wrapping_add(jump) };
         self.seen = angle;
         Input {
             angle,
             torque,
-            reference,
+            setpoint,
             flags: if released { Input::RELEASED } else { 0 },
             vibration: [self.next_word(), self.next_word()],
             asked: [0; 2],

@@ -57,8 +57,8 @@ fn the_hoist_compiles_to_the_same_bits() {
     same_bits(&hoist::HOIST_OBSERVER.gains, &gains);
     let compiled = hoist::HOIST_SPEED_LOOP;
     same_bits(
-        &[compiled.proportional, compiled.integral, compiled.slip],
-        &[governor.proportional, governor.integral, governor.slip],
+        &[compiled.proportional, compiled.integral, compiled.damping],
+        &[governor.proportional, governor.integral, governor.damping],
     );
     same_bits(&[hoist::HOIST_TORQUE, hoist::HOIST_SPEED], &[machine.limits.torque, machine.limits.speed]);
 }
@@ -70,7 +70,7 @@ fn the_axis_compiles_to_the_same_bits() {
     let gains = plan.states.iter().map(|state| state.gain).collect::<Vec<_>>();
     same_bits(&axis::FEED_AXIS_OBSERVER.gains, &gains);
     let (compiled, governor) = (axis::FEED_AXIS_SPEED_LOOP, plan.speed_loop.unwrap());
-    same_bits(&[compiled.proportional, compiled.slip], &[governor.proportional, governor.slip]);
+    same_bits(&[compiled.proportional, compiled.damping], &[governor.proportional, governor.damping]);
     same_bits(&[axis::FEED_AXIS_TORQUE, axis::FEED_AXIS_SPEED], &[machine.limits.torque, machine.limits.speed]);
 }
 
@@ -82,8 +82,8 @@ fn the_mill_compiles_to_the_same_bits() {
     same_bits(&mill::ROLLING_MILL_OBSERVER.gains, &gains);
     let compiled = mill::ROLLING_MILL_SPEED_LOOP;
     same_bits(
-        &[compiled.proportional, compiled.integral, compiled.slip],
-        &[governor.proportional, governor.integral, governor.slip],
+        &[compiled.proportional, compiled.integral, compiled.damping],
+        &[governor.proportional, governor.integral, governor.damping],
     );
     same_bits(&[mill::ROLLING_MILL_TORQUE, mill::ROLLING_MILL_SPEED], &[machine.limits.torque, machine.limits.speed]);
 }
@@ -95,7 +95,7 @@ fn the_ship_with_its_branches_compiles_to_the_same_bits() {
     let gains = plan.states.iter().map(|state| state.gain).collect::<Vec<_>>();
     same_bits(&ship::TWIN_SCREW_SHIP_OBSERVER.gains, &gains);
     let (compiled, governor) = (ship::TWIN_SCREW_SHIP_SPEED_LOOP, plan.speed_loop.unwrap());
-    same_bits(&[compiled.proportional, compiled.slip], &[governor.proportional, governor.slip]);
+    same_bits(&[compiled.proportional, compiled.damping], &[governor.proportional, governor.damping]);
     same_bits(
         &[ship::TWIN_SCREW_SHIP_TORQUE, ship::TWIN_SCREW_SHIP_SPEED],
         &[machine.limits.torque, machine.limits.speed],

@@ -22,7 +22,7 @@ fn gains_place_the_poles() {
         let machine = TwoMass::new(Inertia(0.005), Inertia(load), Stiffness(700.0), Damping(0.0));
         let design = machine.speed_loop(Rate::hz(20_000), tuning);
         let jm = machine.motor_inertia;
-        let (kp, ki, kv) = (design.proportional / jm, design.integral / jm, design.slip / jm);
+        let (kp, ki, kv) = (design.proportional / jm, design.integral / jm, design.damping / jm);
         let (wa2, wr2) = (700.0 / load, 700.0 * (1.0 / 0.005 + 1.0 / load));
         let found = [kp + kv, ki + wr2, kp * wa2, ki * wa2];
         let (w1, w2) = (tuning.bandwidth * wa2.sqrt(), design.shaft_frequency);
@@ -41,7 +41,7 @@ fn radius(machine: &TwoMass, design: &SpeedLoopDesign, gain: f64) -> f64 {
     let (jm, jl, k, d) = (machine.motor_inertia, machine.load_inertia, machine.stiffness, machine.damping);
     let a = Matrix([[-d / jm, -k / jm, d / jm], [1.0, 0.0, -1.0], [d / jl, k / jl, -d / jl]]);
     let (f, g) = discretise::<3, 1, 4>(&a, &Matrix([[1.0 / jm], [0.0], [0.0]]), design.period).unwrap();
-    let (p, i, v) = (gain * design.proportional, gain * design.integral * design.period, gain * design.slip);
+    let (p, i, v) = (gain * design.proportional, gain * design.integral * design.period, gain * design.damping);
     let mut loop_ = Matrix::<5, 5>::ZERO;
     for row in 0..3 {
         loop_.0[row][..3].copy_from_slice(&f.0[row]);

@@ -1,11 +1,11 @@
 //! Every case of `discretisation.json` through the coefficients that a tick loads, in every number, and through the design's exponential.
 
 use cargo_driveline::sweep::{Step, open_loop};
-use driveline::constants::Bases;
 use driveline::design::{Matrix, discretise};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass as Machine};
 use driveline::number::Fixed;
-use driveline::observer::TwoMass;
+use driveline::observer::TwoMassObserver;
+use driveline::settings::Bases;
 use serde_json::Value;
 
 fn cases() -> Vec<Value> {
@@ -73,13 +73,13 @@ fn stored_coefficients_meet_the_file() {
         let design = open_loop(&machine, period);
         let bases = Bases::new(&machine, machine.stiffness * 0.01, omega * 0.01);
         let expected = pair_of(case);
-        let double = <TwoMass<f64> as Step<f64>>::config(&design, bases).unwrap();
-        let single = <TwoMass<f32> as Step<f32>>::config(&design, bases).unwrap();
-        let fixed = <TwoMass<Fixed> as Step<Fixed>>::config(&design, bases).unwrap();
-        assert!(difference(<TwoMass<f64> as Step<f64>>::increments(&double), expected, omega) < 1e-14);
-        assert!(difference(<TwoMass<f32> as Step<f32>>::increments(&single), expected, omega) < 1e-7);
+        let double = <TwoMassObserver<f64> as Step<f64>>::config(&design, bases).unwrap();
+        let single = <TwoMassObserver<f32> as Step<f32>>::config(&design, bases).unwrap();
+        let fixed = <TwoMassObserver<Fixed> as Step<Fixed>>::config(&design, bases).unwrap();
+        assert!(difference(<TwoMassObserver<f64> as Step<f64>>::increments(&double), expected, omega) < 1e-14);
+        assert!(difference(<TwoMassObserver<f32> as Step<f32>>::increments(&single), expected, omega) < 1e-7);
         // Stored per unit of the twist's and the slip's base: back to SI.
-        let [[n11, n12], [n21, n22]] = <TwoMass<Fixed> as Step<Fixed>>::increments(&fixed);
+        let [[n11, n12], [n21, n22]] = <TwoMassObserver<Fixed> as Step<Fixed>>::increments(&fixed);
         let ratio = bases.twist / bases.twist_rate;
         let stored = [[n11, n12 * ratio], [n21 / ratio, n22]];
         // A base of the slip that the damper cuts counts for more.

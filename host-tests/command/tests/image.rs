@@ -12,7 +12,7 @@ use object::{Object, ObjectSection, ObjectSymbol};
 /// A bench takes well under a second of QEMU.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// Words of a governed rigid drive: speed, load torque, accelerating torque, residual and angle of the observer; set point,
+/// Words of a governed rigid drive: speed, load torque, accelerating torque, residual and angle of the observer; setpoint,
 /// ramp and integral of the governor; the last command, the count of missed angles, and the pointer to the constants.
 const RIGID_STATE: u64 = 4 * (5 + 3 + 3);
 

@@ -46,7 +46,7 @@ fn a_governor_that_is_left_out_is_not_there() {
             for part in ["speed_loop", "SpeedLoop"] {
                 assert!(!has(&without, part), "{what}");
             }
-            // Its state: integral, set point and reference, four bytes each.
+            // Its state: integral, setpoint and reference, four bytes each.
             assert_eq!(with.sizes.ram() - without.sizes.ram(), 12, "{what}");
             // Its table: four gains and two limits, four bytes each, in a section that is aligned to eight at most.
             let table = with.sizes.constants - without.sizes.constants;

@@ -159,10 +159,10 @@ fn published_two_mass_rig() {
 #[test]
 fn losses_are_on_the_driving_side() {
     for (side, flow, factor) in [
-        (Side::Load, Flow::Starting, 1.0 / 4.0 / 0.8),
-        (Side::Load, Flow::Braking, 1.0 / 4.0 * 0.8),
-        (Side::Motor, Flow::Starting, 4.0 * 0.8),
-        (Side::Motor, Flow::Braking, 4.0 / 0.8),
+        (Side::Load, Flow::Motoring, 1.0 / 4.0 / 0.8),
+        (Side::Load, Flow::Overhauling, 1.0 / 4.0 * 0.8),
+        (Side::Motor, Flow::Motoring, 4.0 * 0.8),
+        (Side::Motor, Flow::Overhauling, 4.0 / 0.8),
         (Side::Load, Flow::Lossless, 1.0 / 4.0),
     ] {
         assert_eq!(refer_torque(1.0, 4.0, 0.8, side, flow), factor);
@@ -268,7 +268,7 @@ fn worth_of_each_part() {
         (Element::Mass(1), build(&[0.4, 0.7], &[series])),
         (Element::Mass(2), build(&[0.4, 0.05], &[2.0e4])),
     ];
-    let worth = whole.worth();
+    let worth = whole.sensitivity();
     assert_eq!(worth.parts().len(), expected.len());
     for (part, (element, without)) in worth.parts().iter().zip(expected) {
         assert_eq!(part.element, element);

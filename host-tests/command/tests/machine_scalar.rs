@@ -1,6 +1,6 @@
 //! Elementary functions against 60-digit arithmetic, and the square root against the processor's.
 
-use driveline::scalar::{atan2, exp, exp_m1, hypot, ln, sin_cos, sqrt};
+use driveline::math::{atan2, exp, exp_m1, hypot, ln, sin_cos, sqrt};
 use serde_json::Value;
 
 fn rows(key: &str) -> Vec<Vec<f64>> {

@@ -5,17 +5,17 @@ use cargo_driveline::drivetrains::approximate::{ApproximateObserver, StepOf};
 use cargo_driveline::drivetrains::hoist;
 use cargo_driveline::drivetrains::lockstep::{OnHost, Trace, run};
 use cargo_driveline::drivetrains::other_steps::{Recorded, comparison, comparisons, recorded};
-use driveline::constants::{Bases, Gear, Screening};
 use driveline::design::{Disturbance, Encoder, Rate, TwoMassDesign};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass as Machine};
-use driveline::observer::{Geared, GearedConfig, TwoMass, TwoMassConfig};
+use driveline::observer::{GearedConfig, GearedObserver, TwoMassConfig, TwoMassObserver};
 use driveline::sample::Sample;
+use driveline::settings::{Bases, Gear, Screening};
 use driveline_firmware::scene::Scene;
 use driveline_firmware::scenes::hoist as scene;
 use driveline_firmware::{Visitor, Words, variants};
 
-const GEAR: Gear = Gear { efficiency: 0.94, inertia: 0.7, play: 0.01 };
+const GEAR: Gear = Gear { efficiency: 0.94, inertia: 0.7, deadband: 0.01 };
 
 fn design(rate_hz: u32) -> TwoMassDesign {
     let disturbance = Disturbance { torque_accuracy: 7.5, load_torque_step: 375.0, within: 1.0 };
@@ -65,9 +65,9 @@ fn recording(design: &TwoMassDesign, ticks: usize) -> Vec<Recorded> {
 /// With the exact step it is the drive, as long as no sample is refused: to 1e-9 of the estimates, though in fact to the last bit.
 #[test]
 fn with_the_exact_step_it_is_the_drive() {
-    type Observer = Geared<TwoMass<f64>>;
+    type Observer = GearedObserver<TwoMassObserver<f64>>;
     let design = design(10_000);
-    let screening = Screening { torque: 1e4, reference: 1e3, innovation: 0.5, standstill: 0.5, missed: 200 };
+    let screening = Screening { torque: 1e4, setpoint: 1e3, innovation: 0.5, frozen_turn: 0.5, max_coast: 200 };
     let config: ConfigOf<Drive<f64, Observer>> = Config {
         limits: Limits::<f64>::new(&screening, Bases::SI),
         observer: GearedConfig::<f64, _>::new(
@@ -83,7 +83,7 @@ fn with_the_exact_step_it_is_the_drive() {
     let mut drive: Drive<f64, Observer> = Drive::new(&config, 0);
     let mut observer = ApproximateObserver::new(&design, StepOf::Exact, &GEAR).unwrap();
     for tick in recording(&design, 20_000) {
-        let sample = Sample { angle: tick.angle, torque: tick.torque, reference: 0.0 };
+        let sample = Sample { angle: tick.angle, torque: tick.torque, setpoint: 0.0 };
         let command = drive.tick(&config, &sample);
         assert!(command.faults.is_none());
         let now = drive.estimate(&config);

@@ -6,7 +6,7 @@ use crate::machine::{Speed, Torque};
 /// How an engine burns, which shapes its full-load curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Mixture {
+pub enum CombustionType {
     /// Spark ignition.
     Spark,
     /// Diesel with a chamber before the cylinder.
@@ -15,7 +15,7 @@ pub enum Mixture {
     DirectInjection,
 }
 
-impl Mixture {
+impl CombustionType {
     /// Coefficients a, b, c of `P/P_N = a x + b x^2 - c x^3`, `x = omega/omega_N`: the relation of Leiderman and Khlystov with the coefficients of Jazar,
     /// Vehicle Dynamics, ch. 4. They are of naturally aspirated engines; a turbocharged one needs its own curve.
     const fn coefficients(self) -> [f64; 3] {
@@ -35,7 +35,7 @@ impl Mixture {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Combustion {
     /// How it burns.
-    pub mixture: Mixture,
+    pub mixture: CombustionType,
     /// Rated torque \[N m\]: rated power over rated speed.
     pub rated_torque: f64,
     /// Rated speed \[rad/s\].
@@ -52,7 +52,7 @@ impl Combustion {
     /// # Panics
     /// At compile time in a constant, where a value is out of range.
     #[must_use]
-    pub const fn new(mixture: Mixture, rated: (Speed, Torque), idle: Speed, no_load: Speed) -> Self {
+    pub const fn new(mixture: CombustionType, rated: (Speed, Torque), idle: Speed, no_load: Speed) -> Self {
         match Self::try_new(mixture, rated, idle, no_load) {
             Ok(engine) => engine,
             Err(error) => error.stop(),
@@ -63,7 +63,12 @@ impl Combustion {
     ///
     /// # Errors
     /// [`Error::CombustionEngine`].
-    pub const fn try_new(mixture: Mixture, rated: (Speed, Torque), idle: Speed, no_load: Speed) -> Result<Self, Error> {
+    pub const fn try_new(
+        mixture: CombustionType,
+        rated: (Speed, Torque),
+        idle: Speed,
+        no_load: Speed,
+    ) -> Result<Self, Error> {
         let rising = positive(idle.0) && idle.0 < rated.0.0 && rated.0.0 < no_load.0 && no_load.0.is_finite();
         if !(rising && positive(rated.1.0)) {
             return Err(Error::CombustionEngine);
@@ -88,7 +93,7 @@ impl Combustion {
 
     /// Speed of the largest torque, `omega_N b/(2 c)`.
     #[must_use]
-    pub const fn elastic_speed(&self) -> Speed {
+    pub const fn speed_at_peak_torque(&self) -> Speed {
         let [_, b, c] = self.mixture.coefficients();
         Speed(self.rated_speed * b / (2.0 * c))
     }

@@ -2,7 +2,7 @@
 
 use crate::machine::error::{Error, positive};
 use crate::machine::{Speed, Torque};
-use crate::scalar::sqrt;
+use crate::math::sqrt;
 
 /// An induction motor on a stiff supply, stator resistance neglected: `tau = 2 tau_A/(s/s_A + s_A/s)` with the slip
 /// `s = 1 - omega/omega_0` (Kloss's formula).

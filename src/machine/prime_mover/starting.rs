@@ -2,7 +2,7 @@
 
 use crate::machine::error::{Error, positive};
 use crate::machine::{Line, Rigid, Torque};
-use crate::scalar::{ln, sqrt};
+use crate::math::{ln, sqrt};
 
 /// A starting torque and how it falls over the starting time [Huang 1987 §2.2].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use driveline::fault::Faults;
 use driveline::hal::{
-    Board, EnableChain, Enabling, FullScale, Line, PhaseConfig, PwmTorque, Quadrature, ThreePhase, TorqueOutput,
+    Board, EnableChain, EnableLine, Enabling, FullScale, PhaseConfig, PwmTorque, Quadrature, ThreePhase, TorqueOutput,
 };
 
 use super::bridge::{self, Channel, Outputs};
@@ -60,7 +60,7 @@ impl<T> Nucleo<T> {
         let nucleo = Nucleo {
             encoder: Quadrature::new(Timer2, counts_per_turn, 32),
             torque,
-            chain: (Outputs, EnableChain::new([Line::high(drive_enable)])),
+            chain: (Outputs, EnableChain::new([EnableLine::high(drive_enable)])),
             enabled: false,
             watchdog: Watchdog::start(),
         };

@@ -6,7 +6,7 @@ macro_rules! parts {
         pub mod $module {
             use super::super::*;
             use crate::scenes::hoist;
-            use driveline::governor::{ActiveDampingConfig, BetweenConfig, SlewConfig, SymmetricConfig};
+            use driveline::governor::{ActiveDampingConfig, SlewConfig, SymmetricLimitConfig, TorqueRangeConfig};
 
             /// Gains and ramp.
             pub const GAINS: Gains<$number> = Gains::<$number>::new(&DIESEL_PLAIN, DIESEL.ramp, $bases);
@@ -22,19 +22,21 @@ macro_rules! parts {
             pub const DAMPING: ActiveDampingConfig<$number> =
                 ActiveDampingConfig::<$number>::new(&hoist::speed_loop(10_000), $bases);
             /// A limit either way.
-            pub const SYMMETRIC: SymmetricConfig<$number> = SymmetricConfig::<$number>::new(DIESEL_TORQUE, $bases);
+            pub const SYMMETRIC: SymmetricLimitConfig<$number> =
+                SymmetricLimitConfig::<$number>::new(DIESEL_TORQUE, $bases);
             /// A limit from zero on.
-            pub const BETWEEN: BetweenConfig<$number> = BetweenConfig::<$number>::new(0.0, DIESEL_TORQUE, $bases);
+            pub const BETWEEN: TorqueRangeConfig<$number> =
+                TorqueRangeConfig::<$number>::new(0.0, DIESEL_TORQUE, $bases);
             /// The curve.
             pub const CURVE: CurveConfig<$number, 4> = CurveConfig::<$number, 4>::new(&DIESEL.curve, 0.0, $bases);
             /// The mean over a firing interval.
-            pub const MEAN: MeanConfig<$number, FIRING> = MeanConfig::<$number, FIRING>::of_ticks();
+            pub const MEAN: MovingAverageConfig<$number, FIRING> = MovingAverageConfig::<$number, FIRING>::of_ticks();
             /// Slew, from nothing to the rated torque in 50 ms.
-            pub const SLEW: SlewConfig<$number, SymmetricConfig<$number>> =
+            pub const SLEW: SlewConfig<$number, SymmetricLimitConfig<$number>> =
                 SlewConfig::<$number, _>::new(20.0 * DIESEL_TORQUE, SYMMETRIC, PERIOD, $bases);
             /// Modes that the bench's wandering inputs do not trip.
-            pub const WIDE: ModesConfig<$number> = ModesConfig::<$number>::new(
-                &ModesSettings {
+            pub const WIDE: SequencerConfig<$number> = SequencerConfig::<$number>::new(
+                &SequencerSettings {
                     overspeed: 1.9 * RATED_SPEED,
                     underspeed: -1.0,
                     reverse: 1.9 * RATED_SPEED,

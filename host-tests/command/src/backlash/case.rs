@@ -2,9 +2,9 @@
 
 use core::f64::consts::TAU;
 
-use driveline::constants::Bases;
 use driveline::design::{BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate};
 use driveline::machine::{Damping, Gap, Inertia, Stiffness, TwoMass};
+use driveline::settings::Bases;
 
 /// Ticks a second.
 pub const RATE_HZ: u32 = 10_000;

@@ -163,7 +163,7 @@ impl Rig {
         }
     }
 
-    /// Proportional and integral, 20 rad/s wide, its set point on a ramp of 0.8 of rated torque, its torque within
+    /// Proportional and integral, 20 rad/s wide, its setpoint on a ramp of 0.8 of rated torque, its torque within
     /// twice rated.
     fn speed_loop(&mut self, period: f64) -> f64 {
         let bandwidth = 20.0;

@@ -1,9 +1,9 @@
 //! What estimates are worth.
 
-use driveline::constants::Bases;
 use driveline::design::BacklashDesign;
 use driveline::number::{Fixed, Number};
-use driveline::observer::{Backlash, BacklashConfig, Observer};
+use driveline::observer::{BacklashConfig, BacklashObserver, Observer};
+use driveline::settings::Bases;
 
 use super::case::Case;
 use super::run::Course;
@@ -20,7 +20,7 @@ pub trait Estimator {
 /// The library's observer in one of its numbers.
 pub struct Library<N: Number> {
     config: BacklashConfig<N>,
-    observer: Backlash<N>,
+    observer: BacklashObserver<N>,
     bases: Bases,
     to: fn(f64) -> N,
     from: fn(N) -> f64,
@@ -28,11 +28,11 @@ pub struct Library<N: Number> {
 
 impl<N: Number> Library<N> {
     fn with(config: BacklashConfig<N>, bases: Bases, to: fn(f64) -> N, from: fn(N) -> f64) -> Self {
-        Library { config, observer: Backlash::at_rest(&config, 0, N::ZERO), bases, to, from }
+        Library { config, observer: BacklashObserver::at_rest(&config, 0, N::ZERO), bases, to, from }
     }
 
     /// The observer itself.
-    pub fn observer(&self) -> &Backlash<N> {
+    pub fn observer(&self) -> &BacklashObserver<N> {
         &self.observer
     }
 }

@@ -39,7 +39,7 @@ pub struct Machine {
     unit: f64,
     noise: Noise,
     applied: f64,
-    reference: f64,
+    setpoint: f64,
     released: bool,
     ticks: u64,
     fingerprint: Fingerprint,
@@ -61,7 +61,7 @@ impl Machine {
             unit,
             noise: Noise::new(11),
             applied: 0.0,
-            reference: 0.0,
+            setpoint: 0.0,
             released: false,
             ticks: 0,
             fingerprint: Fingerprint::new(),
@@ -69,16 +69,16 @@ impl Machine {
         }
     }
 
-    /// Gives the drive its set point [rad/s] and releases it.
-    pub fn refer(&mut self, speed: f64) {
-        self.reference = speed;
+    /// Gives the drive its setpoint [rad/s] and releases it.
+    pub fn set_setpoint(&mut self, speed: f64) {
+        self.setpoint = speed;
         self.released = true;
     }
 
-    /// The drive's set point [rad/s].
+    /// The drive's setpoint [rad/s].
     #[must_use]
-    pub fn reference(&self) -> f64 {
-        self.reference
+    pub fn setpoint(&self) -> f64 {
+        self.setpoint
     }
 
     /// Time since the start [s].
@@ -130,7 +130,7 @@ impl Machine {
         let input = Input {
             angle: self.encoder.read(self.drivetrain.plant.motor_angle()),
             torque: self.units.torque_word(self.applied + self.drivetrain.torque_noise * self.noise.normal()),
-            reference: if self.released { self.units.speed_word(self.reference) } else { self.units.torque_word(0.0) },
+            setpoint: if self.released { self.units.speed_word(self.setpoint) } else { self.units.torque_word(0.0) },
             flags: if self.released { Input::RELEASED } else { 0 },
             vibration,
             asked,

@@ -8,7 +8,7 @@ use super::error::BalancingError;
 use super::machine::Machine;
 use crate::drivetrains::lockstep::Ticks;
 
-/// Share of the set point within which the speed counts as reached.
+/// Share of the setpoint within which the speed counts as reached.
 const REACHED: f64 = 2e-3;
 /// Longest wait for a speed [s].
 const PATIENCE: f64 = 60.0;
@@ -84,7 +84,7 @@ impl<'a> Operator<'a> {
     /// # Errors
     /// What the link says; a speed that is not reached.
     pub fn bring_to(&mut self, speed: f64, settle: f64) -> Result<(), BalancingError> {
-        self.machine.refer(speed);
+        self.machine.set_setpoint(speed);
         let near = REACHED * speed.abs().max(10.0);
         let end = self.machine.time() + PATIENCE;
         while (self.machine.speed() - speed).abs() > near {
@@ -117,6 +117,6 @@ impl<'a> Operator<'a> {
             doubts.push(DOUBTS.get((answer - REFUSED) as usize).copied().unwrap_or("unknown"));
             self.doubts.extend(doubts.last());
         }
-        Err(BalancingError::NoReading { speed: self.machine.reference(), doubts: doubts.join(", ") })
+        Err(BalancingError::NoReading { speed: self.machine.setpoint(), doubts: doubts.join(", ") })
     }
 }

@@ -38,7 +38,7 @@ impl<'d> PowerCuts<'d> {
 
     fn cut(&mut self, last: &Input) -> io::Result<()> {
         // the brake is closed: no torque
-        let held = Input { flags: 0, reference: 0, ..*last };
+        let held = Input { flags: 0, setpoint: 0, ..*last };
         let ask = |drive: &mut dyn Ticks, key: Key, value: u32| {
             drive.tick(&Input { asked: [key as u32, value], ..held }).map(|output| output.answer)
         };

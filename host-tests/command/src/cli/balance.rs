@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use driveline::balance::{Aim, Complex, Correction, Refusal};
+use driveline::balancing::{Aim, Complex, Correction, Error};
 use serde::Serialize;
 
 use super::{Failure, say, say_json};
@@ -146,7 +146,7 @@ fn said(outcome: &Outcome) -> String {
 
 fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
     let Measured::Phasors { procedure, baseline, last, rpm, corrections } = &file.measured else {
-        return Err(Refusal::TooEarly.into());
+        return Err(Error::TooEarly.into());
     };
     let correction: Correction<f64, ROWS, PLANES> = procedure.correction()?;
     let influence = procedure.influence()?;

@@ -1,8 +1,8 @@
 //! What `design` finds for a machine: the step, the observer, the governor.
 
 use driveline::design::{
-    Aim, Cost, Disturbance, Encoder, Error, ObserverChoice, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
-    StepChoice, TwoMassDesign,
+    Disturbance, Encoder, Error, ObserverChoice, Penalty, Rate, Requirement, RigidDesign, SpeedLoopDesign,
+    SpeedLoopTuning, StepChoice, TwoMassDesign,
 };
 use driveline::machine::{Match, TwoMass};
 use serde::Serialize;
@@ -106,8 +106,8 @@ pub struct SpeedLoop {
     pub proportional: f64,
     /// Integral gain \[N m/rad\].
     pub integral: f64,
-    /// Gain on the slip \[N m s/rad\].
-    pub slip: f64,
+    /// Gain on the damping \[N m s/rad\].
+    pub damping: f64,
     /// Natural frequency of the speed \[rad/s\].
     pub bandwidth: f64,
     /// Factor by which the gain may grow; `null` where no growth destabilises.
@@ -197,7 +197,7 @@ impl Plan {
             speed_loop: Some(SpeedLoop {
                 proportional: governor.proportional,
                 integral: governor.integral,
-                slip: governor.slip,
+                damping: governor.damping,
                 bandwidth: governor.bandwidth,
                 gain_margin_up: finite(margins.gain_up),
                 gain_margin_down: margins.gain_down,
@@ -231,9 +231,9 @@ fn needed(machine: &MachineFile, two: &TwoMass, duty: Duty) -> Needed {
     let Duty { change, rise, every } = duty;
     let reverses = two.gravity_torque.abs() < change;
     let (speed, torque) = (machine.limits.speed, machine.limits.torque);
-    let duty = driveline::design::Duty { speed, torque, change, rise, every, reverses };
-    let need = two.need(&duty, &Aim::USUAL, 1.0 / f64::from(machine.control.rate_hz));
-    let cost = |cost: Cost| [cost.shaft_torque, cost.load_speed];
+    let duty = driveline::design::LoadCycle { speed, torque, change, rise, every, reverses };
+    let need = two.select_observer(&duty, &Requirement::USUAL, 1.0 / f64::from(machine.control.rate_hz));
+    let cost = |cost: Penalty| [cost.shaft_torque, cost.load_speed];
     Needed {
         observer: match need.chosen {
             ObserverChoice::Rigid => "rigid",

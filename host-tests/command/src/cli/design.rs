@@ -148,7 +148,7 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
              margins: gain up {}, gain down {}, phase {phase}, distance from -1 {}\n",
             significant(governor.proportional),
             significant(governor.integral),
-            significant(governor.slip),
+            significant(governor.damping),
             significant(governor.bandwidth / TAU),
             factor(governor.gain_margin_up),
             significant(governor.gain_margin_down),

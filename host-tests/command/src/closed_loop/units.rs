@@ -1,7 +1,7 @@
 //! Between SI units and the words of a scene's number.
 
-use driveline::constants::Bases;
 use driveline::number::Fixed;
+use driveline::settings::Bases;
 use driveline_firmware::Words;
 
 /// The units of a scene's words.

@@ -4,9 +4,9 @@
 //! mean motion and wrapped angle stay what they are, so that only the step differs. No sample is screened: a step that diverges
 //! is seen to diverge.
 
-use driveline::constants::{Bases, Gear};
 use driveline::design::{ApproximateStep, TwoMassDesign};
-use driveline::observer::{Geared, GearedConfig, Observer, TwoMass, TwoMassConfig};
+use driveline::observer::{GearedConfig, GearedObserver, Observer, TwoMassConfig, TwoMassObserver};
+use driveline::settings::{Bases, Gear};
 
 /// The step of twist and slip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ impl StepOf {
 #[derive(Clone, Copy, Debug)]
 pub struct ApproximateObserver {
     config: GearedConfig<f64, TwoMassConfig<f64>>,
-    observer: Geared<TwoMass<f64>>,
+    observer: GearedObserver<TwoMassObserver<f64>>,
 }
 
 impl ApproximateObserver {
@@ -45,7 +45,7 @@ impl ApproximateObserver {
     ///
     /// # Errors
     /// For a gear out of its range.
-    pub fn new(design: &TwoMassDesign, step: StepOf, gear: &Gear) -> Result<Self, driveline::constants::Error> {
+    pub fn new(design: &TwoMassDesign, step: StepOf, gear: &Gear) -> Result<Self, driveline::settings::Error> {
         let mut config = TwoMassConfig::<f64>::new(design, Bases::SI);
         let other = match step {
             StepOf::Exact => None,
@@ -57,12 +57,12 @@ impl ApproximateObserver {
             config.twist_rate = [step.n21, step.n22, step.g2];
         }
         let config = GearedConfig::<f64, _>::try_new(config, gear, design.period, Bases::SI)?;
-        Ok(ApproximateObserver { observer: Geared::at_rest(&config, 0, 0.0), config })
+        Ok(ApproximateObserver { observer: GearedObserver::at_rest(&config, 0, 0.0), config })
     }
 
     /// A tick against a closed brake: at rest at this angle [2^-32 turn], the shaft carrying this torque [N m].
     pub fn hold(&mut self, angle: u32, torque: f64) -> [f64; 3] {
-        self.observer = Geared::at_rest(&self.config, angle, torque);
+        self.observer = GearedObserver::at_rest(&self.config, angle, torque);
         self.estimate()
     }
 

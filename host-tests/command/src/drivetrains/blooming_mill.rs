@@ -59,9 +59,9 @@ pub fn machine() -> Result<Machine, PlantError> {
         held: 0.0,
         actions: vec![
             (0.1, Action::Release),
-            (0.1, Action::Reference(slow)),
-            (2.5, Action::Reference(-slow)),
-            (4.9, Action::Reference(slow)),
+            (0.1, Action::Setpoint(slow)),
+            (2.5, Action::Setpoint(-slow)),
+            (4.9, Action::Setpoint(slow)),
         ],
         duration: 6.0,
         counted: true,

@@ -42,9 +42,9 @@ pub fn machine() -> Result<Machine, PlantError> {
         held: 0.0,
         actions: vec![
             (0.1, Action::Release),
-            (0.1, Action::Reference(scene::RATED_SPEED)),
-            (5.5, Action::Reference(-scene::RATED_SPEED)),
-            (9.0, Action::Reference(0.0)),
+            (0.1, Action::Setpoint(scene::RATED_SPEED)),
+            (5.5, Action::Setpoint(-scene::RATED_SPEED)),
+            (9.0, Action::Setpoint(0.0)),
         ],
         duration: 11.0,
         counted: true,

@@ -45,9 +45,9 @@ pub fn machine() -> Result<Machine, PlantError> {
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
-                (0.1, Action::Reference(fan::RATED_SPEED)),
-                (14.0, Action::Reference(0.6 * fan::RATED_SPEED)),
-                (22.0, Action::Reference(0.9 * fan::RATED_SPEED)),
+                (0.1, Action::Setpoint(fan::RATED_SPEED)),
+                (14.0, Action::Setpoint(0.6 * fan::RATED_SPEED)),
+                (22.0, Action::Setpoint(0.9 * fan::RATED_SPEED)),
             ],
             duration: 30.0,
             counted: true,

@@ -111,7 +111,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             name: "run-up, a load that comes and goes",
             plant: body(train(TOOTH_ERROR).build()?),
             held: 0.0,
-            actions: vec![(0.05, Action::Release), (0.05, Action::Reference(scene::RATED_SPEED))],
+            actions: vec![(0.05, Action::Release), (0.05, Action::Setpoint(scene::RATED_SPEED))],
             duration: 3.0,
             counted: true,
             marks: vec![(0.05, "run-up"), (2.0, "load"), (2.5, "off")],

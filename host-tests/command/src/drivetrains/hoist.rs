@@ -72,12 +72,12 @@ pub fn machine() -> Result<Machine, PlantError> {
             .build()
     };
     let release = [(0.0, Action::Brake(DRUM, 2_000.0)), (0.2, Action::Release), (0.2, Action::Brake(DRUM, 0.0))];
-    let hoisting = (0.2, Action::Reference(hoist::RATED_SPEED));
+    let hoisting = (0.2, Action::Setpoint(hoist::RATED_SPEED));
     let pretensioned = Scenario {
         name: "pretensioned start, half a load more, lowering",
         plant: hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]))?.into(),
         held: WEIGHT,
-        actions: [&release[..], &[hoisting, (6.0, Action::Reference(-hoist::RATED_SPEED))]].concat(),
+        actions: [&release[..], &[hoisting, (6.0, Action::Setpoint(-hoist::RATED_SPEED))]].concat(),
         duration: 12.0,
         counted: true,
         marks: vec![(0.2, "brake opens"), (4.0, "half a load more"), (6.0, "reversal")],
@@ -89,9 +89,9 @@ pub fn machine() -> Result<Machine, PlantError> {
         plant: chain(0.0).coulomb(WEIGHT).start(Start::Rest).build()?.into(),
         held: 0.0,
         actions: vec![
-            (0.0, Action::Reference(CREEP)),
+            (0.0, Action::Setpoint(CREEP)),
             (0.1, Action::Release),
-            (4.0, Action::Reference(hoist::RATED_SPEED)),
+            (4.0, Action::Setpoint(hoist::RATED_SPEED)),
         ],
         duration: 8.0,
         counted: true,

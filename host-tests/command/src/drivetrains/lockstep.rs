@@ -92,7 +92,7 @@ pub fn run(
     let mut recording = scenario.plant.clone();
     let mut noise = Noise::new(1);
     let mut actions = scenario.actions.iter().peekable();
-    let (mut reference, mut released, mut applied) = (0.0, false, 0.0_f64);
+    let (mut setpoint, mut released, mut applied) = (0.0, false, 0.0_f64);
     let (mut tripped, mut brake) = (false, 0.0);
     let mut moments = Vec::with_capacity(ticks);
     let mut words = Vec::with_capacity(ticks);
@@ -101,7 +101,7 @@ pub fn run(
         // An action belongs to the tick that it falls on: half a period of slack against rounding.
         while let Some((_, action)) = actions.next_if(|(at, _)| *at < time + 0.5 * period) {
             match *action {
-                Action::Reference(speed) => reference = speed,
+                Action::Setpoint(speed) => setpoint = speed,
                 Action::Release => released = true,
                 Action::Load(node, torque) => recording.set_load_torque(node, torque),
                 Action::Brake(node, torque) => {
@@ -128,7 +128,7 @@ pub fn run(
         let input = Input {
             angle: machine.encoder.read(plant.motor_angle() - scenario.plant.motor_angle()),
             torque: units.torque_word(applied + slipping + machine.torque_noise * noise.normal()),
-            reference: if released { units.speed_word(reference) } else { units.torque_word(scenario.held) },
+            setpoint: if released { units.speed_word(setpoint) } else { units.torque_word(scenario.held) },
             flags: if released { Input::RELEASED } else { 0 },
             ..Input::default()
         };

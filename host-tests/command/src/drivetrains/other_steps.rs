@@ -1,7 +1,7 @@
 //! The errors of observers with other steps on a run that was recorded.
 
-use driveline::constants::{Error, Gear};
 use driveline::design::TwoMassDesign;
+use driveline::settings::{Error, Gear};
 use driveline_firmware::Words;
 use driveline_firmware::scene::Input;
 use driveline_firmware::scenes::hoist;
@@ -84,7 +84,7 @@ pub fn recorded(trace: &Trace, units: &Units) -> Vec<Recorded> {
             let released = input.flags & Input::RELEASED != 0;
             Recorded {
                 angle: input.angle,
-                torque: units.torque(if released { input.torque } else { input.reference }),
+                torque: units.torque(if released { input.torque } else { input.setpoint }),
                 released,
                 truth: moment.truth,
             }

@@ -59,8 +59,8 @@ pub fn machine() -> Result<Machine, PlantError> {
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
-                (0.1, Action::Reference(scene::RATED_SPEED)),
-                (9.0, Action::Reference(0.3 * scene::RATED_SPEED)),
+                (0.1, Action::Setpoint(scene::RATED_SPEED)),
+                (9.0, Action::Setpoint(0.3 * scene::RATED_SPEED)),
             ],
             duration: 13.0,
             counted: true,

@@ -104,7 +104,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             name: "run-up, strokes, idling",
             plant: press(0.0)?,
             held: 0.0,
-            actions: vec![(0.1, Action::Release), (0.1, Action::Reference(scene::RATED_SPEED))],
+            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(scene::RATED_SPEED))],
             duration: 8.5,
             counted: true,
             marks: vec![(0.1, "run-up"), (SECONDS[0], "plate"), (SECONDS[1], "no plate")],

@@ -1,6 +1,6 @@
 //! A run: a plant, what is done to it, and when.
 
-use driveline::constants::Bases;
+use driveline::settings::Bases;
 
 use super::plant::Body;
 use crate::closed_loop::sensors::Encoder;
@@ -9,8 +9,8 @@ use driveline_report::Fact;
 /// Something that happens at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
-    /// The drive's set point changes [rad/s].
-    Reference(f64),
+    /// The drive's setpoint changes [rad/s].
+    Setpoint(f64),
     /// The governor is released.
     Release,
     /// A node's load torque changes to this [N m].

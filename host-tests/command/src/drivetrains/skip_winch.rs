@@ -37,15 +37,15 @@ fn rope(plant: &Body) -> f64 {
     if twist > 0.0 { (ROPE * twist + ROPE_DAMPING * rate).max(0.0) } else { 0.0 }
 }
 
-/// An emergency while hoisting: the set point goes to zero at once, and the brake is called for `later` \[s\].
+/// An emergency while hoisting: the setpoint goes to zero at once, and the brake is called for `later` \[s\].
 fn emergency_stop(name: &'static str, plant: Body, later: f64) -> Scenario {
     let mut actions =
         vec![(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
-    // The set point comes up within four seconds.
+    // The setpoint comes up within four seconds.
     actions.extend(
-        (1..=80).map(|j| (RELEASE + 0.05 * f64::from(j), Action::Reference(scene::RATED_SPEED * f64::from(j) / 80.0))),
+        (1..=80).map(|j| (RELEASE + 0.05 * f64::from(j), Action::Setpoint(scene::RATED_SPEED * f64::from(j) / 80.0))),
     );
-    actions.push((STOPPING, Action::Reference(0.0)));
+    actions.push((STOPPING, Action::Setpoint(0.0)));
     actions.extend(closing(STOPPING + later));
     Scenario {
         name,
@@ -84,14 +84,14 @@ pub fn machine() -> Result<Machine, PlantError> {
     };
     let release = [(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
     // The inverter goes off, and the brake closes.
-    let lower = (RELEASE, Action::Reference(-0.9 * scene::RATED_SPEED));
+    let lower = (RELEASE, Action::Setpoint(-0.9 * scene::RATED_SPEED));
     let emergency = release.into_iter().chain([lower, (EMERGENCY, Action::Trip)]).chain(closing(EMERGENCY)).collect();
     let hoist = vec![
         release[0],
         release[1],
         release[2],
-        (RELEASE, Action::Reference(scene::RATED_SPEED)),
-        (8.0, Action::Reference(0.3 * scene::RATED_SPEED)),
+        (RELEASE, Action::Setpoint(scene::RATED_SPEED)),
+        (8.0, Action::Setpoint(0.3 * scene::RATED_SPEED)),
     ];
     let torque_noise = 0.01 * scene::RATED_TORQUE;
     Ok(Machine {

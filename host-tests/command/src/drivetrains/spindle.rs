@@ -43,7 +43,7 @@ pub fn machine() -> Result<Machine, PlantError> {
     let spindle_with = |program: LoadProgram| {
         Chain::motor(0.012).shaft(Shaft::elastic(stiffness()).damping(0.3), 0.004).program(program).build()
     };
-    let run_up = vec![(0.01, Action::Release), (0.01, Action::Reference(spindle::RATED_SPEED))];
+    let run_up = vec![(0.01, Action::Release), (0.01, Action::Setpoint(spindle::RATED_SPEED))];
     // The tool hits a shoulder within three milliseconds, cuts less as the feed takes it through a corner, and leaves as fast.
     let face = [(0.8, 0.0), (0.803, CUT), (1.2, CUT), (1.3, 0.6 * CUT), (1.5, 0.6 * CUT), (1.503, 0.0)];
     // Four teeth at 50 turns a second: a ripple of a fifth of the cut at 200 Hz.

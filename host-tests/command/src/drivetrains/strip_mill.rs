@@ -55,7 +55,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             ]))?
             .into(),
             held: 0.0,
-            actions: vec![(0.1, Action::Release), (0.1, Action::Reference(strip_mill::RATED_SPEED))],
+            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(strip_mill::RATED_SPEED))],
             duration: 9.0,
             counted: true,
             marks: vec![(0.1, "run-up"), (4.0, "bite"), (6.0, "out"), (7.0, "thinner strip")],

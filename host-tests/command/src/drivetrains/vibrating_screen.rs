@@ -75,8 +75,8 @@ pub fn machine() -> Result<Machine, PlantError> {
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
-                (0.1, Action::Reference(scene::RATED_SPEED)),
-                (10.0, Action::Reference(0.05 * scene::RATED_SPEED)),
+                (0.1, Action::Setpoint(scene::RATED_SPEED)),
+                (10.0, Action::Setpoint(0.05 * scene::RATED_SPEED)),
             ],
             duration: 15.0,
             counted: true,

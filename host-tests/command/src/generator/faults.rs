@@ -20,8 +20,8 @@ pub enum Wire {
     Angle,
     /// The rack's position.
     Torque,
-    /// The speed set point.
-    Reference,
+    /// The speed setpoint.
+    Setpoint,
 }
 
 /// What is wrong with it.
@@ -41,7 +41,7 @@ pub enum Fault {
 }
 
 /// Every wire.
-pub const WIRES: [Wire; 3] = [Wire::Angle, Wire::Torque, Wire::Reference];
+pub const WIRES: [Wire; 3] = [Wire::Angle, Wire::Torque, Wire::Setpoint];
 /// Every fault.
 pub const FAULTS: [Fault; 5] = [Fault::Dropped, Fault::Frozen, Fault::Noisy, Fault::Negated, Fault::NotANumber];
 
@@ -90,15 +90,15 @@ pub const fn documented(wire: Wire, fault: Fault, lasts: bool) -> Documented {
         // Half the rated torque of noise is beyond a fifth of it in two ticks of three: these less the others take
         // three times as long. Some are beyond what a rack can stand for.
         (Wire::Torque, Fault::Noisy) => Documented::Trips(&[Trip::Actuator, Trip::SensorLoss], 0.4),
-        // A set point of zero or below is one: the set slows down by its ramp, to 80 % in a second, and 3 s of
+        // A setpoint of zero or below is one: the set slows down by its ramp, to 80 % in a second, and 3 s of
         // underspeed trip it, unless its load of constant power overloads the coupling before.
-        (Wire::Reference, Fault::Dropped | Fault::Negated) => {
+        (Wire::Setpoint, Fault::Dropped | Fault::Negated) => {
             Documented::Trips(&[Trip::ShaftOverload, Trip::Underspeed], 4.5)
         }
         // The last good one stands.
-        (Wire::Reference, Fault::Frozen | Fault::NotANumber) => Documented::RidesThrough([0.99, 1.01]),
+        (Wire::Setpoint, Fault::Frozen | Fault::NotANumber) => Documented::RidesThrough([0.99, 1.01]),
         // 5 % of noise, of which the ramp lets 0.01 % through in a tick.
-        (Wire::Reference, Fault::Noisy) => Documented::RidesThrough([0.98, 1.02]),
+        (Wire::Setpoint, Fault::Noisy) => Documented::RidesThrough([0.98, 1.02]),
     }
 }
 
@@ -151,7 +151,7 @@ pub fn outcome(
         let value = match wire {
             Wire::Angle => &mut input.angle,
             Wire::Torque => &mut input.torque,
-            Wire::Reference => &mut input.reference,
+            Wire::Setpoint => &mut input.setpoint,
         };
         if !faulty {
             held[wire as usize] = *value;
@@ -164,12 +164,12 @@ pub fn outcome(
             (Fault::Noisy, Wire::Torque) => {
                 units.torque_word(units.torque(*value) + 0.5 * kind.constants().rated_torque * noise.normal())
             }
-            (Fault::Noisy, Wire::Reference) => {
+            (Fault::Noisy, Wire::Setpoint) => {
                 units.speed_word(units.speed(*value) + 0.05 * RATED_SPEED * noise.normal())
             }
             (Fault::Negated, Wire::Angle) => value.wrapping_neg(),
             (Fault::Negated, Wire::Torque) => units.torque_word(-units.torque(*value)),
-            (Fault::Negated, Wire::Reference) => units.speed_word(-units.speed(*value)),
+            (Fault::Negated, Wire::Setpoint) => units.speed_word(-units.speed(*value)),
             (Fault::NotANumber, Wire::Angle) => u32::MAX,
             (Fault::NotANumber, _) if words == Words::Single => f32::NAN.to_bits(),
             (Fault::NotANumber, _) => 1 << 31,

@@ -102,7 +102,7 @@ pub fn run(
         let mut input = Input {
             angle: encoder.read(set.flywheel_angle()),
             torque: units.torque_word(set.told() + SENSOR * constants.rated_torque * noise.normal()),
-            reference: units.speed_word(RATED_SPEED),
+            setpoint: units.speed_word(RATED_SPEED),
             flags: if due(program.on) { Input::RELEASED } else { 0 },
             asked,
             ..Input::default()

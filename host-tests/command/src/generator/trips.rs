@@ -30,8 +30,8 @@ pub struct Cause {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Act {
-    /// The set point is this, of rated speed.
-    Reference(f64),
+    /// The setpoint is this, of rated speed.
+    Setpoint(f64),
     /// The set is found turning at this, of rated speed.
     Turning(f64),
     /// The load is this, of rated power.
@@ -51,9 +51,9 @@ enum Act {
 /// A cause for every trip.
 pub const CAUSES: [Cause; 10] = [
     // A ramp of 25 % a second to 110 %, and 10 ms.
-    Cause { what: "set point 115 %", trip: Trip::Overspeed, at: 3.0, within: 0.8, act: Act::Reference(1.15) },
+    Cause { what: "setpoint 115 %", trip: Trip::Overspeed, at: 3.0, within: 0.8, act: Act::Setpoint(1.15) },
     // The same to 80 %, and 3 s.
-    Cause { what: "set point 70 %", trip: Trip::Underspeed, at: 3.0, within: 4.5, act: Act::Reference(0.7) },
+    Cause { what: "setpoint 70 %", trip: Trip::Underspeed, at: 3.0, within: 4.5, act: Act::Setpoint(0.7) },
     Cause { what: "started turning back at 5 %", trip: Trip::Reverse, at: 0.5, within: 0.1, act: Act::Turning(-0.05) },
     // A fault of the generator: the coupling carries its engine's share of the inertia, 0.35, and swings.
     Cause { what: "load 1000 %", trip: Trip::ShaftOverload, at: 3.0, within: 0.1, act: Act::Load(10.0) },
@@ -61,13 +61,13 @@ pub const CAUSES: [Cause; 10] = [
     Cause { what: "rack's position absent", trip: Trip::SensorLoss, at: 3.0, within: 0.15, act: Act::Absent },
     // 30 s.
     Cause {
-        what: "set point 60 % at the start",
+        what: "setpoint 60 % at the start",
         trip: Trip::NotStarted,
         at: 0.5,
         within: 30.5,
-        act: Act::Reference(0.6),
+        act: Act::Setpoint(0.6),
     },
-    Cause { what: "emergency stop", trip: Trip::Asked, at: 3.0, within: 0.01, act: Act::Panel },
+    Cause { what: "emergency stop", trip: Trip::Requested, at: 3.0, within: 0.01, act: Act::Panel },
     // The command has moved by a fifth within 0.1 s of the load, and 0.1 s more.
     Cause { what: "rack seized, then load off", trip: Trip::Actuator, at: 3.0, within: 0.5, act: Act::Seizes },
     Cause {
@@ -114,7 +114,7 @@ pub fn latched(words: Words, drive: &mut impl Ticks, cause: &Cause) -> Result<La
         Act::Load(share) => loads.push((cause.at, share)),
         Act::Seizes | Act::Frozen => loads.push((cause.at + 0.2, 0.0)),
         // A start, without load.
-        Act::Reference(_) if cause.trip == Trip::NotStarted => (speed, loads) = (20.0, Vec::new()),
+        Act::Setpoint(_) if cause.trip == Trip::NotStarted => (speed, loads) = (20.0, Vec::new()),
         _ => {}
     }
     if cause.act == Act::Seizes {
@@ -134,7 +134,7 @@ pub fn latched(words: Words, drive: &mut impl Ticks, cause: &Cause) -> Result<La
             return;
         }
         match cause.act {
-            Act::Reference(share) => input.reference = units.speed_word(share * RATED_SPEED),
+            Act::Setpoint(share) => input.setpoint = units.speed_word(share * RATED_SPEED),
             Act::Angle(word) => input.angle = word,
             Act::Frozen => input.torque = held,
             Act::Absent if words == Words::Single => input.torque = f32::NAN.to_bits(),

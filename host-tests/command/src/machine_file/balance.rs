@@ -38,9 +38,9 @@
 
 use std::path::Path;
 
-use driveline::balance::{
-    Aim, CORRECTIONS, Complex, Entry, FromAmplitudes, Influence, Mode, Objective, Plan, Procedure, Refusal, Run,
-    from_amplitudes,
+use driveline::balancing::{
+    Aim, CORRECTIONS, Complex, CorrectionMethod, Entry, Error, FromAmplitudes, Influence, Objective, Plan, Procedure,
+    Run, from_amplitudes,
 };
 use toml::de::DeTable;
 
@@ -149,7 +149,7 @@ pub struct PlaneHoles {
     /// Weights to choose from.
     pub weights: Vec<f64>,
     /// Whether weight is added or removed.
-    pub mode: Mode,
+    pub mode: CorrectionMethod,
     /// What to say where they cannot take the weight.
     pub too_heavy: Diagnostic,
 }
@@ -269,13 +269,11 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
             runs.iter().map(|(degrees, amplitude)| (degrees.to_radians(), *amplitude)).collect();
         let found = angles.check().and_then(|()| from_amplitudes(baseline, weight, &radians));
         let found = found.map_err(|refusal| match refusal {
-            Refusal::TrialWeightZero { .. } => table.wrong("weight", format!("a weight above zero ({refusal})")),
-            Refusal::Reading { row: 0 } => table.wrong("baseline", "an amplitude above zero"),
-            Refusal::PhasesInRadians => table.wrong("runs", format!("angles in degrees: {refusal}")),
-            Refusal::ReadingMissing { .. } => table.wrong("runs", "three runs at different angles, or two"),
-            Refusal::NoEffect { .. } => {
-                table.wrong("runs", format!("other amplitudes than the baseline's ({refusal})"))
-            }
+            Error::TrialWeightZero { .. } => table.wrong("weight", format!("a weight above zero ({refusal})")),
+            Error::Reading { row: 0 } => table.wrong("baseline", "an amplitude above zero"),
+            Error::PhasesInRadians => table.wrong("runs", format!("angles in degrees: {refusal}")),
+            Error::ReadingMissing { .. } => table.wrong("runs", "three runs at different angles, or two"),
+            Error::NoEffect { .. } => table.wrong("runs", format!("other amplitudes than the baseline's ({refusal})")),
             _ => table.wrong("runs", "runs at different angles, with amplitudes that one influence can give"),
         })?;
         file.measured = Measured::Amplitudes { baseline, found };
@@ -295,20 +293,20 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         independence: root.number_or("independence", Quantity::SHARE, 0.01)?,
         ..Aim::default()
     };
-    let trials_stay = choice(root, "trials", &[("removed", false), ("stay", true)])?;
+    let leave_trials = choice(root, "trials", &[("removed", false), ("stay", true)])?;
     let good = root.number_or("good", Quantity::AMPLITUDE, f64::MIN_POSITIVE)?;
     for (value, weighting) in list(root, "weighting", rows, Quantity::WEIGHT)?.into_iter().zip(&mut aim.weighting) {
         *weighting = value;
     }
     let readings = aim.weighting.iter().take(rows).filter(|weighting| **weighting > 0.0).count();
     if readings < planes.len() && readings < rows {
-        let refusal = Refusal::MorePlanesThanReadings { planes: planes.len(), readings };
+        let refusal = Error::MorePlanesThanReadings { planes: planes.len(), readings };
         return Err(root.wrong("weighting", format!("a reading above zero for each plane: {refusal}")));
     }
     for (value, limit) in list(root, "limits", planes.len(), ABOVE_ZERO)?.into_iter().zip(&mut aim.limits) {
         *limit = Some(value);
     }
-    let plan = Plan { trials_stay, aim, ..Plan::usual(rows, planes.len(), good) };
+    let plan = Plan { leave_trials, aim, ..Plan::usual(rows, planes.len(), good) };
     let mut procedure =
         Field::new(plan).map_err(|refusal| root.wrong("planes", format!("other settings: {refusal}")))?;
     let (mut entry, mut angles) = (Entry::new(), Entry::new());
@@ -351,8 +349,8 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         angles.check().map_err(|refusal| table.wrong("weight", format!("an angle in degrees: {refusal}")))?;
         let (run, readings, _) = self::run(&mut table, rows, &mut entry)?;
         // several of a plane are all believed: replacing one would lose what was entered
-        procedure.further_trial(plane, weight, &run).map_err(|refusal| refused(&table, refusal))?;
-        if trials_stay {
+        procedure.extra_trial(plane, weight, &run).map_err(|refusal| refused(&table, refusal))?;
+        if leave_trials {
             last = readings;
         }
         table.finish()?;
@@ -365,7 +363,7 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         let placed = pairs(&mut table, "weights", planes.len(), &mut Entry::new())?;
         let mut all = [Complex::new(0.0, 0.0); PLANES];
         all[..placed.len()].copy_from_slice(&placed);
-        procedure.placed(&all).map_err(|refusal| table.wrong("weights", said(refusal, planes)))?;
+        procedure.installed(&all).map_err(|refusal| table.wrong("weights", said(refusal, planes)))?;
         let (run, readings, _) = self::run(&mut table, rows, &mut entry)?;
         procedure.verified(&run).map_err(|refusal| refused(&table, refusal))?;
         last = readings;
@@ -391,9 +389,9 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
 }
 
 /// A refusal with the planes by their names.
-fn said(refusal: Refusal, planes: &[String]) -> String {
+fn said(refusal: Error, planes: &[String]) -> String {
     match refusal {
-        Refusal::PlaneUnknown { plane } => match planes.get(plane) {
+        Error::PlaneUnknown { plane } => match planes.get(plane) {
             Some(name) => format!("the influence of plane \"{name}\" is not known: make its trial run"),
             None => refusal.to_string(),
         },
@@ -402,11 +400,11 @@ fn said(refusal: Refusal, planes: &[String]) -> String {
 }
 
 /// A refusal at the key that it is about.
-fn refused(table: &Table<'_>, refusal: Refusal) -> Diagnostic {
+fn refused(table: &Table<'_>, refusal: Error) -> Diagnostic {
     let (key, expected) = match refusal {
-        Refusal::TrialWeightZero { .. } | Refusal::Weight { .. } => ("weight", "a weight above zero"),
-        Refusal::SpeedDiffers { .. } => ("rpm", "the speed of the baseline, within 1 %"),
-        Refusal::NoEffect { .. } => ("readings", "readings that the trial weight has changed"),
+        Error::TrialWeightZero { .. } | Error::Weight { .. } => ("weight", "a weight above zero"),
+        Error::SpeedDiffers { .. } => ("rpm", "the speed of the baseline, within 1 %"),
+        Error::NoEffect { .. } => ("readings", "readings that the trial weight has changed"),
         _ => ("readings", "other readings"),
     };
     table.wrong(key, format!("{expected} ({refusal})"))
@@ -551,10 +549,16 @@ fn holes(table: &mut Table<'_>, planes: &[String]) -> Result<PlaneHoles, Diagnos
     if weights.is_empty() {
         return Err(table.wrong("weights", "one weight at least"));
     }
-    let too_heavy = table.wrong("weights", format!("more: {}", Refusal::TooHeavy { plane }));
+    let too_heavy = table.wrong("weights", format!("more: {}", Error::TooHeavy { plane }));
     let removing = match table.has("removing") {
         false => false,
         true => table.truth("removing")?,
     };
-    Ok(PlaneHoles { plane, degrees, weights, too_heavy, mode: if removing { Mode::Removing } else { Mode::Adding } })
+    Ok(PlaneHoles {
+        plane,
+        degrees,
+        weights,
+        too_heavy,
+        mode: if removing { CorrectionMethod::Removing } else { CorrectionMethod::Adding },
+    })
 }

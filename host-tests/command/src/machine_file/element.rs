@@ -344,7 +344,7 @@ impl Element {
                 };
                 match (driven, held) {
                     (Member::Sun, Member::Ring) => chain.try_planetary(set),
-                    _ => chain.try_planetary_gear(PlanetaryGear { set, ring: Inertia(ring), driven, held }),
+                    _ => chain.try_planetary_gear(PlanetaryGear { set, ring: Inertia(ring), input: driven, held }),
                 }
             }
             Self::Belt { driving, driven, stiffness, damping, efficiency } => chain.try_belt(Belt {
@@ -410,7 +410,7 @@ impl Element {
                 match (driven, held) {
                     (Member::Sun, Member::Ring) => format!(".planetary({set})"),
                     _ => format!(
-                        ".planetary_gear(PlanetaryGear {{ set: {set}, ring: Inertia({ring:?}), driven: Member::{driven:?}, held: Member::{held:?} }})"
+                        ".planetary_gear(PlanetaryGear {{ set: {set}, ring: Inertia({ring:?}), input: Member::{driven:?}, held: Member::{held:?} }})"
                     ),
                 }
             }

@@ -18,8 +18,8 @@ pub struct Aim {
 impl Aim {
     /// With a tight shaft.
     pub const TIGHT: Self = Self {
-        shaft_torque: driveline::design::Aim::USUAL.shaft_torque,
-        load_speed: Some(driveline::design::Aim::USUAL.load_speed),
+        shaft_torque: driveline::design::Requirement::USUAL.shaft_torque,
+        load_speed: Some(driveline::design::Requirement::USUAL.load_speed),
     };
 
     /// Through backlash.

@@ -1,9 +1,9 @@
 //! The state error of every step at one place, all of them beside one reference.
 
-use driveline::constants::Bases;
 use driveline::design::{StepChoice, TwoMassDesign};
 use driveline::number::Fixed;
-use driveline::observer::{SemiImplicit, TwoMass};
+use driveline::observer::{SemiImplicitObserver, TwoMassObserver};
+use driveline::settings::Bases;
 
 use super::cause::Cause;
 use super::grid::{PERIOD, Place, open_loop};
@@ -109,18 +109,18 @@ pub fn errors(place: &Place, longest: u64) -> [Outcome; 6] {
     let swing = (machine.resonance() / machine.stiffness).min(1.0 / machine.damping);
     let bases = course.bases(&machine, machine.total_inertia(), 0.95 * swing * course.torque_base());
     let mut exact = (
-        Judged::<f32, TwoMass<f32>>::new(&design, bases, course.ticks),
-        Judged::<Fixed, TwoMass<Fixed>>::new(&design, bases, course.ticks),
-        Judged::<f64, TwoMass<f64>>::new(&design, bases, course.ticks),
+        Judged::<f32, TwoMassObserver<f32>>::new(&design, bases, course.ticks),
+        Judged::<Fixed, TwoMassObserver<Fixed>>::new(&design, bases, course.ticks),
+        Judged::<f64, TwoMassObserver<f64>>::new(&design, bases, course.ticks),
     );
     // The cheap step is judged as the design judges it: over a period of the natural frequency.
     let horizon = u64::from(design.semi_implicit.fidelity.horizon).min(course.ticks);
     let unit = course.coarseness(&machine, &bases);
     let bases = course.bases(&machine, machine.motor_inertia.min(machine.load_inertia), 0.0);
     let mut cheap = (
-        Judged::<f32, SemiImplicit<f32>>::new(&design, bases, horizon),
-        Judged::<Fixed, SemiImplicit<Fixed>>::new(&design, bases, horizon),
-        Judged::<f64, SemiImplicit<f64>>::new(&design, bases, horizon),
+        Judged::<f32, SemiImplicitObserver<f32>>::new(&design, bases, horizon),
+        Judged::<Fixed, SemiImplicitObserver<Fixed>>::new(&design, bases, horizon),
+        Judged::<f64, SemiImplicitObserver<f64>>::new(&design, bases, horizon),
     );
     let mut reference = Reference::new(place, LOAD_TORQUE);
     let mut torques = Torques::new(course.hold);

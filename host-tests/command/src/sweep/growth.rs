@@ -1,10 +1,10 @@
 //! No growth over 1e8 ticks, from the poles of the coefficients as they are stored.
 
-use driveline::constants::Bases;
 use driveline::design::StepChoice;
 use driveline::machine::TwoMass as Machine;
 use driveline::number::Fixed;
-use driveline::observer::{SemiImplicit, TwoMass};
+use driveline::observer::{SemiImplicitObserver, TwoMassObserver};
+use driveline::settings::Bases;
 
 use super::cause::Cause;
 use super::grid::{PERIOD, Place, open_loop};
@@ -54,11 +54,11 @@ fn predicted<N: Swept, S: Step<N>>(place: &Place) -> Growth {
 /// Growth by every step of [`STEPS`](super::STEPS) at a place, from the coefficients as they are stored.
 pub fn growths(place: &Place) -> [Growth; 6] {
     [
-        predicted::<f32, TwoMass<f32>>(place),
-        predicted::<Fixed, TwoMass<Fixed>>(place),
-        predicted::<f64, TwoMass<f64>>(place),
-        predicted::<f32, SemiImplicit<f32>>(place),
-        predicted::<Fixed, SemiImplicit<Fixed>>(place),
-        predicted::<f64, SemiImplicit<f64>>(place),
+        predicted::<f32, TwoMassObserver<f32>>(place),
+        predicted::<Fixed, TwoMassObserver<Fixed>>(place),
+        predicted::<f64, TwoMassObserver<f64>>(place),
+        predicted::<f32, SemiImplicitObserver<f32>>(place),
+        predicted::<Fixed, SemiImplicitObserver<Fixed>>(place),
+        predicted::<f64, SemiImplicitObserver<f64>>(place),
     ]
 }

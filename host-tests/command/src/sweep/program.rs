@@ -1,7 +1,7 @@
 //! How long and how hard a place is run, and what its errors are relative to.
 
-use driveline::constants::Bases;
 use driveline::machine::TwoMass as Machine;
+use driveline::settings::Bases;
 
 use super::grid::{PERIOD, Place};
 use super::load::{LOAD_TORQUE, Torques};

@@ -1,9 +1,9 @@
 //! The steps under test: the library's own observers, run open loop.
 
-use driveline::constants::{Bases, Error};
 use driveline::design::TwoMassDesign;
 use driveline::number::Fixed;
-use driveline::observer::{Observer, SemiImplicit, SemiImplicitConfig, TwoMass, TwoMassConfig};
+use driveline::observer::{Observer, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver};
+use driveline::settings::{Bases, Error};
 
 use super::number::{KICK, Swept};
 
@@ -89,7 +89,7 @@ impl<N: Swept, S: Step<N>> OpenLoop<N, S> {
 
 macro_rules! steps {
     ($number:ty, |$design:ident, $bases:ident| $exact:expr, $semi_implicit:expr) => {
-        impl Step<$number> for TwoMass<$number> {
+        impl Step<$number> for TwoMassObserver<$number> {
             const NAME: &'static str = "exact";
 
             fn config($design: &TwoMassDesign, $bases: Bases) -> Result<Self::Config, Error> {
@@ -114,7 +114,7 @@ macro_rules! steps {
             }
         }
 
-        impl Step<$number> for SemiImplicit<$number> {
+        impl Step<$number> for SemiImplicitObserver<$number> {
             const NAME: &'static str = "semi-implicit";
 
             fn config($design: &TwoMassDesign, $bases: Bases) -> Result<Self::Config, Error> {

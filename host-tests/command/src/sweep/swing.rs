@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use driveline::machine::TwoMass as Machine;
 use driveline::number::Fixed;
-use driveline::observer::{SemiImplicit, TwoMass};
+use driveline::observer::{SemiImplicitObserver, TwoMassObserver};
 
 use super::cause::Cause;
 use super::grid::{PERIOD, Place, open_loop};
@@ -91,13 +91,13 @@ pub fn free_swings(ticks: u64, mut progress: impl FnMut()) -> [Vec<Swing>; 6] {
     type Run = fn(u64, &[f64]) -> Vec<Swing>;
     let stable = &DECISIVE[..3];
     let runs: [(Run, &[f64]); 6] = [
-        (swings::<f32, TwoMass<f32>>, &DECISIVE),
-        (swings::<Fixed, TwoMass<Fixed>>, &DECISIVE),
-        (swings::<f64, TwoMass<f64>>, &DECISIVE),
-        (swings::<f32, SemiImplicit<f32>>, stable),
+        (swings::<f32, TwoMassObserver<f32>>, &DECISIVE),
+        (swings::<Fixed, TwoMassObserver<Fixed>>, &DECISIVE),
+        (swings::<f64, TwoMassObserver<f64>>, &DECISIVE),
+        (swings::<f32, SemiImplicitObserver<f32>>, stable),
         // At a radian fixed point holds no such coefficient.
-        (swings::<Fixed, SemiImplicit<Fixed>>, &DECISIVE[..2]),
-        (swings::<f64, SemiImplicit<f64>>, stable),
+        (swings::<Fixed, SemiImplicitObserver<Fixed>>, &DECISIVE[..2]),
+        (swings::<f64, SemiImplicitObserver<f64>>, stable),
     ];
     runs.map(|(run, places)| {
         let swings = run(ticks, places);

@@ -1,7 +1,7 @@
 //! The bench's inputs take every path of the observer's step.
 
 use driveline::number::{Fixed, Number};
-use driveline::observer::{Backlash, Observer};
+use driveline::observer::{BacklashObserver, Observer};
 use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::blooming_mill::{BASES, BloomingMill, with};
 use driveline_firmware::self_test::backlash_inputs::{RATE_HZ, Rattle};
@@ -13,10 +13,10 @@ type Mill<N> = BloomingMill<N, with::Backlash, { RATE_HZ }>;
 fn paths<N, V>(number: impl Fn(f32) -> N) -> [[u32; 2]; 2]
 where
     N: Number,
-    V: Variant<Number = N, Observer = Backlash<N>>,
+    V: Variant<Number = N, Observer = BacklashObserver<N>>,
 {
     let config = &V::CONFIG.observer;
-    let mut observer: Backlash<N> = Backlash::at_rest(config, 0, N::ZERO);
+    let mut observer: BacklashObserver<N> = BacklashObserver::at_rest(config, 0, N::ZERO);
     let mut rattle = Rattle::new();
     let mut counts = [[0; 2]; 2];
     for _ in 0..1001 {

@@ -6,10 +6,10 @@ use cargo_driveline::drivetrains::figures::{deviations, peaks};
 use cargo_driveline::drivetrains::lockstep::{OnHost, Trace, run};
 use cargo_driveline::drivetrains::scenario::Machine;
 use cargo_driveline::drivetrains::{blooming_mill as mill, converter};
-use driveline::constants::Bases;
-use driveline::design::{Error, Rate, SlackTuning};
-use driveline::governor::{SlackConfig, SymmetricConfig};
+use driveline::design::{BacklashTakeUpTuning, Error, Rate};
+use driveline::governor::{BacklashTakeUpConfig, SymmetricLimitConfig};
 use driveline::number::Fixed;
+use driveline::settings::Bases;
 use driveline_firmware::scene::Scene;
 use driveline_firmware::scenes::blooming_mill;
 use driveline_firmware::variants::visit;
@@ -93,20 +93,20 @@ fn a_taking_up_that_cannot_be_is_refused() {
     let machine = blooming_mill::MACHINE;
     let tuning = blooming_mill::TAKING_UP;
     for wrong in [
-        SlackTuning { impact: 0.0, ..tuning },
-        SlackTuning { torque: -1.0, ..tuning },
-        SlackTuning { rise: f64::NAN, ..tuning },
-        SlackTuning { most: 0.0, ..tuning },
-        SlackTuning { damping: -0.1, ..tuning },
+        BacklashTakeUpTuning { impact: 0.0, ..tuning },
+        BacklashTakeUpTuning { torque: -1.0, ..tuning },
+        BacklashTakeUpTuning { rise: f64::NAN, ..tuning },
+        BacklashTakeUpTuning { max_torque: 0.0, ..tuning },
+        BacklashTakeUpTuning { damping: -0.1, ..tuning },
     ] {
         assert_eq!(machine.try_take_up(Rate::hz(10_000), wrong), Err(Error::Slack));
     }
     // The creep at which the impact adds what was allowed: impact over sqrt(k J_m J_l/(J_m + J_l)), in full digits.
     let design = machine.take_up(Rate::hz(10_000), tuning);
     let wave = (machine.stiffness * 120_000.0 * 22_000.0 / 142_000.0).sqrt();
-    assert!((design.creep * wave / tuning.impact - 1.0).abs() < 1e-12);
-    assert_eq!(design.braking, design.torque / design.creep);
+    assert!((design.approach_speed * wave / tuning.impact - 1.0).abs() < 1e-12);
+    assert_eq!(design.braking, design.torque / design.approach_speed);
     let small = Bases { torque: 1e5, ..blooming_mill::BASES };
-    let limit = SymmetricConfig { torque: Fixed::ONE };
-    assert!(SlackConfig::<Fixed, _>::try_new(&design, limit, small).is_err());
+    let limit = SymmetricLimitConfig { torque: Fixed::ONE };
+    assert!(BacklashTakeUpConfig::<Fixed, _>::try_new(&design, limit, small).is_err());
 }

@@ -1,9 +1,9 @@
 //! What cannot be is refused with a sentence.
 
-use driveline::constants::Bases;
 use driveline::design::{BacklashTuning, Disturbance, Encoder, Error, Rate};
 use driveline::machine::{Damping, Gap, Inertia, Stiffness, TwoMass};
 use driveline::observer::BacklashConfig;
+use driveline::settings::Bases;
 
 const MACHINE: TwoMass = TwoMass::new(Inertia(0.6), Inertia(0.6), Stiffness(2665.0), Damping(1.1));
 const USUAL: Disturbance = Disturbance { torque_accuracy: 0.6, load_torque_step: 18.0, within: 0.5 };

@@ -2,8 +2,8 @@
 
 use cargo_driveline::backlash::{Case, GAP, cases};
 use cargo_driveline::closed_loop::sensors::Encoder;
-use driveline::constants::Bases;
-use driveline::observer::{Backlash, BacklashConfig, Observer};
+use driveline::observer::{BacklashConfig, BacklashObserver, Observer};
+use driveline::settings::Bases;
 use driveline_solver::plant::{Chain, Plant, Shaft, Start};
 
 const PERIOD: f64 = 1e-4;
@@ -28,7 +28,7 @@ fn a_lost_side_is_found_again() {
         let twist = torque / case.machine.stiffness + 0.5 * case.machine.gap;
         let mut plant = plant(&case, twist, [0.0; 2], torque);
         let encoder = Encoder::new(8192);
-        let mut observer = Backlash::<f64>::at_rest(&config, encoder.read(0.0), -torque);
+        let mut observer = BacklashObserver::<f64>::at_rest(&config, encoder.read(0.0), -torque);
         // Two periods of the resonance after the observer has reached the flank, and what the load torque takes to be
         // found: 0.5 s is the tuning's.
         for _ in 0..10_000 {
@@ -58,7 +58,7 @@ fn the_twist_is_kept_through_free_flight() {
         let twist = -torque / case.machine.stiffness - 0.5 * case.machine.gap;
         let mut plant = plant(&case, twist, [0.0; 2], -torque);
         let encoder = Encoder::new(8192);
-        let mut observer = Backlash::<f64>::at_rest(&config, encoder.read(0.0), -torque);
+        let mut observer = BacklashObserver::<f64>::at_rest(&config, encoder.read(0.0), -torque);
         let (mut flown, mut largest) = (0, 0.0_f64);
         for _ in 0..3_000 {
             plant.advance(case.rated, PERIOD);
@@ -82,12 +82,12 @@ fn it_starts_on_the_side_of_the_torque_and_in_the_middle_without_one() {
     let case = &cases()[0];
     let config = BacklashConfig::<f64>::new(&case.design(), Bases::SI);
     for torque in [10.0, -10.0] {
-        let observer = Backlash::<f64>::at_rest(&config, 0, torque);
+        let observer = BacklashObserver::<f64>::at_rest(&config, 0, torque);
         assert!(!observer.is_open(&config));
         // The sum of two products in f64.
         assert!((observer.estimate(&config).shaft_torque - torque).abs() < 1e-12);
     }
-    let observer = Backlash::<f64>::at_rest(&config, 0, 0.0);
+    let observer = BacklashObserver::<f64>::at_rest(&config, 0, 0.0);
     assert_eq!((observer.twist(), observer.estimate(&config).shaft_torque), (0.0, 0.0));
     assert!(observer.is_open(&config));
 }

@@ -1,9 +1,9 @@
 //! The prediction through the gap against the full solver, which finds every flank to 1e-14 s.
 
-use driveline::constants::Bases;
 use driveline::design::{BacklashTuning, Disturbance, Encoder, Rate};
 use driveline::machine::{Damping, Gap, Inertia, Stiffness, TwoMass};
-use driveline::observer::{Backlash, BacklashConfig, Observer};
+use driveline::observer::{BacklashConfig, BacklashObserver, Observer};
+use driveline::settings::Bases;
 use driveline_solver::plant::{Chain, Shaft};
 
 /// Largest error of the shaft torque over its peak, predicting without corrections for one second under a torque of
@@ -21,7 +21,7 @@ fn predicted(resonance_hz: f64, damping_ratio: f64) -> (f64, usize) {
     let rate = 10_000;
     let design = machine.backlash_observer(Rate::hz(rate), Encoder::lines(2048), disturbance, BacklashTuning::USUAL);
     let config = BacklashConfig::<f64>::new(&design, Bases::SI);
-    let mut observer = Backlash::<f64>::at_rest(&config, 0, 0.0);
+    let mut observer = BacklashObserver::<f64>::at_rest(&config, 0, 0.0);
     let shaft = Shaft::elastic(stiffness).damping(damping).gap(0.01);
     let mut plant = Chain::motor(motor).shaft(shaft, load).build().unwrap();
     let (mut largest, mut peak) = (0.0_f64, 0.0_f64);

@@ -2,7 +2,7 @@
 
 use std::process::{Command, Output};
 
-use driveline::balance::Complex;
+use driveline::balancing::Complex;
 use serde_json::Value;
 
 const FAN: &str = include_str!("../../rotors/fan-balance.toml");

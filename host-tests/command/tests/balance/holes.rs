@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use driveline::balance::{Complex, Holes, Mode, Refusal};
+use driveline::balancing::{Complex, CorrectionMethod, Error, Holes};
 
 use crate::noise::Noise;
 
@@ -31,9 +31,9 @@ fn as_good_as_any_choice() {
     let weights = [1.0, 2.0, 3.0, 5.0, 8.0, 13.0];
     for trial in 0..200 {
         let target = Complex::from_polar(0.5 + 12.0 * noise.even(), TAU * noise.even());
-        let mode = if trial % 2 == 0 { Mode::Adding } else { Mode::Removing };
-        let fitted = Holes { angles: &angles, weights: &weights, mode }.fit(target).unwrap();
-        let sign = if mode == Mode::Adding { 1.0 } else { -1.0 };
+        let mode = if trial % 2 == 0 { CorrectionMethod::Adding } else { CorrectionMethod::Removing };
+        let fitted = Holes { angles: &angles, weights: &weights, method: mode }.fit(target).unwrap();
+        let sign = if mode == CorrectionMethod::Adding { 1.0 } else { -1.0 };
         let sum: Complex<f64> = fitted.holes.iter().map(|(hole, w)| Complex::from_polar(sign * w, angles[*hole])).sum();
         assert!((sum - fitted.sum).norm() < 1e-12);
         assert!(fitted.holes.iter().all(|(_, w)| *w == 0.0 || weights.contains(w)));
@@ -57,7 +57,7 @@ proptest::proptest! {
         let wanted = Complex::from_polar(wanted.0, wanted.1.to_radians());
         let angles: Vec<f64> = angles.iter().map(|angle| angle.to_radians()).collect();
         let left = |angles: &[f64], weights: &[f64]| {
-            let fitted = Holes { angles, weights, mode: Mode::Adding }.fit(wanted);
+            let fitted = Holes { angles, weights, method: CorrectionMethod::Adding }.fit(wanted);
             fitted.map_or(f64::INFINITY, |fitted| (wanted - fitted.sum).norm())
         };
         let few = left(&angles, &weights);
@@ -78,7 +78,7 @@ fn a_fifth_hole_is_no_harm() {
     for degrees in 0..360 {
         let wanted = Complex::from_polar(2.5, f64::from(degrees).to_radians());
         let left = |angles: &[f64]| {
-            let fitted = Holes { angles, weights: &weights, mode: Mode::Adding }.fit(wanted).unwrap();
+            let fitted = Holes { angles, weights: &weights, method: CorrectionMethod::Adding }.fit(wanted).unwrap();
             (wanted - fitted.sum).norm()
         };
         assert!(left(&five) <= left(&four) + 1e-12, "{degrees}");
@@ -89,7 +89,7 @@ fn a_fifth_hole_is_no_harm() {
 fn a_weight_that_fits_is_taken_as_it_is_and_one_between_is_split() {
     let angles: Vec<f64> = (0..8).map(|hole| f64::from(hole) * TAU / 8.0).collect();
     let weights = [10.0, 20.0, 30.0, 40.0];
-    let holes = Holes { angles: &angles, weights: &weights, mode: Mode::Adding };
+    let holes = Holes { angles: &angles, weights: &weights, method: CorrectionMethod::Adding };
     let fitted = holes.fit(Complex::from_polar(20.0, TAU / 8.0)).unwrap();
     assert!((fitted.sum - Complex::from_polar(20.0, TAU / 8.0)).norm() < 1e-12);
     // between two holes: 30 in each makes 60 cos 22.5 degrees
@@ -98,12 +98,13 @@ fn a_weight_that_fits_is_taken_as_it_is_and_one_between_is_split() {
     assert_eq!(fitted.holes, [(0, 30.0), (1, 30.0)]);
     assert!((fitted.sum - wanted).norm() < 1e-12);
     // drilled out on the other side
-    let drilled = Holes { mode: Mode::Removing, ..holes }.fit(Complex::from_polar(20.0, TAU / 8.0)).unwrap();
+    let drilled =
+        Holes { method: CorrectionMethod::Removing, ..holes }.fit(Complex::from_polar(20.0, TAU / 8.0)).unwrap();
     assert_eq!(drilled.holes.iter().find(|(_, w)| *w > 0.0), Some(&(5, 20.0)));
-    assert_eq!(holes.fit(Complex::new(500.0, 0.0)), Err(Refusal::TooHeavy { plane: 0 }));
-    assert_eq!(Holes { weights: &[], ..holes }.fit(wanted), Err(Refusal::NothingToFit));
-    assert_eq!(Holes { weights: &[1.0, -1.0], ..holes }.fit(wanted), Err(Refusal::Setting { index: 1 }));
-    assert_eq!(Holes { angles: &[0.0, f64::NAN], ..holes }.fit(wanted), Err(Refusal::Setting { index: 1 }));
+    assert_eq!(holes.fit(Complex::new(500.0, 0.0)), Err(Error::TooHeavy { plane: 0 }));
+    assert_eq!(Holes { weights: &[], ..holes }.fit(wanted), Err(Error::NothingToFit));
+    assert_eq!(Holes { weights: &[1.0, -1.0], ..holes }.fit(wanted), Err(Error::Setting { index: 1 }));
+    assert_eq!(Holes { angles: &[0.0, f64::NAN], ..holes }.fit(wanted), Err(Error::Setting { index: 1 }));
     // of what does the same, the lightest: 20 alone and not 30 against 10 on the other side
     let fitted = holes.fit(Complex::new(21.0, 0.0)).unwrap();
     assert_eq!(fitted.holes.iter().map(|(_, weight)| weight).sum::<f64>(), 20.0);

@@ -1,6 +1,6 @@
 //! In-run balancing against a rotor that it knows nothing of.
 
-use driveline::balance::{Advice, Complex, Halt, InRun, InRunConfig, Influence, Refusal};
+use driveline::balancing::{AbortReason, Action, Complex, Error, InRun, InRunConfig, Influence};
 
 use crate::noise::Noise;
 
@@ -34,15 +34,15 @@ fn spindle(noise: &mut Noise, mut run: InRun<f64, 2, 1>) -> Outcome {
         let off = 0.005 * start / 2_f64.sqrt();
         let reading = truth.map(|v| v + Complex::new(noise.normal() * off, noise.normal() * off));
         match run.advise(&reading, 0.0) {
-            Advice::Move([to]) => {
+            Action::Set([to]) => {
                 assert!(to.norm() <= 1.0 + 1e-12);
                 placed = placed + (to - placed) * (1.0 + 0.01 * noise.normal());
                 for a in &mut influence {
                     *a *= Complex::new(1.0 + 0.01 * noise.normal(), 0.01 * noise.normal());
                 }
             }
-            Advice::Rest => return Outcome { moves, highest, left: level },
-            Advice::Stop(_, halt) => panic!("{halt}"),
+            Action::Hold => return Outcome { moves, highest, left: level },
+            Action::Abort(_, halt) => panic!("{halt}"),
         }
     }
     Outcome { moves: u32::MAX, highest, left: f64::INFINITY }
@@ -84,9 +84,9 @@ fn from_a_model_in_three_moves() {
             let v = a * (placed - needed);
             assert!(v.norm() <= start * (1.0 + 1e-12));
             match run.advise(&[v], 0.0) {
-                Advice::Move([to]) => placed = to,
-                Advice::Rest => break,
-                Advice::Stop(..) => panic!("stopped"),
+                Action::Set([to]) => placed = to,
+                Action::Hold => break,
+                Action::Abort(..) => panic!("stopped"),
             }
             moves += 1;
         }
@@ -127,9 +127,9 @@ fn two_heads() {
                 Complex::new((v.re + off * noise.normal()) as f32, (v.im + off * noise.normal()) as f32)
             });
             match run.advise(&reading, 0.0) {
-                Advice::Move(to) => placed = to.map(|w| Complex::new(f64::from(w.re), f64::from(w.im))),
-                Advice::Rest => break,
-                Advice::Stop(_, halt) => panic!("{halt}"),
+                Action::Set(to) => placed = to.map(|w| Complex::new(f64::from(w.re), f64::from(w.im))),
+                Action::Hold => break,
+                Action::Abort(_, halt) => panic!("{halt}"),
             }
             moves += 1;
         }
@@ -151,11 +151,11 @@ fn divergence_stops_at_the_best_weights() {
             best = (v.norm(), placed);
         }
         match run.advise(&[v], 0.0) {
-            Advice::Move([to]) => placed = to,
-            Advice::Rest => panic!("rested at {}", v.norm()),
-            Advice::Stop([back], halt) => {
-                assert_eq!((back, halt), (best.1, Halt::Diverging));
-                assert_eq!(run.advise(&[v * 0.0], 0.0), Advice::Stop([back], Halt::Diverging));
+            Action::Set([to]) => placed = to,
+            Action::Hold => panic!("rested at {}", v.norm()),
+            Action::Abort([back], halt) => {
+                assert_eq!((back, halt), (best.1, AbortReason::Diverging));
+                assert_eq!(run.advise(&[v * 0.0], 0.0), Action::Abort([back], AbortReason::Diverging));
                 return;
             }
         }
@@ -168,13 +168,13 @@ fn a_head_that_does_not_move_is_given_up_and_a_bad_reading_is_not_learnt() {
     let mut run = InRun::<f64, 1, 1>::new(CONFIG, 1, [Complex::new(0.0, 0.0)]).unwrap();
     let v = Complex::new(1.0, 0.0);
     let bad = Complex::new(f64::NAN, 0.0);
-    assert_eq!(run.advise(&[bad], 0.0), Advice::Stop([Complex::new(0.0, 0.0)], Halt::NoReading));
-    assert_eq!(run.advise(&[], 0.0), Advice::Stop([Complex::new(0.0, 0.0)], Halt::NoReading));
+    assert_eq!(run.advise(&[bad], 0.0), Action::Abort([Complex::new(0.0, 0.0)], AbortReason::NoReading));
+    assert_eq!(run.advise(&[], 0.0), Action::Abort([Complex::new(0.0, 0.0)], AbortReason::NoReading));
     let mut noise = Noise::new(1);
     for _ in 0..30 {
         let reading = v + Complex::new(0.002 * noise.normal(), 0.002 * noise.normal());
-        if let Advice::Stop(_, halt) = run.advise(&[reading], 0.0) {
-            assert_eq!(halt, Halt::Stalled);
+        if let Action::Abort(_, halt) = run.advise(&[reading], 0.0) {
+            assert_eq!(halt, AbortReason::Stalled);
             return;
         }
     }
@@ -184,13 +184,13 @@ fn a_head_that_does_not_move_is_given_up_and_a_bad_reading_is_not_learnt() {
 #[test]
 fn settings_are_checked() {
     let new = |config| InRun::<f64, 2, 1>::new(config, 1, [Complex::new(0.0, 0.0)]).map(|_| ());
-    assert_eq!(new(InRunConfig { probe: 0.0, ..CONFIG }), Err(Refusal::Setting { index: 0 }));
-    assert_eq!(new(InRunConfig { limits: [f64::NAN], ..CONFIG }), Err(Refusal::Setting { index: 1 }));
-    assert_eq!(new(InRunConfig { bound: 1.0, ..CONFIG }), Err(Refusal::Setting { index: 3 }));
-    assert_eq!(new(InRunConfig { target: 1.0, ..CONFIG }), Err(Refusal::Setting { index: 4 }));
-    assert_eq!(new(InRunConfig { forgetting: 1.1, ..CONFIG }), Err(Refusal::Setting { index: 5 }));
-    assert_eq!(InRun::<f64, 2, 1>::new(CONFIG, 3, [Complex::new(0.0, 0.0)]).map(|_| ()), Err(Refusal::Size));
+    assert_eq!(new(InRunConfig { probe: 0.0, ..CONFIG }), Err(Error::Setting { index: 0 }));
+    assert_eq!(new(InRunConfig { limits: [f64::NAN], ..CONFIG }), Err(Error::Setting { index: 1 }));
+    assert_eq!(new(InRunConfig { bound: 1.0, ..CONFIG }), Err(Error::Setting { index: 3 }));
+    assert_eq!(new(InRunConfig { target: 1.0, ..CONFIG }), Err(Error::Setting { index: 4 }));
+    assert_eq!(new(InRunConfig { forgetting: 1.1, ..CONFIG }), Err(Error::Setting { index: 5 }));
+    assert_eq!(InRun::<f64, 2, 1>::new(CONFIG, 3, [Complex::new(0.0, 0.0)]).map(|_| ()), Err(Error::Size));
     let model = Influence::<f64, 2, 1>::new(1, 1).unwrap();
     let run = InRun::<f64, 2, 1>::new(CONFIG, 1, [Complex::new(0.0, 0.0)]).unwrap();
-    assert_eq!(run.with_model(&model, 0.1).map(|_| ()), Err(Refusal::PlaneUnknown { plane: 0 }));
+    assert_eq!(run.with_model(&model, 0.1).map(|_| ()), Err(Error::PlaneUnknown { plane: 0 }));
 }

@@ -1,6 +1,6 @@
 //! Weights from influence coefficients against published cases with answers of 50 digits, and against what must hold of any answer.
 
-use driveline::balance::{Aim, Complex, Influence, Objective, Real, Refusal};
+use driveline::balancing::{Aim, Complex, Error, Influence, Objective, Scalar};
 use nalgebra::{convert, try_convert};
 use serde_json::Value;
 
@@ -15,27 +15,27 @@ fn data(name: &str) -> Value {
 }
 
 /// Amplitude and phase in degrees as a complex number, rounded to the number type once.
-fn polar<T: Real>(value: &Value) -> Complex<T> {
+fn polar<T: Scalar>(value: &Value) -> Complex<T> {
     let (amplitude, degrees) = (value[0].as_f64().unwrap(), value[1].as_f64().unwrap());
     let (sin, cos) = degrees.to_radians().sin_cos();
     Complex { re: convert(amplitude * cos), im: convert(amplitude * sin) }
 }
 
-fn polars<T: Real>(value: &Value) -> Vec<Complex<T>> {
+fn polars<T: Scalar>(value: &Value) -> Vec<Complex<T>> {
     value.as_array().unwrap().iter().map(polar).collect()
 }
 
-fn double<T: Real>(z: Complex<T>) -> Complex<f64> {
+fn double<T: Scalar>(z: Complex<T>) -> Complex<f64> {
     Complex { re: try_convert(z.re).unwrap(), im: try_convert(z.im).unwrap() }
 }
 
-fn apart<T: Real>(got: &[Complex<T>], expected: &[Complex<f64>]) -> f64 {
+fn apart<T: Scalar>(got: &[Complex<T>], expected: &[Complex<f64>]) -> f64 {
     let largest = expected.iter().map(|z| z.norm()).fold(0.0, f64::max);
     got.iter().zip(expected).map(|(a, b)| (double(*a) - b).norm() / largest).fold(0.0, f64::max)
 }
 
 /// The coefficients as given, or from the trial runs.
-fn problem<T: Real>(case: &Value) -> (Problem<T>, Vec<Complex<T>>) {
+fn problem<T: Scalar>(case: &Value) -> (Problem<T>, Vec<Complex<T>>) {
     let baseline: Vec<Complex<T>> = polars(&case["baseline_vibration_amp_phase_deg"]);
     if let Some(rows) = case["influence_coefficients_amp_phase_deg"].as_array() {
         let planes = rows[0].as_array().unwrap().len();
@@ -57,7 +57,7 @@ fn problem<T: Real>(case: &Value) -> (Problem<T>, Vec<Complex<T>>) {
     (problem, baseline)
 }
 
-fn least_squares<T: Real>(tolerance: f64) {
+fn least_squares<T: Scalar>(tolerance: f64) {
     let cases = data("balancing.json");
     for case in cases["cases"].as_array().unwrap() {
         let (problem, baseline) = problem::<T>(case);
@@ -276,37 +276,37 @@ fn trial_weights_may_stay() {
 #[test]
 fn wrong_use_is_refused_and_loses_nothing() {
     let z = |re: f64, im: f64| Complex { re, im };
-    assert_eq!(Problem::<f64>::new(2, 3), Err(Refusal::MorePlanesThanReadings { planes: 3, readings: 2 }));
-    assert_eq!(Problem::<f64>::new(0, 0), Err(Refusal::Size));
-    assert_eq!(Problem::<f64>::new(9, 2), Err(Refusal::Size));
+    assert_eq!(Problem::<f64>::new(2, 3), Err(Error::MorePlanesThanReadings { planes: 3, readings: 2 }));
+    assert_eq!(Problem::<f64>::new(0, 0), Err(Error::Size));
+    assert_eq!(Problem::<f64>::new(9, 2), Err(Error::Size));
     let mut problem = Problem::<f64>::new(2, 2).unwrap();
     let (before, with) = ([z(7.2, 1.0), z(3.0, 2.0)], [z(4.9, 0.0), z(4.0, 1.0)]);
     problem.learn(0, &before, &with, z(2.5, 0.0)).unwrap();
     let kept = problem;
-    assert_eq!(problem.learn(1, &before, &with, z(0.0, 0.0)), Err(Refusal::TrialWeightZero { plane: 1 }));
-    assert_eq!(problem.learn(0, &before, &with, z(f64::NAN, 0.0)), Err(Refusal::Weight { plane: 0 }));
-    assert_eq!(problem.learn(0, &before, &with[..1], z(1.0, 0.0)), Err(Refusal::ReadingMissing { row: 1 }));
+    assert_eq!(problem.learn(1, &before, &with, z(0.0, 0.0)), Err(Error::TrialWeightZero { plane: 1 }));
+    assert_eq!(problem.learn(0, &before, &with, z(f64::NAN, 0.0)), Err(Error::Weight { plane: 0 }));
+    assert_eq!(problem.learn(0, &before, &with[..1], z(1.0, 0.0)), Err(Error::ReadingMissing { row: 1 }));
     assert_eq!(
         problem.learn(0, &before, &[z(1.0, 0.0), z(0.0, f64::INFINITY)], z(1.0, 0.0)),
-        Err(Refusal::Reading { row: 1 })
+        Err(Error::Reading { row: 1 })
     );
-    assert_eq!(problem.learn(0, &before, &before, z(1.0, 0.0)), Err(Refusal::NoEffect { plane: 0 }));
-    assert_eq!(problem.learn(2, &before, &with, z(1.0, 0.0)), Err(Refusal::NoPlane { plane: 2 }));
-    assert_eq!(problem.correct(&before, &Rule::default()), Err(Refusal::PlaneUnknown { plane: 1 }));
+    assert_eq!(problem.learn(0, &before, &before, z(1.0, 0.0)), Err(Error::NoEffect { plane: 0 }));
+    assert_eq!(problem.learn(2, &before, &with, z(1.0, 0.0)), Err(Error::NoPlane { plane: 2 }));
+    assert_eq!(problem.correct(&before, &Rule::default()), Err(Error::PlaneUnknown { plane: 1 }));
     assert_eq!(problem, kept);
     problem.learn(1, &before, &[z(1.0, 1.0), z(-2.0, 2.0)], z(1.0, 1.0)).unwrap();
     let mut aim = Rule::default();
     aim.weighting[1] = -1.0;
-    assert_eq!(problem.correct(&before, &aim), Err(Refusal::Setting { index: 1 }));
+    assert_eq!(problem.correct(&before, &aim), Err(Error::Setting { index: 1 }));
     aim.weighting[1] = 0.0;
-    assert_eq!(problem.correct(&before, &aim), Err(Refusal::MorePlanesThanReadings { planes: 2, readings: 1 }));
+    assert_eq!(problem.correct(&before, &aim), Err(Error::MorePlanesThanReadings { planes: 2, readings: 1 }));
     aim.weighting[1] = 1.0;
     aim.limits[0] = Some(f64::NAN);
-    assert_eq!(problem.correct(&before, &aim), Err(Refusal::Setting { index: 0 }));
-    assert_eq!(problem.correct(&before[..1], &Rule::default()), Err(Refusal::ReadingMissing { row: 1 }));
+    assert_eq!(problem.correct(&before, &aim), Err(Error::Setting { index: 0 }));
+    assert_eq!(problem.correct(&before[..1], &Rule::default()), Err(Error::ReadingMissing { row: 1 }));
     assert!(problem.correct(&before, &Rule::default()).unwrap().rms < 1e-14);
     assert_eq!(
-        Refusal::TrialWeightZero { plane: 1 }.to_string(),
+        Error::TrialWeightZero { plane: 1 }.to_string(),
         "the trial weight in plane 2 is zero: put a weight there and run again"
     );
 }

@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use driveline::balance::{
-    Balancer, Doubt, Motion, Phasor, Phasors, PhasorsConfig, Reading, Sensor, Steadiness, Synchronous,
+use driveline::angle::Synchronous;
+use driveline::balancing::{
+    Balancer, Motion, Phasor, Phasors, PhasorsConfig, Reading, ReadingFault, Sensor, Steadiness,
 };
-use driveline::constants::{Measured, MeasuredError};
 use driveline::number::{Fixed, Number};
+use driveline::settings::{PhasorError, PhasorSettings};
 
 use crate::noise::Noise;
 
@@ -43,14 +44,14 @@ impl Rig {
     }
 }
 
-const CALM: Measured = Measured::DIRECT;
+const CALM: PhasorSettings = PhasorSettings::DIRECT;
 
 fn run<N: Synchronous, const EDGES: usize>(
     config: &PhasorsConfig<N, 1>,
     rig: &mut Rig,
     number: impl Fn(f64) -> N,
     mut vibration: impl FnMut(f64, &mut Noise) -> f64,
-) -> Result<Reading, Doubt> {
+) -> Result<Reading, ReadingFault> {
     let mut phasors = Phasors::<N, 1, EDGES>::default();
     for _ in 0..2_000_000 {
         let (angle, theta) = rig.next();
@@ -79,7 +80,7 @@ fn near(reading: &Reading, amplitude: f64, phase: f64, part: f64, degrees: f64) 
 /// 0.5 % and 0.5 degree under 1 % of speed ripple and noise 20 dB below the vibration: what a reading is asked for.
 #[test]
 fn amplitude_and_phase_under_ripple_and_noise() {
-    let measured = Measured { rotor_turns: 31, motor_turns: 47, turns: 16, ..CALM };
+    let measured = PhasorSettings { rotor_turns: 31, motor_turns: 47, turns: 16, ..CALM };
     let single = PhasorsConfig::<f32, 1>::new(&measured, [20.0]);
     let fixed = PhasorsConfig::<Fixed, 1>::new(&measured, [1.0]);
     let (mut worst, mut most) = (0.0_f64, 0.0_f64);
@@ -133,7 +134,7 @@ fn a_clean_vibration_is_read_to_the_table() {
 #[test]
 fn orders_are_told_apart() {
     let signal = |theta: f64, _: &mut Noise| 5.0 * (theta + 1.0).cos() + (2.0 * theta - 0.7).cos();
-    let second = PhasorsConfig::<f32, 1>::new(&Measured { order: 2, ..CALM }, [20.0]);
+    let second = PhasorsConfig::<f32, 1>::new(&PhasorSettings { order: 2, ..CALM }, [20.0]);
     let reading = run::<f32, 9>(&second, &mut Rig::new(73.1), |v| v as f32, signal).unwrap();
     // five times the table's and the edges' error of the first order
     near(&reading, 1.0, -0.7, 3e-3, 0.2);
@@ -144,7 +145,7 @@ fn orders_are_told_apart() {
 /// second is 1.6e9 turns, of which this does 47e5 in steps of a third and checks that none is lost by half a unit of 2^-26.
 #[test]
 fn a_ratio_loses_nothing() {
-    let measured = Measured { rotor_turns: 31, motor_turns: 47, turns: 300, ..CALM };
+    let measured = PhasorSettings { rotor_turns: 31, motor_turns: 47, turns: 300, ..CALM };
     let config = PhasorsConfig::<f32, 1>::new(&measured, [1.0]);
     let mut phasors = Phasors::<f32, 1, 2>::default();
     let (mut angle, mut seen) = (0_u32, 0);
@@ -177,7 +178,7 @@ fn a_reading_that_cannot_be_believed_says_why() {
     };
     // a run-up of 2 % over the reading of 64 turns of 50 ticks
     let moved = read(&mut Rig { gain: 0.02 / 3200.0, ..Rig::new(50.0) }, &mut unit);
-    assert!(matches!(moved, Err(Doubt::SpeedMoved { spread }) if (0.014..0.02).contains(&spread)), "{moved:?}");
+    assert!(matches!(moved, Err(ReadingFault::SpeedMoved { spread }) if (0.014..0.02).contains(&spread)), "{moved:?}");
     // near a critical: the speed gains 0.4 %, the phase goes by 20 degrees
     let mut tick = 0.0;
     let near_critical = read(&mut Rig { gain: 0.004 / 3200.0, ..Rig::new(50.0) }, &mut |theta, _| {
@@ -185,7 +186,7 @@ fn a_reading_that_cannot_be_believed_says_why() {
         (theta + 0.35 * tick).cos()
     });
     assert!(
-        matches!(near_critical, Err(Doubt::Drifting { drift }) if (0.25..0.4).contains(&drift)),
+        matches!(near_critical, Err(ReadingFault::Drifting { drift }) if (0.25..0.4).contains(&drift)),
         "{near_critical:?}"
     );
     // a beat with a neighbour that turns 10.3 % slower
@@ -194,23 +195,23 @@ fn a_reading_that_cannot_be_believed_says_why() {
         other += TAU / 50.0 * 0.897;
         theta.cos() + 0.9 * other.cos() * 0.5
     });
-    assert!(matches!(beat, Err(Doubt::Scattered { .. })), "{beat:?}");
+    assert!(matches!(beat, Err(ReadingFault::Scattered { .. })), "{beat:?}");
     let clipping = read(&mut Rig::new(50.0), &mut |theta, _| (3.0 * theta.cos()).clamp(-1.6, 1.6));
-    assert_eq!(clipping, Err(Doubt::Clipped));
+    assert_eq!(clipping, Err(ReadingFault::Clipped));
     let mut tick = 0;
     let broken = read(&mut Rig::new(50.0), &mut |theta, _| {
         tick += 1;
         if tick == 1000 { f64::NAN } else { theta.cos() }
     });
-    assert_eq!(broken, Err(Doubt::Clipped));
+    assert_eq!(broken, Err(ReadingFault::Clipped));
     let fast = read(&mut Rig::new(6.3), &mut unit);
-    assert_eq!(fast, Err(Doubt::TooFast));
+    assert_eq!(fast, Err(ReadingFault::TooFast));
 }
 
 #[test]
 fn turning_backwards_is_no_reading_and_a_negative_ratio_makes_it_one() {
     let config = PhasorsConfig::<f32, 1>::new(&CALM, [1.5]);
-    let reversed = PhasorsConfig::<f32, 1>::new(&Measured { rotor_turns: -1, ..CALM }, [1.5]);
+    let reversed = PhasorsConfig::<f32, 1>::new(&PhasorSettings { rotor_turns: -1, ..CALM }, [1.5]);
     let (mut wrong, mut right) = (Phasors::<f32, 1, 9>::default(), Phasors::<f32, 1, 9>::default());
     let mut angle = 0_u32;
     for _ in 0..5000 {
@@ -220,18 +221,18 @@ fn turning_backwards_is_no_reading_and_a_negative_ratio_makes_it_one() {
         wrong.measure(&config, angle, &[v]);
         right.measure(&reversed, angle, &[v]);
     }
-    assert!(matches!(wrong.reading(&config, 0), Err(Doubt::Backwards { times }) if times > 80));
+    assert!(matches!(wrong.reading(&config, 0), Err(ReadingFault::Backwards { times }) if times > 80));
     near(&right.reading(&reversed, 0).unwrap(), 1.0, 0.5, 3e-4, 0.02);
-    assert_eq!(right.reading(&reversed, 1), Err(Doubt::NoChannel));
+    assert_eq!(right.reading(&reversed, 1), Err(ReadingFault::NoChannel));
     // a bad reading is behind it once another is begun
     right.begin();
-    assert_eq!(right.reading(&reversed, 0), Err(Doubt::Incomplete { turns: 0, of: 64 }));
+    assert_eq!(right.reading(&reversed, 0), Err(ReadingFault::Incomplete { turns: 0, of: 64 }));
 }
 
 /// Angles that no rotor has leave a measurement that works again.
 #[test]
 fn garbage_is_survived() {
-    let measured = Measured { rotor_turns: 97, motor_turns: 7, turns: 1, ..CALM };
+    let measured = PhasorSettings { rotor_turns: 97, motor_turns: 7, turns: 1, ..CALM };
     let config = PhasorsConfig::<f32, 1>::new(&measured, [1e3]);
     let mut phasors = Phasors::<f32, 1, 5>::default();
     let mut noise = Noise::new(3);
@@ -314,14 +315,14 @@ fn a_sensor_that_cannot_be_is_refused() {
 fn a_measurement_that_cannot_be_is_refused() {
     type Config = PhasorsConfig<f32, 1>;
     let of = |measured| Config::try_new(&measured, [1.0]).map(|_| ());
-    assert_eq!(of(Measured { motor_turns: 0, ..CALM }), Err(MeasuredError::Ratio));
-    assert_eq!(of(Measured { rotor_turns: 16, ..CALM }), Err(MeasuredError::Ratio));
-    assert_eq!(of(Measured { order: 0, ..CALM }), Err(MeasuredError::Ratio));
-    assert_eq!(of(Measured { turns: 0, ..CALM }), Err(MeasuredError::Turns));
-    assert_eq!(of(Measured { turns: 301, ..CALM }), Err(MeasuredError::Turns));
-    assert_eq!(Config::try_new(&CALM, [f64::NAN]).map(|_| ()), Err(MeasuredError::Limit));
-    assert_eq!(PhasorsConfig::<Fixed, 1>::try_new(&CALM, [2.5]).map(|_| ()), Err(MeasuredError::Limit));
-    assert!(of(Measured { rotor_turns: -15, ..CALM }).is_ok());
+    assert_eq!(of(PhasorSettings { motor_turns: 0, ..CALM }), Err(PhasorError::Ratio));
+    assert_eq!(of(PhasorSettings { rotor_turns: 16, ..CALM }), Err(PhasorError::Ratio));
+    assert_eq!(of(PhasorSettings { order: 0, ..CALM }), Err(PhasorError::Ratio));
+    assert_eq!(of(PhasorSettings { turns: 0, ..CALM }), Err(PhasorError::Turns));
+    assert_eq!(of(PhasorSettings { turns: 301, ..CALM }), Err(PhasorError::Turns));
+    assert_eq!(Config::try_new(&CALM, [f64::NAN]).map(|_| ()), Err(PhasorError::Limit));
+    assert_eq!(PhasorsConfig::<Fixed, 1>::try_new(&CALM, [2.5]).map(|_| ()), Err(PhasorError::Limit));
+    assert!(of(PhasorSettings { rotor_turns: -15, ..CALM }).is_ok());
     let _ = Steadiness::USUAL;
     let _ = <f32 as Number>::ZERO;
 }
@@ -332,7 +333,7 @@ fn channels_and_orders_side_by_side() {
     type Both = (Phasors<f32, 2, 9>, Phasors<f32, 1, 9>);
     let config = (
         PhasorsConfig::<f32, 2>::new(&CALM, [20.0, 5.0]),
-        PhasorsConfig::<f32, 1>::new(&Measured { order: 2, turns: 4, ..CALM }, [20.0]),
+        PhasorsConfig::<f32, 1>::new(&PhasorSettings { order: 2, turns: 4, ..CALM }, [20.0]),
     );
     let mut both = Both::default();
     let mut rig = Rig::new(61.3);

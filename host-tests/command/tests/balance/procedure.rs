@@ -1,6 +1,6 @@
 //! The procedure on a rotor: step by step, back and again, cut off and resumed, and used wrongly.
 
-use driveline::balance::{Aim, Complex, Influence, Plan, Procedure, Refusal, Run, Step};
+use driveline::balancing::{Aim, Complex, Error, Influence, Plan, Procedure, ProcedureStep, Run};
 
 use crate::noise::Noise;
 
@@ -33,43 +33,43 @@ impl Fan {
     }
 }
 
-fn plan(trials_stay: bool) -> Plan<f64, 4, 2> {
-    Plan { trials_stay, ..Plan::usual(2, 2, 1e-9) }
+fn plan(leave_trials: bool) -> Plan<f64, 4, 2> {
+    Plan { leave_trials, ..Plan::usual(2, 2, 1e-9) }
 }
 
 /// Does what the procedure asks for until it is done, putting on weights that are off by a hundredth; after each step it is cut off.
-fn field(trials_stay: bool) -> (Fan, Field, Vec<Step>) {
+fn field(leave_trials: bool) -> (Fan, Field, Vec<ProcedureStep>) {
     let mut fan = Fan::new();
-    let mut field = Field::new(plan(trials_stay)).unwrap();
+    let mut field = Field::new(plan(leave_trials)).unwrap();
     let mut steps = Vec::new();
     let mut words = [0_u32; 300];
     loop {
         let step = field.next();
         steps.push(step);
         match step {
-            Step::Baseline => field.baseline(&fan.run()).unwrap(),
-            Step::Trial { plane } => {
+            ProcedureStep::Baseline => field.baseline(&fan.run()).unwrap(),
+            ProcedureStep::Trial { plane } => {
                 let trial = Complex::new(1.5, 0.5);
                 fan.on[plane] += trial;
                 field.trial(plane, trial, &fan.run()).unwrap();
-                if !trials_stay {
+                if !leave_trials {
                     fan.on[plane] -= trial;
                 }
             }
-            Step::Correction | Step::Trim => {
+            ProcedureStep::Correction | ProcedureStep::Trim => {
                 let weights = field.correction().unwrap().weights;
-                let off = if step == Step::Trim { 1.0 } else { 1.01 };
+                let off = if step == ProcedureStep::Trim { 1.0 } else { 1.01 };
                 let put = weights.map(|w| w * off);
                 for (on, put) in fan.on.iter_mut().zip(&put) {
                     *on += put;
                 }
-                field.placed(&put).unwrap();
+                field.installed(&put).unwrap();
             }
-            Step::Verify => field.verified(&fan.run()).unwrap(),
-            Step::Done => return (fan, field, steps),
+            ProcedureStep::Verify => field.verified(&fan.run()).unwrap(),
+            ProcedureStep::Done => return (fan, field, steps),
         }
         let length = field.record(&mut words).unwrap();
-        let resumed = Field::resume(plan(trials_stay), &words[..length]).unwrap();
+        let resumed = Field::resume(plan(leave_trials), &words[..length]).unwrap();
         assert_eq!(resumed, field);
         field = resumed;
         assert!(steps.len() < 20);
@@ -78,21 +78,21 @@ fn field(trials_stay: bool) -> (Fan, Field, Vec<Step>) {
 
 #[test]
 fn through_all_steps_and_every_power_cut() {
-    for trials_stay in [false, true] {
-        let (fan, field, steps) = self::field(trials_stay);
+    for leave_trials in [false, true] {
+        let (fan, field, steps) = self::field(leave_trials);
         let expected = [
-            Step::Baseline,
-            Step::Trial { plane: 0 },
-            Step::Trial { plane: 1 },
-            Step::Correction,
-            Step::Verify,
-            Step::Trim,
-            Step::Verify,
-            Step::Done,
+            ProcedureStep::Baseline,
+            ProcedureStep::Trial { plane: 0 },
+            ProcedureStep::Trial { plane: 1 },
+            ProcedureStep::Correction,
+            ProcedureStep::Verify,
+            ProcedureStep::Trim,
+            ProcedureStep::Verify,
+            ProcedureStep::Done,
         ];
         assert_eq!(steps, expected);
         assert!(fan.run().readings().iter().all(|reading| reading.norm() < 1e-9));
-        let trials = if trials_stay { Complex::new(1.5, 0.5) } else { Complex::new(0.0, 0.0) };
+        let trials = if leave_trials { Complex::new(1.5, 0.5) } else { Complex::new(0.0, 0.0) };
         for (on, corrected) in fan.on.iter().zip(field.weights()) {
             assert!((on - corrected - trials).norm() < 1e-12);
         }
@@ -104,7 +104,7 @@ fn steps_are_taken_back_and_given_again() {
     let (_, mut field, steps) = self::field(false);
     let whole = field.clone();
     let mut back = Vec::new();
-    while let Some(step) = field.take_back() {
+    while let Some(step) = field.undo() {
         // what was taken back is what comes next
         assert_eq!(field.next(), step);
         back.push(step);
@@ -137,13 +137,13 @@ fn a_plane_is_tried_again_or_further() {
             [(0, w(1.0, 0.5)), (1, w(0.5, -1.0)), (0, w(-0.3, 1.0)), (1, w(2.0, 0.0)), (0, w(0.7, 0.1))]
         {
             fan.on[plane] += weight;
-            field.further_trial(plane, weight, &fan.run()).unwrap();
+            field.extra_trial(plane, weight, &fan.run()).unwrap();
             if !stays {
                 fan.on[plane] -= weight;
             }
         }
         assert_eq!((field.trials_of(0), field.trials_of(1)), (3, 2));
-        assert_eq!(field.further_trial(0, w(1.0, 0.0), &fan.run()), Err(Refusal::Size));
+        assert_eq!(field.extra_trial(0, w(1.0, 0.0), &fan.run()), Err(Error::Size));
         for (row, plane) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             // rounding of five runs of size 10
             let (got, truth) = (field.influence().unwrap().get(row, plane), fan.influence.get(row, plane));
@@ -151,13 +151,13 @@ fn a_plane_is_tried_again_or_further() {
         }
         // which of the three is meant to be replaced cannot be known
         let kept = field.clone();
-        assert_eq!(field.trial(0, w(1.0, 0.0), &fan.run()), Err(Refusal::TrialRepeated { plane: 0 }));
+        assert_eq!(field.trial(0, w(1.0, 0.0), &fan.run()), Err(Error::TrialRepeated { plane: 0 }));
         assert_eq!(field, kept);
         let mut words = [0; 300];
         let length = field.record(&mut words).unwrap();
         assert_eq!(Roomy::resume(plan(stays), &words[..length]), Ok(field));
         // a procedure with less room does not take it
-        assert!(matches!(Field::resume(plan(stays), &words[..length]), Err(Refusal::Record { .. })));
+        assert!(matches!(Field::resume(plan(stays), &words[..length]), Err(Error::Record { .. })));
     }
     // weights that stay: the last trial may be given again, one below another one not
     let mut fan = Fan::new();
@@ -171,12 +171,12 @@ fn a_plane_is_tried_again_or_further() {
             field.trial(plane, w(9.0, 9.0), &fan.run()).unwrap();
         }
     }
-    assert_eq!(field.trial(0, w(9.0, 9.0), &fan.run()), Err(Refusal::TrialRepeated { plane: 0 }));
+    assert_eq!(field.trial(0, w(9.0, 9.0), &fan.run()), Err(Error::TrialRepeated { plane: 0 }));
     field.trial(1, w(9.0, 9.0), &fan.run()).unwrap();
     assert!((field.influence().unwrap().get(0, 0).unwrap() - fan.influence.get(0, 0).unwrap()).norm() < 1e-13);
     assert!((field.influence().unwrap().get(0, 1).unwrap() - fan.influence.get(0, 1).unwrap()).norm() < 1e-13);
     assert_eq!(
-        Refusal::TrialRepeated { plane: 0 }.to_string(),
+        Error::TrialRepeated { plane: 0 }.to_string(),
         "plane 1 has its trial run already: take that back, or give a further one"
     );
 }
@@ -197,9 +197,9 @@ fn a_reading_that_is_left_out_is_in_no_residual() {
     assert!(
         correction.rms < 1e-15 && correction.largest < 1e-15 && (correction.residual[2].norm() - 50.0).abs() < 1e-12
     );
-    field.placed(&correction.weights).unwrap();
+    field.installed(&correction.weights).unwrap();
     field.verified(&run([z(0.05, 0.0), z(0.0, 0.05), z(50.0, 0.0)])).unwrap();
-    assert_eq!(field.next(), Step::Done);
+    assert_eq!(field.next(), ProcedureStep::Done);
     // and counts as soon as it is weighted
     let mut field = Field::new(Plan::usual(3, 2, 0.1)).unwrap();
     field.baseline(&run([z(5.0, 0.0), z(0.0, 3.0), z(50.0, 0.0)])).unwrap();
@@ -213,11 +213,11 @@ fn known_coefficients_need_no_trial_runs() {
     let mut fan = Fan::new();
     let mut field = Field::new(plan(false)).unwrap().with_coefficients(fan.influence).unwrap();
     field.baseline(&fan.run()).unwrap();
-    assert_eq!(field.next(), Step::Correction);
+    assert_eq!(field.next(), ProcedureStep::Correction);
     fan.on = field.correction().unwrap().weights[..2].try_into().unwrap();
-    field.placed(&fan.on).unwrap();
+    field.installed(&fan.on).unwrap();
     field.verified(&fan.run()).unwrap();
-    assert_eq!(field.next(), Step::Done);
+    assert_eq!(field.next(), ProcedureStep::Done);
     let unknown = Model::new(2, 2).unwrap();
     assert!(Field::new(plan(false)).unwrap().with_coefficients(unknown).is_err());
     assert!(Field::new(plan(false)).unwrap().with_coefficients(Model::new(3, 2).unwrap()).is_err());
@@ -230,31 +230,31 @@ fn wrong_use_is_refused_and_loses_nothing() {
     let run = fan.run();
     let w = Complex::new(1.0, 0.0);
     let readings = &run.readings()[..2];
-    assert_eq!(field.trial(0, w * 0.0, &run), Err(Refusal::TrialWeightZero { plane: 0 }));
-    assert_eq!(field.trial(5, w, &run), Err(Refusal::NoPlane { plane: 5 }));
+    assert_eq!(field.trial(0, w * 0.0, &run), Err(Error::TrialWeightZero { plane: 0 }));
+    assert_eq!(field.trial(5, w, &run), Err(Error::NoPlane { plane: 5 }));
     let faster = Run::new(readings, &[SPEED, SPEED * 1.02]).unwrap();
-    assert_eq!(field.trial(0, w, &faster), Err(Refusal::SpeedDiffers { row: 1 }));
-    assert_eq!(field.baseline(&faster), Err(Refusal::SpeedDiffers { row: 1 }));
-    assert_eq!(field.verified(&faster), Err(Refusal::SpeedDiffers { row: 1 }));
+    assert_eq!(field.trial(0, w, &faster), Err(Error::SpeedDiffers { row: 1 }));
+    assert_eq!(field.baseline(&faster), Err(Error::SpeedDiffers { row: 1 }));
+    assert_eq!(field.verified(&faster), Err(Error::SpeedDiffers { row: 1 }));
     let short = Run::new(&readings[..1], &[SPEED]).unwrap();
-    assert_eq!(field.verified(&short), Err(Refusal::ReadingMissing { row: 1 }));
-    assert_eq!(Run::<f64, 4>::new(readings, &[SPEED]), Err(Refusal::ReadingMissing { row: 1 }));
-    assert_eq!(Run::<f64, 4>::new(&[w, w * f64::NAN], &[SPEED; 2]), Err(Refusal::Reading { row: 1 }));
-    assert_eq!(field.placed(&[w, w * f64::NAN]), Err(Refusal::Weight { plane: 1 }));
+    assert_eq!(field.verified(&short), Err(Error::ReadingMissing { row: 1 }));
+    assert_eq!(Run::<f64, 4>::new(readings, &[SPEED]), Err(Error::ReadingMissing { row: 1 }));
+    assert_eq!(Run::<f64, 4>::new(&[w, w * f64::NAN], &[SPEED; 2]), Err(Error::Reading { row: 1 }));
+    assert_eq!(field.installed(&[w, w * f64::NAN]), Err(Error::Weight { plane: 1 }));
     assert_eq!(field, whole);
 
     let mut empty = Field::new(plan(false)).unwrap();
-    assert_eq!(empty.trial(0, w, &run), Err(Refusal::TooEarly));
-    assert_eq!(empty.verified(&run), Err(Refusal::TooEarly));
-    assert_eq!(empty.correction(), Err(Refusal::TooEarly));
-    assert_eq!(empty.placed(&[w; 2]), Err(Refusal::TooEarly));
+    assert_eq!(empty.trial(0, w, &run), Err(Error::TooEarly));
+    assert_eq!(empty.verified(&run), Err(Error::TooEarly));
+    assert_eq!(empty.correction(), Err(Error::TooEarly));
+    assert_eq!(empty.installed(&[w; 2]), Err(Error::TooEarly));
     empty.baseline(&run).unwrap();
-    assert_eq!(empty.correction(), Err(Refusal::PlaneUnknown { plane: 0 }));
+    assert_eq!(empty.correction(), Err(Error::PlaneUnknown { plane: 0 }));
     assert_eq!(
         Field::new(Plan { planes: 2, ..Plan::usual(1, 2, 1.0) }),
-        Err(Refusal::MorePlanesThanReadings { planes: 2, readings: 1 })
+        Err(Error::MorePlanesThanReadings { planes: 2, readings: 1 })
     );
-    assert_eq!(Field::new(Plan::usual(2, 2, f64::NAN)), Err(Refusal::Setting { index: 1 }));
+    assert_eq!(Field::new(Plan::usual(2, 2, f64::NAN)), Err(Error::Setting { index: 1 }));
 }
 
 /// Any single word changed, and any end cut off, is noticed; nothing is made of it.
@@ -267,12 +267,12 @@ fn a_damaged_record_is_noticed() {
         for change in [1, 0x8000_0000, 0x0010_0000] {
             let mut damaged = words;
             damaged[at] ^= change;
-            assert!(matches!(Field::resume(plan(true), &damaged[..length]), Err(Refusal::Record { .. })), "word {at}");
+            assert!(matches!(Field::resume(plan(true), &damaged[..length]), Err(Error::Record { .. })), "word {at}");
         }
         assert!(Field::resume(plan(true), &words[..at]).is_err());
     }
     assert!(Field::resume(plan(false), &words[..length]).is_err());
-    assert_eq!(field.record(&mut [0; 20]), Err(Refusal::Size));
+    assert_eq!(field.record(&mut [0; 20]), Err(Error::Size));
     let mut noise = Noise::new(6);
     for _ in 0..2000 {
         let garbage: Vec<u32> = (0..100).map(|_| (noise.even() * 4e9) as u32).collect();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use driveline::balance::{Complex, Entry, Refusal, Tolerance, degrees, from_amplitudes, two_planes};
+use driveline::balancing::{Complex, Entry, Error, Tolerance, degrees, from_amplitudes, two_planes};
 use serde_json::Value;
 
 use crate::noise::Noise;
@@ -50,8 +50,8 @@ fn permissible_unbalance_and_its_split() {
     assert_eq!(shares(1.2), [0.3, 1.2]);
     assert_eq!(shares(1.5), [0.5, 1.3]);
     assert_eq!(rotor.judge(1e3).unwrap().fulfils, None);
-    assert_eq!(Tolerance { mass: 0.0, ..rotor }.permissible(), Err(Refusal::Setting { index: 1 }));
-    assert_eq!(rotor.at_bearings(0.3, 0.0), Err(Refusal::Setting { index: 3 }));
+    assert_eq!(Tolerance { mass: 0.0, ..rotor }.permissible(), Err(Error::Setting { index: 1 }));
+    assert_eq!(rotor.at_bearings(0.3, 0.0), Err(Error::Setting { index: 3 }));
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn unbalances_resolved_into_two_planes() {
             assert!((-plane - expected).norm() / expected.norm() < 1e-12, "{}", case["id"]);
         }
     }
-    assert_eq!(two_planes([(Complex::new(1.0, 0.0), 0.0)], 1.0, 1.0), Err(Refusal::Setting { index: 0 }));
+    assert_eq!(two_planes([(Complex::new(1.0, 0.0), 0.0)], 1.0, 1.0), Err(Error::Setting { index: 0 }));
 }
 
 /// Three or more runs give the weight that takes the vibration away; two give it as one of two.
@@ -104,11 +104,11 @@ fn amplitudes_alone() {
     // A wrong amplitude can by chance be that of another rotor: a tenth of the effect's square on either side.
     assert!(noticed >= 180, "{noticed}");
     let runs = [(0.0, 1.0), (2.0, 1.5), (4.0, 2.0)];
-    assert_eq!(from_amplitudes(1.0, 0.0, &runs), Err(Refusal::TrialWeightZero { plane: 0 }));
-    assert_eq!(from_amplitudes(1.0, 1.0, &runs[..1]), Err(Refusal::ReadingMissing { row: 2 }));
-    assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0), (2.0, -1.5)]), Err(Refusal::Reading { row: 2 }));
-    assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0), (2.0, 1.0), (4.0, 1.0)]), Err(Refusal::NoEffect { plane: 0 }));
-    assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.1), (0.0, 1.2), (0.0, 1.3)]), Err(Refusal::NotFound));
+    assert_eq!(from_amplitudes(1.0, 0.0, &runs), Err(Error::TrialWeightZero { plane: 0 }));
+    assert_eq!(from_amplitudes(1.0, 1.0, &runs[..1]), Err(Error::ReadingMissing { row: 2 }));
+    assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0), (2.0, -1.5)]), Err(Error::Reading { row: 2 }));
+    assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0), (2.0, 1.0), (4.0, 1.0)]), Err(Error::NoEffect { plane: 0 }));
+    assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.1), (0.0, 1.2), (0.0, 1.3)]), Err(Error::NotFound));
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn phases_in_radians_are_noticed() {
     for phase in [1.9, 4.15, 5.2] {
         entry.polar(1.0, phase);
     }
-    assert_eq!(entry.check(), Err(Refusal::PhasesInRadians));
+    assert_eq!(entry.check(), Err(Error::PhasesInRadians));
     let mut entry = Entry::new();
     for phase in [1.9, 4.15, 120.0] {
         entry.polar(1.0, phase);

@@ -1,6 +1,6 @@
 //! Each wrong use of balancing, with its own sentence, and nothing lost of what was entered before.
 
-use driveline::balance::{Complex, Entry, Plan, Procedure, Refusal, Run};
+use driveline::balancing::{Complex, Entry, Error, Plan, Procedure, Run};
 
 type Field = Procedure<f64, 4, 2>;
 
@@ -19,7 +19,7 @@ fn half_way() -> Field {
 #[test]
 fn every_wrong_use_has_its_own_sentence_and_loses_nothing() {
     let right = Run::new(&[z(1.0, 1.0), z(-2.0, 2.0)], &[155.0; 2]).unwrap();
-    type Use = fn(&mut Field, &Run<f64, 4>) -> Result<(), Refusal>;
+    type Use = fn(&mut Field, &Run<f64, 4>) -> Result<(), Error>;
     let uses: [(&str, Use); 8] = [
         ("the trial weight in plane 2 is zero: put a weight there and run again", |field, run| {
             field.trial(1, z(0.0, 0.0), run)
@@ -48,7 +48,7 @@ fn every_wrong_use_has_its_own_sentence_and_loses_nothing() {
     }
     let planes = Field::new(Plan::usual(1, 2, 0.1)).unwrap_err().to_string();
     assert_eq!(planes, "2 planes cannot be told apart by 1 readings: measure at another place or speed");
-    let mut aim = driveline::balance::Aim::default();
+    let mut aim = driveline::balancing::Aim::default();
     aim.weighting[0] = 0.0;
     let mut field = Field::new(Plan { aim, ..Plan::usual(2, 2, 0.1) }).unwrap();
     field.baseline(&right).unwrap();

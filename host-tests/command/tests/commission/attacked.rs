@@ -5,7 +5,7 @@ use std::io;
 
 use cargo_driveline::commissioning::{Case, Course, named, on_host, run, verdict};
 use cargo_driveline::drivetrains::lockstep::{OnHost, Ticks};
-use driveline::commissioning::{Commissioning, Reason, TestConfig, TestSettings};
+use driveline::commissioning::{Commissioning, Error, TestConfig, TestSettings};
 use driveline_firmware::scene::{Input, Output};
 use driveline_firmware::scenes::commission::{Commission, SPINDLE, reason};
 use driveline_firmware::scenes::spindle::COUNTS;
@@ -25,7 +25,7 @@ fn bounded(case: &Case, course: &Course) {
     }
 }
 
-fn refused(case: &Case, seed: u64) -> Option<Reason> {
+fn refused(case: &Case, seed: u64) -> Option<Error> {
     let course = on_host(case, seed, |_, _| {}).unwrap();
     assert!(course.figures.is_none(), "{}", case.name);
     bounded(case, &course);
@@ -52,7 +52,7 @@ fn seized(name: &str) -> Case {
 fn a_load_that_is_seized() {
     for name in ["spindle", "mill"] {
         for seed in [1, 3, 5, 7] {
-            assert_eq!(refused(&seized(name), seed), Some(Reason::NotFollowed), "{name}");
+            assert_eq!(refused(&seized(name), seed), Some(Error::NotFollowed), "{name}");
         }
     }
 }
@@ -62,7 +62,7 @@ fn a_torque_that_cannot_move_the_machine() {
     let mut weak = named("mill").unwrap();
     // The bearings hold 5 % of rated.
     weak.settings.torque = 0.04 * weak.rated_torque;
-    assert_eq!(refused(&weak, 1), Some(Reason::NotFollowed));
+    assert_eq!(refused(&weak, 1), Some(Error::NotFollowed));
 }
 
 /// An encoder that counts the other way.
@@ -82,7 +82,7 @@ fn an_encoder_that_counts_the_other_way() {
         let course = run(&case, 1, &mut Negated(OnHost(Commission::of(config))), |_, _, _, _| {}).unwrap();
         bounded(&case, &course);
         let told = reason(course.reasons[0]);
-        assert!(matches!(told, Some(Reason::NotFollowed | Reason::AngleJump)), "{name}: {told:?}");
+        assert!(matches!(told, Some(Error::NotFollowed | Error::AngleJump)), "{name}: {told:?}");
     }
 }
 
@@ -164,11 +164,11 @@ fn settings_beyond_single_precision() {
         change(&mut settings);
         TestConfig::try_new(&settings).err()
     };
-    assert_eq!(refused(|s| (s.held, s.shaft_torque) = (1.0e39, 2.0e39)), Some(Reason::Held));
-    assert_eq!(refused(|s| s.shaft_torque = 1.0e39), Some(Reason::ShaftTorque));
-    assert_eq!(refused(|s| s.torque = 1.0e39), Some(Reason::Torque));
+    assert_eq!(refused(|s| (s.held, s.shaft_torque) = (1.0e39, 2.0e39)), Some(Error::Held));
+    assert_eq!(refused(|s| s.shaft_torque = 1.0e39), Some(Error::ShaftTorque));
+    assert_eq!(refused(|s| s.torque = 1.0e39), Some(Error::Torque));
     // 1/inertia is infinite.
-    assert_eq!(refused(|s| s.inertia = 1.0e-40), Some(Reason::Inertia));
+    assert_eq!(refused(|s| s.inertia = 1.0e-40), Some(Error::Inertia));
 }
 
 /// What breaks while the test runs.
@@ -185,7 +185,7 @@ enum Broken {
 }
 
 /// A rigid spindle on which something breaks at a tick; the answer, and ticks from then on.
-fn broken(config: &TestConfig, what: Broken, at: u32) -> (Option<Reason>, u32) {
+fn broken(config: &TestConfig, what: Broken, at: u32) -> (Option<Error>, u32) {
     let settings = config.settings();
     let (inertia, drag, period) = (0.016, 0.05, 1.0e-4);
     let (mut angle, mut speed, mut shown, mut offset) = (0.0_f64, 0.0_f64, 0_u32, 0_u32);
@@ -229,7 +229,7 @@ fn what_breaks_on_the_way() {
     for at in (0..14).map(|k| 1 + 7_001 * k) {
         for what in [Broken::Frozen, Broken::Reversed, Broken::Seized, Broken::Cut] {
             let (reason, ticks) = broken(&config, what, at);
-            assert_eq!(reason, Some(Reason::NotFollowed), "{what:?} at {at}");
+            assert_eq!(reason, Some(Error::NotFollowed), "{what:?} at {at}");
             // The lag is half of 17.5 N m over 0.012 kg m2 (209/s)^2: 17 mrad, which takes a tick at 200 rad/s and 600
             // for a reference that starts with 100 rad/s2, a quarter of the ramps'.
             assert!(ticks < 1_000, "{what:?} at {at}: {ticks}");

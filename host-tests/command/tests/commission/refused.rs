@@ -1,7 +1,7 @@
 //! What the data do not support is refused, with the reason.
 
 use cargo_driveline::commissioning::{Case, Course, named, on_host, verdict};
-use driveline::commissioning::{Commissioning, Reason, Stage, TestConfig, TestSettings};
+use driveline::commissioning::{Commissioning, Error, Stage, TestConfig, TestSettings};
 use driveline::design::{Encoder, Rate};
 use driveline_firmware::scenes::commission::{SPINDLE, reason};
 use driveline_solver::plant::{Chain, Shaft};
@@ -15,7 +15,7 @@ fn spindle(chain: Chain) -> Case {
     Case { plant: chain.build().unwrap(), ..named("spindle").unwrap() }
 }
 
-fn refused(case: &Case) -> Option<Reason> {
+fn refused(case: &Case) -> Option<Error> {
     let course = run(case);
     assert!(course.figures.is_none());
     // Bounded all the same: within half of rated.
@@ -27,7 +27,7 @@ fn refused(case: &Case) -> Option<Reason> {
 fn a_rigid_machine() {
     // Its resonance lies at 8 kHz: the response in the band, to 1 kHz, differs from a rigid one's by 1.6 % at most.
     let rigid = spindle(Chain::motor(0.012).shaft(Shaft::elastic(7.6e6).damping(3.0), 0.004));
-    assert_eq!(refused(&rigid), Some(Reason::Rigid));
+    assert_eq!(refused(&rigid), Some(Error::Rigid));
 }
 
 #[test]
@@ -35,7 +35,7 @@ fn a_resonance_beyond_the_band() {
     // At 1.1 kHz, where the band ends at 1 kHz: seen, but not to be told.
     let beyond = spindle(Chain::motor(0.012).shaft(Shaft::elastic(1.433e5).damping(0.3), 0.004));
     let reason = refused(&beyond);
-    assert!(matches!(reason, Some(Reason::ResonanceOutside | Reason::ResonanceUnclear | Reason::Rigid)), "{reason:?}");
+    assert!(matches!(reason, Some(Error::ResonanceOutside | Error::ResonanceUnclear | Error::Rigid)), "{reason:?}");
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn too_little_travel() {
     // 120 rad: room for the friction's test, none for a record of 20 s at 12 rad/s.
     short.settings.travel = 120.0;
     let reason = refused(&short);
-    assert!(matches!(reason, Some(Reason::Travel | Reason::TravelTooShort | Reason::TravelExceeded)), "{reason:?}");
+    assert!(matches!(reason, Some(Error::Travel | Error::TravelTooShort | Error::TravelExceeded)), "{reason:?}");
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn a_load_that_the_first_torque_does_not_hold() {
     // The load falls with 340 N m more than its weight: three times the test's speed within a tenth of a second.
     falling.settings.held = -150.0;
     falling.settings.travel = 20.0;
-    assert_eq!(refused(&falling), Some(Reason::AngleJump));
+    assert_eq!(refused(&falling), Some(Error::AngleJump));
 }
 
 #[test]
@@ -77,13 +77,13 @@ fn a_gap_below_the_resolution() {
     tight.plant = chain.build().unwrap();
     let course = run(&tight);
     assert!(course.figures.is_some());
-    assert_eq!(reason(course.reasons[1]), Some(Reason::GapBelowResolution));
+    assert_eq!(reason(course.reasons[1]), Some(Error::GapBelowResolution));
 }
 
 #[test]
 fn gaps_that_nothing_shows() {
     // A weight presses the hoist's shut; nothing holds the spindle's load.
-    for (name, expected) in [("hoist", Reason::Preloaded), ("spindle", Reason::LoadNotHeld)] {
+    for (name, expected) in [("hoist", Error::Preloaded), ("spindle", Error::LoadNotHeld)] {
         let course = run(&named(name).unwrap());
         assert_eq!(reason(course.reasons[1]), Some(expected), "{name}");
     }
@@ -108,7 +108,7 @@ fn an_encoder_that_jumps() {
     // A quarter turn in a tick would be 15,700 rad/s.
     assert_eq!(test.tick(&config, 1 << 30), 0.0);
     assert_eq!(test.stage(), Stage::Refused);
-    assert_eq!(test.outcome(), Some(Err(Reason::AngleJump)));
+    assert_eq!(test.outcome(), Some(Err(Error::AngleJump)));
     // It stays refused, without torque.
     for tick in 0..1000_u32 {
         assert_eq!(test.tick(&config, tick << 20), 0.0);
@@ -123,12 +123,12 @@ fn a_first_reason_that_stands() {
     while test.outcome().is_none() {
         test.tick(&config, 7);
     }
-    assert_eq!(test.outcome(), Some(Err(Reason::NotFollowed)));
+    assert_eq!(test.outcome(), Some(Err(Error::NotFollowed)));
     // What turns it then, as a load that falls before its brake is closed, is no other reason.
     for tick in 1..1000_u32 {
         assert_eq!(test.tick(&config, tick << 24), 0.0);
     }
-    assert_eq!(test.outcome(), Some(Err(Reason::NotFollowed)));
+    assert_eq!(test.outcome(), Some(Err(Error::NotFollowed)));
 }
 
 #[test]
@@ -138,17 +138,17 @@ fn settings_out_of_range() {
         change(&mut settings);
         TestConfig::try_new(&settings).unwrap_err()
     };
-    assert_eq!(with(&|s| s.rate = Rate::hz(0)), Reason::Rate);
-    assert_eq!(with(&|s| s.encoder = Encoder::lines(0)), Reason::EncoderLines);
-    assert_eq!(with(&|s| s.torque = -1.0), Reason::Torque);
-    assert_eq!(with(&|s| s.held = f64::NAN), Reason::Held);
-    assert_eq!(with(&|s| s.held = 40.0), Reason::ShaftTorque);
-    assert_eq!(with(&|s| s.speed = 0.0), Reason::Speed);
-    assert_eq!(with(&|s| s.travel = f64::INFINITY), Reason::Travel);
-    assert_eq!(with(&|s| s.inertia = 0.0), Reason::Inertia);
-    assert_eq!(with(&|s| s.band = [1_000.0, 200.0]), Reason::Band);
-    assert_eq!(with(&|s| s.band = [200.0, 1_001.0]), Reason::Band);
-    assert_eq!(with(&|s| s.torque_accuracy = 0.0), Reason::TorqueAccuracy);
-    assert_eq!(with(&|s| s.delay = -1.0), Reason::Delay);
-    assert!(Reason::ALL.iter().all(|reason| reason.message().len() > 20));
+    assert_eq!(with(&|s| s.rate = Rate::hz(0)), Error::Rate);
+    assert_eq!(with(&|s| s.encoder = Encoder::lines(0)), Error::EncoderLines);
+    assert_eq!(with(&|s| s.torque = -1.0), Error::Torque);
+    assert_eq!(with(&|s| s.held = f64::NAN), Error::Held);
+    assert_eq!(with(&|s| s.held = 40.0), Error::ShaftTorque);
+    assert_eq!(with(&|s| s.speed = 0.0), Error::Speed);
+    assert_eq!(with(&|s| s.travel = f64::INFINITY), Error::Travel);
+    assert_eq!(with(&|s| s.inertia = 0.0), Error::Inertia);
+    assert_eq!(with(&|s| s.band = [1_000.0, 200.0]), Error::Band);
+    assert_eq!(with(&|s| s.band = [200.0, 1_001.0]), Error::Band);
+    assert_eq!(with(&|s| s.torque_accuracy = 0.0), Error::TorqueAccuracy);
+    assert_eq!(with(&|s| s.delay = -1.0), Error::Delay);
+    assert!(Error::ALL.iter().all(|reason| reason.message().len() > 20));
 }

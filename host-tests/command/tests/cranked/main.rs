@@ -5,11 +5,11 @@
 
 use std::f64::consts::TAU;
 
-use driveline::constants::Bases;
 use driveline::design::{CrankedDesign, Disturbance, Encoder, Error, Rate, RigidDesign};
 use driveline::machine::{CrankSlider, Cranked, Inertia, Length, Mass, Rigid};
 use driveline::number::{Fixed, Number};
-use driveline::observer::{self, CrankedConfig, Observer, RigidConfig};
+use driveline::observer::{self, CrankConfig, Observer, RigidConfig};
+use driveline::settings::Bases;
 use driveline_solver::plant::train::Crank;
 
 const RATE_HZ: u32 = 10_000;
@@ -103,8 +103,8 @@ fn errors<N: Number, O: Observer<N>>(config: &O::Config, torque_base: f64, speed
 
 #[test]
 fn the_crank_is_not_taken_for_load() {
-    let cranked = errors::<f32, observer::Cranked<f32>>(&CrankedConfig::<f32>::new(&DESIGN, Bases::SI), 1.0, 1.0);
-    let rigid = errors::<f32, observer::Rigid<f32>>(
+    let cranked = errors::<f32, observer::CrankObserver<f32>>(&CrankConfig::<f32>::new(&DESIGN, Bases::SI), 1.0, 1.0);
+    let rigid = errors::<f32, observer::RigidObserver<f32>>(
         &RigidConfig::<f32>::new(&MEAN, 1.0 - 0.5 / PRESS.mean_inertia(), Bases::SI),
         1.0,
         1.0,
@@ -118,9 +118,10 @@ fn the_crank_is_not_taken_for_load() {
 
 #[test]
 fn numbers_agree() {
-    let double = errors::<f64, observer::Cranked<f64>>(&CrankedConfig::<f64>::new(&DESIGN, Bases::SI), 1.0, 1.0);
-    let single = errors::<f32, observer::Cranked<f32>>(&CrankedConfig::<f32>::new(&DESIGN, Bases::SI), 1.0, 1.0);
-    let fixed = errors::<Fixed, observer::Cranked<Fixed>>(&CrankedConfig::<Fixed>::new(&DESIGN, BASES), 1_200.0, 200.0);
+    let double = errors::<f64, observer::CrankObserver<f64>>(&CrankConfig::<f64>::new(&DESIGN, Bases::SI), 1.0, 1.0);
+    let single = errors::<f32, observer::CrankObserver<f32>>(&CrankConfig::<f32>::new(&DESIGN, Bases::SI), 1.0, 1.0);
+    let fixed =
+        errors::<Fixed, observer::CrankObserver<Fixed>>(&CrankConfig::<Fixed>::new(&DESIGN, BASES), 1_200.0, 200.0);
     println!("{double:?} {single:?} {fixed:?}");
     for k in 0..3 {
         // The encoder's noise is in all of them alike; resolution adds less than a hundredth to it.
@@ -132,9 +133,9 @@ fn numbers_agree() {
 #[test]
 fn a_free_crank_drive_has_no_load() {
     // Nothing drives and nothing brakes: the speed swings by a tenth, and all of it is the inertia's.
-    let config = CrankedConfig::<f64>::new(&DESIGN, Bases::SI);
+    let config = CrankConfig::<f64>::new(&DESIGN, Bases::SI);
     let mut press = Press::new(150.0);
-    let mut observer = observer::Cranked::<f64>::steady(&config, 0, 0.0, 150.0);
+    let mut observer = observer::CrankObserver::<f64>::steady(&config, 0, 0.0, 150.0);
     let (mut slow, mut fast, mut worst, mut peak) = (f64::INFINITY, 0.0_f64, 0.0_f64, 0.0_f64);
     for _ in 0..2 * RATE_HZ {
         press.tick(0.0);
@@ -153,8 +154,8 @@ fn a_free_crank_drive_has_no_load() {
 
 #[test]
 fn the_crank_stays_known_through_a_brake_and_a_restart() {
-    let config = CrankedConfig::<f64>::new(&DESIGN, Bases::SI);
-    let mut observer = observer::Cranked::<f64>::at_rest(&config, 0, 0.0);
+    let config = CrankConfig::<f64>::new(&DESIGN, Bases::SI);
+    let mut observer = observer::CrankObserver::<f64>::at_rest(&config, 0, 0.0);
     observer.home(&config, 1 << 30);
     // Three turns of the motor in steps of a twentieth, against a closed brake that slips.
     for step in 1..=60_u64 {
@@ -185,10 +186,10 @@ fn machines_that_cannot_be_are_refused() {
     let light = Cranked::new(Inertia(0.003), &CrankSlider { crank: Inertia(0.0), ..RAM }, 1, 11);
     let design = light.try_observer(rate, Encoder::lines(2048), USUAL);
     match design {
-        Ok(design) => assert!(CrankedConfig::<Fixed>::try_new(&design, BASES).is_err()),
+        Ok(design) => assert!(CrankConfig::<Fixed>::try_new(&design, BASES).is_err()),
         Err(error) => assert_eq!(error, Error::CrankedNotStabilising),
     }
     // A base of the torque that the crank alone exceeds.
-    let error = CrankedConfig::<Fixed>::try_new(&DESIGN, Bases::rigid(400.0, 2_500.0)).unwrap_err();
+    let error = CrankConfig::<Fixed>::try_new(&DESIGN, Bases::rigid(400.0, 2_500.0)).unwrap_err();
     assert!(error.message().contains("the crank takes too much torque"), "{error}");
 }

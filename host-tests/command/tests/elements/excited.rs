@@ -92,7 +92,7 @@ fn the_teeth_excite_the_gear_drive() {
 /// Two masses for the one, and for the other, by what leaving out the shaft would cost.
 #[test]
 fn both_need_two_masses() {
-    for need in [vibrating_screen::NEED, gear_drive::NEED] {
+    for need in [vibrating_screen::SELECTION, gear_drive::SELECTION] {
         assert_eq!(need.chosen, ObserverChoice::Exact);
         assert!(need.without_shaft.shaft_torque > 0.02, "{need:?}");
     }
@@ -104,7 +104,8 @@ fn their_runs_are_proven() {
     let machine = screen::machine().unwrap();
     ran::<Assembled<VibratingScreen<f32, with::Quick>>>(&machine, 2.5).recording.prove().unwrap();
     let machine = gears::machine().unwrap();
-    type Drive =
-        driveline_firmware::scene::governed::Governed<gear_drive::GearDrive<f32, driveline::observer::TwoMass<f32>>>;
+    type Drive = driveline_firmware::scene::governed::Governed<
+        gear_drive::GearDrive<f32, driveline::observer::TwoMassObserver<f32>>,
+    >;
     ran::<Drive>(&machine, 0.3).recording.prove().unwrap();
 }

@@ -159,7 +159,7 @@ fn a_planetary_set_with_another_member_held() {
         carrier: Inertia(0.067),
         efficiency: Efficiency(1.0),
     };
-    let gear = PlanetaryGear { set, ring: Inertia(0.4), driven: Member::Ring, held: Member::Sun };
+    let gear = PlanetaryGear { set, ring: Inertia(0.4), input: Member::Ring, held: Member::Sun };
     let read = chain(&[MOTOR, &keys("ring = 0.4\ndriven = \"ring\"\nheld = \"sun\"")]);
     assert_eq!(read, Ok(Chain::motor(Inertia(0.5)).planetary_gear(gear)));
     // the sun drives and the ring is held where the file is silent

@@ -2,20 +2,20 @@
 
 use std::f64::consts::PI;
 
-use driveline::design::{Aim, Duty, ObserverChoice};
+use driveline::design::{LoadCycle, ObserverChoice, Requirement};
 use driveline::machine::{Damping, Gap, Inertia, Stiffness, TwoMass};
 use driveline_solver::plant::{Chain, LoadProgram, Shaft};
 
 use super::{case, close};
 
-const DUTY: Duty = Duty { speed: 100.0, torque: 200.0, change: 60.0, rise: 0.0, every: 0.7, reverses: false };
+const DUTY: LoadCycle = LoadCycle { speed: 100.0, torque: 200.0, change: 60.0, rise: 0.0, every: 0.7, reverses: false };
 
 fn machine(damping: f64) -> TwoMass {
     TwoMass::new(Inertia(1.2), Inertia(0.35), Stiffness(850.0), Damping(damping))
 }
 
 /// What a rigid observer does not show after a change of load: shaft torque less its steady part, load's speed less the mean speed, rms.
-fn solved(duty: &Duty, damping: f64) -> [f64; 2] {
+fn solved(duty: &LoadCycle, damping: f64) -> [f64; 2] {
     let ramp = if duty.rise == 0.0 {
         LoadProgram::steps(&[(0.0, duty.change)])
     } else {
@@ -46,16 +46,19 @@ fn the_shaft_left_out() {
     for damping in [0.0, 0.3, 1.2] {
         let two = machine(damping);
         for rise in [0.0, PI / two.resonance()] {
-            let duty = Duty { rise, ..DUTY };
-            let cost = two.need(&duty, &Aim::USUAL, 1e-4).without_shaft;
+            let duty = LoadCycle { rise, ..DUTY };
+            let cost = two.select_observer(&duty, &Requirement::USUAL, 1e-4).without_shaft;
             let [torque, speed] = solved(&duty, damping);
             let tolerance = 0.02 + 0.5 * PI * two.damping_ratio();
             close(cost.shaft_torque, torque, tolerance);
             close(cost.load_speed, speed, tolerance);
         }
         // A ramp of whole periods leaves nothing; the bound does not count on that.
-        let duty = Duty { rise: 2.0 * PI / two.resonance(), ..DUTY };
-        assert!(two.need(&duty, &Aim::USUAL, 1e-4).without_shaft.shaft_torque > solved(&duty, damping)[0]);
+        let duty = LoadCycle { rise: 2.0 * PI / two.resonance(), ..DUTY };
+        assert!(
+            two.select_observer(&duty, &Requirement::USUAL, 1e-4).without_shaft.shaft_torque
+                > solved(&duty, damping)[0]
+        );
     }
 }
 
@@ -65,29 +68,31 @@ fn the_gap_left_out() {
     let case = case("backlash_transients.json", "D4_crane_slack_gap_friction_const");
     let closing = case["closed_form"]["impact_speed_rad_s"].as_f64().unwrap();
     let two = machine(0.0).with_gap(Gap(case["gap_total_rad"].as_f64().unwrap()));
-    let duty = Duty { change: case["motor"][1].as_f64().unwrap(), reverses: true, ..DUTY };
-    let cost = two.need(&duty, &Aim::USUAL, 1e-4).without_gap;
+    let duty = LoadCycle { change: case["motor"][1].as_f64().unwrap(), reverses: true, ..DUTY };
+    let cost = two.select_observer(&duty, &Requirement::USUAL, 1e-4).without_gap;
     let blow = closing * (850.0_f64 * 1.2 * 0.35 / 1.55).sqrt();
     close(cost.shaft_torque * duty.torque, blow / 2.0_f64.sqrt(), 1e-12);
     // The slip of the blow is the closing speed; the load has 1.2/1.55 of it.
     close(cost.load_speed * duty.speed, closing / 2.0_f64.sqrt() * 1.2 / 1.55, 1e-12);
-    let steady = two.need(&Duty { reverses: false, ..duty }, &Aim::USUAL, 1e-4).without_gap;
+    let steady = two.select_observer(&LoadCycle { reverses: false, ..duty }, &Requirement::USUAL, 1e-4).without_gap;
     assert_eq!((steady.shaft_torque, steady.load_speed), (0.0, 0.0));
 }
 
 #[test]
 fn the_cheapest_observer_that_will_do() {
-    let choice = |two: TwoMass, duty: &Duty, hz: f64| two.need(duty, &Aim::USUAL, 1.0 / hz).chosen;
+    let choice =
+        |two: TwoMass, duty: &LoadCycle, hz: f64| two.select_observer(duty, &Requirement::USUAL, 1.0 / hz).chosen;
     let soft = machine(0.3);
     assert_eq!(choice(soft, &DUTY, 10_000.0), ObserverChoice::SemiImplicit);
     assert_eq!(choice(soft, &DUTY, 1_000.0), ObserverChoice::Exact);
     // Slowly loaded, it is a rigid machine.
-    assert_eq!(choice(soft, &Duty { rise: 10.0, ..DUTY }, 1_000.0), ObserverChoice::Rigid);
+    assert_eq!(choice(soft, &LoadCycle { rise: 10.0, ..DUTY }, 1_000.0), ObserverChoice::Rigid);
     let slack = soft.with_gap(Gap(0.01));
-    assert_eq!(choice(slack, &Duty { reverses: true, ..DUTY }, 10_000.0), ObserverChoice::Backlash);
+    assert_eq!(choice(slack, &LoadCycle { reverses: true, ..DUTY }, 10_000.0), ObserverChoice::Backlash);
     // The gap stays closed where the torque keeps its sign.
     assert_eq!(choice(slack, &DUTY, 10_000.0), ObserverChoice::SemiImplicit);
-    const AT_COMPILE_TIME: ObserverChoice =
-        TwoMass::new(Inertia(1.2), Inertia(0.35), Stiffness(850.0), Damping(0.3)).need(&DUTY, &Aim::USUAL, 1e-4).chosen;
+    const AT_COMPILE_TIME: ObserverChoice = TwoMass::new(Inertia(1.2), Inertia(0.35), Stiffness(850.0), Damping(0.3))
+        .select_observer(&DUTY, &Requirement::USUAL, 1e-4)
+        .chosen;
     assert_eq!(AT_COMPILE_TIME, ObserverChoice::SemiImplicit);
 }

@@ -1,7 +1,7 @@
 //! Prime movers against the textbook's examples and their own definitions.
 
 use driveline::machine::{
-    Combustion, Error, Induction, Line, Mixture, Parabola, Series, Shunt, Speed, StartingLaw, Torque,
+    Combustion, CombustionType, Error, Induction, Line, Parabola, Series, Shunt, Speed, StartingLaw, Torque,
 };
 
 use super::{case, close, meets};
@@ -89,9 +89,11 @@ fn rotor_resistance_moves_the_breakdown() {
 /// diesel, whose governor ends the curve.
 #[test]
 fn combustion_engines() {
-    for (mixture, overload) in
-        [(Mixture::Spark, 1.25), (Mixture::IndirectInjection, 1.09), (Mixture::DirectInjection, 1.189_225)]
-    {
+    for (mixture, overload) in [
+        (CombustionType::Spark, 1.25),
+        (CombustionType::IndirectInjection, 1.09),
+        (CombustionType::DirectInjection, 1.189_225),
+    ] {
         let engine = Combustion::new(mixture, (Speed(200.0), Torque(1_500.0)), Speed(70.0), Speed(210.0));
         let power = |speed: f64| engine.torque(Speed(speed)).0 * speed;
         close(power(200.0), 300e3, ROUNDING);
@@ -101,13 +103,13 @@ fn combustion_engines() {
         assert!((rise - expected).abs() < 2e-4);
         // a + b^2/(4 c), worked out by hand from the coefficients.
         close(engine.overload(), overload, 1e-12);
-        close(engine.torque(engine.elastic_speed()).0, overload * 1_500.0, 1e-12);
+        close(engine.torque(engine.speed_at_peak_torque()).0, overload * 1_500.0, 1e-12);
         // The governor: halfway down halfway through its droop, nothing beyond, nothing below idle.
         close(engine.torque(Speed(205.0)).0, 750.0, 1e-13);
         assert_eq!([engine.torque(Speed(211.0)).0, engine.torque(Speed(69.0)).0], [0.0; 2]);
         close(engine.droop(), 0.05, 1e-14);
     }
-    let wrong = Combustion::try_new(Mixture::Spark, (Speed(200.0), Torque(1.0)), Speed(70.0), Speed(200.0));
+    let wrong = Combustion::try_new(CombustionType::Spark, (Speed(200.0), Torque(1.0)), Speed(70.0), Speed(200.0));
     assert_eq!(wrong, Err(Error::CombustionEngine));
 }
 

@@ -111,7 +111,7 @@ fn a_planetary_set_with_any_member_held() {
     let (pin_radius, ring_radius) = (sun_radius + planet_radius, 0.5 * module * ring_teeth);
     let members = [Member::Sun, Member::Ring, Member::Carrier];
     for (driven, held) in [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)] {
-        let gear = PlanetaryGear { set, ring: Inertia(ring), driven: members[driven], held: members[held] };
+        let gear = PlanetaryGear { set, ring: Inertia(ring), input: members[driven], held: members[held] };
         // speeds of sun, ring, carrier and planet
         let mut matrix = nalgebra::Matrix4::from_row_slice(&[
             sun_radius,
@@ -146,9 +146,9 @@ fn a_planetary_set_with_any_member_held() {
         close(chain.total_inertia() - 1.0, energies, 1e-14);
         assert_eq!(chain.ratio(), gear.ratio().abs());
     }
-    let published = PlanetaryGear { set, ring: Inertia(0.0), driven: Member::Carrier, held: Member::Ring };
+    let published = PlanetaryGear { set, ring: Inertia(0.0), input: Member::Carrier, held: Member::Ring };
     meets(published.inertia(), &case["expected_J_at_carrier"], 1e-12);
-    let own = Chain::motor(Inertia(1.0)).planetary_gear(PlanetaryGear { driven: Member::Sun, ..published });
+    let own = Chain::motor(Inertia(1.0)).planetary_gear(PlanetaryGear { input: Member::Sun, ..published });
     close(own.total_inertia(), Chain::motor(Inertia(1.0)).planetary(set).total_inertia(), 1e-15);
     let both = PlanetaryGear { held: Member::Carrier, ..published };
     assert_eq!(Chain::motor(Inertia(1.0)).try_planetary_gear(both), Err(Error::PlanetaryMembers));

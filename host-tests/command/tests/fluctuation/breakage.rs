@@ -2,11 +2,11 @@
 
 use core::f64::consts::TAU;
 
-use driveline::constants::{Bases, Cycle, Wheel};
 use driveline::fluctuation::{
     CycleConfig, Extremes, Fluctuation, ToothErrors, ToothedWheel, ToothedWheelConfig, Waveform, WaveformConfig,
 };
 use driveline::sample::Estimate;
+use driveline::settings::{Bases, Cycle, Wheel};
 use proptest::prelude::*;
 
 use super::rig::{BINS, PERIOD};

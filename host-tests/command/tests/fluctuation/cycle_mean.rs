@@ -2,10 +2,10 @@
 
 use core::f64::consts::TAU;
 
-use driveline::constants::{Bases, Cycle, Error};
 use driveline::fluctuation::{CycleMean, CycleMeanConfig, Fluctuation};
 use driveline::number::{Fixed, Number};
 use driveline::sample::Estimate;
+use driveline::settings::{Bases, Cycle, Error};
 
 use super::motion::{Motion, Part};
 use super::rig::PERIOD;

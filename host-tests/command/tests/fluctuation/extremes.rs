@@ -2,10 +2,10 @@
 
 use core::f64::consts::TAU;
 
-use driveline::constants::{Bases, Cycle};
 use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Reading};
 use driveline::number::{Fixed, Number};
 use driveline::sample::Estimate;
+use driveline::settings::{Bases, Cycle};
 use serde_json::Value;
 
 use super::motion::{Motion, Part};

@@ -2,9 +2,9 @@
 
 use core::f64::consts::TAU;
 
-use driveline::constants::Cycle;
 use driveline::design::{energy_swing, flywheel_inertia};
 use driveline::fluctuation::{Balance, CycleConfig, Drivetrain, MachineClass, Remedy, Series};
+use driveline::settings::Cycle;
 use serde_json::Value;
 
 use super::motion::{Motion, Part};
@@ -124,7 +124,7 @@ fn the_load_is_known_by_the_machines_law() {
     let mut motion = Motion::new(RATED, 0.0, 2.0, &parts);
     let (ripple, torque, cycle) = window(&mut motion, Cycle::FOUR_STROKE, 32, 6);
     assert!((torque.mean - TORQUE).abs() < 1e-3, "{torque:?}");
-    let behind = ripple.behind(&cycle, &MACHINE, &torque);
+    let behind = ripple.load_side(&cycle, &MACHINE, &torque);
     let at = |k: i32| Motion { phi: f64::from(k) * 1e-4 * TAU * 2.0, time: 0.0, ..motion.clone() };
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     let (mut low, mut high) = (f64::INFINITY, 0.0_f64);

@@ -2,10 +2,10 @@
 
 use core::f64::consts::TAU;
 
-use driveline::constants::{Bases, Cycle, Error};
 use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Waveform, WaveformConfig};
 use driveline::number::{Fixed, Number};
 use driveline::sample::Estimate;
+use driveline::settings::{Bases, Cycle, Error};
 use proptest::prelude::*;
 
 use super::rig::{BINS, PERIOD};

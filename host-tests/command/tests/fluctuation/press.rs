@@ -2,9 +2,9 @@
 
 use core::f64::consts::TAU;
 
-use driveline::constants::{Bases, Cycle};
 use driveline::fluctuation::{CycleConfig, Fluctuation, Ripple, Waveform, WaveformConfig};
 use driveline::sample::Estimate;
+use driveline::settings::{Bases, Cycle};
 
 use super::rig::{BINS, PERIOD};
 

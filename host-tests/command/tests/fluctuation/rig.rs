@@ -1,6 +1,5 @@
 //! A drive with the exact two-mass observer, and the numbers that it can be built in.
 
-use driveline::constants::{Bases, Cycle, Screening};
 use driveline::design::{Disturbance, Encoder, Rate, TwoMassDesign};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::fault::Faults;
@@ -9,6 +8,7 @@ use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
 use driveline::observer::{self, TwoMassConfig};
 use driveline::sample::Sample;
+use driveline::settings::{Bases, Cycle, Screening};
 
 use super::motion::Motion;
 
@@ -37,11 +37,11 @@ const DESIGN: TwoMassDesign = MACHINE.observer(
 );
 pub const BASES: Bases = Bases::of(&DESIGN, 12_000.0, 250.0);
 const SCREENING: Screening =
-    Screening { torque: 3000.0, reference: 200.0, innovation: 0.05, standstill: 1.5e-3, missed: 150 };
+    Screening { torque: 3000.0, setpoint: 200.0, innovation: 0.05, frozen_turn: 1.5e-3, max_coast: 150 };
 
 pub type Parts<N> = (Extremes<N>, Waveform<N, BINS>);
-pub type Measured<N> = Drive<N, observer::TwoMass<N>, Parts<N>>;
-pub type Constants<N> = ConfigOf<Drive<N, observer::TwoMass<N>, Parts<N>>>;
+pub type Measured<N> = Drive<N, observer::TwoMassObserver<N>, Parts<N>>;
+pub type Constants<N> = ConfigOf<Drive<N, observer::TwoMassObserver<N>, Parts<N>>>;
 
 /// A number that the drive can be built in.
 pub trait Built: Number {
@@ -101,7 +101,7 @@ pub fn run<N: Built>(
     let mut drive = Measured::<N>::new(config, motion.encoder());
     for tick in 0..ticks {
         motion.advance(PERIOD);
-        let sample = Sample { angle: motion.encoder(), torque: N::of_torque(TORQUE), reference: N::ZERO };
+        let sample = Sample { angle: motion.encoder(), torque: N::of_torque(TORQUE), setpoint: N::ZERO };
         let faults = drive.tick(config, &sample).faults;
         assert!(tick < 3000 || faults == Faults::NONE, "{}: {faults} in tick {tick}", N::NAME);
         if done(&mut drive) {

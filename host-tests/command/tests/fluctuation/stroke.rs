@@ -127,7 +127,7 @@ fn rides_and_advises(number: &str, permissible: f64) {
     assert!(high > 0.99 * TORQUE_LIMIT && rough > 0.5 * mean, "{number}: {rough} {high}");
     // A twentieth: what the last of the settling leaves, the segments' steps and the observer's noise.
     assert!(smooth < 0.05 * mean && low < 1.1 * mean, "{number}: {mean} {smooth} {low}");
-    // It governs nevertheless: nine strokes after the first one with plate the mean speed is the set point within 1 %.
+    // It governs nevertheless: nine strokes after the first one with plate the mean speed is the setpoint within 1 %.
     assert!((speed(riding) / RATED_SPEED - 1.0).abs() < 0.01, "{number}: {}", speed(riding));
 
     let (true_delta, middle) = delta(riding);

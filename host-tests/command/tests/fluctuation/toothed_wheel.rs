@@ -2,8 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use driveline::constants::Wheel;
 use driveline::fluctuation::{Ripple, ToothErrors, ToothWindow, ToothedWheel, ToothedWheelConfig};
+use driveline::settings::Wheel;
 
 use super::motion::{Motion, Part};
 

@@ -3,9 +3,9 @@
 
 use core::f64::consts::TAU;
 
-use driveline::constants::Cycle;
 use driveline::fluctuation::{Ripple, Window};
 use driveline::number::Fixed;
+use driveline::settings::Cycle;
 
 use super::motion::{Motion, Part};
 use super::rig::{BINS, Built, RATED, run};

@@ -4,20 +4,20 @@
 use cargo_driveline::closed_loop::units::Units;
 use cargo_driveline::generator::faults::MOST;
 use cargo_driveline::generator::set::Kind;
-use driveline::constants::{Bases, ModesSettings, Screening};
 use driveline::design::{
     Actuator, Disturbance, Encoder, GovernorDesign, LoadFeedForward, Rate, TwoMassDesign, VirtualInertia,
 };
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains,
-    Governor, Mean, MeanConfig, Mode, Modes, ModesConfig, Request, Slew, SlewConfig, SpeedGovernor,
-    SpeedGovernorConfig, SpeedGovernorConfigOf, Symmetric, SymmetricConfig,
+    Governor, MovingAverage, MovingAverageConfig, RunRequest, RunState, Sequencer, SequencerConfig, Slew, SlewConfig,
+    SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf, SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass as Machine};
 use driveline::number::{Fixed, Number};
-use driveline::observer::{TwoMass, TwoMassConfig};
+use driveline::observer::{TwoMassConfig, TwoMassObserver};
 use driveline::sample::{Estimate, Sample};
+use driveline::settings::{Bases, Screening, SequencerSettings};
 use driveline_firmware::Words;
 use driveline_firmware::scene::{Input, Scene};
 use driveline_firmware::scenes::generator::{Generator, Of, RATED_SPEED, panel, with};
@@ -39,23 +39,36 @@ const OBSERVER: TwoMassDesign = MACHINE.observer(
     Disturbance { torque_accuracy: 600.0, load_torque_step: TORQUE, within: 1.0 },
 );
 const SCREENING: Screening =
-    Screening { torque: 1.4 * TORQUE, reference: 1.2 * SPEED, innovation: 0.05, standstill: 1.5e-3, missed: 30 };
-const MODES: ModesSettings = ModesSettings {
+    Screening { torque: 1.4 * TORQUE, setpoint: 1.2 * SPEED, innovation: 0.05, frozen_turn: 1.5e-3, max_coast: 30 };
+const MODES: SequencerSettings = SequencerSettings {
     overspeed: 1.1 * SPEED,
     underspeed: 0.8 * SPEED,
     reverse: 0.02 * SPEED,
     shaft_torque: 3.0 * TORQUE,
     standstill: 0.01 * SPEED,
-    prompt: 0.01,
-    patient: 0.1,
+    trip_delay: 0.01,
+    underspeed_delay: 0.1,
     start: 5.0,
 };
 
 /// A governor of every part that adds, delays or limits.
-type Whole<N> = SpeedGovernor<N, Droop, (FeedForward, AccelerationFeedback), Slew<N, Symmetric>, Modes, Mean<N, 32>>;
-type Attacked<N> = Drive<N, TwoMass<N>, (), Whole<N>>;
-type Constants<N> =
-    SpeedGovernorConfigOf<N, Droop, (FeedForward, AccelerationFeedback), Slew<N, Symmetric>, Modes, Mean<N, 32>>;
+type Whole<N> = SpeedGovernor<
+    N,
+    Droop,
+    (FeedForward, AccelerationFeedback),
+    Slew<N, SymmetricLimit>,
+    Sequencer,
+    MovingAverage<N, 32>,
+>;
+type Attacked<N> = Drive<N, TwoMassObserver<N>, (), Whole<N>>;
+type Constants<N> = SpeedGovernorConfigOf<
+    N,
+    Droop,
+    (FeedForward, AccelerationFeedback),
+    Slew<N, SymmetricLimit>,
+    Sequencer,
+    MovingAverage<N, 32>,
+>;
 
 /// A number with its constants: two governors to switch between, with a slew of the torque [N m/s].
 trait Wired: Number {
@@ -73,19 +86,19 @@ macro_rules! wired {
             fn governors(slew: f64) -> [Constants<Self>; 2] {
                 [(&FED, 0.0), (&HEAVY, 0.04)].map(|(design, droop)| SpeedGovernorConfig {
                     gains: Gains::<$number>::new(design, RAMP, $bases),
-                    set_point: DroopConfig::<$number>::new(droop, SPEED, TORQUE, $bases),
-                    prompt: (
+                    shape: DroopConfig::<$number>::new(droop, SPEED, TORQUE, $bases),
+                    compensation: (
                         FeedForwardConfig::<$number>::new(design.share, $bases),
                         AccelerationFeedbackConfig::<$number>::new(design, $bases),
                     ),
                     limit: SlewConfig::<$number, _>::new(
                         slew,
-                        SymmetricConfig::<$number>::new(TORQUE, $bases),
+                        SymmetricLimitConfig::<$number>::new(TORQUE, $bases),
                         PERIOD,
                         $bases,
                     ),
-                    supervisor: ModesConfig::<$number>::new(&MODES, PERIOD, $bases),
-                    view: MeanConfig::<$number, 32>::of_ticks(),
+                    sequence: SequencerConfig::<$number>::new(&MODES, PERIOD, $bases),
+                    filter: MovingAverageConfig::<$number, 32>::of_ticks(),
                 })
             }
             fn limits() -> Limits<Self> {
@@ -109,13 +122,13 @@ wired!(Fixed, [BASES.torque, BASES.speed], |value| Fixed::from_f64(value), BASES
 enum Act {
     /// It turns by so much in each of so many ticks, told the torque that it commands.
     Turns(u16, i32),
-    /// Words as they come, for so many ticks: how far the angle is off, torque, set point.
+    /// Words as they come, for so many ticks: how far the angle is off, torque, setpoint.
     Words(u8, u32, u32, u32),
     /// No angle, for so many ticks.
     Blind(u8, u32, u32),
     /// Held, with a torque.
     Hold(u32),
-    Ask(Request),
+    Ask(RunRequest),
     Switch,
     Engage,
 }
@@ -138,7 +151,7 @@ fn act() -> impl Strategy<Value = Act> {
         3 => (1..60_u8, word(), word(), word()).prop_map(|(ticks, a, t, r)| Act::Words(ticks, a, t, r)),
         1 => (1..60_u8, word(), word()).prop_map(|(ticks, t, r)| Act::Blind(ticks, t, r)),
         1 => word().prop_map(Act::Hold),
-        4 => prop::sample::select(vec![Request::Start, Request::Start, Request::Stop, Request::Reset, Request::Trip])
+        4 => prop::sample::select(vec![RunRequest::Start, RunRequest::Start, RunRequest::Stop, RunRequest::Reset, RunRequest::Trip])
             .prop_map(Act::Ask),
         2 => Just(Act::Switch),
         1 => Just(Act::Engage),
@@ -148,13 +161,18 @@ fn act() -> impl Strategy<Value = Act> {
 /// Runs a drive through it all.
 fn attack<N: Wired>(acts: &[Act]) -> Result<(), TestCaseError> {
     let [torque_unit, speed_unit] = N::UNIT;
-    let configs: [ConfigOf<Drive<N, TwoMass<N>, (), Whole<N>>>; 2] = N::governors(20.0 * TORQUE).map(|governor| {
-        Config { limits: N::limits(), observer: N::observer(), fluctuation: (), governor, balancer: () }
-    });
+    let configs: [ConfigOf<Drive<N, TwoMassObserver<N>, (), Whole<N>>>; 2] =
+        N::governors(20.0 * TORQUE).map(|governor| Config {
+            limits: N::limits(),
+            observer: N::observer(),
+            fluctuation: (),
+            governor,
+            balancer: (),
+        });
     // A unit in the last place of what the words hold.
     let most = N::of(TORQUE * (1.0 + 1e-6) / torque_unit);
     let screened = N::of(SCREENING.torque * (1.0 + 1e-6) / torque_unit);
-    let reference = N::of(SPEED / speed_unit);
+    let setpoint = N::of(SPEED / speed_unit);
     let mut drive = Attacked::<N>::new(&configs[0], 0);
     let (mut chosen, mut angle, mut last) = (0, 0_u32, N::ZERO);
     for act in acts {
@@ -163,11 +181,11 @@ fn attack<N: Wired>(acts: &[Act]) -> Result<(), TestCaseError> {
             Act::Words(ticks, ..) | Act::Blind(ticks, ..) => (usize::from(ticks), 0),
             Act::Hold(_) => (1, 0),
             Act::Ask(request) => {
-                let modes = drive.governor_mut().supervisor_mut();
-                let before = modes.mode();
-                modes.ask(request);
-                if matches!(before, Mode::Tripped(_)) && request != Request::Reset {
-                    prop_assert_eq!(modes.mode(), before);
+                let modes = drive.governor_mut().sequence_mut();
+                let before = modes.state();
+                modes.request(request);
+                if matches!(before, RunState::Tripped(_)) && request != RunRequest::Reset {
+                    prop_assert_eq!(modes.state(), before);
                 }
                 continue;
             }
@@ -185,31 +203,29 @@ fn attack<N: Wired>(acts: &[Act]) -> Result<(), TestCaseError> {
         };
         let config = &configs[chosen];
         for _ in 0..ticks {
-            let before = drive.governor().supervisor().mode();
+            let before = drive.governor().sequence().state();
             let command = match *act {
-                Act::Words(_, off, torque, reference) => {
+                Act::Words(_, off, torque, setpoint) => {
                     angle = angle.wrapping_add(off);
-                    let (torque, reference) = (N::from_word(torque), N::from_word(reference));
-                    drive.tick(config, &Sample { angle, torque, reference })
+                    let (torque, setpoint) = (N::from_word(torque), N::from_word(setpoint));
+                    drive.tick(config, &Sample { angle, torque, setpoint })
                 }
-                Act::Blind(_, torque, reference) => {
-                    drive.tick_blind(config, N::from_word(torque), N::from_word(reference))
-                }
+                Act::Blind(_, torque, setpoint) => drive.coast(config, N::from_word(torque), N::from_word(setpoint)),
                 Act::Hold(torque) => drive.hold(config, angle, N::from_word(torque)),
                 _ => {
                     angle = angle.wrapping_add_signed(turn);
-                    drive.tick(config, &Sample { angle, torque: last, reference })
+                    drive.tick(config, &Sample { angle, torque: last, setpoint })
                 }
             };
             last = command.torque;
             let allowed = if matches!(act, Act::Hold(_)) { screened } else { most };
             // What exceeds is too much or no number.
             prop_assert!(!last.exceeds(allowed), "{:?}: {:?}", act, last);
-            let mode = drive.governor().supervisor().mode();
-            if matches!(before, Mode::Tripped(_)) {
+            let mode = drive.governor().sequence().state();
+            if matches!(before, RunState::Tripped(_)) {
                 prop_assert_eq!(mode, before);
             }
-            if matches!(mode, Mode::Stopped | Mode::Tripped(_)) {
+            if matches!(mode, RunState::Stopped | RunState::Tripped(_)) {
                 prop_assert_eq!(last, N::ZERO);
             }
             let estimate = drive.estimate(config);
@@ -219,21 +235,21 @@ fn attack<N: Wired>(acts: &[Act]) -> Result<(), TestCaseError> {
             prop_assert!(drive.governor().integral().to_real().is_finite());
         }
     }
-    // Whatever it went through, it can be started again and governs: towards its set point, within a second.
-    drive.governor_mut().supervisor_mut().ask(Request::Stop);
-    drive.governor_mut().supervisor_mut().ask(Request::Reset);
+    // Whatever it went through, it can be started again and governs: towards its setpoint, within a second.
+    drive.governor_mut().sequence_mut().request(RunRequest::Stop);
+    drive.governor_mut().sequence_mut().request(RunRequest::Reset);
     for _ in 0..2000 {
         angle = angle.wrapping_add(100_000);
-        last = drive.tick(&configs[chosen], &Sample { angle, torque: N::ZERO, reference }).torque;
+        last = drive.tick(&configs[chosen], &Sample { angle, torque: N::ZERO, setpoint }).torque;
     }
-    let modes = drive.governor_mut().supervisor_mut();
-    modes.ask(Request::Reset);
-    modes.ask(Request::Start);
+    let modes = drive.governor_mut().sequence_mut();
+    modes.request(RunRequest::Reset);
+    modes.request(RunRequest::Start);
     for _ in 0..2000 {
         angle = angle.wrapping_add(100_000);
-        last = drive.tick(&configs[chosen], &Sample { angle, torque: last, reference }).torque;
+        last = drive.tick(&configs[chosen], &Sample { angle, torque: last, setpoint }).torque;
     }
-    prop_assert!(last > N::ZERO, "{last:?} {:?}", drive.governor().supervisor());
+    prop_assert!(last > N::ZERO, "{last:?} {:?}", drive.governor().sequence());
     Ok(())
 }
 
@@ -242,20 +258,20 @@ fn besiege<S: Scene>(kind: Kind, words: Words, acts: &[Act]) -> Result<(), TestC
     let units = Units::new(words, kind.constants().bases());
     let rated = kind.constants().rated_torque;
     let mut scene = S::new();
-    let mut input = Input { reference: units.speed_word(RATED_SPEED), flags: Input::RELEASED, ..Input::default() };
+    let mut input = Input { setpoint: units.speed_word(RATED_SPEED), flags: Input::RELEASED, ..Input::default() };
     for act in acts {
         let (ticks, turn) = match *act {
             Act::Turns(ticks, turn) => (usize::from(ticks), turn as u32),
-            Act::Words(ticks, off, torque, reference) => {
-                (input.torque, input.reference) = (torque, reference);
+            Act::Words(ticks, off, torque, setpoint) => {
+                (input.torque, input.setpoint) = (torque, setpoint);
                 (usize::from(ticks), off)
             }
-            Act::Ask(Request::Trip) => {
+            Act::Ask(RunRequest::Trip) => {
                 scene.panel([panel::TRIP, 0]);
                 continue;
             }
             Act::Ask(request) => {
-                input.flags = if request == Request::Start { Input::RELEASED } else { 0 };
+                input.flags = if request == RunRequest::Start { Input::RELEASED } else { 0 };
                 (1, 0)
             }
             Act::Switch => {
@@ -279,7 +295,7 @@ fn besiege<S: Scene>(kind: Kind, words: Words, acts: &[Act]) -> Result<(), TestC
                 prop_assert_eq!(torque, 0.0);
             }
             if matches!(act, Act::Turns(..)) {
-                (input.torque, input.reference) = (output.torque, units.speed_word(RATED_SPEED));
+                (input.torque, input.setpoint) = (output.torque, units.speed_word(RATED_SPEED));
             }
         }
     }
@@ -289,31 +305,31 @@ fn besiege<S: Scene>(kind: Kind, words: Words, acts: &[Act]) -> Result<(), TestC
 /// What is changed between two ticks of a machine that turns steadily.
 #[derive(Clone, Copy, Debug)]
 enum Change {
-    Reference(f64),
-    Ask(Request),
+    Setpoint(f64),
+    Ask(RunRequest),
     Switch,
     Nothing,
 }
 
 fn change() -> impl Strategy<Value = Change> {
     prop_oneof![
-        2 => (130.0..170.0_f64).prop_map(Change::Reference),
-        1 => prop::sample::select(vec![Request::Start, Request::Stop]).prop_map(Change::Ask),
+        2 => (130.0..170.0_f64).prop_map(Change::Setpoint),
+        1 => prop::sample::select(vec![RunRequest::Start, RunRequest::Stop]).prop_map(Change::Ask),
         1 => Just(Change::Switch),
         2 => Just(Change::Nothing),
     ]
 }
 
-/// The torque from tick to tick while set point, mode and constants change, with a load whose torque swings by more than
+/// The torque from tick to tick while setpoint, mode and constants change, with a load whose torque swings by more than
 /// the rated one in every firing interval.
 fn steady<N: Wired>(changes: &[(Change, u8)]) -> Result<(), TestCaseError> {
     let [torque_unit, speed_unit] = N::UNIT;
     // A slew that hides nothing, twice the rated torque in a tick.
     let configs = N::governors(4e3 * TORQUE);
     let mut governor = Whole::<N>::default();
-    let (mut chosen, mut reference, mut tick) = (0, 150.0, 0_u32);
+    let (mut chosen, mut setpoint, mut tick) = (0, 150.0, 0_u32);
     let mut last = 0.0;
-    let mut run = |governor: &mut Whole<N>, chosen: usize, reference: f64| {
+    let mut run = |governor: &mut Whole<N>, chosen: usize, setpoint: f64| {
         let swing = 1500.0 * (f64::from(tick) / 32.0 * core::f64::consts::TAU).sin();
         tick += 1;
         let now = Estimate {
@@ -322,21 +338,21 @@ fn steady<N: Wired>(changes: &[(Change, u8)]) -> Result<(), TestCaseError> {
             load_speed: N::of(150.0 / speed_unit),
             load_torque: N::of((800.0 + swing) / torque_unit),
         };
-        governor.refer(N::of(reference / speed_unit));
+        governor.set_setpoint(N::of(setpoint / speed_unit));
         let torque = governor.command(&configs[chosen], &now);
         (torque.to_real() * torque_unit, now)
     };
     // The mean fills while it is stopped.
     for _ in 0..64 {
-        prop_assert_eq!(run(&mut governor, chosen, reference).0, 0.0);
+        prop_assert_eq!(run(&mut governor, chosen, setpoint).0, 0.0);
     }
-    let mut now = run(&mut governor, chosen, reference).1;
-    governor.supervisor_mut().ask(Request::Start);
+    let mut now = run(&mut governor, chosen, setpoint).1;
+    governor.sequence_mut().request(RunRequest::Start);
     for &(change, ticks) in changes {
         match change {
-            Change::Reference(to) => reference = to,
+            Change::Setpoint(to) => setpoint = to,
             Change::Ask(request) => {
-                governor.supervisor_mut().ask(request);
+                governor.sequence_mut().request(request);
             }
             Change::Switch => {
                 let to = 1 - chosen;
@@ -346,8 +362,8 @@ fn steady<N: Wired>(changes: &[(Change, u8)]) -> Result<(), TestCaseError> {
             Change::Nothing => {}
         }
         for _ in 0..ticks {
-            let error = (governor.set_point().to_real() * speed_unit - 150.0).abs() + 10.0;
-            let (torque, seen) = run(&mut governor, chosen, reference);
+            let error = (governor.ramped_setpoint().to_real() * speed_unit - 150.0).abs() + 10.0;
+            let (torque, seen) = run(&mut governor, chosen, setpoint);
             now = seen;
             // A tick's ramp, 0.02 rad/s, at k_p, and the integral's tick on the error, whose ten more are the droop's: what the set
             // point may move by. Twice, for a change of constants makes one of each; and what f32 loses of the mean's sum of

@@ -1,10 +1,12 @@
-//! Barred speeds: where they lie, and that no set point stays in one.
+//! Barred speeds: where they lie, and that no setpoint stays in one.
 
-use driveline::constants::Bases;
 use driveline::design::{Actuator, BarredSpeeds, Error, LoadFeedForward, Rate, USUAL_MARGIN};
-use driveline::governor::{Barred, BarredConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, SymmetricConfig};
+use driveline::governor::{
+    Barred, BarredConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, SymmetricLimitConfig,
+};
 use driveline::machine::{Chain, Damping, Inertia, Stiffness};
 use driveline::sample::Estimate;
+use driveline::settings::Bases;
 use proptest::prelude::*;
 
 const PERIOD: f64 = 1e-3;
@@ -55,7 +57,7 @@ fn too_many_ranges_and_wrong_numbers_are_refused() {
     assert_eq!(BarredSpeeds::<1>::new(&[10.0, 10.5, 500.0], &[1.0], 0.1, 100.0).ranges().len(), 1);
 }
 
-/// A set point on its way through a range moves four times as fast; asked to stop inside, it stops at the edge that it
+/// A setpoint on its way through a range moves four times as fast; asked to stop inside, it stops at the edge that it
 /// came from.
 #[test]
 fn a_range_is_passed_quickly_and_never_stayed_in() {
@@ -69,23 +71,23 @@ fn a_range_is_passed_quickly_and_never_stayed_in() {
     );
     let config = SpeedGovernorConfig {
         gains: Gains::<f64>::new(&design, 10.0, Bases::SI),
-        set_point: BarredConfig::<f64, 2>::new(&barred, 40.0, PERIOD, Bases::SI),
-        prompt: (),
-        limit: SymmetricConfig::<f64>::new(100.0, Bases::SI),
-        supervisor: (),
-        view: (),
+        shape: BarredConfig::<f64, 2>::new(&barred, 40.0, PERIOD, Bases::SI),
+        compensation: (),
+        limit: SymmetricLimitConfig::<f64>::new(100.0, Bases::SI),
+        sequence: (),
+        filter: (),
     };
     let mut governor = SpeedGovernor::<f64, Barred<2>>::default();
     let inside = |speed: f64| barred.ranges().iter().any(|r| speed > r[0] + 1e-9 && speed < r[1] - 1e-9);
-    let mut go = |reference: f64, ticks: usize| {
+    let mut go = |setpoint: f64, ticks: usize| {
         let mut dwelt = 0;
         for _ in 0..ticks {
-            governor.refer(reference);
-            let now = Estimate { motor_speed: governor.set_point(), ..Estimate::default() };
+            governor.set_setpoint(setpoint);
+            let now = Estimate { motor_speed: governor.ramped_setpoint(), ..Estimate::default() };
             governor.command(&config, &now);
-            dwelt += usize::from(inside(governor.set_point()));
+            dwelt += usize::from(inside(governor.ramped_setpoint()));
         }
-        (governor.set_point(), dwelt)
+        (governor.ramped_setpoint(), dwelt)
     };
     // 36 to 44 rad/s and 72 to 88 at 40 rad/s2: 0.2 s and 0.4 s inside, the first tick of each by the slow ramp.
     let (reached, dwelt) = go(120.0, 20_000);

@@ -3,12 +3,12 @@
 
 use std::collections::VecDeque;
 
-use driveline::constants::{self, Bases, Cycle};
 use driveline::design::{Actuator, Error, GovernorDesign, LoadFeedForward, Rate, TorqueCurve, VirtualInertia};
 use driveline::fluctuation::CycleMeanConfig;
 use driveline::governor::{AccelerationFeedbackConfig, Gains};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::Fixed;
+use driveline::settings::{self, Bases, Cycle};
 use driveline_solver::plant::{Chain, Shaft, Start};
 
 const PERIOD: f64 = 5e-4;
@@ -17,8 +17,8 @@ fn machine() -> TwoMass {
     TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0))
 }
 
-fn design(span: f64, actuator: Actuator) -> GovernorDesign {
-    machine().governor(Rate::every(PERIOD), actuator, span, LoadFeedForward::NONE)
+fn design(optimum_factor: f64, actuator: Actuator) -> GovernorDesign {
+    machine().governor(Rate::every(PERIOD), actuator, optimum_factor, LoadFeedForward::NONE)
 }
 
 /// Whether the closed loop with both gains scaled by `gain` settles after a small disturbance: the swing of the last of
@@ -57,13 +57,13 @@ fn settles_on(stiffness: f64, damping: f64, gains: [f64; 2], actuator: Actuator,
 /// margin atan(a) - atan(1/a).
 #[test]
 fn gains_are_the_symmetrical_optimum() {
-    for span in [2.0_f64, 2.5, 3.0, 4.0] {
+    for optimum_factor in [2.0_f64, 2.5, 3.0, 4.0] {
         let actuator = Actuator { delay: 0.0, lag: 0.05 };
-        let design = machine().governor(Rate::every(1e-5), actuator, span, LoadFeedForward::NONE);
-        let lateness = 0.05 + 1.5e-5;
-        assert!((design.lateness / lateness - 1.0).abs() < 1e-12);
-        let crossover = 1.0 / (span * lateness);
-        let margin = span.atan() - (1.0 / span).atan();
+        let design = machine().governor(Rate::every(1e-5), actuator, optimum_factor, LoadFeedForward::NONE);
+        let equivalent_delay = 0.05 + 1.5e-5;
+        assert!((design.equivalent_delay / equivalent_delay - 1.0).abs() < 1e-12);
+        let crossover = 1.0 / (optimum_factor * equivalent_delay);
+        let margin = optimum_factor.atan() - (1.0 / optimum_factor).atan();
         // The shaft is not rigid: at 20 rad/s and below its 79 rad/s antiresonance raises the gain by up to 4 %, which
         // moves the flat top of the phase by less than 1 degree.
         assert!((design.margins(&machine()).crossover / crossover - 1.0).abs() < 0.05, "{design:?}");
@@ -77,8 +77,8 @@ fn gain_margins_are_where_the_loop_turns_unstable() {
     for actuator in
         [Actuator { delay: 0.0165, lag: 0.02 }, Actuator { delay: 0.03, lag: 0.0 }, Actuator { delay: 0.0, lag: 0.06 }]
     {
-        for span in [2.0, 3.0] {
-            let design = design(span, actuator);
+        for optimum_factor in [2.0, 3.0] {
+            let design = design(optimum_factor, actuator);
             assert!(settles(&design, actuator, 1.0, 8), "{actuator:?} {design:?}");
             // 3 %: the lag is taken as continuous between samples, which at these crossovers (below 100 rad/s) is off
             // by (w T)^2/12 < 0.1 %, and a growth slower than 20 s would not show in 8 s.
@@ -173,18 +173,20 @@ fn a_virtual_inertia_quickens_the_loop() {
 fn what_cannot_work_is_refused_with_a_sentence() {
     let (rate, none) = (Rate::every(PERIOD), LoadFeedForward::NONE);
     let late = Actuator { delay: 0.02, lag: 0.02 };
-    let refused = |actuator, span, forward| machine().try_governor(rate, actuator, span, forward).unwrap_err();
+    let refused = |actuator, optimum_factor, forward| {
+        machine().try_governor(rate, actuator, optimum_factor, forward).unwrap_err()
+    };
     assert_eq!(refused(Actuator { delay: -1.0, lag: 0.0 }, 2.0, none), Error::Actuator);
     assert_eq!(refused(Actuator { delay: 0.0, lag: f64::NAN }, 2.0, none), Error::Actuator);
-    assert_eq!(refused(late, 1.0, none), Error::Span);
-    assert_eq!(refused(late, f64::INFINITY, none), Error::Span);
+    assert_eq!(refused(late, 1.0, none), Error::OptimumFactor);
+    assert_eq!(refused(late, f64::INFINITY, none), Error::OptimumFactor);
     assert_eq!(refused(late, 2.0, LoadFeedForward { share: 1.1, lag: 0.0 }), Error::FeedForward);
     assert_eq!(refused(late, 2.0, LoadFeedForward { share: 0.5, lag: -0.1 }), Error::FeedForward);
     // A loop brisker than its lateness allows, and one that meets the hardly damped shaft.
     assert_eq!(refused(late, 1.05, none), Error::GovernorUnstable);
     let soft = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(2.0e3), Damping(0.5));
     assert_eq!(soft.try_governor(rate, late, 2.0, none), Err(Error::GovernorUnstable));
-    assert!(Error::GovernorUnstable.message().contains("span"));
+    assert!(Error::GovernorUnstable.message().contains("optimum_factor"));
     assert_eq!(TorqueCurve::try_through([[0.0, 1.0], [0.0, 2.0]]), Err(Error::TorqueCurve));
     assert_eq!(TorqueCurve::try_through([[1.0, 1.0]]), Err(Error::TorqueCurve));
     assert_eq!(Actuator::try_firing_delay(0, true, 1.0), Err(Error::Actuator));
@@ -198,19 +200,19 @@ fn nyquist_agrees_with_the_closed_loop() {
     let mut found = [0, 0];
     for stiffness in [5.0e4, 8.0e3, 2.0e3] {
         let machine = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(stiffness), Damping(10.0));
-        for span in [1.05, 1.2, 1.6, 2.0, 3.0, 5.0, 8.0] {
-            let design = machine.try_governor(Rate::every(PERIOD), actuator, span, LoadFeedForward::NONE);
+        for optimum_factor in [1.05, 1.2, 1.6, 2.0, 3.0, 5.0, 8.0] {
+            let design = machine.try_governor(Rate::every(PERIOD), actuator, optimum_factor, LoadFeedForward::NONE);
             // So near the edge (a fortieth from -1 at a phase margin of 1 degree was met) the two models differ by what
             // the lag's sampling leaves out, and ten seconds do not tell.
             if design.is_ok_and(|design| design.margins(&machine).modulus < 0.05) {
                 continue;
             }
             // The gains by their formulas, since a refused design tells none.
-            let lateness = 0.04 + 1.5 * PERIOD;
-            let proportional = 12.4 / (span * lateness);
-            let gains = [proportional, proportional / (span * span * lateness)];
+            let equivalent_delay = 0.04 + 1.5 * PERIOD;
+            let proportional = 12.4 / (optimum_factor * equivalent_delay);
+            let gains = [proportional, proportional / (optimum_factor * optimum_factor * equivalent_delay)];
             let settled = settles_on(stiffness, 10.0, gains, actuator, 10);
-            assert_eq!(design.is_ok(), settled, "{stiffness} {span}: {design:?}");
+            assert_eq!(design.is_ok(), settled, "{stiffness} {optimum_factor}: {design:?}");
             found[usize::from(settled)] += 1;
         }
     }
@@ -234,20 +236,20 @@ fn constants_that_the_number_does_not_hold_are_refused() {
     assert!(Gains::<f32>::try_new(&good, 1.0, Bases::SI).is_ok());
     for gain in [f64::NAN, f64::INFINITY, 1e39, 0.0, -1.0] {
         let bad = GovernorDesign { proportional: gain, ..good };
-        assert!(matches!(Gains::<f32>::try_new(&bad, 1.0, Bases::SI), Err(constants::Error::Coefficient(_))), "{gain}");
+        assert!(matches!(Gains::<f32>::try_new(&bad, 1.0, Bases::SI), Err(settings::Error::Coefficient(_))), "{gain}");
     }
     let bad = GovernorDesign { integral: f64::NAN, ..good };
-    assert!(matches!(Gains::<f32>::try_new(&bad, 1.0, Bases::SI), Err(constants::Error::Coefficient(_))));
+    assert!(matches!(Gains::<f32>::try_new(&bad, 1.0, Bases::SI), Err(settings::Error::Coefficient(_))));
     let bad = GovernorDesign { acceleration: 1e39, ..good };
     assert!(AccelerationFeedbackConfig::<f32>::try_new(&bad, Bases::SI).is_err());
 
-    assert!(matches!(Gains::<f32>::try_new(&good, 1e-45, Bases::SI), Err(constants::Error::Value(_))));
+    assert!(matches!(Gains::<f32>::try_new(&good, 1e-45, Bases::SI), Err(settings::Error::Value(_))));
     let bases = Bases::new(&machine(), 20_000.0, 210.0);
     // A unit in the last place a tick: 210 rad/s/2^28 in 0.5 ms are 1.56e-3 rad/s2.
     for (ramp, allowed) in [(1.5e-3, false), (1.6e-3, true)] {
         let made = Gains::<Fixed>::try_new(&good, ramp, bases);
         assert_eq!(
-            made.err().map(|error| matches!(error, constants::Error::Value(_))),
+            made.err().map(|error| matches!(error, settings::Error::Value(_))),
             (!allowed).then_some(true),
             "{ramp}"
         );

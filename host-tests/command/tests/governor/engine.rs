@@ -3,7 +3,7 @@
 use cargo_driveline::generator::diesel::Diesel;
 use cargo_driveline::generator::set::{Kind, Set};
 use cargo_driveline::generator::turbine::Turbine;
-use driveline::governor::{Rack, RackConfig};
+use driveline::governor::{TransportDelay, TransportDelayConfig};
 use driveline_firmware::scenes::generator::{DIESEL_TORQUE, FIRING_DELAY, RATED_SPEED, TORQUE_DELAY};
 use driveline_solver::plant::converge::{Recording, prove};
 
@@ -143,13 +143,13 @@ fn the_chain_is_proven() {
 #[test]
 fn the_rack_delays_by_its_ticks() {
     for ticks in [0_u32, 1, 40, 63] {
-        let config = RackConfig::<64> { ticks };
-        let mut rack = Rack::<f32, 64>::new();
+        let config = TransportDelayConfig::<64> { ticks };
+        let mut rack = TransportDelay::<f32, 64>::new();
         for tick in 1..1000_u16 {
             let expected = f32::from(tick.saturating_sub(ticks as u16));
             assert_eq!(rack.delayed(&config, f32::from(tick)), expected);
         }
     }
-    assert!(RackConfig::<64>::try_new(0.027, 1.0 / 2400.0).is_err());
-    assert_eq!(RackConfig::<64>::new(FIRING_DELAY, 1.0 / 2400.0).ticks, 40);
+    assert!(TransportDelayConfig::<64>::try_new(0.027, 1.0 / 2400.0).is_err());
+    assert_eq!(TransportDelayConfig::<64>::new(FIRING_DELAY, 1.0 / 2400.0).ticks, 40);
 }

@@ -1,15 +1,15 @@
 //! The governor's law in all its numbers, and the limits.
 
-use driveline::constants::Bases;
 use driveline::design::{Actuator, GovernorDesign, LoadFeedForward, Rate, TorqueCurve};
 use driveline::governor::{
-    ActiveDamping, ActiveDampingConfig, Between, BetweenConfig, Curve, CurveConfig, Droop, DroopConfig, FeedForward,
-    FeedForwardConfig, Gains, Governor, Limit, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig,
-    SpeedGovernorConfigOf, Symmetric, SymmetricConfig,
+    ActiveDamping, ActiveDampingConfig, Curve, CurveConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains,
+    Governor, Limit, Slew, SlewConfig, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf, SymmetricLimit,
+    SymmetricLimitConfig, TorqueRange, TorqueRangeConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
 use driveline::sample::Estimate;
+use driveline::settings::Bases;
 use proptest::prelude::*;
 
 const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
@@ -34,8 +34,8 @@ struct Law {
 }
 
 impl Law {
-    fn command(&mut self, reference: f64, speed: f64, load: f64) -> f64 {
-        self.set_point += (reference - self.set_point).clamp(-RAMP * PERIOD, RAMP * PERIOD);
+    fn command(&mut self, setpoint: f64, speed: f64, load: f64) -> f64 {
+        self.set_point += (setpoint - self.set_point).clamp(-RAMP * PERIOD, RAMP * PERIOD);
         let target = self.set_point - 0.04 * SPEED / TORQUE * (self.integral + 0.9 * load);
         let error = target - speed;
         let integral = self.integral + DESIGN.integral * PERIOD * error;
@@ -54,22 +54,22 @@ impl Law {
 fn single() -> SpeedGovernorConfigOf<f32, Droop, FeedForward, Curve<3>> {
     SpeedGovernorConfig {
         gains: Gains::<f32>::new(&DESIGN, RAMP, Bases::SI),
-        set_point: DroopConfig::<f32>::new(0.04, SPEED, TORQUE, Bases::SI),
-        prompt: FeedForwardConfig::<f32>::new(0.9, Bases::SI),
+        shape: DroopConfig::<f32>::new(0.04, SPEED, TORQUE, Bases::SI),
+        compensation: FeedForwardConfig::<f32>::new(0.9, Bases::SI),
         limit: CurveConfig::<f32, 3>::new(&CURVE, -100.0, Bases::SI),
-        supervisor: (),
-        view: (),
+        sequence: (),
+        filter: (),
     }
 }
 
 fn fixed() -> SpeedGovernorConfigOf<Fixed, Droop, FeedForward, Curve<3>> {
     SpeedGovernorConfig {
         gains: Gains::<Fixed>::new(&DESIGN, RAMP, BASES),
-        set_point: DroopConfig::<Fixed>::new(0.04, SPEED, TORQUE, BASES),
-        prompt: FeedForwardConfig::<Fixed>::new(0.9, BASES),
+        shape: DroopConfig::<Fixed>::new(0.04, SPEED, TORQUE, BASES),
+        compensation: FeedForwardConfig::<Fixed>::new(0.9, BASES),
         limit: CurveConfig::<Fixed, 3>::new(&CURVE, -100.0, BASES),
-        supervisor: (),
-        view: (),
+        sequence: (),
+        filter: (),
     }
 }
 
@@ -82,17 +82,17 @@ proptest! {
     ) {
         let (mut law, mut by_single, mut by_fixed) = (Law::default(), Whole::<f32>::default(), Whole::<Fixed>::default());
         let (single, fixed) = (single(), fixed());
-        for (speed, load, reference) in samples {
+        for (speed, load, setpoint) in samples {
             // In fixed point an operand of a gain ends at a quarter of the base.
             let held = (law.set_point - speed).abs() < 0.2 * BASES.speed;
             let speed = if held { speed } else { law.set_point };
-            let wanted = law.command(reference, speed, load);
-            by_single.refer(reference as f32);
+            let wanted = law.command(setpoint, speed, load);
+            by_single.set_setpoint(setpoint as f32);
             let now = Estimate { motor_speed: speed as f32, load_torque: load as f32, ..Estimate::default() };
             let torque = f64::from(by_single.command(&single, &now));
             // 24 bits of 200 rad/s, 0.00001, times a gain of 130, and of 5000 N m, over 200 ticks at worst.
             prop_assert!((torque - wanted).abs() < 0.1, "{torque} {wanted}");
-            by_fixed.refer(Fixed::from_f64(reference / BASES.speed));
+            by_fixed.set_setpoint(Fixed::from_f64(setpoint / BASES.speed));
             let now = Estimate {
                 motor_speed: Fixed::from_f64(speed / BASES.speed),
                 load_torque: Fixed::from_f64(load / BASES.torque),
@@ -111,9 +111,9 @@ proptest! {
         let mut governor = Whole::<Fixed>::default();
         let least = Fixed::from_f64(-100.0 / BASES.torque);
         let most = Fixed::from_f64(TORQUE / BASES.torque);
-        for [motor, load, reference, torque] in words {
+        for [motor, load, setpoint, torque] in words {
             let state = |word: i32| Fixed::from_bits(word).saturated();
-            governor.refer(state(reference));
+            governor.set_setpoint(state(setpoint));
             let now = Estimate {
                 motor_speed: state(motor),
                 shaft_torque: Fixed::ZERO,
@@ -133,14 +133,14 @@ fn the_integral_does_not_wind_up_behind_any_limit() {
     fn leaves<L: Limit<f64>>(limit: L::Config) -> f64 {
         let config = SpeedGovernorConfig {
             gains: Gains::<f64>::new(&DESIGN, 1e9, Bases::SI),
-            set_point: (),
-            prompt: (),
+            shape: (),
+            compensation: (),
             limit,
-            supervisor: (),
-            view: (),
+            sequence: (),
+            filter: (),
         };
         let mut governor = SpeedGovernor::<f64, (), (), L>::default();
-        governor.refer(SPEED);
+        governor.set_setpoint(SPEED);
         for _ in 0..20_000 {
             governor.command(&config, &Estimate::default());
         }
@@ -153,32 +153,32 @@ fn the_integral_does_not_wind_up_behind_any_limit() {
     let prompt = 5.0 * DESIGN.proportional;
     let flat = TorqueCurve::through([[0.0, TORQUE], [1.0, TORQUE], [2.0, TORQUE]]);
     for fall in [
-        leaves::<Symmetric>(SymmetricConfig::<f64>::new(TORQUE, Bases::SI)),
-        leaves::<Between>(BetweenConfig::<f64>::new(0.0, TORQUE, Bases::SI)),
+        leaves::<SymmetricLimit>(SymmetricLimitConfig::<f64>::new(TORQUE, Bases::SI)),
+        leaves::<TorqueRange>(TorqueRangeConfig::<f64>::new(0.0, TORQUE, Bases::SI)),
         leaves::<Curve<3>>(CurveConfig::<f64, 3>::new(&flat, 0.0, Bases::SI)),
     ] {
         assert!((fall - prompt).abs() < 45.0, "{fall} {prompt}");
     }
     // At 100 kN m/s a tick is 50 N m.
-    let slew = SlewConfig::<f64, _>::new(1e5, SymmetricConfig::<f64>::new(TORQUE, Bases::SI), PERIOD, Bases::SI);
-    assert!((leaves::<Slew<f64, Symmetric>>(slew) - 50.0).abs() < 1e-9);
+    let slew = SlewConfig::<f64, _>::new(1e5, SymmetricLimitConfig::<f64>::new(TORQUE, Bases::SI), PERIOD, Bases::SI);
+    assert!((leaves::<Slew<f64, SymmetricLimit>>(slew) - 50.0).abs() < 1e-9);
 }
 
 #[test]
 fn slew_and_limit_hold_in_every_tick() {
-    let slew = SlewConfig::<f64, _>::new(1e5, BetweenConfig::<f64>::new(0.0, TORQUE, Bases::SI), PERIOD, Bases::SI);
+    let slew = SlewConfig::<f64, _>::new(1e5, TorqueRangeConfig::<f64>::new(0.0, TORQUE, Bases::SI), PERIOD, Bases::SI);
     let config = SpeedGovernorConfig {
         gains: Gains::<f64>::new(&DESIGN, 1e9, Bases::SI),
-        set_point: (),
-        prompt: (),
+        shape: (),
+        compensation: (),
         limit: slew,
-        supervisor: (),
-        view: (),
+        sequence: (),
+        filter: (),
     };
-    let mut governor = SpeedGovernor::<f64, (), (), Slew<f64, Between>>::default();
+    let mut governor = SpeedGovernor::<f64, (), (), Slew<f64, TorqueRange>>::default();
     let mut last = 0.0;
     for tick in 0..5000 {
-        governor.refer(if tick / 500 % 2 == 0 { SPEED } else { -SPEED });
+        governor.set_setpoint(if tick / 500 % 2 == 0 { SPEED } else { -SPEED });
         let torque = governor.command(&config, &Estimate::default());
         // 50 N m a tick, and the rounding of a difference of 2500 N m.
         assert!((torque - last).abs() <= 50.0 + 1e-9 && (0.0..=TORQUE).contains(&torque), "{last} {torque}");
@@ -189,17 +189,17 @@ fn slew_and_limit_hold_in_every_tick() {
 /// The damping alone, with the gains of a speed loop, is the speed loop.
 #[test]
 fn with_damping_and_nothing_else_it_is_the_speed_loop() {
-    use driveline::constants::SpeedLoopSettings;
     use driveline::design::SpeedLoopTuning;
     use driveline::governor::{SpeedLoop, SpeedLoopConfig};
+    use driveline::settings::SpeedLoopSettings;
     let design = MACHINE.speed_loop(Rate::hz(2000), SpeedLoopTuning::USUAL);
     let config = SpeedGovernorConfig {
         gains: Gains::<f32>::of_speed_loop(&design, RAMP, Bases::SI),
-        set_point: (),
-        prompt: ActiveDampingConfig::<f32>::new(&design, Bases::SI),
-        limit: SymmetricConfig::<f32>::new(TORQUE, Bases::SI),
-        supervisor: (),
-        view: (),
+        shape: (),
+        compensation: ActiveDampingConfig::<f32>::new(&design, Bases::SI),
+        limit: SymmetricLimitConfig::<f32>::new(TORQUE, Bases::SI),
+        sequence: (),
+        filter: (),
     };
     let loop_config =
         SpeedLoopConfig::<f32>::new(&design, SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP }, Bases::SI);
@@ -209,8 +209,8 @@ fn with_damping_and_nothing_else_it_is_the_speed_loop() {
         let swing = (f64::from(tick) * 0.05).sin() as f32;
         let now =
             Estimate { motor_speed: 0.02 * tick as f32 + swing, load_speed: 0.02 * tick as f32, ..Estimate::default() };
-        governor.refer(SPEED as f32);
-        speed_loop.refer(SPEED as f32);
+        governor.set_setpoint(SPEED as f32);
+        speed_loop.set_setpoint(SPEED as f32);
         let (a, b) = (governor.command(&config, &now), speed_loop.command(&loop_config, &now));
         // The sums are taken in another order: a few roundings of 2500 N m.
         assert!((a - b).abs() < 0.01, "{tick}: {a} {b}");
@@ -226,7 +226,7 @@ fn a_power_limit_is_kept() {
     let config = CurveConfig::<f64, 6>::new(&TorqueCurve::through(points).with_power_limit(power), 0.0, Bases::SI);
     for step in 0..=1610 {
         let speed = 0.1 * f64::from(step);
-        let most = config.most(speed);
+        let most = config.max_torque(speed);
         assert!(most <= 2500.0);
         // From the first point that is limited (133.1 rad/s) on: a chord over a ratio of 1.1 lies 0.23 % above the
         // hyperbola at most.
@@ -236,12 +236,12 @@ fn a_power_limit_is_kept() {
     }
 }
 
-/// What is left out takes no room: integral, set point and reference, and of the modes a mode, a mark and two counters.
+/// What is left out takes no room: integral, setpoint and reference, and of the modes a mode, a mark and two counters.
 #[test]
 fn what_is_left_out_takes_no_room() {
-    use driveline::governor::Modes;
+    use driveline::governor::Sequencer;
     assert_eq!(size_of::<SpeedGovernor<f32>>(), 12);
     assert_eq!(size_of::<SpeedGovernor<f32, Droop, (FeedForward, ActiveDamping), Curve<4>>>(), 12);
-    assert!(size_of::<SpeedGovernor<f32, (), (), Symmetric, Modes>>() <= 12 + 12);
+    assert!(size_of::<SpeedGovernor<f32, (), (), SymmetricLimit, Sequencer>>() <= 12 + 12);
     assert_eq!(size_of::<SpeedGovernorConfigOf<f32>>(), 4 * 4 + 4);
 }

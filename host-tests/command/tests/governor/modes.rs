@@ -1,40 +1,40 @@
 //! Modes and trips: every transition, every reason, and that a trip commands no torque.
 
-use driveline::constants::{Bases, Error, ModesSettings};
 use driveline::design::{Actuator, LoadFeedForward, Rate};
 use driveline::governor::{
-    Gains, Governor, Mode, Modes, ModesConfig, Request, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf,
-    Symmetric, SymmetricConfig, Trip,
+    Gains, Governor, RunRequest, RunState, Sequencer, SequencerConfig, SpeedGovernor, SpeedGovernorConfig,
+    SpeedGovernorConfigOf, SymmetricLimit, SymmetricLimitConfig, Trip,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::sample::Estimate;
+use driveline::settings::{Bases, Error, SequencerSettings};
 use proptest::prelude::*;
 
 const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
 const PERIOD: f64 = 1e-2;
-const LIMITS: ModesSettings = ModesSettings {
+const LIMITS: SequencerSettings = SequencerSettings {
     overspeed: 110.0,
     underspeed: 80.0,
     reverse: 2.0,
     shaft_torque: 500.0,
     standstill: 1.0,
-    prompt: 0.02,
-    patient: 0.5,
+    trip_delay: 0.02,
+    underspeed_delay: 0.5,
     start: 10.0,
 };
 
-type Supervised = SpeedGovernor<f64, (), (), Symmetric, Modes>;
+type Supervised = SpeedGovernor<f64, (), (), SymmetricLimit, Sequencer>;
 
-fn config() -> SpeedGovernorConfigOf<f64, (), (), Symmetric, Modes> {
+fn config() -> SpeedGovernorConfigOf<f64, (), (), SymmetricLimit, Sequencer> {
     let actuator = Actuator { delay: 0.02, lag: 0.02 };
     let design = MACHINE.governor(Rate::every(PERIOD), actuator, 3.0, LoadFeedForward::NONE);
     SpeedGovernorConfig {
         gains: Gains::<f64>::new(&design, 20.0, Bases::SI),
-        set_point: (),
-        prompt: (),
-        limit: SymmetricConfig::<f64>::new(400.0, Bases::SI),
-        supervisor: ModesConfig::<f64>::new(&LIMITS, PERIOD, Bases::SI),
-        view: (),
+        shape: (),
+        compensation: (),
+        limit: SymmetricLimitConfig::<f64>::new(400.0, Bases::SI),
+        sequence: SequencerConfig::<f64>::new(&LIMITS, PERIOD, Bases::SI),
+        filter: (),
     }
 }
 
@@ -42,8 +42,8 @@ fn at(motor_speed: f64, shaft_torque: f64) -> Estimate<f64> {
     Estimate { motor_speed, shaft_torque, load_speed: motor_speed, ..Estimate::default() }
 }
 
-fn mode(governor: &Supervised) -> Mode {
-    governor.supervisor().mode()
+fn mode(governor: &Supervised) -> RunState {
+    governor.sequence().state()
 }
 
 /// Ticks at a speed and shaft torque; the last command.
@@ -51,7 +51,7 @@ fn run(governor: &mut Supervised, speed: f64, shaft: f64, ticks: usize) -> f64 {
     let config = config();
     let mut torque = 0.0;
     for _ in 0..ticks {
-        governor.refer(100.0);
+        governor.set_setpoint(100.0);
         torque = governor.command(&config, &at(speed, shaft));
     }
     torque
@@ -59,32 +59,32 @@ fn run(governor: &mut Supervised, speed: f64, shaft: f64, ticks: usize) -> f64 {
 
 fn running() -> Supervised {
     let mut governor = Supervised::default();
-    assert!(governor.supervisor_mut().ask(Request::Start));
+    assert!(governor.sequence_mut().request(RunRequest::Start));
     run(&mut governor, 100.0, 0.0, 3);
-    assert_eq!(mode(&governor), Mode::Running);
+    assert_eq!(mode(&governor), RunState::Running);
     governor
 }
 
 #[test]
 fn a_life_without_trips() {
     let mut governor = Supervised::default();
-    assert_eq!((mode(&governor), run(&mut governor, 0.0, 0.0, 10)), (Mode::Stopped, 0.0));
-    assert!(governor.supervisor_mut().ask(Request::Start));
+    assert_eq!((mode(&governor), run(&mut governor, 0.0, 0.0, 10)), (RunState::Stopped, 0.0));
+    assert!(governor.sequence_mut().request(RunRequest::Start));
     assert!(run(&mut governor, 0.0, 0.0, 10) > 0.0);
-    assert_eq!(mode(&governor), Mode::Starting);
+    assert_eq!(mode(&governor), RunState::Starting);
     assert!(run(&mut governor, 79.0, 0.0, 10) != 0.0);
-    assert_eq!(mode(&governor), Mode::Starting);
+    assert_eq!(mode(&governor), RunState::Starting);
     run(&mut governor, 81.0, 0.0, 1);
-    assert_eq!(mode(&governor), Mode::Running);
-    assert!(governor.supervisor_mut().ask(Request::Stop));
+    assert_eq!(mode(&governor), RunState::Running);
+    assert!(governor.sequence_mut().request(RunRequest::Stop));
     assert!(run(&mut governor, 81.0, 0.0, 300) < 0.0);
-    assert_eq!(mode(&governor), Mode::Braking);
-    assert!(governor.supervisor_mut().ask(Request::Start));
-    assert_eq!(mode(&governor), Mode::Starting);
-    assert!(governor.supervisor_mut().ask(Request::Stop));
+    assert_eq!(mode(&governor), RunState::Braking);
+    assert!(governor.sequence_mut().request(RunRequest::Start));
+    assert_eq!(mode(&governor), RunState::Starting);
+    assert!(governor.sequence_mut().request(RunRequest::Stop));
     // Below the standstill limit it has stopped; underspeed does not count on the way.
     run(&mut governor, 10.0, 0.0, 1000);
-    assert_eq!((run(&mut governor, 0.5, 0.0, 1), mode(&governor)), (0.0, Mode::Stopped));
+    assert_eq!((run(&mut governor, 0.5, 0.0, 1), mode(&governor)), (0.0, RunState::Stopped));
 }
 
 /// Every reason, at the tick at which it is due: 2 ticks of 10 ms do not trip, the third does; of underspeed 50.
@@ -101,21 +101,21 @@ fn every_trip_comes_when_it_is_due_and_stays() {
     ] {
         let mut governor = running();
         run(&mut governor, speed, shaft, ticks);
-        assert_eq!(mode(&governor), Mode::Running, "{trip}");
-        assert_eq!((run(&mut governor, speed, shaft, 1), mode(&governor)), (0.0, Mode::Tripped(trip)));
+        assert_eq!(mode(&governor), RunState::Running, "{trip}");
+        assert_eq!((run(&mut governor, speed, shaft, 1), mode(&governor)), (0.0, RunState::Tripped(trip)));
         // Whatever comes then, the reason stands and no torque is commanded.
         for speed in [0.0, 100.0, 150.0, -50.0, 1.0] {
-            assert_eq!((run(&mut governor, speed, 600.0, 5), mode(&governor)), (0.0, Mode::Tripped(trip)));
+            assert_eq!((run(&mut governor, speed, 600.0, 5), mode(&governor)), (0.0, RunState::Tripped(trip)));
         }
-        for refused in [Request::Start, Request::Stop, Request::Trip] {
-            assert!(!governor.supervisor_mut().ask(refused));
+        for refused in [RunRequest::Start, RunRequest::Stop, RunRequest::Trip] {
+            assert!(!governor.sequence_mut().request(refused));
         }
         assert!(!governor.permits());
         governor.start(&config(), &at(0.0, 0.0), 300.0);
-        governor.lost(&config(), &at(0.0, 0.0));
-        assert_eq!((run(&mut governor, 0.0, 0.0, 5), mode(&governor)), (0.0, Mode::Tripped(trip)));
-        assert!(governor.supervisor_mut().ask(Request::Reset));
-        assert_eq!((run(&mut governor, 0.0, 0.0, 5), mode(&governor)), (0.0, Mode::Stopped));
+        governor.angle_lost(&config(), &at(0.0, 0.0));
+        assert_eq!((run(&mut governor, 0.0, 0.0, 5), mode(&governor)), (0.0, RunState::Tripped(trip)));
+        assert!(governor.sequence_mut().request(RunRequest::Reset));
+        assert_eq!((run(&mut governor, 0.0, 0.0, 5), mode(&governor)), (0.0, RunState::Stopped));
     }
 }
 
@@ -127,40 +127,40 @@ fn what_passes_does_not_trip() {
         run(&mut governor, 112.0, 0.0, 2);
         run(&mut governor, 100.0, 0.0, 2);
     }
-    assert_eq!(mode(&governor), Mode::Running);
+    assert_eq!(mode(&governor), RunState::Running);
     // More outside than within adds up.
     for _ in 0..10 {
         run(&mut governor, 112.0, 0.0, 2);
         run(&mut governor, 100.0, 0.0, 1);
     }
-    assert_eq!(mode(&governor), Mode::Tripped(Trip::Overspeed));
+    assert_eq!(mode(&governor), RunState::Tripped(Trip::Overspeed));
 }
 
 #[test]
 fn a_start_that_takes_too_long_trips() {
     let mut governor = Supervised::default();
-    governor.supervisor_mut().ask(Request::Start);
+    governor.sequence_mut().request(RunRequest::Start);
     run(&mut governor, 50.0, 0.0, 1000);
-    assert_eq!(mode(&governor), Mode::Starting);
-    assert_eq!((run(&mut governor, 50.0, 0.0, 1), mode(&governor)), (0.0, Mode::Tripped(Trip::NotStarted)));
+    assert_eq!(mode(&governor), RunState::Starting);
+    assert_eq!((run(&mut governor, 50.0, 0.0, 1), mode(&governor)), (0.0, RunState::Tripped(Trip::NotStarted)));
     // Overspeed and reverse trip a start as well.
     for (speed, trip) in [(111.0, Trip::Overspeed), (-3.0, Trip::Reverse)] {
         let mut governor = Supervised::default();
-        governor.supervisor_mut().ask(Request::Start);
+        governor.sequence_mut().request(RunRequest::Start);
         run(&mut governor, speed, 0.0, 3);
-        assert_eq!(mode(&governor), Mode::Tripped(trip));
+        assert_eq!(mode(&governor), RunState::Tripped(trip));
     }
 }
 
 #[test]
 fn a_lost_angle_trips_what_turns() {
     let mut governor = running();
-    governor.lost(&config(), &at(100.0, 0.0));
-    assert_eq!(mode(&governor), Mode::Tripped(Trip::SensorLoss));
+    governor.angle_lost(&config(), &at(100.0, 0.0));
+    assert_eq!(mode(&governor), RunState::Tripped(Trip::SensorLoss));
     let mut governor = Supervised::default();
-    governor.lost(&config(), &at(0.0, 0.0));
-    assert_eq!(mode(&governor), Mode::Stopped);
-    assert!(running().supervisor_mut().ask(Request::Trip));
+    governor.angle_lost(&config(), &at(0.0, 0.0));
+    assert_eq!(mode(&governor), RunState::Stopped);
+    assert!(running().sequence_mut().request(RunRequest::Trip));
 }
 
 proptest! {
@@ -174,16 +174,16 @@ proptest! {
         let mut governor = Supervised::default();
         for (ask, speed, shaft) in steps {
             let before = mode(&governor);
-            let request = [Request::Start, Request::Stop, Request::Reset, Request::Trip].get(usize::from(ask));
+            let request = [RunRequest::Start, RunRequest::Stop, RunRequest::Reset, RunRequest::Trip].get(usize::from(ask));
             if let Some(request) = request {
-                governor.supervisor_mut().ask(*request);
+                governor.sequence_mut().request(*request);
             }
-            if matches!(before, Mode::Tripped(_)) && request != Some(&Request::Reset) {
+            if matches!(before, RunState::Tripped(_)) && request != Some(&RunRequest::Reset) {
                 prop_assert_eq!(mode(&governor), before);
             }
-            governor.refer(100.0);
+            governor.set_setpoint(100.0);
             let torque = governor.command(&config, &at(speed, shaft));
-            if matches!(mode(&governor), Mode::Stopped | Mode::Tripped(_)) {
+            if matches!(mode(&governor), RunState::Stopped | RunState::Tripped(_)) {
                 prop_assert_eq!(torque, 0.0);
             }
             prop_assert!(torque.abs() <= 400.0);
@@ -194,15 +194,16 @@ proptest! {
 #[test]
 fn limits_out_of_order_are_refused() {
     for wrong in [
-        ModesSettings { overspeed: 70.0, ..LIMITS },
-        ModesSettings { standstill: 90.0, ..LIMITS },
-        ModesSettings { standstill: 0.0, ..LIMITS },
-        ModesSettings { reverse: -1.0, ..LIMITS },
-        ModesSettings { shaft_torque: f64::NAN, ..LIMITS },
+        SequencerSettings { overspeed: 70.0, ..LIMITS },
+        SequencerSettings { standstill: 90.0, ..LIMITS },
+        SequencerSettings { standstill: 0.0, ..LIMITS },
+        SequencerSettings { reverse: -1.0, ..LIMITS },
+        SequencerSettings { shaft_torque: f64::NAN, ..LIMITS },
     ] {
-        let error = ModesConfig::<f64>::try_new(&wrong, PERIOD, Bases::SI).unwrap_err();
+        let error = SequencerConfig::<f64>::try_new(&wrong, PERIOD, Bases::SI).unwrap_err();
         assert!(matches!(error, Error::Value(sentence) if sentence.contains("standstill < underspeed")), "{error}");
     }
-    let error = ModesConfig::<f64>::try_new(&ModesSettings { start: -1.0, ..LIMITS }, PERIOD, Bases::SI).unwrap_err();
+    let error =
+        SequencerConfig::<f64>::try_new(&SequencerSettings { start: -1.0, ..LIMITS }, PERIOD, Bases::SI).unwrap_err();
     assert!(error.message().contains("times"));
 }

@@ -39,7 +39,7 @@ fn verdicts() -> Verdicts {
     };
     let faults = [outcome(Some(PASSING), None), outcome(None, Some(("sensor loss".into(), 0.016)))];
     let latched = Latched {
-        what: "set point 115 %",
+        what: "setpoint 115 %",
         trip: Some(("overspeed".into(), 0.432)),
         torque: [0.0, 0.91],
         top: 1.1,

@@ -1,12 +1,12 @@
 //! Sets that turn together share the load by their droop.
 
-use driveline::constants::Bases;
 use driveline::design::{Actuator, GovernorDesign, LoadFeedForward, Rate};
 use driveline::governor::{
-    Between, BetweenConfig, Droop, DroopConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig,
+    Droop, DroopConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, TorqueRange, TorqueRangeConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::sample::Estimate;
+use driveline::settings::Bases;
 use driveline_solver::plant::{Chain, Shaft, Start};
 
 const PERIOD: f64 = 1e-3;
@@ -22,25 +22,25 @@ fn settled(rated: [f64; 2], droop: [f64; 2], load: f64) -> (f64, [f64; 2]) {
     });
     let config = [0, 1].map(|k: usize| SpeedGovernorConfig {
         gains: Gains::<f64>::new(&design[k], 40.0, Bases::SI),
-        set_point: DroopConfig::<f64>::new(droop[k], SPEED, rated[k], Bases::SI),
-        prompt: (),
-        limit: BetweenConfig::<f64>::new(0.0, 1.1 * rated[k], Bases::SI),
-        supervisor: (),
-        view: (),
+        shape: DroopConfig::<f64>::new(droop[k], SPEED, rated[k], Bases::SI),
+        compensation: (),
+        limit: TorqueRangeConfig::<f64>::new(0.0, 1.1 * rated[k], Bases::SI),
+        sequence: (),
+        filter: (),
     });
     let reduced = inertia[0] * inertia[1] / (inertia[0] + inertia[1]);
     let stiffness = reduced * (2.0 * core::f64::consts::TAU).powi(2);
     let shaft = Shaft::elastic(stiffness).damping(0.3 * (stiffness * reduced).sqrt());
     let start = Start::Given { twists: vec![0.0], speeds: vec![SPEED; 2] };
     let mut plant = Chain::motor(inertia[0]).shaft(shaft, inertia[1]).start(start).build().unwrap();
-    let mut governors = [SpeedGovernor::<f64, Droop, (), Between>::default(); 2];
+    let mut governors = [SpeedGovernor::<f64, Droop, (), TorqueRange>::default(); 2];
     let mut acting = [0.0; 2];
     for (governor, config) in governors.iter_mut().zip(&config) {
         governor.start(config, &Estimate { motor_speed: SPEED, ..Estimate::default() }, 0.0);
     }
     for _ in 0..60_000 {
         for k in 0..2 {
-            governors[k].refer(SPEED);
+            governors[k].set_setpoint(SPEED);
             let now = Estimate { motor_speed: plant.speed(k), ..Estimate::default() };
             let command = governors[k].command(&config[k], &now);
             acting[k] += (command - acting[k]) * (1.0 - (-PERIOD / 0.05_f64).exp());

@@ -1,13 +1,13 @@
-//! Constants change, modes change, the set point changes: without a jolt.
+//! Constants change, modes change, the setpoint changes: without a jolt.
 
-use driveline::constants::Bases;
 use driveline::design::{Actuator, LoadFeedForward, Rate};
 use driveline::governor::{
     Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig,
-    SpeedGovernorConfigOf, SymmetricConfig,
+    SpeedGovernorConfigOf, SymmetricLimitConfig,
 };
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::sample::Estimate;
+use driveline::settings::Bases;
 use proptest::prelude::*;
 
 const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
@@ -22,11 +22,11 @@ fn config(span: f64, droop: f64, share: f64) -> SpeedGovernorConfigOf<f64, Droop
             40.0,
             Bases::SI,
         ),
-        set_point: DroopConfig::<f64>::new(droop, 157.0, 2500.0, Bases::SI),
-        prompt: FeedForwardConfig::<f64>::new(share, Bases::SI),
-        limit: SymmetricConfig::<f64>::new(3000.0, Bases::SI),
-        supervisor: (),
-        view: (),
+        shape: DroopConfig::<f64>::new(droop, 157.0, 2500.0, Bases::SI),
+        compensation: FeedForwardConfig::<f64>::new(share, Bases::SI),
+        limit: SymmetricLimitConfig::<f64>::new(3000.0, Bases::SI),
+        sequence: (),
+        filter: (),
     }
 }
 
@@ -48,14 +48,14 @@ proptest! {
         let now = Estimate { motor_speed: 150.0 + error, ..now };
         let mut last = 0.0;
         for _ in 0..ticks {
-            governor.refer(150.0);
+            governor.set_setpoint(150.0);
             last = governor.command(&from, &now);
         }
         let mut other = governor;
-        governor.refer(150.0);
+        governor.set_setpoint(150.0);
         let stayed = governor.command(&from, &now);
         other.switch(&from, &to, &now);
-        other.refer(150.0);
+        other.set_setpoint(150.0);
         let switched = other.command(&to, &now);
         // A tick's ramp is 0.02 rad/s, of which the integral's tick and the droop's make less than another: 2 * 0.04
         // rad/s by the largest k_p, 150, and at the limit the torque must not move at all.
@@ -71,8 +71,8 @@ fn it_starts_from_the_speed_and_torque_that_there_are() {
         let mut governor = Switched::default();
         let now = Estimate { motor_speed: 140.0, load_torque: 900.0, ..Estimate::default() };
         governor.start(&config, &now, 1200.0);
-        governor.refer(140.0);
-        // The ramp's first step, at k_p: with droop the set point stands above the speed.
+        governor.set_setpoint(140.0);
+        // The ramp's first step, at k_p: with droop the setpoint stands above the speed.
         let torque = governor.command(&config, &now);
         assert!((torque - 1200.0).abs() <= 0.02 * 140.0, "{droop} {share}: {torque}");
     }

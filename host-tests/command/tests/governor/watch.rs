@@ -1,19 +1,20 @@
 //! The watch on an actuator, against lags by their exact solution.
 
-use driveline::constants::{ActuatorWatchSettings, Bases, Error};
 use driveline::fault::Faults;
-use driveline::governor::{ActuatorWatch, ActuatorWatchConfig, Mode, Modes, Request, Trip};
+use driveline::governor::{ActuatorMonitor, ActuatorMonitorConfig, RunRequest, RunState, Sequencer, Trip};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
+use driveline::settings::{ActuatorMonitorSettings, Bases, Error};
 
 const PERIOD: f64 = 1.0 / 2400.0;
 const LAGS: [f64; 2] = [0.1, 0.25];
-const SETTINGS: ActuatorWatchSettings = ActuatorWatchSettings { tolerance: 200.0, most: 1500.0, patience: 0.01 };
+const SETTINGS: ActuatorMonitorSettings =
+    ActuatorMonitorSettings { tolerance: 200.0, max_torque: 1500.0, timeout: 0.01 };
 const MACHINE: TwoMass = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
 const BASES: Bases = Bases::new(&MACHINE, 2500.0, 210.0);
 
-fn single() -> ActuatorWatchConfig<f32, 2> {
-    ActuatorWatchConfig::<f32, 2>::new(&LAGS, &SETTINGS, PERIOD, Bases::SI)
+fn single() -> ActuatorMonitorConfig<f32, 2> {
+    ActuatorMonitorConfig::<f32, 2>::new(&LAGS, &SETTINGS, PERIOD, Bases::SI)
 }
 
 /// The torque that a step of the command to 1000 N m has come to after so many ticks, through the two lags.
@@ -26,8 +27,8 @@ fn step_response(ticks: u32) -> f64 {
 /// The expected torque is the lags' step response, in both numbers.
 #[test]
 fn what_is_expected_is_the_lags_response() {
-    let (single, fixed) = (single(), ActuatorWatchConfig::<Fixed, 2>::new(&LAGS, &SETTINGS, PERIOD, BASES));
-    let (mut by_single, mut by_fixed) = (ActuatorWatch::<f32, 2>::new(), ActuatorWatch::<Fixed, 2>::new());
+    let (single, fixed) = (single(), ActuatorMonitorConfig::<Fixed, 2>::new(&LAGS, &SETTINGS, PERIOD, BASES));
+    let (mut by_single, mut by_fixed) = (ActuatorMonitor::<f32, 2>::new(), ActuatorMonitor::<Fixed, 2>::new());
     for tick in 0..4800 {
         let wanted = step_response(tick);
         // The second lag follows the end of the first one's tick and not its course: half a tick of 0.4 ms at the steepest,
@@ -51,25 +52,25 @@ fn what_is_elsewhere_is_replaced_and_then_lost() {
         (f32::INFINITY, Trip::SensorLoss),
         (f32::NEG_INFINITY, Trip::SensorLoss),
     ] {
-        let mut watch = ActuatorWatch::<f32, 2>::new();
+        let mut watch = ActuatorMonitor::<f32, 2>::new();
         // 10 ms are 24 ticks.
         for tick in 0..25 {
-            assert_eq!(watch.lost(&config), None, "{tick}");
-            assert_eq!(watch.believe(&config, told), (0.0, Faults::TORQUE));
+            assert_eq!(watch.trip(&config), None, "{tick}");
+            assert_eq!(watch.check(&config, told), (0.0, Faults::TORQUE));
         }
-        assert_eq!(watch.lost(&config), Some(reason), "{told}");
+        assert_eq!(watch.trip(&config), Some(reason), "{told}");
         // However long it lasted, it is found again after one good tick, and forgotten after as many as it took.
         for _ in 0..1000 {
-            watch.believe(&config, told);
+            watch.check(&config, told);
         }
-        assert_eq!(watch.believe(&config, 199.0), (199.0, Faults::NONE));
-        assert_eq!(watch.lost(&config), None);
+        assert_eq!(watch.check(&config, 199.0), (199.0, Faults::NONE));
+        assert_eq!(watch.trip(&config), None);
         for _ in 0..24 {
-            watch.believe(&config, 0.0);
+            watch.check(&config, 0.0);
         }
         for _ in 0..24 {
-            watch.believe(&config, told);
-            assert_eq!(watch.lost(&config), None);
+            watch.check(&config, told);
+            assert_eq!(watch.trip(&config), None);
         }
     }
 }
@@ -77,8 +78,8 @@ fn what_is_elsewhere_is_replaced_and_then_lost() {
 /// Every word of fixed point beyond the tolerance is found, those too whose difference wraps.
 #[test]
 fn no_word_of_fixed_point_passes_for_another() {
-    let config = ActuatorWatchConfig::<Fixed, 2>::new(&LAGS, &SETTINGS, PERIOD, BASES);
-    let mut watch = ActuatorWatch::<Fixed, 2>::new();
+    let config = ActuatorMonitorConfig::<Fixed, 2>::new(&LAGS, &SETTINGS, PERIOD, BASES);
+    let mut watch = ActuatorMonitor::<Fixed, 2>::new();
     for _ in 0..24_000 {
         watch.advance(&config, Fixed::ONE);
     }
@@ -86,17 +87,17 @@ fn no_word_of_fixed_point_passes_for_another() {
     for word in (0..=u32::MAX).step_by(65_521) {
         let told = Fixed::from_word(word);
         let far = (told.to_f64() - expected.to_f64()).abs() > config.tolerance.to_f64();
-        assert_eq!(watch.believe(&config, told).1.is_none(), !far, "{told:?}");
+        assert_eq!(watch.check(&config, told).1.is_none(), !far, "{told:?}");
     }
 }
 
 #[test]
 fn a_trip_from_outside_latches_as_every_other() {
-    let mut modes = Modes::default();
-    assert!(modes.ask(Request::Start) && modes.trip(Trip::Actuator));
-    assert!(!modes.trip(Trip::SensorLoss) && !modes.ask(Request::Start));
-    assert_eq!(modes.mode(), Mode::Tripped(Trip::Actuator));
-    assert!(modes.ask(Request::Reset));
+    let mut modes = Sequencer::default();
+    assert!(modes.request(RunRequest::Start) && modes.trip(Trip::Actuator));
+    assert!(!modes.trip(Trip::SensorLoss) && !modes.request(RunRequest::Start));
+    assert_eq!(modes.state(), RunState::Tripped(Trip::Actuator));
+    assert!(modes.request(RunRequest::Reset));
     // One that stands still with its actuator open is not to be started.
     assert!(modes.trip(Trip::Actuator));
 }
@@ -104,21 +105,21 @@ fn a_trip_from_outside_latches_as_every_other() {
 #[test]
 fn what_cannot_be_watched_is_refused() {
     let refused =
-        |lags, settings| ActuatorWatchConfig::<f32, 2>::try_new(&lags, &settings, PERIOD, Bases::SI).unwrap_err();
+        |lags, settings| ActuatorMonitorConfig::<f32, 2>::try_new(&lags, &settings, PERIOD, Bases::SI).unwrap_err();
     for settings in [
-        ActuatorWatchSettings { tolerance: 0.0, ..SETTINGS },
-        ActuatorWatchSettings { tolerance: f64::NAN, ..SETTINGS },
-        ActuatorWatchSettings { most: 200.0, ..SETTINGS },
-        ActuatorWatchSettings { most: f64::INFINITY, ..SETTINGS },
+        ActuatorMonitorSettings { tolerance: 0.0, ..SETTINGS },
+        ActuatorMonitorSettings { tolerance: f64::NAN, ..SETTINGS },
+        ActuatorMonitorSettings { max_torque: 200.0, ..SETTINGS },
+        ActuatorMonitorSettings { max_torque: f64::INFINITY, ..SETTINGS },
     ] {
         assert!(refused(LAGS, settings).message().contains("tolerance"));
     }
-    assert!(refused(LAGS, ActuatorWatchSettings { patience: -1.0, ..SETTINGS }).message().contains("times"));
+    assert!(refused(LAGS, ActuatorMonitorSettings { timeout: -1.0, ..SETTINGS }).message().contains("times"));
     for lags in [[0.0, 0.25], [0.1, f64::NAN], [-0.1, 0.25]] {
         assert!(refused(lags, SETTINGS).message().contains("lag"));
     }
     // In fixed point a lag of 1.44 ticks covers half its way in one.
-    let fixed = |ticks: f64| ActuatorWatchConfig::<Fixed, 1>::try_new(&[ticks * PERIOD], &SETTINGS, PERIOD, BASES);
+    let fixed = |ticks: f64| ActuatorMonitorConfig::<Fixed, 1>::try_new(&[ticks * PERIOD], &SETTINGS, PERIOD, BASES);
     assert!(
         matches!(fixed(1.44), Err(Error::Value(sentence)) if sentence.contains("1.5 ticks")) && fixed(1.45).is_ok()
     );
@@ -127,14 +128,14 @@ fn what_cannot_be_watched_is_refused() {
 /// A tolerance that the number rounds to zero would believe no position at all.
 #[test]
 fn a_tolerance_that_rounds_to_zero_is_refused() {
-    let settings = |tolerance| ActuatorWatchSettings { tolerance, ..SETTINGS };
+    let settings = |tolerance| ActuatorMonitorSettings { tolerance, ..SETTINGS };
     for tolerance in [1e-60, 0.0, f64::NAN, 1e39] {
-        let refused = ActuatorWatchConfig::<f32, 2>::try_new(&LAGS, &settings(tolerance), PERIOD, Bases::SI);
+        let refused = ActuatorMonitorConfig::<f32, 2>::try_new(&LAGS, &settings(tolerance), PERIOD, Bases::SI);
         assert!(matches!(refused, Err(Error::Value(_))), "{tolerance}");
     }
     // A unit in the last place is 2500 N m/2^28.
     for (tolerance, allowed) in [(9.0e-6, false), (1.0e-5, true)] {
-        let made = ActuatorWatchConfig::<Fixed, 2>::try_new(&LAGS, &settings(tolerance), PERIOD, BASES);
+        let made = ActuatorMonitorConfig::<Fixed, 2>::try_new(&LAGS, &settings(tolerance), PERIOD, BASES);
         assert_eq!(made.is_ok(), allowed, "{tolerance}");
     }
 }

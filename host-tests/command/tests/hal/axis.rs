@@ -8,11 +8,11 @@ use driveline::drive::{ConfigOf, Drive};
 use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
 use driveline::hal::{Axis, Board, TRIPPING};
-use driveline::observer::{Geared, SemiImplicit};
+use driveline::observer::{GearedObserver, SemiImplicitObserver};
 use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{Hoist, with};
 
-pub type Observer = Geared<SemiImplicit<f32>>;
+pub type Observer = GearedObserver<SemiImplicitObserver<f32>>;
 pub const CONFIG: &ConfigOf<Drive<f32, Observer, (), SpeedLoop<f32>>> =
     <Hoist<f32, with::Reduced, 10_000> as Variant>::CONFIG;
 
@@ -143,7 +143,7 @@ fn an_angle_that_stays_away_trips_and_a_start_needs_it_again() {
         ticks += 1;
     }
     // 99 good ones, for `new` has taken one; the drive's limit of 149; the one that is beyond it; and the one that finds it so
-    assert_eq!(ticks, 99 + CONFIG.limits.missed + 2);
+    assert_eq!(ticks, 99 + CONFIG.limits.max_coast + 2);
     assert_eq!(told.borrow()[told.borrow().len() - 2..], ["torque 0", "enabled false"]);
     assert_eq!(axis.start(CONFIG), Err(Faults::ANGLE_LOST));
     while axis.board().tick < end + 2 {

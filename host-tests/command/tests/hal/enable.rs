@@ -1,7 +1,7 @@
 //! The order of the enable chain, and what a line that fails does to the others.
 
 use driveline::fault::Faults;
-use driveline::hal::{EnableChain, Enabling, Line, Trip};
+use driveline::hal::{EnableChain, EnableLine, Enabling, TripLine};
 use embedded_hal::digital::{ErrorType, OutputPin};
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction};
@@ -35,9 +35,9 @@ fn chain(expected: [&[Transaction]; 3], order: &Order) -> EnableChain<Noted, 3> 
     let [contactor, gates, brake] = expected;
     let pin = |expected: &[Transaction], name| Noted(Pin::new(expected), name, order.clone());
     EnableChain::new([
-        Line::high(pin(contactor, "contactor")),
-        Line::low(pin(gates, "gates")),
-        Line::high(pin(brake, "brake")),
+        EnableLine::high(pin(contactor, "contactor")),
+        EnableLine::low(pin(gates, "gates")),
+        EnableLine::high(pin(brake, "brake")),
     ])
 }
 
@@ -85,12 +85,12 @@ fn a_line_that_does_not_go_off_keeps_no_other_on() {
 #[test]
 fn a_trip_output_begins_tripped_and_is_off_on_any_failure() {
     let expected = [set(OFF), set(ON).with_error(FAILED), set(OFF), set(ON), set(OFF)];
-    let mut trip = Trip::new(Line::high(Pin::new(&expected))).unwrap();
+    let mut trip = TripLine::new(EnableLine::high(Pin::new(&expected))).unwrap();
     assert_eq!(trip.set_enabled(true), Err(Faults::ENABLE));
     assert_eq!(trip.set_enabled(true), Ok(()));
     assert_eq!(trip.set_enabled(false), Ok(()));
     trip.release().release().done();
-    assert!(Trip::new(Line::high(Pin::new(&[set(OFF).with_error(FAILED)]))).is_err_and(|(faults, line)| {
+    assert!(TripLine::new(EnableLine::high(Pin::new(&[set(OFF).with_error(FAILED)]))).is_err_and(|(faults, line)| {
         line.release().done();
         faults == Faults::ENABLE
     }));

@@ -1,7 +1,7 @@
 //! Parameters in a flash whose power is cut anywhere.
 
-use driveline::balance::{self, Complex, Influence, Plan, Procedure, Run, Step};
-use driveline::parameters::{Error, Loaded, Parameters, Refusal, Store};
+use driveline::balancing::{self, Complex, Influence, Plan, Procedure, ProcedureStep, Run};
+use driveline::parameters::{Error, Loaded, Parameters, RecordError, Store};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use serde::{Deserialize, Serialize};
 
@@ -192,7 +192,7 @@ fn a_power_cut_at_any_byte_leaves_the_old_or_the_new() {
             assert_eq!(save(&mut cut, &kept(number)), Err(Error::Flash(Cut)), "{number}, {point}");
             let Loaded { parameters, refused } = load::<Kept>(&mut cut);
             // a record that is half there is told
-            assert!(matches!(refused, None | Some(Refusal::Damaged)), "{refused:?}");
+            assert!(matches!(refused, None | Some(RecordError::Damaged)), "{refused:?}");
             match parameters {
                 Some(found) if found == kept(number) => new += 1,
                 Some(found) if found == kept(number - 1) => old += 1,
@@ -228,7 +228,7 @@ fn a_sound_record_of_nonsense_is_refused_and_the_last_good_one_kept() {
         nonsense[8..].copy_from_slice(&count);
         save_other(&mut flash, &Anything(nonsense));
         let Loaded { parameters, refused } = load::<Kept>(&mut flash);
-        assert_eq!((parameters, refused), (Some(kept(1)), Some(Refusal::Content)), "{count:?}");
+        assert_eq!((parameters, refused), (Some(kept(1)), Some(RecordError::Content)), "{count:?}");
     }
     // a page of any bytes
     let mut flash = Flash::new();
@@ -239,7 +239,7 @@ fn a_sound_record_of_nonsense_is_refused_and_the_last_good_one_kept() {
         }
         flash.bytes[PAGE..PAGE + 4].copy_from_slice(b"DLP1");
         let Loaded { parameters, refused } = load::<Kept>(&mut flash);
-        assert_eq!((parameters, refused), (Some(kept(1)), Some(Refusal::Damaged)));
+        assert_eq!((parameters, refused), (Some(kept(1)), Some(RecordError::Damaged)));
     }
 }
 
@@ -260,7 +260,7 @@ fn a_record_that_the_flash_does_not_give_is_refused_and_the_other_one_taken() {
         assert_eq!(save(&mut cut, &kept(2)), Err(Error::Flash(Cut)), "{point}");
         let Loaded { parameters, refused } = load::<Kept>(&mut cut);
         assert_eq!(parameters, Some(kept(1)), "{point}");
-        unreadable += usize::from(refused == Some(Refusal::Unreadable));
+        unreadable += usize::from(refused == Some(RecordError::Unreadable));
         save(&mut cut, &kept(3)).unwrap();
         assert_eq!(load(&mut cut), Loaded { parameters: Some(kept(3)), refused: None }, "{point}");
     }
@@ -347,14 +347,14 @@ fn records_of_others_are_refused_with_the_reason() {
     let mut flash = Flash::new();
     save_other(&mut flash, &Foreign(kept(7)));
     let refused = load::<Kept>(&mut flash);
-    assert_eq!(refused, Loaded { parameters: None, refused: Some(Refusal::Foreign(0x4857_0002)) });
+    assert_eq!(refused, Loaded { parameters: None, refused: Some(RecordError::Foreign(0x4857_0002)) });
     assert_eq!(refused.refused.unwrap().to_string(), "the record is another firmware's, 0x48570002");
     let mut flash = Flash::new();
     save_other(&mut flash, &Older(1.0));
-    assert_eq!(load::<Kept>(&mut flash).refused, Some(Refusal::Version(2)));
+    assert_eq!(load::<Kept>(&mut flash).refused, Some(RecordError::Version(2)));
     let mut flash = Flash::new();
     save_other(&mut flash, &Longer(kept(7), 1));
-    assert_eq!(load::<Kept>(&mut flash).refused, Some(Refusal::Content));
+    assert_eq!(load::<Kept>(&mut flash).refused, Some(RecordError::Content));
 }
 
 #[test]
@@ -365,7 +365,7 @@ fn the_last_good_one_is_kept_beside_one_that_is_refused() {
     // an older firmware finds nothing of its own, and takes one of the two places
     save_other(&mut flash, &Older(1.0));
     let Loaded { parameters, refused } = load::<Kept>(&mut flash);
-    assert_eq!((parameters, refused), (Some(kept(2)), Some(Refusal::Version(2))));
+    assert_eq!((parameters, refused), (Some(kept(2)), Some(RecordError::Version(2))));
 }
 
 /// A form before that of [`Kept`], which had more to keep.
@@ -485,7 +485,7 @@ fn what_does_not_fit_is_said_and_nothing_is_lost() {
 }
 
 type Field = Procedure<f64, 2, 2, 4>;
-type Record = balance::Record<{ Field::words(2, 2) + 1 }>;
+type Record = balancing::Record<{ Field::words(2, 2) + 1 }>;
 
 /// A rotor that two sensors feel, and what is on it.
 struct Rotor {
@@ -510,23 +510,23 @@ impl Rotor {
     fn step(&mut self, field: &mut Field) {
         let trial = Complex::new(1.5, 0.5);
         match field.next() {
-            Step::Baseline => field.baseline(&self.run()).unwrap(),
-            Step::Trial { plane } => {
+            ProcedureStep::Baseline => field.baseline(&self.run()).unwrap(),
+            ProcedureStep::Trial { plane } => {
                 self.on[plane] = trial;
                 field.trial(plane, trial, &self.run()).unwrap();
                 self.on[plane] = Complex::new(0.0, 0.0);
             }
-            Step::Correction | Step::Trim => {
+            ProcedureStep::Correction | ProcedureStep::Trim => {
                 // set a tenth wrong the first time
-                let share = if field.next() == Step::Trim { 1.0 } else { 0.9 };
+                let share = if field.next() == ProcedureStep::Trim { 1.0 } else { 0.9 };
                 let weights = field.correction().unwrap().weights.map(|weight| weight * share);
                 // the rotor has them whether the entry is kept or not
                 let before = field.weights();
                 self.on = [before[0] + weights[0], before[1] + weights[1]];
-                field.placed(&weights).unwrap();
+                field.installed(&weights).unwrap();
             }
-            Step::Verify => field.verified(&self.run()).unwrap(),
-            Step::Done => {}
+            ProcedureStep::Verify => field.verified(&self.run()).unwrap(),
+            ProcedureStep::Done => {}
         }
     }
 }
@@ -538,7 +538,7 @@ fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
     let plan = Plan::usual(2, 2, 1e-9);
     let whole = {
         let (mut rotor, mut field) = (Rotor::new(), Field::new(plan).unwrap());
-        while field.next() != Step::Done {
+        while field.next() != ProcedureStep::Done {
             rotor.step(&mut field);
         }
         field.weights()
@@ -553,7 +553,7 @@ fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
     keep(&mut flash, &field).unwrap();
     flash.left = usize::MAX;
     let (mut cuts, mut steps, mut lost) = (0, 0, 0);
-    while field.next() != Step::Done {
+    while field.next() != ProcedureStep::Done {
         let (before, kept) = (field.clone(), flash.clone());
         rotor.step(&mut field);
         keep(&mut flash, &field).unwrap();
@@ -569,10 +569,10 @@ fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
             assert_eq!(own, [0x5eed]);
             lost += usize::from(resumed == before);
             let mut rotor = Rotor { influence: rotor.influence, on: rotor.on };
-            if resumed.next() == Step::Verify || resumed == before {
+            if resumed.next() == ProcedureStep::Verify || resumed == before {
                 rotor.on = resumed.weights();
             }
-            while resumed.next() != Step::Done {
+            while resumed.next() != ProcedureStep::Done {
                 rotor.step(&mut resumed);
             }
             assert_eq!(resumed.weights(), whole, "step {steps}, cut after {point} of {bytes} bytes");
@@ -586,8 +586,8 @@ fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
     assert!(cuts > 500 && lost > 0 && lost < cuts, "{cuts} {lost}");
     // a record of another plan is refused
     let other: Record = load(&mut flash).parameters.unwrap();
-    let resumed: Result<Field, _> = other.resume(Plan { trials_stay: true, ..plan }, &mut [0]);
-    assert!(matches!(resumed, Err(balance::Refusal::Record { .. })));
+    let resumed: Result<Field, _> = other.resume(Plan { leave_trials: true, ..plan }, &mut [0]);
+    assert!(matches!(resumed, Err(balancing::Error::Record { .. })));
 }
 
 /// A flash that is read by words of 32 bytes and written by single ones.

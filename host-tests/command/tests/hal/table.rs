@@ -8,9 +8,9 @@ use std::rc::Rc;
 
 use driveline::fault::Faults;
 use driveline::hal::{
-    AdcVibration, Adxl355, Along, AngleSensor, AwaitedAngle, AwaitedTorque, Chip, Dac, EnableChain, Enabling,
-    FullScale, Line, MagneticEncoder, PerCount, PhaseConfig, PwmTorque, Quadrature, Range, SpiDac, TRIPPING,
-    ThreePhase, Tmc4671, ToothedWheel, TorqueOutput, Trip, VibrationSensor,
+    AdcVibration, Adxl355, Along, AngleSensor, AwaitedAngle, AwaitedTorque, Chip, Dac, EnableChain, EnableLine,
+    Enabling, FullScale, MagneticEncoder, PerCount, PhaseConfig, PwmTorque, Quadrature, Range, SpiDac, TRIPPING,
+    ThreePhase, Tmc4671, ToothedWheel, TorqueOutput, TripLine, VibrationSensor,
 };
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Level};
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Duty};
@@ -331,7 +331,7 @@ fn enable(table: &mut Table) {
     let mut axis = |first: &[Level], second: &[Level]| {
         let (first, second) = (Pin::new(first), Pin::new(second));
         pins.extend([first.clone(), second.clone()]);
-        let mut chain = EnableChain::new([Line::high(first), Line::high(second)]);
+        let mut chain = EnableChain::new([EnableLine::high(first), EnableLine::high(second)]);
         let mut board = Scripted::sound();
         board.enable = Box::new(move |enabled| chain.set_enabled(enabled));
         let mut axis = Whole::new(board, CONFIG, TRIPPING);
@@ -375,7 +375,8 @@ fn enable(table: &mut Table) {
         "asked again in the next tick; all others off",
         stays,
     ]);
-    let mut trip = Trip::new(Line::high(Pin::new(&[set(off), set(on).with_error(FAILED), set(off)]))).unwrap();
+    let mut trip =
+        TripLine::new(EnableLine::high(Pin::new(&[set(off), set(on).with_error(FAILED), set(off)]))).unwrap();
     assert_eq!(trip.set_enabled(true), Err(Faults::ENABLE));
     let flags = format!("{} from the start", Faults::ENABLE);
     table.row(["Trip", "the pin does not go on", &flags, "none", "stays off; the pin off", "stays off"]);

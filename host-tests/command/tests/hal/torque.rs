@@ -1,9 +1,9 @@
 //! Torque to duty, code and target.
 
-use driveline::constants::Bases;
 use driveline::fault::Faults;
 use driveline::hal::{Dac, FullScale, PhaseConfig, PwmTorque, SpiDac, ThreePhase, Tmc4671, TorqueOutput};
 use driveline::number::Fixed;
+use driveline::settings::Bases;
 use driveline_firmware::scenes::hoist::BASES;
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Duty};
 

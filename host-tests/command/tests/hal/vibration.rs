@@ -1,12 +1,12 @@
 //! Vibration from an ADXL355 and from conversions.
 
-use driveline::balance::{Doubt, Phasors, PhasorsConfig, Reading};
-use driveline::constants::Measured;
+use driveline::balancing::{Phasors, PhasorsConfig, Reading, ReadingFault};
 use driveline::drive::Config;
 use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
 use driveline::hal::{AdcVibration, Adxl355, Along, Axis, PerCount, Range, TRIPPING, VibrationSensor};
 use driveline::number::Fixed;
+use driveline::settings::PhasorSettings;
 
 use crate::axis;
 use crate::bus::{Bus, Expected};
@@ -137,7 +137,7 @@ fn a_reading_through_an_axis_says_what_its_samples_lacked() {
         observer: axis::CONFIG.observer,
         fluctuation: (),
         governor: axis::CONFIG.governor,
-        balancer: PhasorsConfig::<f32, 1>::new(&Measured { turns: 1, ..Measured::DIRECT }, [100.0]),
+        balancer: PhasorsConfig::<f32, 1>::new(&PhasorSettings { turns: 1, ..PhasorSettings::DIRECT }, [100.0]),
     };
     let mut axis = Axis::<_, f32, axis::Observer, (), SpeedLoop<f32>, Phasors<f32, 1, 3>>::new(
         axis::Scripted::sound(),
@@ -162,11 +162,11 @@ fn a_reading_through_an_axis_says_what_its_samples_lacked() {
         axis.drive().balancer().reading(&config.balancer, 0)
     };
     // 1500 counts of 0.01 each, to a tenth of a count and the table's 2e-4
-    let sound = |reading: Result<Reading, Doubt>| (reading.unwrap().phasor.amplitude() - 15.0).abs() < 5e-3;
+    let sound = |reading: Result<Reading, ReadingFault>| (reading.unwrap().phasor.amplitude() - 15.0).abs() < 5e-3;
     assert!(sound(read(None)));
-    assert_eq!(read(Some(Faults::VIBRATION_CLIPPED)), Err(Doubt::Clipped));
+    assert_eq!(read(Some(Faults::VIBRATION_CLIPPED)), Err(ReadingFault::Clipped));
     let missing = read(Some(Faults::VIBRATION_MISSING));
-    assert_eq!(missing, Err(Doubt::Missing { samples: 1 }));
+    assert_eq!(missing, Err(ReadingFault::Missing { samples: 1 }));
     assert_eq!(missing.unwrap_err().to_string(), "samples were missing or not sound, 1 of them");
     assert!(sound(read(None)));
 }

@@ -74,7 +74,7 @@ fn many_turns_leave_no_residual() {
             let sample = driveline::sample::Sample {
                 angle,
                 torque: V::Number::of_torque(0.0),
-                reference: V::Number::of_speed(RATED_SPEED),
+                setpoint: V::Number::of_speed(RATED_SPEED),
             };
             drive.tick(V::CONFIG, &sample);
             let error = (drive.estimate(V::CONFIG).motor_speed.speed() - RATED_SPEED).abs();

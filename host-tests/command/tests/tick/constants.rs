@@ -2,7 +2,6 @@
 
 use core::hint::black_box;
 
-use driveline::constants::{Bases, Gear, SpeedLoopSettings};
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopTuning};
 use driveline::drive::{Config, Limits};
 use driveline::governor::SpeedLoopConfig;
@@ -11,6 +10,7 @@ use driveline::machine::{
 };
 use driveline::number::Fixed;
 use driveline::observer::{GearedConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
+use driveline::settings::{Bases, Gear, SpeedLoopSettings};
 use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{self, BASES, Hoist, with};
 
@@ -53,7 +53,7 @@ fn test<const R: u32>() {
     let gear = Gear {
         efficiency: black_box(0.94),
         inertia: reduced.motor_inertia,
-        play: 8.0 * core::f64::consts::TAU / black_box(8192.0),
+        deadband: 8.0 * core::f64::consts::TAU / black_box(8192.0),
     };
     let bases = black_box(BASES);
 

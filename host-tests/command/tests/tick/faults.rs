@@ -111,10 +111,10 @@ fn a_set_point_that_cannot_be_leaves_the_last_one_standing() {
     fn test<V: Variant<Number: Bad, Observer: Copy>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         for bad in V::Number::bad() {
-            spoil(&rig, &format!("set point {bad:?}"), 1000, |_| Faults::REFERENCE, |_, s| s.reference = bad);
+            spoil(&rig, &format!("setpoint {bad:?}"), 1000, |_| Faults::SETPOINT, |_, s| s.setpoint = bad);
             let (mut spoilt, mut healthy) = (rig.clone(), rig.clone());
             for _ in 0..100 {
-                assert_eq!(spoilt.tick(|sample| sample.reference = bad).torque, healthy.tick(|_| {}).torque);
+                assert_eq!(spoilt.tick(|sample| sample.setpoint = bad).torque, healthy.tick(|_| {}).torque);
             }
         }
     }
@@ -126,14 +126,14 @@ fn both_at_once_are_told_apart() {
     fn test<V: Variant<Number: Bad, Observer: Copy>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         let bad = V::Number::bad()[0];
-        let all = Faults::TORQUE | Faults::REFERENCE | Faults::ANGLE_JUMP;
+        let all = Faults::TORQUE | Faults::SETPOINT | Faults::ANGLE_JUMP;
         spoil(
             &rig,
             "everything bad",
             5,
             |_| all,
             |_, sample| {
-                *sample = Sample { angle: sample.angle ^ 1 << 30, torque: bad, reference: bad };
+                *sample = Sample { angle: sample.angle ^ 1 << 30, torque: bad, setpoint: bad };
             },
         );
     }

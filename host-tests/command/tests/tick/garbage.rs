@@ -5,7 +5,7 @@ use driveline::drive::{Config, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::number::Fixed;
-use driveline::observer::{Geared, Observer};
+use driveline::observer::{GearedObserver, Observer};
 use driveline::sample::Sample;
 use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{Hoist, RATED_SPEED, with};
@@ -24,7 +24,7 @@ enum Kind {
     Noise,
     /// The angle goes on from the last one by the random word over 2^n: what passes the screening is driven hard.
     Walk(u32),
-    /// The angle stands, torque and set point are random.
+    /// The angle stands, torque and setpoint are random.
     Frozen,
     /// The angle moves steadily by the random word of the first tick over 2^n, full torque.
     Steady(u32),
@@ -75,7 +75,7 @@ fn plays<N: Scaled, O: Observer<N>>(
             if matches!(kind, Kind::Steady(_)) {
                 torque = if first < 0 { config.limits.torque } else { N::ZERO.minus(config.limits.torque) };
             }
-            let sample = Sample { angle, torque, reference: N::from_word((words >> 32) as u32) };
+            let sample = Sample { angle, torque, setpoint: N::from_word((words >> 32) as u32) };
             let command = Seen::new(drive.tick(&config, &sample), drive.estimate(&config));
             check(name, config.governor.torque_limit, &command);
             if walk % 997 == 0 {
@@ -92,7 +92,7 @@ fn plays<N: Scaled, O: Observer<N>>(
         let sample = Sample {
             angle: angle.wrapping_add((turn * f64::from(tick)) as u64 as u32),
             torque: N::of_torque(torque),
-            reference: N::of_speed(speed),
+            setpoint: N::of_speed(speed),
         };
         let command = Seen::new(drive.tick(&config, &sample), drive.estimate(&config));
         check(name, config.governor.torque_limit, &command);
@@ -114,12 +114,12 @@ fn plays<N: Scaled, O: Observer<N>>(
 /// With the gear and without.
 fn both<V, O>(garbage: &[(Kind, u32, u64)])
 where
-    V: Variant<Number: Scaled, Observer = Geared<O>>,
+    V: Variant<Number: Scaled, Observer = GearedObserver<O>>,
     O: Observer<V::Number, Config: Copy>,
 {
     let Config { limits, observer, governor, .. } = V::CONFIG;
     let geared = driveline::observer::GearedConfig { ..*observer };
-    plays::<V::Number, Geared<O>>(V::NAME, V::RATE_HZ, *limits, geared, *governor, garbage);
+    plays::<V::Number, GearedObserver<O>>(V::NAME, V::RATE_HZ, *limits, geared, *governor, garbage);
     plays::<V::Number, O>(
         &format!("{} without gear", V::NAME),
         V::RATE_HZ,

@@ -1,10 +1,10 @@
 //! Coasting keeps momentum: without corrections the mean speed changes by T (tau_m - tau_L)/J a tick and by nothing else, however the
 //! shaft swings.
 
-use driveline::constants::Bases;
 use driveline::design::Rate;
 use driveline::number::{Fixed, Number};
-use driveline::observer::{Observer, SemiImplicit, SemiImplicitConfig, TwoMass, TwoMassConfig};
+use driveline::observer::{Observer, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver};
+use driveline::settings::Bases;
 use driveline_firmware::scenes::hoist::{self, BASES, REDUCED};
 
 use super::rig::Scaled;
@@ -52,15 +52,15 @@ fn fixed(_: f64) -> f64 {
 #[test]
 fn the_exact_step_keeps_momentum() {
     let design = hoist::observer(&REDUCED, 10_000);
-    coasts::<f32, TwoMass<f32>>(&TwoMassConfig::<f32>::new(&design, Bases::SI), single);
-    coasts::<Fixed, TwoMass<Fixed>>(&TwoMassConfig::<Fixed>::new(&design, BASES), fixed);
+    coasts::<f32, TwoMassObserver<f32>>(&TwoMassConfig::<f32>::new(&design, Bases::SI), single);
+    coasts::<Fixed, TwoMassObserver<Fixed>>(&TwoMassConfig::<Fixed>::new(&design, BASES), fixed);
 }
 
 #[test]
 fn the_semi_implicit_step_keeps_momentum() {
     let design = hoist::observer(&REDUCED, 10_000);
-    coasts::<f32, SemiImplicit<f32>>(&SemiImplicitConfig::<f32>::new(&design, Bases::SI), single);
-    coasts::<Fixed, SemiImplicit<Fixed>>(&SemiImplicitConfig::<Fixed>::new(&design, BASES), fixed);
+    coasts::<f32, SemiImplicitObserver<f32>>(&SemiImplicitConfig::<f32>::new(&design, Bases::SI), single);
+    coasts::<Fixed, SemiImplicitObserver<Fixed>>(&SemiImplicitConfig::<Fixed>::new(&design, BASES), fixed);
 }
 
 /// Nothing acts: nothing moves, to the last bit, for a hundred thousand ticks.
@@ -75,8 +75,8 @@ fn a_balanced_machine_stays() {
         assert_eq!(observer, start);
     }
     let design = hoist::observer(&REDUCED, 10_000);
-    stays::<f32, TwoMass<f32>>(&TwoMassConfig::<f32>::new(&design, Bases::SI));
-    stays::<Fixed, TwoMass<Fixed>>(&TwoMassConfig::<Fixed>::new(&design, BASES));
-    stays::<f32, SemiImplicit<f32>>(&SemiImplicitConfig::<f32>::new(&design, Bases::SI));
-    stays::<Fixed, SemiImplicit<Fixed>>(&SemiImplicitConfig::<Fixed>::new(&design, BASES));
+    stays::<f32, TwoMassObserver<f32>>(&TwoMassConfig::<f32>::new(&design, Bases::SI));
+    stays::<Fixed, TwoMassObserver<Fixed>>(&TwoMassConfig::<Fixed>::new(&design, BASES));
+    stays::<f32, SemiImplicitObserver<f32>>(&SemiImplicitConfig::<f32>::new(&design, Bases::SI));
+    stays::<Fixed, SemiImplicitObserver<Fixed>>(&SemiImplicitConfig::<Fixed>::new(&design, BASES));
 }

@@ -96,8 +96,8 @@ pub struct Rig<V: Variant> {
     pub drive: DriveOf<V>,
     /// Torque that the machine was given during the last tick [N m].
     pub applied: f64,
-    /// Set point [rad/s].
-    pub reference: f64,
+    /// Setpoint [rad/s].
+    pub setpoint: f64,
 }
 
 impl<V: Variant> Clone for Rig<V>
@@ -105,7 +105,7 @@ where
     V::Observer: Copy,
 {
     fn clone(&self) -> Self {
-        Rig { plant: self.plant.clone(), drive: self.drive, applied: self.applied, reference: self.reference }
+        Rig { plant: self.plant.clone(), drive: self.drive, applied: self.applied, setpoint: self.setpoint }
     }
 }
 
@@ -117,13 +117,13 @@ where
     pub fn at_rest() -> Self {
         let shaft = Shaft::elastic(REDUCED.stiffness).damping(REDUCED.damping);
         let plant = Chain::motor(REDUCED.motor_inertia).efficiency(0.94).shaft(shaft, REDUCED.load_inertia).build();
-        Rig { plant: plant.unwrap(), drive: Drive::new(V::CONFIG, 0), applied: 0.0, reference: RATED_SPEED }
+        Rig { plant: plant.unwrap(), drive: Drive::new(V::CONFIG, 0), applied: 0.0, setpoint: RATED_SPEED }
     }
 
     /// Lifting at a steady speed [rad/s]: three seconds cover the ramp of two and what settles after it.
     pub fn lifting(speed: f64) -> Self {
         let mut rig = Rig::at_rest();
-        rig.reference = speed;
+        rig.setpoint = speed;
         for tick in 0..3 * V::RATE_HZ {
             if tick == V::RATE_HZ / 10 {
                 rig.plant.set_load_torque(1, WEIGHT);
@@ -140,7 +140,7 @@ where
         Sample {
             angle: (count << 19) as u32,
             torque: Scaled::of_torque(self.applied),
-            reference: Scaled::of_speed(self.reference),
+            setpoint: Scaled::of_speed(self.setpoint),
         }
     }
 

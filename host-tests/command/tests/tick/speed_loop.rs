@@ -1,12 +1,12 @@
 //! The speed loop: its limits, its anti-windup, and that it takes over without a jolt.
 
-use driveline::constants::{Bases, Error, SpeedLoopSettings};
 use driveline::design::{Rate, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::fault::Faults;
 use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
 use driveline::sample::Estimate;
+use driveline::settings::{Bases, Error, SpeedLoopSettings};
 use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{BASES, RATED_SPEED, REDUCED, TORQUE_LIMIT};
 use proptest::prelude::*;
@@ -22,7 +22,7 @@ fn settings(ramp: f64) -> SpeedLoopSettings {
 }
 
 proptest! {
-    /// Any estimate within twice the bases, any set point: the torque is within its limit, and away from the limits it is the closed form
+    /// Any estimate within twice the bases, any setpoint: the torque is within its limit, and away from the limits it is the closed form
     /// in `f64`, to what `f32` and fixed point resolve.
     #[test]
     fn the_torque_is_the_laws(errors in prop::collection::vec((-8.0..8.0_f64, -4.0..4.0_f64, -40.0..40.0_f64), 1..200)) {
@@ -32,16 +32,16 @@ proptest! {
         let ramp = 1.9 * BASES.speed * 1e4;
         let (mut fixed, fixed_config) = (SpeedLoop::default(), SpeedLoopConfig::<Fixed>::new(&design(), settings(ramp), BASES));
         for (error, slip, speed) in errors {
-            let (motor, load, reference) = (speed, speed - slip, speed + error);
+            let (motor, load, setpoint) = (speed, speed - slip, speed + error);
             let now = Estimate { motor_speed: motor, load_speed: load, ..Estimate::default() };
-            exact.refer(reference);
+            exact.set_setpoint(setpoint);
             let wanted = exact.command(&exact_config, &now);
             let now = Estimate { motor_speed: motor as f32, load_speed: load as f32, ..Estimate::default() };
-            single.refer(reference as f32);
+            single.set_setpoint(setpoint as f32);
             let by_single = f64::from(single.command(&single_config, &now));
             let of = Fixed::of_speed;
             let now = Estimate { motor_speed: of(motor), load_speed: of(load), ..Estimate::default() };
-            fixed.refer(of(reference));
+            fixed.set_setpoint(of(setpoint));
             let by_fixed = fixed.command(&fixed_config, &now).torque();
             // Gains of ten and a few roundings of 1000 N m in f32; of a base of 2700 N m over 2^28, times the gains' 32, in fixed point.
             prop_assert!((by_single - wanted).abs() < 0.01, "{by_single} {wanted}");
@@ -50,21 +50,21 @@ proptest! {
         }
     }
 
-    /// In fixed point no estimate and no set point, whatever their bits, turn the torque's sign by overflow: far off the set point and
+    /// In fixed point no estimate and no setpoint, whatever their bits, turn the torque's sign by overflow: far off the setpoint and
     /// without slip the torque is at its limit, on the side of the error.
     #[test]
-    fn an_error_that_saturates_keeps_its_sign(motor in -(1 << 29)..1 << 29_i32, reference in -(1 << 29)..1 << 29_i32, ticks in 1..200) {
+    fn an_error_that_saturates_keeps_its_sign(motor in -(1 << 29)..1 << 29_i32, setpoint in -(1 << 29)..1 << 29_i32, ticks in 1..200) {
         let config = SpeedLoopConfig::<Fixed>::new(&design(), settings(1.9 * BASES.speed * 1e4), BASES);
         let now = Estimate { motor_speed: Fixed::from_bits(motor), load_speed: Fixed::from_bits(motor), ..Estimate::default() };
         let mut governor = SpeedLoop::default();
-        // The set point's ramp first.
+        // The setpoint's ramp first.
         let mut torque = Fixed::ZERO;
         for _ in 0..ticks + 3 {
-            governor.refer(Fixed::from_bits(reference));
+            governor.set_setpoint(Fixed::from_bits(setpoint));
             torque = governor.command(&config, &now);
         }
         // An error of 0.25 of the base gives 10.5 * 52 = 546 N m at once.
-        let error = i64::from(reference) - i64::from(motor);
+        let error = i64::from(setpoint) - i64::from(motor);
         if error.abs() > 1 << 26 {
             prop_assert_eq!(torque.torque() > 0.0, error > 0);
             prop_assert!(torque.torque().abs() > 540.0, "{}", torque.torque());
@@ -78,7 +78,7 @@ fn gains_whose_sum_could_wrap_are_refused() {
     let machine = TwoMass::new(Inertia(1.0), Inertia(1.0), Stiffness(4.0e4), Damping(1.0));
     let tuning = SpeedLoopTuning { bandwidth: 0.3, damping: 1.0, shaft_damping: 0.7 };
     let design = machine.speed_loop(Rate::hz(10_000), tuning);
-    let (kp, kv) = (design.proportional, design.slip.abs());
+    let (kp, kv) = (design.proportional, design.damping.abs());
     assert!(kp > 0.0 && kp.min(kv) > 0.55 * kp.max(kv), "{kp} {kv}");
     let try_with = |largest: f64| {
         // Gains per unit of 32 bases: the larger of the two at `largest`.
@@ -99,14 +99,14 @@ fn gains_whose_sum_could_wrap_are_refused() {
 fn the_integral_does_not_wind_up() {
     let inertia = REDUCED.motor_inertia + REDUCED.load_inertia;
     let (period, limit) = (1e-4, 100.0);
-    let runs = |unwinding: f64| {
+    let runs = |anti_windup: f64| {
         let settings = SpeedLoopSettings { torque_limit: limit, ramp: 1e9 };
         let mut config = SpeedLoopConfig::<f64>::new(&design(), settings, Bases::SI);
-        config.unwinding *= unwinding;
+        config.anti_windup *= anti_windup;
         let (mut governor, mut speed, mut top, mut limited) = (SpeedLoop::default(), 0.0, 0.0_f64, 0);
         for _ in 0..60_000 {
             let now = Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() };
-            governor.refer(RATED_SPEED);
+            governor.set_setpoint(RATED_SPEED);
             let torque = governor.command(&config, &now);
             limited += u32::from(torque.abs() >= limit);
             speed += period * torque / inertia;
@@ -145,7 +145,7 @@ fn from_hold_to_tick_there_is_no_jolt() {
             let sample = driveline::sample::Sample {
                 angle: 12_345,
                 torque: V::Number::of_torque(held),
-                reference: V::Number::of_speed(RATED_SPEED),
+                setpoint: V::Number::of_speed(RATED_SPEED),
             };
             let torque = drive.tick(V::CONFIG, &sample).torque.torque();
             assert!((torque - held - asked).abs() < 1e-5 * BASES.torque, "{}: {torque} {held} {asked}", V::NAME);
@@ -155,7 +155,7 @@ fn from_hold_to_tick_there_is_no_jolt() {
             let mut drive = DriveOf::<V>::new(V::CONFIG, 0);
             let command = drive.hold(V::CONFIG, 0, bad);
             let nothing = bad == V::Number::ZERO;
-            assert!(nothing || (command.faults, command.torque) == (Faults::REFERENCE, V::Number::ZERO), "{bad:?}");
+            assert!(nothing || (command.faults, command.torque) == (Faults::SETPOINT, V::Number::ZERO), "{bad:?}");
         }
     }
     for_every_variant!(10000, test);

@@ -19,7 +19,7 @@ fn caught<V: Variant<Number: Scaled, Observer: Copy>>() {
         let ticks = V::RATE_HZ / 2;
         for tick in 1..=ticks {
             let angle = (turn * f64::from(tick)) as i64 as u32;
-            let sample = Sample { angle, torque: V::Number::ZERO, reference: V::Number::of_speed(speed) };
+            let sample = Sample { angle, torque: V::Number::ZERO, setpoint: V::Number::of_speed(speed) };
             let command = Seen::new(drive.tick(V::CONFIG, &sample), drive.estimate(V::CONFIG));
             check(V::NAME, V::CONFIG.governor.torque_limit, &command);
             if command.faults != Faults::NONE {

@@ -7,9 +7,9 @@ pub const LENGTH: usize = 32;
 
 /// The bytes of an input.
 pub fn of_input(input: &Input) -> [u8; LENGTH] {
-    let Input { angle, torque, reference, flags, vibration: [v0, v1], asked: [key, value] } = *input;
+    let Input { angle, torque, setpoint, flags, vibration: [v0, v1], asked: [key, value] } = *input;
     let mut bytes = [0; LENGTH];
-    for (place, word) in bytes.chunks_exact_mut(4).zip([angle, torque, reference, flags, v0, v1, key, value]) {
+    for (place, word) in bytes.chunks_exact_mut(4).zip([angle, torque, setpoint, flags, v0, v1, key, value]) {
         place.copy_from_slice(&word.to_le_bytes());
     }
     bytes

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use driveline::balance::{Complex, FromAmplitudes};
+use driveline::balancing::{Complex, FromAmplitudes};
 use serde::Serialize;
 
 use super::fault::Fault;

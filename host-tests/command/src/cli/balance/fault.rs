@@ -1,6 +1,6 @@
 //! Why no weights follow.
 
-use driveline::balance::Refusal;
+use driveline::balancing::Error;
 
 use crate::machine_file::Diagnostic;
 
@@ -10,11 +10,11 @@ pub enum Fault {
     /// What stands at a place of the file.
     Placed(Diagnostic),
     /// What was calculated.
-    Refused(Refusal),
+    Refused(Error),
 }
 
-impl From<Refusal> for Fault {
-    fn from(refusal: Refusal) -> Self {
+impl From<Error> for Fault {
+    fn from(refusal: Error) -> Self {
         Fault::Refused(refusal)
     }
 }

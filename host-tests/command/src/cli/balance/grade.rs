@@ -1,6 +1,6 @@
 //! The balance quality grade before and after, of the rotor and at each bearing.
 
-use driveline::balance::{Complex, Refusal, Tolerance, two_planes};
+use driveline::balancing::{Complex, Error, Tolerance, two_planes};
 use serde::Serialize;
 
 use crate::machine_file::balance::{Along, BalanceFile};
@@ -44,7 +44,7 @@ pub struct Bearing {
 ///
 /// # Errors
 /// What cannot be judged.
-pub fn grade(file: &BalanceFile, wanted: &[Complex<f64>], placed: &[Complex<f64>]) -> Result<Option<Grade>, Refusal> {
+pub fn grade(file: &BalanceFile, wanted: &[Complex<f64>], placed: &[Complex<f64>]) -> Result<Option<Grade>, Error> {
     let Some(rotor) = &file.rotor else { return Ok(None) };
     let Some(unbalance) = file.weight_unit.unbalance(rotor.radius) else { return Ok(None) };
     let tolerance = Tolerance { grade: rotor.grade, mass: rotor.mass, speed: rotor.rpm * std::f64::consts::TAU / 60.0 };
@@ -73,7 +73,7 @@ fn bearings(
     unbalance: f64,
     wanted: &[Complex<f64>],
     placed: &[Complex<f64>],
-) -> Result<[Bearing; 2], Refusal> {
+) -> Result<[Bearing; 2], Error> {
     let shares = tolerance.at_bearings(along.centre, along.span)?;
     let resolved = |of: &dyn Fn(usize) -> Complex<f64>| {
         two_planes(along.planes.iter().enumerate().map(|(plane, at)| (of(plane) * unbalance, *at)), 0.0, along.span)

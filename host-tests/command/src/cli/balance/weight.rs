@@ -1,6 +1,6 @@
 //! A weight, and what of it goes into which hole.
 
-use driveline::balance::{Complex, Holes, Refusal, degrees};
+use driveline::balancing::{Complex, Error, Holes, degrees};
 use serde::Serialize;
 
 use super::fault::Fault;
@@ -47,9 +47,9 @@ pub struct Hole {
 /// Holes that cannot take it, at their place in the file.
 pub fn fill(holes: &PlaneHoles, weight: Complex<f64>) -> Result<(Complex<f64>, Vec<Hole>), Fault> {
     let angles: Vec<f64> = holes.degrees.iter().map(|degrees| degrees.to_radians()).collect();
-    let found = Holes { angles: &angles, weights: &holes.weights, mode: holes.mode }.fit(weight);
+    let found = Holes { angles: &angles, weights: &holes.weights, method: holes.mode }.fit(weight);
     let found = found.map_err(|refusal| match refusal {
-        Refusal::TooHeavy { .. } => Fault::Placed(holes.too_heavy.clone()),
+        Error::TooHeavy { .. } => Fault::Placed(holes.too_heavy.clone()),
         _ => Fault::Refused(refusal),
     })?;
     let used = found.holes.into_iter().filter(|(_, weight)| *weight > 0.0);

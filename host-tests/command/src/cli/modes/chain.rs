@@ -140,7 +140,7 @@ impl Vibration {
             gap: joint.shaft.gap,
         };
         // parts are left out of chains only
-        let mut worth = if machine.train.is_none() { machine.chain.worth().parts().to_vec() } else { Vec::new() };
+        let mut worth = if machine.train.is_none() { machine.chain.sensitivity().parts().to_vec() } else { Vec::new() };
         worth.sort_by(|a, b| a.worst().total_cmp(&b.worst()));
         let finite = |value: f64| value.is_finite().then_some(value);
         let leaving = |part: &driveline::machine::Part| Leaving {

@@ -1,0 +1,152 @@
+//! Advise: the unbalance of the rotor from its vibration, and the weights that take it away.
+//!
+//! # On the tick
+//! [`Phasors`] measures the vibration that turns with the rotor, as one complex number for each channel. Several orders, or rotors behind
+//! different gears, are a tuple of them. [`Reading`] is what came of it, with what tells a good reading from a bad one; [`Sensor`] turns it
+//! into displacement, velocity or acceleration and takes the run-out off.
+//!
+//! # Off the tick
+//! With the feature `balancing`. [`Influence`] learns from trial runs what a weight in each plane does to each reading, and gives the
+//! [`Correction`]: by least squares, weighted, min-max or within limits, with planes that only repeat others found and left out.
+//!
+//! [`Holes`] fits a weight to what is at hand, [`Tolerance`] judges what is left (ISO 21940-11), [`from_amplitudes`] does without a phase.
+//! [`Procedure`] leads through the runs, refuses what cannot be, and goes on after a power cut from a record, which with the feature `parameters` is
+//! one that a flash keeps.
+//! [`InRun`] does without trial runs, by a balancing head or an actuator while the machine turns.
+//!
+//! # Terms
+//! | term | meaning | unit |
+//! |---|---|---|
+//! | phasor | amplitude and phase of what turns with the rotor: `v = Re(X e^{i order theta})`, `theta` the rotor's angle | of the channel |
+//! | order | periods of the vibration on a turn of the rotor | |
+//! | block | a number of whole turns that gives one phasor of its own | |
+//! | row | a reading of a run: a sensor at a speed | |
+//! | plane | where a weight can be put; a weight is its mass, or mass times radius, at an angle | kg, kg m |
+//! | influence coefficient | what a weight in a plane does to a row | row per weight |
+//! | run-out | what a displacement sensor sees of a shaft that is not round, and does not vibrate | of the channel |
+
+use crate::fault::Faults;
+use crate::number::Number;
+
+#[cfg(feature = "balancing")]
+mod aim;
+#[cfg(feature = "balancing")]
+mod amplitude_only;
+#[cfg(feature = "balancing")]
+mod correction;
+#[cfg(feature = "balancing")]
+mod entry;
+#[cfg(feature = "balancing")]
+mod error;
+#[cfg(feature = "balancing")]
+mod holes;
+#[cfg(feature = "balancing")]
+mod in_run;
+#[cfg(feature = "balancing")]
+mod influence;
+#[cfg(feature = "balancing")]
+mod matrix;
+#[cfg(feature = "balancing")]
+mod min_max;
+mod phasor;
+#[cfg(feature = "balancing")]
+mod procedure;
+#[cfg(feature = "balancing")]
+mod qr;
+mod reading;
+#[cfg(all(feature = "balancing", feature = "parameters"))]
+mod record;
+#[cfg(feature = "balancing")]
+mod scalar;
+mod sensor;
+#[cfg(feature = "balancing")]
+mod tolerance;
+
+#[cfg(feature = "balancing")]
+pub use aim::{Aim, Objective};
+#[cfg(feature = "balancing")]
+pub use amplitude_only::{FromAmplitudes, from_amplitudes};
+#[cfg(feature = "balancing")]
+pub use correction::{Correction, LeftOut};
+#[cfg(feature = "balancing")]
+pub use entry::{Entry, degrees};
+#[cfg(feature = "balancing")]
+pub use error::Error;
+#[cfg(feature = "balancing")]
+pub use holes::{CorrectionMethod, Fitted, Holes};
+#[cfg(feature = "balancing")]
+pub use in_run::{AbortReason, Action, InRun, InRunConfig};
+#[cfg(feature = "balancing")]
+pub use influence::Influence;
+pub use phasor::{Phasors, PhasorsConfig};
+#[cfg(feature = "balancing")]
+pub use procedure::{CORRECTIONS, Plan, Procedure, ProcedureStep, Run};
+pub use reading::{Phasor, Reading, ReadingFault, Steadiness};
+#[cfg(all(feature = "balancing", feature = "parameters"))]
+pub use record::Record;
+#[cfg(feature = "balancing")]
+pub use scalar::{Complex, Scalar};
+pub use sensor::{Motion, Sensor, SensorError};
+#[cfg(feature = "balancing")]
+pub use tolerance::{GRADES, Tolerance, Verdict, resultant, two_planes};
+
+/// A measurement of the rotor's unbalance, advanced once a tick.
+pub trait Balancer<N: Number>: Default {
+    /// Its constants, shared and immutable.
+    type Config;
+    /// The samples of a tick, one for each channel.
+    type Vibration: Copy;
+
+    /// Takes one tick's angle [2^-32 turn of the motor] and vibration into account.
+    fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration);
+
+    /// Told of a tick without a sound vibration, and why: a clipped one or none.
+    fn missed(&mut self, faults: Faults);
+}
+
+/// Not balanced.
+impl<N: Number> Balancer<N> for () {
+    type Config = ();
+    type Vibration = ();
+
+    #[inline(always)]
+    fn measure(&mut self, _config: &(), _angle: u32, _vibration: &()) {}
+
+    fn missed(&mut self, _faults: Faults) {}
+}
+
+/// Two measurements side by side: two orders, or two rotors.
+impl<N: Number, A: Balancer<N>, B: Balancer<N>> Balancer<N> for (A, B) {
+    type Config = (A::Config, B::Config);
+    type Vibration = (A::Vibration, B::Vibration);
+
+    #[inline(always)]
+    fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration) {
+        self.0.measure(&config.0, angle, &vibration.0);
+        self.1.measure(&config.1, angle, &vibration.1);
+    }
+
+    fn missed(&mut self, faults: Faults) {
+        self.0.missed(faults);
+        self.1.missed(faults);
+    }
+}
+
+/// Three measurements side by side.
+impl<N: Number, A: Balancer<N>, B: Balancer<N>, C: Balancer<N>> Balancer<N> for (A, B, C) {
+    type Config = (A::Config, B::Config, C::Config);
+    type Vibration = (A::Vibration, B::Vibration, C::Vibration);
+
+    #[inline(always)]
+    fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration) {
+        self.0.measure(&config.0, angle, &vibration.0);
+        self.1.measure(&config.1, angle, &vibration.1);
+        self.2.measure(&config.2, angle, &vibration.2);
+    }
+
+    fn missed(&mut self, faults: Faults) {
+        self.0.missed(faults);
+        self.1.missed(faults);
+        self.2.missed(faults);
+    }
+}

@@ -1,0 +1,53 @@
+//! The rule by which weights are chosen: objective, weighting, limits.
+
+use super::scalar::{Complex, Scalar, real};
+
+/// What the residual is to be small in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Objective {
+    /// The sum of the squares (Goodman 1964).
+    #[default]
+    LeastSquares,
+    /// The largest amplitude.
+    MinMax,
+}
+
+/// How weights are chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aim<T: Scalar, const ROWS: usize, const PLANES: usize> {
+    /// What is to be small.
+    pub objective: Objective,
+    /// What each residual is multiplied by, positive or zero for a reading that is left out.
+    pub weighting: [T; ROWS],
+    /// The largest weight of each plane, if there is a limit.
+    pub limits: [Option<T>; PLANES],
+    /// Least share of a plane's effect that must be its own for the plane to be used; the rest is what other planes do as well.
+    ///
+    /// With readings that are accurate to 1 % a plane with less than 1 % of its own cannot be told from the others.
+    pub independence: T,
+}
+
+impl<T: Scalar, const ROWS: usize, const PLANES: usize> Default for Aim<T, ROWS, PLANES> {
+    /// Least squares, all readings alike, no limits, 1 % of independence.
+    fn default() -> Self {
+        Aim {
+            objective: Objective::LeastSquares,
+            weighting: [T::one(); ROWS],
+            limits: [None; PLANES],
+            independence: real(0.01),
+        }
+    }
+}
+
+impl<T: Scalar, const ROWS: usize, const PLANES: usize> Aim<T, ROWS, PLANES> {
+    /// The readings among the first `rows` that are not weighted with zero.
+    pub(crate) fn counted<'r>(
+        &'r self,
+        readings: &'r [Complex<T>; ROWS],
+        rows: usize,
+    ) -> impl Iterator<Item = Complex<T>> + 'r {
+        let weighted = readings.iter().zip(&self.weighting).take(rows);
+        weighted.filter(|(_, weighting)| **weighting > T::zero()).map(|(reading, _)| *reading)
+    }
+}

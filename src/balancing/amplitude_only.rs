@@ -1,0 +1,100 @@
+//! One plane without a phase sensor: amplitudes of runs with the same trial weight at different angles.
+//!
+//! With `a` the influence, `v0` the baseline and the weight `W` at angle alpha, `|v0 + a W e^{i alpha}|^2 = |v0|^2 + x^2 + 2 |v0| x cos(phi + alpha)`,
+//! where `x = |a| W` and phi is the angle of `a/v0`. Three angles give x and phi by least squares; two leave two answers.
+
+use super::error::Error;
+use super::matrix::pick;
+use super::qr::Qr;
+use super::scalar::{Complex, Scalar, real, zero};
+
+/// A weight found from amplitudes alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FromAmplitudes<T: Scalar> {
+    /// The weight to add.
+    pub weight: Complex<T>,
+    /// A second answer, equally good, of two trial runs.
+    pub or: Option<Complex<T>>,
+    /// How well the runs agree, of three or more: the part of the effect's square that they contradict each other by.
+    pub disagreement: T,
+}
+
+/// From the baseline's amplitude, the trial weight, and the angle \[rad\] and amplitude of each trial run.
+///
+/// # Errors
+/// [`Error::TrialWeightZero`], [`Error::Reading`], [`Error::ReadingMissing`] for fewer than two runs, [`Error::NoEffect`] where the runs are
+/// no different, [`Error::NotFound`] where no influence gives such amplitudes or the angles are the same.
+pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Result<FromAmplitudes<T>, Error> {
+    if !(trial > T::zero() && trial.is_finite()) {
+        return Err(Error::TrialWeightZero { plane: 0 });
+    }
+    let right = |value: T| value >= T::zero() && value.is_finite();
+    if !(right(baseline) && baseline > T::zero()) {
+        return Err(Error::Reading { row: 0 });
+    }
+    if let Some(row) = runs.iter().position(|(angle, amplitude)| !(right(*amplitude) && angle.is_finite())) {
+        return Err(Error::Reading { row: row + 1 });
+    }
+    if runs.len() < 2 {
+        return Err(Error::ReadingMissing { row: runs.len() + 1 });
+    }
+    let same = |a: T, b: T| (a - b).abs() <= baseline * T::default_epsilon() * real(100.0);
+    if runs.iter().all(|(_, amplitude)| same(*amplitude, baseline)) {
+        return Err(Error::NoEffect { plane: 0 });
+    }
+    let weight = |effect: Complex<T>| -> Complex<T> {
+        // w = -v0/a, and a/v0 = effect/(W |v0|)
+        -Complex { re: baseline * trial, im: T::zero() } / effect
+    };
+    if runs.len() == 2 {
+        let (one, other) = two(baseline, pick(runs, 0, (T::zero(), T::zero())), pick(runs, 1, (T::zero(), T::zero())))?;
+        return Ok(FromAmplitudes { weight: weight(one), or: Some(weight(other)), disagreement: T::zero() });
+    }
+    // r^2 - v0^2 = p + q cos alpha + s sin alpha
+    let mut qr = Qr::<T, 3>::new();
+    for (angle, amplitude) in runs {
+        let (sine, cosine) = angle.sin_cos();
+        let row = [T::one(), cosine, sine].map(|re| Complex { re, im: T::zero() });
+        let right = (*amplitude - baseline) * (*amplitude + baseline);
+        qr.absorb(&row, Complex { re: right, im: T::zero() });
+    }
+    let pivoted = qr.pivoted(real(1e-3));
+    if pivoted.rank < 3 {
+        return Err(Error::NotFound);
+    }
+    let [square, q, s] = pivoted.solve().map(|value| value.re);
+    let effect = Complex { re: q, im: -s }.unscale(baseline + baseline);
+    let found = effect.re * effect.re + effect.im * effect.im;
+    // What the runs differ by must be more than rounding leaves of what they have in common.
+    let rounding = real::<T>(1e-6) * baseline;
+    if !(found > rounding * rounding) {
+        return Err(Error::NoEffect { plane: 0 });
+    }
+    Ok(FromAmplitudes { weight: weight(effect), or: None, disagreement: (square - found).abs() / found })
+}
+
+/// The effect `x e^{i phi}` of two runs: where two circles meet, twice.
+fn two<T: Scalar>(baseline: T, a: (T, T), b: (T, T)) -> Result<(Complex<T>, Complex<T>), Error> {
+    // |v0 e^{-i alpha} + effect| = r
+    let centre = |angle: T| -> Complex<T> {
+        let (sine, cosine) = angle.sin_cos();
+        Complex { re: -baseline * cosine, im: baseline * sine }
+    };
+    let (from, to) = (centre(a.0), centre(b.0));
+    let apart = to - from;
+    let square = apart.re * apart.re + apart.im * apart.im;
+    if !(square > baseline * baseline * real(1e-6)) {
+        return Err(Error::NotFound);
+    }
+    let along = ((a.1 - b.1) * (a.1 + b.1) / square + T::one()) * real(0.5);
+    let height = a.1 * a.1 / square - along * along;
+    // rounding, and a little of what reading may do to circles that only touch
+    if !(height > real(-0.01)) {
+        return Err(Error::NotFound);
+    }
+    let height = height.max(T::zero()).sqrt();
+    let middle = from + apart.scale(along);
+    let aside = Complex { re: -apart.im, im: apart.re }.scale(height);
+    let (one, other) = (middle + aside, middle - aside);
+    if one == zero() || other == zero() { Err(Error::NoEffect { plane: 0 }) } else { Ok((one, other)) }
+}

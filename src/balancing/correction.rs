@@ -1,0 +1,148 @@
+//! Weights from influence coefficients: least squares, weighted, min-max, within limits.
+
+use heapless::Vec;
+use nalgebra::ComplexField;
+
+use super::aim::{Aim, Objective};
+use super::error::Error;
+use super::influence::Influence;
+use super::matrix::pick;
+use super::min_max::Search;
+use super::qr::Qr;
+use super::scalar::{Complex, Scalar, real, size, square, zero};
+
+/// A plane that is not used, and why.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeftOut<T: Scalar, const PLANES: usize> {
+    /// The plane.
+    pub plane: usize,
+    /// The share of its effect that no combination of the used planes has, 0 to 1.
+    pub own: T,
+    /// A weight of one in this plane does the same as these weights in the used planes, but for that share.
+    pub like: [Complex<T>; PLANES],
+}
+
+/// Weights to be added, and what they leave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Correction<T: Scalar, const ROWS: usize, const PLANES: usize> {
+    /// The weight of each plane; zero in planes that are left out.
+    pub weights: [Complex<T>; PLANES],
+    /// The readings with them, as predicted.
+    pub residual: [Complex<T>; ROWS],
+    /// Root mean square of the residual's amplitudes, those of readings that are weighted with zero left out.
+    pub rms: T,
+    /// The largest of them, likewise.
+    pub largest: T,
+    /// Greatest over least singular value of the used planes' influence: how many times larger than a reading's error that of a weight may be.
+    pub condition: T,
+    /// Planes that are not used.
+    pub left_out: Vec<LeftOut<T, PLANES>, PLANES>,
+    /// For a search (min-max, or limits that bind): what the objective cannot be below, proven by duality, and what it is; each the root of the sum of
+    /// squares, or the largest amplitude, weighted.
+    pub bounds: Option<(T, T)>,
+}
+
+impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANES> {
+    /// The weights that take a vibration away as far as they can: `A w + v` is made small.
+    ///
+    /// # Errors
+    /// What is missing or wrong; [`Error::NotFound`] where the optimum could not be proven.
+    pub fn correct(
+        &self,
+        vibration: &[Complex<T>],
+        aim: &Aim<T, ROWS, PLANES>,
+    ) -> Result<Correction<T, ROWS, PLANES>, Error> {
+        self.complete(vibration)?;
+        if let Some(plane) = self.unknown() {
+            return Err(Error::PlaneUnknown { plane });
+        }
+        // written so that a NaN is none of them
+        let weighted = |value: &T| *value >= T::zero() && value.is_finite();
+        if let Some(index) = aim.weighting.iter().take(self.rows()).position(|value| !weighted(value)) {
+            return Err(Error::Setting { index });
+        }
+        let limited = |value: &Option<T>| value.is_none_or(|value| value > T::zero() && value.is_finite());
+        if let Some(index) = aim.limits.iter().take(self.planes()).position(|value| !limited(value)) {
+            return Err(Error::Setting { index });
+        }
+        let used = aim.weighting.iter().take(self.rows()).filter(|value| **value > T::zero()).count();
+        if used < self.planes() {
+            return Err(Error::MorePlanesThanReadings { planes: self.planes(), readings: used });
+        }
+
+        let qr = self.qr(vibration, &aim.weighting);
+        let pivoted = qr.pivoted(aim.independence);
+        let mut weights = pivoted.solve();
+        let mut bounds = None;
+        let plain = self.amplitude(vibration, &weights, aim);
+        let none = self.amplitude(vibration, &[zero(); PLANES], aim);
+        let beyond =
+            weights.iter().zip(&aim.limits).any(|(weight, limit)| limit.is_some_and(|limit| size(*weight) > limit));
+        // where nothing is left there is nothing to search for
+        let nothing = plain.1 <= none.1 * T::default_epsilon() * real(100.0);
+        if beyond || aim.objective == Objective::MinMax && !nothing {
+            let search = Search::new(self, vibration, aim, &pivoted);
+            let (found, below) = search.run(&weights).ok_or(Error::NotFound)?;
+            weights = found;
+            let (squares, largest) = self.amplitude(vibration, &weights, aim);
+            let reached = if aim.objective == Objective::MinMax { largest } else { squares.sqrt() };
+            bounds = Some((below, reached));
+        }
+        let residual = self.predict(vibration, &weights)?;
+        let mut left_out = Vec::new();
+        for j in pivoted.rank..PLANES {
+            let plane = pick(&pivoted.order, j, PLANES);
+            if plane < self.planes() {
+                let (own, like) = pivoted.combination(j);
+                // there is room for each plane
+                let _ = left_out.push(LeftOut { plane, own, like });
+            }
+        }
+        let counted = || aim.counted(&residual, self.rows());
+        let squares = counted().fold(T::zero(), |sum, value| sum + square(value));
+        let largest = counted().fold(T::zero(), |largest, value| largest.max(size(value)));
+        let rms = (squares / real(used as f64)).sqrt();
+        Ok(Correction { weights, residual, rms, largest, condition: pivoted.condition(), left_out, bounds })
+    }
+
+    /// The rows `weighting (A w) = -weighting v`.
+    pub(crate) fn qr(&self, vibration: &[Complex<T>], weighting: &[T; ROWS]) -> Qr<T, PLANES> {
+        let mut qr = Qr::new();
+        for row in 0..self.rows() {
+            let (a, b) = self.row(row, vibration, weighting);
+            qr.absorb(&a, -b);
+        }
+        qr
+    }
+
+    /// A weighted row and its weighted vibration.
+    pub(crate) fn row(
+        &self,
+        row: usize,
+        vibration: &[Complex<T>],
+        weighting: &[T; ROWS],
+    ) -> ([Complex<T>; PLANES], Complex<T>) {
+        let mut a = [zero(); PLANES];
+        for (plane, value) in a.iter_mut().enumerate().take(self.planes()) {
+            *value = self.coefficients.at(row, plane).scale(pick(weighting, row, T::zero()));
+        }
+        (a, pick(vibration, row, zero()).scale(pick(weighting, row, T::zero())))
+    }
+
+    /// Sum of squares and largest amplitude of the weighted residual.
+    fn amplitude(
+        &self,
+        vibration: &[Complex<T>],
+        weights: &[Complex<T>; PLANES],
+        aim: &Aim<T, ROWS, PLANES>,
+    ) -> (T, T) {
+        let (mut squares, mut largest) = (T::zero(), T::zero());
+        for row in 0..self.rows() {
+            let (a, b) = self.row(row, vibration, &aim.weighting);
+            let value = a.iter().zip(weights).fold(b, |sum, (a, w)| sum + *a * *w);
+            squares += square(value);
+            largest = largest.max(size(value));
+        }
+        (squares, largest)
+    }
+}

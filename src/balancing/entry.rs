@@ -1,0 +1,51 @@
+//! Readings as people write them: amplitude and phase in degrees.
+
+use super::error::Error;
+use super::scalar::{Complex, Scalar, real};
+
+/// Turns amplitudes and phases into complex numbers, and watches whether the phases are in degrees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Entry {
+    phases: u32,
+    beyond: bool,
+    fractions: u32,
+}
+
+impl Entry {
+    /// Fewest phases that can be judged.
+    const ENOUGH: u32 = 3;
+
+    /// Nothing entered yet.
+    pub const fn new() -> Self {
+        Entry { phases: 0, beyond: false, fractions: 0 }
+    }
+
+    /// An amplitude at a phase in degrees.
+    pub fn polar<T: Scalar>(&mut self, amplitude: T, degrees: T) -> Complex<T> {
+        self.phases = self.phases.saturating_add(1);
+        self.beyond |= degrees.abs() > T::two_pi();
+        if degrees != degrees.round() {
+            self.fractions = self.fractions.saturating_add(1);
+        }
+        let (sine, cosine) = (degrees * (T::pi() / real(180.0))).sin_cos();
+        Complex { re: amplitude * cosine, im: amplitude * sine }
+    }
+
+    /// Whether the phases can be in degrees.
+    ///
+    /// # Errors
+    /// [`Error::PhasesInRadians`] where there are three or more, none is beyond 2 pi, and most have fractions.
+    pub const fn check(&self) -> Result<(), Error> {
+        if self.phases >= Entry::ENOUGH && !self.beyond && 2 * self.fractions > self.phases {
+            return Err(Error::PhasesInRadians);
+        }
+        Ok(())
+    }
+}
+
+/// Amplitude and phase in degrees, 0 to 360.
+pub fn degrees<T: Scalar>(z: Complex<T>) -> (T, T) {
+    let phase = z.im.atan2(z.re) * (real::<T>(180.0) / T::pi());
+    (super::scalar::size(z), if phase < T::zero() { phase + real(360.0) } else { phase })
+}

@@ -1,0 +1,139 @@
+//! Why something cannot be calculated. What was entered before stays as it is.
+
+use core::fmt;
+
+/// Why something entered cannot be used; planes, rows and runs are counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Error {
+    /// More planes, readings or runs than the type has room for, or none.
+    Size,
+    /// A plane that does not exist.
+    NoPlane {
+        /// The plane asked for.
+        plane: usize,
+    },
+    /// A trial weight of zero.
+    TrialWeightZero {
+        /// Its plane.
+        plane: usize,
+    },
+    /// A weight that is not a number.
+    Weight {
+        /// Its plane.
+        plane: usize,
+    },
+    /// A reading is missing: fewer readings than rows.
+    ReadingMissing {
+        /// The first row without one.
+        row: usize,
+    },
+    /// A reading that is not a number.
+    Reading {
+        /// Its row.
+        row: usize,
+    },
+    /// The trial weight changed nothing.
+    NoEffect {
+        /// Its plane.
+        plane: usize,
+    },
+    /// The trial run of a plane is there already, and cannot be replaced.
+    TrialRepeated {
+        /// The plane.
+        plane: usize,
+    },
+    /// The influence of a plane is not known yet.
+    PlaneUnknown {
+        /// The plane.
+        plane: usize,
+    },
+    /// More planes than readings.
+    MorePlanesThanReadings {
+        /// Planes.
+        planes: usize,
+        /// Readings.
+        readings: usize,
+    },
+    /// A weighting of a reading, or a limit of a weight, that is not positive.
+    Setting {
+        /// The row or the plane.
+        index: usize,
+    },
+    /// The search for the optimum did not end close enough.
+    NotFound,
+    /// Runs at different speeds.
+    SpeedDiffers {
+        /// The row whose speed is not that of its baseline.
+        row: usize,
+    },
+    /// All phases are so small that they must be in radians.
+    PhasesInRadians,
+    /// This step has nothing before it to build on.
+    TooEarly,
+    /// A record that was not written by this procedure, or is damaged.
+    Record {
+        /// The word at which that shows.
+        word: usize,
+    },
+    /// There are no holes, or no weights, to choose from.
+    NothingToFit,
+    /// The weight is more than all holes can take.
+    TooHeavy {
+        /// The plane.
+        plane: usize,
+    },
+}
+
+impl Error {
+    /// What the compiler says of a type with room for more planes than readings.
+    pub const MORE_PLANES_THAN_READINGS: &str =
+        "more planes than readings cannot be told apart: measure at another place or speed, or take fewer planes";
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Size => f.write_str("there must be at least one, and no more than there is room for"),
+            Error::NoPlane { plane } => write!(f, "there is no plane {}", plane + 1),
+            Error::TrialWeightZero { plane } => {
+                write!(f, "the trial weight in plane {} is zero: put a weight there and run again", plane + 1)
+            }
+            Error::Weight { plane } => write!(f, "the weight in plane {} is not a number", plane + 1),
+            Error::ReadingMissing { row } => write!(f, "reading {} is missing", row + 1),
+            Error::Reading { row } => write!(f, "reading {} is not a number", row + 1),
+            Error::NoEffect { plane } => {
+                write!(f, "the trial weight in plane {} changed nothing: take a heavier one", plane + 1)
+            }
+            Error::TrialRepeated { plane } => {
+                write!(f, "plane {} has its trial run already: take that back, or give a further one", plane + 1)
+            }
+            Error::PlaneUnknown { plane } => {
+                write!(f, "the influence of plane {} is not known: make its trial run", plane + 1)
+            }
+            Error::MorePlanesThanReadings { planes, readings } => {
+                write!(
+                    f,
+                    "{planes} planes cannot be told apart by {readings} readings: measure at another place or speed"
+                )
+            }
+            Error::Setting { index } => write!(f, "setting {} is not a positive number", index + 1),
+            Error::NotFound => f.write_str("the search ended too far from the optimum"),
+            Error::SpeedDiffers { row } => {
+                write!(f, "reading {} was taken at another speed than its baseline: run at the same speed", row + 1)
+            }
+            Error::PhasesInRadians => {
+                f.write_str("all phases are below 2 pi: they seem to be in radians, and degrees are expected")
+            }
+            Error::TooEarly => f.write_str("a step before this one is still missing"),
+            Error::Record { word } => write!(f, "the record is damaged, or of another plan, at word {word}"),
+            Error::NothingToFit => f.write_str("there are no holes or no weights to choose from"),
+            Error::TooHeavy { plane } => {
+                write!(f, "the weight in plane {} is more than its holes can take", plane + 1)
+            }
+        }
+    }
+}
+
+impl core::error::Error for Error {}

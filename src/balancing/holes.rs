@@ -1,0 +1,127 @@
+//! Weights for real holes: what is at hand, where there is room for it, and what that leaves.
+
+use super::error::Error;
+use super::matrix::pick;
+use super::scalar::{Complex, Scalar, real, size, zero};
+
+/// Whether weight is screwed on or drilled out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum CorrectionMethod {
+    /// Weight is put where it is wanted.
+    #[default]
+    Adding,
+    /// Weight is taken off on the other side.
+    Removing,
+}
+
+/// The holes of a plane and the weights for them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Holes<'a, T> {
+    /// Angles of the holes \[rad\].
+    pub angles: &'a [T],
+    /// Weights that a hole can take, any of them as often as wanted, in the unit of the weights; none is always there.
+    pub weights: &'a [T],
+    /// Whether weight is added or removed.
+    pub method: CorrectionMethod,
+}
+
+/// What goes where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fitted<T: Scalar> {
+    /// Two holes, by their places in [`Holes::angles`], and the weight in each; a weight of zero is none.
+    pub holes: [(usize, T); 2],
+    /// The weight that they make together, as if it were added.
+    pub sum: Complex<T>,
+}
+
+impl<T: Scalar> Holes<'_, T> {
+    /// The hole or two holes and their weights that come nearest to a weight; of those that come equally near, the lightest.
+    ///
+    /// Every pair of holes is tried with every weight in one of them and the best for the other: nothing of one or two weights comes nearer,
+    /// and a further hole or weight never makes the result worse. Takes holes squared times weights squared steps.
+    ///
+    /// # Errors
+    /// [`Error::NothingToFit`]; [`Error::Setting`] with the place of a weight that is not positive or an angle that is no number;
+    /// [`Error::TooHeavy`] (of plane 0) where even the heaviest weights in the best holes leave more than half.
+    pub fn fit(&self, wanted: Complex<T>) -> Result<Fitted<T>, Error> {
+        if self.angles.is_empty() || self.weights.is_empty() {
+            return Err(Error::NothingToFit);
+        }
+        if let Some(index) = self.weights.iter().position(|weight| !(*weight > T::zero() && weight.is_finite())) {
+            return Err(Error::Setting { index });
+        }
+        if let Some(index) = self.angles.iter().position(|angle| !angle.is_finite()) {
+            return Err(Error::Setting { index });
+        }
+        let target = match self.method {
+            CorrectionMethod::Adding => wanted,
+            CorrectionMethod::Removing => -wanted,
+        };
+        let mut least = size(target);
+        self.each(target, |_, _, left| least = least.min(left));
+        // what rounding makes of weights that do the same
+        let near = least + (size(target) + self.heaviest()) * T::default_epsilon() * real(8.0);
+        let mut best = Fitted { holes: [(0, T::zero()); 2], sum: zero() };
+        let mut lightest = if size(target) <= near { Some(T::zero()) } else { None };
+        self.each(target, |holes, sum, left| {
+            let weight = holes.iter().fold(T::zero(), |all, (_, weight)| all + *weight);
+            if left <= near && lightest.is_none_or(|lightest| weight < lightest) {
+                (lightest, best) = (Some(weight), Fitted { holes, sum });
+            }
+        });
+        if least > size(target) * real(0.5) && size(target) > self.heaviest() {
+            return Err(Error::TooHeavy { plane: 0 });
+        }
+        if self.method == CorrectionMethod::Removing {
+            best.sum = -best.sum;
+        }
+        Ok(best)
+    }
+
+    /// Gives what can be the best: holes and weights, their sum, and what it leaves of the target.
+    fn each(&self, target: Complex<T>, mut with: impl FnMut([(usize, T); 2], Complex<T>, T)) {
+        for (first, _) in self.angles.iter().enumerate() {
+            let along = self.way(first);
+            for weight in self.near((target * along.conj()).re) {
+                let sum = along.scale(weight);
+                with([(first, weight), (first, T::zero())], sum, size(target - sum));
+            }
+            for second in first + 1..self.angles.len() {
+                let other = self.way(second);
+                // the same hole, which takes one weight
+                if size(along - other) < real(1e-6) {
+                    continue;
+                }
+                for &weight in self.weights {
+                    let alone = along.scale(weight);
+                    // of the second hole's weights one next to the projection of what the first leaves is the best
+                    for more in self.near(((target - alone) * other.conj()).re) {
+                        let sum = alone + other.scale(more);
+                        with([(first, weight), (second, more)], sum, size(target - sum));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Cosine and sine of a hole's angle.
+    fn way(&self, hole: usize) -> Complex<T> {
+        let (sine, cosine) = pick(self.angles, hole, T::zero()).sin_cos();
+        Complex { re: cosine, im: sine }
+    }
+
+    fn heaviest(&self) -> T {
+        self.weights.iter().fold(T::zero(), |most, weight| most.max(*weight))
+    }
+
+    /// No weight, the next below and the next above.
+    fn near(&self, wanted: T) -> [T; 3] {
+        let below =
+            self.weights.iter().filter(|weight| **weight <= wanted).fold(T::zero(), |most, weight| most.max(*weight));
+        let heaviest = self.heaviest();
+        let above =
+            self.weights.iter().filter(|weight| **weight >= wanted).fold(heaviest, |least, weight| least.min(*weight));
+        [T::zero(), below, above]
+    }
+}

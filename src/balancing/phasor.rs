@@ -1,0 +1,208 @@
+//! The phasor of each vibration channel, by integration over the rotor's angle.
+//!
+//! The integral of `v e^{-i theta}` over the angle is the sum of `v` times the change of `e^{-i theta}` over each tick: no
+//! multiplication by the step, and no time in it, so a swing of the speed changes nothing, and a constant vanishes exactly over a turn.
+//! Where a block of turns ends the tick is cut at the rotor's zero: `e^{-i theta}` is one there, so the fraction of the tick at either end
+//! costs no division. That a sample stands for the whole tick before it is put right when the reading is taken, since the mean step is known then.
+//!
+//! The sums run on; at the end of each block of turns they are noted down. What needs a division waits for [`Phasors::reading`].
+
+use super::reading::{Edge, Reading, Steadiness};
+use super::{Balancer, ReadingFault};
+use crate::angle::Passed;
+use crate::angle::{RotorAngle, RotorAngleConfig, Synchronous};
+use crate::fault::Faults;
+use crate::number::Number;
+
+/// The constants of a measurement of `CHANNELS` channels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PhasorsConfig<N: Number, const CHANNELS: usize> {
+    /// From the motor to the rotor, times the order.
+    pub(crate) turning: RotorAngleConfig,
+    /// Whole turns, times the order, of a block.
+    pub(crate) block: u32,
+    /// The largest sample of each channel that is not clipped.
+    pub(crate) limits: [N; CHANNELS],
+    /// What a reading may waver by.
+    pub(crate) steadiness: Steadiness,
+}
+
+/// A measurement of `CHANNELS` channels that ends after `EDGES - 1` blocks, and the reading until the next one is begun.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Phasors<N: Synchronous, const CHANNELS: usize, const EDGES: usize> {
+    turning: RotorAngle,
+    /// Cosine and sine of the rotor's angle at the last tick.
+    direction: [N::Part; 2],
+    sums: [[N::Sum; 2]; CHANNELS],
+    ticks: u32,
+    /// Zeros to pass until the next edge; runs on where the reading is complete.
+    left: u32,
+    /// Edges noted down.
+    noted: u32,
+    /// Tick of the last sample of each channel that was clipped or no number; zero for none.
+    clipped: [u32; CHANNELS],
+    /// Ticks without a sound sample.
+    missing: u32,
+    /// Times that the rotor passed its zero backwards.
+    back: u32,
+    edges: [Edge<N, CHANNELS>; EDGES],
+}
+
+impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Default for Phasors<N, CHANNELS, EDGES> {
+    fn default() -> Self {
+        Phasors {
+            turning: RotorAngle::default(),
+            direction: N::AHEAD,
+            sums: [[N::Sum::default(); 2]; CHANNELS],
+            ticks: 0,
+            left: 1,
+            noted: 0,
+            clipped: [0; CHANNELS],
+            missing: 0,
+            back: 0,
+            edges: [Edge::default(); EDGES],
+        }
+    }
+}
+
+impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for Phasors<N, CHANNELS, EDGES> {
+    type Config = PhasorsConfig<N, CHANNELS>;
+    type Vibration = [N; CHANNELS];
+
+    #[inline(always)]
+    fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &[N; CHANNELS]) {
+        self.ticks = self.ticks.wrapping_add(1);
+        for ((sample, limit), clipped) in vibration.iter().zip(&config.limits).zip(&mut self.clipped) {
+            if sample.exceeds(*limit) {
+                *clipped = self.ticks;
+            }
+        }
+        let passed = self.turning.advance(&config.turning, angle);
+        if passed != Passed::Not {
+            if passed == Passed::Astray {
+                return self.restart();
+            }
+            self.left = self.left.wrapping_sub(1);
+            if self.left == 0 {
+                let noted = self.noted;
+                // complete: what comes now is in no block
+                let Some(edge) = self.edges.get_mut(noted as usize) else { return };
+                // The tick ends at the zero, and the next one takes over what is left of it: so no tick does the work of two.
+                (self.left, self.noted) = (config.block, noted + 1);
+                let sums = added(&self.sums, vibration, N::AHEAD, self.direction);
+                self.sums = sums;
+                *edge = Edge { sums, ticks: self.ticks, past: self.turning.units() };
+                self.direction = N::AHEAD;
+                return;
+            }
+        }
+        let direction = N::direction(self.turning.direction(&config.turning));
+        self.sums = added(&self.sums, vibration, direction, self.direction);
+        self.direction = direction;
+    }
+
+    /// The next sample stands for the gap; a reading with one in it is doubted. One that is complete already is left as it is.
+    fn missed(&mut self, faults: Faults) {
+        if self.is_complete() {
+            return;
+        }
+        if faults.contains(Faults::VIBRATION_CLIPPED) {
+            self.clipped = [self.ticks.max(1); CHANNELS];
+        } else {
+            self.missing = self.missing.saturating_add(1);
+        }
+    }
+}
+
+/// The sums and each sample times the change of direction.
+#[inline(always)]
+fn added<N: Synchronous, const CHANNELS: usize>(
+    sums: &[[N::Sum; 2]; CHANNELS],
+    samples: &[N; CHANNELS],
+    to: [N::Part; 2],
+    from: [N::Part; 2],
+) -> [[N::Sum; 2]; CHANNELS] {
+    let change = [N::change(to[0], from[0]), N::change(to[1], from[1])];
+    let mut after = *sums;
+    for (sum, sample) in after.iter_mut().zip(samples) {
+        *sum = [sample.added(sum[0], change[0]), sample.added(sum[1], change[1])];
+    }
+    after
+}
+
+impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANNELS, EDGES> {
+    /// Begins a new reading at the rotor's next zero; what was measured is forgotten.
+    pub fn begin(&mut self) {
+        self.sums = [[N::Sum::default(); 2]; CHANNELS];
+        self.ticks = 0;
+        self.clipped = [0; CHANNELS];
+        self.missing = 0;
+        self.back = 0;
+        (self.noted, self.left) = (0, 1);
+    }
+
+    /// Tells the rotor's angle [2^-32 turn] of now, as an index on the rotor shows it, and begins a new reading.
+    ///
+    /// An incremental encoder has its zero where it was switched on; without this, so has the phase.
+    pub fn align(&mut self, config: &PhasorsConfig<N, CHANNELS>, angle: u32) {
+        self.turning.set(&config.turning, angle);
+        self.direction = N::direction(self.turning.direction(&config.turning));
+        self.begin();
+    }
+
+    /// The rotor's angle, times the order [2^-32 turn].
+    pub fn angle(&self, config: &PhasorsConfig<N, CHANNELS>) -> u32 {
+        self.turning.angle(&config.turning)
+    }
+
+    /// Blocks measured so far, `EDGES - 1` of them when the reading is complete.
+    pub fn blocks(&self) -> u32 {
+        self.noted.saturating_sub(1)
+    }
+
+    /// Whether the reading is complete. It may still be one that [`Phasors::reading`] refuses.
+    pub fn is_complete(&self) -> bool {
+        self.noted as usize == EDGES
+    }
+
+    /// The phasor of a channel and how far it is to be trusted.
+    ///
+    /// # Errors
+    /// [`ReadingFault`]: why this is no reading. The measurement goes on, or stands as it is; [`Phasors::begin`] begins another.
+    pub fn reading(&self, config: &PhasorsConfig<N, CHANNELS>, channel: usize) -> Result<Reading, ReadingFault> {
+        if self.back > 0 && !self.is_complete() {
+            return Err(ReadingFault::Backwards { times: self.back });
+        }
+        if !self.is_complete() || EDGES < 2 {
+            let turns = self.blocks() * config.block;
+            return Err(ReadingFault::Incomplete { turns, of: (EDGES as u32).saturating_sub(1) * config.block });
+        }
+        let clipped = *self.clipped.get(channel).ok_or(ReadingFault::NoChannel)?;
+        let reading = Reading::between(&self.edges, channel, config)?;
+        if self.missing > 0 && clipped == 0 {
+            return Err(ReadingFault::Missing { samples: self.missing });
+        }
+        reading.accept(clipped != 0, &config.steadiness)
+    }
+
+    /// The same, whatever its quality: for a display, or to judge otherwise.
+    ///
+    /// # Errors
+    /// [`ReadingFault::Incomplete`], [`ReadingFault::NoChannel`], [`ReadingFault::TooFast`].
+    pub fn unjudged(&self, config: &PhasorsConfig<N, CHANNELS>, channel: usize) -> Result<Reading, ReadingFault> {
+        if !self.is_complete() {
+            return self.reading(config, channel);
+        }
+        Reading::between(&self.edges, channel, config)
+    }
+
+    #[inline(always)]
+    fn restart(&mut self) {
+        if (self.noted as usize) < EDGES {
+            (self.noted, self.left) = (0, 1);
+            self.back = self.back.wrapping_add(1);
+        }
+    }
+}

@@ -1,0 +1,560 @@
+//! The procedure of balancing in the field, step by step: baseline, a trial run for each plane, correction, verification, trim.
+//!
+//! What is known decides what comes next; any step can be given again, and the last one taken back. Everything entered goes into a record of
+//! words that a firmware can store, and from which the procedure goes on after a power cut.
+
+use heapless::Vec;
+
+use super::aim::Aim;
+use super::correction::Correction;
+use super::error::Error;
+use super::influence::Influence;
+use super::matrix::pick;
+use super::scalar::{Complex, Scalar, real, size, zero};
+
+/// Corrections and trims that are kept.
+pub const CORRECTIONS: usize = 6;
+
+/// A run: a reading for each row, and the speed it was taken at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run<T: Scalar, const ROWS: usize> {
+    /// The readings.
+    pub(crate) readings: [Complex<T>; ROWS],
+    /// Speed of each \[rad/s\].
+    pub(crate) speeds: [T; ROWS],
+}
+
+impl<T: Scalar, const ROWS: usize> Run<T, ROWS> {
+    /// A run of readings, each with its speed \[rad/s\].
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::ReadingMissing`] where there are fewer readings than speeds or the other way round,
+    /// [`Error::Reading`] for what is not a number.
+    pub fn new(readings: &[Complex<T>], speeds: &[T]) -> Result<Self, Error> {
+        if readings.len() != speeds.len() {
+            return Err(Error::ReadingMissing { row: readings.len().min(speeds.len()) });
+        }
+        if readings.is_empty() || readings.len() > ROWS {
+            return Err(Error::Size);
+        }
+        let mut run = Run { readings: [zero(); ROWS], speeds: [T::zero(); ROWS] };
+        let places = run.readings.iter_mut().zip(&mut run.speeds);
+        for (row, ((to, at), (reading, speed))) in places.zip(readings.iter().zip(speeds)).enumerate() {
+            if !(super::scalar::given(*reading) && *speed > T::zero() && speed.is_finite()) {
+                return Err(Error::Reading { row });
+            }
+            (*to, *at) = (*reading, *speed);
+        }
+        Ok(run)
+    }
+
+    /// The readings, zeros behind the last.
+    pub fn readings(&self) -> &[Complex<T>; ROWS] {
+        &self.readings
+    }
+}
+
+/// How a procedure goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan<T: Scalar, const ROWS: usize, const PLANES: usize> {
+    /// Readings of a run.
+    pub rows: usize,
+    /// Correction planes.
+    pub planes: usize,
+    /// Whether trial weights stay on when the next one comes.
+    pub leave_trials: bool,
+    /// How far a speed may be from the baseline's, relative.
+    pub speed: T,
+    /// The largest residual that is good enough, in the unit of the readings; one that is weighted with zero does not count.
+    pub tolerance: T,
+    /// How weights are chosen.
+    pub aim: Aim<T, ROWS, PLANES>,
+}
+
+impl<T: Scalar, const ROWS: usize, const PLANES: usize> Plan<T, ROWS, PLANES> {
+    /// Trial weights taken off again, speeds within a hundredth, least squares, and `tolerance` as the largest residual that is good enough.
+    ///
+    /// A hundredth is as near as a drive holds its speed; away from a resonance the influence stays the same over it.
+    pub fn usual(rows: usize, planes: usize, tolerance: T) -> Self {
+        Plan { rows, planes, leave_trials: false, speed: real(0.01), tolerance, aim: Aim::default() }
+    }
+}
+
+/// What is to be done next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum ProcedureStep {
+    /// Run as the rotor is, and give [`Procedure::baseline`].
+    Baseline,
+    /// Put a trial weight in this plane, run, and give [`Procedure::trial`].
+    Trial {
+        /// The plane.
+        plane: usize,
+    },
+    /// Ask for [`Procedure::correction`], put the weights on, and say with [`Procedure::installed`] what was put on.
+    Correction,
+    /// Run with them, and give [`Procedure::verified`].
+    Verify,
+    /// As the correction, with the coefficients that are known.
+    Trim,
+    /// Good enough.
+    Done,
+}
+
+/// Weights that were put on, and the run with them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Installed<T: Scalar, const ROWS: usize, const PLANES: usize> {
+    weights: [Complex<T>; PLANES],
+    run: Option<Run<T, ROWS>>,
+}
+
+/// A trial run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Trial<T: Scalar, const ROWS: usize> {
+    plane: usize,
+    weight: Complex<T>,
+    run: Run<T, ROWS>,
+}
+
+/// A procedure under way. `TRIALS` trial runs are kept: one for each plane, where not more is said.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Procedure<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize = PLANES> {
+    plan: Plan<T, ROWS, PLANES>,
+    /// Coefficients that were known before.
+    before: Option<Influence<T, ROWS, PLANES>>,
+    baseline: Option<Run<T, ROWS>>,
+    trials: Vec<Trial<T, ROWS>, TRIALS>,
+    installed: Vec<Installed<T, ROWS, PLANES>, CORRECTIONS>,
+}
+
+impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Procedure<T, ROWS, PLANES, TRIALS> {
+    /// A procedure at its beginning.
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::MorePlanesThanReadings`], [`Error::Setting`] for the tolerance of the speed (0) or what is good (1).
+    pub fn new(plan: Plan<T, ROWS, PLANES>) -> Result<Self, Error> {
+        Influence::<T, ROWS, PLANES>::new(plan.rows, plan.planes)?;
+        for (index, value) in [plan.speed, plan.tolerance].into_iter().enumerate() {
+            if !(value > T::zero() && value.is_finite()) {
+                return Err(Error::Setting { index });
+            }
+        }
+        Ok(Procedure { plan, before: None, baseline: None, trials: Vec::new(), installed: Vec::new() })
+    }
+
+    /// With coefficients that are known already: no trial runs.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where they are of other planes or rows, [`Error::PlaneUnknown`].
+    pub fn with_coefficients(mut self, known: Influence<T, ROWS, PLANES>) -> Result<Self, Error> {
+        if known.rows() != self.plan.rows || known.planes() != self.plan.planes {
+            return Err(Error::Size);
+        }
+        if let Some(plane) = known.unknown() {
+            return Err(Error::PlaneUnknown { plane });
+        }
+        self.before = Some(known);
+        Ok(self)
+    }
+
+    /// How it goes.
+    pub fn plan(&self) -> &Plan<T, ROWS, PLANES> {
+        &self.plan
+    }
+
+    /// What is to be done next.
+    pub fn next(&self) -> ProcedureStep {
+        if self.baseline.is_none() {
+            return ProcedureStep::Baseline;
+        }
+        if let Some(plane) = self.influence().ok().and_then(|influence| influence.unknown()) {
+            return ProcedureStep::Trial { plane };
+        }
+        match self.installed.last() {
+            None => ProcedureStep::Correction,
+            Some(Installed { run: None, .. }) => ProcedureStep::Verify,
+            Some(Installed { run: Some(run), .. }) => {
+                let counted = self.plan.aim.counted(&run.readings, self.plan.rows);
+                let largest = counted.fold(T::zero(), |most, reading| most.max(size(reading)));
+                if largest <= self.plan.tolerance { ProcedureStep::Done } else { ProcedureStep::Trim }
+            }
+        }
+    }
+
+    /// Gives the baseline, or gives it again.
+    ///
+    /// # Errors
+    /// A run that is not complete; [`Error::SpeedDiffers`] where trial runs at other speeds exist.
+    pub fn baseline(&mut self, run: &Run<T, ROWS>) -> Result<(), Error> {
+        self.complete(run)?;
+        for other in self
+            .trials
+            .iter()
+            .map(|trial| &trial.run)
+            .chain(self.installed.iter().filter_map(|placed| placed.run.as_ref()))
+        {
+            self.same_speed(run, other)?;
+        }
+        let old = self.baseline.replace(*run);
+        let learnt = self.influence();
+        if let Err(refusal) = learnt {
+            self.baseline = old;
+            return Err(refusal);
+        }
+        Ok(())
+    }
+
+    /// Gives the trial run of a plane, or gives it again: one that was entered before is replaced.
+    ///
+    /// # Errors
+    /// [`Error::TooEarly`] without a baseline; what is wrong with the plane, the weight or the run; [`Error::TrialRepeated`] where the plane has
+    /// several trial runs, or its weight has stayed on below a later one: take back what is wrong ([`Procedure::undo`]), or
+    /// give a [`Procedure::extra_trial`]. What was entered before stays.
+    pub fn trial(&mut self, plane: usize, weight: Complex<T>, run: &Run<T, ROWS>) -> Result<(), Error> {
+        self.at_baseline_speed(run)?;
+        let trial = Trial { plane, weight, run: *run };
+        let last = self.trials.len().saturating_sub(1);
+        let mut known = self.trials.iter().enumerate().filter(|(_, trial)| trial.plane == plane).map(|(at, _)| at);
+        match (known.next(), known.next()) {
+            (None, _) => self.add(trial),
+            (Some(at), None) if at == last || !self.plan.leave_trials => {
+                let Some(place) = self.trials.get_mut(at) else { return Err(Error::NoPlane { plane }) };
+                let old = core::mem::replace(place, trial);
+                let learnt = self.influence().map(|_| ());
+                if let (Err(_), Some(place)) = (learnt, self.trials.get_mut(at)) {
+                    *place = old;
+                }
+                learnt
+            }
+            _ => Err(Error::TrialRepeated { plane }),
+        }
+    }
+
+    /// Gives a further trial run of a plane that has one: all of them count, by least squares.
+    ///
+    /// Where trial weights stay the weight is what this run has more than the one before it.
+    ///
+    /// # Errors
+    /// As [`Procedure::trial`], and [`Error::Size`] where `TRIALS` runs are there already.
+    pub fn extra_trial(&mut self, plane: usize, weight: Complex<T>, run: &Run<T, ROWS>) -> Result<(), Error> {
+        self.at_baseline_speed(run)?;
+        self.add(Trial { plane, weight, run: *run })
+    }
+
+    fn add(&mut self, trial: Trial<T, ROWS>) -> Result<(), Error> {
+        if trial.plane >= self.plan.planes {
+            return Err(Error::NoPlane { plane: trial.plane });
+        }
+        self.trials.push(trial).map_err(|_| Error::Size)?;
+        let learnt = self.influence().map(|_| ());
+        if learnt.is_err() {
+            self.trials.pop();
+        }
+        learnt
+    }
+
+    /// Trial runs of a plane that were entered.
+    pub fn trials_of(&self, plane: usize) -> usize {
+        self.trials.iter().filter(|trial| trial.plane == plane).count()
+    }
+
+    /// The coefficients, as far as they are known.
+    ///
+    /// # Errors
+    /// [`Error::TooEarly`] without a baseline; what is wrong with a trial run.
+    pub fn influence(&self) -> Result<Influence<T, ROWS, PLANES>, Error> {
+        let mut influence = match self.before {
+            Some(known) => known,
+            None => Influence::new(self.plan.rows, self.plan.planes)?,
+        };
+        let Some(baseline) = &self.baseline else {
+            return if self.before.is_some() { Ok(influence) } else { Err(Error::TooEarly) };
+        };
+        let (mut before, mut known) = (baseline, [T::zero(); PLANES]);
+        for trial in &self.trials {
+            let so_far = pick(&known, trial.plane, T::zero());
+            let (from, to) = (&before.readings, &trial.run.readings);
+            let all = influence.learn_further(trial.plane, from, to, trial.weight, so_far)?;
+            super::matrix::put(&mut known, trial.plane, all);
+            if self.plan.leave_trials {
+                before = &trial.run;
+            }
+        }
+        Ok(influence)
+    }
+
+    /// The vibration as it is now: the last verification, or the last trial run where the trial weights stay, or the baseline.
+    fn now(&self) -> Option<&Run<T, ROWS>> {
+        let verified = self.installed.iter().rev().find_map(|placed| placed.run.as_ref());
+        let trial = self.trials.last().filter(|_| self.plan.leave_trials).map(|trial| &trial.run);
+        verified.or(trial).or(self.baseline.as_ref())
+    }
+
+    /// The weights to add to what is on the rotor now, for the correction and for each trim.
+    ///
+    /// # Errors
+    /// [`Error::TooEarly`] before the baseline or while a correction is not verified; [`Error::PlaneUnknown`]; see [`Influence::correct`].
+    pub fn correction(&self) -> Result<Correction<T, ROWS, PLANES>, Error> {
+        if self.installed.last().is_some_and(|placed| placed.run.is_none()) {
+            return Err(Error::TooEarly);
+        }
+        let now = self.now().ok_or(Error::TooEarly)?;
+        self.influence()?.correct(&now.readings, &self.plan.aim)
+    }
+
+    /// Says what weights were put on, which may not be quite those that were asked for. Given again before the run, it replaces what was said.
+    ///
+    /// # Errors
+    /// [`Error::TooEarly`], [`Error::Weight`], [`Error::Size`] after the last correction there is room for.
+    pub fn installed(&mut self, weights: &[Complex<T>; PLANES]) -> Result<(), Error> {
+        if let Some(plane) = weights.iter().position(|weight| !super::scalar::given(*weight)) {
+            return Err(Error::Weight { plane });
+        }
+        if let Some(plane) = self.influence()?.unknown() {
+            return Err(Error::PlaneUnknown { plane });
+        }
+        if self.baseline.is_none() {
+            return Err(Error::TooEarly);
+        }
+        if let Some(last) = self.installed.last_mut().filter(|last| last.run.is_none()) {
+            last.weights = *weights;
+            return Ok(());
+        }
+        self.installed.push(Installed { weights: *weights, run: None }).map_err(|_| Error::Size)
+    }
+
+    /// Gives the run with the weights that were put on last, or gives it again.
+    ///
+    /// # Errors
+    /// [`Error::TooEarly`] where none were; what is wrong with the run.
+    pub fn verified(&mut self, run: &Run<T, ROWS>) -> Result<(), Error> {
+        self.at_baseline_speed(run)?;
+        let last = self.installed.last_mut().ok_or(Error::TooEarly)?;
+        last.run = Some(*run);
+        Ok(())
+    }
+
+    /// Takes the last entry back, and says which step it was; none where nothing was entered.
+    pub fn undo(&mut self) -> Option<ProcedureStep> {
+        if let Some(last) = self.installed.last_mut() {
+            if last.run.take().is_some() {
+                return Some(ProcedureStep::Verify);
+            }
+            self.installed.pop();
+            return Some(if self.installed.is_empty() { ProcedureStep::Correction } else { ProcedureStep::Trim });
+        }
+        if let Some(trial) = self.trials.pop() {
+            return Some(ProcedureStep::Trial { plane: trial.plane });
+        }
+        self.baseline.take().map(|_| ProcedureStep::Baseline)
+    }
+
+    /// The sum of the weights that corrections and trims have put on.
+    pub fn weights(&self) -> [Complex<T>; PLANES] {
+        let mut sum = [zero(); PLANES];
+        for placed in &self.installed {
+            for (sum, weight) in sum.iter_mut().zip(&placed.weights) {
+                *sum += *weight;
+            }
+        }
+        sum
+    }
+
+    fn complete(&self, run: &Run<T, ROWS>) -> Result<(), Error> {
+        let speeds = run.speeds.iter().take(self.plan.rows);
+        match speeds.enumerate().find(|(_, speed)| !(**speed > T::zero())) {
+            Some((row, _)) => Err(Error::ReadingMissing { row }),
+            None => Ok(()),
+        }
+    }
+
+    fn at_baseline_speed(&self, run: &Run<T, ROWS>) -> Result<(), Error> {
+        self.complete(run)?;
+        self.same_speed(self.baseline.as_ref().ok_or(Error::TooEarly)?, run)
+    }
+
+    fn same_speed(&self, one: &Run<T, ROWS>, other: &Run<T, ROWS>) -> Result<(), Error> {
+        for row in 0..self.plan.rows {
+            let (a, b) = (pick(&one.speeds, row, T::zero()), pick(&other.speeds, row, T::zero()));
+            if !((a - b).abs() <= a * self.plan.speed) {
+                return Err(Error::SpeedDiffers { row });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// First word of a record: "BAL" and its version.
+const MARK: u32 = 0x4241_4c01;
+
+impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Procedure<T, ROWS, PLANES, TRIALS> {
+    /// The most words that a record of this many readings and planes takes.
+    pub const fn words(rows: usize, planes: usize) -> usize {
+        let run = 3 * rows * T::WORDS;
+        // mark, sum, four numbers of the plan, three counts
+        9 + run + TRIALS * (1 + 2 * T::WORDS + run) + CORRECTIONS * (1 + 2 * planes * T::WORDS + run)
+    }
+
+    /// Writes everything that was entered as words, and says how many. The plan and coefficients that were known before are not in it.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where there are not enough words.
+    pub fn record(&self, words: &mut [u32]) -> Result<usize, Error> {
+        let mut to = Writer { words, at: 0 };
+        to.word(MARK)?;
+        to.word(0)?;
+        for number in [self.plan.rows, self.plan.planes, usize::from(self.plan.leave_trials), T::WORDS] {
+            to.word(number as u32)?;
+        }
+        to.word(u32::from(self.baseline.is_some()))?;
+        if let Some(run) = &self.baseline {
+            to.run(run, self.plan.rows)?;
+        }
+        to.word(self.trials.len() as u32)?;
+        for trial in &self.trials {
+            to.word(trial.plane as u32)?;
+            to.complex(trial.weight)?;
+            to.run(&trial.run, self.plan.rows)?;
+        }
+        to.word(self.installed.len() as u32)?;
+        for placed in &self.installed {
+            for weight in placed.weights.iter().take(self.plan.planes) {
+                to.complex(*weight)?;
+            }
+            to.word(u32::from(placed.run.is_some()))?;
+            if let Some(run) = &placed.run {
+                to.run(run, self.plan.rows)?;
+            }
+        }
+        let length = to.at;
+        let sum = sum_of(words.get(2..length).unwrap_or(&[]));
+        super::matrix::put(words, 1, sum);
+        Ok(length)
+    }
+
+    /// Goes on from a record: a procedure of the same plan with everything entered.
+    ///
+    /// # Errors
+    /// [`Error::Record`] with the word at which it is not one of this plan, or damaged.
+    pub fn resume(plan: Plan<T, ROWS, PLANES>, words: &[u32]) -> Result<Self, Error> {
+        let mut procedure = Procedure::new(plan)?;
+        let mut from = Reader { words, at: 0 };
+        from.require(MARK)?;
+        let sum = from.word()?;
+        for number in [plan.rows, plan.planes, usize::from(plan.leave_trials), T::WORDS] {
+            from.require(number as u32)?;
+        }
+        if from.flag()? {
+            procedure.baseline = Some(from.run(plan.rows)?);
+        }
+        for _ in 0..from.count(TRIALS)? {
+            let plane = from.count(PLANES)?;
+            let trial = Trial { plane, weight: from.complex()?, run: from.run(plan.rows)? };
+            procedure.trials.push(trial).map_err(|_| from.wrong())?;
+        }
+        for _ in 0..from.count(CORRECTIONS)? {
+            let mut weights = [zero(); PLANES];
+            for weight in weights.iter_mut().take(plan.planes) {
+                *weight = from.complex()?;
+            }
+            let run = if from.flag()? { Some(from.run(plan.rows)?) } else { None };
+            procedure.installed.push(Installed { weights, run }).map_err(|_| from.wrong())?;
+        }
+        if sum_of(words.get(2..from.at).unwrap_or(&[])) != sum {
+            return Err(Error::Record { word: 1 });
+        }
+        Ok(procedure)
+    }
+}
+
+/// FNV-1a over words.
+fn sum_of(words: &[u32]) -> u32 {
+    words.iter().fold(0x811c_9dc5, |sum, word| (sum ^ word).wrapping_mul(0x0100_0193).rotate_left(5))
+}
+
+struct Writer<'w> {
+    words: &'w mut [u32],
+    at: usize,
+}
+
+impl Writer<'_> {
+    fn word(&mut self, word: u32) -> Result<(), Error> {
+        *self.words.get_mut(self.at).ok_or(Error::Size)? = word;
+        self.at += 1;
+        Ok(())
+    }
+
+    fn number<T: Scalar>(&mut self, value: T) -> Result<(), Error> {
+        let words = value.to_words();
+        for word in words.into_iter().take(T::WORDS) {
+            self.word(word)?;
+        }
+        Ok(())
+    }
+
+    fn complex<T: Scalar>(&mut self, value: Complex<T>) -> Result<(), Error> {
+        self.number(value.re)?;
+        self.number(value.im)
+    }
+
+    fn run<T: Scalar, const ROWS: usize>(&mut self, run: &Run<T, ROWS>, rows: usize) -> Result<(), Error> {
+        for (reading, speed) in run.readings.iter().zip(&run.speeds).take(rows) {
+            self.complex(*reading)?;
+            self.number(*speed)?;
+        }
+        Ok(())
+    }
+}
+
+struct Reader<'w> {
+    words: &'w [u32],
+    at: usize,
+}
+
+impl Reader<'_> {
+    /// The word read last is wrong.
+    fn wrong(&self) -> Error {
+        Error::Record { word: self.at.saturating_sub(1) }
+    }
+
+    fn word(&mut self) -> Result<u32, Error> {
+        let word = self.words.get(self.at).copied();
+        self.at += 1;
+        word.ok_or(self.wrong())
+    }
+
+    fn require(&mut self, expected: u32) -> Result<(), Error> {
+        if self.word()? == expected { Ok(()) } else { Err(self.wrong()) }
+    }
+
+    fn flag(&mut self) -> Result<bool, Error> {
+        Ok(self.count(1)? == 1)
+    }
+
+    fn count(&mut self, most: usize) -> Result<usize, Error> {
+        let count = self.word()? as usize;
+        if count <= most { Ok(count) } else { Err(self.wrong()) }
+    }
+
+    fn number<T: Scalar>(&mut self) -> Result<T, Error> {
+        let mut words = [0; 2];
+        for word in words.iter_mut().take(T::WORDS) {
+            *word = self.word()?;
+        }
+        let value = T::from_words(words);
+        if value.is_finite() { Ok(value) } else { Err(self.wrong()) }
+    }
+
+    fn complex<T: Scalar>(&mut self) -> Result<Complex<T>, Error> {
+        Ok(Complex { re: self.number()?, im: self.number()? })
+    }
+
+    fn run<T: Scalar, const ROWS: usize>(&mut self, rows: usize) -> Result<Run<T, ROWS>, Error> {
+        let mut run = Run { readings: [zero(); ROWS], speeds: [T::zero(); ROWS] };
+        for (reading, speed) in run.readings.iter_mut().zip(&mut run.speeds).take(rows) {
+            *reading = self.complex()?;
+            *speed = self.number()?;
+        }
+        Ok(run)
+    }
+}

@@ -1,0 +1,219 @@
+//! Least squares by orthogonal factorisation, a row at a time.
+//!
+//! Givens rotations take each row into a triangle of `PLANES` rows (Golub and Van Loan, *Matrix Computations*, 5.2.3 and 6.5); so any
+//! number of rows needs no more room, and `A^H A`, whose condition is the square, is never formed. Columns are then pivoted by
+//! Householder reflections (5.4.2), which shows what is dependent on what.
+
+use nalgebra::ComplexField;
+
+use super::matrix::{Matrix, pick, put, swap};
+use super::scalar::{Complex, Scalar, real, size, square, zero};
+
+/// The triangle of the rows so far and their right side: `R x = z` is the least-squares solution of `A x = b`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Qr<T: Scalar, const PLANES: usize> {
+    r: Matrix<T, PLANES, PLANES>,
+    z: [Complex<T>; PLANES],
+    /// Sum of the squares that no solution takes away.
+    pub(crate) rest: T,
+}
+
+/// A triangle whose columns are put in the order of what they add.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PivotedQr<T: Scalar, const PLANES: usize> {
+    qr: Qr<T, PLANES>,
+    /// The plane of each column.
+    pub(crate) order: [usize; PLANES],
+    /// Columns that are independent.
+    pub(crate) rank: usize,
+    /// Norms that the columns were divided by.
+    scale: [T; PLANES],
+}
+
+impl<T: Scalar, const PLANES: usize> Qr<T, PLANES> {
+    pub(crate) fn new() -> Self {
+        Qr { r: Matrix::new(), z: [zero(); PLANES], rest: T::zero() }
+    }
+
+    /// Takes in a row `a x = b`.
+    pub(crate) fn absorb(&mut self, a: &[Complex<T>; PLANES], b: Complex<T>) {
+        let (mut a, mut b) = (*a, b);
+        for k in 0..PLANES {
+            let (diagonal, out) = (self.r.at(k, k).re, pick(&a, k, zero()));
+            if out == zero() {
+                continue;
+            }
+            let radius = Complex { re: diagonal, im: size(out) }.modulus();
+            let (c, s) = (diagonal / radius, out.unscale(radius));
+            let turned =
+                |above: Complex<T>, below: Complex<T>| (above.scale(c) + s.conj() * below, below.scale(c) - s * above);
+            for (j, a) in a.iter_mut().enumerate().skip(k + 1) {
+                let (above, below) = turned(self.r.at(k, j), *a);
+                self.r.set(k, j, above);
+                *a = below;
+            }
+            self.r.set(k, k, Complex { re: radius, im: T::zero() });
+            let (above, below) = turned(pick(&self.z, k, zero()), b);
+            put(&mut self.z, k, above);
+            b = below;
+        }
+        self.rest += square(b);
+    }
+
+    /// Puts the columns, each divided by its norm, in order: first the one that has most beside those before it. A column with no more of its
+    /// own than the share `independence` counts as dependent.
+    pub(crate) fn pivoted(mut self, independence: T) -> PivotedQr<T, PLANES> {
+        let mut scale = [T::one(); PLANES];
+        for (j, scale) in scale.iter_mut().enumerate() {
+            let norm = self.r.norm_from(0, j);
+            if norm > T::zero() {
+                *scale = norm;
+                for k in 0..=j {
+                    self.r.set(k, j, self.r.at(k, j).unscale(norm));
+                }
+            }
+        }
+        let mut order = [0; PLANES];
+        for (j, plane) in order.iter_mut().enumerate() {
+            *plane = j;
+        }
+        let mut rank = 0;
+        // Rounding alone leaves as much as this of a dependent column.
+        let independence = independence.max(T::default_epsilon() * real(4.0 * PLANES as f64));
+        while rank < PLANES {
+            let mut best = rank;
+            for j in rank + 1..PLANES {
+                // a tie is decided by the order of the planes, whatever rounding makes of it
+                if self.r.norm_from(rank, j) > self.r.norm_from(rank, best) * real(1.001) {
+                    best = j;
+                }
+            }
+            if !(self.r.norm_from(rank, best) > independence) {
+                break;
+            }
+            self.r.swap_columns(rank, best);
+            swap(&mut order, rank, best);
+            swap(&mut scale, rank, best);
+            self.reflect(rank);
+            rank += 1;
+        }
+        PivotedQr { qr: self, order, rank, scale }
+    }
+
+    /// Reflects the rows from `k` on so that column `k` ends there.
+    fn reflect(&mut self, k: usize) {
+        let norm = self.r.norm_from(k, k);
+        let head = self.r.at(k, k);
+        let ahead = Complex { re: T::one(), im: T::zero() };
+        let away = if size(head) > T::zero() { head.unscale(size(head)) } else { ahead };
+        let mut v = [zero(); PLANES];
+        for (i, v) in v.iter_mut().enumerate().skip(k) {
+            *v = self.r.at(i, k);
+        }
+        put(&mut v, k, head + away.scale(norm));
+        let length = v.iter().fold(T::zero(), |sum, v| sum + square(*v));
+        if !(length > T::zero()) {
+            return;
+        }
+        let two = real::<T>(2.0) / length;
+        for j in k..PLANES {
+            let along = v.iter().enumerate().fold(zero(), |sum, (i, v)| sum + v.conj() * self.r.at(i, j)).scale(two);
+            for (i, v) in v.iter().enumerate() {
+                self.r.set(i, j, self.r.at(i, j) - *v * along);
+            }
+        }
+        let along = v.iter().zip(&self.z).fold(zero(), |sum, (v, z)| sum + v.conj() * *z).scale(two);
+        for (z, v) in self.z.iter_mut().zip(&v) {
+            *z -= *v * along;
+        }
+    }
+}
+
+impl<T: Scalar, const PLANES: usize> PivotedQr<T, PLANES> {
+    /// The solution with the dependent columns at zero.
+    pub(crate) fn solve(&self) -> [Complex<T>; PLANES] {
+        let y = self.back(|k| pick(&self.qr.z, k, zero()));
+        let mut x = [zero(); PLANES];
+        for (k, y) in y.iter().enumerate().take(self.rank) {
+            put(&mut x, pick(&self.order, k, PLANES), y.unscale(pick(&self.scale, k, T::one())));
+        }
+        x
+    }
+
+    /// Column `j` in the order of the pivots, behind the rank: how much of it is its own (as a share of it), and what combination of the
+    /// independent planes the rest is.
+    pub(crate) fn combination(&self, j: usize) -> (T, [Complex<T>; PLANES]) {
+        let y = self.back(|k| self.qr.r.at(k, j));
+        let mut x = [zero(); PLANES];
+        for (k, y) in y.iter().enumerate().take(self.rank) {
+            let scale = pick(&self.scale, j, T::one()) / pick(&self.scale, k, T::one());
+            put(&mut x, pick(&self.order, k, PLANES), y.scale(scale));
+        }
+        (self.qr.r.norm_from(self.rank, j), x)
+    }
+
+    /// Back substitution among the independent columns.
+    fn back(&self, right: impl Fn(usize) -> Complex<T>) -> [Complex<T>; PLANES] {
+        let mut y = [zero(); PLANES];
+        for k in (0..PLANES).rev() {
+            if k < self.rank {
+                let mut sum = right(k);
+                for (j, known) in y.iter().enumerate().skip(k + 1) {
+                    sum -= self.qr.r.at(k, j) * *known;
+                }
+                put(&mut y, k, sum / self.qr.r.at(k, k));
+            }
+        }
+        y
+    }
+
+    /// Greatest over least singular value of the independent columns as they were, by one-sided Jacobi rotations (Golub and Van Loan, 8.6.3).
+    pub(crate) fn condition(&self) -> T {
+        let mut a = Matrix::<T, PLANES, PLANES>::new();
+        for (j, scale) in self.scale.iter().enumerate().take(self.rank) {
+            for i in 0..=j {
+                a.set(i, j, self.qr.r.at(i, j).scale(*scale));
+            }
+        }
+        // Forty sweeps are far more than the five or six that are needed.
+        for _ in 0..40 {
+            let mut turned = false;
+            for p in 0..self.rank {
+                for q in p + 1..self.rank {
+                    turned |= orthogonalise(&mut a, p, q);
+                }
+            }
+            if !turned {
+                break;
+            }
+        }
+        let (mut least, mut most) = (T::max_value().unwrap_or(T::one()), T::zero());
+        for j in 0..self.rank {
+            let value = a.norm_from(0, j);
+            least = least.min(value);
+            most = most.max(value);
+        }
+        if self.rank == 0 { T::one() } else { most / least }
+    }
+}
+
+/// Turns two columns so that they are orthogonal; false where they are.
+fn orthogonalise<T: Scalar, const PLANES: usize>(a: &mut Matrix<T, PLANES, PLANES>, p: usize, q: usize) -> bool {
+    let (alpha, beta) = (a.norm_from(0, p), a.norm_from(0, q));
+    let gamma = (0..PLANES).fold(zero(), |sum, i| sum + a.at(i, p).conj() * a.at(i, q));
+    let across = size(gamma);
+    if !(across > T::default_epsilon() * real::<T>(8.0) * alpha * beta) {
+        return false;
+    }
+    let zeta = (beta - alpha) * (beta + alpha) / (across + across);
+    let sign = if zeta < T::zero() { -T::one() } else { T::one() };
+    let t = sign / (zeta.abs() + (T::one() + zeta * zeta).sqrt());
+    let c = T::one() / (T::one() + t * t).sqrt();
+    let (s, phase) = (c * t, gamma.unscale(across));
+    for i in 0..PLANES {
+        let (x, y) = (a.at(i, p), a.at(i, q) * phase.conj());
+        a.set(i, p, x.scale(c) - y.scale(s));
+        a.set(i, q, x.scale(s) + y.scale(c));
+    }
+    true
+}

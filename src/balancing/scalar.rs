@@ -1,0 +1,69 @@
+//! The numbers that are calculated with off the tick, and what they lack.
+
+use nalgebra::{ComplexField, RealField};
+
+/// `f32` or `f64`: the same functions on the controller and on the host.
+pub trait Scalar: RealField + Copy {
+    /// How close to the optimum a search ends, relative: what is left of the digits after a search.
+    const CLOSE: f64;
+    /// Words that a number takes in a record, one or two.
+    const WORDS: usize;
+    /// The number as words; what is not used is zero.
+    fn to_words(self) -> [u32; 2];
+    /// The number that has these words.
+    fn from_words(words: [u32; 2]) -> Self;
+}
+
+impl Scalar for f32 {
+    const CLOSE: f64 = 1e-4;
+    const WORDS: usize = 1;
+
+    fn to_words(self) -> [u32; 2] {
+        [self.to_bits(), 0]
+    }
+
+    fn from_words([word, _]: [u32; 2]) -> Self {
+        f32::from_bits(word)
+    }
+}
+
+impl Scalar for f64 {
+    const CLOSE: f64 = 1e-10;
+    const WORDS: usize = 2;
+
+    fn to_words(self) -> [u32; 2] {
+        [(self.to_bits() >> 32) as u32, self.to_bits() as u32]
+    }
+
+    fn from_words([high, low]: [u32; 2]) -> Self {
+        f64::from_bits(u64::from(high) << 32 | u64::from(low))
+    }
+}
+
+/// A vibration, a weight or an influence coefficient: amplitude and phase as a complex number.
+pub type Complex<T> = nalgebra::Complex<T>;
+
+/// A constant.
+pub(crate) fn real<T: Scalar>(value: f64) -> T {
+    nalgebra::convert(value)
+}
+
+/// Amplitude, without overflow on the way.
+pub(crate) fn size<T: Scalar>(z: Complex<T>) -> T {
+    z.modulus()
+}
+
+/// Square of the amplitude.
+pub(crate) fn square<T: Scalar>(z: Complex<T>) -> T {
+    z.re * z.re + z.im * z.im
+}
+
+/// Zero.
+pub(crate) fn zero<T: Scalar>() -> Complex<T> {
+    Complex { re: T::zero(), im: T::zero() }
+}
+
+/// Whether both parts are numbers.
+pub(crate) fn given<T: Scalar>(z: Complex<T>) -> bool {
+    z.re.is_finite() && z.im.is_finite()
+}

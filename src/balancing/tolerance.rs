@@ -1,0 +1,108 @@
+//! Permissible residual unbalance and its split between planes (ISO 21940-11), and unbalances resolved into two planes.
+
+use super::error::Error;
+use super::scalar::{Complex, Scalar, real, size, zero};
+
+/// The balance quality grades \[mm/s\].
+pub const GRADES: [f64; 11] = [0.4, 1.0, 2.5, 6.3, 16.0, 40.0, 100.0, 250.0, 630.0, 1600.0, 4000.0];
+
+/// A rotor whose residual unbalance is judged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Tolerance<T> {
+    /// Balance quality grade G, the speed of the centre of mass about the axis \[mm/s\].
+    pub grade: T,
+    /// Mass \[kg\].
+    pub mass: T,
+    /// Highest service speed \[rad/s\].
+    pub speed: T,
+}
+
+/// What a residual unbalance amounts to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Verdict<T> {
+    /// The grade that it has \[mm/s\].
+    pub grade: T,
+    /// The next standard grade that it fulfils \[mm/s\]; none where it is worse than all.
+    pub fulfils: Option<T>,
+    /// Whether it is within the tolerance.
+    pub passed: bool,
+}
+
+impl<T: Scalar> Tolerance<T> {
+    /// # Errors
+    /// [`Error::Setting`] with the place of what is not positive.
+    fn check(&self) -> Result<(), Error> {
+        let right = |value: &T| *value > T::zero() && value.is_finite();
+        match [self.grade, self.mass, self.speed].iter().position(|value| !right(value)) {
+            Some(index) => Err(Error::Setting { index }),
+            None => Ok(()),
+        }
+    }
+
+    /// Permissible residual unbalance of the rotor \[kg m\]: `U = G m / omega` [Notes ch. 5].
+    ///
+    /// # Errors
+    /// [`Error::Setting`] with the place of what is not positive.
+    pub fn permissible(&self) -> Result<T, Error> {
+        self.check()?;
+        Ok(self.grade * real(1e-3) * self.mass / self.speed)
+    }
+
+    /// The same for two tolerance planes at the bearings A and B \[kg m\], by the distances of the centre of mass from them \[m\].
+    ///
+    /// `from_a` is counted towards B, so that a centre of mass between the bearings has 0 < `from_a` < `span`. The shares are held
+    /// within 0.3 and 0.7 between bearings, 0.3 and 1.3 overhung.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] with the place of what is not positive, the span being the fourth.
+    pub fn at_bearings(&self, from_a: T, span: T) -> Result<[T; 2], Error> {
+        let whole = self.permissible()?;
+        if !(span > T::zero() && span.is_finite() && from_a.is_finite()) {
+            return Err(Error::Setting { index: 3 });
+        }
+        let between = from_a >= T::zero() && from_a <= span;
+        let (least, most) = (real(0.3), real(if between { 0.7 } else { 1.3 }));
+        let held = |share: T| share.abs().max(least).min(most);
+        Ok([whole * held((span - from_a) / span), whole * held(from_a / span)])
+    }
+
+    /// Judges a residual unbalance of the rotor \[kg m\].
+    ///
+    /// # Errors
+    /// [`Error::Setting`] with the place of what is not positive.
+    pub fn judge(&self, residual: T) -> Result<Verdict<T>, Error> {
+        let permissible = self.permissible()?;
+        let grade = residual * self.speed / self.mass * real(1e3);
+        let fulfils = GRADES.iter().map(|&known| real::<T>(known)).find(|known| grade <= *known);
+        Ok(Verdict { grade, fulfils, passed: residual <= permissible })
+    }
+}
+
+/// Unbalances along a rotor \[kg m at m\] as two in the planes at `a` and `b` \[m\]: each splits by its distances [Notes ch. 5]. The
+/// correction is the opposite.
+///
+/// # Errors
+/// [`Error::Setting`] where the planes are the same.
+pub fn two_planes<T: Scalar>(
+    unbalances: impl IntoIterator<Item = (Complex<T>, T)>,
+    a: T,
+    b: T,
+) -> Result<[Complex<T>; 2], Error> {
+    let span = b - a;
+    if !(span.abs() > T::zero() && span.is_finite()) {
+        return Err(Error::Setting { index: 0 });
+    }
+    let mut sums = [zero(); 2];
+    for (unbalance, at) in unbalances {
+        let [in_a, in_b] = sums;
+        sums = [in_a + unbalance.scale((b - at) / span), in_b + unbalance.scale((at - a) / span)];
+    }
+    Ok(sums)
+}
+
+/// The unbalance of the whole rotor \[kg m\]: the size of the sum of its planes'.
+pub fn resultant<T: Scalar>(unbalances: &[Complex<T>]) -> T {
+    size(unbalances.iter().fold(zero(), |sum, unbalance| sum + *unbalance))
+}

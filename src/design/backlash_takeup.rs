@@ -1,0 +1,92 @@
+//! How slack is taken up: creep, rise and damping from what the shaft may feel.
+
+use super::Error;
+use super::tuning::Rate;
+use crate::machine::TwoMass;
+use crate::math::sqrt;
+
+/// How slack is to be taken up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BacklashTakeUpTuning {
+    /// Torque that the impact may add in the shaft [N m], above 0.
+    pub impact: f64,
+    /// Largest torque while the gap is open [N m], above 0.
+    pub torque: f64,
+    /// By how much the largest torque rises in a period of the resonance once the gap has closed [N m], above 0.
+    pub rise: f64,
+    /// What it rises to [N m]: the largest torque of the motor, above 0.
+    pub max_torque: f64,
+    /// Damping ratio that the motor adds to the shaft; not negative.
+    pub damping: f64,
+}
+
+/// How slack is taken up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BacklashTakeUpDesign {
+    /// Time between two ticks \[s\].
+    pub period: f64,
+    /// Slip at which an open gap is closed, at the most [rad/s].
+    pub approach_speed: f64,
+    /// Largest torque while the gap is open [N m].
+    pub torque: f64,
+    /// Damping of the slip while the gap is open [N m s/rad]: torque over creep.
+    pub braking: f64,
+    /// Rate at which the largest torque rises once the gap has closed [N m/s].
+    pub slew: f64,
+    /// Largest torque of the motor [N m].
+    pub max_torque: f64,
+    /// Active damping in contact [N m s/rad].
+    pub damping: f64,
+}
+
+impl TwoMass {
+    /// Designs how slack is taken up.
+    ///
+    /// The creep is the impact over `sqrt(k J_m J_l/(J_m + J_l))` [Huang 1987 part 2], the damping
+    /// `2 zeta omega J_m`: what a torque on the motor alone adds to the twist.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_take_up`](Self::try_take_up)
+    /// returns.
+    #[must_use]
+    pub const fn take_up(&self, rate: Rate, tuning: BacklashTakeUpTuning) -> BacklashTakeUpDesign {
+        match self.try_take_up(rate, tuning) {
+            Ok(design) => design,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`take_up`](Self::take_up), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// A machine out of range; [`Error::Unobservable`] without stiffness; [`Error::Slack`].
+    pub const fn try_take_up(&self, rate: Rate, tuning: BacklashTakeUpTuning) -> Result<BacklashTakeUpDesign, Error> {
+        if let Err(error) = self.check() {
+            return Err(Error::Machine(error));
+        }
+        let period = match rate.period() {
+            Ok(period) => period,
+            Err(error) => return Err(error),
+        };
+        if self.stiffness == 0.0 {
+            return Err(Error::Unobservable);
+        }
+        let BacklashTakeUpTuning { impact, torque, rise, max_torque, damping } = tuning;
+        let w = self.resonance();
+        let approach_speed = impact / sqrt(self.stiffness * self.reduced_inertia());
+        let design = BacklashTakeUpDesign {
+            period,
+            approach_speed,
+            torque,
+            braking: torque / approach_speed,
+            slew: rise * w / core::f64::consts::TAU,
+            max_torque,
+            damping: 2.0 * damping * w * self.motor_inertia,
+        };
+        let positive = impact > 0.0 && torque > 0.0 && rise > 0.0 && max_torque > 0.0 && damping >= 0.0;
+        let sum = design.approach_speed + design.braking + design.torque + design.slew + max_torque + design.damping;
+        if positive && sum.is_finite() { Ok(design) } else { Err(Error::Slack) }
+    }
+}

@@ -1,0 +1,138 @@
+//! Which observer a machine needs, by the error that leaving something out would cause.
+//!
+//! A change of torque, of the motor's or the load's, sets the shaft swinging. A rigid observer shows the steady part of the shaft's torque and not the swing; an
+//! observer that takes a gap for closed does not see the blow with which it closes. Both errors follow from the machine and from what it is asked to do:
+//!
+//! - a change D that takes the time r sets off a swing of at most `D min(1, 2/(w r))` times the larger share of the inertia [Huang 1987 part 2];
+//! - a gap that is crossed under the torque D closes at `v = sqrt(2 D gap/J_m)`, and the blow swings by `v sqrt(k J_r)` [Huang 1987 part 2];
+//! - a swing A in the shaft's torque is one of `A w/k J_m/J` in the load's speed, and decays as `exp(-zeta w t)` until the next change.
+//!
+//! The figures are rms over the time between two changes. Noise and lag, which every observer has, come on top: so an observer that leaves something out is taken
+//! only where that costs no more than half of what is aimed at.
+
+use super::{SemiImplicitStep, StepChoice};
+use crate::machine::TwoMass;
+use crate::math::{exp_m1, sqrt};
+
+/// What a machine is asked to do, as far as it shakes the shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadCycle {
+    /// Rated speed \[rad/s\], which errors of speed are fractions of.
+    pub speed: f64,
+    /// Peak torque of the shaft \[N m\], which errors of torque are fractions of.
+    pub torque: f64,
+    /// Largest change of torque that comes about at once, of the motor's or the load's \[N m\].
+    pub change: f64,
+    /// How long it takes \[s\], 0 for a step.
+    pub rise: f64,
+    /// Time between two such changes \[s\].
+    pub every: f64,
+    /// Whether the shaft's torque changes its sign, so that a gap opens and closes.
+    pub reverses: bool,
+}
+
+/// Errors that are aimed at, rms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Requirement {
+    /// Of the shaft torque, over its peak.
+    pub shaft_torque: f64,
+    /// Of the load's speed, over rated speed.
+    pub load_speed: f64,
+}
+
+impl Requirement {
+    /// 2 % of the shaft's peak torque and 0.3 % of rated speed.
+    pub const USUAL: Self = Self { shaft_torque: 0.02, load_speed: 0.003 };
+
+    /// Part of the aim that may be spent on what is left out.
+    pub const SHARE: f64 = 0.5;
+}
+
+/// What leaving something out costs, rms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Penalty {
+    /// Error of the shaft torque, over its peak.
+    pub shaft_torque: f64,
+    /// Error of the load's speed, over rated speed.
+    pub load_speed: f64,
+}
+
+impl Penalty {
+    const fn within(&self, aim: &Requirement) -> bool {
+        self.shaft_torque <= Requirement::SHARE * aim.shaft_torque
+            && self.load_speed <= Requirement::SHARE * aim.load_speed
+    }
+}
+
+/// The observers there are, the cheapest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum ObserverChoice {
+    /// One mass.
+    Rigid,
+    /// Two masses, the semi-implicit step.
+    SemiImplicit,
+    /// Two masses, the exact step.
+    Exact,
+    /// Two masses with a gap between them.
+    Backlash,
+}
+
+/// What each observer would miss, and the cheapest that misses little enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ObserverSelection {
+    /// Cost of leaving out the shaft.
+    pub without_shaft: Penalty,
+    /// Cost of leaving out the gap; nothing where there is none or the torque does not reverse.
+    pub without_gap: Penalty,
+    /// Error of the semi-implicit step over a period of the resonance, as [`StepChoice`] takes it.
+    pub semi_implicit: f64,
+    /// The cheapest observer that will do.
+    pub chosen: ObserverChoice,
+}
+
+impl TwoMass {
+    /// Which observer this machine needs for a duty, in ticks of a period \[s\].
+    ///
+    /// A scene may take another; then the difference between what it misses and what is aimed at is what that costs. Without damping a swing does not decay.
+    #[must_use]
+    pub const fn select_observer(&self, cycle: &LoadCycle, aim: &Requirement, period: f64) -> ObserverSelection {
+        let share = if self.motor_inertia > self.load_inertia { self.motor_inertia } else { self.load_inertia };
+        let turned = self.resonance() * cycle.rise;
+        let damped = if turned > 2.0 { 2.0 / turned } else { 1.0 };
+        let without_shaft = self.swing(cycle.change * damped * share / self.total_inertia(), cycle);
+        let without_gap = if cycle.reverses && self.gap > 0.0 {
+            let closing = sqrt(2.0 * cycle.change * self.gap / self.motor_inertia);
+            self.swing(self.impact_torque(closing).0, cycle)
+        } else {
+            Penalty { shaft_torque: 0.0, load_speed: 0.0 }
+        };
+        let step = SemiImplicitStep::new(self, period);
+        let chosen = if !without_gap.within(aim) {
+            ObserverChoice::Backlash
+        } else if without_shaft.within(aim) {
+            ObserverChoice::Rigid
+        } else {
+            match StepChoice::choose(&step, StepChoice::THRESHOLD) {
+                StepChoice::SemiImplicit => ObserverChoice::SemiImplicit,
+                StepChoice::Exact => ObserverChoice::Exact,
+            }
+        };
+        ObserverSelection { without_shaft, without_gap, semi_implicit: step.fidelity.error_bound, chosen }
+    }
+
+    /// What a swing of the shaft's torque of this amplitude \[N m\] comes to, rms until the next change.
+    const fn swing(&self, amplitude: f64, cycle: &LoadCycle) -> Penalty {
+        let resonance = self.resonance();
+        let decays = 2.0 * self.damping_ratio() * resonance * cycle.every;
+        // The mean of exp(-x) over the interval.
+        let left = if decays > 0.0 { -exp_m1(-decays) / decays } else { 1.0 };
+        let rms = amplitude * sqrt(0.5 * left);
+        let speed = rms * resonance / self.stiffness * (self.motor_inertia / self.total_inertia());
+        Penalty { shaft_torque: rms / cycle.torque, load_speed: speed / cycle.speed }
+    }
+}

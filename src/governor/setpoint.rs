@@ -1,0 +1,112 @@
+//! What shapes the setpoint: droop, and speeds that the machine must not dwell at.
+
+use crate::number::Number;
+
+/// A shape of the setpoint; `()` leaves it as it is, a tuple is one after the other.
+pub trait SetpointShape<N: Number>: Default {
+    /// Its constants.
+    type Config;
+
+    /// Where the ramp is to go for a reference, and its largest step in this tick, from where it stands now [rad/s].
+    #[inline(always)]
+    fn goal(&self, _config: &Self::Config, setpoint: N, _ramped: N, ramp: N) -> (N, N) {
+        (setpoint, ramp)
+    }
+
+    /// The setpoint less what it yields to a standing torque (the integral and what is fed forward).
+    #[inline(always)]
+    fn lower(&self, _config: &Self::Config, ramped: N, _standing: N) -> N {
+        ramped
+    }
+}
+
+/// Isochronous, and no speed is barred.
+impl<N: Number> SetpointShape<N> for () {
+    type Config = ();
+}
+
+impl<N: Number, A: SetpointShape<N>, B: SetpointShape<N>> SetpointShape<N> for (A, B) {
+    type Config = (A::Config, B::Config);
+
+    #[inline(always)]
+    fn goal(&self, config: &Self::Config, setpoint: N, ramped: N, ramp: N) -> (N, N) {
+        let (setpoint, ramp) = self.0.goal(&config.0, setpoint, ramped, ramp);
+        self.1.goal(&config.1, setpoint, ramped, ramp)
+    }
+
+    #[inline(always)]
+    fn lower(&self, config: &Self::Config, ramped: N, standing: N) -> N {
+        self.1.lower(&config.1, self.0.lower(&config.0, ramped, standing), standing)
+    }
+}
+
+/// Droop: the setpoint yields in proportion to the standing torque, so that sets which turn together share the load.
+///
+/// Sets with equal droop per rated torque carry equal shares of theirs; a set with none would carry all. The
+/// proportional part does not count: a droop on the whole torque would be an algebraic loop of gain k_p R in every
+/// tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Droop;
+
+/// Constants of [`Droop`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DroopConfig<N: Number> {
+    /// Speed per torque [rad/(s N m)].
+    pub droop: N::Coefficient,
+}
+
+impl<N: Number> SetpointShape<N> for Droop {
+    type Config = DroopConfig<N>;
+
+    #[inline(always)]
+    fn lower(&self, config: &DroopConfig<N>, ramped: N, standing: N) -> N {
+        ramped.minus(standing.times(config.droop))
+    }
+}
+
+/// Barred ranges of speed: a reference inside one stops at the edge on the machine's side, and a setpoint that must
+/// pass one does so by a quick ramp. Ranges for both directions are ranges of their own.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Barred<const K: usize>;
+
+/// A range of speeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SpeedRange<N> {
+    /// Its middle [rad/s].
+    pub middle: N,
+    /// Half its width [rad/s].
+    pub half: N,
+}
+
+/// Constants of [`Barred`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BarredConfig<N, const K: usize> {
+    /// The ranges; they do not overlap.
+    pub ranges: [SpeedRange<N>; K],
+    /// Largest step of the setpoint in a tick inside a range [rad/s].
+    pub quick: N,
+}
+
+impl<N: Number, const K: usize> SetpointShape<N> for Barred<K> {
+    type Config = BarredConfig<N, K>;
+
+    #[inline(always)]
+    fn goal(&self, config: &Self::Config, setpoint: N, ramped: N, ramp: N) -> (N, N) {
+        let (mut goal, mut step) = (setpoint, ramp);
+        for range in &config.ranges {
+            if !goal.minus(range.middle).exceeds(range.half) {
+                let below = ramped < range.middle;
+                goal = if below { range.middle.minus(range.half) } else { range.middle.plus(range.half) };
+            }
+            if !ramped.minus(range.middle).exceeds(range.half) {
+                step = config.quick;
+            }
+        }
+        (goal, step)
+    }
+}

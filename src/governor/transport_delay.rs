@@ -1,0 +1,46 @@
+//! A fuel rack or valve: its torque acts later than its position says.
+
+use crate::number::Number;
+
+/// Delays the torque that an actuator's position stands for by the time after which it acts, for the observer.
+///
+/// A ring of `K` ticks, a power of two. Nothing is screened: what goes in comes out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TransportDelay<N, const K: usize> {
+    past: [N; K],
+    at: u32,
+}
+
+/// Constants of [`TransportDelay`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TransportDelayConfig<const K: usize> {
+    /// Ticks of delay, below `K`.
+    pub ticks: u32,
+}
+
+impl<N: Number, const K: usize> TransportDelay<N, K> {
+    /// A rack that has stood at no torque.
+    pub const fn new() -> Self {
+        const { assert!(K.is_power_of_two() && K <= 1 << 16, "the ring of a rack must hold a power of two of ticks") };
+        TransportDelay { past: [N::ZERO; K], at: 0 }
+    }
+
+    /// Takes the torque of the tick that has just ended, and gives the one that acts.
+    #[inline(always)]
+    pub fn delayed(&mut self, config: &TransportDelayConfig<K>, torque: N) -> N {
+        let (at, mask) = (self.at as usize, K - 1);
+        self.at = self.at.wrapping_add(1);
+        if let Some(slot) = self.past.get_mut(at & mask) {
+            *slot = torque;
+        }
+        self.past.get(at.wrapping_sub(config.ticks as usize) & mask).copied().unwrap_or(torque)
+    }
+}
+
+impl<N: Number, const K: usize> Default for TransportDelay<N, K> {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,34 @@
+//! From a design to the constants that the tick path loads: the one place that knows both.
+//!
+//! A design is in `f64` and SI units. Floats take it as it is, rounded; [`Fixed`](crate::number::Fixed) is per unit of [`Bases`], and its
+//! coefficients have formats of their own. Everything is `const fn`, so a firmware holds nothing but the result; the same functions run
+//! on a machine that is commissioned in the field.
+
+mod actuator_monitor;
+mod backlash;
+mod backlash_takeup;
+mod bases;
+mod convert;
+mod cranked;
+mod fluctuation;
+mod format;
+mod geared;
+mod governor_parts;
+mod governor_shapes;
+mod limits;
+mod observer;
+mod phasors;
+mod settled;
+mod speed_loop;
+
+pub use actuator_monitor::ActuatorMonitorSettings;
+pub use bases::Bases;
+pub use convert::Error;
+pub use fluctuation::{Cycle, Wheel};
+pub use geared::Gear;
+pub use governor_parts::SequencerSettings;
+pub use limits::Screening;
+pub use phasors::{PhasorError, PhasorSettings};
+pub use speed_loop::SpeedLoopSettings;
+
+pub(crate) use format::Format;

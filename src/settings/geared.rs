@@ -1,0 +1,108 @@
+//! Constants of a gear's loss.
+
+use super::convert::{fixed, get, or_stop};
+use super::format::ANGLE_PER_RADIAN;
+use super::{Bases, Error};
+use crate::number::{Fixed, INNOVATION_RANGE, STICTION_GAIN};
+use crate::observer::GearedConfig;
+
+const EFFICIENCY: &str = "the efficiency of the gear must be above 0 and at most 1";
+const MOTOR: &str = "the inertia in front of the gear and the period must be positive and finite";
+const PLAY: &str =
+    "the deadband in front of a held gear must not be negative, and at most 5.6 degrees (0.098 rad) in fixed point";
+const LIGHT: &str =
+    "the inertia in front of the gear is too light for the bases at this rate: raise the rate or the base of the speed";
+const FIXED: &str = "the efficiency of the gear must be above 0.62 in fixed point";
+
+/// A gear with losses, as an observer has to know it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Gear {
+    /// Efficiency, above 0 and at most 1.
+    pub efficiency: f64,
+    /// Inertia in front of the gear, which comes to rest when the gear is held \[kg m2\].
+    pub inertia: f64,
+    /// How far the motor can turn while the gear is held \[rad\]: twice what the gear's friction twists the shaft in front of it, and a few counts of
+    /// the encoder.
+    pub deadband: f64,
+}
+
+impl Gear {
+    /// Friction per shaft torque, what brings the motor to rest within two ticks \[N m s/rad\], and the deadband \[2^-32 turn\].
+    const fn losses(&self, period: f64) -> Result<[f64; 3], Error> {
+        let eta = self.efficiency;
+        if !(eta > 0.0 && eta <= 1.0) {
+            return Err(Error::Value(EFFICIENCY));
+        }
+        let stiction_gain = 0.5 * self.inertia / period;
+        if !(stiction_gain > 0.0 && stiction_gain.is_finite() && period > 0.0) {
+            return Err(Error::Value(MOTOR));
+        }
+        let deadband = self.deadband * ANGLE_PER_RADIAN;
+        if !(deadband >= 0.0 && deadband < INNOVATION_RANGE) {
+            return Err(Error::Value(PLAY));
+        }
+        let friction = 0.5 * ((1.0 / eta - 1.0) + (1.0 - eta));
+        if !(friction as f32).is_finite() {
+            return Err(Error::Value(EFFICIENCY));
+        }
+        Ok([friction, stiction_gain, deadband])
+    }
+}
+
+macro_rules! float {
+    ($float:ident) => {
+        impl<C: Copy> GearedConfig<$float, C> {
+            /// An observer's constants behind a gear, in ticks of this period \[s\].
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+            pub const fn new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Self {
+                or_stop!(Self::try_new(observer, gear, period, bases))
+            }
+
+            /// An observer's constants behind a gear, in ticks of this period \[s\].
+            ///
+            /// # Errors
+            /// [`Error::Value`] for a figure of the gear that is out of its range.
+            pub const fn try_new(observer: C, gear: &Gear, period: f64, _: Bases) -> Result<Self, Error> {
+                let [friction, stiction_gain, deadband] = get!(gear.losses(period));
+                Ok(GearedConfig {
+                    observer,
+                    friction: friction as $float,
+                    stiction_gain: stiction_gain as $float,
+                    deadband: deadband as $float,
+                })
+            }
+        }
+    };
+}
+
+float!(f32);
+float!(f64);
+
+impl<C: Copy> GearedConfig<Fixed, C> {
+    /// An observer's constants behind a gear, in ticks of this period \[s\].
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+    pub const fn new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Self {
+        or_stop!(Self::try_new(observer, gear, period, bases))
+    }
+
+    /// An observer's constants behind a gear, in ticks of this period \[s\].
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a figure of the gear that is out of its range, or an inertia too light for the bases;
+    /// [`Error::Coefficient`] for an efficiency below 0.62.
+    pub const fn try_new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Result<Self, Error> {
+        get!(bases.check());
+        let [friction, stiction_gain, deadband] = get!(gear.losses(period));
+        let [friction] = get!(fixed([friction], FIXED));
+        // Twice the firmness that is held within two ticks would swing, four times would grow.
+        if !(STICTION_GAIN * (bases.torque / bases.speed) <= 2.0 * stiction_gain) {
+            return Err(Error::Value(LIGHT));
+        }
+        Ok(GearedConfig { observer, friction, stiction_gain: (), deadband: Fixed::from_bits(deadband as i32) })
+    }
+}

@@ -1,0 +1,384 @@
+//! Constants of the composed governor's parts.
+
+use super::convert::{fixed, get, or_stop};
+use super::{Bases, Error, Format};
+use crate::design::{GovernorDesign, SpeedLoopDesign};
+use crate::governor::{
+    AccelerationFeedbackConfig, ActiveDampingConfig, DroopConfig, FeedForwardConfig, Gains, MovingAverageConfig,
+    SequencerConfig, SpeedRange, SymmetricLimitConfig, TorqueRangeConfig, TransportDelayConfig,
+};
+use crate::number::{Coefficient, Fixed};
+
+const GAIN: &str =
+    "a gain of the governor is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
+const NO_GAIN: &str = "the gains of the governor must be finite, and the proportional one above zero";
+pub(super) const RAMP: &str = "the ramp of the governor must be positive and finite, and within a tick at most twice the base of the speed, in fixed point at least 2^-28 of it";
+const DROOP: &str = "the droop must be zero or above and finite, for a rated speed and torque above zero, and below half a base of the speed per base of the torque in fixed point";
+const SHARE: &str = "the share of the load torque that is fed forward must be from 0 to 1";
+pub(super) const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, and both within twice the base of the torque in fixed point";
+const MODES: &str = "the speeds of the modes must be standstill < underspeed < overspeed, none of them negative, the shaft's torque positive, all finite and within twice their bases in fixed point";
+const TIMES: &str =
+    "the times of the modes must be zero or above and below 2^31 ticks, and the period of a tick positive";
+const ACCELERATION: &str = "the acceleration feedback must be zero or above and finite, and less than twice the torque that accelerates the load in fixed point: lower its share";
+const DELAY: &str = "the delay of the rack must be zero or above and less than its ring of ticks";
+
+/// The limits of [`Sequencer`](crate::governor::Sequencer), in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SequencerSettings {
+    /// Overspeed limit [rad/s].
+    pub overspeed: f64,
+    /// Underspeed limit of a running machine [rad/s]; below zero for a machine that runs both ways, which has none.
+    pub underspeed: f64,
+    /// Largest speed backwards [rad/s]; the overspeed limit for a machine that runs both ways.
+    pub reverse: f64,
+    /// Largest torque of the shaft, either way [N m].
+    pub shaft_torque: f64,
+    /// The speed below which a braking machine has stopped [rad/s].
+    pub standstill: f64,
+    /// Time beyond a limit, other than underspeed's, that does not trip yet \[s\].
+    pub trip_delay: f64,
+    /// Time of underspeed that does not trip yet \[s\].
+    pub underspeed_delay: f64,
+    /// Time that a start may take \[s\].
+    pub start: f64,
+}
+
+/// Numbers and coefficients of a part, per unit of a format.
+pub(super) type Values<const N: usize, const C: usize> = Result<([f64; N], [f64; C]), Error>;
+
+pub(super) const fn all_finite(values: &[f64]) -> bool {
+    let mut k = 0;
+    while k < values.len() {
+        if !(values[k] as f32).is_finite() {
+            return false;
+        }
+        k += 1;
+    }
+    true
+}
+
+const fn gains(design: &[f64; 5], ramp: f64, format: &Format) -> Values<1, 3> {
+    let [proportional, integral, slip, acceleration, period] = *design;
+    let Bases { torque, speed, .. } = format.bases;
+    let scale = speed / (torque * format.gain);
+    let step = ramp * period / speed;
+    // Operands are held within 8 bases, the integral, what is fed forward and what accelerates the load within 2: the sum must stay within 8.
+    let sum = 8.0 * scale * (proportional + integral * period + slip.abs()) + 2.0 * acceleration;
+    let anti_windup = integral * period / proportional;
+    // What the number rounds to zero is no ramp: the reference would stand still.
+    if !(step * format.unit >= least_step(format) && all_finite(&[step])) {
+        Err(Error::Value(RAMP))
+    } else if !(proportional > 0.0 && all_finite(&[proportional * scale, integral * period * scale, anti_windup])) {
+        Err(Error::Coefficient(NO_GAIN))
+    } else if format.unit != 1.0 && !(sum <= 3.99) {
+        Err(Error::Coefficient(GAIN))
+    } else {
+        Ok(([step], [proportional * scale, integral * period * scale, anti_windup]))
+    }
+}
+
+/// The least step of a ramp that is not zero, in units of the format.
+pub(super) const fn least_step(format: &Format) -> f64 {
+    if format.unit == 1.0 { f32::MIN_POSITIVE as f64 } else { 1.0 }
+}
+
+const fn droop(droop: f64, rated_speed: f64, rated_torque: f64, format: &Format) -> Values<0, 1> {
+    let value = droop * rated_speed / rated_torque * format.bases.torque / format.bases.speed;
+    if droop >= 0.0 && rated_speed > 0.0 && rated_torque > 0.0 && all_finite(&[value]) {
+        Ok(([], [value]))
+    } else {
+        Err(Error::Value(DROOP))
+    }
+}
+
+const fn feed_forward(share: f64, format: &Format) -> Values<0, 1> {
+    if share >= 0.0 && share <= 1.0 { Ok(([], [share / format.widened])) } else { Err(Error::Value(SHARE)) }
+}
+
+const fn acceleration(feedback: f64, format: &Format) -> Values<0, 1> {
+    if feedback >= 0.0 && all_finite(&[feedback]) {
+        Ok(([], [-feedback / format.widened]))
+    } else {
+        Err(Error::Value(ACCELERATION))
+    }
+}
+
+const fn damping(slip: f64, format: &Format) -> Values<0, 1> {
+    let damping = -slip * format.bases.speed / (format.bases.torque * format.gain);
+    if all_finite(&[damping]) { Ok(([], [damping])) } else { Err(Error::Coefficient(NO_GAIN)) }
+}
+
+pub(super) const fn between(min: f64, max: f64, format: &Format) -> Values<2, 0> {
+    if min <= 0.0 && max > 0.0 && all_finite(&[min, max]) {
+        Ok(([min / format.bases.torque, max / format.bases.torque], []))
+    } else {
+        Err(Error::Value(LIMIT))
+    }
+}
+
+const fn windows(settings: &SequencerSettings, format: &Format) -> Values<6, 0> {
+    let SequencerSettings { overspeed, underspeed, reverse, shaft_torque, standstill, .. } = *settings;
+    let both_ways = underspeed < 0.0;
+    let ordered = standstill > 0.0 && (both_ways || standstill < underspeed && underspeed < overspeed);
+    let positive = overspeed > standstill && reverse >= 0.0 && shaft_torque > 0.0;
+    if !(ordered && positive && all_finite(&[overspeed, underspeed, reverse, shaft_torque])) {
+        return Err(Error::Value(MODES));
+    }
+    let speed = format.bases.speed;
+    let lowest = if both_ways { -reverse } else { underspeed };
+    Ok((
+        [
+            0.5 * (lowest + overspeed) / speed,
+            0.5 * (overspeed - lowest) / speed,
+            0.5 * (overspeed - reverse) / speed,
+            0.5 * (overspeed + reverse) / speed,
+            shaft_torque / format.bases.torque,
+            standstill / speed,
+        ],
+        [],
+    ))
+}
+
+pub(super) const fn ticks(time: f64, period: f64) -> Result<u32, Error> {
+    let ticks = time / period + 0.5;
+    if time >= 0.0 && period > 0.0 && ticks < 2_147_483_648.0 { Ok(ticks as u32) } else { Err(Error::Value(TIMES)) }
+}
+
+/// Numbers in fixed point, each within twice its base.
+const fn numbers<const K: usize>(values: [f64; K], sentence: &'static str) -> Result<[Fixed; K], Error> {
+    let mut out = [Fixed::from_bits(0); K];
+    let mut k = 0;
+    while k < K {
+        if !(values[k].abs() <= 2.0) {
+            return Err(Error::Value(sentence));
+        }
+        out[k] = Fixed::from_f64(values[k]);
+        k += 1;
+    }
+    Ok(out)
+}
+
+/// Nothing, where a part has no numbers or no coefficients.
+pub(super) const fn in_fixed<const N: usize, const C: usize>(
+    values: Values<N, C>,
+    sentence: &'static str,
+) -> Result<([Fixed; N], [Coefficient; C]), Error> {
+    let (n, c) = get!(values);
+    Ok((get!(numbers(n, sentence)), get!(fixed(c, sentence))))
+}
+
+/// `new` and `try_new` of a part for floats and for fixed point, from its values in a format.
+macro_rules! part {
+    (
+        $name:ident, ($($argument:ident: $type:ty),*), $sentence:ident, $errors:literal,
+        |$format:ident| $values:expr, |$cast:ident, $n:pat_param, $c:pat_param| $build:expr
+    ) => {
+        part!(@float f32, $name, ($($argument: $type),*), $errors, |$format| $values, |$cast, $n, $c| $build);
+        part!(@float f64, $name, ($($argument: $type),*), $errors, |$format| $values, |$cast, $n, $c| $build);
+
+        impl $name<Fixed> {
+            /// The constants in fixed point.
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
+            pub const fn new($($argument: $type,)* bases: Bases) -> Self {
+                or_stop!(Self::try_new($($argument,)* bases))
+            }
+
+            /// The constants in fixed point.
+            ///
+            /// # Errors
+            #[doc = $errors]
+            pub const fn try_new($($argument: $type,)* bases: Bases) -> Result<Self, Error> {
+                macro_rules! $cast { ($value:expr) => { core::convert::identity($value) }; }
+                get!(bases.check());
+                let $format = Format::fixed(bases);
+                let ($n, $c) = get!(in_fixed($values, $sentence));
+                Ok($build)
+            }
+        }
+    };
+    (
+        @float $float:ident, $name:ident, ($($argument:ident: $type:ty),*), $errors:literal,
+        |$format:ident| $values:expr, |$cast:ident, $n:pat_param, $c:pat_param| $build:expr
+    ) => {
+        impl $name<$float> {
+            /// The constants as floats.
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
+            pub const fn new($($argument: $type,)* bases: Bases) -> Self {
+                or_stop!(Self::try_new($($argument,)* bases))
+            }
+
+            /// The constants as floats.
+            ///
+            /// # Errors
+            #[doc = $errors]
+            pub const fn try_new($($argument: $type,)* _: Bases) -> Result<Self, Error> {
+                macro_rules! $cast { ($value:expr) => { $value as $float }; }
+                let $format = Format::FLOAT;
+                let ($n, $c) = get!($values);
+                Ok($build)
+            }
+        }
+    };
+}
+
+part!(
+    Gains, (design: &GovernorDesign, ramp: f64), GAIN,
+    "[`Error::Value`] for a ramp [rad/s2] that is not positive and finite, or that the number rounds to none; [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.",
+    |format| gains(&[design.proportional, design.integral, 0.0, design.acceleration, design.period], ramp, &format),
+    |cast, [ramp], [proportional, integral, anti_windup]| Gains {
+        proportional: cast!(proportional),
+        integral: cast!(integral),
+        anti_windup: cast!(anti_windup),
+        ramp: cast!(ramp),
+    }
+);
+
+part!(
+    DroopConfig, (fraction: f64, rated_speed: f64, rated_torque: f64), DROOP,
+    "[`Error`] for a droop (a fraction of the rated speed [rad/s] at the rated torque [N m]) that is out of range.",
+    |format| droop(fraction, rated_speed, rated_torque, &format),
+    |cast, [], [droop]| DroopConfig { droop: cast!(droop) }
+);
+
+part!(
+    FeedForwardConfig, (share: f64), SHARE,
+    "[`Error::Value`] for a share that is not from 0 to 1.",
+    |format| feed_forward(share, &format),
+    |cast, [], [share]| FeedForwardConfig { share: cast!(share) }
+);
+
+part!(
+    AccelerationFeedbackConfig, (design: &GovernorDesign), ACCELERATION,
+    "[`Error`] for a feedback that is negative or not finite, or in fixed point of twice the torque that accelerates the load or more.",
+    |format| acceleration(design.acceleration, &format),
+    |cast, [], [feedback]| AccelerationFeedbackConfig { feedback: cast!(feedback) }
+);
+
+part!(
+    ActiveDampingConfig, (design: &SpeedLoopDesign), GAIN,
+    "[`Error::Coefficient`] for a gain that is not finite, or beyond fixed point.",
+    |format| damping(design.damping, &format),
+    |cast, [], [damping]| ActiveDampingConfig { damping: cast!(damping) }
+);
+
+part!(
+    SymmetricLimitConfig, (torque: f64), LIMIT,
+    "[`Error::Value`] for a torque [N m] that is not positive and finite, or beyond twice its base.",
+    |format| between(0.0, torque, &format),
+    |cast, [_, torque], []| SymmetricLimitConfig { torque: cast!(torque) }
+);
+
+part!(
+    TorqueRangeConfig, (min: f64, max: f64), LIMIT,
+    "[`Error::Value`] for torques [N m] that are not at most and above zero and finite, or beyond twice their base.",
+    |format| between(min, max, &format),
+    |cast, [min, max], []| TorqueRangeConfig { min: cast!(min), max: cast!(max) }
+);
+
+part!(
+    SequencerConfig, (settings: &SequencerSettings, period: f64), MODES,
+    "[`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` \\[s\\] or more.",
+    |format| windows(settings, &format),
+    |cast, [middle, half, centre, reach, shaft, standstill], []| SequencerConfig {
+        running: SpeedRange { middle: cast!(middle), half: cast!(half) },
+        allowed: SpeedRange { middle: cast!(centre), half: cast!(reach) },
+        shaft_torque: cast!(shaft),
+        standstill: cast!(standstill),
+        trip_delay: get!(ticks(settings.trip_delay, period)),
+        underspeed_delay: get!(ticks(settings.underspeed_delay, period)),
+        start: get!(ticks(settings.start, period)),
+    }
+);
+
+macro_rules! gains_of_speed_loop {
+    ($float:ident) => {
+        impl Gains<$float> {
+            /// The gains of a speed loop, for a torque-controlled drive, as floats; [`ActiveDampingConfig`] takes the
+            /// rest of it.
+            ///
+            /// # Panics
+            /// At compile time in a constant, where the ramp [rad/s2] is not positive and finite.
+            pub const fn of_speed_loop(design: &SpeedLoopDesign, ramp: f64, _: Bases) -> Self {
+                let design = [design.proportional, design.integral, design.damping, 0.0, design.period];
+                let ([ramp], [proportional, integral, anti_windup]) = or_stop!(gains(&design, ramp, &Format::FLOAT));
+                Gains {
+                    proportional: proportional as $float,
+                    integral: integral as $float,
+                    anti_windup: anti_windup as $float,
+                    ramp: ramp as $float,
+                }
+            }
+        }
+    };
+}
+
+gains_of_speed_loop!(f32);
+gains_of_speed_loop!(f64);
+
+impl Gains<Fixed> {
+    /// The gains of a speed loop, for a torque-controlled drive, in fixed point; [`ActiveDampingConfig`] takes the rest of
+    /// it.
+    ///
+    /// # Panics
+    /// At compile time in a constant, where a gain or the ramp [rad/s2] is beyond fixed point.
+    pub const fn of_speed_loop(design: &SpeedLoopDesign, ramp: f64, bases: Bases) -> Self {
+        let design = [design.proportional, design.integral, design.damping, 0.0, design.period];
+        let values = gains(&design, ramp, &Format::fixed(bases));
+        let ([ramp], [proportional, integral, anti_windup]) = or_stop!(in_fixed(values, GAIN));
+        Gains { proportional, integral, anti_windup, ramp }
+    }
+}
+
+impl<const K: usize> TransportDelayConfig<K> {
+    /// A delay \[s\] in ticks of `period` \[s\].
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+    pub const fn new(delay: f64, period: f64) -> Self {
+        or_stop!(Self::try_new(delay, period))
+    }
+
+    /// A delay \[s\] in ticks of `period` \[s\], to the nearest.
+    ///
+    /// # Errors
+    /// [`Error::Value`] for a delay that is negative or does not fit the ring.
+    pub const fn try_new(delay: f64, period: f64) -> Result<Self, Error> {
+        let ticks = match ticks(delay, period) {
+            Ok(ticks) => ticks,
+            Err(_) => return Err(Error::Value(DELAY)),
+        };
+        if (ticks as usize) < K { Ok(TransportDelayConfig { ticks }) } else { Err(Error::Value(DELAY)) }
+    }
+}
+
+impl<const K: usize> MovingAverageConfig<f32, K> {
+    /// The constants of a mean over `K` ticks, as floats.
+    pub const fn of_ticks() -> Self {
+        MovingAverageConfig { share: 1.0 / K as f32 }
+    }
+}
+
+impl<const K: usize> MovingAverageConfig<f64, K> {
+    /// The constants of a mean over `K` ticks, as floats.
+    pub const fn of_ticks() -> Self {
+        MovingAverageConfig { share: 1.0 / K as f64 }
+    }
+}
+
+impl<const K: usize> MovingAverageConfig<Fixed, K> {
+    /// The constants in fixed point.
+    ///
+    /// # Panics
+    /// At compile time in a constant, for a mean over two ticks or one.
+    pub const fn of_ticks() -> Self {
+        let [share] = or_stop!(fixed([1.0 / K as f64], GAIN));
+        MovingAverageConfig { share }
+    }
+}

@@ -1,0 +1,123 @@
+//! Constants of the measurement of a rotor's vibration.
+
+use core::fmt;
+
+use crate::angle::RotorAngleConfig;
+use crate::balancing::{PhasorsConfig, Steadiness};
+use crate::number::{Fixed, Number};
+
+/// The rotor that is measured, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PhasorSettings {
+    /// Turns of the rotor to [`PhasorSettings::motor_turns`] of the motor, negative where it turns against the angle: the numbers of teeth.
+    pub rotor_turns: i32,
+    /// Turns of the motor.
+    pub motor_turns: u32,
+    /// Periods of the vibration on a turn of the rotor, from 1 on.
+    pub order: u32,
+    /// Turns of the rotor of a block, from 1 on; a reading has one block less than edges.
+    pub turns: u32,
+    /// What a reading may waver by.
+    pub steadiness: Steadiness,
+}
+
+impl PhasorSettings {
+    /// The rotor on the motor's shaft, its own order, eight turns a block.
+    pub const DIRECT: Self =
+        PhasorSettings { rotor_turns: 1, motor_turns: 1, order: 1, turns: 8, steadiness: Steadiness::USUAL };
+}
+
+/// Why a measurement cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum PhasorError {
+    /// The turns of rotor and motor, or the order.
+    Ratio,
+    /// The turns of a block.
+    Turns,
+    /// A channel's limit.
+    Limit,
+}
+
+impl PhasorError {
+    /// The sentence that names the parameter.
+    pub const fn message(self) -> &'static str {
+        match self {
+            PhasorError::Ratio => {
+                "turns of the motor must be 1 to 2^20, turns of the rotor times the order at most 15 times as many"
+            }
+            PhasorError::Turns => "turns of a block, times the order, must be 1 to 300",
+            PhasorError::Limit => "the limit of each channel must be a positive number, in fixed point at most 2",
+        }
+    }
+}
+
+impl fmt::Display for PhasorError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.message())
+    }
+}
+
+impl core::error::Error for PhasorError {}
+
+const fn turning(measured: &PhasorSettings) -> Result<(RotorAngleConfig, u32), PhasorError> {
+    if measured.order == 0 || measured.order > 64 {
+        return Err(PhasorError::Ratio);
+    }
+    let Some(turns) = measured.rotor_turns.checked_mul(measured.order as i32) else {
+        return Err(PhasorError::Ratio);
+    };
+    let Some(turning) = RotorAngleConfig::new(turns, measured.motor_turns) else {
+        return Err(PhasorError::Ratio);
+    };
+    if measured.turns == 0 || measured.turns > 300 || measured.turns * measured.order > 300 {
+        return Err(PhasorError::Turns);
+    }
+    Ok((turning, measured.turns * measured.order))
+}
+
+macro_rules! phasors {
+    ($number:ident, $most:expr, |$limit:ident| $convert:expr) => {
+        impl<const CHANNELS: usize> PhasorsConfig<$number, CHANNELS> {
+            /// The constants of a measurement; `limits` are the largest samples of each channel that are not clipped \[unit of the channel, per
+            /// unit of its base in fixed point\].
+            ///
+            /// # Panics
+            /// With the sentence of [`PhasorError`]: a compile error in a constant.
+            pub const fn new(measured: &PhasorSettings, limits: [f64; CHANNELS]) -> Self {
+                match Self::try_new(measured, limits) {
+                    Ok(config) => config,
+                    Err(error) => panic!("{}", error.message()),
+                }
+            }
+
+            /// The same at run time.
+            ///
+            /// # Errors
+            /// A parameter out of its range.
+            pub const fn try_new(measured: &PhasorSettings, limits: [f64; CHANNELS]) -> Result<Self, PhasorError> {
+                let (turning, block) = match turning(measured) {
+                    Ok(pair) => pair,
+                    Err(error) => return Err(error),
+                };
+                let mut converted = [<$number as Number>::ZERO; CHANNELS];
+                let mut channel = 0;
+                while channel < CHANNELS {
+                    let $limit = limits[channel];
+                    if !($limit > 0.0 && $limit <= $most) {
+                        return Err(PhasorError::Limit);
+                    }
+                    converted[channel] = $convert;
+                    channel += 1;
+                }
+                Ok(PhasorsConfig { turning, block, limits: converted, steadiness: measured.steadiness })
+            }
+        }
+    };
+}
+
+phasors!(f32, 1e30, |limit| limit as f32);
+phasors!(f64, 1e300, |limit| limit);
+phasors!(Fixed, 2.0, |limit| Fixed::from_f64(limit));
