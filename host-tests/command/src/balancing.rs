@@ -15,21 +15,21 @@
 mod error;
 mod fan;
 mod flexible;
-mod hand;
 mod machine;
 mod operator;
 mod outcome;
 mod page;
 mod power_cut;
 mod scene;
+mod scenes;
 mod spindle;
 
 pub use error::BalancingError;
-pub use hand::Hand;
 pub use machine::{Drivetrain, Machine};
-pub use operator::Operator;
+pub use operator::{Hand, Operator};
 pub use outcome::{Claim, Outcome, Stage, Vector};
 pub use page::{page, tables};
 pub use power_cut::PowerCuts;
-pub use scene::{Cost, Ran, Scene, scenes};
+pub use scene::{Cost, Ran, Scene};
+pub use scenes::scenes;
 pub use spindle::{Course, SpindleStart, spindle};

@@ -25,6 +25,7 @@ mod emit;
 mod failure;
 mod generator;
 mod modes;
+mod output;
 mod progress;
 mod report;
 mod rotor;
@@ -41,11 +42,11 @@ pub use modes::Vibration;
 pub use progress::Progress;
 
 use std::ffi::OsString;
-use std::path::Path;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use clap::{Parser, Subcommand};
+use output::{UNSAID, onto_itself, say, say_json};
 
 /// Controllers for machine drives, checked against a full solver of the machine.
 #[derive(Debug, Parser)]
@@ -135,36 +136,4 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(cli.command.json()),
     }
-}
-
-/// Writes to standard output. A reader that has gone away (`| head`) is no error.
-fn say(text: impl std::fmt::Display) {
-    use std::io::{ErrorKind, Write};
-    let mut out = std::io::stdout();
-    let written = writeln!(out, "{text}").and_then(|()| out.flush());
-    if written.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe) {
-        UNSAID.store(true, Ordering::Relaxed);
-    }
-}
-
-/// Standard output could not be written.
-static UNSAID: AtomicBool = AtomicBool::new(false);
-
-/// A result that would be written over what it is made from.
-fn onto_itself(source: &Path, result: Option<&Path>) -> Result<(), Failure> {
-    let place = |path: &Path| path.canonicalize().ok();
-    match result {
-        Some(result) if place(source).is_some_and(|source| place(result) == Some(source)) => {
-            Err(Failure::usage(format!("{} would be written over what it is made from", result.display())))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Writes JSON to standard output.
-fn say_json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value)
-        .map_err(|error| Failure::failed(format!("the result cannot be written as JSON: {error}")))?;
-    say(text);
-    Ok(())
 }

@@ -2,4 +2,5 @@
 
 pub mod candidates;
 pub mod sensors;
+pub mod ticks;
 pub mod units;

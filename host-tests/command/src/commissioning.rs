@@ -3,9 +3,11 @@
 mod course;
 mod engine;
 mod machine;
+mod truth;
 mod verdict;
 
-pub use course::{Course, Moment, Truth, run};
+pub use course::{Course, Moment, run};
 pub use engine::{Target, VARIANT, in_qemu, on_host};
 pub use machine::{Case, Trial, cases, named, of_file};
+pub use truth::Truth;
 pub use verdict::{Row, Verdict, verdict};

@@ -1,9 +1,10 @@
 //! The observer with a step of choice against the library's drive, and the approximate steps against the exact one.
 
+use cargo_driveline::closed_loop::ticks::OnHost;
 use cargo_driveline::closed_loop::units::Units;
 use cargo_driveline::drivetrains::approximate::{ApproximateObserver, StepOf};
 use cargo_driveline::drivetrains::hoist;
-use cargo_driveline::drivetrains::lockstep::{OnHost, Trace, run};
+use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::other_steps::{Recorded, comparison, comparisons, recorded};
 use driveline::design::{Disturbance, Encoder, Rate, TwoMassDesign};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};

@@ -3,11 +3,13 @@
 mod thinning;
 pub mod view;
 
+use std::path::Path;
+
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
 use serde::Serialize;
 
-use super::Report;
+use crate::results::Report;
 
 /// The page's template and its parts, compiled into the program.
 const TEMPLATES: &[(&str, &str)] = &[
@@ -43,7 +45,49 @@ pub fn fill(template: &str, values: impl Serialize) -> String {
     template.render(Serde(values)).expect("a template of the report asks for what it is not given")
 }
 
-/// The report as a page.
-pub fn page(report: &Report) -> String {
-    fill("page.html", view::view(report))
+impl Report {
+    /// The page as HTML. Long series are thinned (peaks kept) so that it stays under 3 MB.
+    pub fn page(&self) -> String {
+        fill("page.html", view::view(self))
+    }
+
+    /// Writes the page, and the folder it stands in where that is missing.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn write(&self, path: &Path) -> std::io::Result<()> {
+        write_page(path, &self.page())
+    }
+
+    /// What `run --json` prints: `{scene, variants}`.
+    pub fn json(&self) -> serde_json::Value {
+        serde_json::json!({ "scene": self.scene, "variants": self.variants })
+    }
+}
+
+/// Finds out before a long run whether a page can be written; what stands there is left alone, and the folder is made where it is missing.
+///
+/// # Errors
+/// What the file system says.
+pub fn writable(path: &Path) -> std::io::Result<()> {
+    make_folder_of(path)?;
+    let stood = path.exists();
+    std::fs::OpenOptions::new().append(true).create(true).open(path)?;
+    if stood { Ok(()) } else { std::fs::remove_file(path) }
+}
+
+fn make_folder_of(path: &Path) -> std::io::Result<()> {
+    match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        Some(folder) => std::fs::create_dir_all(folder),
+        None => Ok(()),
+    }
+}
+
+/// Writes a page, and the folder it stands in where that is missing.
+///
+/// # Errors
+/// What the file system says.
+pub fn write_page(path: &Path, page: &str) -> std::io::Result<()> {
+    make_folder_of(path)?;
+    std::fs::write(path, page)
 }

@@ -6,12 +6,11 @@ use driveline_firmware::scenes::balanced_fan as scene;
 use nalgebra::Complex;
 
 use super::error::BalancingError;
-use super::hand::Hand;
 use super::machine::{Drivetrain, Machine};
-use super::operator::Operator;
+use super::operator::{Hand, Operator};
 use super::outcome::{Claim, Outcome, Stage, Vector};
+use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
-use crate::drivetrains::lockstep::Ticks;
 use driveline_solver::plant::{Chain, Shaft};
 use driveline_solver::rotor::{Bearing, Direction, Faulty, Modal, Model, Polar, RigidRotor, Transducer, Whirl};
 

@@ -9,8 +9,8 @@ use super::error::BalancingError;
 use super::machine::{Drivetrain, Machine};
 use super::operator::Operator;
 use super::outcome::{Claim, Outcome, Stage, Vector};
+use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
-use crate::drivetrains::lockstep::Ticks;
 use driveline_solver::plant::{Chain, Shaft};
 use driveline_solver::rotor::{
     Bearing, Direction, Disc, Faulty, FlexibleRotor, Material, Modal, Model, Polar, Transducer, Whirl,

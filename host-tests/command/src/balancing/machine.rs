@@ -6,8 +6,8 @@ use driveline_firmware::scene::{Input, Output};
 use driveline_firmware::self_test::fingerprint::Fingerprint;
 
 use crate::closed_loop::sensors::Encoder;
+use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
-use crate::drivetrains::lockstep::Ticks;
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::Plant;
 use driveline_solver::rotor::{Faulty, Turn, Whirl};

@@ -1,12 +1,13 @@
-//! Who operates the machine: starts it, waits, presses keys on its panel, stops it.
+//! Who operates the machine: starts it, waits, presses keys on its panel, stops it; and the hand that sets a weight, never quite as much and never quite there.
 
 use driveline_firmware::scene::balanced::DOUBTS;
 use driveline_firmware::scene::panel_keys::{DONE, Key, MEASURING, REFUSED};
+use driveline_solver::noise::Noise;
 use nalgebra::Complex;
 
 use super::error::BalancingError;
 use super::machine::Machine;
-use crate::drivetrains::lockstep::Ticks;
+use crate::closed_loop::ticks::Ticks;
 
 /// Share of the setpoint within which the speed counts as reached.
 const REACHED: f64 = 2e-3;
@@ -118,5 +119,28 @@ impl<'a> Operator<'a> {
             self.doubts.extend(doubts.last());
         }
         Err(BalancingError::NoReading { speed: self.machine.setpoint(), doubts: doubts.join(", ") })
+    }
+}
+
+/// Sets weights with errors of this standard deviation.
+pub struct Hand {
+    /// Of the amount, as a share.
+    amount: f64,
+    /// Of the angle [rad].
+    angle: f64,
+    source: Noise,
+}
+
+impl Hand {
+    /// A hand with errors of the amount, as a share, and of the angle [degrees]; `seed` is that of its errors.
+    #[must_use]
+    pub fn new(amount: f64, degrees: f64, seed: u64) -> Self {
+        Hand { amount, angle: degrees.to_radians(), source: Noise::new(seed) }
+    }
+
+    /// A weight as it is set.
+    pub fn set(&mut self, wanted: Complex<f64>) -> Complex<f64> {
+        let (amount, angle) = (1.0 + self.amount * self.source.normal(), self.angle * self.source.normal());
+        wanted * Complex::from_polar(amount, angle)
     }
 }

@@ -6,7 +6,7 @@ use driveline_firmware::panel::flash_model::WORDS;
 use driveline_firmware::scene::panel_keys::{DONE, Key};
 use driveline_firmware::scene::{Input, Output};
 
-use crate::drivetrains::lockstep::Ticks;
+use crate::closed_loop::ticks::Ticks;
 
 /// What is kept in the flash once it is done.
 const ENTRIES: [Key; 5] = [Key::RunOut, Key::Baseline, Key::Trial, Key::Placed, Key::Verified];

@@ -1,4 +1,4 @@
-//! The scenes by name: on the host, in QEMU, and what they leave.
+//! A scene whose rotor is balanced: on the host, in QEMU, and what it leaves.
 
 use std::error::Error;
 use std::io;
@@ -12,7 +12,7 @@ use super::error::BalancingError;
 use super::operator::Operator;
 use super::outcome::{Claim, Outcome, Stage};
 use super::power_cut::PowerCuts;
-use crate::drivetrains::lockstep::{OnHost, Ticks};
+use crate::closed_loop::ticks::{OnHost, Ticks};
 use driveline_qemu::image::{Contents, Image, Program, belongs, build};
 use driveline_qemu::link::Link;
 use driveline_solver::rotor::{Model, Polar};
@@ -27,32 +27,7 @@ pub struct Scene {
     pub name: &'static str,
     /// What it is, in a sentence.
     pub summary: &'static str,
-    balance: fn(Words, &mut dyn Ticks, u64) -> Result<Outcome, BalancingError>,
-}
-
-/// The scenes.
-#[must_use]
-pub const fn scenes() -> [Scene; 3] {
-    [
-        Scene {
-            name: "balanced-fan",
-            summary: "A fan of 180 kg at 1480 r/min, found in grade G 16, balanced in two planes with trial weights. Its sensors are off by \
-                      5 % and 10 degrees, its noise is 20 dB below the vibration, weights are set to 3 % and 2 degrees.",
-            balance: super::fan::run,
-        },
-        Scene {
-            name: "flexible",
-            summary: "A flexible rotor of three discs, balanced in three planes at two speeds, below and above its first critical. Its sensors see \
-                      the shaft's run-out, are off by 5 % and 10 degrees and have 5 % of noise.",
-            balance: super::flexible::run,
-        },
-        Scene {
-            name: "grinding-spindle",
-            summary: "A grinding spindle with a balancing head that moves two masses while it turns at 3000 r/min: balanced in-run, from \
-                      nothing known.",
-            balance: super::spindle::run,
-        },
-    ]
+    pub(super) balance: fn(Words, &mut dyn Ticks, u64) -> Result<Outcome, BalancingError>,
 }
 
 /// What a variant takes of a controller.
@@ -82,12 +57,6 @@ pub struct Ran {
 }
 
 impl Scene {
-    /// The scene of a name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        scenes().into_iter().find(|scene| scene.name == name)
-    }
-
     /// Its variants on the boards that they belong on, whose number/core/observer/rate contains the filter.
     #[must_use]
     pub fn variants(&self, filter: Option<&str>) -> Vec<(&'static str, Facts)> {

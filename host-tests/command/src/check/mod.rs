@@ -2,14 +2,17 @@
 
 mod cargo;
 pub mod comparison;
+mod step;
 mod steps;
 
-use std::io::Write;
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
+pub use step::{Count, Step};
 pub use steps::STEPS;
+
+use step::{Failed, Voice};
 
 /// What to check and how to say it.
 #[derive(Clone, Debug, Default)]
@@ -18,15 +21,6 @@ pub struct Options {
     pub json: bool,
     /// Only the step of this name, one of [`STEPS`].
     pub only: Option<String>,
-}
-
-/// What a step found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Count {
-    /// Checks that passed: tests, images, figures, or one for the whole step.
-    pub passed: u64,
-    /// Checks that failed.
-    pub failed: u64,
 }
 
 /// A step that has run.
@@ -62,40 +56,6 @@ pub enum CheckError {
     /// No step has that name.
     #[error("no step is called `{0}`; there are {list}", list = STEPS.map(|step| step.name).join(", "))]
     NoSuchStep(String),
-}
-
-/// A step: its name, what to type to repeat it, and what it does.
-pub struct Step {
-    /// Its name.
-    pub name: &'static str,
-    /// What to type.
-    pub repeat: &'static str,
-    run: fn(&Voice) -> Result<Count, Failed>,
-}
-
-/// A step's failure.
-struct Failed {
-    count: Count,
-    message: String,
-}
-
-impl Failed {
-    /// Of a step that is one check.
-    fn whole(message: impl ToString) -> Self {
-        Failed { count: Count { passed: 0, failed: 1 }, message: message.to_string() }
-    }
-}
-
-/// Where a step's own words go: standard output for a person, standard error where that is for JSON.
-struct Voice {
-    json: bool,
-}
-
-impl Voice {
-    fn say(&self, line: &str) {
-        // a reader that has gone away is no reason to stop checking
-        let _ = if self.json { writeln!(std::io::stderr(), "{line}") } else { writeln!(std::io::stdout(), "{line}") };
-    }
 }
 
 /// Runs the steps up to the first failure. Says each with its time, and at the end the closing line `N passed, N failed`.

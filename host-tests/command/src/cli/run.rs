@@ -7,8 +7,8 @@ use clap::Args;
 use super::balancing::{self, Wanted};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
-use crate::balancing::Scene;
-use crate::drivetrains::Plan;
+use crate::balancing::{Scene, scenes};
+use crate::drivetrains::{Plan, SCENES};
 use driveline_qemu::setup::Need;
 use driveline_report::{variants_table, writable};
 
@@ -53,6 +53,11 @@ impl Run {
         if let Some(scene) = Scene::named(scene) {
             let (filter, html) = (self.variants.as_deref(), self.html.as_deref());
             return balancing::run(&scene, Wanted { filter, html, json: self.json });
+        }
+        if !SCENES.iter().any(|(name, _)| *name == scene) {
+            let names = SCENES.iter().map(|(name, _)| *name).chain(scenes().map(|scene| scene.name));
+            let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+            return Err(Failure::usage(format!("there is no scene `{scene}`; there are {}", names.join(", "))));
         }
         let plan = Plan::of(scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
         let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{scene}.html")));

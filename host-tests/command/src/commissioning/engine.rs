@@ -10,7 +10,7 @@ use driveline_firmware::scenes::commission::{Commission, panel};
 
 use super::course::{Course, run};
 use super::machine::Case;
-use crate::drivetrains::lockstep::{OnHost, Ticks};
+use crate::closed_loop::ticks::{OnHost, Ticks};
 use driveline_qemu::image::{Contents, Program, build};
 use driveline_qemu::link::Link;
 

@@ -10,7 +10,7 @@ use driveline::design::{Encoder, Rate};
 use driveline_firmware::scenes::commission::{HELD, HOIST, MILL, SPINDLE};
 use driveline_firmware::scenes::{blooming_mill, hoist, spindle};
 
-use super::course::Truth;
+use super::truth::Truth;
 use crate::machine_file::MachineFile;
 use driveline_solver::plant::{Chain, Plant, PlantError, Shaft, Start};
 

@@ -9,9 +9,10 @@ use driveline_firmware::variants::visit;
 
 use super::figures::{deviations, peaks};
 use super::lockstep;
-use super::lockstep::{OnHost, Ticks, Trace};
+use super::lockstep::Trace;
 use super::scenario::Machine;
 use crate::closed_loop::candidates::Candidate;
+use crate::closed_loop::ticks::{OnHost, Ticks};
 use crate::closed_loop::units::Units;
 use driveline_qemu::image::{Contents, Program, build, cycles};
 use driveline_qemu::link::Link;

@@ -2,37 +2,13 @@
 
 use std::io;
 
-use driveline_firmware::scene::{Input, Output, Scene};
+use driveline_firmware::scene::{Input, Output};
 
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
+use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
-use driveline_qemu::link::Link;
 use driveline_solver::noise::Noise;
-
-/// Something that ticks: a scene on the host, or an image in QEMU.
-pub trait Ticks {
-    /// One tick.
-    ///
-    /// # Errors
-    /// What the link says; never on the host.
-    fn tick(&mut self, input: &Input) -> io::Result<Output>;
-}
-
-/// A scene on the host.
-pub struct OnHost<S>(pub S);
-
-impl<S: Scene> Ticks for OnHost<S> {
-    fn tick(&mut self, input: &Input) -> io::Result<Output> {
-        Ok(self.0.exchange(input))
-    }
-}
-
-impl Ticks for Link {
-    fn tick(&mut self, input: &Input) -> io::Result<Output> {
-        self.exchange(input)
-    }
-}
 
 /// What was true, what was estimated, and what was exchanged, at one tick.
 #[derive(Clone, Copy, Debug, Default)]

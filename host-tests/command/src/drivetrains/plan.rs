@@ -29,9 +29,8 @@ impl Plan {
     /// A sentence: no such scene, or no such variant.
     pub fn of(scene: &str, filter: Option<&str>, quick: bool) -> Result<Self, String> {
         let Some((_, machine)) = SCENES.iter().find(|(name, _)| *name == scene) else {
-            let balanced = crate::balancing::scenes().map(|scene| scene.name);
-            let names = SCENES.iter().map(|(name, _)| *name).chain(balanced).map(|name| format!("`{name}`"));
-            return Err(format!("there is no scene `{scene}`; there are {}", names.collect::<Vec<_>>().join(", ")));
+            let names: Vec<String> = SCENES.iter().map(|(name, _)| format!("`{name}`")).collect();
+            return Err(format!("there is no drivetrain `{scene}`; there are {}", names.join(", ")));
         };
         let machine = machine().map_err(|error| format!("the plant of scene `{scene}`: {error}"))?;
         let candidates = candidates(scene, filter);

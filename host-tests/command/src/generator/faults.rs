@@ -8,8 +8,8 @@ use serde::Serialize;
 
 use super::run::{Broken, Moment, Program, run};
 use super::set::Kind;
+use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
-use crate::drivetrains::lockstep::Ticks;
 use driveline_solver::noise::Noise;
 
 /// An input of the drive.

@@ -8,8 +8,8 @@ use driveline_firmware::scenes::generator::{RATE_HZ, RATED_SPEED, panel};
 
 use super::set::{Kind, STEPS, Set};
 use crate::closed_loop::sensors::Encoder;
+use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
-use crate::drivetrains::lockstep::Ticks;
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::PlantError;
 

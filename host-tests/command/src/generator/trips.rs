@@ -12,8 +12,8 @@ use serde::Serialize;
 
 use super::run::{Broken, Moment, Program, run};
 use super::set::Kind;
+use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
-use crate::drivetrains::lockstep::Ticks;
 
 /// A cause, and the trip that it is to bring about.
 #[derive(Clone, Copy, Debug, PartialEq)]

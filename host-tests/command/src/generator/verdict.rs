@@ -17,7 +17,7 @@ use super::set::Kind;
 use super::standard::{Figures, figures};
 use super::trips::{CAUSES, Latched, latched};
 use crate::closed_loop::candidates::{Candidate, candidates};
-use crate::drivetrains::lockstep::{OnHost, Ticks};
+use crate::closed_loop::ticks::{OnHost, Ticks};
 use driveline_qemu::image::{Image, Program as Binary, build};
 use driveline_qemu::link::Link;
 use driveline_qemu::measure::Spread;

@@ -1,9 +1,10 @@
 //! The mill and the converter in closed loop with their full plants, on the host: what the shaft feels, and what is
 //! estimated.
 
+use cargo_driveline::closed_loop::ticks::OnHost;
 use cargo_driveline::closed_loop::units::Units;
 use cargo_driveline::drivetrains::figures::{deviations, peaks};
-use cargo_driveline::drivetrains::lockstep::{OnHost, Trace, run};
+use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::scenario::Machine;
 use cargo_driveline::drivetrains::{blooming_mill as mill, converter};
 use driveline::design::{BacklashTakeUpTuning, Error, Rate};

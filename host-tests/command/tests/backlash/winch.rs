@@ -1,9 +1,10 @@
 //! The skip winch's emergencies while hoisting, on the host: what the rope feels with the drive that takes up its slack, against a plain speed loop.
 
+use cargo_driveline::closed_loop::ticks::OnHost;
 use cargo_driveline::closed_loop::units::Units;
 use cargo_driveline::drivetrains::SCENES;
 use cargo_driveline::drivetrains::figures::{deviations, peaks};
-use cargo_driveline::drivetrains::lockstep::{OnHost, Trace, run};
+use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::scenario::Machine;
 use driveline_firmware::scene::Scene;
 use driveline_firmware::variants::visit;

@@ -3,8 +3,8 @@
 use core::f64::consts::TAU;
 use std::io;
 
+use cargo_driveline::closed_loop::ticks::{OnHost, Ticks};
 use cargo_driveline::commissioning::{Case, Course, named, on_host, run, verdict};
-use cargo_driveline::drivetrains::lockstep::{OnHost, Ticks};
 use driveline::commissioning::{Commissioning, Error, TestConfig, TestSettings};
 use driveline_firmware::scene::{Input, Output};
 use driveline_firmware::scenes::commission::{Commission, SPINDLE, reason};

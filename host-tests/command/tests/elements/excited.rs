@@ -1,7 +1,8 @@
 //! The scenes whose machines excite themselves, by unbalance and by teeth: what their full plants do, and that their runs are proven.
 
+use cargo_driveline::closed_loop::ticks::OnHost;
 use cargo_driveline::closed_loop::units::Units;
-use cargo_driveline::drivetrains::lockstep::{OnHost, Trace, run};
+use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::plant::Body;
 use cargo_driveline::drivetrains::scenario::Machine;
 use cargo_driveline::drivetrains::{gear_drive as gears, vibrating_screen as screen};

@@ -1,9 +1,10 @@
 //! Every scene on the host against its full plant: what it estimates, and that its solver's run is proven.
 
+use cargo_driveline::closed_loop::ticks::OnHost;
 use cargo_driveline::closed_loop::units::Units;
 use cargo_driveline::drivetrains::SCENES;
 use cargo_driveline::drivetrains::figures::{deviations, peaks};
-use cargo_driveline::drivetrains::lockstep::{OnHost, Trace, run};
+use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::scenario::Machine;
 use driveline_firmware::scene::Scene;
 use driveline_firmware::variants::{VARIANTS, visit};

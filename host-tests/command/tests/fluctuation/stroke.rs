@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 use std::io;
 
+use cargo_driveline::closed_loop::ticks::{OnHost, Ticks};
 use cargo_driveline::closed_loop::units::Units;
-use cargo_driveline::drivetrains::lockstep::{Moment, OnHost, Ticks, Trace, run};
+use cargo_driveline::drivetrains::lockstep::{Moment, Trace, run};
 use cargo_driveline::drivetrains::punch_press::{CRANK, machine, press, stamping};
 use cargo_driveline::drivetrains::scenario::{Law, Machine, Scenario};
 use driveline_firmware::scene::{Input, Output, Scene};

@@ -1,6 +1,6 @@
 //! The generator sets on the host, in closed loop with their full plants: classes, faults, load that goes and comes.
 
-use cargo_driveline::drivetrains::lockstep::OnHost;
+use cargo_driveline::closed_loop::ticks::OnHost;
 use cargo_driveline::generator::faults::{FAULTS, MOST, PASSING, WIRES, documented, outcome};
 use cargo_driveline::generator::run::{Moment, Program, run};
 use cargo_driveline::generator::set::Kind;

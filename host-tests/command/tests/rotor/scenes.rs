@@ -1,7 +1,7 @@
 //! Scenes that are balanced: by their firmware on the host, and in QEMU.
 
 use cargo_driveline::balancing::{Course, Outcome, Scene, SpindleStart, spindle};
-use cargo_driveline::drivetrains::lockstep::OnHost;
+use cargo_driveline::closed_loop::ticks::OnHost;
 use driveline_firmware::variants::visit;
 use driveline_firmware::{Visitor, Words, scene};
 use driveline_qemu::image::{Contents, Program, board, build};

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use object::read::elf::ElfFile32;
 use object::{Object, ObjectSection, ObjectSymbol};
 
-use super::Symbol;
+use super::symbols::Symbol;
 
 /// The function of that name and all that it reaches, each once; empty where there is none of that name.
 pub fn reached<'s>(file: &ElfFile32<'_>, symbols: &'s [Symbol], name: &str) -> Vec<&'s Symbol> {

@@ -11,7 +11,8 @@ use object::read::elf::ElfFile32;
 use object::{Endianness, Object, ObjectSection, SectionFlags};
 
 use super::calls::{constants, halfword, reached, target};
-use super::sections::{ReadError, Symbol, symbols};
+use super::sections::{ReadError, symbols};
+use super::symbols::Symbol;
 
 /// A function of the tick.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -8,6 +8,7 @@ mod footprint;
 mod fresh;
 mod machine_code;
 mod sections;
+mod symbols;
 
 use std::path::PathBuf;
 
@@ -17,7 +18,8 @@ pub use build::{BuildError, build, links, target_directory, workspace};
 pub use compositions::compositions;
 pub use footprint::{Footprint, footprints};
 pub use machine_code::{Function, Referent, tick_code};
-pub use sections::{Contents, ReadError, Sizes, Symbol};
+pub use sections::{Contents, ReadError, Sizes};
+pub use symbols::Symbol;
 
 /// The binaries of the firmware.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -9,6 +9,7 @@ use object::read::elf::ElfFile32;
 use object::{Endianness, Object, ObjectSection, ObjectSymbol, SectionFlags, SymbolKind};
 
 use super::calls;
+use super::symbols::Symbol;
 
 /// Why an image could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -54,19 +55,6 @@ impl Sizes {
     pub fn ram(&self) -> u64 {
         self.data + self.zeroed
     }
-}
-
-/// A function or a variable.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Symbol {
-    /// Its name, mangled as in the file.
-    pub name: String,
-    /// Its address, without the bit that marks Thumb code.
-    pub address: u64,
-    /// Its bytes, a function's literal pool included.
-    pub size: u64,
-    /// Whether it is a function.
-    pub is_function: bool,
 }
 
 /// What was read from an image.

@@ -7,16 +7,19 @@
 
 mod packages;
 mod private_copy;
+mod programs;
+mod runner;
 
 use std::collections::BTreeSet;
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use driveline_firmware::board::{BOARDS, FURTHER, Facts};
 
 use crate::link::{Emulator, QEMU};
-use packages::{Manager, Rights, Trial};
+use packages::{Manager, Rights};
+use programs::succeeds;
+use runner::Runner;
 
 /// Something that is needed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -160,56 +163,6 @@ fn installed(manager: Manager, rights: Rights, runner: &mut Runner) -> Result<()
     runner.run(&command)
 }
 
-/// What runs commands, and says which.
-struct Runner<'p>(&'p mut dyn FnMut(&str));
-
-impl Runner<'_> {
-    fn say(&mut self, line: &str) {
-        (self.0)(line);
-    }
-
-    /// Runs a command and shows what it prints; an error says how it ended.
-    fn run(&mut self, words: &[String]) -> Result<(), String> {
-        let line = words.join(" ");
-        self.say(&line);
-        // standard output is for the caller's own lines
-        let status = command(words).stdout(std::io::stderr()).status().map_err(|error| format!("`{line}`: {error}"))?;
-        if status.success() { Ok(()) } else { Err(format!("`{line}` ended with {status}")) }
-    }
-
-    /// Runs a command, called `name`, of which nothing is shown; gives the last line of its warnings, or of its error.
-    fn quietly(&mut self, words: &[String], name: &str) -> Result<String, String> {
-        let output = command(words).output().map_err(|error| format!("{name}: {error}"))?;
-        let last = format!("{name}: {}", last_line(&output.stderr));
-        if output.status.success() { Ok(last) } else { Err(last) }
-    }
-
-    /// What an `apt-get install` would do; asking takes no rights.
-    fn trial(&mut self, words: &[String]) -> Result<Trial, String> {
-        let name = words.join(" ");
-        let output = command(words).arg("--simulate").env("LC_ALL", "C").output();
-        let output = output.map_err(|error| format!("`{name}`: {error}"))?;
-        let trial = Trial::read(&String::from_utf8_lossy(&output.stdout));
-        if output.status.success() || !trial.removed.is_empty() {
-            return Ok(trial);
-        }
-        Err(format!("`{name}`: {}", last_line(&output.stderr)))
-    }
-}
-
-/// The last line of what a program printed, as its reason.
-fn last_line(text: &[u8]) -> String {
-    let text = String::from_utf8_lossy(text);
-    text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("no reason given").trim_start_matches("E: ").to_owned()
-}
-
-/// A command of some words, that asks nothing.
-fn command(words: &[String]) -> Command {
-    let mut command = Command::new(words.first().map_or("", String::as_str));
-    command.args(words.iter().skip(1)).env("DEBIAN_FRONTEND", "noninteractive").stdin(Stdio::null());
-    command
-}
-
 /// The cargo that runs this program, else the one on the path.
 pub fn cargo() -> std::ffi::OsString {
     std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
@@ -222,11 +175,6 @@ fn has_target(target: &str) -> bool {
         let directory = String::from_utf8_lossy(&output.stdout);
         output.status.success() && Path::new(directory.trim()).is_dir()
     })
-}
-
-fn succeeds(program: &OsStr, arguments: &[&str]) -> bool {
-    let status = Command::new(program).args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
-    status.is_ok_and(|status| status.success())
 }
 
 /// Whether a program is on the search path.

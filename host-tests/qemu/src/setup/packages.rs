@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 
-use super::succeeds;
+use super::programs::succeeds;
 use crate::link::QEMU;
 
 /// A package manager that has QEMU for Arm.

@@ -7,7 +7,8 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use super::{Runner, packages::Manager};
+use super::packages::Manager;
+use super::runner::Runner;
 use crate::link::{Emulator, QEMU};
 
 /// Whether a manager's packages can be unpacked so.

@@ -7,8 +7,12 @@ mod variants;
 use serde::Serialize;
 
 use super::thinning::fineness;
+use crate::chart;
+use crate::results::{Fact, Report, Variant};
 use crate::svg::MARKERS;
-use crate::{Fact, Report, Sweep, Trajectory, Variant, chart};
+use crate::sweep::Sweep;
+use crate::trajectory::Trajectory;
+use variants::{Named, index_of, names};
 
 /// Everything on the page.
 #[derive(Serialize)]
@@ -66,13 +70,6 @@ impl Sweeps {
     }
 }
 
-/// A colour or a marker and what it stands for.
-#[derive(Serialize)]
-struct Named {
-    name: String,
-    index: usize,
-}
-
 /// Trajectories, chosen by variant and situation.
 #[derive(Serialize)]
 struct Courses {
@@ -108,21 +105,6 @@ pub fn view(report: &Report) -> View<'_> {
         sizes: tables::sizes(&report.compositions),
         budgets: report.budgets.iter().map(tables::verdict).collect(),
     }
-}
-
-/// The different names, in the order of their first appearance.
-fn names(all: impl Iterator<Item = String>) -> Vec<String> {
-    let mut names = Vec::new();
-    for name in all {
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    names
-}
-
-fn index_of(names: &[String], name: &str) -> usize {
-    names.iter().position(|known| known == name).unwrap_or(0)
 }
 
 fn courses(trajectories: &[Trajectory]) -> Courses {

@@ -18,64 +18,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod crossing;
 pub(super) mod pass;
+mod proof;
 mod recording;
 mod rerun;
 mod textbook;
 
+pub use proof::{BOUND, Deviation, NotProven, Proof};
 pub use recording::Recording;
 
-use super::solver::Plant;
-use recording::Step;
-
-/// Largest deviation that a reference run may show, as a share of the peak.
-pub const BOUND: f64 = 1e-8;
-
-/// A deviation between two runs, as a share of the peak of its quantity over the run (of all speeds, of each shaft's
-/// torque).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Deviation {
-    /// The largest over all ticks and quantities.
-    pub largest: f64,
-    /// Where it was found, s.
-    pub time: f64,
-}
-
-/// What the two checks found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Proof {
-    /// Against the second integrator.
-    pub integrator: Deviation,
-    /// Against the solver with its events located ten times closer.
-    pub tightened: Deviation,
-}
-
-/// Why a run does not stand.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum NotProven {
-    /// A check came out otherwise.
-    #[error("the run deviates by {found:.1e} of peak from {from} at {time} s: expected at most {BOUND:.0e}")]
-    Deviates {
-        /// Which check.
-        from: &'static str,
-        /// The deviation over the peak.
-        found: f64,
-        /// Where, s.
-        time: f64,
-    },
-    /// The second integrator gave up.
-    #[error("the second integrator failed at {time} s: {reason}")]
-    Integrator {
-        /// Where, s.
-        time: f64,
-        /// What it said.
-        reason: String,
-    },
-    /// Nothing was recorded.
-    #[error("the recording holds no tick")]
-    Empty,
-}
+use recording::{Step, sample};
 
 /// Runs both checks.
 ///
@@ -109,13 +61,6 @@ fn tightened(run: &Recording) -> Vec<Vec<f64>> {
         }
     }
     samples
-}
-
-/// Speeds, then shaft torques, then the motor's angle.
-fn sample(plant: &Plant) -> Vec<f64> {
-    let speeds = (0..plant.nodes()).map(|j| plant.speed(j));
-    let torques = (0..plant.nodes() - 1).map(|s| plant.shaft_torque(s));
-    speeds.chain(torques).chain([plant.motor_angle()]).collect()
 }
 
 fn deviation(run: &Recording, other: &[Vec<f64>]) -> Result<Deviation, NotProven> {

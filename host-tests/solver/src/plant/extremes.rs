@@ -1,69 +1,31 @@
-//! Greatest and least shaft torques of a run, found where their rate is zero and not on a grid of samples.
+//! Greatest and least value of a quantity, with their times.
 
-use super::mode::elastic_torque;
-use super::root::{derivative, sign_changes};
-use super::solver::Plant;
-use super::taylor::Stretch;
-
-/// Greatest and least torque of a shaft since the watch began.
+/// Greatest and least value since a watch began.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extremes {
-    /// N m.
+    /// In the quantity's unit.
     pub peak: f64,
     /// s.
     pub peak_time: f64,
-    /// N m.
+    /// In the quantity's unit.
     pub least: f64,
     /// s.
     pub least_time: f64,
 }
 
-impl Plant {
-    /// Begins to watch the extremes of [`shaft_torque`](Self::shaft_torque) of every shaft. Ticks take some ten times longer while
-    /// watched.
-    pub fn watch_extremes(&mut self) {
-        let time = self.clock.0;
-        let now = (0..self.chain.shafts.len()).map(|s| {
-            let torque = self.shaft_torque(s);
-            Extremes { peak: torque, peak_time: time, least: torque, least_time: time }
-        });
-        self.extremes = Some(now.collect());
+impl Extremes {
+    /// Of the first value.
+    pub(super) fn of(value: f64, time: f64) -> Self {
+        Self { peak: value, peak_time: time, least: value, least_time: time }
     }
 
-    /// Extremes of a shaft; none before [`watch_extremes`](Self::watch_extremes) or for a shaft that is not there.
-    #[must_use]
-    pub fn extremes(&self, shaft: usize) -> Option<Extremes> {
-        self.extremes.as_ref()?.get(shaft).copied()
-    }
-
-    /// Looks at the part of the stretch up to `share`: both ends and every place where a rate of torque is zero.
-    pub(super) fn note_extremes(&mut self, stretch: &Stretch, share: f64) {
-        let Some(mut extremes) = self.extremes.take() else {
-            return;
-        };
-        let (x, outer) = (self.x.clone(), self.outer.clone());
-        for (s, extreme) in extremes.iter_mut().enumerate() {
-            let (row, constant) = elastic_torque(&self.chain, &self.mode, s);
-            let rate = derivative(&stretch.form(&row, constant, 0.0).0);
-            let mut places = vec![0.0, share];
-            // near an extreme an error of 1e-12 of the stretch changes the torque by the square of that
-            places.extend(sign_changes(&rate, 1e-12).into_iter().filter(|&p| p < share));
-            for place in places {
-                let passed = place * stretch.length;
-                self.x = stretch.at(place);
-                for (j, torque) in self.outer.iter_mut().enumerate() {
-                    *torque = outer[j] + self.outer_rate[j] * passed;
-                }
-                let (torque, time) = (self.shaft_torque(s), self.clock.0 + self.elapsed + passed);
-                if torque > extreme.peak {
-                    (extreme.peak, extreme.peak_time) = (torque, time);
-                }
-                if torque < extreme.least {
-                    (extreme.least, extreme.least_time) = (torque, time);
-                }
-            }
+    /// With one value more.
+    pub(super) fn take(&mut self, value: f64, time: f64) {
+        if value > self.peak {
+            (self.peak, self.peak_time) = (value, time);
         }
-        (self.x, self.outer) = (x, outer);
-        self.extremes = Some(extremes);
+        if value < self.least {
+            (self.least, self.least_time) = (value, time);
+        }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::chain::Chain;
 use super::dense::dot;
+use super::layout::Layout;
 use super::mode::{FREE, Mode, TRAILING, elastic_torque};
-use super::regime::{Layout, Regime};
+use super::regime::Regime;
 
 /// What a fallen guard calls for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

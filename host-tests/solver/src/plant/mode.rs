@@ -2,7 +2,7 @@
 
 use super::chain::Chain;
 use super::dense::dot;
-use super::regime::Layout;
+use super::layout::Layout;
 
 /// Motion of a node that has no dry friction and no lossy gear.
 pub(super) const FREE: i8 = 2;

@@ -5,30 +5,11 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use super::chain::Chain;
 use super::dense::Dense;
 use super::exponential::Propagator;
+use super::layout::Layout;
 use super::mode::Mode;
 
 /// Steps kept per regime; a run of one tick length needs one.
 const STEPS_KEPT: usize = 4;
-
-/// Where the parts of the state stand: twists, then speeds, then the motor's angle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Layout {
-    pub nodes: usize,
-}
-
-impl Layout {
-    pub fn speed(self, node: usize) -> usize {
-        self.nodes - 1 + node
-    }
-
-    pub fn angle(self) -> usize {
-        2 * self.nodes - 1
-    }
-
-    pub fn states(self) -> usize {
-        2 * self.nodes
-    }
-}
 
 /// `x' = A x + B f`, with `f` the torques on the nodes.
 #[derive(Debug, Clone)]

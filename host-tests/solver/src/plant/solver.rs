@@ -8,8 +8,9 @@ use super::event::{Event, Place};
 use super::excitation::MotorLaw;
 use super::extremes::Extremes;
 use super::guard::{Guard, guards};
+use super::layout::Layout;
 use super::mode::{FREE, Hold, Mode, elastic_torque};
-use super::regime::{Layout, Regime};
+use super::regime::Regime;
 
 /// Time within which an event is located unless told otherwise, s.
 pub(super) const EVENT_TOLERANCE: f64 = 1e-14;
@@ -48,8 +49,19 @@ pub struct Plant {
     pub(super) refused: u64,
 }
 
+impl Chain {
+    /// Checks every number and readies the plant.
+    ///
+    /// # Errors
+    /// [`PlantError`] names the first parameter that is out of range.
+    pub fn build(self) -> Result<Plant, PlantError> {
+        self.validate()?;
+        Plant::new(self)
+    }
+}
+
 impl Plant {
-    pub(super) fn new(chain: Chain) -> Result<Self, PlantError> {
+    fn new(chain: Chain) -> Result<Self, PlantError> {
         let n = chain.nodes.len();
         let layout = Layout { nodes: n };
         let (twists, speeds) = chain.start.state(&chain);

@@ -42,6 +42,7 @@
 //! ```
 
 pub mod converge;
+mod coupling;
 mod crank;
 mod event;
 mod friction;
@@ -53,8 +54,11 @@ mod modes;
 mod motion;
 mod reading;
 mod series;
+mod signal;
+mod sized;
 mod source;
 mod start;
+mod state;
 mod stiffest;
 mod stretch;
 mod unbalance;
@@ -66,12 +70,12 @@ pub use link::Link;
 pub use mesh::{Harmonic, Teeth, Variation, Zone};
 pub use modes::TrainModes;
 pub use motion::Motion;
-pub use reading::Signal;
+pub use signal::Signal;
 pub use source::{Source, Waveform};
 pub use stiffest::Stiffest;
 pub use unbalance::Unbalance;
 
-use super::error::{PlantError, finite, not_negative, positive};
+use super::error::{PlantError, finite, in_range, not_negative, positive};
 use super::event::Place;
 
 /// An angle or a way, and what acts on it.
@@ -181,23 +185,6 @@ impl Train {
         self
     }
 
-    /// Checks every number and readies the motion.
-    ///
-    /// # Errors
-    /// [`PlantError`] names the first parameter that is out of range; a link is called a shaft, a coordinate a node.
-    pub fn build(mut self) -> Result<Motion, PlantError> {
-        self.validate()?;
-        for (l, link) in self.links.iter().enumerate().filter(|(_, link)| link.efficiency < 1.0) {
-            let front = [(link.terms[0].0, 1.0)];
-            let same = |friction: &&mut Friction| friction.terms == front && friction.surface == 0.0;
-            match self.frictions.iter_mut().find(same) {
-                Some(friction) => friction.losses.push(l),
-                None => self.frictions.push(Friction { losses: vec![l], ..Friction::ground(front[0].0, 0.0) }),
-            }
-        }
-        Ok(Motion::new(self))
-    }
-
     fn validate(&self) -> Result<(), PlantError> {
         if self.coordinates.is_empty() {
             return Err(PlantError::Count { name: "coordinates of a train", found: 0, expected: 1 });
@@ -218,7 +205,7 @@ impl Train {
             friction.validate(self.coordinates.len())?;
         }
         for unbalance in &self.unbalances {
-            unbalance.validate(self)?;
+            self.validate_unbalance(unbalance)?;
         }
         let cranked = |at: usize| self.coordinates[at].crank.is_some();
         let lossy = self.links.iter().filter(|link| link.efficiency < 1.0).map(|link| link.terms[0].0);
@@ -229,6 +216,44 @@ impl Train {
                 place: Place::Node(at),
                 value: 1.0,
                 expected: "the friction on another coordinate, behind a shaft",
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn validate_unbalance(&self, unbalance: &Unbalance) -> Result<(), PlantError> {
+        let n = self.coordinates.len();
+        for at in [unbalance.turning, unbalance.way] {
+            if at >= n {
+                return Err(PlantError::Count { name: "coordinate of an unbalance", found: at, expected: n });
+            }
+        }
+        if unbalance.turning == unbalance.way {
+            return Err(PlantError::Count { name: "coordinates of an unbalance", found: 1, expected: 2 });
+        }
+        let place = Place::Node(unbalance.turning);
+        finite("gravity of an unbalance", place, unbalance.gravity)?;
+        let shared =
+            |at: usize| self.unbalances.iter().filter(|other| [other.turning, other.way].contains(&at)).count() as f64;
+        // with every coupling of a coordinate below its share, the inertias together stay positive
+        let product = self.coordinates[unbalance.turning].inertia * self.coordinates[unbalance.way].inertia;
+        let most = (product / (shared(unbalance.turning) * shared(unbalance.way))).sqrt();
+        in_range(
+            "moment of an unbalance",
+            place,
+            unbalance.moment,
+            unbalance.moment.abs() < most,
+            "less than its inertias carry",
+        )?;
+        let lossy = self.links.iter().filter(|link| link.efficiency < 1.0).map(|link| link.terms[0].0);
+        let rubbing = self.frictions.iter().flat_map(|friction| friction.terms.iter().map(|term| term.0));
+        let cranked = (0..n).filter(|&at| self.coordinates[at].crank.is_some());
+        match lossy.chain(rubbing).chain(cranked).find(|&at| at == unbalance.turning || at == unbalance.way) {
+            Some(at) => Err(PlantError::Parameter {
+                name: "unbalance with dry friction, a lossy gear or a crank",
+                place: Place::Node(at),
+                value: unbalance.moment,
+                expected: "those on another coordinate, behind a shaft",
             }),
             None => Ok(()),
         }

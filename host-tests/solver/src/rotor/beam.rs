@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Matrix4;
 
-use super::flexible::Material;
+use super::material::Material;
 
 /// A round section.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use driveline::machine::{Match, TwoMass};
 
 use super::Vibration;
 use super::campbell::diagram;
-use super::tables;
+use super::tables::tables;
 use crate::machine_file::MachineFile;
 use driveline_report::chart::{Response, Station};
 use driveline_report::format::significant;

@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 
-use crate::Report;
 use crate::format::{grouped, percent};
-use crate::results::Deviation;
+use crate::results::{Deviation, Report};
 
 /// A figure with its name.
 #[derive(Serialize)]

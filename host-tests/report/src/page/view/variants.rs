@@ -8,7 +8,28 @@ use crate::format;
 use crate::format::{grouped, percent};
 use crate::results::Variant;
 
-use super::{Named, index_of, names};
+/// A colour or a marker and what it stands for.
+#[derive(Serialize)]
+pub struct Named {
+    pub name: String,
+    pub index: usize,
+}
+
+/// The different names, in the order of their first appearance.
+pub fn names(all: impl Iterator<Item = String>) -> Vec<String> {
+    let mut names = Vec::new();
+    for name in all {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// The place of a name among them.
+pub fn index_of(names: &[String], name: &str) -> usize {
+    names.iter().position(|known| known == name).unwrap_or(0)
+}
 
 /// Colour and marker of each variant, and what they stand for.
 pub struct Looks {

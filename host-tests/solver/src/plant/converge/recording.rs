@@ -1,7 +1,6 @@
 //! A run with everything that was done to it.
 
 use super::super::solver::Plant;
-use super::sample;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Step {
@@ -64,4 +63,11 @@ impl Recording {
     pub fn plant(&self) -> &Plant {
         &self.plant
     }
+}
+
+/// Speeds, then shaft torques, then the motor's angle.
+pub(super) fn sample(plant: &Plant) -> Vec<f64> {
+    let speeds = (0..plant.nodes()).map(|j| plant.speed(j));
+    let torques = (0..plant.nodes() - 1).map(|s| plant.shaft_torque(s));
+    speeds.chain(torques).chain([plant.motor_angle()]).collect()
 }

@@ -1,9 +1,10 @@
 //! The second integration of a chain, from its recording.
 
+use super::super::solver::Plant;
 use super::pass::{CLOSE, Pass, REACH};
+use super::proof::NotProven;
 use super::recording::{Recording, Step};
 use super::textbook::Machine;
-use super::{super::solver::Plant, NotProven};
 
 /// Runs the recording again; one sample per tick.
 pub(super) fn rerun(run: &Recording) -> Result<Vec<Vec<f64>>, NotProven> {

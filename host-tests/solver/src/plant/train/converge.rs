@@ -24,7 +24,7 @@ mod textbook;
 pub use crate::plant::converge::{BOUND, Deviation, NotProven, Proof};
 
 use super::motion::Motion;
-use super::reading::Signal;
+use super::signal::Signal;
 use crate::plant::converge::pass::{Pass, REACH};
 use textbook::Double;
 

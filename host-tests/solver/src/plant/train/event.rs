@@ -2,9 +2,10 @@
 
 use super::Variation;
 use super::motion::Motion;
-use super::reading::Watch;
 use super::series::Series;
-use super::stretch::{Stretch, TRAILING};
+use super::signal::Watch;
+use super::state::TRAILING;
+use super::stretch::Stretch;
 use crate::plant::event::{Event, EventKind, Place};
 use crate::plant::root::first_fall;
 
@@ -62,7 +63,7 @@ impl Motion {
     fn watches(&mut self, stretch: &Stretch, share: f64) {
         let mut watches: Vec<Watch> = std::mem::take(&mut self.watches);
         for watch in &mut watches {
-            watch.look(self, stretch, share);
+            self.look(watch, stretch, share);
         }
         self.watches = watches;
     }

@@ -5,92 +5,17 @@ use std::f64::consts::TAU;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::leap::Leap;
-use super::reading::Watch;
-use super::stretch::{Stretch, TRAILING};
-use super::{Source, Train, Variation, unbalance};
+use super::signal::Watch;
+use super::state::{Mode, State, TRAILING};
+use super::stretch::Stretch;
+use super::{Friction, Source, Train, Variation, coupling};
+use crate::plant::error::PlantError;
 use crate::plant::event::Event;
 
 /// Product of the fastest rate and a stretch: `1.5^24/24!` = 3e-20 is left out.
 const REACH: f64 = 1.5;
 /// Time within which an event is located unless told otherwise: at most this, s, and this share of the fastest rate.
 const EVENT_TOLERANCE: (f64, f64) = (1e-14, 1e-13);
-
-/// The continuous state.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct State {
-    pub elongation: Vec<f64>,
-    pub speed: Vec<f64>,
-    pub angle: Vec<f64>,
-}
-
-/// Which smooth stretch is running.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Mode {
-    /// Of each link: -1, 0, +1, or [`TRAILING`].
-    pub contact: Vec<i8>,
-    /// Of each friction: the direction it slides in, 0 while it sticks.
-    pub slip: Vec<i8>,
-    /// Of each link: the sign of its torque on its first coordinate, kept only where a lossy gear needs it.
-    pub flow: Vec<i8>,
-    /// Arcs as coordinate and source, and how many of their ends have been passed; odd on the arc.
-    pub arcs: Vec<(usize, usize, i64)>,
-    /// Links whose teeth follow an angle, and the edge ahead of each.
-    pub teeth: Vec<(usize, i64)>,
-    /// The frictions that stick, and what turns the accelerations they must stop into their forces.
-    pub stuck: Vec<usize>,
-    pub holding: DMatrix<f64>,
-}
-
-impl Mode {
-    /// Whether the link carries force.
-    pub fn carries(&self, train: &Train, link: usize) -> bool {
-        train.links[link].is_linear() || self.contact[link].abs() == 1
-    }
-
-    /// What the first coordinate of a link feels, as a multiple of its force `[Wang 1989 §1-3]`.
-    pub fn loss(&self, train: &Train, link: usize) -> f64 {
-        let efficiency = train.links[link].efficiency;
-        if efficiency == 1.0 {
-            return 1.0;
-        }
-        let gear = train.frictions.iter().position(|friction| friction.losses.contains(&link));
-        match gear.map_or(0, |s| self.slip[s]) * self.flow[link] {
-            1 => 1.0 / efficiency,
-            -1 => efficiency,
-            _ => 1.0,
-        }
-    }
-
-    pub fn on_arc(&self, coordinate: usize, source: usize) -> bool {
-        self.arcs.iter().any(|&(j, s, passed)| j == coordinate && s == source && passed.rem_euclid(2) == 1)
-    }
-
-    /// The tooth edge ahead of a link.
-    pub fn edge(&self, link: usize) -> i64 {
-        self.teeth.iter().find(|tooth| tooth.0 == link).map_or(0, |tooth| tooth.1)
-    }
-
-    /// Gathers what sticks.
-    pub fn gather(&mut self, train: &Train) {
-        self.stuck = (0..train.frictions.len()).filter(|&s| self.slip[s] == 0).collect();
-        if self.stuck.is_empty() {
-            self.holding = DMatrix::zeros(0, 0);
-            return;
-        }
-        let share = |s: usize, at: usize| {
-            let terms = &train.frictions[s].terms;
-            terms.iter().find(|term| term.0 == at).map_or(0.0, |term| term.1)
-        };
-        let count = self.stuck.len();
-        let gram = DMatrix::from_fn(count, count, |a, b| {
-            let terms = &train.frictions[self.stuck[a]].terms;
-            terms.iter().map(|&(at, c)| c * share(self.stuck[b], at) / train.coordinates[at].inertia).sum::<f64>()
-        });
-        let size = gram.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-        // where frictions hold each other the least forces will do
-        self.holding = gram.pseudo_inverse(1e-12 * size).unwrap_or_else(|_| DMatrix::zeros(count, count));
-    }
-}
 
 /// A train in motion. Built by [`Train::build`]; a clone runs on independently.
 #[derive(Debug, Clone)]
@@ -111,6 +36,25 @@ pub struct Motion {
     pub(super) watches: Vec<Watch>,
     leap: Option<Leap>,
     refused: u64,
+}
+
+impl Train {
+    /// Checks every number and readies the motion.
+    ///
+    /// # Errors
+    /// [`PlantError`] names the first parameter that is out of range; a link is called a shaft, a coordinate a node.
+    pub fn build(mut self) -> Result<Motion, PlantError> {
+        self.validate()?;
+        for (l, link) in self.links.iter().enumerate().filter(|(_, link)| link.efficiency < 1.0) {
+            let front = [(link.terms[0].0, 1.0)];
+            let same = |friction: &&mut Friction| friction.terms == front && friction.surface == 0.0;
+            match self.frictions.iter_mut().find(same) {
+                Some(friction) => friction.losses.push(l),
+                None => self.frictions.push(Friction { losses: vec![l], ..Friction::ground(front[0].0, 0.0) }),
+            }
+        }
+        Ok(Motion::new(self))
+    }
 }
 
 impl Motion {
@@ -296,6 +240,6 @@ fn fastest(train: &Train) -> f64 {
         swing = coordinate.sources.iter().map(Source::rate).fold(swing, f64::max);
     }
     let most = |matrix: DMatrix<f64>| SymmetricEigen::new(matrix).eigenvalues.max().max(0.0);
-    let least = unbalance::least(train).max(1e-3);
+    let least = coupling::least(train).max(1e-3);
     (most(k) / least).sqrt() + most(d) / least + swing
 }

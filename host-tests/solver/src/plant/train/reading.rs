@@ -2,59 +2,24 @@
 
 use super::motion::Motion;
 use super::series::{Series, ZERO, value};
+use super::signal::{Signal, Watch};
 use super::stretch::Stretch;
 use crate::plant::event::Event;
 use crate::plant::extremes::Extremes;
 use crate::plant::root::{derivative, sign_changes};
 
-/// A quantity to read or to watch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Signal {
-    /// Of a coordinate, rad or m.
-    Angle(usize),
-    /// Of a coordinate, rad/s or m/s.
-    Speed(usize),
-    /// Of a link, rad or m.
-    Elongation(usize),
-    /// Of a link, N m or N, damping included; zero in its gap.
-    Force(usize),
-    /// Of a link without what its damper adds.
-    Elastic(usize),
-    /// Of a friction, against its motion.
-    Friction(usize),
-    /// On a coordinate, all but its links, N m or N: its inertia times its acceleration, and what the links take. Of a
-    /// coordinate without a crank.
-    Outside(usize),
-}
-
-/// Greatest and least of a signal so far.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Watch {
-    signal: Signal,
-    extremes: Extremes,
-}
-
-impl Watch {
+impl Motion {
     /// Looks at the part of the stretch up to `share`: both ends and every place where the rate is zero.
-    pub fn look(&mut self, motion: &Motion, stretch: &Stretch, share: f64) {
-        let Some(series) = motion.series(stretch, self.signal) else { return };
+    pub(super) fn look(&self, watch: &mut Watch, stretch: &Stretch, share: f64) {
+        let Some(series) = self.series(stretch, watch.signal) else { return };
         let mut places = vec![0.0, share];
         // near an extreme an error of 1e-12 of the stretch changes the value by the square of that
         places.extend(sign_changes(&derivative(&series), 1e-12).into_iter().filter(|&p| p < share));
         for place in places {
-            let (value, time) = (value(&series, place), motion.now + place * stretch.length);
-            let extremes = &mut self.extremes;
-            if value > extremes.peak {
-                (extremes.peak, extremes.peak_time) = (value, time);
-            }
-            if value < extremes.least {
-                (extremes.least, extremes.least_time) = (value, time);
-            }
+            watch.extremes.take(value(&series, place), self.now + place * stretch.length);
         }
     }
-}
 
-impl Motion {
     /// Time since the start, s.
     #[must_use]
     pub fn time(&self) -> f64 {
@@ -142,8 +107,7 @@ impl Motion {
 
     /// Begins to watch the extremes of a signal, found where its rate is zero and not on a grid of samples.
     pub fn watch(&mut self, signal: Signal) {
-        let (now, time) = (self.read(signal), self.now);
-        let extremes = Extremes { peak: now, peak_time: time, least: now, least_time: time };
+        let extremes = Extremes::of(self.read(signal), self.now);
         self.watches.retain(|watch| watch.signal != signal);
         self.watches.push(Watch { signal, extremes });
     }

@@ -1,46 +1,14 @@
 //! The motion over a stretch as its Taylor series, order by order, with what rounding may have done to it.
 
 use super::Train;
-use super::motion::{Mode, State};
 use super::series::{Series, TERMS, ZERO, product, value};
+use super::sized::Sized;
 use super::source::Work as SourceWork;
-use super::{crank, series, unbalance};
+use super::state::{Mode, State, TRAILING};
+use super::{coupling, crank, series};
 
-/// Units in the last place that count as rounding: products of a handful of terms, taken a hundredfold.
-const ROUNDING: f64 = 1024.0 * f64::EPSILON;
 /// What may be left out, as a share of the largest coefficient.
 const LEFT_OUT: f64 = 1e-17;
-/// Side of a rope that is stretched but whose damper has stopped pulling.
-pub(super) const TRAILING: i8 = 2;
-
-/// A quantity with the same sums taken by magnitude, the scale of its rounding.
-#[derive(Debug, Clone)]
-pub(super) struct Sized {
-    pub value: Series,
-    pub size: Series,
-}
-
-impl Sized {
-    pub fn new(value: f64) -> Self {
-        let mut new = Self { value: ZERO, size: ZERO };
-        new.put(0, value, value.abs());
-        new
-    }
-
-    pub fn put(&mut self, k: usize, value: f64, size: f64) {
-        (self.value[k], self.size[k]) = (value, size);
-    }
-
-    /// `factor` times itself plus a constant, as a guard: values and what rounding may have done to them.
-    pub fn guard(&self, factor: f64, constant: f64) -> (Series, Series) {
-        let mut values = self.value.map(|v| factor * v);
-        let mut rounding = self.size.map(|v| ROUNDING * factor.abs() * v);
-        values[0] += constant;
-        rounding[0] += ROUNDING * constant.abs();
-        (values, rounding)
-    }
-}
-
 /// All quantities of a train over `length` seconds.
 pub(super) struct Stretch {
     pub length: f64,
@@ -108,7 +76,7 @@ impl Stretch {
                 (work, Sized::new(momentum))
             }));
         }
-        let mut unbalances = unbalance::Work::of(train, &self.angle, &self.speed);
+        let mut unbalances = coupling::Work::of(train, &self.angle, &self.speed);
         let mut net = vec![0.0; n];
         let mut size = vec![0.0; n];
         for k in 0..TERMS - 1 {

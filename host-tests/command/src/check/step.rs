@@ -1,0 +1,48 @@
+//! A step of the check and what it finds.
+
+use std::io::Write;
+
+use serde::Serialize;
+
+/// What a step found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Count {
+    /// Checks that passed: tests, images, figures, or one for the whole step.
+    pub passed: u64,
+    /// Checks that failed.
+    pub failed: u64,
+}
+
+/// A step: its name, what to type to repeat it, and what it does.
+pub struct Step {
+    /// Its name.
+    pub name: &'static str,
+    /// What to type.
+    pub repeat: &'static str,
+    pub(super) run: fn(&Voice) -> Result<Count, Failed>,
+}
+
+/// A step's failure.
+pub struct Failed {
+    pub count: Count,
+    pub message: String,
+}
+
+impl Failed {
+    /// Of a step that is one check.
+    pub fn whole(message: impl ToString) -> Self {
+        Failed { count: Count { passed: 0, failed: 1 }, message: message.to_string() }
+    }
+}
+
+/// Where a step's own words go: standard output for a person, standard error where that is for JSON.
+pub struct Voice {
+    pub json: bool,
+}
+
+impl Voice {
+    pub fn say(&self, line: &str) {
+        // a reader that has gone away is no reason to stop checking
+        let _ = if self.json { writeln!(std::io::stderr(), "{line}") } else { writeln!(std::io::stdout(), "{line}") };
+    }
+}

@@ -1,0 +1,38 @@
+//! Standard output: texts and JSON.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::failure::Failure;
+
+/// Writes to standard output. A reader that has gone away (`| head`) is no error.
+pub fn say(text: impl std::fmt::Display) {
+    use std::io::{ErrorKind, Write};
+    let mut out = std::io::stdout();
+    let written = writeln!(out, "{text}").and_then(|()| out.flush());
+    if written.is_err_and(|error| error.kind() != ErrorKind::BrokenPipe) {
+        UNSAID.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Standard output could not be written.
+pub static UNSAID: AtomicBool = AtomicBool::new(false);
+
+/// A result that would be written over what it is made from.
+pub fn onto_itself(source: &Path, result: Option<&Path>) -> Result<(), Failure> {
+    let place = |path: &Path| path.canonicalize().ok();
+    match result {
+        Some(result) if place(source).is_some_and(|source| place(result) == Some(source)) => {
+            Err(Failure::usage(format!("{} would be written over what it is made from", result.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes JSON to standard output.
+pub fn say_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value)
+        .map_err(|error| Failure::failed(format!("the result cannot be written as JSON: {error}")))?;
+    say(text);
+    Ok(())
+}
