@@ -2,28 +2,26 @@
 //!
 //! # On the tick
 //! [`Phasors`] measures the vibration that turns with the rotor, as one complex number for each channel. Several orders, or rotors behind
-//! different gears, are a tuple of them. [`Reading`] is what came of it, with what tells a good reading from a bad one; [`Sensor`] turns it
+//! different gears, are a tuple of them. [`Reading`] is the result, with its spread, drift and variance; [`Sensor`] turns it
 //! into displacement, velocity or acceleration and takes the run-out off.
 //!
 //! # Off the tick
-//! With the feature `balancing`. [`Influence`] learns from trial runs what a weight in each plane does to each reading, and gives the
-//! [`Correction`]: by least squares, weighted, min-max or within limits, with planes that only repeat others found and left out.
+//! With the feature `balancing`. [`Influence`] identifies the influence coefficients from trial runs and computes the [`Correction`]: by least squares, weighted, min-max or within limits, with planes that only repeat others found and left out.
 //!
-//! [`Holes`] fits a weight to what is at hand, [`Tolerance`] judges what is left (ISO 21940-11), [`from_amplitudes`] does without a phase.
-//! [`Procedure`] leads through the runs, refuses what cannot be, and goes on after a power cut from a record, which with the feature `parameters` is
-//! one that a flash keeps.
+//! [`Holes`] splits a weight between holes and stock weights, [`Tolerance`] grades the residual unbalance (ISO 21940-11), [`from_amplitudes`] needs no phase.
+//! [`Procedure`] leads through the runs, rejects impossible entries, and resumes after a power cut from a record; with the feature `parameters` the record is kept in flash.
 //! [`InRun`] does without trial runs, by a balancing head or an actuator while the machine turns.
 //!
 //! # Terms
 //! | term | meaning | unit |
 //! |---|---|---|
-//! | phasor | amplitude and phase of what turns with the rotor: `v = Re(X e^{i order theta})`, `theta` the rotor's angle | of the channel |
+//! | phasor | amplitude and phase of the vibration at the rotor's order: `v = Re(X e^{i order theta})`, `theta` the rotor's angle | of the channel |
 //! | order | periods of the vibration on a turn of the rotor | |
 //! | block | a number of whole turns that gives one phasor of its own | |
 //! | row | a reading of a run: a sensor at a speed | |
 //! | plane | where a weight can be put; a weight is its mass, or mass times radius, at an angle | kg, kg m |
-//! | influence coefficient | what a weight in a plane does to a row | row per weight |
-//! | run-out | what a displacement sensor sees of a shaft that is not round, and does not vibrate | of the channel |
+//! | influence coefficient | change of a row per unit weight in a plane | row per weight |
+//! | run-out | signal of a displacement sensor on a shaft that does not vibrate but is not round | of the channel |
 
 use crate::fault::Faults;
 use crate::number::Number;
@@ -100,7 +98,7 @@ pub trait Balancer<N: Number>: Default {
     /// Takes one tick's angle [2^-32 turn of the motor] and vibration into account.
     fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &Self::Vibration);
 
-    /// Told of a tick without a sound vibration, and why: a clipped one or none.
+    /// Counts a tick without a valid vibration sample: clipped or missing.
     fn missed(&mut self, faults: Faults);
 }
 

@@ -1,5 +1,4 @@
-//! Commission: a test sequence that finds out, from the motor's angle and the commanded torque alone, what machine the
-//! drive is on.
+//! Commissioning: a test sequence that identifies the machine from the motor's angle and the commanded torque alone.
 //!
 //! [`Commissioning`] runs in the tick and gives the torque: bounded, as is the travel. It goes through these stages:
 //!
@@ -48,8 +47,7 @@
 //! ```
 //!
 //! # How it is found
-//! The commanded torque is what is correlated with, so that noise in the motor's torque and the encoder's counts
-//! average out. While the motor turns at a speed with a slow ramp in it, counts of the encoder fall at all phases, and
+//! The response is correlated with the commanded torque, so that noise in the motor's torque and the encoder's counts average out. While the motor turns at a speed with a slow ramp in it, counts of the encoder fall at all phases, and
 //! dry friction is but a constant. The speed is held by a servo whose torque is correlated too, so that it does not
 //! bias the answer. Each line of the multisine gives the response of the acceleration `H = s^2 Theta/T`, through a Hann
 //! window, corrected for the hold of the torque and the mean of the angle over a block; to them
@@ -57,37 +55,34 @@
 //! part 2] and the compliance R of all higher modes, with weights of noise in torque and angle. Deviations follow from
 //! the fit's curvature and its own residuals.
 //!
-//! The gap is the way that the motor creeps from flank to flank while friction holds the load. Each flank is read under
-//! two torques, and the ways carried on to none: that takes the twist of the shafts off without their stiffness.
+//! The gap is the angle from flank to flank at creep speed while friction holds the load. Each flank is measured under two torques and extrapolated to none, which removes the twist of the shafts.
 //!
 //! A gear that loses a share of its torque makes the machine look heavier when it drives and lighter when it is driven
 //! [Wang 1989 §1-3]: the mean of both ways is taken.
 //!
 //! # Bounds
-//! Torque and travel stay within the [`TestSettings`], and so does the shaft but for what the limits say.
+//! Torque and travel stay within the [`TestSettings`], and so does the shaft, with the exceptions under Limits.
 //! Before the multisine, while it is not known whether the load is free, the torque takes half of the shaft's room at
 //! most, and the first run-up is gentle.
 //! A motor that lags too far ([`Error::NotFollowed`]), a torque that goes from bound to bound
-//! ([`Error::Unsteady`]), an angle that jumps and a travel that is left end the test without torque: what holds the
-//! load then is the brake. Where data do not support an answer the test ends holding the load, with its [`Error`].
+//! ([`Error::Unsteady`]), an angle jump or an exceeded travel ends the test without torque: the brake must hold the load. Where data do not support an answer the test ends holding the load, with its [`Error`].
 //!
 //! # Limits
 //! - The arithmetic in the tick is in `f32`: for cores with an FPU. A record's solving, in `f64`, takes 163 million
 //!   instructions on a Cortex-M4F, while the tick goes on.
 //! - The first guess of the inertia must be right within a factor of two.
-//! - One resonance is told, the lowest, and it must lie within the band; higher modes count as a compliance.
+//! - Only the lowest resonance is identified, and it must lie within the band; higher modes count as a compliance.
 //! - Friction is taken as weight, Coulomb and viscous friction over the two speeds of its test.
 //! - The servo takes damping from the swing: with its frequency w, a sixth of the band's lower end, and the resonance
 //!   w_r a damping ratio of about `45 (w/w_r)^3 J_l/J_m`: with equal masses 1.3 % for a band that begins at 0.4 w_r,
 //!   and 0.2 % for one that begins at 0.2 w_r. A shaft that has less is driven into a swing that grows until the torque
 //!   meets its bounds; the shaft may carry more than `shaft_torque` by then: begin the band low.
-//! - A gap is seen as one, wherever it lies, and no wider than a tenth of a turn of the motor.
-//! - The gap is seen only where friction holds the load and no weight presses the gap shut: else
+//! - All gaps are identified as one, no wider than a tenth of a turn of the motor.
+//! - The gap is identified only where friction holds the load and no weight closes the gap; otherwise
 //!   [`Error::LoadNotHeld`] or [`Error::Preloaded`].
-//! - While there is a gap the multisine stays below what friction holds: a light friction means long records.
-//! - What lies before the gap is taken to turn freely under half of the friction.
-//! - The eccentricity is told from an unbalance's torque by nothing: at the test's speed the rotor's own swing must be
-//!   small beside it.
+//! - With a gap the multisine stays below the friction: low friction means long records.
+//! - The inertia before the gap is taken to turn freely under half of the friction.
+//! - Eccentricity cannot be distinguished from the torque of an unbalance: at the test's speed the rotor's own swing must be small beside it.
 
 mod complex;
 mod eccentricity;

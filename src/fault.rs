@@ -1,4 +1,4 @@
-//! What can be wrong with a tick, as flags: the tick never fails, it returns a value and says what it thinks of it.
+//! Fault flags of a tick. A tick never fails; it returns a value and raises flags.
 
 use core::fmt;
 use core::ops::{BitAnd, BitOr, BitOrAssign};
@@ -11,8 +11,10 @@ pub struct Faults(u32);
 impl Faults {
     /// Nothing wrong.
     pub const NONE: Faults = Faults(0);
-    /// The applied torque of the sample was NaN, infinite or beyond the drive's limit; the tick used the last command instead, or without a governor
-    /// the last torque that was believed. From an [`ActuatorMonitor`](crate::governor::ActuatorMonitor): not the torque that was commanded; the expected one was used.
+    /// The applied torque of the sample was NaN, infinite or beyond the drive's limit; the tick used the last command
+    /// instead, or without a governor the last plausible torque. From an
+    /// [`ActuatorMonitor`](crate::governor::ActuatorMonitor): not the torque that was commanded; the expected one was
+    /// used.
     pub const TORQUE: Faults = Faults(1 << 5);
     /// The speed setpoint was NaN, infinite or beyond the drive's limit; the last good one stands.
     pub const SETPOINT: Faults = Faults(1 << 1);
@@ -21,19 +23,20 @@ impl Faults {
     pub const ANGLE_JUMP: Faults = Faults(1 << 2);
     /// The motor angle stands still while the motor turns; the tick went by the prediction alone.
     pub const ANGLE_FROZEN: Faults = Faults(1 << 3);
-    /// The angle has been unusable for longer than the estimates stay good without it; the drive commands no torque until two angles in a row tell where the
-    /// motor is and how it turns.
+    /// The angle has been unusable for longer than the estimates stay good without it; the drive commands no torque
+    /// until two successive angles give position and speed.
     pub const ANGLE_LOST: Faults = Faults(1 << 4);
-    /// A state of the observer is beyond its fixed-point base, which is beyond the machine's limits; at twice the base it is held.
+    /// A state of the observer is beyond its fixed-point base, which is beyond the machine's limits; at twice the base
+    /// it is held.
     pub const RANGE: Faults = Faults(1 << 0);
-    /// The angle's sensor gave none that is new and sound: its bus, a parity or an error bit of its own, a tooth that is overdue. The tick went by
-    /// the prediction alone.
+    /// The angle's sensor gave none that is new and sound: its bus, a parity or an error bit of its own, a tooth that
+    /// is overdue. The tick went by the prediction alone.
     pub const ANGLE_MISSING: Faults = Faults(1 << 24);
     /// The vibration's sensor gave no sample that is new and sound; none was taken.
     pub const VIBRATION_MISSING: Faults = Faults(1 << 25);
     /// The vibration's sensor was at an end of its range; no sample was taken.
     pub const VIBRATION_CLIPPED: Faults = Faults(1 << 29);
-    /// The torque could not be handed to what produces it.
+    /// The torque could not be written to its output.
     pub const TORQUE_OUTPUT: Faults = Faults(1 << 26);
     /// A line of the enable chain or the trip output could not be set.
     pub const ENABLE: Faults = Faults(1 << 27);

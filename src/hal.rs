@@ -9,23 +9,22 @@
 //! | [`ThreePhase`] | three `SetDutyCycle` | the bridge of a small synchronous motor |
 //! | [`SpiDac`] | `SpiDevice` | a drive's torque input in volts |
 //! | [`Tmc4671`] | `SpiDevice` | a drive that controls the current itself |
-//! | [`EnableChain`], [`TripLine`] | `OutputPin` | what permits the power stage, what drops the contactor |
+//! | [`EnableChain`], [`TripLine`] | `OutputPin` | enabling the power stage, tripping the contactor |
 //! | [`Adxl355`] | `SpiDevice` | vibration, digital |
 //! | [`AdcVibration`] | a slice of conversions | vibration, analog |
-//! | `AwaitedAngle`, `AwaitedTorque` | what was awaited between two ticks | the four on `SpiDevice` under `embedded-hal-async` |
+//! | `AwaitedAngle`, `AwaitedTorque` | values awaited between two ticks | the four on `SpiDevice` under `embedded-hal-async` |
 //!
 //! A reading is a value that is new and sound, or [`Faults`](crate::fault::Faults); there is no third answer, so that a failed bus never repeats the last
-//! value. `doc/adapters.md` shows every fault of every adapter with what the drive does, from runs.
+//! value. `doc/adapters.md` lists every fault of every adapter and the drive's reaction, from runs.
 //!
 //! Crates for the encoders and the accelerometer exist (`as5048a`, `adxl355`), on `embedded-hal` 0.2; these are our own.
 //!
 //! # Awaited
-//! With the feature `hal-async` the four adapters on `SpiDevice` also run on that of `embedded-hal-async`. They are the same types with the same frames and
-//! checks; what waits ends in `_async`: `MagneticEncoder::angle_async`, `SpiDac::set_torque_async`, `Tmc4671::set_torque_async`,
+//! With the feature `hal-async` the four adapters on `SpiDevice` also run on that of `embedded-hal-async`. They are the same types with the same frames and checks; awaited methods end in `_async`: `MagneticEncoder::angle_async`, `SpiDac::set_torque_async`, `Tmc4671::set_torque_async`,
 //! `Adxl355::start_async` and `vibration_async`. So a bus that implements both traits is never ambiguous, and nothing need be imported. A future may be
-//! dropped at any point: the next call starts afresh, and what was lost is a fault.
+//! dropped at any point: the next call starts afresh, and a lost value raises a fault.
 //!
-//! [`Axis::tick`] never waits. `AwaitedAngle` and `AwaitedTorque` are a board's parts between it and what is awaited:
+//! [`Axis::tick`] never waits. `AwaitedAngle` and `AwaitedTorque` are the board's parts between the tick and the awaited bus:
 //!
 //! ```
 //! # #[cfg(feature = "hal-async")] mod awaited {

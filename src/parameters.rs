@@ -1,6 +1,6 @@
 //! Keep: the parameters of a drive in flash, through power cuts.
 //!
-//! A record is what [`Parameters`] serialises to, after a head that says whose it is and which version, and before a CRC-32. [`Store`] keeps two records,
+//! A record is what [`Parameters`] serialises to, after a head with its identity and version, and before a CRC-32. [`Store`] keeps two records,
 //! each in pages of its own, and erases and writes the one that is not the newest good one. So whatever happens to a write, the other record is
 //! untouched; and one that is damaged, or that another firmware has left, is refused with the reason and the other one taken.
 //!

@@ -1,4 +1,4 @@
-//! What a tick is given and what it returns.
+//! Inputs and outputs of a tick.
 
 use crate::fault::Faults;
 
@@ -12,11 +12,11 @@ pub struct Sample<N> {
     pub angle: u32,
     /// Air-gap torque of the motor over the tick that has just ended; positive accelerates forwards.
     pub torque: N,
-    /// Speed that the motor is wanted to have.
+    /// Speed setpoint of the motor
     pub setpoint: N,
 }
 
-/// What the observer knows at the beginning of a tick, everything referred to the motor.
+/// The observer's estimate at the beginning of a tick, referred to the motor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimate<N> {
@@ -30,12 +30,13 @@ pub struct Estimate<N> {
     pub load_torque: N,
 }
 
-/// What a tick returns.
+/// Output of a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Command<N> {
-    /// Torque that the motor is to produce during the tick that begins; within the governor's limit, or what [`crate::drive::Drive::hold`] was asked for.
+    /// Torque command for the tick that begins: within the governor's limit, or the torque of
+    /// [`crate::drive::Drive::hold`].
     pub torque: N,
-    /// What was wrong with this tick.
+    /// Faults of this tick.
     pub faults: Faults,
 }

@@ -1,4 +1,4 @@
-//! From a design to the constants that the tick path loads: the one place that knows both.
+//! Settings: from a design to the constants that the tick loads, in floats or fixed point.
 //!
 //! A design is in `f64` and SI units. Floats take it as it is, rounded; [`Fixed`](crate::number::Fixed) is per unit of [`Bases`], and its
 //! coefficients have formats of their own. Everything is `const fn`, so a firmware holds nothing but the result; the same functions run

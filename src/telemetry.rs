@@ -1,4 +1,4 @@
-//! Tell: what a drive does in every tick, told to whom it may concern, at a cost that does not vary.
+//! Telemetry: a record of every tick at a fixed cost, framed over `embedded-io`.
 //!
 //! The tick puts a record of `VALUES` words into a ring ([`Ring::record`]); the main loop takes records out and sends them as frames
 //! ([`Ring::send`]). A record that finds the ring full is dropped and counted; the tick never waits, and takes the same instructions whether the record is
@@ -6,8 +6,7 @@
 //! Cortex-M0+ loads and stores as a whole, and needs neither a lock nor unsafe code.
 //!
 //! # Frames
-//! A frame is a packet after consistent overhead byte stuffing [Cheshire, Baker 1999], and a zero. A packet ends with the CRC-16 of what is before
-//! it (polynomial 0x1021, begun with 0xffff, most significant bit first), all words least significant byte first:
+//! A frame is a packet after consistent overhead byte stuffing [Cheshire, Baker 1999], and a zero. A packet ends with the CRC-16 of its preceding bytes (polynomial 0x1021, begun with 0xffff, most significant bit first), all words least significant byte first:
 //!
 //! | packet | bytes |
 //! |---|---|

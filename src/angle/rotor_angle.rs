@@ -1,8 +1,9 @@
-//! The angle of a rotor behind a gear, exact for ever.
+//! The angle of a rotor behind a gear, exact over any number of turns.
 //!
-//! Behind a gear of `p/q` turns of the rotor to one of the motor the rotor's angle does not follow from the motor's, which wraps. Its
-//! increments do: the position is counted in units of `1/q` of 2^-32 turn, of which a motor's increment is a whole number `p`. So the
-//! sum is exact, and it wraps where the rotor has turned once. After a year of turns it is where it was.
+//! Behind a gear of `p/q` turns of the rotor to one of the motor the rotor's angle does not follow from the motor's,
+//! which wraps. Its increments do: the position is counted in units of `1/q` of 2^-32 turn, of which a motor's
+//! increment is a whole number `p`. So the sum is exact, and it wraps where the rotor has turned once. After a year of
+//! turns it is where it was.
 
 /// Least number of units on a turn: the angle that is passed on has a resolution of 2^-26 turns (1e-7 rad).
 const UNITS: u32 = 1 << 26;
@@ -20,10 +21,11 @@ pub struct RotorAngleConfig {
 }
 
 impl RotorAngleConfig {
-    /// `turns` of the rotor, times the order, to `motor_turns` of the motor. The numbers of teeth will do, or their products.
+    /// `turns` of the rotor, times the order, to `motor_turns` of the motor. The numbers of teeth will do, or their
+    /// products.
     ///
-    /// The rotor has to turn forwards where it is measured: for a motor that turns backwards, or a gear that reverses, take `turns`
-    /// negative.
+    /// The rotor has to turn forwards where it is measured: for a motor that turns backwards, or a gear that reverses,
+    /// take `turns` negative.
     ///
     /// `None` where `motor_turns` is not between 1 and 2^20, or the ratio not between 1/65536 and 15.
     pub const fn new(turns: i32, motor_turns: u32) -> Option<Self> {
@@ -71,7 +73,8 @@ pub struct RotorAngle {
 }
 
 impl RotorAngle {
-    /// Follows the motor to an angle [2^-32 turn]; false where the rotor has passed its zero, and [`RotorAngle::wrap`] has to say how.
+    /// Follows the motor to an angle [2^-32 turn]; false where the rotor has passed its zero: then call
+    /// [`RotorAngle::wrap`].
     #[inline(always)]
     pub(crate) fn follow(&mut self, config: &RotorAngleConfig, motor: u32) -> bool {
         let turned = motor.wrapping_sub(self.motor) as i32;
@@ -93,7 +96,7 @@ impl RotorAngle {
         false
     }
 
-    /// Follows the motor to an angle [2^-32 turn], and says whether the rotor has passed its zero.
+    /// Follows the motor to an angle [2^-32 turn], and returns whether the rotor has passed its zero.
     #[inline(always)]
     pub(crate) fn advance(&mut self, config: &RotorAngleConfig, motor: u32) -> Passed {
         let turned = motor.wrapping_sub(self.motor) as i32;

@@ -1,7 +1,8 @@
 //! Sine and cosine on the tick, from a table with the slope at each place.
 //!
-//! 128 places on a turn and the tangent there: off by 1.5e-4 at most, and by nothing on the mean, since the radius is that of the mean.
-//! That is a thirtieth of what a reading may be off by, for 1 KiB of flash and no multiplication more than the two of the slope.
+//! 128 places on a turn and the tangent there: the error is 1.5e-4 at most and zero on the mean, since the radius is
+//! that of the mean. That is a thirtieth of a reading's tolerance, for 1 KiB of flash and the two multiplications of
+//! the slope.
 
 use crate::math::sin_cos;
 use crate::number::{Fixed, Number};
@@ -79,7 +80,7 @@ pub trait Synchronous: Number {
     fn change(to: Self::Part, from: Self::Part) -> Self::Part;
     /// A sum and this number times a part.
     fn added(self, sum: Self::Sum, part: Self::Part) -> Self::Sum;
-    /// What a sum has grown by, in units of the number.
+    /// The growth of a sum, in units of the number.
     fn growth(to: Self::Sum, from: Self::Sum) -> f32;
 }
 
@@ -172,9 +173,8 @@ mod tests {
     use super::Synchronous;
     use crate::number::Fixed;
 
-    /// Half a place is x = pi/128; the tangent is out by x^2/2 at its ends over the radius of the mean, x^2/6: x^2/3 = 2.0e-4, and in by
-    /// x^2/6 = 1.0e-4 in the middle. Fixed point adds the resolution
-    /// of its slope, 2^-26 rad.
+    /// Half a place is x = pi/128; the tangent is out by x^2/2 at its ends over the radius of the mean, x^2/6: x^2/3 =
+    /// 2.0e-4, and in by x^2/6 = 1.0e-4 in the middle. Fixed point adds the resolution of its slope, 2^-26 rad.
     #[test]
     fn directions_are_those_of_the_angle() {
         for n in 0..100_003_u32 {

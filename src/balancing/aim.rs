@@ -2,7 +2,7 @@
 
 use super::scalar::{Complex, Scalar, real};
 
-/// What the residual is to be small in.
+/// The norm of the residual to minimise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Objective {
@@ -16,15 +16,15 @@ pub enum Objective {
 /// How weights are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aim<T: Scalar, const ROWS: usize, const PLANES: usize> {
-    /// What is to be small.
+    /// The norm to minimise.
     pub objective: Objective,
-    /// What each residual is multiplied by, positive or zero for a reading that is left out.
+    /// Weighting of each residual: positive, or zero for a reading that is left out.
     pub weighting: [T; ROWS],
     /// The largest weight of each plane, if there is a limit.
     pub limits: [Option<T>; PLANES],
-    /// Least share of a plane's effect that must be its own for the plane to be used; the rest is what other planes do as well.
+    /// Smallest share of a plane's effect that must be independent of the other planes for the plane to be used.
     ///
-    /// With readings that are accurate to 1 % a plane with less than 1 % of its own cannot be told from the others.
+    /// With readings accurate to 1 %, a plane with a smaller independent share cannot be separated from the others.
     pub independence: T,
 }
 

@@ -1,7 +1,8 @@
 //! One plane without a phase sensor: amplitudes of runs with the same trial weight at different angles.
 //!
-//! With `a` the influence, `v0` the baseline and the weight `W` at angle alpha, `|v0 + a W e^{i alpha}|^2 = |v0|^2 + x^2 + 2 |v0| x cos(phi + alpha)`,
-//! where `x = |a| W` and phi is the angle of `a/v0`. Three angles give x and phi by least squares; two leave two answers.
+//! With `a` the influence, `v0` the baseline and the weight `W` at angle alpha,
+//! `|v0 + a W e^{i alpha}|^2 = |v0|^2 + x^2 + 2 |v0| x cos(phi + alpha)`, where `x = |a| W` and phi is the angle of
+//! `a/v0`. Three angles give x and phi by least squares; two leave two answers.
 
 use super::error::Error;
 use super::matrix::pick;
@@ -22,8 +23,9 @@ pub struct FromAmplitudes<T: Scalar> {
 /// From the baseline's amplitude, the trial weight, and the angle \[rad\] and amplitude of each trial run.
 ///
 /// # Errors
-/// [`Error::TrialWeightZero`], [`Error::Reading`], [`Error::ReadingMissing`] for fewer than two runs, [`Error::NoEffect`] where the runs are
-/// no different, [`Error::NotFound`] where no influence gives such amplitudes or the angles are the same.
+/// [`Error::TrialWeightZero`], [`Error::Reading`], [`Error::ReadingMissing`] for fewer than two runs,
+/// [`Error::NoEffect`] where the runs are no different, [`Error::NotFound`] where no influence gives such amplitudes or
+/// the angles are the same.
 pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Result<FromAmplitudes<T>, Error> {
     if !(trial > T::zero() && trial.is_finite()) {
         return Err(Error::TrialWeightZero { plane: 0 });
@@ -65,7 +67,7 @@ pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Res
     let [square, q, s] = pivoted.solve().map(|value| value.re);
     let effect = Complex { re: q, im: -s }.unscale(baseline + baseline);
     let found = effect.re * effect.re + effect.im * effect.im;
-    // What the runs differ by must be more than rounding leaves of what they have in common.
+    // The differences between the runs must exceed the rounding of their common part.
     let rounding = real::<T>(1e-6) * baseline;
     if !(found > rounding * rounding) {
         return Err(Error::NoEffect { plane: 0 });
@@ -88,7 +90,7 @@ fn two<T: Scalar>(baseline: T, a: (T, T), b: (T, T)) -> Result<(Complex<T>, Comp
     }
     let along = ((a.1 - b.1) * (a.1 + b.1) / square + T::one()) * real(0.5);
     let height = a.1 * a.1 / square - along * along;
-    // rounding, and a little of what reading may do to circles that only touch
+    // rounding, and some reading error where the circles only touch
     if !(height > real(-0.01)) {
         return Err(Error::NotFound);
     }

@@ -22,7 +22,7 @@ pub struct LeftOut<T: Scalar, const PLANES: usize> {
     pub like: [Complex<T>; PLANES],
 }
 
-/// Weights to be added, and what they leave.
+/// Correction weights and the predicted residual.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Correction<T: Scalar, const ROWS: usize, const PLANES: usize> {
     /// The weight of each plane; zero in planes that are left out.
@@ -33,20 +33,21 @@ pub struct Correction<T: Scalar, const ROWS: usize, const PLANES: usize> {
     pub rms: T,
     /// The largest of them, likewise.
     pub largest: T,
-    /// Greatest over least singular value of the used planes' influence: how many times larger than a reading's error that of a weight may be.
+    /// Greatest over least singular value of the used planes' influence: how many times larger than a reading's error
+    /// that of a weight may be.
     pub condition: T,
     /// Planes that are not used.
     pub left_out: Vec<LeftOut<T, PLANES>, PLANES>,
-    /// For a search (min-max, or limits that bind): what the objective cannot be below, proven by duality, and what it is; each the root of the sum of
-    /// squares, or the largest amplitude, weighted.
+    /// For a search (min-max, or active limits): the lower bound of the objective by duality, and its value; each the
+    /// root of the sum of squares, or the largest amplitude, weighted.
     pub bounds: Option<(T, T)>,
 }
 
 impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANES> {
-    /// The weights that take a vibration away as far as they can: `A w + v` is made small.
+    /// The weights that minimise the residual vibration `A w + v`.
     ///
     /// # Errors
-    /// What is missing or wrong; [`Error::NotFound`] where the optimum could not be proven.
+    /// A missing or invalid entry; [`Error::NotFound`] where the optimum could not be proven.
     pub fn correct(
         &self,
         vibration: &[Complex<T>],

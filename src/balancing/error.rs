@@ -1,8 +1,8 @@
-//! Why something cannot be calculated. What was entered before stays as it is.
+//! Errors of the balancing calculations. Earlier entries stay.
 
 use core::fmt;
 
-/// Why something entered cannot be used; planes, rows and runs are counted from 0.
+/// An entry that cannot be used; planes, rows and runs are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -11,7 +11,7 @@ pub enum Error {
     Size,
     /// A plane that does not exist.
     NoPlane {
-        /// The plane asked for.
+        /// The requested plane.
         plane: usize,
     },
     /// A trial weight of zero.
@@ -87,7 +87,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// What the compiler says of a type with room for more planes than readings.
+    /// Compile error of a type with room for more planes than readings.
     pub const MORE_PLANES_THAN_READINGS: &str =
         "more planes than readings cannot be told apart: measure at another place or speed, or take fewer planes";
 }

@@ -1,4 +1,4 @@
-//! Weights for real holes: what is at hand, where there is room for it, and what that leaves.
+//! Splitting a correction weight between real holes and stock weights.
 
 use super::error::Error;
 use super::matrix::pick;
@@ -8,7 +8,7 @@ use super::scalar::{Complex, Scalar, real, size, zero};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CorrectionMethod {
-    /// Weight is put where it is wanted.
+    /// Weight is added at the correction's angle.
     #[default]
     Adding,
     /// Weight is taken off on the other side.
@@ -20,13 +20,13 @@ pub enum CorrectionMethod {
 pub struct Holes<'a, T> {
     /// Angles of the holes \[rad\].
     pub angles: &'a [T],
-    /// Weights that a hole can take, any of them as often as wanted, in the unit of the weights; none is always there.
+    /// Stock weights, each available any number of times, in the unit of the weights; a hole may also stay empty.
     pub weights: &'a [T],
     /// Whether weight is added or removed.
     pub method: CorrectionMethod,
 }
 
-/// What goes where.
+/// The chosen holes and weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fitted<T: Scalar> {
     /// Two holes, by their places in [`Holes::angles`], and the weight in each; a weight of zero is none.
@@ -36,14 +36,17 @@ pub struct Fitted<T: Scalar> {
 }
 
 impl<T: Scalar> Holes<'_, T> {
-    /// The hole or two holes and their weights that come nearest to a weight; of those that come equally near, the lightest.
+    /// The hole or two holes and their weights that come nearest to a weight; of those that come equally near, the
+    /// lightest.
     ///
-    /// Every pair of holes is tried with every weight in one of them and the best for the other: nothing of one or two weights comes nearer,
-    /// and a further hole or weight never makes the result worse. Takes holes squared times weights squared steps.
+    /// Every pair of holes is tried with every weight in one of them and the best for the other: nothing of one or two
+    /// weights comes nearer, and a further hole or weight never makes the result worse. Takes holes squared times
+    /// weights squared steps.
     ///
     /// # Errors
-    /// [`Error::NothingToFit`]; [`Error::Setting`] with the place of a weight that is not positive or an angle that is no number;
-    /// [`Error::TooHeavy`] (of plane 0) where even the heaviest weights in the best holes leave more than half.
+    /// [`Error::NothingToFit`]; [`Error::Setting`] with the place of a weight that is not positive or an angle that is
+    /// no number; [`Error::TooHeavy`] (of plane 0) where even the heaviest weights in the best holes leave more than
+    /// half.
     pub fn fit(&self, wanted: Complex<T>) -> Result<Fitted<T>, Error> {
         if self.angles.is_empty() || self.weights.is_empty() {
             return Err(Error::NothingToFit);
@@ -60,7 +63,7 @@ impl<T: Scalar> Holes<'_, T> {
         };
         let mut least = size(target);
         self.each(target, |_, _, left| least = least.min(left));
-        // what rounding makes of weights that do the same
+        // rounding, between weights of equal effect
         let near = least + (size(target) + self.heaviest()) * T::default_epsilon() * real(8.0);
         let mut best = Fitted { holes: [(0, T::zero()); 2], sum: zero() };
         let mut lightest = if size(target) <= near { Some(T::zero()) } else { None };
@@ -79,7 +82,7 @@ impl<T: Scalar> Holes<'_, T> {
         Ok(best)
     }
 
-    /// Gives what can be the best: holes and weights, their sum, and what it leaves of the target.
+    /// Passes each candidate: holes and weights, their sum, and the residual.
     fn each(&self, target: Complex<T>, mut with: impl FnMut([(usize, T); 2], Complex<T>, T)) {
         for (first, _) in self.angles.iter().enumerate() {
             let along = self.way(first);
@@ -95,7 +98,7 @@ impl<T: Scalar> Holes<'_, T> {
                 }
                 for &weight in self.weights {
                     let alone = along.scale(weight);
-                    // of the second hole's weights one next to the projection of what the first leaves is the best
+                    // the best weight of the second hole is next to the projection of the first one's residual
                     for more in self.near(((target - alone) * other.conj()).re) {
                         let sum = alone + other.scale(more);
                         with([(first, weight), (second, more)], sum, size(target - sum));

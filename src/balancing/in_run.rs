@@ -1,11 +1,12 @@
-//! Balancing while the machine runs, with a balancing head or an electromagnetic actuator.
+//! In-run balancing (active balancing) with a balancing head or an electromagnetic actuator.
 //!
-//! Each move of the weights is a trial of its own: the influence is learnt from the moves, recursively and with forgetting, together with its
-//! variance. A move is the one of least expected vibration (cautious control, Åström and Wittenmark, *Adaptive Control*, 7.3), larger where
-//! too little is known to learn by it, and never larger than four standard deviations of what is not known allow within the bound.
+//! Each move of the weights is a trial of its own: the influence and its variance are identified from the moves by
+//! recursive least squares with forgetting. A move minimises the expected vibration (cautious control, Åström and
+//! Wittenmark, *Adaptive Control*, 7.3), larger where the influence is too uncertain to be identified by it, and never
+//! larger than four standard deviations of that uncertainty allow within the bound.
 //!
-//! Where nothing is known at first, the first move is the probe: a weight of which the user knows that it changes the vibration by less than
-//! the bound leaves room for. All that follows is bounded by what is learnt.
+//! Without a first estimate the first move is the probe: a weight that is known to change the vibration by less than
+//! the bound allows. Later moves are bounded by the identified influence.
 
 use core::fmt;
 
@@ -31,25 +32,26 @@ pub struct InRunConfig<T, const PLANES: usize> {
     pub bound: T,
     /// The share of where it began that is good enough, below 1.
     pub target: T,
-    /// What a move's knowledge is worth at the next, 0 to 1: what was learnt loses weight by this factor.
+    /// Forgetting factor per move, 0 to 1.
     pub forgetting: T,
-    /// Standard deviation of a reading, where the reading does not say more, as a share of the vibration that it began with. What the influence
-    /// drifts by from move to move counts too: told too little, one start in several thousand goes beyond the bound.
+    /// Standard deviation of a reading as a share of the initial vibration, unless the reading's own variance is
+    /// larger. Include the drift of the influence from move to move: with too small a value one start in several
+    /// thousand exceeds the bound.
     pub noise: T,
 }
 
-/// What to do with the weights.
+/// The next action on the weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action<T: Scalar, const PLANES: usize> {
     /// Set these weights, wait for a steady reading and give it.
     Set([Complex<T>; PLANES]),
-    /// Good enough: leave them.
+    /// Within the target: leave the weights.
     Hold,
-    /// Stop: set these weights, the best ones so far, and see what is wrong.
+    /// Abort: set these weights, the best so far, and look for the cause.
     Abort([Complex<T>; PLANES], AbortReason),
 }
 
-/// Why in-run balancing stops.
+/// Why in-run balancing was aborted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum AbortReason {
@@ -81,7 +83,7 @@ const DEVIATIONS: f64 = 4.0;
 pub struct InRun<T: Scalar, const ROWS: usize, const PLANES: usize> {
     config: InRunConfig<T, PLANES>,
     rows: usize,
-    /// What is known of the influence, and the covariance of a row of it.
+    /// The estimated influence, and the covariance of one of its rows.
     influence: Matrix<T, ROWS, PLANES>,
     covariance: Matrix<T, PLANES, PLANES>,
     known: bool,
@@ -136,7 +138,8 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         })
     }
 
-    /// The influence from a model or from trial runs, each coefficient known to `share` of the largest one of its plane.
+    /// The influence from a model or from trial runs, each coefficient known to `share` of the largest one of its
+    /// plane.
     ///
     /// # Errors
     /// [`Error::PlaneUnknown`], [`Error::Setting`] where the share is not positive.
@@ -163,7 +166,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         &self.weights
     }
 
-    /// Tells where the heads came to stand, where that is not where they were sent.
+    /// Sets the weights actually installed, where they differ from those commanded.
     pub fn installed(&mut self, weights: &[Complex<T>; PLANES]) {
         for ((moved, was), is) in self.moved.iter_mut().zip(&mut self.weights).zip(weights) {
             *moved += *is - *was;
@@ -176,12 +179,12 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         self.start.map(|start| largest(&self.last, self.rows) / start)
     }
 
-    /// What is known of a coefficient, and its standard deviation.
+    /// The estimate of a coefficient and its standard deviation.
     pub fn influence(&self, row: usize, plane: usize) -> (Complex<T>, T) {
         (self.influence.at(row, plane), self.deviation(plane))
     }
 
-    /// Takes a steady reading with the weights where they are, its variance (0 where unknown), and says what to do.
+    /// Takes a steady reading with the present weights and its variance (0 where unknown), and returns the next action.
     pub fn advise(&mut self, reading: &[Complex<T>], variance: T) -> Action<T, PLANES> {
         if let Some(reason) = self.aborted {
             return Action::Abort(self.best.1, reason);
@@ -298,7 +301,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
     fn step(&self, start: T) -> [Complex<T>; PLANES] {
         let allowed = start * self.config.bound * real(0.95);
         let level = largest(&self.last, self.rows);
-        // the plane of which least is known, over what is known
+        // the plane of largest relative uncertainty
         let (mut unknown_plane, mut worst) = (PLANES, real::<T>(0.5));
         for plane in 0..PLANES {
             let known = (0..self.rows).fold(T::zero(), |most, row| most.max(size(self.influence.at(row, plane))));
@@ -338,7 +341,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         step.map(|step| step.scale(share))
     }
 
-    /// The change of least expected square: what is not known of a plane counts as what it might do.
+    /// The change that minimises the expected square, uncertainty included.
     fn cautious(&self) -> [Complex<T>; PLANES] {
         let mut qr = Qr::<T, PLANES>::new();
         for (row, last) in self.last.iter().enumerate().take(self.rows) {

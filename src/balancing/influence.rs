@@ -1,13 +1,14 @@
-//! Influence coefficients: what a weight in each plane does to each reading.
+//! Influence coefficients: the change of each reading per unit weight in each plane.
 //!
-//! `v = A w + v0` [Notes ch. 5]: a row for each sensor at each speed, a column for each plane. A trial weight gives a column,
-//! `a = (v - v0) / w`.
+//! `v = A w + v0` [Notes ch. 5]: a row for each sensor at each speed, a column for each plane. A trial weight gives a
+//! column, `a = (v - v0) / w`.
 
 use super::error::Error;
 use super::matrix::{Matrix, pick};
 use super::scalar::{Complex, Scalar, given, real, size, square, zero};
 
-/// Influence coefficients of at most `PLANES` planes on at most `ROWS` readings \[unit of the reading per unit of the weight\].
+/// Influence coefficients of at most `PLANES` planes on at most `ROWS` readings
+/// \[unit of the reading per unit of the weight\].
 ///
 /// A row is a sensor at a speed; the order is the user's, and the same in all runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +20,8 @@ pub struct Influence<T: Scalar, const ROWS: usize, const PLANES: usize> {
 }
 
 impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANES> {
-    /// Nothing known yet of `planes` planes and `rows` readings. A type with room for more planes than readings does not compile.
+    /// Nothing known yet of `planes` planes and `rows` readings. A type with room for more planes than readings does
+    /// not compile.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::MorePlanesThanReadings`].
@@ -73,7 +75,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANE
         Ok(())
     }
 
-    /// Takes what is known of a plane back.
+    /// Discards the coefficients of a plane.
     pub fn forget(&mut self, plane: usize) {
         if let Some(known) = self.known.get_mut(plane) {
             *known = false;
@@ -85,7 +87,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANE
     /// Where trial weights are taken off again, `before` is the baseline; where they stay, the run before this one.
     ///
     /// # Errors
-    /// What is wrong with the weight or the readings; what was known stays.
+    /// An invalid weight or reading; the coefficients stay.
     pub fn learn(
         &mut self,
         plane: usize,
@@ -96,12 +98,14 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANE
         self.learn_further(plane, before, with, trial, T::zero()).map(|_| ())
     }
 
-    /// Learns a plane from a further trial run, by least squares over all of them: `a = sum conj(w) (v - v0) / sum |w|^2`.
+    /// Learns a plane from a further trial run, by least squares over all of them:
+    /// `a = sum conj(w) (v - v0) / sum |w|^2`.
     ///
-    /// `known` is what the last call for this plane gave, zero for the first: the sum of the squares of its trial weights, which comes back.
+    /// `known` is the value that the last call for this plane returned, zero for the first: the sum of the squares of
+    /// its trial weights.
     ///
     /// # Errors
-    /// What is wrong with the weight or the readings; what was known stays.
+    /// An invalid weight or reading; the coefficients stay.
     pub fn learn_further(
         &mut self,
         plane: usize,

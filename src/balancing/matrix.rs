@@ -1,6 +1,6 @@
 //! Small matrices and lists whose access cannot fail: outside there is zero, and nothing to write to.
 //!
-//! The linker refuses an image in which a panic can be reached; so nothing here indexes by what is only known at run time.
+//! The linker refuses an image in which a panic can be reached; so nothing here is indexed by a run-time value.
 
 use super::scalar::{Complex, Scalar, square, zero};
 

@@ -1,12 +1,13 @@
 //! Min-max and limited weights: a search from the inside, and a proof of how far from the optimum it ended.
 //!
-//! A residual within `t` and a weight within its limit are second-order cones. The barriers `-ln(t^2 - |r|^2)` and `-ln(L^2 - |w|^2)` keep the
-//! search inside (Boyd and Vandenberghe, *Convex Optimization*, 11.6); each step is Newton's. The Hessian of a cone's barrier has an
-//! explicit root, so its rows go through rotations into a triangle, and no product of a matrix with itself is formed.
+//! A residual within `t` and a weight within its limit are second-order cones. The barriers `-ln(t^2 - |r|^2)` and
+//! `-ln(L^2 - |w|^2)` keep the search inside (Boyd and Vandenberghe, *Convex Optimization*, 11.6); each step is
+//! Newton's. The Hessian of a cone's barrier has an explicit root, so its rows go through rotations into a triangle,
+//! and no product of a matrix with itself is formed.
 //!
 //! The proof: for any `lambda >= 0` of sum one and any `mu >= 0`, the least squares
-//! `min sum lambda |r|^2 + sum mu (|w|^2 - L^2)` are a lower bound of the square of the optimum (weak duality). The barriers give
-//! lambda and mu, the factorisation of [`super::qr`] the bound.
+//! `min sum lambda |r|^2 + sum mu (|w|^2 - L^2)` are a lower bound of the square of the optimum (weak duality). The
+//! barriers give lambda and mu, the factorisation of [`super::qr`] the bound.
 
 use nalgebra::ComplexField;
 
@@ -133,9 +134,9 @@ pub(super) struct Search<T: Scalar, const ROWS: usize, const PLANES: usize> {
     a: [[Complex<T>; PLANES]; ROWS],
     b: [Complex<T>; ROWS],
     limits: [Option<T>; PLANES],
-    /// What the weights were multiplied by.
+    /// Scale of the weights.
     scale: [T; PLANES],
-    /// What the rows were divided by.
+    /// Scale of the rows.
     unit: T,
 }
 
@@ -194,7 +195,8 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Search<T, ROWS, PLANES> 
         sum
     }
 
-    /// Searches from weights near the optimum: the weights found, and what the objective cannot be below. `None` where that is too far.
+    /// Searches from weights near the optimum: the weights found, and the lower bound of the objective. `None` where
+    /// that is too far.
     pub(super) fn run(&self, start: &[Complex<T>; PLANES]) -> Option<([Complex<T>; PLANES], T)> {
         let mut at = Wide::new();
         let mut cones = if self.objective == Objective::MinMax { 2 * self.rows } else { 0 };
@@ -243,7 +245,8 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Search<T, ROWS, PLANES> 
             Objective::MinMax => value(&at),
             Objective::LeastSquares => value(&at).sqrt(),
         };
-        // ten thousand times the aim in double precision, a hundred times in single: what the caller is promised
+        // ten thousand times the aim in double precision, a hundred times in single: the accuracy promised to the
+        // caller
         if !(reached - below <= reached * real::<T>(T::CLOSE).max(real(1e-8)) * real(100.0)) {
             return None;
         }
@@ -331,7 +334,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Search<T, ROWS, PLANES> 
         root.step(&gradient, self.free())
     }
 
-    /// What the objective cannot be below, by the multipliers that the barriers give.
+    /// Lower bound of the objective by the barriers' multipliers.
     fn below(&self, at: &Wide<T, PLANES>, tau: T) -> T {
         let two = real::<T>(2.0);
         let mut qr = Qr::<T, PLANES>::new();

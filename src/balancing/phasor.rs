@@ -1,11 +1,12 @@
 //! The phasor of each vibration channel, by integration over the rotor's angle.
 //!
-//! The integral of `v e^{-i theta}` over the angle is the sum of `v` times the change of `e^{-i theta}` over each tick: no
-//! multiplication by the step, and no time in it, so a swing of the speed changes nothing, and a constant vanishes exactly over a turn.
-//! Where a block of turns ends the tick is cut at the rotor's zero: `e^{-i theta}` is one there, so the fraction of the tick at either end
-//! costs no division. That a sample stands for the whole tick before it is put right when the reading is taken, since the mean step is known then.
+//! The integral of `v e^{-i theta}` over the angle is the sum of `v` times the change of `e^{-i theta}` over each tick:
+//! no multiplication by the step, and no time in it, so a swing of the speed changes nothing, and a constant vanishes
+//! exactly over a turn. Where a block of turns ends the tick is cut at the rotor's zero: `e^{-i theta}` is one there,
+//! so the fraction of the tick at either end costs no division. The hold of a sample over the tick before it is
+//! corrected when the reading is taken, with the mean step.
 //!
-//! The sums run on; at the end of each block of turns they are noted down. What needs a division waits for [`Phasors::reading`].
+//! The sums run on; at the end of each block of turns they are noted down. Divisions are left to [`Phasors::reading`].
 
 use super::reading::{Edge, Reading, Steadiness};
 use super::{Balancer, ReadingFault};
@@ -24,11 +25,12 @@ pub struct PhasorsConfig<N: Number, const CHANNELS: usize> {
     pub(crate) block: u32,
     /// The largest sample of each channel that is not clipped.
     pub(crate) limits: [N; CHANNELS],
-    /// What a reading may waver by.
+    /// Limits of a reading's unsteadiness.
     pub(crate) steadiness: Steadiness,
 }
 
-/// A measurement of `CHANNELS` channels that ends after `EDGES - 1` blocks, and the reading until the next one is begun.
+/// A measurement of `CHANNELS` channels that ends after `EDGES - 1` blocks, and the reading until the next one is
+/// begun.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Phasors<N: Synchronous, const CHANNELS: usize, const EDGES: usize> {
@@ -87,9 +89,9 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for 
             self.left = self.left.wrapping_sub(1);
             if self.left == 0 {
                 let noted = self.noted;
-                // complete: what comes now is in no block
+                // complete: later samples are in no block
                 let Some(edge) = self.edges.get_mut(noted as usize) else { return };
-                // The tick ends at the zero, and the next one takes over what is left of it: so no tick does the work of two.
+                // The tick ends at the zero; the next one takes over the rest, so no tick does the work of two.
                 (self.left, self.noted) = (config.block, noted + 1);
                 let sums = added(&self.sums, vibration, N::AHEAD, self.direction);
                 self.sums = sums;
@@ -103,7 +105,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for 
         self.direction = direction;
     }
 
-    /// The next sample stands for the gap; a reading with one in it is doubted. One that is complete already is left as it is.
+    /// The next sample stands for the gap; a reading with one in it is rejected. A complete one stays.
     fn missed(&mut self, faults: Faults) {
         if self.is_complete() {
             return;
@@ -133,7 +135,7 @@ fn added<N: Synchronous, const CHANNELS: usize>(
 }
 
 impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANNELS, EDGES> {
-    /// Begins a new reading at the rotor's next zero; what was measured is forgotten.
+    /// Begins a new reading at the rotor's next zero and discards the old one.
     pub fn begin(&mut self) {
         self.sums = [[N::Sum::default(); 2]; CHANNELS];
         self.ticks = 0;
@@ -143,7 +145,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
         (self.noted, self.left) = (0, 1);
     }
 
-    /// Tells the rotor's angle [2^-32 turn] of now, as an index on the rotor shows it, and begins a new reading.
+    /// Sets the rotor's present angle [2^-32 turn], as from an index mark on the rotor, and begins a new reading.
     ///
     /// An incremental encoder has its zero where it was switched on; without this, so has the phase.
     pub fn align(&mut self, config: &PhasorsConfig<N, CHANNELS>, angle: u32) {
@@ -170,7 +172,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
     /// The phasor of a channel and how far it is to be trusted.
     ///
     /// # Errors
-    /// [`ReadingFault`]: why this is no reading. The measurement goes on, or stands as it is; [`Phasors::begin`] begins another.
+    /// [`ReadingFault`]: why this reading cannot be used. The measurement goes on or stands; [`Phasors::begin`] begins another.
     pub fn reading(&self, config: &PhasorsConfig<N, CHANNELS>, channel: usize) -> Result<Reading, ReadingFault> {
         if self.back > 0 && !self.is_complete() {
             return Err(ReadingFault::Backwards { times: self.back });

@@ -1,7 +1,8 @@
-//! The procedure of balancing in the field, step by step: baseline, a trial run for each plane, correction, verification, trim.
+//! The procedure of balancing in the field, step by step: baseline, a trial run for each plane, correction,
+//! verification, trim.
 //!
-//! What is known decides what comes next; any step can be given again, and the last one taken back. Everything entered goes into a record of
-//! words that a firmware can store, and from which the procedure goes on after a power cut.
+//! The entries decide the next step; any step can be repeated, and the last one undone. Everything entered goes into a
+//! record of words that a firmware can store, and from which the procedure goes on after a power cut.
 
 use heapless::Vec;
 
@@ -29,7 +30,7 @@ impl<T: Scalar, const ROWS: usize> Run<T, ROWS> {
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::ReadingMissing`] where there are fewer readings than speeds or the other way round,
-    /// [`Error::Reading`] for what is not a number.
+    /// [`Error::Reading`] for a value that is not a number.
     pub fn new(readings: &[Complex<T>], speeds: &[T]) -> Result<Self, Error> {
         if readings.len() != speeds.len() {
             return Err(Error::ReadingMissing { row: readings.len().min(speeds.len()) });
@@ -65,14 +66,15 @@ pub struct Plan<T: Scalar, const ROWS: usize, const PLANES: usize> {
     pub leave_trials: bool,
     /// How far a speed may be from the baseline's, relative.
     pub speed: T,
-    /// The largest residual that is good enough, in the unit of the readings; one that is weighted with zero does not count.
+    /// The largest acceptable residual, in the unit of the readings; readings weighted with zero do not count.
     pub tolerance: T,
     /// How weights are chosen.
     pub aim: Aim<T, ROWS, PLANES>,
 }
 
 impl<T: Scalar, const ROWS: usize, const PLANES: usize> Plan<T, ROWS, PLANES> {
-    /// Trial weights taken off again, speeds within a hundredth, least squares, and `tolerance` as the largest residual that is good enough.
+    /// Trial weights taken off again, speeds within a hundredth, least squares, and `tolerance` as the largest
+    /// acceptable residual.
     ///
     /// A hundredth is as near as a drive holds its speed; away from a resonance the influence stays the same over it.
     pub fn usual(rows: usize, planes: usize, tolerance: T) -> Self {
@@ -80,7 +82,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Plan<T, ROWS, PLANES> {
     }
 }
 
-/// What is to be done next.
+/// The next step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ProcedureStep {
@@ -91,7 +93,7 @@ pub enum ProcedureStep {
         /// The plane.
         plane: usize,
     },
-    /// Ask for [`Procedure::correction`], put the weights on, and say with [`Procedure::installed`] what was put on.
+    /// Ask for [`Procedure::correction`], install the weights, and enter them with [`Procedure::installed`].
     Correction,
     /// Run with them, and give [`Procedure::verified`].
     Verify,
@@ -116,7 +118,7 @@ struct Trial<T: Scalar, const ROWS: usize> {
     run: Run<T, ROWS>,
 }
 
-/// A procedure under way. `TRIALS` trial runs are kept: one for each plane, where not more is said.
+/// A procedure under way. `TRIALS` trial runs are kept: one for each plane by default.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Procedure<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize = PLANES> {
     plan: Plan<T, ROWS, PLANES>,
@@ -131,7 +133,8 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
     /// A procedure at its beginning.
     ///
     /// # Errors
-    /// [`Error::Size`], [`Error::MorePlanesThanReadings`], [`Error::Setting`] for the tolerance of the speed (0) or what is good (1).
+    /// [`Error::Size`], [`Error::MorePlanesThanReadings`], [`Error::Setting`] for the tolerance of the speed (0) or of
+    /// the residual (1).
     pub fn new(plan: Plan<T, ROWS, PLANES>) -> Result<Self, Error> {
         Influence::<T, ROWS, PLANES>::new(plan.rows, plan.planes)?;
         for (index, value) in [plan.speed, plan.tolerance].into_iter().enumerate() {
@@ -162,7 +165,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
         &self.plan
     }
 
-    /// What is to be done next.
+    /// The next step.
     pub fn next(&self) -> ProcedureStep {
         if self.baseline.is_none() {
             return ProcedureStep::Baseline;
@@ -207,9 +210,9 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
     /// Gives the trial run of a plane, or gives it again: one that was entered before is replaced.
     ///
     /// # Errors
-    /// [`Error::TooEarly`] without a baseline; what is wrong with the plane, the weight or the run; [`Error::TrialRepeated`] where the plane has
-    /// several trial runs, or its weight has stayed on below a later one: take back what is wrong ([`Procedure::undo`]), or
-    /// give a [`Procedure::extra_trial`]. What was entered before stays.
+    /// [`Error::TooEarly`] without a baseline; an invalid plane, weight or run; [`Error::TrialRepeated`] where the
+    /// plane has several trial runs, or its weight stayed on below a later one: undo the wrong entry
+    /// ([`Procedure::undo`]), or enter a [`Procedure::extra_trial`]. Earlier entries stay.
     pub fn trial(&mut self, plane: usize, weight: Complex<T>, run: &Run<T, ROWS>) -> Result<(), Error> {
         self.at_baseline_speed(run)?;
         let trial = Trial { plane, weight, run: *run };
@@ -232,7 +235,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
 
     /// Gives a further trial run of a plane that has one: all of them count, by least squares.
     ///
-    /// Where trial weights stay the weight is what this run has more than the one before it.
+    /// Where trial weights stay, the weight is the one added since the run before.
     ///
     /// # Errors
     /// As [`Procedure::trial`], and [`Error::Size`] where `TRIALS` runs are there already.
@@ -261,7 +264,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
     /// The coefficients, as far as they are known.
     ///
     /// # Errors
-    /// [`Error::TooEarly`] without a baseline; what is wrong with a trial run.
+    /// [`Error::TooEarly`] without a baseline; an invalid trial run.
     pub fn influence(&self) -> Result<Influence<T, ROWS, PLANES>, Error> {
         let mut influence = match self.before {
             Some(known) => known,
@@ -283,17 +286,19 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
         Ok(influence)
     }
 
-    /// The vibration as it is now: the last verification, or the last trial run where the trial weights stay, or the baseline.
+    /// The vibration as it is now: the last verification, or the last trial run where the trial weights stay, or the
+    /// baseline.
     fn now(&self) -> Option<&Run<T, ROWS>> {
         let verified = self.installed.iter().rev().find_map(|placed| placed.run.as_ref());
         let trial = self.trials.last().filter(|_| self.plan.leave_trials).map(|trial| &trial.run);
         verified.or(trial).or(self.baseline.as_ref())
     }
 
-    /// The weights to add to what is on the rotor now, for the correction and for each trim.
+    /// The weights to add to those on the rotor, for the correction and for each trim.
     ///
     /// # Errors
-    /// [`Error::TooEarly`] before the baseline or while a correction is not verified; [`Error::PlaneUnknown`]; see [`Influence::correct`].
+    /// [`Error::TooEarly`] before the baseline or while a correction is not verified; [`Error::PlaneUnknown`]; see
+    /// [`Influence::correct`].
     pub fn correction(&self) -> Result<Correction<T, ROWS, PLANES>, Error> {
         if self.installed.last().is_some_and(|placed| placed.run.is_none()) {
             return Err(Error::TooEarly);
@@ -302,7 +307,8 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
         self.influence()?.correct(&now.readings, &self.plan.aim)
     }
 
-    /// Says what weights were put on, which may not be quite those that were asked for. Given again before the run, it replaces what was said.
+    /// Enters the weights actually installed, which may differ from those computed. Repeated before the run, it
+    /// replaces the entry.
     ///
     /// # Errors
     /// [`Error::TooEarly`], [`Error::Weight`], [`Error::Size`] after the last correction there is room for.
@@ -326,7 +332,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
     /// Gives the run with the weights that were put on last, or gives it again.
     ///
     /// # Errors
-    /// [`Error::TooEarly`] where none were; what is wrong with the run.
+    /// [`Error::TooEarly`] where none were; an invalid run.
     pub fn verified(&mut self, run: &Run<T, ROWS>) -> Result<(), Error> {
         self.at_baseline_speed(run)?;
         let last = self.installed.last_mut().ok_or(Error::TooEarly)?;
@@ -334,7 +340,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
         Ok(())
     }
 
-    /// Takes the last entry back, and says which step it was; none where nothing was entered.
+    /// Undoes the last entry and returns its step; none where nothing was entered.
     pub fn undo(&mut self) -> Option<ProcedureStep> {
         if let Some(last) = self.installed.last_mut() {
             if last.run.take().is_some() {
@@ -395,7 +401,8 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize> Pro
         9 + run + TRIALS * (1 + 2 * T::WORDS + run) + CORRECTIONS * (1 + 2 * planes * T::WORDS + run)
     }
 
-    /// Writes everything that was entered as words, and says how many. The plan and coefficients that were known before are not in it.
+    /// Writes every entry as words and returns their number. The plan and coefficients that were known before are not
+    /// in it.
     ///
     /// # Errors
     /// [`Error::Size`] where there are not enough words.

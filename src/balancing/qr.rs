@@ -1,8 +1,8 @@
 //! Least squares by orthogonal factorisation, a row at a time.
 //!
-//! Givens rotations take each row into a triangle of `PLANES` rows (Golub and Van Loan, *Matrix Computations*, 5.2.3 and 6.5); so any
-//! number of rows needs no more room, and `A^H A`, whose condition is the square, is never formed. Columns are then pivoted by
-//! Householder reflections (5.4.2), which shows what is dependent on what.
+//! Givens rotations take each row into a triangle of `PLANES` rows (Golub and Van Loan, *Matrix Computations*, 5.2.3
+//! and 6.5); so any number of rows needs no more room, and `A^H A`, whose condition is the square, is never formed.
+//! Columns are then pivoted by Householder reflections (5.4.2), which shows dependent columns.
 
 use nalgebra::ComplexField;
 
@@ -18,7 +18,7 @@ pub(crate) struct Qr<T: Scalar, const PLANES: usize> {
     pub(crate) rest: T,
 }
 
-/// A triangle whose columns are put in the order of what they add.
+/// An upper triangle with its columns in the order of the pivots.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PivotedQr<T: Scalar, const PLANES: usize> {
     qr: Qr<T, PLANES>,
@@ -60,8 +60,8 @@ impl<T: Scalar, const PLANES: usize> Qr<T, PLANES> {
         self.rest += square(b);
     }
 
-    /// Puts the columns, each divided by its norm, in order: first the one that has most beside those before it. A column with no more of its
-    /// own than the share `independence` counts as dependent.
+    /// Puts the columns, each divided by its norm, in order: first the one that has most beside those before it. A
+    /// column with no more of its own than the share `independence` counts as dependent.
     pub(crate) fn pivoted(mut self, independence: T) -> PivotedQr<T, PLANES> {
         let mut scale = [T::one(); PLANES];
         for (j, scale) in scale.iter_mut().enumerate() {
@@ -140,8 +140,8 @@ impl<T: Scalar, const PLANES: usize> PivotedQr<T, PLANES> {
         x
     }
 
-    /// Column `j` in the order of the pivots, behind the rank: how much of it is its own (as a share of it), and what combination of the
-    /// independent planes the rest is.
+    /// Column `j` in the order of the pivots, behind the rank: its independent share, and the combination of the
+    /// independent planes that gives the rest.
     pub(crate) fn combination(&self, j: usize) -> (T, [Complex<T>; PLANES]) {
         let y = self.back(|k| self.qr.r.at(k, j));
         let mut x = [zero(); PLANES];
@@ -167,7 +167,8 @@ impl<T: Scalar, const PLANES: usize> PivotedQr<T, PLANES> {
         y
     }
 
-    /// Greatest over least singular value of the independent columns as they were, by one-sided Jacobi rotations (Golub and Van Loan, 8.6.3).
+    /// Greatest over least singular value of the independent columns as they were, by one-sided Jacobi rotations (Golub
+    /// and Van Loan, 8.6.3).
     pub(crate) fn condition(&self) -> T {
         let mut a = Matrix::<T, PLANES, PLANES>::new();
         for (j, scale) in self.scale.iter().enumerate().take(self.rank) {

@@ -1,4 +1,4 @@
-//! A reading: the phasor of a channel, and what tells whether it can be believed.
+//! A reading: the phasor of a channel, with measures of its quality.
 
 use core::fmt;
 
@@ -25,8 +25,8 @@ impl<N: Synchronous, const CHANNELS: usize> Default for Edge<N, CHANNELS> {
 
 /// Amplitude and phase as a complex number: `v = Re(X e^{i order theta})`, with `theta` the rotor's angle.
 ///
-/// The phase is how far the vibration leads the rotor's zero: the vibration is greatest where `theta = -phase`. In the unit of the channel, or per
-/// unit of its base.
+/// The phase is how far the vibration leads the rotor's zero: the vibration is greatest where `theta = -phase`. In the
+/// unit of the channel, or per unit of its base.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Phasor {
@@ -52,7 +52,7 @@ impl Phasor {
         Phasor { re: self.re + other.re, im: self.im + other.im }
     }
 
-    /// This less another: what is left of a reading without its run-out.
+    /// This less another, as a reading less its run-out.
     pub fn less(self, other: Phasor) -> Phasor {
         Phasor { re: self.re - other.re, im: self.im - other.im }
     }
@@ -87,7 +87,7 @@ impl From<Phasor> for nalgebra::Complex<f64> {
     }
 }
 
-/// What a reading may waver by.
+/// Limits of a reading's unsteadiness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Steadiness {
@@ -95,9 +95,9 @@ pub struct Steadiness {
     pub speed: f32,
     /// Change of the phasor from the first block to the last along a straight line, over its amplitude.
     pub drift: f32,
-    /// Root mean square of what the blocks' phasors differ by beside that, over the amplitude.
+    /// Root mean square of the blocks' remaining differences, over the amplitude.
     pub scatter: f32,
-    /// An amplitude below which drift and scatter are compared with this amplitude: what counts as none \[unit of the channel, or of its base\].
+    /// Smallest reference amplitude of drift and scatter \[unit of the channel, or of its base\].
     pub floor: f32,
 }
 
@@ -112,7 +112,8 @@ impl Steadiness {
 pub struct Reading {
     /// The phasor.
     pub phasor: Phasor,
-    /// Variance of the phasor: the mean square of its error, as far as the blocks' scatter shows it \[square of the channel's unit\].
+    /// Variance of the phasor: the mean square of its error, as far as the blocks' scatter shows it
+    /// \[square of the channel's unit\].
     pub variance: f32,
     /// Turns, times the order.
     pub turns: u32,
@@ -122,11 +123,11 @@ pub struct Reading {
     pub speed_spread: f32,
     /// Change of the phasor along a straight line over the reading, over the amplitude.
     pub drift: f32,
-    /// Root mean square of what the blocks differ by beside that, over the amplitude.
+    /// Root mean square of the blocks' remaining differences, over the amplitude.
     pub scatter: f32,
 }
 
-/// Why something measured is no reading.
+/// Why a reading cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -140,14 +141,14 @@ pub enum ReadingFault {
         /// Turns that are needed.
         of: u32,
     },
-    /// The rotor turns backwards, or to and fro.
+    /// The rotor turns backwards, or reverses.
     Backwards {
         /// Times that its zero passed the wrong way.
         times: u32,
     },
     /// Fewer than eight ticks on a turn.
     TooFast,
-    /// The sensor was at the end of its range, or gave what is no number.
+    /// The sensor was at the end of its range, or its value is not a number.
     Clipped,
     /// Samples were missing, or not sound: a bus that failed, a sensor that stood still.
     Missing {
@@ -164,7 +165,7 @@ pub enum ReadingFault {
         /// Change over the reading, over the amplitude.
         drift: f32,
     },
-    /// The vibration goes to and fro: noise, or a beat with something that turns otherwise.
+    /// The vibration fluctuates: noise, or a beat with another rotating part.
     Scattered {
         /// Root mean square of the blocks' differences, over the amplitude.
         scatter: f32,
@@ -239,7 +240,8 @@ impl Reading {
                 (Some(from), Some(to)) => {
                     let (cosine, sine) = (N::growth(to[0], from[0]), N::growth(to[1], from[1]));
                     let mean = Phasor { re: sine, im: cosine }.scaled(core::f32::consts::FRAC_1_PI / turns);
-                    // The tick after the first zero has taken over what is left of its tick: by the slope there, a tick too late.
+                    // The tick after the first zero has taken over the rest of its tick: by the slope there, a tick too
+                    // late.
                     let late = 2.0 * core::f32::consts::TAU * past(first) * step / turns;
                     Phasor { re: mean.re + mean.im * late, im: mean.im }.times(held)
                 }
@@ -304,7 +306,7 @@ impl Reading {
     }
 }
 
-/// What a sample that was held over the tick before it has to be multiplied by: `e^{-ix} x/sin x`, x half of the tick's turn.
+/// Correction factor for a sample held over the tick before it: `e^{-ix} x/sin x`, x half of the tick's turn.
 fn held(turn: f32) -> Phasor {
     let x = core::f32::consts::PI * turn;
     let z = x * x;
@@ -314,7 +316,7 @@ fn held(turn: f32) -> Phasor {
     Phasor { re: cosine / sinc, im: -x }
 }
 
-/// Square root by Newton's iteration from an exponent halved; zero for what is not a positive normal number.
+/// Square root by Newton's iteration from an exponent halved; zero where the argument is not a positive normal number.
 fn root(x: f32) -> f32 {
     if !(f32::MIN_POSITIVE..f32::INFINITY).contains(&x) {
         return if x > 1.0 { x } else { 0.0 };

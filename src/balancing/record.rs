@@ -1,4 +1,4 @@
-//! The record of a procedure as parameters in flash, so that no power cut takes what was entered.
+//! The record of a procedure as parameters in flash: entries survive a power cut.
 //!
 //! ```
 //! use driveline::balancing::{Complex, Plan, Procedure, Record, Run};
@@ -51,8 +51,8 @@ use super::procedure::{Plan, Procedure};
 use super::scalar::Scalar;
 use crate::parameters::Parameters;
 
-/// Everything that was entered into a procedure, in at most `WORDS` words: [`Procedure::words`] says how many it takes. In front of them are words
-/// of the firmware's own, as the run-out that its readings are less.
+/// Everything that was entered into a procedure, in at most `WORDS` words: [`Procedure::words`] gives the number
+/// needed. In front of them are words of the firmware's own, as the run-out that its readings are less.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Record<const WORDS: usize>(Vec<u32, WORDS>);
 

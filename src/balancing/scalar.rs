@@ -1,14 +1,14 @@
-//! The numbers that are calculated with off the tick, and what they lack.
+//! Real and complex numbers of the calculations off the tick.
 
 use nalgebra::{ComplexField, RealField};
 
 /// `f32` or `f64`: the same functions on the controller and on the host.
 pub trait Scalar: RealField + Copy {
-    /// How close to the optimum a search ends, relative: what is left of the digits after a search.
+    /// Relative distance from the optimum at which a search ends.
     const CLOSE: f64;
     /// Words that a number takes in a record, one or two.
     const WORDS: usize;
-    /// The number as words; what is not used is zero.
+    /// The number as words; unused words are zero.
     fn to_words(self) -> [u32; 2];
     /// The number that has these words.
     fn from_words(words: [u32; 2]) -> Self;

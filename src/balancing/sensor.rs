@@ -1,10 +1,10 @@
-//! From what a sensor gives to the motion that it measures.
+//! Transfer of a vibration sensor: from its signal to the motion.
 
 use core::fmt;
 
 use super::reading::Phasor;
 
-/// What a sensor measures, or a reading is wanted in.
+/// Quantity that a sensor measures, or a reading is converted to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Motion {
@@ -27,13 +27,14 @@ impl Motion {
     }
 }
 
-/// A sensor: what it measures and how it renders it.
+/// A sensor: its quantity and its transfer function.
 ///
-/// Its transfer is `sensitivity (i w/high) / (1 + i w/high) / (1 + i w/low)`, a high-pass below and a low-pass above, each of the first order.
+/// Its transfer is `sensitivity (i w/high) / (1 + i w/high) / (1 + i w/low)`, a high-pass below and a low-pass above,
+/// each of the first order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sensor {
-    /// What it measures.
+    /// Measured quantity.
     pub motion: Motion,
     /// Units of the channel to the unit of motion.
     pub sensitivity: f32,
@@ -45,7 +46,7 @@ pub struct Sensor {
     pub angle: f32,
 }
 
-/// What of a sensor cannot be.
+/// Invalid parameters of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -79,7 +80,7 @@ impl fmt::Display for SensorError {
 
 impl core::error::Error for SensorError {}
 
-/// Largest angle of mounting: ten turns, more than anybody writes in radians; a number of degrees is beyond it mostly.
+/// Largest angle of mounting: ten turns, larger than any angle in radians; most numbers of degrees are beyond it.
 const MOST_ANGLE: f32 = 10.0 * core::f32::consts::TAU;
 
 impl Sensor {
@@ -93,7 +94,7 @@ impl Sensor {
     /// The phase is that of a sensor at the rotor's zero only where the bearings are alike in all directions.
     ///
     /// # Errors
-    /// [`SensorError`]: what of the sensor or the reading cannot be.
+    /// [`SensorError`]: an invalid parameter of the sensor or the reading.
     pub fn motion(&self, phasor: Phasor, frequency: f32, wanted: Motion) -> Result<Phasor, SensorError> {
         let above_zero = |value: f32| value > 0.0 && value < f32::INFINITY;
         let sound = [
@@ -119,7 +120,7 @@ impl Sensor {
             -1 => passed.times(Phasor { re: 0.0, im: -1.0 / frequency }),
             _ => passed.scaled(-1.0 / (frequency * frequency)),
         };
-        // (cos, sin) of the angle of mounting; a sensor further round sees the same later
+        // (cos, sin) of the angle of mounting; a sensor further round has the same signal later
         let (sine, cosine) = crate::math::sin_cos(f64::from(self.angle));
         Ok(wanted.times(Phasor { re: cosine as f32, im: sine as f32 }))
     }

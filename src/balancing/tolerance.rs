@@ -18,7 +18,7 @@ pub struct Tolerance<T> {
     pub speed: T,
 }
 
-/// What a residual unbalance amounts to.
+/// Grade of a residual unbalance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Verdict<T> {
@@ -32,7 +32,7 @@ pub struct Verdict<T> {
 
 impl<T: Scalar> Tolerance<T> {
     /// # Errors
-    /// [`Error::Setting`] with the place of what is not positive.
+    /// [`Error::Setting`] with the index of the value that is not positive.
     fn check(&self) -> Result<(), Error> {
         let right = |value: &T| *value > T::zero() && value.is_finite();
         match [self.grade, self.mass, self.speed].iter().position(|value| !right(value)) {
@@ -44,19 +44,20 @@ impl<T: Scalar> Tolerance<T> {
     /// Permissible residual unbalance of the rotor \[kg m\]: `U = G m / omega` [Notes ch. 5].
     ///
     /// # Errors
-    /// [`Error::Setting`] with the place of what is not positive.
+    /// [`Error::Setting`] with the index of the value that is not positive.
     pub fn permissible(&self) -> Result<T, Error> {
         self.check()?;
         Ok(self.grade * real(1e-3) * self.mass / self.speed)
     }
 
-    /// The same for two tolerance planes at the bearings A and B \[kg m\], by the distances of the centre of mass from them \[m\].
+    /// The same for two tolerance planes at the bearings A and B \[kg m\], by the distances of the centre of mass from
+    /// them \[m\].
     ///
-    /// `from_a` is counted towards B, so that a centre of mass between the bearings has 0 < `from_a` < `span`. The shares are held
-    /// within 0.3 and 0.7 between bearings, 0.3 and 1.3 overhung.
+    /// `from_a` is counted towards B, so that a centre of mass between the bearings has 0 < `from_a` < `span`. The
+    /// shares are held within 0.3 and 0.7 between bearings, 0.3 and 1.3 overhung.
     ///
     /// # Errors
-    /// [`Error::Setting`] with the place of what is not positive, the span being the fourth.
+    /// [`Error::Setting`] with the index of the value that is not positive, the span being the fourth.
     pub fn at_bearings(&self, from_a: T, span: T) -> Result<[T; 2], Error> {
         let whole = self.permissible()?;
         if !(span > T::zero() && span.is_finite() && from_a.is_finite()) {
@@ -71,7 +72,7 @@ impl<T: Scalar> Tolerance<T> {
     /// Judges a residual unbalance of the rotor \[kg m\].
     ///
     /// # Errors
-    /// [`Error::Setting`] with the place of what is not positive.
+    /// [`Error::Setting`] with the index of the value that is not positive.
     pub fn judge(&self, residual: T) -> Result<Verdict<T>, Error> {
         let permissible = self.permissible()?;
         let grade = residual * self.speed / self.mass * real(1e3);
@@ -80,8 +81,8 @@ impl<T: Scalar> Tolerance<T> {
     }
 }
 
-/// Unbalances along a rotor \[kg m at m\] as two in the planes at `a` and `b` \[m\]: each splits by its distances [Notes ch. 5]. The
-/// correction is the opposite.
+/// Unbalances along a rotor \[kg m at m\] as two in the planes at `a` and `b` \[m\]: each splits by its distances
+/// [Notes ch. 5]. The correction is the opposite.
 ///
 /// # Errors
 /// [`Error::Setting`] where the planes are the same.

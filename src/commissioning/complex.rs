@@ -1,4 +1,4 @@
-//! Complex numbers in `f64`, for what is solved outside the tick.
+//! Complex numbers in `f64`, for the solution outside the tick.
 
 use crate::math::sin_cos;
 

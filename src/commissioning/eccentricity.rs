@@ -5,7 +5,7 @@ use super::harmonic::Harmonic;
 use super::result::Figure;
 use crate::math::{atan2, sqrt};
 
-/// Eccentricity of the encoder, of first order: what it reads is the angle and `amplitude cos(angle - phase)`.
+/// First-order eccentricity of the encoder: it reads the angle plus `amplitude cos(angle - phase)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Eccentricity {
@@ -26,8 +26,8 @@ fn unexplained(order: &Harmonic, halves: f64, mean_speed: f64, inertia: f64, blo
     angle.plus(torque.scaled(1.0 / (inertia * speed * speed)))
 }
 
-/// The eccentricity, from what was correlated over `blocks` at a mean speed \[rad/s\]; its spread from the orders
-/// beside it, where an encoder has none.
+/// The eccentricity, from the correlation over `blocks` at a mean speed \[rad/s\]; its spread from the neighbouring
+/// orders, where an encoder has none.
 ///
 /// `start` is the absolute angle at which the test began \[rad\].
 pub(crate) fn of(
@@ -42,7 +42,7 @@ pub(crate) fn of(
     let sum = f64::from(blocks.max(1));
     let [half, one, more] = orders;
     let found = unexplained(one, 2.0, mean_speed, inertia, block, sum);
-    // What noise in the torque moves falls with the square of the order: both neighbours count as at the first.
+    // The motion by torque noise falls with the square of the order: both neighbours count as at the first.
     let below = unexplained(half, 1.0, mean_speed, inertia, block, sum).scaled(0.25);
     let above = unexplained(more, 3.0, mean_speed, inertia, block, sum).scaled(2.25);
     let spread = sqrt(0.5 * (below.square() + above.square()));

@@ -36,7 +36,7 @@ pub(crate) struct Fit {
     pub excess: f64,
 }
 
-/// What follows from a fit.
+/// Quantities derived from a fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Derived {
@@ -234,7 +234,7 @@ pub(crate) fn fit(responses: &[Response], unit: f64, between: [f64; 2]) -> Optio
             }
         }
     }
-    // No machine has an inertia below zero, and the refinement knows no bounds.
+    // No machine has an inertia below zero, and the refinement is unbounded.
     let [g, b, ..] = x;
     if !(g > 0.0 && b > 0.0) {
         return None;

@@ -95,7 +95,7 @@ pub(crate) fn fit(segments: &[Segment; SEGMENTS]) -> Result<Friction, Error> {
     };
     let friction = Friction { weight: figure(0), coulomb: figure(1), viscous: figure(2), inertia: figure(3) };
     let inertia = friction.inertia;
-    // A fifth: what the servo bears with ease.
+    // A fifth, well within the servo's tolerance.
     if inertia.value > 0.0 && inertia.standard_deviation < 0.2 * inertia.value {
         Ok(friction)
     } else {

@@ -1,4 +1,4 @@
-//! What is solved outside the tick, and what is done next.
+//! The job of a stage, solved outside the tick, and the next stage.
 
 use core::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use super::servo::Servo;
 use super::{Eccentricity, Error, Friction, Response, Stage, TestConfig};
 use crate::math::sqrt;
 
-/// What is done next.
+/// The next stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[expect(
@@ -35,7 +35,7 @@ pub(crate) enum Next {
     Refused(Error),
 }
 
-/// What is known so far.
+/// Results so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Known<const L: usize> {
@@ -53,7 +53,7 @@ pub(crate) struct Known<const L: usize> {
     pub responses: [[Response; L]; 2],
     /// Lines of the next record.
     pub lines: [Line; L],
-    /// Window of what is measured next.
+    /// Window of the next measurement.
     pub window: Window,
     /// Records so far, and how long the last one was \[s\].
     records: u32,
@@ -99,13 +99,13 @@ pub struct Job<const L: usize> {
     pub(crate) zero: f64,
 }
 
-/// What a job has found.
+/// Results of a job.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Findings<const L: usize> {
     pub(crate) known: Known<L>,
     pub(crate) next: Next,
-    /// What holds the motor from now on.
+    /// The servo from now on.
     pub(crate) servo: Servo,
 }
 
@@ -113,10 +113,10 @@ pub struct Findings<const L: usize> {
 const SHARE: f64 = 0.6;
 /// Records at most.
 const RECORDS: u32 = 12;
-/// Ratio of variances from which a resonance is believed: by chance less than once in 10,000 with 3 and 40 degrees of
-/// freedom [Fisher].
+/// Ratio of variances from which a resonance is significant: by chance less than once in 10,000 with 3 and 40 degrees
+/// of freedom [Fisher].
 const BELIEVED: f64 = 12.0;
-/// Standard deviation of resonance and of the load's inertia that is aimed at, and that is still an answer.
+/// Standard deviation of resonance and of the load's inertia: the target, and the largest accepted.
 const AIM: [f64; 2] = [0.002, 0.01];
 const ENOUGH: [f64; 2] = [0.01, 0.05];
 /// Share of the friction that a swing may take where there is a gap: the load's friction holds the flanks together
@@ -130,8 +130,8 @@ impl<const L: usize> Job<L> {
         self.stage
     }
 
-    /// Solves it, off the tick: on a Cortex-M4F, without `f64` in hardware, 0.12 and 0.96 million instructions for friction
-    /// and encoder, and 163 million for each record.
+    /// Solves it, off the tick: on a Cortex-M4F, without `f64` in hardware, 0.12 and 0.96 million instructions for
+    /// friction and encoder, and 163 million for each record.
     #[must_use]
     pub fn solve(&self, config: &TestConfig) -> Findings<L> {
         let mut known = self.known;
@@ -170,7 +170,7 @@ impl<const L: usize> Job<L> {
         let (found, parts) =
             super::eccentricity::of(&self.orders, self.mean_speed, known.inertia, config.block, blocks, self.zero);
         known.eccentricity = found;
-        // What is not told from noise is not taken off.
+        // An eccentricity within the noise is not corrected.
         known.eccentric =
             if found.amplitude.value > 3.0 * found.amplitude.standard_deviation { parts } else { [0.0; 2] };
         let friction = &known.friction;
@@ -194,8 +194,8 @@ impl<const L: usize> Job<L> {
         self.first(known, config)
     }
 
-    /// What a swing of the shaft may be \[N m\]: within the room, and where there is a gap less than the friction that
-    /// holds the flanks together.
+    /// Largest swing of the shaft \[N m\]: within its margin, and with a gap below the friction that keeps the flanks
+    /// in contact.
     fn swing(known: &Known<L>, config: &TestConfig) -> f64 {
         let friction = &known.friction;
         let room = SHARE * config.room(friction.weight.value.abs() + friction.coulomb.value.max(0.0));
@@ -209,7 +209,7 @@ impl<const L: usize> Job<L> {
     /// The first record: small, over the whole band.
     fn first(&self, known: &mut Known<L>, config: &TestConfig) -> Next {
         let hertz = over_band::<L>(config.settings.band);
-        // A tenth of what the shaft may swing, were it rigid.
+        // A tenth of the shaft's swing, were it rigid.
         known.level = 0.1 * Self::swing(known, config) / peak((0..L).map(|_| 1.0));
         known.time = time(&hertz).max(2000.0 * config.block);
         self.search(known, config)
@@ -222,8 +222,8 @@ impl<const L: usize> Job<L> {
         self.record(known, config, &hertz, time(&hertz), |_| level)
     }
 
-    /// A record at these frequencies \[Hz\], the other way than the last one; `needed` \[s\] tells its lines apart, and
-    /// half of that is still borne.
+    /// A record at these frequencies \[Hz\], the other way than the last one; `needed` \[s\] separates its lines; half
+    /// of that is still accepted.
     fn record(
         &self,
         known: &mut Known<L>,
@@ -263,7 +263,7 @@ impl<const L: usize> Job<L> {
     fn resonance(&self, known: &mut Known<L>, config: &TestConfig) -> Next {
         let Next::Record { blocks, way, .. } = self.next else { return Next::Refused(Error::ResonanceUnclear) };
         let viscous = known.friction.viscous;
-        // A friction that is not told from none is none.
+        // A friction within its uncertainty counts as none.
         let viscous = if viscous.value > 3.0 * viscous.standard_deviation { viscous.value } else { 0.0 };
         let mut responses = [Response::default(); L];
         for (response, line) in responses.iter_mut().zip(&self.lines) {

@@ -10,7 +10,7 @@
 pub(crate) struct Line {
     /// Frequency \[rad/s\].
     pub frequency: f64,
-    /// Cosine and sine of what it turns in a block.
+    /// Cosine and sine of its rotation in a block.
     pub turn: [f32; 2],
     /// Where it is.
     pub phasor: [f32; 2],

@@ -1,4 +1,4 @@
-//! Responses: what a record of the multisine says of the machine, line by line.
+//! Frequency response from a record of the multisine, line by line.
 
 use super::TestConfig;
 use super::complex::Complex;
@@ -57,7 +57,7 @@ pub(crate) fn of(line: &Line, config: &TestConfig, blocks: u32, viscous: f64) ->
     let noise = sqrt(3.0 / samples.max(1.0)) / size;
     let angle = w * w * config.resolution * noise / sqrt(12.0);
     let share = noise * config.settings.torque_accuracy;
-    // What single precision leaves is 1e-4 of the response.
+    // Rounding in single precision is 1e-4 of the response.
     let square = response.square() * (share * share + 1.0e-8) + angle * angle;
     Response { frequency: w, acceleration: [response.re, response.im], standard_deviation: sqrt(square), torque: size }
 }

@@ -1,4 +1,4 @@
-//! The answer.
+//! Result of the commissioning test.
 
 use super::{Eccentricity, Error, Friction};
 use crate::machine::{Damping, Gap, Inertia, Stiffness, Torque, TwoMass};
@@ -28,7 +28,7 @@ impl Figure {
     }
 }
 
-/// What the test has found; all at the motor.
+/// The identified machine, referred to the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CommissioningResult {
@@ -50,7 +50,7 @@ pub struct CommissioningResult {
     pub damping_ratio: Figure,
     /// Friction and weight.
     pub friction: Friction,
-    /// The whole gap \[rad\], or why it is not told.
+    /// The whole gap \[rad\], or why it could not be identified.
     pub gap: Result<Figure, Error>,
     /// Eccentricity of the encoder.
     pub eccentricity: Eccentricity,
@@ -58,7 +58,7 @@ pub struct CommissioningResult {
 
 impl CommissioningResult {
     /// The two-mass machine, for [`try_observer`](TwoMass::try_observer) and
-    /// [`try_speed_loop`](TwoMass::try_speed_loop); without a gap where none was told.
+    /// [`try_speed_loop`](TwoMass::try_speed_loop); without a gap where none was identified.
     ///
     /// # Errors
     /// The sentence of a figure that no machine can have.

@@ -1,4 +1,4 @@
-//! The sequence: what the tick does, and when a stage has its data.
+//! The test sequence on the tick, stage by stage.
 
 use super::friction::{SEGMENTS, Segment, ends_of};
 use super::gap::{EASED, PUSHES, Push};
@@ -37,7 +37,7 @@ const TOUCH: f32 = 0.3;
 /// How often the torque may go from bound to bound in a stage: each time adds to a swing of the shaft.
 const REVERSALS: u32 = 1;
 
-/// What the motor does within a stage.
+/// Motion of the motor within a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Phase {
@@ -85,7 +85,7 @@ pub struct Commissioning<const L: usize> {
     /// Size of the excitation, and how it changes in a block.
     fade: f32,
     fading: f32,
-    /// Cosine and sine part of the eccentricity that is taken off \[rad\], and what was taken off the last block.
+    /// Cosine and sine part of the eccentricity correction \[rad\], and the correction of the last block.
     eccentric: [f32; 2],
     taken: f32,
     servo: Servo,
@@ -107,8 +107,8 @@ pub struct Commissioning<const L: usize> {
 }
 
 impl<const L: usize> Commissioning<L> {
-    /// A test whose motor stands, and whose torque holds the load from the first tick on. The angle of that tick is where
-    /// it begins.
+    /// A test whose motor stands, and whose torque holds the load from the first tick on. The angle of that tick is
+    /// where it begins.
     #[must_use]
     pub fn new(config: &TestConfig) -> Self {
         let held = config.settings.held as f32;
@@ -149,8 +149,7 @@ impl<const L: usize> Commissioning<L> {
 
     /// One tick: the motor's angle [2^-32 turn] in, the torque \[N m\] out, for the next tick.
     ///
-    /// After an angle that cannot be, or beyond the travel, there is no torque, and what holds the load is for its
-    /// brake.
+    /// After an implausible angle, or beyond the travel, there is no torque: the brake must hold the load.
     #[inline]
     pub fn tick(&mut self, config: &TestConfig, angle: u32) -> f32 {
         let moved = angle.wrapping_sub(self.last.unwrap_or(angle)) as i32;
@@ -174,7 +173,7 @@ impl<const L: usize> Commissioning<L> {
         self.stage
     }
 
-    /// What is to be solved outside the tick before the test goes on; a copy.
+    /// A copy of the stage's data, to be solved outside the tick before the test goes on.
     #[must_use]
     pub fn job(&self) -> Option<Job<L>> {
         if self.phase != Phase::Waits || matches!(self.stage, Stage::Done | Stage::Refused) {
@@ -195,7 +194,7 @@ impl<const L: usize> Commissioning<L> {
         })
     }
 
-    /// Takes what a job has found, and goes on. Like [`job`](Self::job) it only copies: both belong between two ticks.
+    /// Takes the results of a job and goes on. Like [`job`](Self::job) it only copies: both belong between two ticks.
     pub fn accept(&mut self, config: &TestConfig, findings: Findings<L>) {
         if self.phase != Phase::Waits || matches!(self.stage, Stage::Done | Stage::Refused) {
             return;
@@ -207,8 +206,8 @@ impl<const L: usize> Commissioning<L> {
         self.begin(config);
     }
 
-    /// The answer, where the test has ended. Take it when it comes: a test that is ticked on holds the motor, and what
-    /// ends that, as an angle that jumps, stands in its place.
+    /// The answer, where the test has ended. Read it at once: further ticks hold the motor, and an event that ends the
+    /// hold, as an angle jump, replaces it.
     #[must_use]
     pub fn outcome(&self) -> Option<Result<&CommissioningResult, Error>> {
         match (&self.next, self.stage) {
@@ -230,7 +229,7 @@ impl<const L: usize> Commissioning<L> {
         self.angle as f64 * (core::f64::consts::TAU / 4_294_967_296.0)
     }
 
-    /// Ends the test without torque; what a motor without torque does next is no other reason.
+    /// Ends the test without torque; later motion of the free motor does not change the error.
     fn refuse(&mut self, reason: Error) {
         if self.phase == Phase::Lost {
             return;
@@ -242,7 +241,7 @@ impl<const L: usize> Commissioning<L> {
         self.fade = 0.0;
     }
 
-    /// The first phase of what is next.
+    /// The first phase of the next stage.
     fn begin(&mut self, config: &TestConfig) {
         let speed = config.settings.speed as f32;
         let rate = config.acceleration as f32;
@@ -284,10 +283,10 @@ impl<const L: usize> Commissioning<L> {
     fn block(&mut self, config: &TestConfig) {
         let ticks = i64::from(config.ticks);
         let meant = self.reference.angle.wrapping_mul(ticks);
-        // Before the reference moves on: what was meant in the block that has just ended.
+        // Before the reference moves on: its value in the block that has just ended.
         let deviation = self.sum.wrapping_sub(meant);
         let step = deviation.wrapping_sub(self.before.wrapping_sub(self.meant));
-        // The mean angle of the block: what the encoder's eccentricity goes by.
+        // The mean angle of the block, which the encoder's eccentricity depends on.
         let place = self.sum.checked_div(ticks).unwrap_or(self.angle);
         let [cosine, sine] = <f32 as Synchronous>::direction(place as u32 >> 6);
         let taken = self.eccentric[0] * cosine + self.eccentric[1] * sine;
@@ -306,7 +305,7 @@ impl<const L: usize> Commissioning<L> {
         }
         let h = config.block_f32;
         self.servo.observe(&mut self.deviation, h, measured, self.torque, self.reference.acceleration);
-        // So written that what is no number is not followed either.
+        // Written so that a value that is not a number is not followed either.
         if !(self.deviation.angle.abs() <= config.lag) {
             self.refuse(Error::NotFollowed);
             return;

@@ -16,7 +16,7 @@ pub(crate) struct Servo {
     feedback: [f32; 2],
 }
 
-/// What the servo knows: deviations from the reference.
+/// State of the servo: deviations from the reference.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Deviation {
@@ -60,7 +60,7 @@ impl Servo {
         }
     }
 
-    /// One block: what was measured under `torque`, while the reference accelerated.
+    /// One block: the measurement under `torque`, while the reference accelerated.
     #[inline(always)]
     pub(crate) fn observe(&self, state: &mut Deviation, h: f32, measured: f32, torque: f32, acceleration: f32) {
         let gain = (torque + state.disturbance) * self.lightness - acceleration;

@@ -1,11 +1,11 @@
-//! What is known before the test, and its bounds.
+//! Data and bounds of the test.
 
 use core::f64::consts::TAU;
 
 use super::Error;
 use crate::design::{Encoder, Rate};
 
-/// What is known before the test, and its bounds; all at the motor.
+/// Data and bounds of the test, referred to the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TestSettings {
@@ -13,11 +13,10 @@ pub struct TestSettings {
     pub rate: Rate,
     /// The encoder on the motor.
     pub encoder: Encoder,
-    /// The most that the motor's torque may differ from `held` \[N m\]; no more than `shaft_torque` leaves beside `held`
-    /// is given, and half of that before the multisine, so that a load that is seized is not strained either.
+    /// The most that the motor's torque may differ from `held` \[N m\]; no more than `shaft_torque` leaves beside
+    /// `held` is given, and half of that before the multisine, so that a load that is seized is not strained either.
     pub torque: f64,
-    /// The most that the shaft may carry during the test, what it holds included \[N m\]: half of rated torque as a
-    /// rule.
+    /// Largest shaft torque during the test, the holding torque included \[N m\]: half of rated torque as a rule.
     pub shaft_torque: f64,
     /// Speed of the test \[rad/s\]: eight turns in an hour at least; the motor's own swing stays below it.
     pub speed: f64,
@@ -38,7 +37,7 @@ pub struct TestSettings {
 /// Share of the room that a steady torque may take: a load that is seized would swing the shaft about it.
 const STEADY: f64 = 0.5;
 
-/// A motor does not follow whose lag alone makes the servo ask for this share of the torque.
+/// A lag that alone takes this share of the torque means that the motor does not follow.
 const LAG: f64 = 0.5;
 
 /// Longest run-up \[s\], and longest time for the eight turns that the encoder's test needs.
@@ -51,7 +50,7 @@ const BLOCKS: f64 = 12.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TestConfig {
-    /// What it was made from.
+    /// The settings that it was made from.
     pub(crate) settings: TestSettings,
     /// Time between two ticks \[s\].
     pub(crate) period: f64,
@@ -65,11 +64,11 @@ pub struct TestConfig {
     pub(crate) unit: f32,
     /// 2^-32 turns in a radian.
     pub(crate) units: f32,
-    /// Largest believed turn in a tick \[2^-32 turn\].
+    /// Largest plausible turn in a tick \[2^-32 turn\].
     pub(crate) jump: u32,
     /// Most that the motor may lag behind the reference \[rad\].
     pub(crate) lag: f32,
-    /// Most that the torque may differ from what is held \[N m\]: under the multisine, and before.
+    /// Largest deviation from the holding torque \[N m\]: under the multisine, and before.
     pub(crate) most: [f64; 2],
     /// The travel \[2^-32 turn\].
     pub(crate) travel: i64,
@@ -82,7 +81,7 @@ pub struct TestConfig {
     pub(crate) acceleration: f64,
 }
 
-/// In `f32` too, as the tick takes it: what is finite in `f64` alone would be an infinite torque there.
+/// Finite in `f32` too, since the tick uses `f32`.
 const fn finite(value: f64) -> bool {
     (value as f32).is_finite()
 }
@@ -170,7 +169,7 @@ impl TestConfig {
         })
     }
 
-    /// What it was made from.
+    /// The settings that it was made from.
     #[must_use]
     pub const fn settings(&self) -> &TestSettings {
         &self.settings
@@ -181,7 +180,7 @@ impl TestConfig {
         ((time / self.block) as u32).max(1)
     }
 
-    /// What the shaft may carry beside the load that is held \[N m\].
+    /// Shaft torque available beside the held load \[N m\].
     pub(crate) fn room(&self, static_torque: f64) -> f64 {
         (self.settings.shaft_torque - static_torque.abs()).max(0.0)
     }

@@ -14,16 +14,19 @@ pub struct AdcVibration<N: Scaled> {
 }
 
 impl<N: Scaled> AdcVibration<N> {
-    /// Conversions of 0 to `most`, `middle` where nothing vibrates. `per_count` is the worth of 1/256 of a conversion's count: the mean is that fine.
+    /// Conversions of 0 to `most`, `middle` where nothing vibrates. `per_count` is the worth of 1/256 of a conversion's
+    /// count: the mean is that fine.
     pub const fn new(middle: u16, most: u16, per_count: PerCount<N>) -> Self {
         AdcVibration { middle, most, per_count, last: None }
     }
 
-    /// The mean of the conversions of a tick. `transfers` counts the DMA's transfers, and so says whether these are new.
+    /// The mean of the conversions of a tick. `transfers` counts the DMA's transfers: an unchanged count means no new
+    /// samples.
     ///
     /// # Errors
-    /// [`Faults::VIBRATION_MISSING`] where there is no conversion, or the transfers stand still; [`Faults::VIBRATION_CLIPPED`] where a conversion is
-    /// at either end of the range: clipped, or a wire that has broken.
+    /// [`Faults::VIBRATION_MISSING`] where there is no conversion, or the transfers stand still;
+    /// [`Faults::VIBRATION_CLIPPED`] where a conversion is at either end of the range: clipped, or a wire that has
+    /// broken.
     pub fn mean(&mut self, conversions: &[u16], transfers: u32) -> Result<N, Faults> {
         let stale = self.last == Some(transfers);
         self.last = Some(transfers);

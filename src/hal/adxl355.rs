@@ -1,7 +1,8 @@
 //! Vibration from an ADXL355: three axes of 20 bits at up to 4 kHz, SPI mode 0.
 //!
-//! A read starts with the address shifted up by one and a set lowest bit. The burst from `STATUS` to the last of the data brings the flag that says
-//! whether the data are new together with them [Analog Devices ADXL354/ADXL355, Rev. B, tables 16, 22 and 24 to 26].
+//! A read starts with the address shifted up by one and a set lowest bit. The burst from `STATUS` to the last of the
+//! data returns the data together with their new-data flag
+//! [Analog Devices ADXL354/ADXL355, Rev. B, tables 16, 22 and 24 to 26].
 
 use super::{PerCount, Scaled, VibrationSensor};
 use crate::fault::Faults;
@@ -16,7 +17,7 @@ const IDENTITY: [u8; 3] = [0xad, 0x1d, 0xed];
 const READY: u8 = 1 << 0;
 /// The chip has lost its trimming.
 const BUSY: u8 = 1 << 4;
-/// Largest magnitude of 20 bits, less what stands for clipped.
+/// Largest magnitude of 20 bits, less the clipping margin.
 const CLIPPED: i32 = (1 << 19) - 1;
 
 /// Full scale.
@@ -32,7 +33,7 @@ pub enum Range {
 }
 
 impl Range {
-    /// What a count is worth [m/s2].
+    /// Acceleration per count [m/s2].
     pub const fn per_count(self) -> f64 {
         9.806_65
             / match self {
@@ -81,7 +82,7 @@ impl<S, N: Scaled> Adxl355<S, N> {
         self.bus
     }
 
-    /// What an answered burst brought.
+    /// Result of a burst.
     fn sample(&self, burst: [u8; 14]) -> Result<Option<N>, Faults> {
         // status, entries of the FIFO, temperature of 2, then x, y and z of 3
         let [_, status, _, _, _, x @ .., y2, y1, y0, z2, z1, z0] = burst;
@@ -117,8 +118,8 @@ impl<S, N: Scaled> Adxl355<S, N> {
 }
 
 impl<S: embedded_hal::spi::SpiDevice, N: Scaled> Adxl355<S, N> {
-    /// Starts a chip at 4 kHz, after asking who it is; `per_count` is of [`Range::per_count`]. A sample is overdue after `patience` polls without one: three, say, of a
-    /// loop at 10 kHz.
+    /// Starts a chip at 4 kHz, after asking who it is; `per_count` is of [`Range::per_count`]. A sample is overdue
+    /// after `patience` polls without one: three, say, of a loop at 10 kHz.
     ///
     /// # Errors
     /// [`Faults::VIBRATION_MISSING`] and the bus, where it fails or another chip answers.
@@ -189,8 +190,8 @@ impl<S: embedded_hal_async::spi::SpiDevice, N: Scaled> Adxl355<S, N> {
         self.sample(burst)
     }
 
-    /// [`VibrationSensor::vibration`], awaited: the same burst, checks and faults. Where the future is dropped, it may have taken a sample off the chip:
-    /// the next call says that one is missing, and takes none.
+    /// [`VibrationSensor::vibration`], awaited: the same burst, checks and faults. Where the future is dropped, it may
+    /// have taken a sample off the chip: the next call reports one as missing and takes none.
     ///
     /// # Errors
     /// [`Faults::VIBRATION_CLIPPED`] and [`Faults::VIBRATION_MISSING`], as there.
@@ -206,9 +207,9 @@ impl<S: embedded_hal_async::spi::SpiDevice, N: Scaled> Adxl355<S, N> {
     }
 }
 
-/// Asks who the chip is.
+/// Reads the chip's identity.
 const IDENTIFY: [u8; 4] = [WHO << 1 | 1, 0, 0, 0];
-/// Asks for all from the status to the last of z.
+/// Reads all from the status to the last of z.
 const BURST: [u8; 14] = [STATUS << 1 | 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
 
 fn is_adxl355(answer: [u8; 4]) -> bool {

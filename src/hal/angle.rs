@@ -1,4 +1,4 @@
-//! What gives the motor's angle.
+//! The motor's angle sensor.
 
 use crate::fault::Faults;
 

@@ -1,7 +1,8 @@
 //! Between a tick, which never waits, and sensors and outputs that are awaited.
 //!
-//! A task awaits the angle, runs the tick, and awaits the torque's way out. What is awaited may end late, in a fault, or never, where its future is
-//! dropped by a time limit. An angle is therefore good for one tick, and a torque that was not handed over is a fault of the next tick.
+//! A task awaits the angle, runs the tick, and awaits the torque's way out. An awaited value may arrive late, fail, or
+//! never arrive, where its future is dropped by a time limit. An angle is therefore good for one tick, and a torque
+//! that was not handed over is a fault of the next tick.
 
 use super::{AngleSensor, TorqueOutput};
 use crate::fault::Faults;
@@ -55,8 +56,8 @@ impl<N: Number> AwaitedTorque<N> {
         AwaitedTorque(Stage::Given)
     }
 
-    /// Hands over what the tick has set, where it has; `output` is the output's awaited form. Where that fails, or this is dropped, the next torque that is
-    /// set says so; until one is, no torque is handed over instead, again and again.
+    /// Writes the torque that the tick has set, if any; `output` is the output's awaited form. Where that fails, or
+    /// this is dropped, the next torque that is set reports it; until then zero torque is written, repeatedly.
     pub async fn give(&mut self, output: impl AsyncFnOnce(N) -> Result<(), Faults>) {
         let (set, torque) = match self.0 {
             Stage::Given => return,
@@ -76,8 +77,8 @@ impl<N: Number> Default for AwaitedTorque<N> {
     }
 }
 
-/// Keeps a torque until it is handed over. It is a fault where the last one was not, but for a torque of zero that still waits: one is set before there is
-/// a task that could hand it over.
+/// Keeps a torque until it is handed over. It is a fault where the last one was not, but for a torque of zero that
+/// still waits: one is set before there is a task that could hand it over.
 impl<N: Number> TorqueOutput<N> for AwaitedTorque<N> {
     fn set_torque(&mut self, torque: N, _angle: u32) -> Result<(), Faults> {
         let last = core::mem::replace(&mut self.0, Stage::Waiting(torque));

@@ -1,4 +1,4 @@
-//! A drive on a board: one call a tick, and what becomes of a fault.
+//! A drive on a board: one call a tick, and the reaction to each fault.
 
 use super::Board;
 use crate::balancing::Balancer;
@@ -10,7 +10,7 @@ use crate::number::Number;
 use crate::observer::Observer;
 use crate::sample::{Command, Sample};
 
-/// What trips an axis as a rule: a torque or an enable line that does not arrive, and an angle that stays away.
+/// The usual tripping faults: a failed torque output or enable line, and a lost angle.
 pub const TRIPPING: Faults = Faults::TORQUE_OUTPUT.with(Faults::ENABLE).with(Faults::ANGLE_LOST);
 
 /// A drive on a board. It starts with the power stage off.
@@ -19,10 +19,10 @@ pub struct Axis<P, N, O, F = (), G = (), B = ()> {
     board: P,
     drive: Drive<N, O, F, G, B>,
     tripping: Faults,
-    /// What was set last.
+    /// The last output.
     set: N,
     enabled: bool,
-    /// What of the board did not obey, and has not since.
+    /// Parts of the board that failed and have not recovered.
     pending: Faults,
 }
 
@@ -35,7 +35,8 @@ where
     G: Governor<N>,
     B: Balancer<N>,
 {
-    /// An axis that the faults of `tripping` trip. The power stage is switched off; where that fails the first tick says so.
+    /// An axis that the faults of `tripping` trip. The power stage is switched off; the first tick reports a failure of
+    /// that.
     pub fn new(board: P, config: &ConfigOf<Drive<N, O, F, G, B>>, tripping: Faults) -> Self {
         let mut board = board;
         // where there is none yet, the drive finds it later
@@ -45,11 +46,12 @@ where
         axis
     }
 
-    /// Switches the power stage on: first no torque, then the enable chain. The governor starts from the speed that the drive has estimated, so
-    /// that a machine may turn meanwhile, as long as [`Axis::tick`] has been called all the time.
+    /// Switches the power stage on: first no torque, then the enable chain. The governor starts from the speed that the
+    /// drive has estimated, so that a machine may turn meanwhile, as long as [`Axis::tick`] has been called all the
+    /// time.
     ///
     /// # Errors
-    /// What kept it off, [`Faults::ANGLE_LOST`] or what the board says: it stays off.
+    /// [`Faults::ANGLE_LOST`] or the board's fault; the power stage stays off.
     pub fn start(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>) -> Result<(), Faults> {
         let lost = if self.drive.is_lost() { Err(Faults::ANGLE_LOST) } else { Ok(()) };
         self.drive.engage(config);
@@ -76,8 +78,8 @@ where
         self.pending = torque.err().unwrap_or_default() | enable.err().unwrap_or_default();
     }
 
-    /// One tick: angle in, drive, torque out. While the axis is tripped it estimates, gives no torque, raises [`Faults::TRIPPED`], and asks
-    /// a line that has not obeyed again.
+    /// One tick: angle in, drive, torque out. While the axis is tripped it estimates, gives no torque, raises
+    /// [`Faults::TRIPPED`], and retries a line that has failed.
     #[inline]
     pub fn tick(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>, setpoint: N) -> Command<N> {
         let (torque, mut faults) = match self.board.torque(self.set) {
@@ -113,8 +115,8 @@ where
         Command { torque: self.set, faults }
     }
 
-    /// Gives the balancer a sample of the vibration, taken with the last angle; where there is none, nothing. A fault is given to the balancer too,
-    /// whose reading is doubted then, and comes back.
+    /// Gives the balancer a sample of the vibration, taken with the last angle; where there is none, nothing. A fault
+    /// is given to the balancer too, whose reading is doubted then, and comes back.
     pub fn vibration(
         &mut self,
         config: &ConfigOf<Drive<N, O, F, G, B>>,
@@ -141,7 +143,7 @@ where
         &self.drive
     }
 
-    /// The drive, for what is done between two ticks: a reading begun, a state taken over.
+    /// The drive, for actions between two ticks: beginning a reading, taking over a state.
     pub fn drive_mut(&mut self) -> &mut Drive<N, O, F, G, B> {
         &mut self.drive
     }

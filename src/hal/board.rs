@@ -1,4 +1,4 @@
-//! What a control loop needs of a board.
+//! Interface of a control loop to its board.
 
 use super::{AngleSensor, Enabling, TorqueOutput};
 use crate::fault::Faults;
@@ -11,8 +11,8 @@ pub trait Board<N> {
     /// [`Faults::ANGLE_MISSING`] where there is none that is new and sound.
     fn angle(&mut self) -> Result<u32, Faults>;
 
-    /// The torque [N m] that the motor has given during the tick that has just ended, `set` where it follows what was set. A board that measures
-    /// currents says better.
+    /// The motor's torque [N m] during the tick that has just ended: `set` where it follows its command. A board that
+    /// measures currents returns the measured value.
     ///
     /// # Errors
     /// [`Faults::TORQUE`] where the measurement failed; `set` is taken then.

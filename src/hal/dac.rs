@@ -13,7 +13,8 @@ pub enum Dac {
     Mcp4921,
 }
 
-/// A DAC on its bus. It cannot be read back: a wire that breaks behind the bus is not seen here, but by the drive that it feeds.
+/// A DAC on its bus. It cannot be read back: a wire that breaks behind the bus is not seen here, but by the drive that
+/// it feeds.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpiDac<S, N: Scaled> {
@@ -65,8 +66,8 @@ impl<S: embedded_hal_async::spi::SpiDevice, N: Scaled> SpiDac<S, N> {
         .map_err(|_| Faults::TORQUE_OUTPUT)
     }
 
-    /// [`TorqueOutput::set_torque`], awaited: the same frames and faults. Where the future is dropped, the output may give the last torque or this one:
-    /// [`AwaitedTorque`](super::AwaitedTorque) takes that for a fault.
+    /// [`TorqueOutput::set_torque`], awaited: the same frames and faults. Where the future is dropped, the output may
+    /// give the last torque or this one: [`AwaitedTorque`](super::AwaitedTorque) takes that for a fault.
     ///
     /// # Errors
     /// [`Faults::TORQUE_OUTPUT`] where the torque could not be handed over.

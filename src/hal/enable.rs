@@ -1,7 +1,8 @@
-//! What permits the power stage, and what drops its contactor.
+//! Enable lines of the power stage and the trip line of its contactor.
 //!
-//! A line is *on* at the level that permits torque; choose it such that a wire that breaks is off. Lines go on one after the other, the last one only
-//! where all before it did, and off in the reverse order, each one whether or not the others obey.
+//! A line is *on* at the level that permits torque; choose it such that a wire that breaks is off. Lines go on one
+//! after the other, the last one only where all before it did, and off in the reverse order, each one whether or not
+//! the others obey.
 
 use embedded_hal::digital::{OutputPin, PinState};
 
@@ -45,8 +46,8 @@ impl<P: OutputPin> EnableLine<P> {
     }
 }
 
-/// Lines that go on in order and off in the reverse order: contactor, gate driver, brake, say. Pins of different types go in as
-/// `&mut dyn OutputPin<Error = _>`.
+/// Lines that go on in order and off in the reverse order: contactor, gate driver, brake, say. Pins of different types
+/// go in as `&mut dyn OutputPin<Error = _>`.
 #[derive(Clone, Copy, Debug)]
 pub struct EnableChain<P, const LINES: usize> {
     lines: [EnableLine<P>; LINES],
@@ -79,7 +80,7 @@ impl<P: OutputPin, const LINES: usize> Enabling for EnableChain<P, LINES> {
         }
         let on = self.lines.iter_mut().try_for_each(|line| line.set(true));
         if on.is_err() {
-            // what went on goes off again, and the line that failed is asked to
+            // lines already on go off again, and so does the one that failed
             let _ = self.off();
         }
         on

@@ -1,8 +1,9 @@
 //! Magnetic absolute encoders on SPI: AS5047P and AS5048A.
 //!
-//! 16-bit frames, SPI mode 1, most significant bit first. A frame's answer comes with the next frame. A reading is two frames: the first
-//! asks for the angle and brings the diagnosis asked for by the last one, the second asks for the diagnosis and brings the angle. So every angle is
-//! one that was asked for in this tick, and every diagnosis is at most a tick old [ams AS5047P DS000324, AS5048A datasheet].
+//! 16-bit frames, SPI mode 1, most significant bit first. A frame's answer comes with the next frame. A reading is two
+//! frames: the first requests the angle and returns the diagnosis of the last request, the second requests the
+//! diagnosis and returns the angle. So every angle was requested in this tick, and every diagnosis is at most a tick
+//! old [ams AS5047P DS000324, AS5048A datasheet].
 //!
 //! | checked in every frame | against |
 //! |---|---|
@@ -48,7 +49,8 @@ impl Chip {
 pub struct MagneticEncoder<S> {
     bus: S,
     chip: Chip,
-    /// Whether the next answer is a diagnosis. It is not while a reading runs, so that one that is cut off is followed by one from the start.
+    /// Whether the next answer is a diagnosis. It is not while a reading runs, so that one that is cut off is followed
+    /// by one from the start.
     asked: bool,
 }
 
@@ -74,7 +76,7 @@ impl<S> MagneticEncoder<S> {
 }
 
 impl<S: embedded_hal::spi::SpiDevice> MagneticEncoder<S> {
-    /// Sends a command and brings what the last one asked for.
+    /// Sends a command and returns the answer to the last one.
     fn exchange(&mut self, register: u16) -> Result<[u8; 2], Faults> {
         let mut frame = command(register);
         self.bus.transfer_in_place(&mut frame).map_err(|_| Faults::ANGLE_MISSING)?;
@@ -84,7 +86,7 @@ impl<S: embedded_hal::spi::SpiDevice> MagneticEncoder<S> {
     fn read(&mut self) -> Result<u32, Faults> {
         let diagnosis = self.chip.diagnosis();
         if !self.asked {
-            // what this brings was asked for by nobody
+            // the answer to no request
             self.exchange(diagnosis)?;
         }
         self.asked = false;
@@ -98,7 +100,7 @@ impl<S: embedded_hal::spi::SpiDevice> AngleSensor for MagneticEncoder<S> {
     fn angle(&mut self) -> Result<u32, Faults> {
         let angle = self.read();
         if angle.is_err() && !self.asked {
-            // reading the errors clears them; what the answer to this is does not matter
+            // reading the errors clears them; the answer does not matter
             let _ = self.exchange(ERRORS);
         }
         angle
@@ -124,7 +126,8 @@ impl<S: embedded_hal_async::spi::SpiDevice> MagneticEncoder<S> {
         self.angle_of(state, angle)
     }
 
-    /// [`AngleSensor::angle`], awaited: the same frames, checks and faults. Where the future is dropped, the next reading starts afresh.
+    /// [`AngleSensor::angle`], awaited: the same frames, checks and faults. Where the future is dropped, the next
+    /// reading starts afresh.
     ///
     /// # Errors
     /// [`Faults::ANGLE_MISSING`] where there is no angle that is new and sound.
@@ -137,7 +140,7 @@ impl<S: embedded_hal_async::spi::SpiDevice> MagneticEncoder<S> {
     }
 }
 
-/// The frame that asks for a register.
+/// The frame that requests a register.
 const fn command(register: u16) -> [u8; 2] {
     with_parity(READ | register).to_be_bytes()
 }

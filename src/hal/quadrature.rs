@@ -5,19 +5,20 @@ use crate::fault::Faults;
 
 /// A timer that counts the edges of an encoder, up and down.
 pub trait Counter {
-    /// What can go wrong with it: `core::convert::Infallible` where it is a register.
+    /// Faults: `core::convert::Infallible` where it is a register.
     type Error;
 
-    /// The count now. It wraps after as many bits as [`Quadrature`] is told.
+    /// The count now. It wraps after the number of bits given to [`Quadrature`].
     ///
     /// # Errors
-    /// What the timer says: a lost clock, an error of the quadrature.
+    /// The timer's fault: a lost clock, a quadrature error.
     fn count(&mut self) -> Result<u32, Self::Error>;
 }
 
 /// The angle of a motor from an incremental encoder.
 ///
-/// The angle is zero where it was made. Between two readings the motor must turn by less than half of the counter's range.
+/// The angle is zero where it was made. Between two readings the motor must turn by less than half of the counter's
+/// range.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Quadrature<C> {
@@ -35,7 +36,7 @@ pub struct Quadrature<C> {
     index: Option<i32>,
     /// Counts that the index has shown to be lost.
     slipped: i32,
-    /// Whether the next reading has to say so.
+    /// Whether the next reading has to report it.
     lost: bool,
 }
 
@@ -63,9 +64,9 @@ impl<C> Quadrature<C> {
         }
     }
 
-    /// Tells that the encoder's index pulse was seen at `count`. The place of the first one is kept: a later one that is more than a count off it, by a
-    /// whole number of turns, shows that counts were lost or gained, all at once or one by one, and the next reading says so. A single count is what
-    /// the edges of the index leave open.
+    /// Records the encoder's index pulse at `count`. The place of the first one is kept: a later one that is more than
+    /// a count off it, by a whole number of turns, shows that counts were lost or gained, all at once or one by one,
+    /// and the next reading reports it. A single count is within the width of the index.
     ///
     /// The interrupt of the index must not come between two readings that are more than a turn apart.
     pub fn index(&mut self, count: u32) {
@@ -77,12 +78,13 @@ impl<C> Quadrature<C> {
         if !(-1..=1).contains(&off) {
             self.slipped = self.slipped.saturating_add(off);
             self.lost = true;
-            // what is lost is told once: the next slip is measured from here
+            // a loss is reported once: the next one is measured from here
             self.index = Some(place);
         }
     }
 
-    /// Counts that the index has shown to be lost or gained since the first pulse: by so many the angle is ahead of the shaft.
+    /// Counts that the index has shown to be lost or gained since the first pulse: by so many the angle is ahead of the
+    /// shaft.
     pub fn slipped(&self) -> i32 {
         self.slipped
     }
@@ -103,8 +105,8 @@ impl<C: Counter> Quadrature<C> {
     /// The angle now, 2^32 to the turn.
     ///
     /// # Errors
-    /// [`Faults::ANGLE_MISSING`] where the timer gives none, or where the index has shown that counts were lost; the latter once
-    /// for each slip.
+    /// [`Faults::ANGLE_MISSING`] where the timer gives none, or where the index has shown that counts were lost; the
+    /// latter once for each slip.
     #[inline]
     pub fn read(&mut self) -> Result<u32, Faults> {
         let count = self.counter.count().map_err(|_| Faults::ANGLE_MISSING)?;

@@ -22,7 +22,7 @@ pub trait Scaled: Number {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FullScale<N: Scaled>(N::Factor, PhantomData<N>);
 
-/// What one count of a converter is worth.
+/// Value of one count of a converter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PerCount<N: Scaled>(N::Factor, PhantomData<N>);

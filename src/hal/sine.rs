@@ -1,6 +1,7 @@
 //! Sine of an angle of 2^32 to the turn, in 1/32768.
 
-/// Within 1.8e-4 of the sine: the odd polynomial of fifth order that is 1 at a quarter turn and off by 8.3e-5 at most, plus rounding.
+/// Within 1.8e-4 of the sine: the odd polynomial of fifth order that is 1 at a quarter turn and off by 8.3e-5 at most,
+/// plus rounding.
 pub(super) fn sine(angle: u32) -> i32 {
     // quarter turns as 2^15, folded to +-1 quarter
     let turned = (angle >> 15) as i32; // 17 bits a turn

@@ -1,11 +1,12 @@
 //! A torque as the duties of a three-phase bridge.
 //!
-//! The voltage stands a quarter turn (electrical) before the field, and is proportional to the torque that is wanted: at a standstill the
-//! current, hence the torque, follows it through the winding's resistance; at speed the induced voltage takes its share, as a
-//! DC motor's does. That is enough for a small machine. A large one has a drive that controls its current.
+//! The voltage stands a quarter turn (electrical) before the field, and is proportional to the commanded torque: at a
+//! standstill the current, hence the torque, follows it through the winding's resistance; at speed the induced voltage
+//! takes its share, as a DC motor's does. That is enough for a small machine. A large one has a drive that controls its
+//! current.
 //!
-//! The three voltages are shifted together by half of their largest and least, which does not change what is between the terminals and makes them fit
-//! a bridge 2/sqrt(3) times as well as three sines do.
+//! The three voltages are shifted together by half of their largest and least, which does not change what is between
+//! the terminals and makes them fit a bridge 2/sqrt(3) times as well as three sines do.
 
 use embedded_hal::pwm::SetDutyCycle;
 
@@ -21,8 +22,8 @@ const THIRD: u32 = 1_431_655_765;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PhaseConfig<N: Scaled> {
-    /// Torque at which the phase voltage is half of the bridge's supply: at a standstill that voltage over the winding's resistance times
-    /// the motor's torque constant.
+    /// Torque at which the phase voltage is half of the bridge's supply: at a standstill that voltage over the
+    /// winding's resistance times the motor's torque constant.
     pub full_scale: FullScale<N>,
     /// Pairs of poles.
     pub pole_pairs: u32,
@@ -58,7 +59,7 @@ where
     /// Sets three voltages, each in 1/32768 of half the supply; every channel is set, whatever the others do.
     ///
     /// # Errors
-    /// [`Faults::TORQUE_OUTPUT`] where one could not be set; all are then asked for half duty, no voltage between any two.
+    /// [`Faults::TORQUE_OUTPUT`] where one could not be set; all are then set to half duty, no voltage between any two.
     pub fn set_voltages(&mut self, [a, b, c]: [i32; 3]) -> Result<(), Faults> {
         let (p, q, r) = &mut self.phases;
         let set = [

@@ -1,8 +1,9 @@
 //! A torque as a target of a TMC4671, a drive that controls the motor's current itself.
 //!
-//! Datagrams of 40 bits: an address, its top bit set to write, and 32 bits of data; what is read comes in the same datagram. Register 0x64 holds the
-//! targets of torque (upper half) and flux (lower half) in the drive's units of current, signed 16 bits [TMC4671 datasheet, register
-//! `PID_TORQUE_FLUX_TARGET`]. There is no checksum, so that each target is read back.
+//! Datagrams of 40 bits: an address, its top bit set to write, and 32 bits of data; a read value comes in the same
+//! datagram. Register 0x64 holds the targets of torque (upper half) and flux (lower half) in the drive's units of
+//! current, signed 16 bits [TMC4671 datasheet, register `PID_TORQUE_FLUX_TARGET`]. There is no checksum, so that each
+//! target is read back.
 
 use super::{FullScale, Scaled, TorqueOutput};
 use crate::fault::Faults;
@@ -60,8 +61,8 @@ impl<S: embedded_hal_async::spi::SpiDevice, N: Scaled> Tmc4671<S, N> {
         reads_back(datagram, torque)
     }
 
-    /// [`TorqueOutput::set_torque`], awaited: the same datagrams, check and faults. Where the future is dropped, the drive may give the last torque or this
-    /// one: [`AwaitedTorque`](super::AwaitedTorque) takes that for a fault.
+    /// [`TorqueOutput::set_torque`], awaited: the same datagrams, check and faults. Where the future is dropped, the
+    /// drive may give the last torque or this one: [`AwaitedTorque`](super::AwaitedTorque) takes that for a fault.
     ///
     /// # Errors
     /// [`Faults::TORQUE_OUTPUT`] where the torque could not be handed over.

@@ -1,11 +1,13 @@
 //! The angle from a toothed wheel with missing teeth, by the times of its teeth.
 //!
-//! The interrupt of a timer's capture tells each tooth's time; the tick asks for the angle at its own. Between two teeth the angle runs on at the
-//! speed of the last tooth, and not beyond the next one. One pickup does not see the direction: the wheel counts upwards.
+//! The timer's capture interrupt records each tooth's time; the tick reads the angle at its own. Between two teeth the
+//! angle runs on at the speed of the last tooth, and not beyond the next one. One pickup does not see the direction:
+//! the wheel counts upwards.
 //!
-//! The place is known once two gaps with the right number of teeth between them have been seen, and is checked at every gap: a tooth too many or too few
-//! loses it until two gaps agree again. A tooth that comes early by a quarter of its time, or stays away for half of it, loses it at once; one that is less
-//! off moves the angle by as much, up to the next gap.
+//! The place is known once two gaps with the right number of teeth between them have been seen, and is checked at every
+//! gap: a tooth too many or too few loses it until two gaps agree again. A tooth that comes early by a quarter of its
+//! time, or stays away for half of it, loses it at once; one that is less off moves the angle by as much, up to the
+//! next gap.
 
 use super::AngleSensor;
 use crate::fault::Faults;
@@ -18,11 +20,11 @@ pub struct Wheel {
     pub places: u32,
     /// Missing teeth, side by side: 2 of a 60-2 wheel.
     pub missing: u32,
-    /// Longest time between two teeth that is believed [counts of the timer]: below that speed there is no angle.
+    /// Longest plausible time between two teeth [counts of the timer]: below that speed there is no angle.
     pub slowest: u32,
 }
 
-/// What is known of the place.
+/// Known position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Known {
@@ -93,11 +95,12 @@ impl ToothedWheel {
         };
     }
 
-    /// The angle at `now`, in the counts of the same timer; a time before the last tooth counts as the tooth's. To be asked in every tick, so that a wheel
-    /// that has stopped is not taken for one that has just come round.
+    /// The angle at `now`, in the counts of the same timer; a time before the last tooth counts as the tooth's. To be
+    /// read in every tick, so that a stopped wheel is not taken for one that has just turned once.
     ///
     /// # Errors
-    /// [`Faults::ANGLE_MISSING`] where the place is not known, a tooth is overdue by half its time, or the wheel is too slow.
+    /// [`Faults::ANGLE_MISSING`] where the place is not known, a tooth is overdue by half its time, or the wheel is too
+    /// slow.
     pub fn at(&mut self, now: u32) -> Result<u32, Faults> {
         let Known::Place(place) = self.known else {
             return Err(Faults::ANGLE_MISSING);

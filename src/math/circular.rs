@@ -10,7 +10,7 @@ const HALF_PI: [f64; 4] = [
     f64::from_bits(0x397B_839A_2520_49C1),
 ];
 
-/// `a - b` as a rounded difference and what the rounding lost.
+/// `a - b` as a rounded difference and its rounding error.
 const fn difference(a: f64, b: f64) -> (f64, f64) {
     let d = a - b;
     let back = a - d;

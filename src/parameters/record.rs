@@ -1,19 +1,19 @@
-//! A record's bytes, and why one is refused.
+//! The bytes of a record and the errors in reading one.
 
 use core::fmt;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// What is kept: anything that `serde` knows, without lifetimes.
+/// Parameters to keep: any type with `serde`, without lifetimes.
 pub trait Parameters: Serialize + DeserializeOwned {
-    /// Whose parameters they are: a number of the firmware's own.
+    /// Identity of the parameters: a number of the firmware's own.
     const IDENTITY: u32;
     /// Version of their form; another one is refused.
     const VERSION: u16;
 }
 
-/// Why a record is refused.
+/// Why a record is rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RecordError {
@@ -23,9 +23,9 @@ pub enum RecordError {
     Foreign(u32),
     /// Its form is of this version.
     Version(u16),
-    /// Its parameters are not what the type reads.
+    /// Its parameters do not match the type.
     Content,
-    /// The flash does not give it: the check of its own code failed, say, where the power was cut while it was written.
+    /// The flash cannot read it: for instance, its error-correcting code fails after a power cut during a write.
     Unreadable,
 }
 
@@ -74,7 +74,7 @@ pub(super) fn is_erased(bytes: &[u8]) -> bool {
 pub(super) enum Sensitivity {
     /// Nothing is there, or nothing that is whole.
     Nothing,
-    /// It begins as a record does, and is longer than the buffer: nobody knows.
+    /// It begins as a record does and is longer than the buffer: undecided.
     Unknown,
     /// Sound, another firmware's.
     Foreign,

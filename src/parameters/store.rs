@@ -11,13 +11,13 @@ use super::record::{self, Parameters, RecordError, Refused, Sensitivity};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Error<E> {
-    /// The flash says so.
+    /// The flash's own error.
     Flash(E),
     /// The range is not of an even number of whole pages.
     Range,
     /// The record does not fit the buffer, or half the range.
     TooLarge,
-    /// What was written is not what is there: a worn page, say. The last record is untouched.
+    /// The bytes read back differ from those written: a worn page, for instance. The last record is untouched.
     Unwritten,
 }
 
@@ -68,11 +68,12 @@ impl<F: NorFlash> Store<F> {
         Ok(Store { flash, start: range.start, half })
     }
 
-    /// The newest good parameters. `buffer` holds a record and some bytes more; what is in it does not matter. A record that the flash does not give is refused,
-    /// and the other one taken.
+    /// The newest good parameters. `buffer` holds a record and some bytes more; its content does not matter. A record
+    /// that the flash does not give is refused, and the other one taken.
     ///
     /// # Errors
-    /// What the flash says, where it gives neither record; [`Error::TooLarge`] where the buffer or half the range has no room for any record.
+    /// The flash's error, where neither record can be read; [`Error::TooLarge`] where the buffer or half the range has
+    /// no room for any record.
     pub fn load<P: Parameters>(&mut self, buffer: &mut [u8]) -> Result<Loaded<P>, Error<F::Error>> {
         if self.readable(buffer) < record::LEAST {
             return Err(Error::TooLarge);
@@ -84,11 +85,13 @@ impl<F: NorFlash> Store<F> {
         }
     }
 
-    /// Keeps parameters; they are there once this returns, and until then the last ones are. Where there are none that this firmware reads, those that it
-    /// wrote in another form are: what is overwritten is the record that is worth less, or else the older one.
+    /// Keeps parameters; they are there once this returns, and until then the last ones are. Without any that this
+    /// firmware can read, its records of another version count: the less valuable record is overwritten, or else the
+    /// older one.
     ///
     /// # Errors
-    /// What the flash says; [`Error::TooLarge`] where the buffer or half the range has no room for them; [`Error::Unwritten`] where they are not read back.
+    /// The flash's error; [`Error::TooLarge`] where the buffer or half the range has no room for them;
+    /// [`Error::Unwritten`] where they are not read back.
     pub fn save<P: Parameters>(&mut self, parameters: &P, buffer: &mut [u8]) -> Result<(), Error<F::Error>> {
         let Newest { kept, failed, .. } = self.newest::<P>(buffer);
         if let Some(error) = failed {
@@ -99,7 +102,7 @@ impl<F: NorFlash> Store<F> {
         // up to a whole word, as if still erased
         let whole = length.next_multiple_of(F::WRITE_SIZE.max(1));
         buffer.get_mut(length..whole).ok_or(Error::TooLarge)?.fill(0xff);
-        // What cannot be read back whole must not cost a record its page.
+        // A record that cannot be read back whole must not displace a valid one.
         if length > self.readable(buffer) {
             return Err(Error::TooLarge);
         }
@@ -177,7 +180,7 @@ struct Newest<P, E> {
     loaded: Loaded<P>,
     /// The record that a save must leave alone.
     kept: Option<Kept>,
-    /// What the flash says, where it gives neither record.
+    /// The flash's error, where neither record can be read.
     failed: Option<E>,
 }
 

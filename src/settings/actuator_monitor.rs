@@ -7,26 +7,27 @@ use crate::governor::ActuatorMonitorConfig;
 use crate::math::exp_m1;
 use crate::number::{Coefficient, Fixed};
 
-const WATCH: &str = "the watch on an actuator needs a tolerance below the largest torque, both positive, finite and within twice the base of the torque in fixed point";
+const WATCH: &str = "the watch on an actuator needs a tolerance below the largest torque, both positive, finite and \
+    within twice the base of the torque in fixed point";
 const LAG: &str = "a lag of an actuator that is watched must be positive and finite, in fixed point over 1.5 ticks";
 
-/// When an actuator counts as lost, in SI units.
+/// Settings of the actuator monitor, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ActuatorMonitorSettings {
-    /// Largest difference of the position's torque from the one that is expected \[N m\]: more than a step of the largest torque
-    /// makes of what the lags are not known to, about 0.4 of it times their relative error.
+    /// Largest difference between the position's torque and the expected one \[N m\]: more than 0.4 of the largest
+    /// torque times the relative error of the lags.
     pub tolerance: f64,
-    /// Largest torque that the actuator can stand for \[N m\].
+    /// Largest torque of the actuator \[N m\].
     pub max_torque: f64,
-    /// How long a larger difference is ridden through \[s\].
+    /// Duration of a larger difference before a trip \[s\].
     pub timeout: f64,
 }
 
 const fn torques(settings: &ActuatorMonitorSettings, format: &Format) -> Values<2, 0> {
     let ActuatorMonitorSettings { tolerance, max_torque, .. } = *settings;
     let per_unit = tolerance / format.bases.torque;
-    // A tolerance that the number rounds to zero would believe no position.
+    // A tolerance that rounds to zero would reject every position.
     let measured = if format.unit == 1.0 { per_unit as f32 > 0.0 } else { per_unit * format.unit >= 1.0 };
     if measured && max_torque > tolerance && all_finite(&[tolerance, max_torque]) {
         Ok(([per_unit, max_torque / format.bases.torque], []))
@@ -35,7 +36,7 @@ const fn torques(settings: &ActuatorMonitorSettings, format: &Format) -> Values<
     }
 }
 
-/// What a lag covers of its way in a tick.
+/// Share of a step that a lag covers in a tick.
 const fn covered(lag: f64, period: f64) -> Result<f64, Error> {
     if lag > 0.0 && lag.is_finite() { Ok(-exp_m1(-period / lag)) } else { Err(Error::Value(LAG)) }
 }
@@ -55,8 +56,8 @@ macro_rules! float {
             /// The constants as floats.
             ///
             /// # Errors
-            /// [`Error::Value`] for a torque or a lag that is not positive and finite, a tolerance of the largest torque or more, a
-            /// timeout of 2^31 ticks or more.
+            /// [`Error::Value`] for a torque or a lag that is not positive and finite, a tolerance of the largest
+            /// torque or more, a timeout of 2^31 ticks or more.
             pub const fn try_new(
                 lags: &[f64; K],
                 settings: &ActuatorMonitorSettings,

@@ -7,11 +7,14 @@ use crate::design::BacklashDesign;
 use crate::number::Fixed;
 use crate::observer::{BacklashConfig, Contact, Correction, FreeFlight, TwoMassConfig};
 
-const GAIN: &str = "a searching gain of the observer of backlash is beyond the range of fixed point: let the twist wander less, or raise the rate";
-const STEP: &str = "a coefficient of the observer's step in the gap is beyond the range of fixed point: raise the base of the torque, or the rate";
-const GAP: &str = "the gap must be positive and finite, and half of it at most the twist's base in fixed point: raise the base of the torque";
+const GAIN: &str = "a searching gain of the observer of backlash is beyond the range of fixed point: let the twist \
+    wander less, or raise the rate";
+const STEP: &str = "a coefficient of the observer's step in the gap is beyond the range of fixed point: raise the base \
+    of the torque, or the rate";
+const GAP: &str = "the gap must be positive and finite, and half of it at most the twist's base in fixed point: raise \
+    the base of the torque";
 
-/// What the gap adds to the constants of the shaft in contact, scaled to a format.
+/// Constants of the gap beside those of the shaft in contact, scaled to a format.
 struct Added {
     half_gap: f64,
     /// Of the shaft's law, in the tick in which it is left.

@@ -6,8 +6,10 @@ use crate::design::BacklashTakeUpDesign;
 use crate::governor::BacklashTakeUpConfig;
 use crate::number::Fixed;
 
-const GAIN: &str = "a gain of the taking up of slack is beyond the range of fixed point: let its impact be larger, damp less, or raise the base of the torque";
-const TORQUE: &str = "torque, rise and most of the taking up of slack must be positive and finite, and at most twice the base of the torque in fixed point";
+const GAIN: &str = "a gain of the taking up of slack is beyond the range of fixed point: let its impact be larger, \
+    damp less, or raise the base of the torque";
+const TORQUE: &str = "torque, rise and most of the taking up of slack must be positive and finite, and at most twice \
+    the base of the torque in fixed point";
 
 /// Torque, step, most, braking and damping, scaled to a format.
 const fn take_up(design: &BacklashTakeUpDesign, format: &Format) -> [f64; 5] {

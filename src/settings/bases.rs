@@ -1,4 +1,4 @@
-//! What fixed-point numbers are fractions of.
+//! Bases of the fixed-point numbers.
 
 use super::Error;
 use crate::design::TwoMassDesign;
@@ -9,7 +9,8 @@ const BASE: &str =
 
 /// Bases of the fixed-point numbers of a drive.
 ///
-/// A state is reported beyond its base and held at twice it; choose the limits so that the healthy machine stays within.
+/// A state is reported beyond its base and held at twice it; choose the limits so that the healthy machine stays
+/// within.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Bases {
@@ -29,11 +30,12 @@ impl Bases {
     /// All one: SI units, as floats have them.
     pub const SI: Bases = Bases { torque: 1.0, speed: 1.0, twist: 1.0, twist_rate: 1.0, forcing: 1.0 };
 
-    /// Bases for a machine whose torques, in motor and shaft, stay within `torque` [N m] and whose speeds stay within `speed`
-    /// [rad/s].
+    /// Bases for a machine whose torques, in motor and shaft, stay within `torque` [N m] and whose speeds stay within
+    /// `speed` [rad/s].
     ///
-    /// The twist's base is what 1.9 times the torque's gives (a shaft coefficient of k twist/torque must stay under 2), the
-    /// twist rate's what that twist swings at, and no more than the speeds or the damper allow.
+    /// The base of the twist is the twist under 1.9 times the base of the torque (a shaft coefficient k twist/torque
+    /// must stay under 2). That of the twist rate is the rate at which this twist oscillates, limited by the speeds and
+    /// the damper.
     pub const fn new(machine: &TwoMass, torque: f64, speed: f64) -> Bases {
         let twist = 1.9 * torque / machine.stiffness;
         let mut twist_rate = machine.resonance() * twist;

@@ -11,7 +11,7 @@ use crate::number::{Coefficient, Fixed};
 pub enum Error {
     /// A coefficient outside the range of fixed point.
     Coefficient(&'static str),
-    /// A value beyond what its base leaves room for.
+    /// A value out of the range of its base.
     Value(&'static str),
 }
 
@@ -37,7 +37,7 @@ impl fmt::Display for Error {
 
 impl core::error::Error for Error {}
 
-/// Coefficients in fixed point; the error names what they are of.
+/// Coefficients in fixed point; the error names their parameter.
 pub(super) const fn fixed<const K: usize>(values: [f64; K], sentence: &'static str) -> Result<[Coefficient; K], Error> {
     let mut out = [Coefficient::ZERO; K];
     let mut k = 0;

@@ -12,10 +12,12 @@ use crate::observer::{CrankConfig, RigidConfig, TABLE_POINTS, TablePoint};
 const GEAR: &str =
     "the crank must turn between 1/65536 and 15 times while the motor turns once, in at most 2^20 turns of the motor";
 const LIGHT: &str = "the crank's inertia swings too far for fixed point: the least one must be above 0.35 of the mean";
-const DRAG: &str = "the crank takes too much torque for the bases: at the base of the speed it must be below 0.9 of the base of the torque";
+const DRAG: &str = "the crank takes too much torque for the bases: at the base of the speed it must be below 0.9 of \
+    the base of the torque";
 
 impl CrankedDesign {
-    /// Mean inertia over inertia, and torque at the base of the speed per base of the torque, at the points of the table.
+    /// Mean inertia over inertia, and torque at the base of the speed per base of the torque, at the points of the
+    /// table.
     const fn points(&self, torque: f64, speed: f64) -> [[f64; 2]; TABLE_POINTS] {
         let mean = self.machine.mean_inertia();
         let mut points = [[0.0; 2]; TABLE_POINTS];
@@ -49,7 +51,8 @@ macro_rules! float {
             /// The shaft torque is that between the constant inertia and the crank drive.
             ///
             /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
             pub const fn new(design: &CrankedDesign, bases: Bases) -> Self {
                 or_stop!(Self::try_new(design, bases))
             }
@@ -92,7 +95,7 @@ impl CrankConfig<Fixed> {
     /// The constants of a design in fixed point.
     ///
     /// # Errors
-    /// [`Error::Coefficient`] or [`Error::Value`] for what fixed point cannot hold, or a gear that cannot be followed.
+    /// [`Error::Coefficient`] or [`Error::Value`] for a value beyond fixed point, or a gear ratio out of range.
     pub const fn try_new(design: &CrankedDesign, bases: Bases) -> Result<Self, Error> {
         let rigid = get!(RigidConfig::<Fixed>::try_new(&design.rigid, design.load_share(), bases));
         let exact = design.points(bases.torque, bases.speed);
@@ -100,7 +103,8 @@ impl CrankConfig<Fixed> {
         let mut k = 0;
         while k < TABLE_POINTS {
             let [inertia_ratio, inertia_slope] = exact[k];
-            // With the accelerating torque held within twice the base, the torque that is given stays within the headroom.
+            // With the accelerating torque held within twice the base, the torque that is given stays within the
+            // headroom.
             if !(inertia_ratio < 1.0 / 0.35) {
                 return Err(Error::Value(LIGHT));
             }

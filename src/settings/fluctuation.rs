@@ -9,15 +9,18 @@ use crate::number::Fixed;
 const RATIO: &str = "the cycle's turns and cycles must be at least 1, and at most 65,535";
 const LONG: &str = "the cycle must be at most 16 turns of the motor";
 const PERIOD: &str = "the time between two ticks must be positive and finite (s)";
-const BINS_SENTENCE: &str = "the bins of the waveform must be a power of two, at most 1024, at least four to each turn of the cycle, and at most 8192 to a turn";
-const SEGMENTS_SENTENCE: &str = "the segments of the cycle's mean must be a power of two from 4 to 1024, none longer than a quarter of a turn of the motor nor shorter than 2^-23 of one";
+const BINS_SENTENCE: &str = "the bins of the waveform must be a power of two, at most 1024, at least four to each turn \
+    of the cycle, and at most 8192 to a turn";
+const SEGMENTS_SENTENCE: &str = "the segments of the cycle's mean must be a power of two from 4 to 1024, none longer \
+    than a quarter of a turn of the motor nor shorter than 2^-23 of one";
 const SLOW: &str =
     "the motor turns too little in a tick at the base of the speed for a mean in fixed point: lower the rate";
-const WHEEL: &str = "the wheel must have at least one missing tooth and twice as many places as a gap takes, and as many places in a cycle as the table";
+const WHEEL: &str = "the wheel must have at least one missing tooth and twice as many places as a gap takes, and as \
+    many places in a cycle as the table";
 const CLOCK: &str = "the clock that the teeth are timed with must be positive and finite (Hz)";
 const CYCLES: &str = "the waveform must be taken over at least 1 cycle, and at most 65,535";
 
-/// What repeats: so many turns of the motor to so many cycles.
+/// A cycle: turns of the motor to a number of cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Cycle {
@@ -35,7 +38,7 @@ impl Cycle {
 }
 
 impl Drivetrain {
-    /// What the machine was reduced to.
+    /// The reduced machine.
     pub const fn of(machine: &TwoMass) -> Self {
         Drivetrain {
             motor_inertia: machine.motor_inertia,
@@ -58,7 +61,8 @@ impl CycleConfig {
     /// The constants of a cycle in ticks of `period` \[s\], for numbers of these bases: [`Bases::SI`] for floats.
     ///
     /// # Errors
-    /// [`Error::Value`] for a ratio of zero or beyond 65,535, a cycle of more than 16 turns, or a period that is not positive and finite.
+    /// [`Error::Value`] for a ratio of zero or beyond 65,535, a cycle of more than 16 turns, or a period that is not
+    /// positive and finite.
     pub const fn try_new(cycle: Cycle, period: f64, bases: Bases) -> Result<Self, Error> {
         get!(bases.check());
         let Cycle { turns, cycles } = cycle;
@@ -113,10 +117,12 @@ const fn mean_cycle(cycle: Cycle, segments: usize, period: f64, bases: Bases) ->
 macro_rules! float_mean {
     ($float:ident) => {
         impl CycleMeanConfig<$float> {
-            /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period` \[s\], as floats.
+            /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period`
+            /// \[s\], as floats.
             ///
             /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
             pub const fn new<const SEGMENTS: usize>(cycle: Cycle, period: f64, bases: Bases) -> Self {
                 or_stop!(Self::try_new::<SEGMENTS>(cycle, period, bases))
             }
@@ -124,7 +130,8 @@ macro_rules! float_mean {
             /// [`new`](Self::new), with an error instead of a panic.
             ///
             /// # Errors
-            /// As [`CycleConfig::try_new`], and [`Error::Value`] for segments that are no power of two, or too few or too many for the cycle.
+            /// As [`CycleConfig::try_new`], and [`Error::Value`] for segments that are no power of two, or too few or
+            /// too many for the cycle.
             pub const fn try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64, _: Bases) -> Result<Self, Error> {
                 let (cycle, angle) = get!(mean_cycle(cycle, SEGMENTS, period, Bases::SI));
                 let speed = Format::FLOAT.speed_of_turn(period) as $float;
@@ -138,7 +145,8 @@ float_mean!(f32);
 float_mean!(f64);
 
 impl CycleMeanConfig<Fixed> {
-    /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period` \[s\], in fixed point.
+    /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period` \[s\], in
+    /// fixed point.
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -149,8 +157,9 @@ impl CycleMeanConfig<Fixed> {
     /// [`new`](Self::new), with an error instead of a panic.
     ///
     /// # Errors
-    /// As [`CycleConfig::try_new`], [`Error::Value`] for segments that are no power of two, or too few or too many for the cycle, and
-    /// [`Error::Coefficient`] for a motor that turns by less than a count of 2^-32 turns in a tick at its base.
+    /// As [`CycleConfig::try_new`], [`Error::Value`] for segments that are no power of two, or too few or too many for
+    /// the cycle, and [`Error::Coefficient`] for a motor that turns by less than a count of 2^-32 turns in a tick at
+    /// its base.
     pub const fn try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64, bases: Bases) -> Result<Self, Error> {
         let (cycle, angle) = get!(mean_cycle(cycle, SEGMENTS, period, bases));
         let speed = Format::fixed(bases).speed_of_turn(period);
@@ -175,7 +184,8 @@ impl WaveformConfig {
     /// The constants of a waveform of `BINS` bins over `cycles` cycles.
     ///
     /// # Errors
-    /// [`Error::Value`] for bins that are no power of two or too few for the cycle, or a number of cycles that is zero or beyond 65,535.
+    /// [`Error::Value`] for bins that are no power of two or too few for the cycle, or a number of cycles that is zero
+    /// or beyond 65,535.
     pub const fn try_new<const BINS: usize>(cycle: CycleConfig, cycles: u32) -> Result<Self, Error> {
         let segments = cycle.last_segment as usize + 1;
         if !(BINS.is_power_of_two() && BINS <= 1024 && BINS >= segments && BINS >= 4) {
@@ -220,8 +230,8 @@ impl ToothedWheelConfig {
     /// The constants of a wheel with so many places to the cycle, measured over `cycles` cycles.
     ///
     /// # Errors
-    /// [`Error::Value`] for a wheel without a gap or with too large a one, a table of another size, a clock that is not positive and finite, or a
-    /// number of cycles that is zero or beyond 65,535.
+    /// [`Error::Value`] for a wheel without a gap or with too large a one, a table of another size, a clock that is not
+    /// positive and finite, or a number of cycles that is zero or beyond 65,535.
     pub const fn try_new<const PLACES: usize>(wheel: Wheel, cycles: u32) -> Result<Self, Error> {
         let Wheel { places, missing, turns, clock } = wheel;
         let whole = places as u64 * turns as u64 == PLACES as u64 && turns > 0;

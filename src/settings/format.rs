@@ -3,21 +3,21 @@
 use super::Bases;
 use crate::number::{GAIN_SHIFT, INNOVATION_SHIFT, SPEED_SHIFT, TURN_SHIFT};
 
-/// Scales from SI units to a number type: units per base, and what its operand methods multiply by.
+/// Scales from SI units to a number type: units per base, and the factors of its operand methods.
 #[derive(Clone, Copy)]
 pub(crate) struct Format {
     pub(crate) bases: Bases,
     /// Units in the last place to the base; 1 for floats.
     pub(crate) unit: f64,
-    /// What `widened` multiplies by.
+    /// Factor of `widened`.
     pub(crate) widened: f64,
-    /// What `less_turn` multiplies a turn by.
+    /// Factor of `less_turn`.
     pub(crate) turn: f64,
-    /// What `innovation_operand` multiplies by.
+    /// Factor of `innovation_operand`.
     pub(crate) innovation: f64,
-    /// What `gain_operand` multiplies by.
+    /// Factor of `gain_operand`.
     pub(crate) gain: f64,
-    /// What `speed_of_turn` multiplies by.
+    /// Factor of `speed_of_turn`.
     pub(crate) speed: f64,
 }
 
@@ -42,8 +42,8 @@ impl Format {
     /// Factor from a turn in a tick [2^-32 turn] to a speed.
     pub(crate) const fn speed_of_turn(&self, period: f64) -> f64 {
         let factor = self.unit / (ANGLE_PER_RADIAN * period * self.bases.speed * self.speed);
-        // Beyond what fixed point holds (a tick turns the motor by less than a count of 2^-32 turns at its base) the
-        // speed that is started from is too low, and is corrected.
+        // Beyond fixed point (at its base the motor turns by less than 2^-32 turn in a tick) the initial speed is too
+        // low and is corrected.
         if self.unit == 1.0 || factor < 0.499 { factor } else { 0.499 }
     }
 }

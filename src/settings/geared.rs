@@ -22,13 +22,14 @@ pub struct Gear {
     pub efficiency: f64,
     /// Inertia in front of the gear, which comes to rest when the gear is held \[kg m2\].
     pub inertia: f64,
-    /// How far the motor can turn while the gear is held \[rad\]: twice what the gear's friction twists the shaft in front of it, and a few counts of
-    /// the encoder.
+    /// Deadband: turn of the motor while the gear sticks \[rad\], twice the twist of the shaft before it under the
+    /// gear's friction, plus a few counts of the encoder.
     pub deadband: f64,
 }
 
 impl Gear {
-    /// Friction per shaft torque, what brings the motor to rest within two ticks \[N m s/rad\], and the deadband \[2^-32 turn\].
+    /// Friction per shaft torque, stiction gain \[N m s/rad\] that stops the motor within two ticks, and the deadband
+    /// \[2^-32 turn\].
     const fn losses(&self, period: f64) -> Result<[f64; 3], Error> {
         let eta = self.efficiency;
         if !(eta > 0.0 && eta <= 1.0) {
@@ -56,7 +57,8 @@ macro_rules! float {
             /// An observer's constants behind a gear, in ticks of this period \[s\].
             ///
             /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
             pub const fn new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Self {
                 or_stop!(Self::try_new(observer, gear, period, bases))
             }

@@ -12,14 +12,19 @@ use crate::number::{Coefficient, Fixed};
 const GAIN: &str =
     "a gain of the governor is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
 const NO_GAIN: &str = "the gains of the governor must be finite, and the proportional one above zero";
-pub(super) const RAMP: &str = "the ramp of the governor must be positive and finite, and within a tick at most twice the base of the speed, in fixed point at least 2^-28 of it";
-const DROOP: &str = "the droop must be zero or above and finite, for a rated speed and torque above zero, and below half a base of the speed per base of the torque in fixed point";
+pub(super) const RAMP: &str = "the ramp of the governor must be positive and finite, and within a tick at most twice \
+    the base of the speed, in fixed point at least 2^-28 of it";
+const DROOP: &str = "the droop must be zero or above and finite, for a rated speed and torque above zero, and below \
+    half a base of the speed per base of the torque in fixed point";
 const SHARE: &str = "the share of the load torque that is fed forward must be from 0 to 1";
-pub(super) const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, and both within twice the base of the torque in fixed point";
-const MODES: &str = "the speeds of the modes must be standstill < underspeed < overspeed, none of them negative, the shaft's torque positive, all finite and within twice their bases in fixed point";
+pub(super) const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, \
+    and both within twice the base of the torque in fixed point";
+const MODES: &str = "the speeds of the modes must be standstill < underspeed < overspeed, none of them negative, the \
+    shaft's torque positive, all finite and within twice their bases in fixed point";
 const TIMES: &str =
     "the times of the modes must be zero or above and below 2^31 ticks, and the period of a tick positive";
-const ACCELERATION: &str = "the acceleration feedback must be zero or above and finite, and less than twice the torque that accelerates the load in fixed point: lower its share";
+const ACCELERATION: &str = "the acceleration feedback must be zero or above and finite, and less than twice the torque \
+    that accelerates the load in fixed point: lower its share";
 const DELAY: &str = "the delay of the rack must be zero or above and less than its ring of ticks";
 
 /// The limits of [`Sequencer`](crate::governor::Sequencer), in SI units.
@@ -63,10 +68,11 @@ const fn gains(design: &[f64; 5], ramp: f64, format: &Format) -> Values<1, 3> {
     let Bases { torque, speed, .. } = format.bases;
     let scale = speed / (torque * format.gain);
     let step = ramp * period / speed;
-    // Operands are held within 8 bases, the integral, what is fed forward and what accelerates the load within 2: the sum must stay within 8.
+    // Operands are limited to 8 bases; the integral, the feed-forward and the accelerating torque to 2: the sum must
+    // stay within 8.
     let sum = 8.0 * scale * (proportional + integral * period + slip.abs()) + 2.0 * acceleration;
     let anti_windup = integral * period / proportional;
-    // What the number rounds to zero is no ramp: the reference would stand still.
+    // A ramp that rounds to zero would hold the setpoint.
     if !(step * format.unit >= least_step(format) && all_finite(&[step])) {
         Err(Error::Value(RAMP))
     } else if !(proportional > 0.0 && all_finite(&[proportional * scale, integral * period * scale, anti_windup])) {
@@ -230,7 +236,8 @@ macro_rules! part {
 
 part!(
     Gains, (design: &GovernorDesign, ramp: f64), GAIN,
-    "[`Error::Value`] for a ramp [rad/s2] that is not positive and finite, or that the number rounds to none; [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.",
+    "[`Error::Value`] for a ramp [rad/s2] that is not positive and finite, or that the number rounds to none; \
+        [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.",
     |format| gains(&[design.proportional, design.integral, 0.0, design.acceleration, design.period], ramp, &format),
     |cast, [ramp], [proportional, integral, anti_windup]| Gains {
         proportional: cast!(proportional),
@@ -256,7 +263,8 @@ part!(
 
 part!(
     AccelerationFeedbackConfig, (design: &GovernorDesign), ACCELERATION,
-    "[`Error`] for a feedback that is negative or not finite, or in fixed point of twice the torque that accelerates the load or more.",
+    "[`Error`] for a feedback that is negative or not finite, or in fixed point of twice the torque that accelerates \
+        the load or more.",
     |format| acceleration(design.acceleration, &format),
     |cast, [], [feedback]| AccelerationFeedbackConfig { feedback: cast!(feedback) }
 );
@@ -284,7 +292,8 @@ part!(
 
 part!(
     SequencerConfig, (settings: &SequencerSettings, period: f64), MODES,
-    "[`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` \\[s\\] or more.",
+    "[`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` \\[s\\] or \
+        more.",
     |format| windows(settings, &format),
     |cast, [middle, half, centre, reach, shaft, standstill], []| SequencerConfig {
         running: SpeedRange { middle: cast!(middle), half: cast!(half) },
@@ -323,8 +332,8 @@ gains_of_speed_loop!(f32);
 gains_of_speed_loop!(f64);
 
 impl Gains<Fixed> {
-    /// The gains of a speed loop, for a torque-controlled drive, in fixed point; [`ActiveDampingConfig`] takes the rest of
-    /// it.
+    /// The gains of a speed loop, for a torque-controlled drive, in fixed point; [`ActiveDampingConfig`] takes the rest
+    /// of it.
     ///
     /// # Panics
     /// At compile time in a constant, where a gain or the ramp [rad/s2] is beyond fixed point.

@@ -1,4 +1,5 @@
-//! Constants of the composed governor's parts that are shapes: barred ranges, torque curves, and the slew round another limit.
+//! Constants of the composed governor's parts that are shapes: barred ranges, torque curves, and the slew round another
+//! limit.
 
 use super::convert::{get, or_stop};
 use super::governor_parts::{LIMIT, RAMP, Values, all_finite, between, in_fixed, least_step};
@@ -9,7 +10,8 @@ use crate::number::{Coefficient, Fixed};
 
 const SLEW: &str =
     "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
-const CURVE: &str = "the torque curve must lie within twice the bases in fixed point, and its slopes within 2 bases of the torque per base of the speed";
+const CURVE: &str = "the torque curve must lie within twice the bases in fixed point, and its slopes within 2 bases of \
+    the torque per base of the speed";
 const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
 
 const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {

@@ -1,4 +1,4 @@
-//! Limits of what a sample can be.
+//! Plausibility limits of a sample.
 
 use super::convert::{get, or_stop, per_unit, positive};
 use super::format::ANGLE_PER_RADIAN;
@@ -6,8 +6,10 @@ use super::{Bases, Error};
 use crate::drive::Limits;
 use crate::number::{Fixed, INNOVATION_RANGE, TURN_SHIFT};
 
-const TORQUE: &str = "the largest believable torque must be positive and finite, and at most twice the base of the torque in fixed point";
-const SETPOINT: &str = "the largest believable setpoint must be positive and finite, and at most twice the base of the speed in fixed point";
+const TORQUE: &str = "the largest believable torque must be positive and finite, and at most twice the base of the \
+    torque in fixed point";
+const SETPOINT: &str = "the largest believable setpoint must be positive and finite, and at most twice the base of the \
+    speed in fixed point";
 const STANDSTILL: &str =
     "the standstill limit must be at least 0 and finite, and at most 5.6 degrees (0.098 rad) in fixed point";
 const INNOVATION: &str =
@@ -17,16 +19,17 @@ const INNOVATION: &str =
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Screening {
-    /// Largest applied torque that is believed [N m].
+    /// Largest plausible applied torque [N m].
     pub torque: f64,
-    /// Largest setpoint that is believed [rad/s].
+    /// Largest plausible setpoint [rad/s].
     pub setpoint: f64,
-    /// Largest innovation that is believed \[rad\]: what the largest torque can do to the motor before the observer has
-    /// followed, and no more than 0.098 rad in fixed point.
+    /// Largest plausible innovation \[rad\]: the motor's deviation under the largest torque before the observer has
+    /// followed, at most 0.098 rad in fixed point.
     pub innovation: f64,
-    /// Largest predicted turn in a tick that an unchanged angle is believed with \[rad\]: two counts of the encoder.
+    /// Largest predicted turn in a tick for which an unchanged angle is plausible \[rad\]: two counts of the encoder.
     pub frozen_turn: f64,
-    /// Ticks without a usable angle, less those with one, after which it counts as lost: no more than the motor needs for half a turn.
+    /// Ticks without a usable angle, less those with one, after which it counts as lost: no more than the motor needs
+    /// for half a turn.
     pub max_coast: u32,
 }
 
@@ -50,7 +53,8 @@ macro_rules! float {
             /// The limits as floats.
             ///
             /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
             pub const fn new(screening: &Screening, bases: Bases) -> Self {
                 or_stop!(Self::try_new(screening, bases))
             }

@@ -8,9 +8,11 @@ use crate::design::{RigidDesign, TwoMassDesign};
 use crate::number::Fixed;
 use crate::observer::{RigidConfig, SemiImplicitConfig, TwoMassConfig};
 
-const STEP: &str = "a coefficient of the observer's step is beyond the range of fixed point: the machine is too soft, too light or too strongly damped for its bases at this rate";
+const STEP: &str = "a coefficient of the observer's step is beyond the range of fixed point: the machine is too soft, \
+    too light or too strongly damped for its bases at this rate";
 const SHARE: &str = "the load's share of the inertia must be at least 0 and at most 1";
-const GAIN: &str = "a gain of the observer is beyond the range of fixed point: the disturbances are too large for the machine's bases, or the rate is too low";
+const GAIN: &str = "a gain of the observer is beyond the range of fixed point: the disturbances are too large for the \
+    machine's bases, or the rate is too low";
 
 /// The exact observer's constants, scaled to a format.
 const fn two_mass(design: &TwoMassDesign, format: &Format) -> TwoMassConfig<f64> {
@@ -142,7 +144,7 @@ impl TwoMassConfig<Fixed> {
         let [g1, g2] = get!(fixed([c.twist[2], c.twist_rate[2]], STEP));
         let pair = [c.twist[0], c.twist[1], c.twist_rate[0], c.twist_rate[1]];
         let near = get!(fixed(pair, STEP));
-        // Times what the operand is widened by, and back.
+        // Scaled by the operand's widening, and back.
         let (wide, unit) = (4.0, 4.0 / 4_294_967_296.0);
         let rounded =
             [wide * near[0].to_f64(), wide * near[1].to_f64(), wide * near[2].to_f64(), wide * near[3].to_f64()];
@@ -249,7 +251,8 @@ impl RigidConfig<f32> {
 }
 
 impl RigidConfig<Fixed> {
-    /// The constants of a design in fixed point; `load_share` is the part of the inertia that lies behind the shaft, 0 to 1.
+    /// The constants of a design in fixed point; `load_share` is the part of the inertia that lies behind the shaft, 0
+    /// to 1.
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.

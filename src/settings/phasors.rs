@@ -10,7 +10,8 @@ use crate::number::{Fixed, Number};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PhasorSettings {
-    /// Turns of the rotor to [`PhasorSettings::motor_turns`] of the motor, negative where it turns against the angle: the numbers of teeth.
+    /// Turns of the rotor to [`PhasorSettings::motor_turns`] of the motor, negative where it turns against the angle:
+    /// the numbers of teeth.
     pub rotor_turns: i32,
     /// Turns of the motor.
     pub motor_turns: u32,
@@ -18,7 +19,7 @@ pub struct PhasorSettings {
     pub order: u32,
     /// Turns of the rotor of a block, from 1 on; a reading has one block less than edges.
     pub turns: u32,
-    /// What a reading may waver by.
+    /// Limits of a reading's unsteadiness.
     pub steadiness: Steadiness,
 }
 
@@ -81,8 +82,8 @@ const fn turning(measured: &PhasorSettings) -> Result<(RotorAngleConfig, u32), P
 macro_rules! phasors {
     ($number:ident, $most:expr, |$limit:ident| $convert:expr) => {
         impl<const CHANNELS: usize> PhasorsConfig<$number, CHANNELS> {
-            /// The constants of a measurement; `limits` are the largest samples of each channel that are not clipped \[unit of the channel, per
-            /// unit of its base in fixed point\].
+            /// The constants of a measurement; `limits` are the largest samples of each channel that are not clipped
+            /// \[unit of the channel, per unit of its base in fixed point\].
             ///
             /// # Panics
             /// With the sentence of [`PhasorError`]: a compile error in a constant.

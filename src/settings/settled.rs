@@ -1,12 +1,12 @@
 //! Rounded coefficients of the twist's free motion that do not let a swing grow.
 
-/// The free pair's four coefficients, n11, n12, n21, n22, next to their nearest ones `rounded` and at most one `unit` from each, such
-/// that rounding has taken nothing off the pair's damping and no pole lies outside the unit circle.
+/// The free pair's four coefficients, n11, n12, n21, n22, next to their nearest ones `rounded` and at most one `unit`
+/// from each, such that rounding has taken nothing off the pair's damping and no pole lies outside the unit circle.
 ///
-/// The poles are those of 1 + N: the square of the size of a complex pair is 1 + e with e = trace + determinant of N, which
-/// rounding each coefficient to nearest leaves off by about a unit in the last place, in either direction. In `f32` an undamped swing then
-/// grows threefold in 1e8 ticks. Of the 81 neighbours the one is taken whose e is next below the exact one. Real poles are left alone: those of a damped pair are far
-/// from the circle.
+/// The poles are those of 1 + N: the square of the size of a complex pair is 1 + e with e = trace + determinant of N,
+/// which rounding each coefficient to nearest leaves off by about a unit in the last place, in either direction. In
+/// `f32` an undamped swing then grows threefold in 1e8 ticks. Of the 81 neighbours the one is taken whose e is next
+/// below the exact one. Real poles are left alone: those of a damped pair are far from the circle.
 pub(super) const fn settled(exact: [f64; 4], rounded: [f64; 4], unit: [f64; 4]) -> [f64; 4] {
     let (trace, excess) = invariants(exact);
     // Complex, or a double pole: an undamped pair's next to half the sample rate.
@@ -27,7 +27,7 @@ pub(super) const fn settled(exact: [f64; 4], rounded: [f64; 4], unit: [f64; 4]) 
         let (t, e) = invariants(tried);
         // n11 and n22 have no unit, and are exactly -2 at half the sample rate, where fixed point's range ends.
         let held = tried[0] >= -2.0 && tried[3] >= -2.0;
-        // Jury's conditions: |2 + t| <= 2 + e and e <= 0; the second by what the exact pair loses.
+        // Jury's conditions: |2 + t| <= 2 + e and e <= 0; the second by the rounding of the exact pair.
         if held && e <= excess && e - t >= 0.0 && 4.0 + e + t >= 0.0 && excess - e < gap {
             best = tried;
             gap = excess - e;

@@ -8,14 +8,16 @@ use crate::number::Fixed;
 
 const GAIN: &str =
     "a gain of the speed loop is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
-const TORQUE: &str = "the torque limit of the speed loop must be positive and finite, and at most twice the base of the torque in fixed point";
-const RAMP: &str = "the ramp of the speed loop must be positive and finite, and within a tick at most twice the base of the speed in fixed point";
+const TORQUE: &str = "the torque limit of the speed loop must be positive and finite, and at most twice the base of \
+    the torque in fixed point";
+const RAMP: &str = "the ramp of the speed loop must be positive and finite, and within a tick at most twice the base \
+    of the speed in fixed point";
 
-/// What the speed loop needs besides its gains.
+/// Settings of the speed loop beside its gains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopSettings {
-    /// Largest torque, either way [N m].
+    /// Largest torque, in either direction [N m].
     pub torque_limit: f64,
     /// Largest acceleration of the setpoint [rad/s2].
     pub ramp: f64,
@@ -40,7 +42,8 @@ macro_rules! float {
             /// The constants of a design as floats.
             ///
             /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
+            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
+            /// returns.
             pub const fn new(design: &SpeedLoopDesign, settings: SpeedLoopSettings, bases: Bases) -> Self {
                 or_stop!(Self::try_new(design, settings, bases))
             }

@@ -7,7 +7,7 @@ pub(super) const MOST_VALUES: usize = 16;
 /// Longest packet without its check: below 254 bytes, so that a block of the stuffing never ends within.
 const LONGEST: usize = 96;
 
-/// What the words of a channel are.
+/// Type of a channel's words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Kind {
@@ -25,7 +25,7 @@ pub struct Channel<'a> {
     pub name: &'a str,
     /// Its unit.
     pub unit: &'a str,
-    /// What its words are.
+    /// Type of its words.
     pub kind: Kind,
 }
 
@@ -33,7 +33,7 @@ impl Channel<'_> {
     /// Sends the descriptions of all channels; now and then, for a listener that comes later.
     ///
     /// # Errors
-    /// What the writer says.
+    /// The writer's error.
     pub fn send<W: embedded_io::Write>(channels: &[Channel<'_>], writer: &mut W) -> Result<(), W::Error> {
         for (index, channel) in channels.iter().enumerate() {
             let mut packet = Packet::new();
@@ -70,7 +70,7 @@ pub(super) fn record<E, const VALUES: usize>(
     packet.framed(write)
 }
 
-/// A packet under construction; what goes beyond the longest is cut off.
+/// A packet under construction, cut off at the longest.
 struct Packet {
     bytes: [u8; LONGEST + 2],
     length: usize,

@@ -4,7 +4,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 use super::frame;
 
-/// What was recorded in a tick.
+/// Record of a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Record<const VALUES: usize> {
@@ -16,8 +16,8 @@ pub struct Record<const VALUES: usize> {
     pub values: [u32; VALUES],
 }
 
-/// A ring of records for one that records (the tick) and one that takes (the main loop); a static serves both. Two that record, or two that take, garble
-/// records.
+/// A ring of records for one that records (the tick) and one that takes (the main loop); a static serves both. Two that
+/// record, or two that take, garble records.
 #[derive(Debug)]
 pub struct Ring<const VALUES: usize, const RECORDS: usize> {
     slots: [Slot<VALUES>; RECORDS],
@@ -59,9 +59,10 @@ impl<const VALUES: usize, const RECORDS: usize> Ring<VALUES, RECORDS> {
         let head = self.head.load(Ordering::Relaxed);
         let tick = self.ticks.load(Ordering::Relaxed);
         self.ticks.store(tick.wrapping_add(1), Ordering::Relaxed);
-        // acquire: what is written now is not read any more
+        // acquire: the slot now written is no longer read
         let room = head.wrapping_sub(self.tail.load(Ordering::Acquire)) < Self::MASK;
-        // the slot at the head is never one that waits to be taken: it may be written in any case. The mask is within the slots
+        // the slot at the head is never one that waits to be taken: it may be written in any case. The mask is within
+        // the slots
         if let Some(slot) = self.slots.get((head & Self::MASK) as usize) {
             slot.tick.store(tick, Ordering::Relaxed);
             let mut at = 0;
@@ -70,7 +71,7 @@ impl<const VALUES: usize, const RECORDS: usize> Ring<VALUES, RECORDS> {
                 at += 1;
             }
         }
-        // release: the values are there before the head says so
+        // release: the values are written before the head
         self.head.store(head.wrapping_add(room as u32), Ordering::Release);
     }
 
@@ -94,10 +95,11 @@ impl<const VALUES: usize, const RECORDS: usize> Ring<VALUES, RECORDS> {
         self.ticks.load(Ordering::Relaxed).wrapping_sub(kept)
     }
 
-    /// Sends all records that wait as frames; gives how many. A record whose writing fails is lost, and the gap shows it.
+    /// Sends all records that wait as frames; gives how many. A record whose writing fails is lost, and the gap shows
+    /// it.
     ///
     /// # Errors
-    /// What the writer says.
+    /// The writer's error.
     pub fn send<W: embedded_io::Write>(&self, writer: &mut W) -> Result<u32, W::Error> {
         let mut sent = 0;
         while let Some(record) = self.take() {
