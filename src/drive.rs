@@ -33,7 +33,7 @@ use crate::fault::Faults;
 use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;
 use crate::number::Number;
-use crate::observer::{Observer, Predicted};
+use crate::observer::Observer;
 use crate::sample::{Command, Estimate, Sample};
 
 /// Limits of what a sample can be.
@@ -285,13 +285,13 @@ where
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
             self.coasted = NONE_YET;
-        } else if self.coasted == NONE_YET || speed.exceeds(limits.setpoint.plus(limits.setpoint)) {
+        } else if self.coasted == NONE_YET || speed.exceeds(limits.setpoint + limits.setpoint) {
             self.observer.resync(sample.angle);
             self.coasted = ONE;
         } else {
             let count = O::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
             let known = self.estimate(config).motor_speed;
-            if speed.minus(known).exceeds(count) {
+            if (speed - known).exceeds(count) {
                 self.observer.restart(&config.observer, sample.angle, torque, speed);
             } else {
                 self.observer.resync(sample.angle);

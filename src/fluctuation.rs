@@ -65,14 +65,14 @@ mod waveform;
 mod window;
 
 pub use cycle_mean::{CycleMean, CycleMeanConfig};
-pub use extremes::{Extreme, Extremes, Fluctuations, Reading};
+pub use extremes::{Extreme, Extremes, Fluctuations, Ranked, Reading};
 pub use flywheel::{Balance, Flywheel, MachineClass, Remedy};
 pub use load_side::{Drivetrain, LoadSide};
 pub use position::{CycleConfig, Edge};
 pub use series::{Order, Series};
 pub use toothed_wheel::{ToothErrors, ToothWindow, ToothedWheel, ToothedWheelConfig};
 pub(crate) use waveform::PLACES;
-pub use waveform::{Bin, Waveform, WaveformConfig};
+pub use waveform::{Bin, Summed, Waveform, WaveformConfig};
 pub use window::{MAX_ORDER, Ripple, Window};
 
 use crate::number::Number;

@@ -16,18 +16,21 @@ mod float;
 
 pub use fixed::{Coefficient, Fixed};
 
+use core::fmt::Debug;
+use core::ops::{Add, Neg, Sub};
+
 /// A number that the tick path can calculate with.
-pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
+///
+/// `+` and `-` wrap in fixed point, where the bases leave three bits of headroom. Operations of a single part are
+/// traits beside it: [`Gap`](crate::observer::Gap), [`Stiction`](crate::observer::Stiction),
+/// [`Ranked`](crate::fluctuation::Ranked), [`Summed`](crate::fluctuation::Summed).
+pub trait Number:
+    Copy + Default + PartialEq + PartialOrd + Debug + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self>
+{
     /// What a number is multiplied by. In fixed point a fraction of 2^32.
-    type Coefficient: Copy + Default + PartialEq + core::fmt::Debug;
-    /// How firmly a standing gear is held: a factor for floats; in fixed point always [`STICTION_GAIN`].
-    type StictionGain: Copy + Default + PartialEq + core::fmt::Debug;
+    type Coefficient: Copy + Default + PartialEq + Debug;
     /// What one sum leaves to the next.
     type Carry: Copy;
-    /// The number as an integer that rises with it among numbers of one sign; that of a float below zero falls.
-    type Rank: Copy + Default + Ord + core::fmt::Debug;
-    /// A sum of many numbers: a float itself; in fixed point of twice the width.
-    type Total: Copy + Default + PartialEq + core::fmt::Debug;
 
     /// Zero.
     const ZERO: Self;
@@ -36,24 +39,17 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// The carry that a tick begins with.
     const CARRY: Self::Carry;
 
-    /// `self + other`; wraps in fixed point, where the bases leave three bits of headroom.
-    fn plus(self, other: Self) -> Self;
-    /// `self - other`; wraps in fixed point, where the bases leave three bits of headroom.
-    fn minus(self, other: Self) -> Self;
-    /// `self + c y`.
-    fn accumulate(self, carry: &mut Self::Carry, c: Self::Coefficient, y: Self) -> Self;
-    /// `self + (c[0] y[0] + c[1] y[1])`.
-    fn accumulate2(self, carry: &mut Self::Carry, c: [Self::Coefficient; 2], y: [Self; 2]) -> Self;
-    /// `self + (c[0] y[0] + c[1] y[1] + c[2] y[2])`.
-    fn accumulate3(self, carry: &mut Self::Carry, c: [Self::Coefficient; 3], y: [Self; 3]) -> Self;
-    /// `c y`.
-    fn product(carry: &mut Self::Carry, c: Self::Coefficient, y: Self) -> Self;
-    /// `c[0] y[0] + c[1] y[1]`.
-    fn sum2(carry: &mut Self::Carry, c: [Self::Coefficient; 2], y: [Self; 2]) -> Self;
-    /// `c y`, cut off: for what is not summed over the ticks.
-    fn times(self, c: Self::Coefficient) -> Self;
-    /// `c[0] y[0] + c[1] y[1]`, cut off.
-    fn times2(c: [Self::Coefficient; 2], y: [Self; 2]) -> Self;
+    /// `self + (c[0] y[0] + c[1] y[1] + ...)`.
+    fn accumulate<const K: usize>(self, carry: &mut Self::Carry, c: [Self::Coefficient; K], y: [Self; K]) -> Self;
+    /// `c[0] y[0] + c[1] y[1] + ...`.
+    fn sum<const K: usize>(carry: &mut Self::Carry, c: [Self::Coefficient; K], y: [Self; K]) -> Self;
+    /// `c[0] y[0] + c[1] y[1] + ...`, truncated: for what is not summed over the ticks.
+    fn truncated<const K: usize>(c: [Self::Coefficient; K], y: [Self; K]) -> Self;
+    /// `c y`, truncated: for what is not summed over the ticks.
+    #[inline(always)]
+    fn times(self, c: Self::Coefficient) -> Self {
+        Self::truncated([c], [self])
+    }
     /// The operand of a coefficient that may reach 2 in magnitude: four times the number in fixed point, whose
     /// coefficients end at 1/2, and the number itself in floating point.
     fn widened(self) -> Self;
@@ -69,15 +65,6 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     fn limited(self, limit: Self) -> Self;
     /// Whether the magnitude is beyond `limit`, which is not negative, or not a number at all.
     fn exceeds(self, limit: Self) -> bool;
-
-    /// `half` with the sign of the number, that of zero being positive: the flank of a backlash that a twist is nearer to.
-    fn flank(self, half: Self) -> Self;
-    /// Whether the signs differ, of two numbers of which neither is zero.
-    fn opposes(self, other: Self) -> bool;
-    /// `self^2/travel`, widened, where `travel` is not zero, of the number's sign and at least as large: how far a motion has passed a flank,
-    /// times the share of the tick that this took. In fixed point the share has 12 binary places, fewer where the travel is below 2^24 units in the last place.
-    fn passed(self, travel: Self) -> Self;
-
     /// The number without its sign; a negative one in fixed point comes out one unit in the last place short.
     fn magnitude(self) -> Self;
 
@@ -91,21 +78,8 @@ pub trait Number: Copy + Default + PartialEq + PartialOrd + core::fmt::Debug {
     /// amplify without overflow.
     fn gain_operand(self) -> Self;
 
-    /// The torque that brings a speed to rest; in fixed point it ends at twice the base.
-    fn braked(self, stiction_gain: Self::StictionGain) -> Self;
-
     /// The speed at which the motor turns by this angle difference in a tick; held within four times the base in fixed point.
     fn speed_of_turn(self, c: Self::Coefficient) -> Self;
-
-    /// The number as an integer to be compared with others of its sign; that of a NaN is beyond infinity.
-    fn rank(self) -> Self::Rank;
-    /// The number of a rank.
-    fn of_rank(rank: Self::Rank) -> Self;
-
-    /// `total` and the number.
-    fn added_to(self, total: Self::Total) -> Self::Total;
-    /// A total in the SI unit, or per unit of its base: for what is done between the ticks.
-    fn total_to_real(total: Self::Total) -> f64;
 
     /// The value in the SI unit, or per unit of its base: for what is done between the ticks.
     fn to_real(self) -> f64;

@@ -15,7 +15,7 @@
 //! [`GearedObserver`] puts any of them behind a gear with losses.
 //!
 //! # The angle
-//! No observer stores the angle it estimates. It stores the last measured angle as a `u32` of 2^32 per turn, and its
+//! No observer stores the angle it estimates. Its [`AngleTracker`] stores the last measured angle as a `u32` of 2^32 per turn, and its
 //! own distance from that as a number, the *residual*: the innovation is the wrapped difference of two measured
 //! angles, plus the residual, less the predicted turn. Nothing grows with the revolutions, so nothing is lost after a
 //! year of running, and an angle is never converted back to an integer.
@@ -24,6 +24,7 @@
 //! *Base*: what a fixed-point number is a fraction of. *Coast*: a tick without a usable angle, by prediction
 //! alone. *Innovation*: measured less predicted motor angle [2^-32 turn].
 
+mod angle;
 mod backlash;
 mod cranked;
 mod geared;
@@ -31,12 +32,13 @@ mod rigid;
 mod semi_implicit;
 mod two_mass;
 
-pub use backlash::{BacklashConfig, BacklashObserver, BacklashPrediction, Contact, Correction, FreeFlight};
-pub use cranked::{CrankConfig, CrankObserver, CrankPrediction, TABLE_POINTS, TablePoint};
-pub use geared::{GearedConfig, GearedObserver, GearedPrediction};
-pub use rigid::{RigidConfig, RigidObserver, RigidPrediction};
-pub use semi_implicit::{SemiImplicitConfig, SemiImplicitObserver, SemiImplicitPrediction};
-pub use two_mass::{TwoMassConfig, TwoMassObserver, TwoMassPrediction};
+pub use angle::{AngleTracker, Prediction};
+pub use backlash::{BacklashConfig, BacklashObserver, Contact, Correction, FreeFlight, Gap};
+pub use cranked::{CrankConfig, CrankObserver, TABLE_POINTS, TablePoint};
+pub use geared::{GearedConfig, GearedObserver, Stiction};
+pub use rigid::{RigidConfig, RigidObserver};
+pub use semi_implicit::{SemiImplicitConfig, SemiImplicitObserver};
+pub use two_mass::{TwoMassConfig, TwoMassObserver};
 
 use crate::number::Number;
 use crate::sample::Estimate;
@@ -45,8 +47,8 @@ use crate::sample::Estimate;
 pub trait Observer<N: Number>: Sized {
     /// Its constants, shared and immutable.
     type Config;
-    /// The state at the end of a tick as the torque alone would have it.
-    type Prediction: Predicted<N>;
+    /// States of its [`Prediction`].
+    type States;
 
     /// A machine that turns steadily at `speed` and is at `angle`, its shaft carrying `torque` against the load.
     fn steady(config: &Self::Config, angle: u32, torque: N, speed: N) -> Self;
@@ -69,13 +71,13 @@ pub trait Observer<N: Number>: Sized {
     fn resync(&mut self, angle: u32);
 
     /// Predicts the tick that has just ended, in which `torque` was applied and at the end of which `angle` was measured.
-    fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Self::Prediction;
+    fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Prediction<N, Self::States>;
 
     /// Takes the prediction, corrected by its innovation, for the state.
-    fn correct(&mut self, config: &Self::Config, predicted: Self::Prediction, angle: u32);
+    fn correct(&mut self, config: &Self::Config, predicted: Prediction<N, Self::States>, angle: u32);
 
     /// Takes the prediction, which was made for `angle`, for the state as it is: the angle cannot be used.
-    fn coast(&mut self, predicted: Self::Prediction, angle: u32);
+    fn coast(&mut self, predicted: Prediction<N, Self::States>, angle: u32);
 
     /// What is known now.
     fn estimate(&self, config: &Self::Config) -> Estimate<N>;
@@ -92,12 +94,4 @@ pub trait Observer<N: Number>: Sized {
         let predicted = self.predict(config, angle, torque);
         self.correct(config, predicted, angle);
     }
-}
-
-/// What a prediction says of the angle.
-pub trait Predicted<N> {
-    /// Measured less predicted angle [2^-32 turn].
-    fn innovation(&self) -> N;
-    /// How far the motor should have turned, as [`Number::less_turn`] takes it.
-    fn turn(&self) -> N;
 }

@@ -156,8 +156,8 @@ impl<N: Number, const SEGMENTS: usize> CycleMean<N, SEGMENTS> {
         let (whole, rest) = (turned / ticks, turned % ticks);
         let per_tick = (whole << 6 | ((rest << 10) / ticks) >> 4) as i32;
         let mean = N::from_angle(if forward { per_tick } else { per_tick.wrapping_neg() }).speed_of_turn(config.speed);
-        let change = now.speed.minus(then.speed).scaled(N::fraction(1 << 31));
-        self.mean = mean.plus(change).saturated();
+        let change = (now.speed - then.speed).scaled(N::fraction(1 << 31));
+        self.mean = (mean + change).saturated();
         self.renewed = self.tick;
         self.stands = (ticks / SEGMENTS as u32).wrapping_mul(4).wrapping_add(4);
     }

@@ -12,11 +12,44 @@ use core::f64::consts::{PI, TAU};
 
 use super::position::{Position, RADIANS, Way};
 use super::{CycleConfig, Edge, Fluctuation};
-use crate::number::Number;
+use crate::number::{Fixed, Number};
 use crate::sample::Estimate;
 
 /// Ticks between two samples of a speed.
 const SAMPLE: f64 = 4.0;
+
+/// Comparison as integers, beside the operations of [`Number`].
+pub trait Ranked: Number {
+    /// The number as an integer that rises with it among numbers of one sign; that of a float below zero falls.
+    type Rank: Copy + Default + Ord + core::fmt::Debug;
+    /// The number as an integer to be compared with others of its sign; that of a NaN is beyond infinity.
+    fn rank(self) -> Self::Rank;
+    /// The number of a rank.
+    fn of_rank(rank: Self::Rank) -> Self;
+}
+
+// The bits of a float without the sign rise with the magnitude.
+macro_rules! ranked {
+    ($number:ident, $rank:ident) => {
+        impl Ranked for $number {
+            type Rank = $rank;
+
+            #[inline(always)]
+            fn rank(self) -> $rank {
+                self.to_bits() as $rank
+            }
+
+            #[inline(always)]
+            fn of_rank(rank: $rank) -> Self {
+                $number::from_bits(rank as _)
+            }
+        }
+    };
+}
+
+ranked!(f32, i32);
+ranked!(f64, i64);
+ranked!(Fixed, i32);
 
 /// An extreme as the tick keeps it: three samples, and where the last of them was.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -111,7 +144,7 @@ type Finished<R> = [[Peak<R>; 2]; 2];
 /// Cycle by cycle: mean, extremes and delta of the motor's and of the load's speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Extremes<N: Number> {
+pub struct Extremes<N: Ranked> {
     tick: u32,
     slice: Slice,
     /// Which way the end of a cycle was passed that is being dealt with, and the ends before.
@@ -131,7 +164,7 @@ pub struct Extremes<N: Number> {
     cycles: u32,
 }
 
-impl<N: Number> Fluctuation<N> for Extremes<N> {
+impl<N: Ranked> Fluctuation<N> for Extremes<N> {
     type Config = CycleConfig;
 
     #[inline(always)]
@@ -154,7 +187,7 @@ impl<N: Number> Fluctuation<N> for Extremes<N> {
     }
 }
 
-impl<N: Number> Extremes<N> {
+impl<N: Ranked> Extremes<N> {
     /// One slice of what the end of a segment or of a cycle brings.
     #[inline(always)]
     fn slice(&mut self, config: &CycleConfig, angle: u32, tick: u32, estimate: &Estimate<N>) {

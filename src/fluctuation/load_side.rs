@@ -11,8 +11,7 @@ use core::f64::consts::TAU;
 
 use super::extremes::Fluctuations;
 use super::series::{Circle, Order, Series, circle};
-use super::{CycleConfig, Ripple, WaveformConfig, Window};
-use crate::number::Number;
+use super::{CycleConfig, Ripple, Summed, WaveformConfig, Window};
 
 /// Two masses and their shaft, referred to the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +44,7 @@ pub struct LoadSide {
     pub energy_swing: f64,
 }
 
-impl<N: Number, const BINS: usize> Window<N, BINS> {
+impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// The motor's torque over the angle of the cycle [N m], with orders up to `highest`: the mean of each bin over the window.
     pub fn motor_torque(&self, config: &WaveformConfig, highest: usize) -> Series {
         let torques = self

@@ -11,7 +11,7 @@
 
 use super::position::{Position, Way};
 use super::{CycleConfig, Edge, Fluctuation, Window};
-use crate::number::Number;
+use crate::number::{Fixed, Number};
 use crate::sample::Estimate;
 
 /// Ticks that a window may last, so that no bin overflows: 419 s at 10 kHz.
@@ -34,10 +34,53 @@ pub struct WaveformConfig {
     pub per_segment: u32,
 }
 
+/// Sums of many numbers, beside the operations of [`Number`].
+pub trait Summed: Number {
+    /// A sum of many numbers: a float itself; in fixed point of twice the width.
+    type Total: Copy + Default + PartialEq + core::fmt::Debug;
+    /// `total` and the number.
+    fn added_to(self, total: Self::Total) -> Self::Total;
+    /// A total in the SI unit, or per unit of its base: for what is done between the ticks.
+    fn total_to_real(total: Self::Total) -> f64;
+}
+
+impl Summed for Fixed {
+    type Total = i64;
+
+    #[inline(always)]
+    fn added_to(self, total: i64) -> i64 {
+        total.wrapping_add(i64::from(self.to_bits()))
+    }
+
+    fn total_to_real(total: i64) -> f64 {
+        total as f64 / 268_435_456.0
+    }
+}
+
+macro_rules! summed {
+    ($float:ident) => {
+        impl Summed for $float {
+            type Total = $float;
+
+            #[inline(always)]
+            fn added_to(self, total: Self) -> Self {
+                total + self
+            }
+
+            fn total_to_real(total: Self) -> f64 {
+                total.into()
+            }
+        }
+    };
+}
+
+summed!(f32);
+summed!(f64);
+
 /// What has fallen into a bin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Bin<N: Number> {
+pub struct Bin<N: Summed> {
     /// Ticks.
     pub ticks: u32,
     /// Sum of their distances from the bin's middle [2^-10 bin].
@@ -103,7 +146,7 @@ enum Slice {
 /// The waveform of a cycle's speed and torque over some cycles, in `BINS` bins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Waveform<N: Number, const BINS: usize> {
+pub struct Waveform<N: Summed, const BINS: usize> {
     tick: u32,
     stage: Stage,
     /// The stage that the cycle's end leads to.
@@ -121,7 +164,7 @@ pub struct Waveform<N: Number, const BINS: usize> {
     bins: [Bin<N>; BINS],
 }
 
-impl<N: Number, const BINS: usize> Default for Waveform<N, BINS> {
+impl<N: Summed, const BINS: usize> Default for Waveform<N, BINS> {
     fn default() -> Self {
         const { assert!(BINS.is_power_of_two(), "the bins of a waveform must be a power of two") };
         Waveform {
@@ -141,7 +184,7 @@ impl<N: Number, const BINS: usize> Default for Waveform<N, BINS> {
     }
 }
 
-impl<N: Number, const BINS: usize> Fluctuation<N> for Waveform<N, BINS> {
+impl<N: Summed, const BINS: usize> Fluctuation<N> for Waveform<N, BINS> {
     type Config = WaveformConfig;
 
     #[inline(always)]
@@ -162,7 +205,7 @@ impl<N: Number, const BINS: usize> Fluctuation<N> for Waveform<N, BINS> {
     }
 }
 
-impl<N: Number, const BINS: usize> Waveform<N, BINS> {
+impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
     fn give_up(&mut self) {
         if self.stage == Stage::Filling {
             self.stage = Stage::Void;

@@ -4,16 +4,15 @@ use core::f64::consts::TAU;
 
 use super::extremes::{Extreme, Fluctuations};
 use super::series::{GRID, Order, Series, circle};
-use super::{Bin, Edge, WaveformConfig};
+use super::{Bin, Edge, Summed, WaveformConfig};
 use crate::math::sin_cos;
-use crate::number::Number;
 
 pub use super::series::MAX_ORDER;
 
 /// A finished window, as it was taken from a [`super::Waveform`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Window<N: Number, const BINS: usize> {
+pub struct Window<N: Summed, const BINS: usize> {
     pub(super) bins: [Bin<N>; BINS],
     pub(super) edges: [Edge<N>; 4],
     pub(super) cycles: u32,
@@ -37,7 +36,7 @@ pub struct Ripple {
     pub cycles: u32,
 }
 
-impl<N: Number, const BINS: usize> Window<N, BINS> {
+impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// The bins, the first one beginning where the cycle does.
     pub fn bins(&self) -> &[Bin<N>; BINS] {
         &self.bins

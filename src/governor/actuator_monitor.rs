@@ -59,7 +59,7 @@ impl<N: Number, const K: usize> ActuatorMonitor<N, K> {
     #[inline(always)]
     pub fn check(&mut self, config: &ActuatorMonitorConfig<N, K>, measured: N) -> (N, Faults) {
         let expected = self.expected();
-        if measured.minus(expected).exceeds(config.tolerance) {
+        if (measured - expected).exceeds(config.tolerance) {
             // One beyond the timeout: what mends is believed again after as long a time.
             if self.outside <= config.timeout {
                 self.outside = self.outside.wrapping_add(1);
@@ -76,7 +76,7 @@ impl<N: Number, const K: usize> ActuatorMonitor<N, K> {
     pub fn advance(&mut self, config: &ActuatorMonitorConfig<N, K>, command: N) {
         let mut input = command;
         for (expected, share) in self.expected.iter_mut().zip(config.share) {
-            *expected = expected.plus(input.minus(*expected).times(share));
+            *expected = *expected + (input - *expected).times(share);
             input = *expected;
         }
     }

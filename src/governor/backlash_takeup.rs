@@ -51,13 +51,13 @@ impl<N: Number, L: Limit<N>> Limit<N> for BacklashTakeUp<N, L> {
 
     #[inline(always)]
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
-        let twist_rate = estimate.motor_speed.minus(estimate.load_speed).gain_operand();
+        let twist_rate = (estimate.motor_speed - estimate.load_speed).gain_operand();
         let allowed = if estimate.shaft_torque == N::ZERO {
             self.reach = config.torque;
-            wanted.limited(config.torque).plus(twist_rate.times(config.braking)).limited(config.torque)
+            (wanted.limited(config.torque) + twist_rate.times(config.braking)).limited(config.torque)
         } else {
-            self.reach = self.reach.plus(config.step).limited(config.max_torque);
-            wanted.limited(self.reach).plus(twist_rate.times(config.damping)).saturated()
+            self.reach = (self.reach + config.step).limited(config.max_torque);
+            (wanted.limited(self.reach) + twist_rate.times(config.damping)).saturated()
         };
         self.limit.limit(&config.limit, estimate, allowed)
     }

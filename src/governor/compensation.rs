@@ -61,7 +61,7 @@ impl<N: Number> Compensation<N> for FeedForward {
 
     #[inline(always)]
     fn steady(&self, config: &FeedForwardConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
-        torque.plus(estimate.load_torque.widened().times(config.share))
+        torque + estimate.load_torque.widened().times(config.share)
     }
 }
 
@@ -83,8 +83,8 @@ impl<N: Number> Compensation<N> for ActiveDamping {
 
     #[inline(always)]
     fn transient(&self, config: &ActiveDampingConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
-        let twist_rate = estimate.motor_speed.minus(estimate.load_speed).gain_operand();
-        torque.plus(twist_rate.times(config.damping))
+        let twist_rate = (estimate.motor_speed - estimate.load_speed).gain_operand();
+        torque + twist_rate.times(config.damping)
     }
 }
 
@@ -112,7 +112,7 @@ impl<N: Number> Compensation<N> for AccelerationFeedback {
     #[inline(always)]
     fn transient(&self, config: &AccelerationFeedbackConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
         // Held within twice the base, of which fixed point has four times in an operand.
-        let accelerating = estimate.shaft_torque.minus(estimate.load_torque).saturated();
-        torque.plus(accelerating.widened().times(config.feedback))
+        let accelerating = (estimate.shaft_torque - estimate.load_torque).saturated();
+        torque + accelerating.widened().times(config.feedback)
     }
 }

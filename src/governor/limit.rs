@@ -112,7 +112,7 @@ impl<N: Number, const K: usize> CurveConfig<N, K> {
                 (torque, slope, from) = (piece.torque, piece.slope, piece.speed);
             }
         }
-        torque.plus(speed.minus(from).saturated().widened().times(slope))
+        torque + (speed - from).saturated().widened().times(slope)
     }
 }
 
@@ -149,7 +149,7 @@ impl<N: Number, L: Limit<N>> Limit<N> for Slew<N, L> {
 
     #[inline(always)]
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
-        let slewed = self.last.plus(wanted.minus(self.last).limited(config.step));
+        let slewed = self.last + (wanted - self.last).limited(config.step);
         self.last = self.limit.limit(&config.limit, estimate, slewed);
         self.last
     }

@@ -201,10 +201,10 @@ impl Sequencer {
         let speed = estimate.motor_speed;
         let (trip, ticks) = if estimate.shaft_torque.exceeds(config.shaft_torque) {
             (Trip::ShaftOverload, config.trip_delay)
-        } else if !speed.minus(window.middle).exceeds(window.half) {
+        } else if !(speed - window.middle).exceeds(window.half) {
             self.outside = self.outside.saturating_sub(1);
             return;
-        } else if !speed.minus(config.allowed.middle).exceeds(config.allowed.half) {
+        } else if !(speed - config.allowed.middle).exceeds(config.allowed.half) {
             (Trip::Underspeed, config.underspeed_delay)
         } else if speed > config.allowed.middle {
             (Trip::Overspeed, config.trip_delay)
@@ -231,7 +231,7 @@ impl Sequencer {
             RunState::Running => action,
             RunState::Starting => {
                 self.elapsed = self.elapsed.saturating_add(1);
-                if !estimate.motor_speed.minus(config.running.middle).exceeds(config.running.half) {
+                if !(estimate.motor_speed - config.running.middle).exceeds(config.running.half) {
                     self.state = RunState::Running;
                 } else if self.elapsed > config.start {
                     self.state = RunState::Tripped(Trip::NotStarted);
@@ -258,7 +258,7 @@ impl<N: Number> Sequence<N> for Sequencer {
 
     #[inline(always)]
     fn action(&mut self, config: &SequencerConfig<N>, estimate: &Estimate<N>) -> RunAction {
-        let outside = estimate.motor_speed.minus(config.running.middle).exceeds(config.running.half)
+        let outside = (estimate.motor_speed - config.running.middle).exceeds(config.running.half)
             || estimate.shaft_torque.exceeds(config.shaft_torque);
         if self.state == RunState::Running && self.outside == 0 && !outside {
             return RunAction::Govern;

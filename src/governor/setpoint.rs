@@ -62,7 +62,7 @@ impl<N: Number> SetpointShape<N> for Droop {
 
     #[inline(always)]
     fn lower(&self, config: &DroopConfig<N>, ramped: N, standing: N) -> N {
-        ramped.minus(standing.times(config.droop))
+        ramped - standing.times(config.droop)
     }
 }
 
@@ -99,11 +99,11 @@ impl<N: Number, const K: usize> SetpointShape<N> for Barred<K> {
     fn goal(&self, config: &Self::Config, setpoint: N, ramped: N, ramp: N) -> (N, N) {
         let (mut goal, mut step) = (setpoint, ramp);
         for range in &config.ranges {
-            if !goal.minus(range.middle).exceeds(range.half) {
+            if !(goal - range.middle).exceeds(range.half) {
                 let below = ramped < range.middle;
-                goal = if below { range.middle.minus(range.half) } else { range.middle.plus(range.half) };
+                goal = if below { range.middle - range.half } else { range.middle + range.half };
             }
-            if !ramped.minus(range.middle).exceeds(range.half) {
+            if !(ramped - range.middle).exceeds(range.half) {
                 step = config.quick;
             }
         }

@@ -85,8 +85,8 @@ impl<N: Number, const K: usize> SpeedFilter<N> for MovingAverage<N, K> {
         if let Some(slot) = self.past.get_mut(at) {
             *slot = new;
         }
-        self.fresh = [self.fresh[0].plus(new[0]), self.fresh[1].plus(new[1])];
-        self.sum = [self.sum[0].plus(new[0].minus(speed)), self.sum[1].plus(new[1].minus(load))];
+        self.fresh = [self.fresh[0] + new[0], self.fresh[1] + new[1]];
+        self.sum = [self.sum[0] + (new[0] - speed), self.sum[1] + (new[1] - load)];
         if at == K - 1 {
             self.sum = self.fresh;
             self.fresh = [N::ZERO; 2];

@@ -119,11 +119,11 @@ where
     ) {
         let estimate = &self.filter.filtered(estimate);
         let target = self.target(from, estimate);
-        let error = target.minus(estimate.motor_speed).gain_operand();
+        let error = (target - estimate.motor_speed).gain_operand();
         let before = self.wanted(from, estimate, self.integral, error);
         let after = self.wanted(to, estimate, self.integral, error);
-        self.integral = self.integral.plus(before.minus(after).saturated()).saturated();
-        self.ramped = self.ramped.plus(target.minus(self.target(to, estimate)));
+        self.integral = (self.integral + (before - after).saturated()).saturated();
+        self.ramped = self.ramped + (target - self.target(to, estimate));
     }
 
     /// The setpoint after the droop.
@@ -142,20 +142,16 @@ where
         error: N,
     ) -> N {
         let standing = self.compensation.steady(&config.compensation, estimate, integral);
-        self.compensation.transient(
-            &config.compensation,
-            estimate,
-            standing.plus(error.times(config.gains.proportional)),
-        )
+        self.compensation.transient(&config.compensation, estimate, standing + error.times(config.gains.proportional))
     }
 
     /// Starts from the speed that the machine has, with a standing torque, so that the first command is no jolt.
     fn begin(&mut self, config: &SpeedGovernorConfigOf<N, S, F, L, M, V>, estimate: &Estimate<N>, torque: N) {
         let speed = estimate.motor_speed;
         let lowered = self.shape.lower(&config.shape, speed, torque);
-        self.ramped = speed.plus(speed.minus(lowered));
-        let beyond = self.compensation.steady(&config.compensation, estimate, torque).minus(torque);
-        self.integral = torque.minus(beyond).saturated();
+        self.ramped = speed + (speed - lowered);
+        let beyond = self.compensation.steady(&config.compensation, estimate, torque) - torque;
+        self.integral = (torque - beyond).saturated();
         self.limit.start(torque);
     }
 }
@@ -197,13 +193,13 @@ where
             RunAction::Idle => return N::ZERO,
         }
         let (goal, ramp) = self.shape.goal(&config.shape, setpoint, self.ramped, config.gains.ramp);
-        self.ramped = self.ramped.plus(goal.minus(self.ramped).limited(ramp));
-        let error = self.target(config, estimate).minus(estimate.motor_speed).gain_operand();
-        let integral = self.integral.accumulate(&mut carry, config.gains.integral, error);
+        self.ramped = self.ramped + (goal - self.ramped).limited(ramp);
+        let error = (self.target(config, estimate) - estimate.motor_speed).gain_operand();
+        let integral = self.integral.accumulate(&mut carry, [config.gains.integral], [error]);
         let wanted = self.wanted(config, estimate, integral, error).saturated();
         let torque = self.limit.limit(&config.limit, estimate, wanted);
-        let excess = torque.minus(wanted);
-        self.integral = integral.accumulate(&mut carry, config.gains.anti_windup, excess).saturated();
+        let excess = torque - wanted;
+        self.integral = integral.accumulate(&mut carry, [config.gains.anti_windup], [excess]).saturated();
         torque
     }
 

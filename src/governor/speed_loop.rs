@@ -59,15 +59,15 @@ impl<N: Number> Governor<N> for SpeedLoop<N> {
     #[inline(always)]
     fn command(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>) -> N {
         let mut carry = N::CARRY;
-        let step = self.setpoint.minus(self.ramped).limited(config.ramp);
-        self.ramped = self.ramped.plus(step);
-        let error = self.ramped.minus(estimate.motor_speed).gain_operand();
-        let twist_rate = estimate.motor_speed.minus(estimate.load_speed).gain_operand();
-        let integral = self.integral.accumulate(&mut carry, config.integral, error);
-        let prompt = N::times2([config.proportional, config.damping], [error, twist_rate]);
-        let wanted = integral.plus(prompt);
+        let step = (self.setpoint - self.ramped).limited(config.ramp);
+        self.ramped = self.ramped + step;
+        let error = (self.ramped - estimate.motor_speed).gain_operand();
+        let twist_rate = (estimate.motor_speed - estimate.load_speed).gain_operand();
+        let integral = self.integral.accumulate(&mut carry, [config.integral], [error]);
+        let prompt = N::truncated([config.proportional, config.damping], [error, twist_rate]);
+        let wanted = integral + prompt;
         let torque = wanted.limited(config.torque_limit);
-        self.integral = integral.accumulate(&mut carry, config.anti_windup, torque.minus(wanted)).saturated();
+        self.integral = integral.accumulate(&mut carry, [config.anti_windup], [torque - wanted]).saturated();
         torque
     }
 

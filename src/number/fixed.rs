@@ -1,8 +1,10 @@
 //! Fixed point: `i32` values, 2^28 to the base, and `i64` accumulators.
 
+use core::ops::{Add, Neg, Sub};
+
 use super::{GAIN_SHIFT, INNOVATION_SHIFT, Number, SPEED_SHIFT, TURN_SHIFT};
 
-/// A number per unit of its base: 2^28 is the base, the resolution 3.7e-9 of it, the representable range +-8.
+/// A number per unit of its base: 2^28 is the base, the resolution 3.7e-9 of it, the representable range +-8. Sums wrap.
 ///
 /// A state beyond +-1 is reported, and held within +-2 ([`Number::saturated`]); the bits above are headroom for the sums
 /// of a tick.
@@ -72,78 +74,59 @@ fn product(c: Coefficient, y: Fixed) -> i64 {
     c.0 as i64 * y.0 as i64
 }
 
-/// Closes a sum: the upper word is the result, the lower one is carried on.
-#[inline(always)]
-fn close(sum: i64, carry: &mut u32) -> Fixed {
-    *carry = sum as u32;
-    Fixed((sum >> 32) as i32)
+impl Add for Fixed {
+    type Output = Fixed;
+
+    #[inline(always)]
+    fn add(self, other: Fixed) -> Fixed {
+        Fixed(self.0.wrapping_add(other.0))
+    }
 }
 
-/// Opens a sum with `x` in the upper word and the carry in the lower.
-#[inline(always)]
-fn open(x: Fixed, carry: u32) -> i64 {
-    ((x.0 as i64) << 32) | carry as i64
+impl Sub for Fixed {
+    type Output = Fixed;
+
+    #[inline(always)]
+    fn sub(self, other: Fixed) -> Fixed {
+        Fixed(self.0.wrapping_sub(other.0))
+    }
+}
+
+impl Neg for Fixed {
+    type Output = Fixed;
+
+    #[inline(always)]
+    fn neg(self) -> Fixed {
+        Fixed(self.0.wrapping_neg())
+    }
 }
 
 impl Number for Fixed {
     type Coefficient = Coefficient;
-    type StictionGain = ();
     type Carry = u32;
-    type Rank = i32;
-    type Total = i64;
 
     const ZERO: Self = Fixed(0);
     const ONE: Self = Fixed::ONE;
     const CARRY: u32 = 1 << 31;
 
     #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        Fixed(self.0.wrapping_add(other.0))
+    fn accumulate<const K: usize>(self, carry: &mut u32, c: [Coefficient; K], y: [Self; K]) -> Self {
+        let mut sum = ((self.0 as i64) << 32) | *carry as i64;
+        for (&c, y) in c.iter().zip(y) {
+            sum = sum.wrapping_add(product(c, y));
+        }
+        *carry = sum as u32;
+        Fixed((sum >> 32) as i32)
     }
 
     #[inline(always)]
-    fn minus(self, other: Self) -> Self {
-        Fixed(self.0.wrapping_sub(other.0))
-    }
-
-    #[inline(always)]
-    fn accumulate(self, carry: &mut u32, c: Coefficient, y: Self) -> Self {
-        close(open(self, *carry).wrapping_add(product(c, y)), carry)
-    }
-
-    #[inline(always)]
-    fn accumulate2(self, carry: &mut u32, c: [Coefficient; 2], y: [Self; 2]) -> Self {
-        let sum = open(self, *carry).wrapping_add(product(c[0], y[0])).wrapping_add(product(c[1], y[1]));
-        close(sum, carry)
-    }
-
-    #[inline(always)]
-    fn accumulate3(self, carry: &mut u32, c: [Coefficient; 3], y: [Self; 3]) -> Self {
-        let sum = open(self, *carry)
-            .wrapping_add(product(c[0], y[0]))
-            .wrapping_add(product(c[1], y[1]))
-            .wrapping_add(product(c[2], y[2]));
-        close(sum, carry)
-    }
-
-    #[inline(always)]
-    fn product(carry: &mut u32, c: Coefficient, y: Self) -> Self {
+    fn sum<const K: usize>(carry: &mut u32, c: [Coefficient; K], y: [Self; K]) -> Self {
         Fixed(0).accumulate(carry, c, y)
     }
 
     #[inline(always)]
-    fn sum2(carry: &mut u32, c: [Coefficient; 2], y: [Self; 2]) -> Self {
-        Fixed(0).accumulate2(carry, c, y)
-    }
-
-    #[inline(always)]
-    fn times(self, c: Coefficient) -> Self {
-        Fixed((product(c, self) >> 32) as i32)
-    }
-
-    #[inline(always)]
-    fn times2(c: [Coefficient; 2], y: [Self; 2]) -> Self {
-        Fixed((product(c[0], y[0]).wrapping_add(product(c[1], y[1])) >> 32) as i32)
+    fn truncated<const K: usize>(c: [Coefficient; K], y: [Self; K]) -> Self {
+        Fixed(0).accumulate(&mut 0, c, y)
     }
 
     #[inline(always)]
@@ -188,26 +171,6 @@ impl Number for Fixed {
         self.0.wrapping_add(limit.0) as u32 > (limit.0 as u32) << 1
     }
 
-    // The half with the sign of the number, in two instructions.
-    #[inline(always)]
-    fn flank(self, half: Self) -> Self {
-        let sign = self.0 >> 31;
-        Fixed((half.0 ^ sign).wrapping_sub(sign))
-    }
-
-    #[inline(always)]
-    fn opposes(self, other: Self) -> bool {
-        (self.0 ^ other.0) < 0
-    }
-
-    // The divisor's last bit is set, which keeps it from zero, and the dividend's, which keeps it from the one number that
-    // -1 does not divide: neither is then checked for. The share is below 2 for a travel below 2^13.
-    #[inline(always)]
-    fn passed(self, travel: Self) -> Self {
-        let share = (self.0 | 1).wrapping_div((travel.0 >> 12) | 1);
-        Fixed(((self.0 as i64 * share as i64) >> 10) as i32)
-    }
-
     #[inline(always)]
     fn magnitude(self) -> Self {
         Fixed(self.0 ^ (self.0 >> 31))
@@ -233,35 +196,9 @@ impl Number for Fixed {
         Fixed(self.0.clamp(-(1 << 26), (1 << 26) - 1) << GAIN_SHIFT)
     }
 
-    // 16 times: a saturation and a shift that the addition takes along.
-    #[inline(always)]
-    fn braked(self, _firmness: ()) -> Self {
-        Fixed(self.0.clamp(-(1 << 25), (1 << 25) - 1) << 4)
-    }
-
     #[inline(always)]
     fn speed_of_turn(self, c: Coefficient) -> Self {
         Fixed((product(c, self) >> (32 - SPEED_SHIFT)).clamp(-(1 << 30), 1 << 30) as i32)
-    }
-
-    #[inline(always)]
-    fn rank(self) -> i32 {
-        self.0
-    }
-
-    #[inline(always)]
-    fn of_rank(rank: i32) -> Self {
-        Fixed(rank)
-    }
-
-    #[inline(always)]
-    fn added_to(self, total: i64) -> i64 {
-        total.wrapping_add(self.0 as i64)
-    }
-
-    #[inline(always)]
-    fn total_to_real(total: i64) -> f64 {
-        total as f64 / 268_435_456.0
     }
 
     #[inline(always)]
@@ -282,7 +219,7 @@ impl Number for Fixed {
 
 #[cfg(test)]
 mod tests {
-    use super::{Coefficient, Fixed, close, open, round};
+    use super::{Coefficient, Fixed, Number, round};
 
     #[test]
     fn halves_round_away_from_zero_and_what_has_no_fraction_stays() {
@@ -296,10 +233,10 @@ mod tests {
     }
 
     #[test]
-    fn what_is_opened_closes_as_it_was() {
+    fn a_sum_of_nothing_leaves_number_and_carry() {
         for bits in [i32::MIN, -1, 0, 1, i32::MAX] {
-            let mut carry = 0;
-            assert_eq!(close(open(Fixed::from_bits(bits), 0x8765_4321), &mut carry), Fixed::from_bits(bits));
+            let mut carry = 0x8765_4321;
+            assert_eq!(Fixed::from_bits(bits).accumulate(&mut carry, [], []), Fixed::from_bits(bits));
             assert_eq!(carry, 0x8765_4321);
         }
     }

@@ -3,61 +3,28 @@
 use super::Number;
 
 macro_rules! float {
-    ($float:ident, $integer:ident) => {
+    ($float:ident) => {
         impl Number for $float {
             type Coefficient = $float;
-            type StictionGain = $float;
             type Carry = ();
-            type Rank = $integer;
-            type Total = $float;
 
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const CARRY: () = ();
 
             #[inline(always)]
-            fn plus(self, other: Self) -> Self {
-                self + other
+            fn accumulate<const K: usize>(self, carry: &mut (), c: [Self; K], y: [Self; K]) -> Self {
+                self + Self::sum(carry, c, y)
             }
 
             #[inline(always)]
-            fn minus(self, other: Self) -> Self {
-                self - other
+            fn sum<const K: usize>(_carry: &mut (), c: [Self; K], y: [Self; K]) -> Self {
+                Self::truncated(c, y)
             }
 
             #[inline(always)]
-            fn accumulate(self, _carry: &mut (), c: Self, y: Self) -> Self {
-                self + c * y
-            }
-
-            #[inline(always)]
-            fn accumulate2(self, _carry: &mut (), c: [Self; 2], y: [Self; 2]) -> Self {
-                self + (c[0] * y[0] + c[1] * y[1])
-            }
-
-            #[inline(always)]
-            fn accumulate3(self, _carry: &mut (), c: [Self; 3], y: [Self; 3]) -> Self {
-                self + (c[0] * y[0] + c[1] * y[1] + c[2] * y[2])
-            }
-
-            #[inline(always)]
-            fn product(_carry: &mut (), c: Self, y: Self) -> Self {
-                c * y
-            }
-
-            #[inline(always)]
-            fn sum2(_carry: &mut (), c: [Self; 2], y: [Self; 2]) -> Self {
-                c[0] * y[0] + c[1] * y[1]
-            }
-
-            #[inline(always)]
-            fn times(self, c: Self) -> Self {
-                c * self
-            }
-
-            #[inline(always)]
-            fn times2(c: [Self; 2], y: [Self; 2]) -> Self {
-                c[0] * y[0] + c[1] * y[1]
+            fn truncated<const K: usize>(c: [Self; K], y: [Self; K]) -> Self {
+                core::array::from_fn::<Self, K, _>(|k| c[k] * y[k]).into_iter().sum()
             }
 
             #[inline(always)]
@@ -104,21 +71,6 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn flank(self, half: Self) -> Self {
-                if self < 0.0 { -half } else { half }
-            }
-
-            #[inline(always)]
-            fn opposes(self, other: Self) -> bool {
-                self * other < 0.0
-            }
-
-            #[inline(always)]
-            fn passed(self, travel: Self) -> Self {
-                self * (self / travel)
-            }
-
-            #[inline(always)]
             fn magnitude(self) -> Self {
                 self.abs()
             }
@@ -144,34 +96,8 @@ macro_rules! float {
             }
 
             #[inline(always)]
-            fn braked(self, stiction_gain: Self) -> Self {
-                stiction_gain * self
-            }
-
-            #[inline(always)]
             fn speed_of_turn(self, c: Self) -> Self {
                 c * self
-            }
-
-            // The bits without the sign rise with the magnitude.
-            #[inline(always)]
-            fn rank(self) -> $integer {
-                self.to_bits() as $integer
-            }
-
-            #[inline(always)]
-            fn of_rank(rank: $integer) -> Self {
-                $float::from_bits(rank as _)
-            }
-
-            #[inline(always)]
-            fn added_to(self, total: Self) -> Self {
-                total + self
-            }
-
-            #[inline(always)]
-            fn total_to_real(total: Self) -> f64 {
-                total.into()
             }
 
             #[inline(always)]
@@ -192,5 +118,5 @@ macro_rules! float {
     };
 }
 
-float!(f32, i32);
-float!(f64, i64);
+float!(f32);
+float!(f64);

@@ -31,8 +31,8 @@
 //! whose twist wanders besides; they stand in the gap, where they draw the twist to a flank as soon as the motor feels
 //! one, and for part of a period of the resonance after it. Which set a tick takes is counted, not computed.
 
-use super::{Observer, Predicted};
-use crate::number::Number;
+use super::{AngleTracker, Observer, Prediction};
+use crate::number::{Fixed, Number};
 use crate::sample::Estimate;
 
 /// The law of motion in contact with a flank.
@@ -104,57 +104,89 @@ pub struct BacklashConfig<N: Number> {
 /// State of the observer of backlash.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct BacklashObserver<N> {
     twist: N,
     twist_rate: N,
     load_torque: N,
     speed: N,
-    residual: N,
-    angle: u32,
+    angle: AngleTracker<N>,
     /// Ticks for which the searching gains still stand.
     searching: u32,
 }
 
-/// The state of [`BacklashObserver`] at the end of a tick as the torque alone would have it.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct BacklashPrediction<N: Number> {
-    twist: N,
-    twist_rate: N,
-    speed: N,
-    turn: N,
-    innovation: N,
-    carry: N::Carry,
-    searching: u32,
+/// Operations on a gap, beside those of [`Number`].
+pub trait Gap: Number {
+    /// `half` with the sign of the number, that of zero being positive: the flank that a twist is nearer to.
+    fn flank(self, half: Self) -> Self;
+    /// Whether the signs differ, of two numbers of which neither is zero.
+    fn opposes(self, other: Self) -> bool;
+    /// `self^2/travel`, widened, where `travel` is not zero, of the number's sign and at least as large: how far a motion has passed a flank,
+    /// times the share of the tick that this took. In fixed point the share has 12 binary places, fewer where the travel is below 2^24 units in the last place.
+    fn passed(self, travel: Self) -> Self;
 }
 
-impl<N: Number> Predicted<N> for BacklashPrediction<N> {
+impl Gap for Fixed {
+    // The half with the sign of the number, in two instructions.
     #[inline(always)]
-    fn innovation(&self) -> N {
-        self.innovation
+    fn flank(self, half: Self) -> Self {
+        let sign = self.to_bits() >> 31;
+        Fixed::from_bits((half.to_bits() ^ sign).wrapping_sub(sign))
     }
 
     #[inline(always)]
-    fn turn(&self) -> N {
-        self.turn
+    fn opposes(self, other: Self) -> bool {
+        (self.to_bits() ^ other.to_bits()) < 0
+    }
+
+    // The divisor's last bit is set, which keeps it from zero, and the dividend's, which keeps it from the one number that
+    // -1 does not divide: neither is then checked for. The share is below 2 for a travel below 2^13.
+    #[inline(always)]
+    fn passed(self, travel: Self) -> Self {
+        let share = (self.to_bits() | 1).wrapping_div((travel.to_bits() >> 12) | 1);
+        Fixed::from_bits(((self.to_bits() as i64 * share as i64) >> 10) as i32)
     }
 }
+
+macro_rules! gap {
+    ($float:ident) => {
+        impl Gap for $float {
+            #[inline(always)]
+            fn flank(self, half: Self) -> Self {
+                if self < 0.0 { -half } else { half }
+            }
+
+            #[inline(always)]
+            fn opposes(self, other: Self) -> bool {
+                self * other < 0.0
+            }
+
+            #[inline(always)]
+            fn passed(self, travel: Self) -> Self {
+                self * (self / travel)
+            }
+        }
+    };
+}
+
+gap!(f32);
+gap!(f64);
 
 /// Twist and v of a tick that ends `beyond` the flank that it has met or left, the twist having come from `before`.
 #[inline(always)]
-fn put_right<N: Number>(
+fn put_right<N: Gap>(
     carry: &mut N::Carry,
     [late, share, catch_up]: [N::Coefficient; 3],
     [twist, twist_rate]: [N; 2],
     beyond: N,
     before: N,
 ) -> (N, N) {
-    let passed = beyond.passed(twist.minus(before));
-    let twist_rate = twist_rate.accumulate2(carry, [late, share], [beyond.widened(), passed]);
-    (twist.accumulate(carry, catch_up, passed), twist_rate)
+    let passed = beyond.passed(twist - before);
+    let twist_rate = twist_rate.accumulate(carry, [late, share], [beyond.widened(), passed]);
+    (twist.accumulate(carry, [catch_up], [passed]), twist_rate)
 }
 
-impl<N: Number> BacklashObserver<N> {
+impl<N: Gap> BacklashObserver<N> {
     /// The twist from the middle of the gap \[rad\]: beyond half the gap the shaft is stretched.
     pub fn twist(&self) -> N {
         self.twist
@@ -167,19 +199,19 @@ impl<N: Number> BacklashObserver<N> {
     }
 }
 
-impl<N: Number> Observer<N> for BacklashObserver<N> {
+impl<N: Gap> Observer<N> for BacklashObserver<N> {
     type Config = BacklashConfig<N>;
-    type Prediction = BacklashPrediction<N>;
+    type States = ([N; 4], u32);
 
     /// Without torque the twist is taken to be in the middle of the gap, and is found at the first contact.
     fn steady(config: &BacklashConfig<N>, angle: u32, torque: N, speed: N) -> Self {
-        let stretch = N::product(&mut { N::CARRY }, config.compliance, torque.widened());
+        let stretch = N::sum(&mut { N::CARRY }, [config.compliance], [torque.widened()]);
         let flank = if torque == N::ZERO { N::ZERO } else { torque.flank(config.half_gap) };
         BacklashObserver {
-            twist: stretch.plus(flank),
+            twist: stretch + flank,
             load_torque: torque,
             speed: speed.saturated(),
-            angle,
+            angle: AngleTracker::new(angle),
             searching: config.hold,
             ..BacklashObserver::default()
         }
@@ -190,24 +222,23 @@ impl<N: Number> Observer<N> for BacklashObserver<N> {
     }
 
     fn resync(&mut self, angle: u32) {
-        self.angle = angle;
-        self.residual = N::ZERO;
+        self.angle = AngleTracker::new(angle);
     }
 
     #[inline(always)]
-    fn predict(&self, config: &BacklashConfig<N>, angle: u32, torque: N) -> BacklashPrediction<N> {
+    fn predict(&self, config: &BacklashConfig<N>, angle: u32, torque: N) -> Prediction<N, Self::States> {
         let mut carry = N::CARRY;
-        let forcing = N::times2(config.forcing, [torque, self.load_torque]);
+        let forcing = N::truncated(config.forcing, [torque, self.load_torque]);
         let (rate, drive) = (self.twist_rate.widened(), forcing.widened());
         let (twist, twist_rate, searching);
         if self.twist.exceeds(config.half_gap) {
             let law = &config.contact;
             let flank = self.twist.flank(config.half_gap);
-            let stretch = self.twist.minus(flank);
+            let stretch = self.twist - flank;
             let motion = [stretch.widened(), rate, drive];
-            let moved = self.twist.accumulate3(&mut carry, law.twist, motion);
-            let turning = self.twist_rate.accumulate3(&mut carry, law.twist_rate, motion);
-            let beyond = moved.minus(flank);
+            let moved = self.twist.accumulate(&mut carry, law.twist, motion);
+            let turning = self.twist_rate.accumulate(&mut carry, law.twist_rate, motion);
+            let beyond = moved - flank;
             if beyond.opposes(stretch) {
                 (twist, twist_rate) = put_right(&mut carry, law.leaving, [moved, turning], beyond, self.twist);
                 searching = config.hold;
@@ -217,48 +248,37 @@ impl<N: Number> Observer<N> for BacklashObserver<N> {
             }
         } else {
             let law = &config.free;
-            let moved = self.twist.accumulate2(&mut carry, law.twist, [rate, drive]);
-            let turning = self.twist_rate.accumulate(&mut carry, law.twist_rate, drive);
+            let moved = self.twist.accumulate(&mut carry, law.twist, [rate, drive]);
+            let turning = self.twist_rate.accumulate(&mut carry, [law.twist_rate], [drive]);
             if moved.exceeds(config.half_gap) {
-                let beyond = moved.minus(moved.flank(config.half_gap));
+                let beyond = moved - moved.flank(config.half_gap);
                 (twist, twist_rate) = put_right(&mut carry, law.meeting, [moved, turning], beyond, self.twist);
             } else {
                 (twist, twist_rate) = (moved, turning);
             }
             searching = config.hold;
         }
-        let accelerating = torque.minus(self.load_torque);
-        let speed = self.speed.accumulate(&mut carry, config.acceleration, accelerating);
-        let path = [self.speed.plus(speed), twist.minus(self.twist).widened()];
-        let turn = N::sum2(&mut carry, config.turn, path);
-        let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        BacklashPrediction { twist, twist_rate, speed, turn, innovation: turned.less_turn(turn), carry, searching }
+        let accelerating = torque - self.load_torque;
+        let speed = self.speed.accumulate(&mut carry, [config.acceleration], [accelerating]);
+        let path = [self.speed + speed, (twist - self.twist).widened()];
+        let turn = N::sum(&mut carry, config.turn, path);
+        self.angle.predict([speed, twist_rate, twist, self.load_torque], turn, angle, carry).with(searching)
     }
 
     #[inline(always)]
-    fn correct(&mut self, config: &BacklashConfig<N>, predicted: BacklashPrediction<N>, angle: u32) {
-        let mut carry = predicted.carry;
-        let innovation = predicted.innovation;
-        let operand = innovation.innovation_operand();
-        let gains = if predicted.searching != 0 { &config.searching } else { &config.settled };
-        let [speed, twist_rate, twist, load_torque] = gains.states;
-        self.angle = angle;
-        self.speed = predicted.speed.accumulate(&mut carry, speed, operand).saturated();
-        self.twist_rate = predicted.twist_rate.accumulate(&mut carry, twist_rate, operand).saturated();
-        self.twist = predicted.twist.accumulate(&mut carry, twist, operand).saturated();
-        self.load_torque = self.load_torque.accumulate(&mut carry, load_torque, operand).saturated();
-        self.residual = innovation.accumulate(&mut carry, gains.angle, operand);
-        self.searching = predicted.searching;
+    fn correct(&mut self, config: &BacklashConfig<N>, predicted: Prediction<N, Self::States>, angle: u32) {
+        let (predicted, searching) = predicted.split();
+        let gains = if searching != 0 { &config.searching } else { &config.settled };
+        let states = [&mut self.speed, &mut self.twist_rate, &mut self.twist, &mut self.load_torque];
+        self.angle.correct(predicted, gains.states, &gains.angle, angle, states);
+        self.searching = searching;
     }
 
-    /// The angle stays where it was last believed, and the residual runs on.
     #[inline(always)]
-    fn coast(&mut self, predicted: BacklashPrediction<N>, angle: u32) {
-        self.speed = predicted.speed.saturated();
-        self.twist_rate = predicted.twist_rate.saturated();
-        self.twist = predicted.twist.saturated();
-        self.residual = predicted.innovation.minus(N::from_angle(angle.wrapping_sub(self.angle) as i32));
-        self.searching = predicted.searching;
+    fn coast(&mut self, predicted: Prediction<N, Self::States>, angle: u32) {
+        let (predicted, searching) = predicted.split();
+        [self.speed, self.twist_rate, self.twist, _] = self.angle.coast(predicted, angle);
+        self.searching = searching;
     }
 
     #[inline(always)]
@@ -268,20 +288,20 @@ impl<N: Number> Observer<N> for BacklashObserver<N> {
         let shaft_torque = if self.is_open(config) {
             N::ZERO
         } else {
-            let stretch = self.twist.minus(self.twist.flank(config.half_gap));
-            N::times2(config.shaft, [stretch.widened(), rate])
+            let stretch = self.twist - self.twist.flank(config.half_gap);
+            N::truncated(config.shaft, [stretch.widened(), rate])
         };
         Estimate {
-            motor_speed: self.speed.accumulate(&mut carry, config.share[0], rate),
+            motor_speed: self.speed.accumulate(&mut carry, [config.share[0]], [rate]),
             shaft_torque,
-            load_speed: self.speed.accumulate(&mut carry, config.share[1], rate),
+            load_speed: self.speed.accumulate(&mut carry, [config.share[1]], [rate]),
             load_torque: self.load_torque,
         }
     }
 
     #[inline(always)]
     fn angle(&self) -> u32 {
-        self.angle
+        self.angle.angle()
     }
 
     #[inline(always)]

@@ -18,7 +18,7 @@
 //!
 //! The crank's angle follows from the motor's, exactly whatever the gear, once it is known: [`CrankObserver::home`].
 
-use super::{Observer, Predicted, RigidConfig, RigidObserver, RigidPrediction};
+use super::{Observer, Prediction, RigidConfig, RigidObserver};
 use crate::angle::{RotorAngle, RotorAngleConfig};
 use crate::number::Number;
 use crate::sample::Estimate;
@@ -61,26 +61,6 @@ pub struct CrankObserver<N> {
     turning: RotorAngle,
 }
 
-/// The state of [`CrankObserver`] at the end of a tick as the torque alone would have it.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CrankPrediction<N, P> {
-    rigid: P,
-    inertia_torque: N,
-}
-
-impl<N: Number, P: Predicted<N>> Predicted<N> for CrankPrediction<N, P> {
-    #[inline(always)]
-    fn innovation(&self) -> N {
-        self.rigid.innovation()
-    }
-
-    #[inline(always)]
-    fn turn(&self) -> N {
-        self.rigid.turn()
-    }
-}
-
 impl<N: Number> CrankObserver<N> {
     /// Says where the crank is: its angle from the outer dead centre [2^-32 turn], positive as the motor's.
     ///
@@ -111,14 +91,14 @@ fn at<N: Number>(points: &[TablePoint<N>; TABLE_POINTS], angle: u32) -> TablePoi
     let to = points.get((index + 1) & (TABLE_POINTS - 1)).copied().unwrap_or_default();
     let part = N::fraction(angle << (32 - BELOW));
     TablePoint {
-        inertia_ratio: from.inertia_ratio.plus(to.inertia_ratio.minus(from.inertia_ratio).scaled(part)),
-        inertia_slope: from.inertia_slope.plus(to.inertia_slope.minus(from.inertia_slope).scaled(part)),
+        inertia_ratio: from.inertia_ratio + (to.inertia_ratio - from.inertia_ratio).scaled(part),
+        inertia_slope: from.inertia_slope + (to.inertia_slope - from.inertia_slope).scaled(part),
     }
 }
 
 impl<N: Number> Observer<N> for CrankObserver<N> {
     type Config = CrankConfig<N>;
-    type Prediction = CrankPrediction<N, RigidPrediction<N>>;
+    type States = (<RigidObserver<N> as Observer<N>>::States, N);
 
     /// The crank is at its outer dead centre.
     fn steady(config: &CrankConfig<N>, angle: u32, torque: N, speed: N) -> Self {
@@ -147,34 +127,36 @@ impl<N: Number> Observer<N> for CrankObserver<N> {
     }
 
     #[inline(always)]
-    fn predict(&self, config: &CrankConfig<N>, angle: u32, torque: N) -> Self::Prediction {
+    fn predict(&self, config: &CrankConfig<N>, angle: u32, torque: N) -> Prediction<N, Self::States> {
         let TablePoint { inertia_ratio, inertia_slope } = at(&config.points, self.turning.angle(&config.turning));
         let Estimate { motor_speed, load_torque, .. } = self.rigid.estimate(&config.rigid);
         let taken = inertia_slope.scaled(motor_speed.scaled(motor_speed));
-        let accelerating = torque.minus(load_torque).minus(taken).saturated();
-        let given = inertia_ratio.scaled(accelerating).plus(load_torque);
-        CrankPrediction { rigid: self.rigid.predict(&config.rigid, angle, given), inertia_torque: torque.minus(given) }
+        let accelerating = (torque - load_torque - taken).saturated();
+        let given = inertia_ratio.scaled(accelerating) + load_torque;
+        self.rigid.predict(&config.rigid, angle, given).with(torque - given)
     }
 
     #[inline(always)]
-    fn correct(&mut self, config: &CrankConfig<N>, predicted: Self::Prediction, angle: u32) {
-        self.rigid.correct(&config.rigid, predicted.rigid, angle);
-        self.inertia_torque = predicted.inertia_torque;
+    fn correct(&mut self, config: &CrankConfig<N>, predicted: Prediction<N, Self::States>, angle: u32) {
+        let (predicted, inertia_torque) = predicted.split();
+        self.rigid.correct(&config.rigid, predicted, angle);
+        self.inertia_torque = inertia_torque;
         self.follow(&config.turning, angle);
     }
 
     /// The crank's angle stays where it was last believed.
     #[inline(always)]
-    fn coast(&mut self, predicted: Self::Prediction, angle: u32) {
-        self.rigid.coast(predicted.rigid, angle);
-        self.inertia_torque = predicted.inertia_torque;
+    fn coast(&mut self, predicted: Prediction<N, Self::States>, angle: u32) {
+        let (predicted, inertia_torque) = predicted.split();
+        self.rigid.coast(predicted, angle);
+        self.inertia_torque = inertia_torque;
     }
 
     /// The shaft is the one between the motor and the crank drive: it carries what the motor gives less what its own inertia takes.
     #[inline(always)]
     fn estimate(&self, config: &CrankConfig<N>) -> Estimate<N> {
         let rigid = self.rigid.estimate(&config.rigid);
-        Estimate { shaft_torque: rigid.shaft_torque.plus(self.inertia_torque), ..rigid }
+        Estimate { shaft_torque: rigid.shaft_torque + self.inertia_torque, ..rigid }
     }
 
     #[inline(always)]

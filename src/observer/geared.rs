@@ -15,14 +15,14 @@
 //! While the gear is held, the motor's angle says nothing of the load: what little it moves is the motor on its own shaft. The innovation is then
 //! left out, up to the play that such a shaft has.
 
-use super::{Observer, Predicted};
-use crate::number::Number;
+use super::{Observer, Prediction};
+use crate::number::{Fixed, Number};
 use crate::sample::Estimate;
 
 /// Constants of [`GearedObserver`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct GearedConfig<N: Number, C> {
+pub struct GearedConfig<N: Stiction, C> {
     /// Constants of the observer behind the gear.
     pub observer: C,
     /// Friction per shaft torque in motion, lambda.
@@ -40,29 +40,44 @@ pub struct GearedObserver<O> {
     observer: O,
 }
 
-/// The prediction of the observer behind the gear, and whether the gear was held.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct GearedPrediction<P> {
-    observer: P,
-    held: bool,
+/// Stiction of a gear at rest, beside the operations of [`Number`].
+pub trait Stiction: Number {
+    /// How firmly a standing gear is held: a factor for floats; in fixed point always [`STICTION_GAIN`](crate::number::STICTION_GAIN).
+    type StictionGain: Copy + Default + PartialEq + core::fmt::Debug;
+    /// The torque that brings a speed to rest; in fixed point it ends at twice the base.
+    fn braked(self, stiction_gain: Self::StictionGain) -> Self;
 }
 
-impl<N, P: Predicted<N>> Predicted<N> for GearedPrediction<P> {
-    #[inline(always)]
-    fn innovation(&self) -> N {
-        self.observer.innovation()
-    }
+impl Stiction for Fixed {
+    type StictionGain = ();
 
+    // 16 times: a saturation and a shift that the addition takes along.
     #[inline(always)]
-    fn turn(&self) -> N {
-        self.observer.turn()
+    fn braked(self, _firmness: ()) -> Self {
+        Fixed::from_bits(self.to_bits().clamp(-(1 << 25), (1 << 25) - 1) << 4)
     }
 }
 
-impl<N: Number, O: Observer<N>> Observer<N> for GearedObserver<O> {
+macro_rules! stiction {
+    ($float:ident) => {
+        impl Stiction for $float {
+            type StictionGain = $float;
+
+            #[inline(always)]
+            fn braked(self, stiction_gain: Self) -> Self {
+                stiction_gain * self
+            }
+        }
+    };
+}
+
+stiction!(f32);
+stiction!(f64);
+
+impl<N: Stiction, O: Observer<N>> Observer<N> for GearedObserver<O> {
     type Config = GearedConfig<N, O::Config>;
-    type Prediction = GearedPrediction<O::Prediction>;
+    /// The observer's, and whether the gear was held.
+    type States = (O::States, bool);
 
     fn restart(&mut self, config: &Self::Config, angle: u32, torque: N, speed: N) {
         self.observer.restart(&config.observer, angle, torque, speed);
@@ -81,31 +96,29 @@ impl<N: Number, O: Observer<N>> Observer<N> for GearedObserver<O> {
     }
 
     #[inline(always)]
-    fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Self::Prediction {
+    fn predict(&self, config: &Self::Config, angle: u32, torque: N) -> Prediction<N, Self::States> {
         let now = self.observer.estimate(&config.observer);
         let limit = now.shaft_torque.times(config.friction).magnitude();
-        let holding = torque.minus(now.shaft_torque).plus(now.motor_speed.braked(config.stiction_gain));
+        let holding = torque - now.shaft_torque + now.motor_speed.braked(config.stiction_gain);
         let friction = holding.limited(limit);
-        GearedPrediction {
-            observer: self.observer.predict(&config.observer, angle, torque.minus(friction)),
-            held: friction == holding,
-        }
+        self.observer.predict(&config.observer, angle, torque - friction).with(friction == holding)
     }
 
     #[inline(always)]
-    fn correct(&mut self, config: &Self::Config, predicted: Self::Prediction, angle: u32) {
-        if predicted.held && !predicted.innovation().exceeds(config.deadband) {
+    fn correct(&mut self, config: &Self::Config, predicted: Prediction<N, Self::States>, angle: u32) {
+        let (predicted, held) = predicted.split();
+        if held && !predicted.innovation().exceeds(config.deadband) {
             // Moving is the rule: one instruction less on the M3.
             core::hint::cold_path();
-            self.observer.coast(predicted.observer, angle);
+            self.observer.coast(predicted, angle);
         } else {
-            self.observer.correct(&config.observer, predicted.observer, angle);
+            self.observer.correct(&config.observer, predicted, angle);
         }
     }
 
     #[inline(always)]
-    fn coast(&mut self, predicted: Self::Prediction, angle: u32) {
-        self.observer.coast(predicted.observer, angle);
+    fn coast(&mut self, predicted: Prediction<N, Self::States>, angle: u32) {
+        self.observer.coast(predicted.split().0, angle);
     }
 
     #[inline(always)]

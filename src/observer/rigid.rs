@@ -6,7 +6,7 @@
 //!
 //! The shaft torque is then the load torque plus what accelerates the load's share of the inertia.
 
-use super::{Observer, Predicted};
+use super::{AngleTracker, Observer, Prediction};
 use crate::number::Number;
 use crate::sample::Estimate;
 
@@ -31,43 +31,25 @@ pub struct RigidConfig<N: Number> {
 /// State of the rigid observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct RigidObserver<N> {
     speed: N,
     load_torque: N,
     accelerating: N,
-    residual: N,
-    angle: u32,
-}
-
-/// The state of [`RigidObserver`] at the end of a tick as the torque alone would have it.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RigidPrediction<N: Number> {
-    speed: N,
-    accelerating: N,
-    turn: N,
-    innovation: N,
-    carry: N::Carry,
-}
-
-impl<N: Number> Predicted<N> for RigidPrediction<N> {
-    #[inline(always)]
-    fn innovation(&self) -> N {
-        self.innovation
-    }
-
-    #[inline(always)]
-    fn turn(&self) -> N {
-        self.turn
-    }
+    angle: AngleTracker<N>,
 }
 
 impl<N: Number> Observer<N> for RigidObserver<N> {
     type Config = RigidConfig<N>;
-    type Prediction = RigidPrediction<N>;
+    type States = ([N; 2], N);
 
     fn steady(_config: &RigidConfig<N>, angle: u32, torque: N, speed: N) -> Self {
-        RigidObserver { speed: speed.saturated(), load_torque: torque, angle, ..RigidObserver::default() }
+        RigidObserver {
+            speed: speed.saturated(),
+            load_torque: torque,
+            angle: AngleTracker::new(angle),
+            ..RigidObserver::default()
+        }
     }
 
     fn speed_of_turn(config: &RigidConfig<N>, turned: N) -> N {
@@ -75,38 +57,31 @@ impl<N: Number> Observer<N> for RigidObserver<N> {
     }
 
     fn resync(&mut self, angle: u32) {
-        self.angle = angle;
-        self.residual = N::ZERO;
+        self.angle = AngleTracker::new(angle);
     }
 
     #[inline(always)]
-    fn predict(&self, config: &RigidConfig<N>, angle: u32, torque: N) -> RigidPrediction<N> {
+    fn predict(&self, config: &RigidConfig<N>, angle: u32, torque: N) -> Prediction<N, Self::States> {
         let mut carry = N::CARRY;
-        let accelerating = torque.minus(self.load_torque);
-        let speed = self.speed.accumulate(&mut carry, config.acceleration, accelerating);
-        let turn = N::product(&mut carry, config.turn, self.speed.plus(speed));
-        let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        RigidPrediction { speed, accelerating, turn, innovation: turned.less_turn(turn), carry }
+        let accelerating = torque - self.load_torque;
+        let speed = self.speed.accumulate(&mut carry, [config.acceleration], [accelerating]);
+        let turn = N::sum(&mut carry, [config.turn], [self.speed + speed]);
+        self.angle.predict([speed, self.load_torque], turn, angle, carry).with(accelerating)
     }
 
     #[inline(always)]
-    fn correct(&mut self, config: &RigidConfig<N>, predicted: RigidPrediction<N>, angle: u32) {
-        let mut carry = predicted.carry;
-        let innovation = predicted.innovation;
-        let operand = innovation.innovation_operand();
-        self.angle = angle;
-        self.speed = predicted.speed.accumulate(&mut carry, config.correction[0], operand).saturated();
-        self.load_torque = self.load_torque.accumulate(&mut carry, config.correction[1], operand).saturated();
-        self.accelerating = predicted.accelerating;
-        self.residual = innovation.accumulate(&mut carry, config.angle_correction, operand);
+    fn correct(&mut self, config: &RigidConfig<N>, predicted: Prediction<N, Self::States>, angle: u32) {
+        let (predicted, accelerating) = predicted.split();
+        let states = [&mut self.speed, &mut self.load_torque];
+        self.angle.correct(predicted, config.correction, &config.angle_correction, angle, states);
+        self.accelerating = accelerating;
     }
 
-    /// The angle stays where it was last believed, and the residual runs on.
     #[inline(always)]
-    fn coast(&mut self, predicted: RigidPrediction<N>, angle: u32) {
-        self.speed = predicted.speed.saturated();
-        self.accelerating = predicted.accelerating;
-        self.residual = predicted.innovation.minus(N::from_angle(angle.wrapping_sub(self.angle) as i32));
+    fn coast(&mut self, predicted: Prediction<N, Self::States>, angle: u32) {
+        let (predicted, accelerating) = predicted.split();
+        [self.speed, _] = self.angle.coast(predicted, angle);
+        self.accelerating = accelerating;
     }
 
     #[inline(always)]
@@ -115,8 +90,8 @@ impl<N: Number> Observer<N> for RigidObserver<N> {
             motor_speed: self.speed,
             shaft_torque: self.load_torque.accumulate(
                 &mut { N::CARRY },
-                config.load_share,
-                self.accelerating.widened(),
+                [config.load_share],
+                [self.accelerating.widened()],
             ),
             load_speed: self.speed,
             load_torque: self.load_torque,
@@ -125,7 +100,7 @@ impl<N: Number> Observer<N> for RigidObserver<N> {
 
     #[inline(always)]
     fn angle(&self) -> u32 {
-        self.angle
+        self.angle.angle()
     }
 
     #[inline(always)]

@@ -11,7 +11,7 @@
 //! Symplectic Euler: the undamped pair turns on an ellipse that closes, whatever the rounding, as long as omega T < 2; its
 //! frequency is high by (omega T)^2/24. `design` states the error of both and chooses between this step and the exact one.
 
-use super::{Observer, Predicted};
+use super::{AngleTracker, Observer, Prediction};
 use crate::number::Number;
 use crate::sample::Estimate;
 
@@ -38,42 +38,18 @@ pub struct SemiImplicitConfig<N: Number> {
 /// State of the semi-implicit two-mass observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct SemiImplicitObserver<N> {
     shaft_torque: N,
     load_speed: N,
     load_torque: N,
     motor_speed: N,
-    residual: N,
-    angle: u32,
-}
-
-/// The state of [`SemiImplicitObserver`] at the end of a tick as the torque alone would have it.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SemiImplicitPrediction<N: Number> {
-    motor_speed: N,
-    load_speed: N,
-    shaft_torque: N,
-    turn: N,
-    innovation: N,
-    carry: N::Carry,
-}
-
-impl<N: Number> Predicted<N> for SemiImplicitPrediction<N> {
-    #[inline(always)]
-    fn innovation(&self) -> N {
-        self.innovation
-    }
-
-    #[inline(always)]
-    fn turn(&self) -> N {
-        self.turn
-    }
+    angle: AngleTracker<N>,
 }
 
 impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
     type Config = SemiImplicitConfig<N>;
-    type Prediction = SemiImplicitPrediction<N>;
+    type States = [N; 4];
 
     fn steady(_config: &SemiImplicitConfig<N>, angle: u32, torque: N, speed: N) -> Self {
         let speed = speed.saturated();
@@ -82,7 +58,7 @@ impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
             load_speed: speed,
             shaft_torque: torque,
             load_torque: torque,
-            angle,
+            angle: AngleTracker::new(angle),
             ..SemiImplicitObserver::default()
         }
     }
@@ -92,52 +68,32 @@ impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
     }
 
     fn resync(&mut self, angle: u32) {
-        self.angle = angle;
-        self.residual = N::ZERO;
+        self.angle = AngleTracker::new(angle);
     }
 
     #[inline(always)]
-    fn predict(&self, config: &SemiImplicitConfig<N>, angle: u32, torque: N) -> SemiImplicitPrediction<N> {
+    fn predict(&self, config: &SemiImplicitConfig<N>, angle: u32, torque: N) -> Prediction<N, Self::States> {
         let mut carry = N::CARRY;
-        let accelerating = torque.minus(self.shaft_torque);
-        let motor_speed = self.motor_speed.accumulate(&mut carry, config.motor, accelerating);
-        let accelerating = self.shaft_torque.minus(self.load_torque);
-        let load_speed = self.load_speed.accumulate(&mut carry, config.load, accelerating);
-        let twist_rates = [motor_speed.minus(load_speed), self.motor_speed.minus(self.load_speed)];
-        let shaft_torque = self.shaft_torque.accumulate2(&mut carry, config.shaft, twist_rates);
-        let turn = N::product(&mut carry, config.turn, motor_speed);
-        let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        SemiImplicitPrediction {
-            motor_speed,
-            load_speed,
-            shaft_torque,
-            turn,
-            innovation: turned.less_turn(turn),
-            carry,
-        }
+        let accelerating = torque - self.shaft_torque;
+        let motor_speed = self.motor_speed.accumulate(&mut carry, [config.motor], [accelerating]);
+        let accelerating = self.shaft_torque - self.load_torque;
+        let load_speed = self.load_speed.accumulate(&mut carry, [config.load], [accelerating]);
+        let twist_rates = [motor_speed - load_speed, self.motor_speed - self.load_speed];
+        let shaft_torque = self.shaft_torque.accumulate(&mut carry, config.shaft, twist_rates);
+        let turn = N::sum(&mut carry, [config.turn], [motor_speed]);
+        let states = [motor_speed, load_speed, shaft_torque, self.load_torque];
+        self.angle.predict(states, turn, angle, carry)
     }
 
     #[inline(always)]
-    fn correct(&mut self, config: &SemiImplicitConfig<N>, predicted: SemiImplicitPrediction<N>, angle: u32) {
-        let mut carry = predicted.carry;
-        let innovation = predicted.innovation;
-        let operand = innovation.innovation_operand();
-        let [motor_speed, load_speed, shaft_torque, load_torque] = config.correction;
-        self.angle = angle;
-        self.motor_speed = predicted.motor_speed.accumulate(&mut carry, motor_speed, operand).saturated();
-        self.load_speed = predicted.load_speed.accumulate(&mut carry, load_speed, operand).saturated();
-        self.shaft_torque = predicted.shaft_torque.accumulate(&mut carry, shaft_torque, operand).saturated();
-        self.load_torque = self.load_torque.accumulate(&mut carry, load_torque, operand).saturated();
-        self.residual = innovation.accumulate(&mut carry, config.angle_correction, operand);
+    fn correct(&mut self, config: &SemiImplicitConfig<N>, predicted: Prediction<N, Self::States>, angle: u32) {
+        let states = [&mut self.motor_speed, &mut self.load_speed, &mut self.shaft_torque, &mut self.load_torque];
+        self.angle.correct(predicted, config.correction, &config.angle_correction, angle, states);
     }
 
-    /// The angle stays where it was last believed, and the residual runs on.
     #[inline(always)]
-    fn coast(&mut self, predicted: SemiImplicitPrediction<N>, angle: u32) {
-        self.motor_speed = predicted.motor_speed.saturated();
-        self.load_speed = predicted.load_speed.saturated();
-        self.shaft_torque = predicted.shaft_torque.saturated();
-        self.residual = predicted.innovation.minus(N::from_angle(angle.wrapping_sub(self.angle) as i32));
+    fn coast(&mut self, predicted: Prediction<N, Self::States>, angle: u32) {
+        [self.motor_speed, self.load_speed, self.shaft_torque, _] = self.angle.coast(predicted, angle);
     }
 
     #[inline(always)]
@@ -152,7 +108,7 @@ impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
 
     #[inline(always)]
     fn angle(&self) -> u32 {
-        self.angle
+        self.angle.angle()
     }
 
     #[inline(always)]

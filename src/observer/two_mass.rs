@@ -15,7 +15,7 @@
 //! cos(omega T) has lost a fast-sampled mode's frequency where 1 - cos(omega T) has not). Angular momentum is a state, so it is kept
 //! whatever the stiffness. The motor turns by the mean speed's trapezium plus its share of the twist's increment, again exactly.
 
-use super::{Observer, Predicted};
+use super::{AngleTracker, Observer, Prediction};
 use crate::number::Number;
 use crate::sample::Estimate;
 
@@ -50,49 +50,25 @@ pub struct TwoMassConfig<N: Number> {
 /// State of the exact two-mass observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct TwoMassObserver<N> {
     twist: N,
     twist_rate: N,
     load_torque: N,
     speed: N,
-    residual: N,
-    angle: u32,
-}
-
-/// The state of [`TwoMassObserver`] at the end of a tick as the torque alone would have it.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct TwoMassPrediction<N: Number> {
-    twist: N,
-    twist_rate: N,
-    speed: N,
-    turn: N,
-    innovation: N,
-    carry: N::Carry,
-}
-
-impl<N: Number> Predicted<N> for TwoMassPrediction<N> {
-    #[inline(always)]
-    fn innovation(&self) -> N {
-        self.innovation
-    }
-
-    #[inline(always)]
-    fn turn(&self) -> N {
-        self.turn
-    }
+    angle: AngleTracker<N>,
 }
 
 impl<N: Number> Observer<N> for TwoMassObserver<N> {
     type Config = TwoMassConfig<N>;
-    type Prediction = TwoMassPrediction<N>;
+    type States = [N; 4];
 
     fn steady(config: &TwoMassConfig<N>, angle: u32, torque: N, speed: N) -> Self {
         TwoMassObserver {
-            twist: N::product(&mut { N::CARRY }, config.compliance, torque.widened()),
+            twist: N::sum(&mut { N::CARRY }, [config.compliance], [torque.widened()]),
             load_torque: torque,
             speed: speed.saturated(),
-            angle,
+            angle: AngleTracker::new(angle),
             ..TwoMassObserver::default()
         }
     }
@@ -102,46 +78,32 @@ impl<N: Number> Observer<N> for TwoMassObserver<N> {
     }
 
     fn resync(&mut self, angle: u32) {
-        self.angle = angle;
-        self.residual = N::ZERO;
+        self.angle = AngleTracker::new(angle);
     }
 
     #[inline(always)]
-    fn predict(&self, config: &TwoMassConfig<N>, angle: u32, torque: N) -> TwoMassPrediction<N> {
+    fn predict(&self, config: &TwoMassConfig<N>, angle: u32, torque: N) -> Prediction<N, Self::States> {
         let mut carry = N::CARRY;
-        let forcing = N::times2(config.forcing, [torque, self.load_torque]);
+        let forcing = N::truncated(config.forcing, [torque, self.load_torque]);
         let pair = [self.twist.widened(), self.twist_rate.widened(), forcing.widened()];
-        let twist = self.twist.accumulate3(&mut carry, config.twist, pair);
-        let twist_rate = self.twist_rate.accumulate3(&mut carry, config.twist_rate, pair);
-        let accelerating = torque.minus(self.load_torque);
-        let speed = self.speed.accumulate(&mut carry, config.acceleration, accelerating);
-        let path = [self.speed.plus(speed), twist.minus(self.twist).widened()];
-        let turn = N::sum2(&mut carry, config.turn, path);
-        let turned = N::from_angle(angle.wrapping_sub(self.angle) as i32).plus(self.residual);
-        TwoMassPrediction { twist, twist_rate, speed, turn, innovation: turned.less_turn(turn), carry }
+        let twist = self.twist.accumulate(&mut carry, config.twist, pair);
+        let twist_rate = self.twist_rate.accumulate(&mut carry, config.twist_rate, pair);
+        let accelerating = torque - self.load_torque;
+        let speed = self.speed.accumulate(&mut carry, [config.acceleration], [accelerating]);
+        let path = [self.speed + speed, (twist - self.twist).widened()];
+        let turn = N::sum(&mut carry, config.turn, path);
+        self.angle.predict([speed, twist_rate, twist, self.load_torque], turn, angle, carry)
     }
 
     #[inline(always)]
-    fn correct(&mut self, config: &TwoMassConfig<N>, predicted: TwoMassPrediction<N>, angle: u32) {
-        let mut carry = predicted.carry;
-        let innovation = predicted.innovation;
-        let operand = innovation.innovation_operand();
-        let [speed, twist_rate, twist, load_torque] = config.correction;
-        self.angle = angle;
-        self.speed = predicted.speed.accumulate(&mut carry, speed, operand).saturated();
-        self.twist_rate = predicted.twist_rate.accumulate(&mut carry, twist_rate, operand).saturated();
-        self.twist = predicted.twist.accumulate(&mut carry, twist, operand).saturated();
-        self.load_torque = self.load_torque.accumulate(&mut carry, load_torque, operand).saturated();
-        self.residual = innovation.accumulate(&mut carry, config.angle_correction, operand);
+    fn correct(&mut self, config: &TwoMassConfig<N>, predicted: Prediction<N, Self::States>, angle: u32) {
+        let states = [&mut self.speed, &mut self.twist_rate, &mut self.twist, &mut self.load_torque];
+        self.angle.correct(predicted, config.correction, &config.angle_correction, angle, states);
     }
 
-    /// The angle stays where it was last believed, and the residual runs on.
     #[inline(always)]
-    fn coast(&mut self, predicted: TwoMassPrediction<N>, angle: u32) {
-        self.speed = predicted.speed.saturated();
-        self.twist_rate = predicted.twist_rate.saturated();
-        self.twist = predicted.twist.saturated();
-        self.residual = predicted.innovation.minus(N::from_angle(angle.wrapping_sub(self.angle) as i32));
+    fn coast(&mut self, predicted: Prediction<N, Self::States>, angle: u32) {
+        [self.speed, self.twist_rate, self.twist, _] = self.angle.coast(predicted, angle);
     }
 
     #[inline(always)]
@@ -149,16 +111,16 @@ impl<N: Number> Observer<N> for TwoMassObserver<N> {
         let mut carry = N::CARRY;
         let pair = [self.twist.widened(), self.twist_rate.widened()];
         Estimate {
-            motor_speed: self.speed.accumulate(&mut carry, config.share[0], pair[1]),
-            shaft_torque: N::times2(config.shaft, pair),
-            load_speed: self.speed.accumulate(&mut carry, config.share[1], pair[1]),
+            motor_speed: self.speed.accumulate(&mut carry, [config.share[0]], [pair[1]]),
+            shaft_torque: N::truncated(config.shaft, pair),
+            load_speed: self.speed.accumulate(&mut carry, [config.share[1]], [pair[1]]),
             load_torque: self.load_torque,
         }
     }
 
     #[inline(always)]
     fn angle(&self) -> u32 {
-        self.angle
+        self.angle.angle()
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! The measurement of the speed's fluctuation, on a motor that turns at 1425 r/min, a little faster and slower by turns.
 
 use driveline::fluctuation::{
-    CycleConfig, CycleMean, CycleMeanConfig, Extremes, Fluctuation, Waveform, WaveformConfig,
+    CycleConfig, CycleMean, CycleMeanConfig, Extremes, Fluctuation, Ranked, Summed, Waveform, WaveformConfig,
 };
 use driveline::number::Number;
 use driveline::sample::Estimate;
@@ -25,7 +25,7 @@ struct Tick<N> {
 pub const QUARTER: Cycle = Cycle { turns: 1, cycles: 4 };
 
 /// Every part alone, and both.
-pub fn all<B: Board, N: Number + 'static>(bench: &mut Bench<'_, B>, bases: Bases, mean: CycleMeanConfig<N>) {
+pub fn all<B: Board, N: Ranked + Summed + 'static>(bench: &mut Bench<'_, B>, bases: Bases, mean: CycleMeanConfig<N>) {
     // A window of six cycles is most of the calls.
     let cycle = CycleConfig::new(QUARTER, 1e-4, bases);
     let waveform = WaveformConfig::new::<BINS>(cycle, 6);

@@ -4,7 +4,7 @@ use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::number::{Fixed, Number};
 use driveline::observer::{
-    BacklashObserver, GearedObserver, Observer, RigidObserver, SemiImplicitObserver, TwoMassObserver,
+    BacklashObserver, Gap, GearedObserver, Observer, RigidObserver, SemiImplicitObserver, Stiction, TwoMassObserver,
 };
 use driveline::sample::{Command, Sample};
 
@@ -43,7 +43,7 @@ pub fn fixed<B: Board>(bench: &mut Bench<'_, B>) {
 }
 
 /// The observer of backlash on a machine that rattles through its gap: every regime, every crossing.
-fn backlash<B: Board, N: Number, V: Variant<Number = N, Observer = BacklashObserver<N>>>(
+fn backlash<B: Board, N: Gap, V: Variant<Number = N, Observer = BacklashObserver<N>>>(
     bench: &mut Bench<'_, B>,
     number: impl Fn(f32) -> N,
 ) {
@@ -78,7 +78,7 @@ fn backlash<B: Board, N: Number, V: Variant<Number = N, Observer = BacklashObser
 fn all<B, N, E, R, G>(bench: &mut Bench<'_, B>)
 where
     B: Board,
-    N: Number + 'static,
+    N: Stiction + 'static,
     E: Variant<Number = N, Observer = GearedObserver<TwoMassObserver<N>>>,
     R: Variant<Number = N, Observer = GearedObserver<SemiImplicitObserver<N>>>,
     G: Variant<Number = N, Observer = GearedObserver<RigidObserver<N>>>,

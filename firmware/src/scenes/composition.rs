@@ -9,8 +9,8 @@ use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Waveform, Wavef
 use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
 use driveline::number::{Fixed, Number};
 use driveline::observer::{
-    GearedConfig, GearedObserver, Observer, Predicted, RigidConfig, RigidObserver, SemiImplicitConfig,
-    SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
+    GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver,
+    TwoMassConfig, TwoMassObserver,
 };
 use driveline::sample::{Command, Sample};
 use driveline::settings::{Bases, Cycle};
@@ -219,13 +219,13 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
             self.missed = NONE_YET;
-        } else if self.missed == NONE_YET || speed.exceeds(limits.setpoint.plus(limits.setpoint)) {
+        } else if self.missed == NONE_YET || speed.exceeds(limits.setpoint + limits.setpoint) {
             self.observer.resync(sample.angle);
             self.missed = ONE;
         } else {
             let count = O::speed_of_turn(&self.config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
             let known = self.observer.estimate(&self.config.observer).motor_speed;
-            if speed.minus(known).exceeds(count) {
+            if (speed - known).exceeds(count) {
                 self.observer = O::steady(&self.config.observer, sample.angle, torque, speed);
             } else {
                 self.observer.resync(sample.angle);

@@ -23,8 +23,8 @@ use driveline::design::{
 };
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::fluctuation::{
-    Balance, CycleConfig, CycleMean, CycleMeanConfig, Fluctuation, Flywheel, Ripple, Series, Waveform, WaveformConfig,
-    Window,
+    Balance, CycleConfig, CycleMean, CycleMeanConfig, Fluctuation, Flywheel, Ripple, Series, Summed, Waveform,
+    WaveformConfig, Window,
 };
 use driveline::governor::{
     CycleAverage, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit,
@@ -243,18 +243,18 @@ impl<V: Variant> Scene for PunchPress<V> {
 }
 
 /// What the panel of a press knows: the strokes that were finished last, and the last advice.
-pub struct Notes<N: Number> {
+pub struct Notes<N: Summed> {
     window: Option<Window<N, BINS>>,
     advice: Option<(Ripple, Flywheel)>,
 }
 
-impl<N: Number> Default for Notes<N> {
+impl<N: Summed> Default for Notes<N> {
     fn default() -> Self {
         Notes { window: None, advice: None }
     }
 }
 
-impl<N: Number> Notes<N> {
+impl<N: Summed> Notes<N> {
     fn answer(&mut self, config: &WaveformConfig, asked: [u32; 2]) -> u32 {
         let [key, value] = asked;
         let told =

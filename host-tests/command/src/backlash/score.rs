@@ -1,8 +1,8 @@
 //! What estimates are worth.
 
 use driveline::design::BacklashDesign;
-use driveline::number::{Fixed, Number};
-use driveline::observer::{BacklashConfig, BacklashObserver, Observer};
+use driveline::number::Fixed;
+use driveline::observer::{BacklashConfig, BacklashObserver, Gap, Observer};
 use driveline::settings::Bases;
 
 use super::case::Case;
@@ -18,7 +18,7 @@ pub trait Estimator {
 }
 
 /// The library's observer in one of its numbers.
-pub struct Library<N: Number> {
+pub struct Library<N: Gap> {
     config: BacklashConfig<N>,
     observer: BacklashObserver<N>,
     bases: Bases,
@@ -26,7 +26,7 @@ pub struct Library<N: Number> {
     from: fn(N) -> f64,
 }
 
-impl<N: Number> Library<N> {
+impl<N: Gap> Library<N> {
     fn with(config: BacklashConfig<N>, bases: Bases, to: fn(f64) -> N, from: fn(N) -> f64) -> Self {
         Library { config, observer: BacklashObserver::at_rest(&config, 0, N::ZERO), bases, to, from }
     }
@@ -64,7 +64,7 @@ impl Library<Fixed> {
     }
 }
 
-impl<N: Number> Estimator for Library<N> {
+impl<N: Gap> Estimator for Library<N> {
     fn tick(&mut self, angle: u32, torque: f64) {
         self.observer.step(&self.config, angle, (self.to)(torque / self.bases.torque));
     }

@@ -1,7 +1,7 @@
 //! The bench's inputs take every path of the observer's step.
 
-use driveline::number::{Fixed, Number};
-use driveline::observer::{BacklashObserver, Observer};
+use driveline::number::Fixed;
+use driveline::observer::{BacklashObserver, Gap, Observer};
 use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::blooming_mill::{BASES, BloomingMill, with};
 use driveline_firmware::self_test::backlash_inputs::{RATE_HZ, Rattle};
@@ -12,7 +12,7 @@ type Mill<N> = BloomingMill<N, with::Backlash, { RATE_HZ }>;
 /// bench runs.
 fn paths<N, V>(number: impl Fn(f32) -> N) -> [[u32; 2]; 2]
 where
-    N: Number,
+    N: Gap,
     V: Variant<Number = N, Observer = BacklashObserver<N>>,
 {
     let config = &V::CONFIG.observer;

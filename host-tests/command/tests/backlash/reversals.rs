@@ -1,10 +1,11 @@
 //! Random reversals: right in every number, and for long.
 
 use cargo_driveline::backlash::{Case, Course, Estimator, Kind, Library, RATE_HZ, Rig, Score, cases};
-use driveline::number::{Fixed, Number};
+use driveline::number::Fixed;
+use driveline::observer::Gap;
 
 /// Mean score over all cases and courses of four seconds.
-fn scores<N: Number>(library: impl Fn(&Case) -> Library<N>) -> Vec<(String, Score)> {
+fn scores<N: Gap>(library: impl Fn(&Case) -> Library<N>) -> Vec<(String, Score)> {
     let mut scores = Vec::new();
     for case in cases() {
         for kind in Kind::ALL {
@@ -38,7 +39,7 @@ fn the_shaft_torque_is_right_through_the_gap() {
 }
 
 /// Largest root mean square error in any second, over the peak of the whole run, and that of the whole run.
-fn long<N: Number>(case: &Case, mut library: Library<N>, seconds: u32) -> (f64, f64) {
+fn long<N: Gap>(case: &Case, mut library: Library<N>, seconds: u32) -> (f64, f64) {
     let mut rig = Rig::new(case, Kind::Rattling, 77).unwrap();
     let (mut worst, mut peak, mut whole) = (0.0_f64, 0.0_f64, 0.0);
     for second in 0..seconds {

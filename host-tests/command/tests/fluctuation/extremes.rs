@@ -2,8 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Reading};
-use driveline::number::{Fixed, Number};
+use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Ranked, Reading};
+use driveline::number::Fixed;
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, Cycle};
 use serde_json::Value;
@@ -19,7 +19,7 @@ fn exact(phi: f64) -> u32 {
 }
 
 /// The reading after some cycles of a motion whose speeds are given as they are, per unit of `base`.
-fn follow<N: Number>(
+fn follow<N: Ranked>(
     motion: &mut Motion,
     cycle: Cycle,
     bases: Bases,

@@ -3,7 +3,7 @@
 use driveline::design::{Disturbance, Encoder, Rate, TwoMassDesign};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::fault::Faults;
-use driveline::fluctuation::{CycleConfig, Extremes, Waveform, WaveformConfig};
+use driveline::fluctuation::{CycleConfig, Extremes, Ranked, Summed, Waveform, WaveformConfig};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
 use driveline::observer::{self, TwoMassConfig};
@@ -44,7 +44,7 @@ pub type Measured<N> = Drive<N, observer::TwoMassObserver<N>, Parts<N>>;
 pub type Constants<N> = ConfigOf<Drive<N, observer::TwoMassObserver<N>, Parts<N>>>;
 
 /// A number that the drive can be built in.
-pub trait Built: Number {
+pub trait Built: Ranked + Summed {
     const NAME: &'static str;
     fn constants(cycle: Cycle, cycles: u32) -> Constants<Self>;
     fn of_torque(torque: f64) -> Self;

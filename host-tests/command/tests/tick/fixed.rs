@@ -37,16 +37,16 @@ proptest! {
         let x = Fixed::from_bits(x);
         let start = x.to_bits();
         let mut left = carry;
-        prop_assert_eq!((x.accumulate(&mut left, c[0], y[0]).to_bits(), left), reference(start, carry, &terms[..1]));
+        prop_assert_eq!((x.accumulate(&mut left, [c[0]], [y[0]]).to_bits(), left), reference(start, carry, &terms[..1]));
         left = carry;
-        let sum = x.accumulate2(&mut left, [c[0], c[1]], [y[0], y[1]]);
+        let sum = x.accumulate(&mut left, [c[0], c[1]], [y[0], y[1]]);
         prop_assert_eq!((sum.to_bits(), left), reference(start, carry, &terms[..2]));
         left = carry;
-        prop_assert_eq!((x.accumulate3(&mut left, c, y).to_bits(), left), reference(start, carry, &terms));
+        prop_assert_eq!((x.accumulate(&mut left, c, y).to_bits(), left), reference(start, carry, &terms));
         left = carry;
-        prop_assert_eq!((Fixed::product(&mut left, c[0], y[0]).to_bits(), left), reference(0, carry, &terms[..1]));
+        prop_assert_eq!((Fixed::sum(&mut left, [c[0]], [y[0]]).to_bits(), left), reference(0, carry, &terms[..1]));
         left = carry;
-        let sum = Fixed::sum2(&mut left, [c[0], c[1]], [y[0], y[1]]);
+        let sum = Fixed::sum(&mut left, [c[0], c[1]], [y[0], y[1]]);
         prop_assert_eq!((sum.to_bits(), left), reference(0, carry, &terms[..2]));
     }
 
@@ -54,8 +54,8 @@ proptest! {
     fn single_operations(x in bits(), y in bits(), limit in bits(), c: i32) {
         let (wide, number) = (i128::from(x), Fixed::from_bits(x));
         let wrapped = |value: i128| value as i32;
-        prop_assert_eq!(number.plus(Fixed::from_bits(y)).to_bits(), wrapped(wide + i128::from(y)));
-        prop_assert_eq!(number.minus(Fixed::from_bits(y)).to_bits(), wrapped(wide - i128::from(y)));
+        prop_assert_eq!((number + Fixed::from_bits(y)).to_bits(), wrapped(wide + i128::from(y)));
+        prop_assert_eq!((number - Fixed::from_bits(y)).to_bits(), wrapped(wide - i128::from(y)));
         prop_assert_eq!(number.widened().to_bits(), wrapped(wide * 4));
         let less = wide - (i128::from(y) << TURN_SHIFT);
         prop_assert_eq!(number.less_turn(Fixed::from_bits(y)).to_bits(), wrapped(less));
@@ -116,8 +116,8 @@ fn the_carry_takes_the_bias_away() {
             for _ in 0..length {
                 let (c, y) = (next(), next() >> 3);
                 exact += i128::from(c) * i128::from(y);
-                total += i64::from(Fixed::product(&mut carry, coefficient(c), Fixed::from_bits(y)).to_bits());
-                cut_off += i64::from(Fixed::product(&mut 0, coefficient(c), Fixed::from_bits(y)).to_bits());
+                total += i64::from(Fixed::sum(&mut carry, [coefficient(c)], [Fixed::from_bits(y)]).to_bits());
+                cut_off += i64::from(Fixed::sum(&mut 0, [coefficient(c)], [Fixed::from_bits(y)]).to_bits());
             }
             let exact = exact as f64 / 4_294_967_296.0;
             with += total as f64 - exact;

@@ -73,7 +73,7 @@ fn plays<N: Scaled, O: Observer<N>>(
             };
             let mut torque = N::from_word(words as u32);
             if matches!(kind, Kind::Steady(_)) {
-                torque = if first < 0 { config.limits.torque } else { N::ZERO.minus(config.limits.torque) };
+                torque = if first < 0 { config.limits.torque } else { -config.limits.torque };
             }
             let sample = Sample { angle, torque, setpoint: N::from_word((words >> 32) as u32) };
             let command = Seen::new(drive.tick(&config, &sample), drive.estimate(&config));
