@@ -1,7 +1,10 @@
 //! The link to QEMU against the same scene on the host, bit for bit.
 
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::thread;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use driveline_firmware::board::{BOARDS, Facts};
 use driveline_firmware::scene::{Input, Output, Scene};
@@ -142,4 +145,49 @@ fn rate_of_round_trips() {
     }
     println!("{:.0} round trips a second", TICKS as f64 / started.elapsed().as_secs_f64());
     link.finish().unwrap();
+}
+
+/// SIGTERM at five moments of a run: its QEMU ends with it, and of its temporary folders none is left.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_leaves_neither_a_process_nor_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let images = [("empty/f32/none/10000", "m4f"), ("hoist/f32/reduced/10000", "m4f")];
+    for (variant, core) in images {
+        build(variant, board(core).unwrap(), Program::ControlLoop, |_| {}).unwrap();
+    }
+    let mut in_qemu = 0;
+    for moment in 0..5 {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+        command.args(["run", "hoist", "--variants", "f32/m4f/reduced/10000", "--json", "--html", "/dev/null"]);
+        let mut child =
+            command.env("TMPDIR", folder.path()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        // QEMU stands in its folder: the signal comes then, or a little later
+        let runs = || working_in(folder.path());
+        while runs() == 0 && matches!(child.try_wait(), Ok(None)) {
+            thread::sleep(Duration::from_millis(5));
+        }
+        thread::sleep(Duration::from_millis(40 * moment));
+        in_qemu += usize::from(runs() > 0);
+        assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+        assert_eq!(child.wait().unwrap().signal(), Some(15));
+        // the kernel may still be at it
+        for _ in 0..100 {
+            if runs() == 0 {
+                break;
+            }
+            thread::sleep(Duration::from_millis(10));
+        }
+        assert_eq!(runs(), 0, "a process is left");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "a folder is left");
+    }
+    assert!(in_qemu > 0, "no signal came while QEMU ran");
+}
+
+/// Processes whose working directory is below a folder.
+#[cfg(target_os = "linux")]
+fn working_in(folder: &Path) -> usize {
+    let processes = std::fs::read_dir("/proc").unwrap().flatten();
+    let place = |process: std::fs::DirEntry| std::fs::read_link(process.path().join("cwd")).ok();
+    processes.filter_map(place).filter(|place| place.starts_with(folder)).count()
 }

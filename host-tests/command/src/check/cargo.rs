@@ -4,6 +4,7 @@ use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
 use super::{Count, Failed, Voice};
+use driveline_qemu::children::{Folder, Running};
 use driveline_qemu::image::{target_directory, workspace};
 use driveline_qemu::setup;
 
@@ -37,7 +38,9 @@ fn run(arguments: &[&str], voice: &Voice) -> Result<(bool, Count), Failed> {
         // these would replace the linker script that .cargo/config.toml names
         command.env_remove("RUSTFLAGS").env_remove("CARGO_ENCODED_RUSTFLAGS");
     }
-    let mut child = command.spawn().map_err(failed)?;
+    // what the compiler and the tests leave when they are stopped goes with the folder
+    let folder = Folder::make().map_err(failed)?;
+    let mut child = Running::start(command.env("TMPDIR", folder.path())).map_err(failed)?;
     let mut count = Count::default();
     for line in child.stdout.take().into_iter().flat_map(|stdout| BufReader::new(stdout).split(b'\n')) {
         let line = String::from_utf8_lossy(&line.map_err(failed)?).into_owned();

@@ -13,6 +13,7 @@ use driveline_firmware::board::Facts;
 
 use super::fresh::fingerprint;
 use super::{Image, Program};
+use crate::children::{Folder, Running};
 
 /// Why an image was not built.
 #[derive(Debug, thiserror::Error)]
@@ -83,8 +84,9 @@ pub fn build(
     if path.exists() && fs::read_to_string(&stamp).is_ok_and(|old| old == fresh) {
         return Ok(image);
     }
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut child = Command::new(cargo)
+    let folder = Folder::make().map_err(place(format!("starting `{command}`")))?;
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo
         .args(arguments)
         .arg("--target-dir")
         .arg(&firmware)
@@ -92,15 +94,16 @@ pub fn build(
         .env("DRIVELINE_BOARD", board.name)
         // what is logged below this level is not in the image at all
         .env("DEFMT_LOG", "info")
+        // what the compiler leaves when it is stopped goes with the folder
+        .env("TMPDIR", folder.path())
         // these would replace the linker script that .cargo/config.toml names
         .env_remove("RUSTFLAGS")
         .env_remove("CARGO_ENCODED_RUSTFLAGS")
         .current_dir(workspace())
         .stdin(Stdio::null())
         .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(place(format!("starting `{command}`")))?;
+        .stderr(Stdio::piped());
+    let mut child = Running::start(&mut cargo).map_err(place(format!("starting `{command}`")))?;
     let mut output = String::new();
     for line in child.stderr.take().into_iter().flat_map(|stderr| BufReader::new(stderr).lines()) {
         let line = line.map_err(place(format!("reading from `{command}`")))?;

@@ -20,6 +20,7 @@ use driveline_firmware::scene::{Input, Output};
 use serde::Deserialize;
 use serde_json::Value;
 
+use crate::children::Folder;
 use crate::image::{Image, Program};
 use affinity::Pinned;
 use pipes::Pipes;
@@ -62,7 +63,7 @@ impl Link {
     /// Starts the image of a control loop. The calling thread stays on QEMU's core until the link is dropped.
     pub fn start(image: &Image) -> io::Result<Self> {
         let pinned = Pinned::to_free_core();
-        let directory = tempfile::Builder::new().prefix("driveline-").tempdir()?;
+        let directory = Folder::make()?;
         let pipes = Pipes::make(directory.path())?;
         let qemu = Qemu::start(image, directory)?;
         Ok(Link { qemu, pipes, ticks: 0, _pinned: pinned })
@@ -101,7 +102,7 @@ pub struct Left {
 /// Runs an image that needs no link to its end, `limit` at most.
 pub fn run(image: &Image, limit: Duration) -> io::Result<Left> {
     let _pinned = Pinned::to_free_core();
-    let directory = tempfile::Builder::new().prefix("driveline-").tempdir()?;
+    let directory = Folder::make()?;
     let mut qemu = Qemu::start(image, directory)?;
     let lines = qemu.finish(limit)?;
     let log = if image.program == Program::Log { qemu.left("log")? } else { Vec::new() };

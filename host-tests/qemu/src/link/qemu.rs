@@ -2,14 +2,14 @@
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
-use std::process::{Child, ExitStatus, Stdio};
+use std::process::{ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
-use tempfile::TempDir;
 
 use super::emulator::{Emulator, PROGRAM};
+use crate::children::{Folder, Running};
 use crate::image::Image;
 
 /// One instruction is 2^10 ns of virtual time, which the timer's arithmetic on the board relies on.
@@ -17,18 +17,17 @@ const INSTRUCTION_COUNT: &str = "shift=10,align=off,sleep=off";
 
 /// A running QEMU.
 pub struct Qemu {
-    child: Child,
-    directory: TempDir,
+    child: Running,
+    directory: Folder,
     name: String,
 }
 
 impl Qemu {
     /// Starts an image with `directory` as working directory, where its console and QEMU's own words are kept.
-    pub fn start(image: &Image, directory: TempDir) -> io::Result<Self> {
+    pub fn start(image: &Image, directory: Folder) -> io::Result<Self> {
         let said = File::create(directory.path().join("said"))?;
-        let child = Emulator::find()
-            .unwrap_or(Emulator::Installed)
-            .command()
+        let mut command = Emulator::find().unwrap_or(Emulator::Installed).command();
+        command
             .args(["-machine", image.board.name, "-display", "none", "-monitor", "none", "-serial", "none"])
             .args(["-icount", INSTRUCTION_COUNT])
             .args(["-chardev", "file,id=console,path=console"])
@@ -38,15 +37,14 @@ impl Qemu {
             .current_dir(directory.path())
             .stdin(Stdio::null())
             .stdout(said.try_clone()?)
-            .stderr(said)
-            .spawn()
-            .map_err(|error| match error.kind() {
-                ErrorKind::NotFound => io::Error::new(
-                    ErrorKind::NotFound,
-                    format!("{PROGRAM} is not installed; `cargo driveline setup` installs it or says how"),
-                ),
-                _ => error,
-            })?;
+            .stderr(said);
+        let child = Running::start(&mut command).map_err(|error| match error.kind() {
+            ErrorKind::NotFound => io::Error::new(
+                ErrorKind::NotFound,
+                format!("{PROGRAM} is not installed; `cargo driveline setup` installs it or says how"),
+            ),
+            _ => error,
+        })?;
         let name = format!("{} of {} on {}", image.program.name(), image.variant, image.board.name);
         Ok(Qemu { child, directory, name })
     }
@@ -61,6 +59,9 @@ impl Qemu {
         let status = self.wait(limit)?;
         if !status.success() {
             return Err(self.describe(&io::Error::other(format!("ended with {status}")), "at its end"));
+        }
+        if self.directory.is_full() {
+            return Err(self.describe(&io::Error::other("what it printed may be cut off"), "at its end"));
         }
         let console = fs::read_to_string(self.directory.path().join("console"))?;
         console
@@ -87,6 +88,9 @@ impl Qemu {
                 message.push_str(&format!("; {file}: {}", text.trim()));
             }
         }
+        if self.directory.is_full() {
+            message.push_str(&format!("; {} is full", std::env::temp_dir().display()));
+        }
         io::Error::new(error.kind(), message)
     }
 
@@ -104,13 +108,5 @@ impl Qemu {
             thread::sleep(pause);
             pause = (pause * 2).min(Duration::from_millis(20));
         }
-    }
-}
-
-impl Drop for Qemu {
-    fn drop(&mut self) {
-        // the kernel's kill: a QEMU that waits for a pipe does not hear a polite one
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }

@@ -8,6 +8,7 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{CWD, FileType, Mode, OFlags, mknodat};
 
 use super::qemu::Qemu;
+use crate::children::Folder;
 use crate::image::Image;
 
 /// How often a wait looks whether QEMU still runs.
@@ -25,7 +26,7 @@ impl Telling {
     /// # Errors
     /// A pipe that cannot be made, a QEMU that does not start.
     pub fn start(image: &Image) -> io::Result<Self> {
-        let directory = tempfile::Builder::new().prefix("driveline-").tempdir()?;
+        let directory = Folder::make()?;
         let path = directory.path().join("told");
         mknodat(CWD, &path, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0)?;
         // does not wait for the other end

@@ -1,0 +1,196 @@
+//! Child processes and temporary folders that do not outlive this one: ended and removed with their owner, and by Ctrl-C or
+//! SIGTERM where the program has asked for that.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::ops::{Deref, DerefMut};
+use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, exit};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use rustix::process::{Pid, Signal, kill_process_group};
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+use signal_hook::low_level::emulate_default_handler;
+use tempfile::TempDir;
+
+/// All that is to be ended and removed, by numbers given in turn.
+struct Owned {
+    /// Whether signals are caught; children are then in groups of their own.
+    signals: bool,
+    next: u64,
+    children: BTreeMap<u64, Pid>,
+    folders: BTreeMap<u64, PathBuf>,
+}
+
+static OWNED: Mutex<Owned> =
+    Mutex::new(Owned { signals: false, next: 0, children: BTreeMap::new(), folders: BTreeMap::new() });
+
+fn owned() -> MutexGuard<'static, Owned> {
+    OWNED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Owned {
+    fn number(&mut self) -> u64 {
+        self.next += 1;
+        self.next
+    }
+}
+
+/// From now on Ctrl-C and SIGTERM end the children with theirs and remove the temporary folders, before they end the program as ever.
+///
+/// # Errors
+/// What the system says.
+pub fn end_with_signals() -> io::Result<()> {
+    let mut signals = Signals::new([SIGINT, SIGTERM])?;
+    owned().signals = true;
+    thread::Builder::new().name("signals".into()).spawn(move || {
+        let Some(signal) = signals.forever().next() else { return };
+        // held to the end: nothing begins any more, and nobody reports what is ended here as a failure
+        let owned = owned();
+        for &child in owned.children.values() {
+            let _ = kill_process_group(child, Signal::KILL);
+        }
+        for folder in owned.folders.values() {
+            // one that was killed may still be closing its files
+            for _ in 0..50 {
+                if fs::remove_dir_all(folder).is_ok() || !folder.exists() {
+                    break;
+                }
+                thread::sleep(Duration::from_millis(10));
+            }
+        }
+        let _ = emulate_default_handler(signal);
+        exit(128 + signal);
+    })?;
+    Ok(())
+}
+
+/// A child; ended with its owner.
+#[derive(Debug)]
+pub struct Running {
+    child: Child,
+    number: u64,
+    /// Whether it leads a group, which is then ended whole.
+    leads: bool,
+}
+
+impl Running {
+    /// Starts a child.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn start(command: &mut Command) -> io::Result<Self> {
+        // under the lock, lest a signal come between the start and the entry
+        let mut owned = owned();
+        let leads = owned.signals;
+        if leads {
+            command.process_group(0);
+        }
+        let child = command.spawn()?;
+        let number = owned.number();
+        if let (true, Some(pid)) = (leads, i32::try_from(child.id()).ok().and_then(Pid::from_raw)) {
+            owned.children.insert(number, pid);
+        }
+        Ok(Running { child, number, leads })
+    }
+}
+
+impl Deref for Running {
+    type Target = Child;
+
+    fn deref(&self) -> &Child {
+        &self.child
+    }
+}
+
+impl DerefMut for Running {
+    fn deref_mut(&mut self) -> &mut Child {
+        &mut self.child
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        if matches!(self.child.try_wait(), Ok(None)) {
+            if let (true, Some(pid)) = (self.leads, i32::try_from(self.child.id()).ok().and_then(Pid::from_raw)) {
+                let _ = kill_process_group(pid, Signal::KILL);
+            }
+            // the kernel's kill: a QEMU that waits for a pipe does not hear a polite one
+            let _ = self.child.kill();
+            let _ = self.child.wait();
+        }
+        owned().children.remove(&self.number);
+    }
+}
+
+/// A temporary folder; removed with its owner.
+#[derive(Debug)]
+pub struct Folder {
+    folder: TempDir,
+    number: u64,
+}
+
+impl Folder {
+    /// Makes one.
+    ///
+    /// # Errors
+    /// Where it was to be made and what the system says.
+    pub fn make() -> io::Result<Self> {
+        let mut owned = owned();
+        let folder = tempfile::Builder::new().prefix("driveline-").tempdir().map_err(|error| {
+            let place = std::env::temp_dir();
+            let sentence = format!(
+                "no temporary folder can be made in {}: {}; TMPDIR names another",
+                place.display(),
+                error.kind()
+            );
+            io::Error::new(error.kind(), sentence)
+        })?;
+        let number = owned.number();
+        owned.folders.insert(number, folder.path().to_owned());
+        Ok(Folder { folder, number })
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Whether its disk has no room left.
+    pub fn is_full(&self) -> bool {
+        rustix::fs::statvfs(self.path()).is_ok_and(|disk| disk.f_bavail == 0)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        owned().folders.remove(&self.number);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::process::{Command, Stdio};
+
+    use super::{Folder, Running};
+
+    #[test]
+    fn a_child_and_a_folder_end_with_their_owners() {
+        let folder = Folder::make().unwrap();
+        let path = folder.path().to_owned();
+        std::fs::write(path.join("file"), "").unwrap();
+        let mut child = Running::start(Command::new("cat").stdin(Stdio::piped()).stdout(Stdio::piped())).unwrap();
+        let mut output = child.stdout.take().unwrap();
+        assert!(matches!(child.try_wait(), Ok(None)));
+        drop(child);
+        // the other end is closed: it has ended
+        assert_eq!(std::io::Read::read(&mut output, &mut [0]).unwrap(), 0);
+        drop(folder);
+        assert!(!path.exists());
+    }
+}
