@@ -1,8 +1,4 @@
-//! The command line: `cargo driveline run`, `modes`, `design`, `rotor`, `check`, `setup`.
-//! The command line: `cargo driveline run`, `modes`, `simulate`, `design`, `check`, `setup`.
-//! The command line: `cargo driveline run`, `modes`, `design`, `balance`, `check`, `setup`.
-//! The command line: `cargo driveline run`, `modes`, `design`, `generator`, `check`, `setup`.
-//! The command line: `cargo driveline run`, `modes`, `design`, `check`, `setup`, `watch`.
+//! The command line: a subcommand a file.
 //!
 //! | exit code | meaning |
 //! |---|---|
@@ -10,8 +6,7 @@
 //! | 1 | done, and the answer is no: a check failed, a run could not finish |
 //! | 2 | not begun: a wrong argument or a machine file with a fault |
 //!
-//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the
-//! object
+//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
 //! `{"error": ...}`.
 
 mod backlash;
@@ -28,6 +23,7 @@ mod modes;
 mod output;
 mod progress;
 mod report;
+mod results;
 mod rotor;
 mod run;
 mod setup;
@@ -45,8 +41,9 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-use clap::{Parser, Subcommand};
-use output::{UNSAID, onto_itself, say, say_json};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use driveline_qemu::children::end_with_signals;
+use output::{UNSAID, say, say_json};
 
 /// Controllers for machine drives, checked against a full solver of the machine.
 #[derive(Debug, Parser)]
@@ -64,10 +61,10 @@ enum Command {
     Modes(modes::Modes),
     Design(design::Design),
     Rotor(rotor::Rotor),
-    Balance(balance::Balance),
-    Generator(generator::Generator),
+    Balancing(balance::Balance),
+    Genset(generator::Generator),
     Check(check::Check),
-    Commission(commission::Commission),
+    Commissioning(commission::Commission),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
     Sizes(sizes::Sizes),
@@ -83,10 +80,10 @@ impl Command {
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
             Self::Rotor(command) => command.json,
-            Self::Balance(command) => command.json,
-            Self::Generator(command) => command.json,
+            Self::Balancing(command) => command.json,
+            Self::Genset(command) => command.json,
             Self::Check(command) => command.json,
-            Self::Commission(command) => command.json,
+            Self::Commissioning(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
             Self::Sizes(command) => command.json,
@@ -102,10 +99,10 @@ impl Command {
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
             Self::Rotor(command) => command.execute(),
-            Self::Balance(command) => command.execute(),
-            Self::Generator(command) => command.execute(),
+            Self::Balancing(command) => command.execute(),
+            Self::Genset(command) => command.execute(),
             Self::Check(command) => command.execute(),
-            Self::Commission(command) => command.execute(),
+            Self::Commissioning(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),
             Self::Sizes(command) => command.execute(),
@@ -121,16 +118,27 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     if arguments.get(1).is_some_and(|first| first == "driveline") {
         arguments.remove(1);
     }
-    let cli = match Cli::try_parse_from(&arguments) {
+    // `--seed -1` is a wrong value, not an option that nobody knows
+    let mut grammar = Cli::command().mut_subcommands(|command| command.allow_negative_numbers(true));
+    let parsed = grammar.try_get_matches_from_mut(&arguments);
+    let parsed = parsed.and_then(|matches| Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut grammar)));
+    let cli = match parsed {
         Ok(cli) => cli,
-        // Help and version come this way too, and are no errors.
         Err(error) if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") => {
             let message = error.to_string();
             let sentence = message.lines().next().unwrap_or("wrong arguments").trim_start_matches("error: ");
             return Failure::usage(sentence).report(true);
         }
+        Err(error) if error.use_stderr() => {
+            eprintln!("{}", failure::visible(&error.render().to_string()));
+            return ExitCode::from(2);
+        }
+        // Help and version are no errors.
         Err(error) => error.exit(),
     };
+    if let Err(error) = end_with_signals() {
+        return Failure::failed(format!("signals cannot be caught: {error}")).report(cli.command.json());
+    }
     match cli.command.execute() {
         Ok(()) if UNSAID.load(Ordering::Relaxed) => Failure::failed("standard output cannot be written").report(false),
         Ok(()) => ExitCode::SUCCESS,

@@ -22,7 +22,7 @@ mod spindle;
 mod strip_mill;
 pub mod vibrating_screen;
 
-pub use plan::Plan;
+pub use plan::{Plan, Variants};
 
 use driveline_solver::plant::PlantError;
 use scenario::Machine;
@@ -30,7 +30,7 @@ use scenario::Machine;
 /// What makes a scene's machine with its plants.
 pub type Build = fn() -> Result<Machine, PlantError>;
 
-/// The machines that can be run, by the names of their scenes; the first also carries what belongs to no scene.
+/// The machines that can be run, by the names of their scenes.
 pub const SCENES: &[(&str, Build)] = &[
     ("hoist", hoist::machine),
     ("fan", fan::machine),

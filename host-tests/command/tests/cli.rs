@@ -1,6 +1,6 @@
 //! The command line as a user meets it: results, faults, exit codes, JSON.
 
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 fn driveline(arguments: &[&str]) -> Output {
     let folder = env!("CARGO_TARGET_TMPDIR");
@@ -29,15 +29,15 @@ fn every_command_explains_itself_with_examples() {
         "modes",
         "design",
         "rotor",
-        "balance",
-        "generator",
+        "balancing",
+        "genset",
         "backlash",
         "simulate",
         "watch",
         "check",
         "setup",
         "sizes",
-        "commission",
+        "commissioning",
     ] {
         let output = driveline(&[command, "--help"]);
         assert!(output.status.success());
@@ -164,7 +164,7 @@ fn a_wrong_name_is_answered_with_the_right_ones() {
     for (arguments, there) in [
         (&["run", "--variants", "nothing"][..], "fixed/m3/reduced/10000"),
         (&["run", "balanced-fan", "--variants", "nothing"], "fixed/m3/two-mass/4000"),
-        (&["generator", "--variants", "nothing"], "f32/m4f/diesel/2400"),
+        (&["genset", "--variants", "nothing"], "f32/m4f/diesel/2400"),
         (&["watch", "--qemu", "nothing"], "hoist/f32/reduced/10000"),
         (&["watch", "--qemu", "hoist/f32/reduced/10000", "--core", "m7"], "m4f"),
         (&["watch"], "--qemu VARIANT"),
@@ -183,9 +183,15 @@ fn a_page_that_cannot_be_written_is_found_before_anything_runs() {
     std::fs::write(&file, "kept").unwrap();
     let page = file.join("page.html");
     let output = driveline(&["run", "--html", page.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(err(&output).contains("page.html cannot be written") && !err(&output).contains("building"));
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("file is not a folder") && !err(&output).contains("building"));
     assert_eq!(std::fs::read_to_string(file).unwrap(), "kept");
+    // A folder in which nobody can make a file.
+    if cfg!(target_os = "linux") {
+        let output = driveline(&["run", "--html", "/proc/page.html"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(err(&output).contains("page.html cannot be written") && !err(&output).contains("building"));
+    }
 }
 
 #[test]
@@ -204,18 +210,106 @@ fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
     assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
 }
 
+/// The commands that read a file, each with one, and the option that names a result.
+const READERS: [(&str, &str, &str); 7] = [
+    ("modes", "machines/hoist.toml", "--html"),
+    ("rotor", "rotors/three_discs.toml", "--html"),
+    ("balancing", "rotors/fan-balance.toml", "--html"),
+    ("commissioning", "machines/axis.toml", "--html"),
+    ("simulate", "trains/gear-pair.toml", "--html"),
+    ("simulate", "trains/gear-pair.toml", "--csv"),
+    ("watch", "machines/hoist.toml", "--csv"),
+];
+
+/// By its name, a symbolic link, a hard link and another way to the same place.
 #[test]
 fn a_result_is_not_written_over_what_it_is_made_from() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("run");
-    std::fs::write(&file, "kept").unwrap();
-    let path = file.to_str().unwrap();
-    for command in ["simulate", "watch"] {
-        let output = driveline(&[command, path, "--csv", path]);
-        assert_eq!(output.status.code(), Some(2));
-        assert!(err(&output).contains("written over what it is made from"), "{}", err(&output));
-        assert_eq!(std::fs::read_to_string(&file).unwrap(), "kept");
+    for (command, source, option) in READERS {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let text = std::fs::read_to_string(format!("{}/{source}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+        std::fs::write(at("source.toml"), &text).unwrap();
+        std::os::unix::fs::symlink(at("source.toml"), at("symbolic")).unwrap();
+        std::fs::hard_link(at("source.toml"), at("hard")).unwrap();
+        std::fs::create_dir(at("sub")).unwrap();
+        for name in ["source.toml", "symbolic", "hard", "sub/../source.toml"] {
+            let [source, result] = [at("source.toml"), at(name)];
+            let arguments = [command, source.to_str().unwrap(), option, result.to_str().unwrap()];
+            let output = driveline(&arguments);
+            assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+            assert!(err(&output).contains("would be written over what it is made from"), "{}", err(&output));
+            assert_eq!(std::fs::read_to_string(at("source.toml")).unwrap(), text, "{arguments:?}");
+        }
     }
+}
+
+#[test]
+fn two_results_do_not_share_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let [file, sub] = ["both", "sub"].map(|name| folder.path().join(name));
+    std::fs::create_dir(&sub).unwrap();
+    let other = sub.join("../both");
+    let train = concat!(env!("CARGO_MANIFEST_DIR"), "/trains/gear-pair.toml");
+    let output = driveline(&["simulate", train, "--csv", file.to_str().unwrap(), "--html", other.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("would hold both the table and the page"), "{}", err(&output));
+    // nor with standard output
+    let to_file = std::fs::File::create(&file).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let output = command.args(["modes", HOIST, "--html"]).arg(&file).stdout(to_file).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("is where standard output goes"), "{}", err(&output));
+}
+
+#[test]
+fn a_folder_is_not_made_for_a_typo() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("reprot/page.html");
+    let output = driveline(&["modes", HOIST, "--html", page.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("reprot; make it, or name another"), "{}", err(&output));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_figure_is_printed_before_its_page_fails() {
+    if !std::path::Path::new("/dev/full").exists() {
+        return;
+    }
+    let output = driveline(&["modes", HOIST, "--json", "--html", "/dev/full"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(json(&out(&output))["resonances"].is_array());
+    assert!(err(&output).contains("No space left"), "{}", err(&output));
+}
+
+#[test]
+fn a_number_below_zero_is_a_wrong_value_and_no_unknown_option() {
+    let output = driveline(&["backlash", "--seconds", "-1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("invalid value '-1' for '--seconds <SECONDS>'"), "{}", err(&output));
+}
+
+#[test]
+fn what_cannot_be_printed_is_shown_by_a_mark() {
+    for arguments in [["modes", "no\u{1b}[2J.toml"], ["no\u{7}", "x"], ["report", "--html=no\u{1b}[2J/page"]] {
+        let output = driveline(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let said = err(&output);
+        // of a word that it does not know the parser prints what can be printed
+        assert!(said.contains('\u{fffd}') || arguments[0] != "modes", "{said:?}");
+        assert!(!said.contains(|c: char| c.is_control() && c != '\n'), "{said:?}");
+    }
+}
+
+#[test]
+fn a_signal_ends_long_work_at_once() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let mut child = command.args(["backlash", "--seconds", "1000", "--json"]).stdout(Stdio::null()).spawn().unwrap();
+    // until it has begun to catch signals: before, it ends by them as well
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    let killed = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    assert_eq!(std::os::unix::process::ExitStatusExt::signal(&child.wait().unwrap()), Some(15));
 }
 
 #[cfg(target_os = "linux")]
@@ -238,15 +332,15 @@ fn what_cannot_be_commissioned_is_said_before_anything_runs() {
     };
     const SHIP: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/ship.toml");
     const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/axis.toml");
-    refused(&["commission", SHIP], 2, &["ship.toml:20:1: `branch[0]`", "expected a chain"]);
+    refused(&["commissioning", SHIP], 2, &["ship.toml:20:1: `branch[0]`", "expected a chain"]);
     // The load that hangs takes more than half of a half of the largest torque.
-    refused(&["commission", HOIST], 2, &["hoist.toml: the largest torque of the shaft", "--rated 0.5"]);
-    refused(&["commission", AXIS, "--speed", "1e300"], 2, &["axis.toml: the test's speed", "--speed 1e300"]);
-    refused(&["commission", AXIS, "--friction", "nan"], 2, &["--friction must be zero or above"]);
-    refused(&["commission", "spindle", "--speed", "0.5"], 2, &["--speed is for a file `NAME.toml`"]);
+    refused(&["commissioning", HOIST], 2, &["hoist.toml: the largest torque of the shaft", "--rated 0.5"]);
+    refused(&["commissioning", AXIS, "--speed", "1e300"], 2, &["axis.toml: the test's speed", "--speed 1e300"]);
+    refused(&["commissioning", AXIS, "--friction", "nan"], 2, &["--friction must be zero or above"]);
+    refused(&["commissioning", "spindle", "--speed", "0.5"], 2, &["--speed is for a file `NAME.toml`"]);
     let folder = env!("CARGO_TARGET_TMPDIR");
     // Half an hour of the mill is not run for a page that cannot be written.
-    refused(&["commission", "mill", "--html", folder], 1, &["cannot be written"]);
-    let output = driveline(&["commission", SHIP, "--json"]);
+    refused(&["commissioning", "mill", "--html", folder], 2, &["is a folder"]);
+    let output = driveline(&["commissioning", SHIP, "--json"]);
     assert_eq!(json(&err(&output))["at"]["line"], 20);
 }

@@ -33,7 +33,6 @@ mod trajectory;
 
 pub use balance_page::{BalancePage, PolarFigure, PolarKey};
 pub use modes_page::{MachinePage, ModeFigure};
-pub use page::{writable, write_page};
 pub use plots_page::PlotsPage;
 pub use results::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Report, Variant};
 pub use sheet::{Figure, Sheet};

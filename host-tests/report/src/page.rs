@@ -3,8 +3,6 @@
 mod thinning;
 pub mod view;
 
-use std::path::Path;
-
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
 use serde::Serialize;
@@ -51,43 +49,8 @@ impl Report {
         fill("page.html", view::view(self))
     }
 
-    /// Writes the page, and the folder it stands in where that is missing.
-    ///
-    /// # Errors
-    /// What the file system says.
-    pub fn write(&self, path: &Path) -> std::io::Result<()> {
-        write_page(path, &self.page())
-    }
-
     /// What `run --json` prints: `{scene, variants}`.
     pub fn json(&self) -> serde_json::Value {
         serde_json::json!({ "scene": self.scene, "variants": self.variants })
     }
-}
-
-/// Finds out before a long run whether a page can be written; what stands there is left alone, and the folder is made where it is missing.
-///
-/// # Errors
-/// What the file system says.
-pub fn writable(path: &Path) -> std::io::Result<()> {
-    make_folder_of(path)?;
-    let stood = path.exists();
-    std::fs::OpenOptions::new().append(true).create(true).open(path)?;
-    if stood { Ok(()) } else { std::fs::remove_file(path) }
-}
-
-fn make_folder_of(path: &Path) -> std::io::Result<()> {
-    match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        Some(folder) => std::fs::create_dir_all(folder),
-        None => Ok(()),
-    }
-}
-
-/// Writes a page, and the folder it stands in where that is missing.
-///
-/// # Errors
-/// What the file system says.
-pub fn write_page(path: &Path, page: &str) -> std::io::Result<()> {
-    make_folder_of(path)?;
-    std::fs::write(path, page)
 }

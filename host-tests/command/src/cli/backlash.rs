@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
 use crate::backlash::Comparison;
 use crate::backlash::backlash_page;
-use driveline_report::write_page;
 
 /// Compares ways to carry an observer through backlash, over random reversals of six machines with the full solver.
 #[derive(Debug, Args)]
@@ -39,6 +39,8 @@ impl Backlash {
         if !(1..=1000).contains(&self.seconds) {
             return Err(Failure::usage(format!("--seconds must be from 1 to 1000, not {}", self.seconds)));
         }
+        let file = Destination::page_unless(self.json, self.html.as_deref(), "backlash");
+        check(&[], &file)?;
         let bar = Progress::of(Comparison::COURSES as u64);
         let comparison = Comparison::run(f64::from(self.seconds), self.seed, |course| {
             bar.says(course);
@@ -46,19 +48,11 @@ impl Backlash {
         })
         .map_err(|error| Failure::failed(error.to_string()))?;
         drop(bar);
-        let usual = (!self.json).then(|| PathBuf::from("report/backlash.html"));
-        let path = self.html.clone().or(usual);
-        if let Some(path) = &path {
-            write_page(path, &backlash_page(&comparison))
-                .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
-        }
         if self.json {
-            return say_json(&comparison);
+            say_json(&comparison)?;
+        } else {
+            say(comparison.table());
         }
-        say(comparison.table());
-        if let Some(path) = path {
-            say(format_args!("page: {}", path.display()));
-        }
-        Ok(())
+        file.map_or(Ok(()), |file| file.write_and_say(&backlash_page(&comparison), self.json))
     }
 }

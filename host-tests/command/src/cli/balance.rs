@@ -1,4 +1,4 @@
-//! `cargo driveline balance`: from readings of the field to weights.
+//! `cargo driveline balancing`: from readings of the field to weights.
 
 mod amplitudes;
 mod fault;
@@ -12,11 +12,12 @@ use clap::Args;
 use driveline::balancing::{Aim, Complex, Correction, Error};
 use serde::Serialize;
 
+use super::results::{Destination, check};
 use super::{Failure, say, say_json};
 use crate::machine_file::balance::{BalanceFile, Measured, PLANES, ROWS, read};
 use driveline_report::chart::polar;
 use driveline_report::format::{percent, significant};
-use driveline_report::{BalancePage, Fact, PolarFigure, PolarKey, Table, write_page};
+use driveline_report::{BalancePage, Fact, PolarFigure, PolarKey, Table};
 
 use fault::Fault;
 use grade::{Grade, grade};
@@ -28,13 +29,13 @@ use weight::{Hole, arrow, arrows_of, fill, told};
 /// The file says the planes, the sensors, a baseline and a trial run for each plane, with phases in degrees.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  cargo driveline balance host-tests/command/rotors/fan-balance.toml
-  cargo driveline balance my.toml --html my.html
-  cargo driveline balance my.toml --json")]
+  cargo driveline balancing host-tests/command/rotors/fan-balance.toml
+  cargo driveline balancing my.toml --html my.html
+  cargo driveline balancing my.toml --json")]
 pub struct Balance {
     /// The readings: a TOML file
     file: PathBuf,
-    /// Where the page goes [default: report/NAME-balance.html]
+    /// Where the page goes [default: report/NAME-balancing.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Print JSON, and write a page only with --html
@@ -105,7 +106,7 @@ impl Balance {
         }
     }
 
-    /// Writes the page, and prints JSON or what there is to say.
+    /// Prints JSON or what there is to say, and writes the page.
     fn show(
         &self,
         file: &BalanceFile,
@@ -115,20 +116,14 @@ impl Balance {
     ) -> Result<(), Failure> {
         let slug: String =
             file.name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
-        let usual = (!self.json).then(|| PathBuf::from(format!("report/{slug}-balance.html")));
-        let path = self.html.clone().or(usual);
-        if let Some(path) = &path {
-            write_page(path, &page().page())
-                .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
-        }
+        let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{slug}-balancing"));
+        check(&[&self.file], &file)?;
         if self.json {
-            return say_json(outcome);
+            say_json(outcome)?;
+        } else {
+            say(said);
         }
-        say(said);
-        if let Some(path) = path {
-            say(format_args!("page: {}", path.display()));
-        }
-        Ok(())
+        file.map_or(Ok(()), |file| file.write_and_say(&page().page(), self.json))
     }
 }
 

@@ -4,12 +4,13 @@ use std::path::Path;
 
 use serde_json::json;
 
+use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::balancing::{Ran, Scene, page, tables};
 use crate::closed_loop::candidates::Candidate;
+use crate::drivetrains::Variants;
 use driveline_qemu::setup::Need;
-use driveline_report::write_page;
 
 /// What is left to chance is the same in every run.
 const SEED: u64 = 1;
@@ -17,28 +18,34 @@ const SEED: u64 = 1;
 /// How a scene is run.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted<'a> {
-    /// Only variants whose number/core/observer/rate contains this.
-    pub filter: Option<&'a str>,
+    /// Which variants.
+    pub variants: Variants<'a>,
     /// Where the page goes.
     pub html: Option<&'a Path>,
     /// JSON instead of tables.
     pub json: bool,
 }
 
-/// Balances a scene in all its variants, prints tables or JSON, writes the page.
+/// Balances a scene in some of its variants, prints tables or JSON, writes the page.
 ///
 /// # Errors
 /// No such variant; what kept one from being balanced; a claim that was missed, a word that differs from the host's; a
 /// page that cannot be
 /// written.
 pub fn run(scene: &Scene, wanted: Wanted<'_>) -> Result<(), Failure> {
-    let variants = scene.variants(wanted.filter);
-    if let (true, Some(filter)) = (variants.is_empty(), wanted.filter) {
+    let filter = if let Variants::Containing(filter) = wanted.variants { Some(filter) } else { None };
+    let mut variants = scene.variants(filter);
+    if matches!(wanted.variants, Variants::Chosen) {
+        variants.retain(|&(variant, board)| Candidate { variant, board }.is_native());
+    }
+    if let (true, Some(filter)) = (variants.is_empty(), filter) {
         let there: Vec<_> =
             scene.variants(None).into_iter().map(|(variant, board)| Candidate { variant, board }.key()).collect();
         let sentence = format!("no variant of `{}` contains `{filter}`; there are {}", scene.name, there.join(", "));
         return Err(Failure::usage(sentence));
     }
+    let file = Destination::page(wanted.html, scene.name);
+    check(&[], [&file])?;
     ready(&Need::to_run(variants.iter().map(|(_, board)| board)))?;
     let progress = Progress::of(variants.len() as u64);
     let mut all: Vec<Ran> = Vec::new();
@@ -48,17 +55,14 @@ pub fn run(scene: &Scene, wanted: Wanted<'_>) -> Result<(), Failure> {
         progress.step();
     }
     drop(progress);
-    let path = wanted.html.map_or_else(|| format!("report/{}.html", scene.name).into(), Path::to_path_buf);
-    write_page(&path, &page(scene, &all))
-        .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
     if wanted.json {
         say_json(&json!({ "scene": scene.name, "variants": all }))?;
     } else {
         for (title, _, table) in tables(&all) {
             say(format_args!("{title}\n{table}"));
         }
-        say(format_args!("page: {}", path.display()));
     }
+    file.write_and_say(&page(scene, &all), wanted.json)?;
     verdict(&all)
 }
 

@@ -1,4 +1,4 @@
-//! `cargo driveline commission`: the test that finds the machine, against its full plant.
+//! `cargo driveline commissioning`: the test that finds the machine, against its full plant.
 
 use std::path::{Path, PathBuf};
 
@@ -6,12 +6,12 @@ use clap::Args;
 use driveline::commissioning::TestConfig;
 use driveline_firmware::board::BOARDS;
 
+use super::results::{Destination, check};
 use super::setup::ready;
-use super::{Failure, Progress, onto_itself, say, say_json};
+use super::{Failure, Progress, say, say_json};
 use crate::commissioning::{Case, Trial, Verdict, in_qemu, named, of_file, on_host, verdict};
 use crate::machine_file::{Diagnostic, MachineFile, Source, read, text};
 use driveline_qemu::setup::Need;
-use driveline_report::{writable, write_page};
 
 /// Commission a machine: run the test that finds its inertias, resonance, damping, friction, gap and encoder's
 /// eccentricity against its full plant, and put what it found beside what is true.
@@ -20,10 +20,10 @@ use driveline_report::{writable, write_page};
 /// motor's torque is off by the file's torque accuracy in every tick, as white noise; the scenes' by 1 % of rated.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  cargo driveline commission mill
-  cargo driveline commission hoist --qemu
-  cargo driveline commission host-tests/command/machines/mill.toml --friction 0.05
-  cargo driveline commission spindle --json > spindle.json")]
+  cargo driveline commissioning mill
+  cargo driveline commissioning hoist --qemu
+  cargo driveline commissioning host-tests/command/machines/mill.toml --friction 0.05
+  cargo driveline commissioning spindle --json > spindle.json")]
 pub struct Commission {
     /// `hoist`, `mill`, `spindle`, or a TOML file of elements from the motor to the load
     machine: String,
@@ -45,7 +45,7 @@ pub struct Commission {
     /// For a file: rated torque, of the largest torque [default: 0.5]
     #[arg(long, value_name = "SHARE")]
     rated: Option<f64>,
-    /// Where the page goes [default: report/NAME-commission.html]
+    /// Where the page goes [default: report/NAME-commissioning.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Print JSON, and write a page only with --html
@@ -63,10 +63,9 @@ impl Commission {
     /// No such machine, a setting out of range, what kept QEMU from running; with exit code 1 where the test refused.
     pub fn execute(&self) -> Result<(), Failure> {
         let case = self.case()?;
-        let page = self.page(&case.name);
-        if let Some(path) = &page {
-            writable(path).map_err(|error| unwritable(path, &error))?;
-        }
+        let name = format!("{}-commissioning", case.name);
+        let page = Destination::page_unless(self.json, self.html.as_deref(), &name);
+        check(&[Path::new(&self.machine)], &page)?;
         let progress = Progress::of(STAGES.len() as u64);
         let mut last = u32::MAX;
         let seen = |tick: u64, stage: u32| {
@@ -85,19 +84,14 @@ impl Commission {
                 return Err(Failure::failed("there is no board with an M4F"));
             };
             ready(&Need::to_run([board]))?;
-            in_qemu(&case, *board, self.seed, |_| {}, seen).map(|(course, target)| (course, Some(target)))
+            in_qemu(&case, *board, self.seed, |line| progress.says(line.trim()), seen)
+                .map(|(course, target)| (course, Some(target)))
         } else {
             on_host(&case, self.seed, seen).map(|course| (course, None))
         };
         let (course, target) = run.map_err(|error| Failure::failed(format!("{}: {error}", case.name)))?;
         drop(progress);
         self.show(&verdict(&case, &course, target), page)
-    }
-
-    /// Where the page goes, if there is to be one.
-    fn page(&self, name: &str) -> Option<PathBuf> {
-        let usual = (!self.json).then(|| PathBuf::from(format!("report/{name}-commission.html")));
-        self.html.clone().or(usual)
     }
 
     fn case(&self) -> Result<Case, Failure> {
@@ -126,7 +120,6 @@ impl Commission {
             }
         }
         let path = PathBuf::from(&self.machine);
-        onto_itself(&path, self.html.as_deref())?;
         let machine = read_chain(&path)?;
         let trial = Trial {
             speed: self.speed.unwrap_or(0.2),
@@ -143,10 +136,7 @@ impl Commission {
         Ok(case)
     }
 
-    fn show(&self, verdict: &Verdict, path: Option<PathBuf>) -> Result<(), Failure> {
-        if let Some(path) = &path {
-            write_page(path, &verdict.page()).map_err(|error| unwritable(path, &error))?;
-        }
+    fn show(&self, verdict: &Verdict, page: Option<Destination>) -> Result<(), Failure> {
         if self.json {
             say_json(verdict)?;
         } else {
@@ -154,19 +144,13 @@ impl Commission {
             for sentence in verdict.sentences() {
                 say(sentence);
             }
-            if let Some(path) = path {
-                say(format_args!("page: {}", path.display()));
-            }
         }
+        page.map_or(Ok(()), |page| page.write_and_say(&verdict.page(), self.json))?;
         match verdict.refused {
             Some(reason) => Err(Failure::failed(format!("the test refused: {reason}"))),
             None => Ok(()),
         }
     }
-}
-
-fn unwritable(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::failed(format!("{} cannot be written: {error}", path.display()))
 }
 
 /// A machine without branches: the plant of a test is a chain.

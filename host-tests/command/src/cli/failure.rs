@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use serde_json::json;
 
-use crate::machine_file::Diagnostic;
+use crate::machine_file::{Diagnostic, printable};
 
 /// Why a command gave no result.
 #[derive(Debug, thiserror::Error)]
@@ -49,10 +49,15 @@ impl Failure {
                 }
                 eprintln!("{value}");
             }
-            Self::Machine(diagnostic) => eprintln!("error: {}", diagnostic.explained()),
-            Self::Usage(sentence) => eprintln!("error: {sentence}; `--help` shows what there is"),
-            Self::Failed(sentence) => eprintln!("error: {sentence}"),
+            Self::Machine(diagnostic) => eprintln!("error: {}", visible(&diagnostic.explained())),
+            Self::Usage(sentence) => eprintln!("error: {}; `--help` shows what there is", visible(sentence)),
+            Self::Failed(sentence) => eprintln!("error: {}", visible(sentence)),
         }
         ExitCode::from(self.code())
     }
+}
+
+/// A text that a name of a file or a word of the user's may be part of, fit for a terminal.
+pub(super) fn visible(text: &str) -> String {
+    text.lines().map(|line| printable(line, usize::MAX)).collect::<Vec<_>>().join("\n")
 }

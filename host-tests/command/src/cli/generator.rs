@@ -1,14 +1,14 @@
-//! `cargo driveline generator`: the generator sets in QEMU, against the standards.
+//! `cargo driveline genset`: the generator sets in QEMU, against the standards.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
+use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::generator::{page, verdict};
 use driveline_qemu::setup::Need;
-use driveline_report::write_page;
 
 /// Run the generator sets' firmware in QEMU against their full plants, and give a verdict by ISO 8528-5 and NEMA SM 23.
 ///
@@ -16,15 +16,15 @@ use driveline_report::write_page;
 /// estimated load fed forward and without, then a fault on every input and every trip; prints tables and writes a page with plots.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  cargo driveline generator
-  cargo driveline generator --variants f32/m4f/diesel --no-faults
-  cargo driveline generator --json > generator.json")]
+  cargo driveline genset
+  cargo driveline genset --variants f32/m4f/diesel --no-faults
+  cargo driveline genset --json > genset.json")]
 pub struct Generator {
     /// Print {verdicts: [...], faults: [...], trips: [...]} and no table
     #[arg(long)]
     pub json: bool,
     /// Where the page goes
-    #[arg(long, value_name = "PATH", default_value = "report/generator.html")]
+    #[arg(long, value_name = "PATH", default_value = "report/genset.html")]
     html: PathBuf,
     /// Only variants whose number/core/set/rate contains this text, as `fixed/m3` or `turbine`
     #[arg(long, value_name = "FILTER")]
@@ -46,16 +46,17 @@ impl Generator {
             let names = verdict::names().join(", ");
             return Err(Failure::usage(format!("no variant contains `{filter}`; there are {names}")));
         }
+        let file = Destination::chosen("page", &self.html);
+        check(&[], [&file])?;
         ready(&Need::to_run(variants.iter().map(|one| &one.board)))?;
         let progress = Progress::of(verdict::steps(&variants, !self.no_faults));
         let verdicts = verdict::run_all(&variants, !self.no_faults, &|text| progress.says(text), &|| progress.step())
             .map_err(|error| Failure::failed(error.to_string()))?;
         drop(progress);
-        let path = &self.html;
-        write_page(path, &page::page(&verdicts))
-            .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
+        let write = || file.write_and_say(&page::page(&verdicts), self.json);
         if self.json {
-            return say_json(&verdicts);
+            say_json(&verdicts)?;
+            return write();
         }
         let has = |set: &str| verdicts.verdicts.iter().any(|one| one.set == set);
         if has("diesel") {
@@ -71,7 +72,6 @@ impl Generator {
         if !verdicts.trips.is_empty() {
             say(format_args!("every trip, diesel\n{}", page::trips(&verdicts)));
         }
-        say(format_args!("page: {}", path.display()));
-        Ok(())
+        write()
     }
 }

@@ -16,9 +16,10 @@ use page::page;
 use tables::tables;
 use train::TrainVibration;
 
+use super::results::{Destination, check};
 use super::{Failure, say, say_json};
 use crate::machine_file::{is_train, read, read_train};
-use driveline_report::{Table, write_page};
+use driveline_report::Table;
 
 /// Natural frequencies and shapes of a machine, the two masses that can stand for it, the parts not worth keeping.
 ///
@@ -65,21 +66,13 @@ impl Modes {
         vibration: &impl serde::Serialize,
         tables: Vec<(String, String, Table)>,
     ) -> Result<(), Failure> {
-        let usual = (!self.json).then(|| PathBuf::from(format!("report/{slug}-modes.html")));
-        let path = self.html.clone().or(usual);
-        if let Some(path) = &path {
-            write_page(path, &page())
-                .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
-        }
+        let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{slug}-modes"));
+        check(&[&self.file], &file)?;
         if self.json {
-            return say_json(vibration);
+            say_json(vibration)?;
+        } else {
+            tables.into_iter().for_each(|(title, _, table)| say(format_args!("{title}\n{table}")));
         }
-        for (title, _, table) in tables {
-            say(format_args!("{title}\n{table}"));
-        }
-        if let Some(path) = path {
-            say(format_args!("page: {}", path.display()));
-        }
-        Ok(())
+        file.map_or(Ok(()), |file| file.write_and_say(&page(), self.json))
     }
 }

@@ -1,6 +1,5 @@
 //! Standard output: texts and JSON.
 
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::failure::Failure;
@@ -17,17 +16,6 @@ pub fn say(text: impl std::fmt::Display) {
 
 /// Standard output could not be written.
 pub static UNSAID: AtomicBool = AtomicBool::new(false);
-
-/// A result that would be written over what it is made from.
-pub fn onto_itself(source: &Path, result: Option<&Path>) -> Result<(), Failure> {
-    let place = |path: &Path| path.canonicalize().ok();
-    match result {
-        Some(result) if place(source).is_some_and(|source| place(result) == Some(source)) => {
-            Err(Failure::usage(format!("{} would be written over what it is made from", result.display())))
-        }
-        _ => Ok(()),
-    }
-}
 
 /// Writes JSON to standard output.
 pub fn say_json(value: &impl serde::Serialize) -> Result<(), Failure> {

@@ -1,12 +1,20 @@
-//! Progress of long work, on standard error; silent where that is no terminal.
+//! Progress of long work, on standard error: a bar, or a line now and then where that is no terminal.
 
-use std::time::Duration;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+/// Time between two lines, and before the first: short work is silent.
+const BETWEEN: Duration = Duration::from_secs(5);
+
 /// A bar that counts steps and names the present one.
 #[derive(Debug)]
-pub struct Progress(ProgressBar);
+pub struct Progress {
+    bar: ProgressBar,
+    /// When the last line was written.
+    said: Mutex<Instant>,
+}
 
 impl Progress {
     /// A bar of so many steps.
@@ -19,38 +27,40 @@ impl Progress {
         let bar = ProgressBar::new(steps).with_style(style);
         // Elapsed time moves on through a long step.
         bar.enable_steady_tick(Duration::from_millis(200));
-        Self(bar)
+        Self { bar, said: Mutex::new(Instant::now()) }
     }
 
     /// Names the present step.
     pub fn says(&self, step: &str) {
-        self.0.set_message(step.to_owned());
+        if self.bar.is_hidden() {
+            let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
+            if said.elapsed() >= BETWEEN {
+                *said = Instant::now();
+                eprintln!("{step}");
+            }
+        }
+        self.bar.set_message(step.to_owned());
     }
 
     /// One step done.
     pub fn step(&self) {
-        self.0.inc(1);
+        self.bar.inc(1);
     }
 
     /// So many steps done at once.
     pub fn steps(&self, steps: u64) {
-        self.0.inc(steps);
+        self.bar.inc(steps);
     }
 
     /// So many steps done in all.
     pub fn at(&self, steps: u64) {
-        self.0.set_position(steps);
-    }
-
-    /// A line above the bar.
-    pub fn note(&self, line: &str) {
-        self.0.suspend(|| eprintln!("{line}"));
+        self.bar.set_position(steps);
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
     }
 }
 
@@ -63,8 +73,8 @@ mod tests {
         let bar = Progress::of(2);
         bar.says("first");
         bar.step();
-        assert_eq!(bar.0.position(), 1);
+        assert_eq!(bar.bar.position(), 1);
         bar.at(2);
-        assert_eq!(bar.0.position(), 2);
+        assert_eq!(bar.bar.position(), 2);
     }
 }

@@ -7,12 +7,12 @@ use std::time::Instant;
 use clap::Args;
 use driveline_firmware::board::BOARDS;
 
+use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::survey::{Wanted, jobs, work};
 use crate::survey::{survey_page, survey_table};
 use driveline_qemu::setup::Need;
-use driveline_report::{writable, write_page};
 
 /// Run every scene in all its variants, and every stiff or extreme case, and put it all on one page.
 ///
@@ -47,8 +47,8 @@ impl Report {
     /// No such scene; a page that cannot be written; what could not be done, after the page is written.
     pub fn execute(&self) -> Result<(), Failure> {
         let wanted = Wanted::scenes(&self.scene).map_err(Failure::usage)?;
-        let unwritable = |error| Failure::failed(format!("{} cannot be written: {error}", self.html.display()));
-        writable(&self.html).map_err(unwritable)?;
+        let file = Destination::chosen("page", &self.html);
+        check(&[], [&file])?;
         ready(&Need::to_run(BOARDS))?;
         let began = Instant::now();
         let (jobs, mut survey) = jobs(&wanted, self.quick);
@@ -63,7 +63,6 @@ impl Report {
             }
         }
         survey.seconds = began.elapsed().as_secs_f64();
-        write_page(&self.html, &survey_page(&survey)).map_err(unwritable)?;
         if self.json {
             say_json(&survey)?;
         } else {
@@ -75,8 +74,8 @@ impl Report {
                     }
                 }
             }
-            say(format_args!("page: {}", self.html.display()));
         }
+        file.write_and_say(&survey_page(&survey), self.json)?;
         match survey.failures.as_slice() {
             [] => Ok(()),
             [first, rest @ ..] => {

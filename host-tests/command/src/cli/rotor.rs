@@ -6,11 +6,12 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
+use super::results::{Destination, check};
 use super::{Failure, say, say_json};
 use crate::machine_file::{RotorFile, read_rotor};
 use driveline_report::chart::{Curve, Lines};
 use driveline_report::format::{percent, significant};
-use driveline_report::{Fact, Figure, Sheet, Table, write_page};
+use driveline_report::{Fact, Figure, Sheet, Table};
 use driveline_solver::rotor::{Critical, Modal, Natural, Polar, RotorError, WhirlSense};
 
 /// Critical speeds of a rotor, its natural whirls over the speed, and its vibration by unbalance.
@@ -83,25 +84,17 @@ impl Rotor {
     /// A rotor file with a fault; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
         let rotor = read_rotor(&self.file)?;
+        let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{}-rotor", rotor.slug()));
+        check(&[&self.file], &file)?;
         let failed = |error: RotorError| Failure::failed(error.to_string());
         let (response, peaks) = response(&rotor).map_err(failed)?;
         let found = find(&rotor, peaks).map_err(failed)?;
-        let usual = (!self.json).then(|| PathBuf::from(format!("report/{}-rotor.html", rotor.slug())));
-        let path = self.html.clone().or(usual);
-        if let Some(path) = &path {
-            write_page(path, &page(&rotor, &found, &response))
-                .map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))?;
-        }
         if self.json {
-            return say_json(&found);
+            say_json(&found)?;
+        } else {
+            tables(&found).into_iter().for_each(|(title, _, table)| say(format_args!("{title}\n{table}")));
         }
-        for (title, _, table) in tables(&found) {
-            say(format_args!("{title}\n{table}"));
-        }
-        if let Some(path) = path {
-            say(format_args!("page: {}", path.display()));
-        }
-        Ok(())
+        file.map_or(Ok(()), |file| file.write_and_say(&page(&rotor, &found, &response), self.json))
     }
 }
 

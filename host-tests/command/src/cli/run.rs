@@ -5,20 +5,23 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::balancing::{self, Wanted};
+use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::balancing::{Scene, scenes};
-use crate::drivetrains::{Plan, SCENES};
+use crate::drivetrains::{Plan, SCENES, Variants};
 use driveline_qemu::setup::Need;
-use driveline_report::{variants_table, writable};
+use driveline_report::variants_table;
 
 /// Run a scene's variants in QEMU, in closed loop with the full solver, and report what they get wrong and cost.
 ///
-/// Installs what is missing (as `setup` does), builds the firmware of every variant, runs it, prints a table and writes a
-/// page with plots that opens in any browser.
+/// Installs what is missing (as `setup` does), builds the firmware of the variants, runs it, prints a table and writes a
+/// page with plots that opens in any browser. Without --all or --variants these are the design's choice in `f32` and in
+/// fixed point.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline run
+  cargo driveline run hoist --all
   cargo driveline run hoist --variants f32/m4f --quick
   cargo driveline run balanced-fan
   cargo driveline run --json > hoist.json")]
@@ -38,6 +41,12 @@ pub struct Run {
     /// Only variants whose number/core/observer/rate contains this text, as `fixed/m3` or `reduced/10000`
     #[arg(long, value_name = "FILTER")]
     variants: Option<String>,
+    /// All variants, not only the design's choice of observer and rate in the number that each core is for
+    #[arg(long, conflicts_with = "variants")]
+    all: bool,
+    /// On the page, too: stiff and extreme machines, and flash and RAM of what a drive is composed of
+    #[arg(long)]
+    sweep: bool,
     /// A short run of each variant: for trying out, not for figures to quote
     #[arg(long)]
     quick: bool,
@@ -50,35 +59,41 @@ impl Run {
     /// No such scene or variant; what kept a variant from running; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
         let scene = self.named.as_deref().unwrap_or(&self.scene);
+        let variants = match self.variants.as_deref() {
+            Some(filter) => Variants::Containing(filter),
+            None if self.all => Variants::All,
+            None => Variants::Chosen,
+        };
         if let Some(scene) = Scene::named(scene) {
-            let (filter, html) = (self.variants.as_deref(), self.html.as_deref());
-            return balancing::run(&scene, Wanted { filter, html, json: self.json });
+            if self.sweep || self.quick {
+                let option = if self.sweep { "--sweep" } else { "--quick" };
+                return Err(Failure::usage(format!("{option} is for drivetrains, not for `{}`", scene.name)));
+            }
+            return balancing::run(&scene, Wanted { variants, html: self.html.as_deref(), json: self.json });
         }
         if !SCENES.iter().any(|(name, _)| *name == scene) {
             let names = SCENES.iter().map(|(name, _)| *name).chain(scenes().map(|scene| scene.name));
             let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
             return Err(Failure::usage(format!("there is no scene `{scene}`; there are {}", names.join(", "))));
         }
-        let plan = Plan::of(scene, self.variants.as_deref(), self.quick).map_err(Failure::usage)?;
-        let path = self.html.clone().unwrap_or_else(|| PathBuf::from(format!("report/{scene}.html")));
-        let unwritable = |error| Failure::failed(format!("{} cannot be written: {error}", path.display()));
-        writable(&path).map_err(unwritable)?;
+        let plan = Plan::of(scene, variants, self.quick, self.sweep).map_err(Failure::usage)?;
+        let file = Destination::page(self.html.as_deref(), scene);
+        check(&[], [&file])?;
         ready(&Need::to_run(plan.boards()))?;
         let progress = Progress::of(plan.steps());
         let report = plan
             .run(&|text| progress.says(text), &|| progress.step())
             .map_err(|error| Failure::failed(error.to_string()))?;
         drop(progress);
-        report.write(&path).map_err(unwritable)?;
         if self.json {
-            return say_json(&report.json());
+            say_json(&report.json())?;
+            return file.write(&report.page());
         }
         say(format_args!("{}\n{}", report.scene, variants_table(&report.variants)));
         for budget in report.budgets.iter().filter(|budget| !budget.kept()) {
             let measured = format!("{} {}", budget.measured, budget.unit);
             say(format_args!("over budget: {}: {}, at most {}", budget.name, measured.trim_end(), budget.limit));
         }
-        say(format_args!("page: {}", path.display()));
-        Ok(())
+        file.write_and_say(&report.page(), false)
     }
 }

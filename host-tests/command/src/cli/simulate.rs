@@ -2,15 +2,16 @@
 
 mod result;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
+use super::results::{Destination, check};
 use super::{Failure, say, say_json};
 use crate::machine_file::{TrainFile, read_train};
 use driveline_report::chart::Line;
 use driveline_report::format::significant;
-use driveline_report::{Fact, SimulationPage, Table, write_page};
+use driveline_report::{Fact, SimulationPage, Table};
 use result::Simulation;
 
 /// Lines of the events' table.
@@ -51,40 +52,24 @@ impl Simulate {
     /// # Errors
     /// A file with a fault; a run that is not proven; a result that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
-        for result in [&self.csv, &self.html] {
-            super::onto_itself(&self.file, result.as_deref())?;
-        }
         let file = read_train(&self.file)?;
+        let name = format!("{}-simulation", file.slug());
+        let sheet = Destination::page_unless(self.json, self.html.as_deref(), &name);
+        let csv = self.csv.as_deref().map(|path| Destination::chosen("table", path));
+        check(&[&self.file], csv.iter().chain(&sheet))?;
         let simulation = Simulation::of(&file, !self.unproven)?;
         if let (Some(reason), false) = (&simulation.not_proven, self.unproven) {
             return Err(Failure::failed(format!("the run is refused: {reason}; `--unproven` shows it all the same")));
         }
-        let usual = (!self.json).then(|| PathBuf::from(format!("report/{}-simulation.html", file.slug())));
-        let path = self.html.clone().or(usual);
-        if let Some(path) = &path {
-            written(path, &page(&file, &simulation))?;
-        }
-        if let Some(path) = &self.csv {
-            written(path, &simulation.csv())?;
-        }
         if self.json {
-            return say_json(&simulation);
+            say_json(&simulation)?;
+        } else {
+            tables(&simulation).into_iter().for_each(|(title, _, table)| say(format_args!("{title}\n{table}")));
+            say(proof(&simulation));
         }
-        for (title, _, table) in tables(&simulation) {
-            say(format_args!("{title}\n{table}"));
-        }
-        say(proof(&simulation));
-        for (what, path) in [("table", &self.csv), ("page", &path)] {
-            if let Some(path) = path {
-                say(format_args!("{what}: {}", path.display()));
-            }
-        }
-        Ok(())
+        csv.map_or(Ok(()), |csv| csv.write_and_say(&simulation.csv(), self.json))?;
+        sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page(&file, &simulation), self.json))
     }
-}
-
-fn written(path: &Path, text: &str) -> Result<(), Failure> {
-    write_page(path, text).map_err(|error| Failure::failed(format!("{} cannot be written: {error}", path.display())))
 }
 
 fn proof(simulation: &Simulation) -> String {

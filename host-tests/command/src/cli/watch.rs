@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use driveline_firmware::board::BOARDS;
 
+use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, say, say_json};
 use crate::machine_file::printable;
@@ -118,9 +119,8 @@ impl Watch {
     /// # Errors
     /// A source that cannot be opened or read, a variant that is not there, a file that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
-        if let Some(source) = &self.source {
-            super::onto_itself(source, self.csv.as_deref())?;
-        }
+        let sources: Vec<&Path> = self.source.iter().map(PathBuf::as_path).collect();
+        check(&sources, &self.csv.as_deref().map(|path| Destination::chosen("table", path)))?;
         let mut source = self.open()?;
         let mut csv = self.csv.as_deref().map(Csv::open).transpose()?;
         let mut seen = Seen::default();

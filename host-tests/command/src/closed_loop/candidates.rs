@@ -31,6 +31,11 @@ impl Candidate {
         if self.part(1) == "f32" { Words::Single } else { Words::Fixed }
     }
 
+    /// Whether its number is the one that the core is for: floats with a unit for them, fixed point without.
+    pub fn is_native(&self) -> bool {
+        self.board.target.ends_with("hf") == (self.words() == Words::Single)
+    }
+
     /// Number, core, observer and rate, as a filter matches them: `fixed/m3/reduced/10000`.
     pub fn key(&self) -> String {
         format!("{}/{}/{}/{}", self.part(1), self.board.core, self.part(2), self.part(3))

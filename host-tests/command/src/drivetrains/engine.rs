@@ -43,8 +43,9 @@ const QUICK: f64 = 2.0;
 ///
 /// # Errors
 /// What the build or the image says.
-pub fn empty(board: Facts) -> Result<(u64, u64), Box<dyn Error>> {
-    let image = build("empty/f32/none/10000", board, Program::ControlLoop, |_| {})?;
+pub fn empty(board: Facts, says: &dyn Fn(&str)) -> Result<(u64, u64), Box<dyn Error>> {
+    let building = |line: &str| says(&format!("no drive, {}: building: {}", board.core, line.trim()));
+    let image = build("empty/f32/none/10000", board, Program::ControlLoop, building)?;
     let sizes = Contents::read(&image.path)?.sizes;
     Ok((sizes.flash(), sizes.ram()))
 }
@@ -62,7 +63,8 @@ pub fn run(
 ) -> Result<Ran, Box<dyn Error>> {
     let name = candidate.key();
     says(&format!("{name}: building"));
-    let image = build(candidate.variant, candidate.board, Program::ControlLoop, |_| {})?;
+    let building = |line: &str| says(&format!("{name}: building: {}", line.trim()));
+    let image = build(candidate.variant, candidate.board, Program::ControlLoop, building)?;
     let units = Units::new(candidate.words(), machine.bases);
     let (mut traces, mut stack, mut bit_exact) = (Vec::new(), 0, true);
     for scenario in &machine.scenarios {

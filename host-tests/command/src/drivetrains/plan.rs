@@ -18,27 +18,48 @@ pub struct Plan {
     machine: Machine,
     candidates: Vec<Candidate>,
     options: Options,
-    /// Whether the sweep and the sizes belong to it: a run of all variants of the first scene.
-    whole: bool,
+    /// Whether the stiff and extreme machines and the sizes of compositions are put on its page.
+    sweep: bool,
+}
+
+/// Which variants of a scene are run.
+#[derive(Clone, Copy, Debug)]
+pub enum Variants<'a> {
+    /// The design's choice of observer and rate, in the number that each core is for.
+    Chosen,
+    /// All.
+    All,
+    /// Those whose number/core/observer/rate contains this.
+    Containing(&'a str),
 }
 
 impl Plan {
-    /// The run of a scene, of the variants whose number/core/observer/rate contains `filter`.
+    /// The run of some variants of a scene; with `sweep`, of the stiff and extreme machines too.
     ///
     /// # Errors
     /// A sentence: no such scene, or no such variant.
-    pub fn of(scene: &str, filter: Option<&str>, quick: bool) -> Result<Self, String> {
+    pub fn of(scene: &str, variants: Variants<'_>, quick: bool, sweep: bool) -> Result<Self, String> {
         let Some((_, machine)) = SCENES.iter().find(|(name, _)| *name == scene) else {
             let names: Vec<String> = SCENES.iter().map(|(name, _)| format!("`{name}`")).collect();
             return Err(format!("there is no drivetrain `{scene}`; there are {}", names.join(", ")));
         };
         let machine = machine().map_err(|error| format!("the plant of scene `{scene}`: {error}"))?;
-        let candidates = candidates(scene, filter);
-        if let (true, Some(filter)) = (candidates.is_empty(), filter) {
-            let all = keys(scene);
-            return Err(format!("no variant of `{scene}` contains `{filter}`; there are {all}"));
-        }
-        Ok(Plan { machine, candidates, options: Options { quick }, whole: filter.is_none() && scene == SCENES[0].0 })
+        let candidates = match variants {
+            Variants::All => candidates(scene, None),
+            Variants::Chosen => {
+                let chosen = |one: &Candidate| one.is_native() && (one.part(2), one.rate_hz()) == machine.chosen;
+                candidates(scene, None).into_iter().filter(chosen).collect()
+            }
+            Variants::Containing(filter) => {
+                let some = candidates(scene, Some(filter));
+                if some.is_empty() {
+                    let all = keys(scene);
+                    return Err(format!("no variant of `{scene}` contains `{filter}`; there are {all}"));
+                }
+                some
+            }
+        };
+        Ok(Plan { machine, candidates, options: Options { quick }, sweep })
     }
 
     /// The boards that it runs on.
@@ -48,7 +69,7 @@ impl Plan {
 
     /// Steps of the run, for its progress.
     pub fn steps(&self) -> u64 {
-        self.candidates.len() as u64 + if self.whole { 2 } else { 0 }
+        self.candidates.len() as u64 + if self.sweep { 2 } else { 0 }
     }
 
     /// Runs it. `says` names what is under way, `step` counts.
@@ -69,7 +90,7 @@ impl Plan {
             let base = match known {
                 Some(&(_, base)) => base,
                 None => {
-                    let base = engine::empty(candidate.board)?;
+                    let base = engine::empty(candidate.board, says)?;
                     bases.push((candidate.board, base));
                     base
                 }
@@ -79,8 +100,7 @@ impl Plan {
             step();
         }
         self.budgets(&mut report)?;
-        // The sweep and the compositions are not the scene's own; they stand with the first one.
-        if self.whole {
+        if self.sweep {
             says("flash and RAM of what a drive is composed of");
             report.compositions = compositions(|text| says(text))?;
             step();

@@ -4,8 +4,6 @@ use std::error::Error;
 
 use driveline::design::Margins;
 use driveline_firmware::Visitor;
-use driveline_firmware::Words;
-use driveline_firmware::board::Facts;
 use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_firmware::scenes::generator::{DIESEL, DIESEL_DESIGNS, RATED_SPEED, TURBINE, TURBINE_DESIGNS};
 use driveline_firmware::variants::visit;
@@ -148,8 +146,7 @@ fn kind_of(candidate: &Candidate) -> Kind {
 
 /// The variants that are run: each number on the core that it is for.
 pub fn variants(filter: Option<&str>) -> Vec<Candidate> {
-    let fits = |board: &Facts, words: Words| board.target.ends_with("hf") == (words == Words::Single);
-    candidates("generator", filter).into_iter().filter(|one| fits(&one.board, one.words())).collect()
+    candidates("generator", filter).into_iter().filter(Candidate::is_native).collect()
 }
 
 /// What a filter is compared with, for each variant: for a message.

@@ -259,13 +259,13 @@ fn balanced(scene: balancing::Scene, variant: &'static str, board: Facts) -> Job
 /// Sizes of the images without a drive, by core: every variant's are reckoned from them.
 static EMPTY: Mutex<Vec<(&str, (u64, u64))>> = Mutex::new(Vec::new());
 
-fn empty(board: Facts) -> Result<(u64, u64), String> {
+fn empty(board: Facts, says: &dyn Fn(&str)) -> Result<(u64, u64), String> {
     // Under the lock, lest two threads build the same image.
     let mut known = EMPTY.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, sizes)) = known.iter().find(|(core, _)| *core == board.core) {
         return Ok(*sizes);
     }
-    let sizes = engine::empty(board).map_err(sentence)?;
+    let sizes = engine::empty(board, says).map_err(sentence)?;
     known.push((board.core, sizes));
     Ok(sizes)
 }
@@ -273,7 +273,7 @@ fn empty(board: Facts) -> Result<(u64, u64), String> {
 fn drivetrain(scene: &'static str, build: Build, candidate: Candidate, seconds: f64, quick: bool) -> Job {
     let work = move |says: &dyn Fn(&str)| {
         let machine = build().map_err(|error| error.to_string())?;
-        let base = empty(candidate.board)?;
+        let base = empty(candidate.board, says)?;
         let says = |text: &str| says(&format!("{scene} {text}"));
         let ran = engine::run(&machine, &candidate, base, Options { quick }, &says).map_err(sentence)?;
         let chosen = (candidate.part(2), candidate.rate_hz()) == machine.chosen;

@@ -1,4 +1,4 @@
-//! `cargo driveline balance` as an engineer meets it.
+//! `cargo driveline balancing` as an engineer meets it.
 
 use std::process::{Command, Output};
 
@@ -11,7 +11,7 @@ fn balance(text: &str, arguments: &[&str]) -> Output {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("field.toml"), text).unwrap();
     Command::new(env!("CARGO_BIN_EXE_cargo-driveline"))
-        .args(["balance", "field.toml"])
+        .args(["balancing", "field.toml"])
         .args(arguments)
         .current_dir(folder.path())
         .output()
@@ -69,7 +69,7 @@ fn the_page_and_the_tables() {
     let file = folder.path().join("fan.toml");
     std::fs::write(&file, FAN).unwrap();
     let page = folder.path().join("fan.html");
-    let arguments = ["balance", file.to_str().unwrap(), "--json", "--html", page.to_str().unwrap()];
+    let arguments = ["balancing", file.to_str().unwrap(), "--json", "--html", page.to_str().unwrap()];
     assert!(Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(arguments).output().unwrap().status.success());
     let html = std::fs::read_to_string(page).unwrap();
     assert!(html.starts_with("<!doctype html>") && html.matches("<svg").count() >= 4 && !html.contains("NaN"));

@@ -31,7 +31,7 @@ fn said(verdict: &Verdict) -> String {
     if verdict.target.is_none() {
         sentences.push(
             "on the host, since QEMU would take longer than a minute or only a quick look was asked for: \
-             `cargo driveline commission --qemu` has it there"
+             `cargo driveline commissioning --qemu` has it there"
                 .to_owned(),
         );
     }
