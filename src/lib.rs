@@ -4,8 +4,8 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Errors
-//! A machine that cannot be, or cannot be controlled, is a compile error with a sentence; at run time, where the machine is read from a
-//! file, the `try_` form of each function returns the same sentence:
+//! A machine that cannot be, or cannot be controlled, is a compile error with a sentence. At run time, where the machine is read from a
+//! file, a chain carries its first error, and the `try_` form of what ends it returns the same sentence:
 //!
 //! ```
 //! # use driveline::design::{Disturbance, Encoder, Error, Rate};
@@ -14,7 +14,7 @@
 //! # let usual = Disturbance { torque_accuracy: 2.0, load_torque_step: 100.0, within: 1.0 };
 //! let two = machine.reduce(Match::ResonanceAntiresonance);
 //! assert_eq!(two.try_observer(Rate::hz(10_000), Encoder::lines(0), usual), Err(Error::EncoderLines));
-//! assert!(Chain::try_motor(Inertia(-0.62)).unwrap_err().message().contains("inertia"));
+//! assert!(Chain::motor(Inertia(-0.62)).error().unwrap().message().contains("inertia"));
 //! ```
 //!
 //! # The rooms

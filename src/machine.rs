@@ -16,8 +16,8 @@
 //!
 //! Everything is referred to the motor's shaft, keeping the power, the kinetic energy and the strain energy
 //! [Wang 1989 §1-3, Huang 1987 ch. 1, Pfützner 1980 §1.2]. Every function is a `const fn` in `f64`: evaluated by the
-//! compiler or at run time it gives the same bits. A wrong machine is a compile error where the chain is a constant, and
-//! an [`Error`] with the same sentence from the `try_` form of each method.
+//! compiler or at run time it gives the same bits. A chain carries its first [`Error`]: a constant that is made of a wrong
+//! chain is a compile error with its sentence, which the `try_` form of the same method returns.
 //!
 //! | term | meaning | unit |
 //! |---|---|---|

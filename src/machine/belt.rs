@@ -44,56 +44,36 @@ impl Belt {
 
 impl Chain {
     /// A belt to the next mass, which turns at the driven pulley's speed. The pulleys are rotors before and after it.
+    ///
+    /// Refused: [`Error::PulleyDiameter`], [`Error::BeltStiffness`], [`Error::BeltDamping`], [`Error::GearEfficiency`],
+    /// [`Error::RotaryAfterDrum`], [`Error::TooManyMasses`].
     #[must_use]
     pub const fn belt(self, belt: Belt) -> Self {
-        match self.try_belt(belt) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`belt`](Self::belt), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::PulleyDiameter`], [`Error::BeltStiffness`], [`Error::BeltDamping`], [`Error::GearEfficiency`],
-    /// [`Error::RotaryAfterDrum`], [`Error::TooManyMasses`].
-    pub const fn try_belt(self, belt: Belt) -> Result<Self, Error> {
         if !(positive(belt.driving.0) && positive(belt.driven.0)) {
-            return Err(Error::PulleyDiameter);
+            return self.refuse(Error::PulleyDiameter);
         }
         if !positive(belt.strand.0) {
-            return Err(Error::BeltStiffness);
+            return self.refuse(Error::BeltStiffness);
         }
         if !not_negative(belt.damping.0) {
-            return Err(Error::BeltDamping);
+            return self.refuse(Error::BeltDamping);
         }
-        match self.try_shaft(belt.stiffness(), super::Damping(belt.at_driving(belt.damping.0))) {
-            Ok(chain) => chain.try_gear(belt.ratio(), belt.efficiency),
-            Err(error) => Err(error),
-        }
+        self.shaft(belt.stiffness(), super::Damping(belt.at_driving(belt.damping.0)))
+            .gear(belt.ratio(), belt.efficiency)
     }
 
     /// A ball screw: turning becomes travel, by its lead \[m\] a turn. A drum of diameter `lead/pi` travels alike.
+    ///
+    /// Refused: [`Error::ScrewLead`], [`Error::RotaryAfterDrum`].
     #[must_use]
     pub const fn screw(self, lead: Length) -> Self {
-        match self.try_screw(lead) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`screw`](Self::screw), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::ScrewLead`], [`Error::RotaryAfterDrum`].
-    pub const fn try_screw(self, lead: Length) -> Result<Self, Error> {
         if !positive(lead.0) {
-            return Err(Error::ScrewLead);
+            return self.refuse(Error::ScrewLead);
         }
-        match self.try_drum(Diameter(lead.0 / PI)) {
-            Ok(chain) => Ok(chain),
-            Err(Error::DrumDiameter) => Err(Error::ScrewLead),
-            Err(error) => Err(error),
+        let diameter = lead.0 / PI;
+        if self.travel == 0.0 && !positive(diameter / (2.0 * self.ratio)) {
+            return self.refuse(Error::ScrewLead);
         }
+        self.drum(Diameter(diameter))
     }
 }

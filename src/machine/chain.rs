@@ -53,33 +53,23 @@ pub struct Chain {
     pub(super) gap: f64,
     /// Weight torque without losses, hoisting and lowering \[N m\].
     pub(super) gravity: [f64; 3],
+    /// The first element that was refused, and why.
+    pub(super) error: Option<Error>,
 }
 
 impl Chain {
     /// Begins a chain with the motor's own inertia \[kg m2\].
     ///
-    /// # Panics
-    /// At compile time in a constant, where the inertia is not positive and finite; so do all methods that have a
-    /// `try_` form, which returns the [`Error`] instead.
+    /// An element that is wrong, or that cannot follow, is left out, and the chain carries the first such [`error`](Self::error) to its
+    /// end: what is made of the chain stops with its sentence, or returns it from its `try_` form.
+    ///
+    /// Refused: [`Error::MotorInertia`].
     #[must_use]
     pub const fn motor(inertia: Inertia) -> Self {
-        match Self::try_motor(inertia) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`motor`](Self::motor), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::MotorInertia`].
-    pub const fn try_motor(inertia: Inertia) -> Result<Self, Error> {
-        if !positive(inertia.0) {
-            return Err(Error::MotorInertia);
-        }
+        let right = positive(inertia.0);
         let mut masses = [0.0; CAPACITY];
-        masses[0] = inertia.0;
-        Ok(Self {
+        masses[0] = if right { inertia.0 } else { 1.0 };
+        Self {
             inertia: masses,
             shaft: [Shaft::NONE; CAPACITY - 1],
             count: 1,
@@ -90,7 +80,22 @@ impl Chain {
             flow: Flow::Lossless,
             gap: 0.0,
             gravity: [0.0; 3],
-        })
+            error: if right { None } else { Some(Error::MotorInertia) },
+        }
+    }
+
+    /// Leaves an element out.
+    pub(super) const fn refuse(mut self, error: Error) -> Self {
+        if self.error.is_none() {
+            self.error = Some(error);
+        }
+        self
+    }
+
+    /// Why an element was refused, the first one that was.
+    #[must_use]
+    pub const fn error(&self) -> Option<Error> {
+        self.error
     }
 
     /// Refers what follows with the losses of starting: inertias and stiffnesses over the efficiency [Huang 1987 ch. 1].
@@ -108,111 +113,72 @@ impl Chain {
     }
 
     /// A shaft to the next mass: stiffness \[N m/rad\] and damping \[N m s/rad\] on its own speed.
+    ///
+    /// Refused: [`Error::ShaftStiffness`], [`Error::ShaftDamping`], [`Error::RotaryAfterDrum`],
+    /// [`Error::TooManyMasses`].
     #[must_use]
     pub const fn shaft(self, stiffness: Stiffness, damping: Damping) -> Self {
-        match self.try_shaft(stiffness, damping) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`shaft`](Self::shaft), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::ShaftStiffness`], [`Error::ShaftDamping`], [`Error::RotaryAfterDrum`], [`Error::TooManyMasses`].
-    pub const fn try_shaft(self, stiffness: Stiffness, damping: Damping) -> Result<Self, Error> {
         if self.travel != 0.0 {
-            return Err(Error::RotaryAfterDrum);
+            return self.refuse(Error::RotaryAfterDrum);
         }
         let referred = refer_stiffness(stiffness.0, self.ratio, self.loss(), Side::Load, self.flow);
         if !positive(stiffness.0) || !positive(referred) {
-            return Err(Error::ShaftStiffness);
+            return self.refuse(Error::ShaftStiffness);
         }
         if !not_negative(damping.0) {
-            return Err(Error::ShaftDamping);
+            return self.refuse(Error::ShaftDamping);
         }
         self.link(referred, refer_stiffness(damping.0, self.ratio, self.loss(), Side::Load, self.flow))
     }
 
     /// A rotor on the present mass: inertia \[kg m2\] on its own speed.
-    #[must_use]
-    pub const fn rotor(self, inertia: Inertia) -> Self {
-        match self.try_rotor(inertia) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`rotor`](Self::rotor), with an error for a value out of range.
     ///
-    /// # Errors
-    /// [`Error::RotorInertia`], [`Error::RotaryAfterDrum`].
-    pub const fn try_rotor(mut self, inertia: Inertia) -> Result<Self, Error> {
+    /// Refused: [`Error::RotorInertia`], [`Error::RotaryAfterDrum`].
+    #[must_use]
+    pub const fn rotor(mut self, inertia: Inertia) -> Self {
         if self.travel != 0.0 {
-            return Err(Error::RotaryAfterDrum);
+            return self.refuse(Error::RotaryAfterDrum);
         }
         let referred = refer_inertia(inertia.0, self.ratio, self.loss(), Side::Load, self.flow);
         if !positive(inertia.0) || !positive(referred) {
-            return Err(Error::RotorInertia);
+            return self.refuse(Error::RotorInertia);
         }
         self.inertia[self.count - 1] += referred;
-        Ok(self)
+        self
     }
 
     /// A gear: what follows turns `ratio` times slower. Its wheels are rotors before and after it.
-    #[must_use]
-    pub const fn gear(self, ratio: Ratio, efficiency: Efficiency) -> Self {
-        match self.try_gear(ratio, efficiency) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`gear`](Self::gear), with an error for a value out of range.
     ///
-    /// # Errors
-    /// [`Error::GearRatio`], [`Error::GearEfficiency`], [`Error::RotaryAfterDrum`].
-    pub const fn try_gear(mut self, ratio: Ratio, efficiency: Efficiency) -> Result<Self, Error> {
+    /// Refused: [`Error::GearRatio`], [`Error::GearEfficiency`], [`Error::RotaryAfterDrum`].
+    #[must_use]
+    pub const fn gear(mut self, ratio: Ratio, efficiency: Efficiency) -> Self {
         if self.travel != 0.0 {
-            return Err(Error::RotaryAfterDrum);
+            return self.refuse(Error::RotaryAfterDrum);
         }
         if !positive(ratio.0) || !positive(self.ratio * ratio.0) {
-            return Err(Error::GearRatio);
+            return self.refuse(Error::GearRatio);
         }
         if !(efficiency.0 > 0.0 && efficiency.0 <= 1.0) {
-            return Err(Error::GearEfficiency);
+            return self.refuse(Error::GearEfficiency);
         }
         self.ratio *= ratio.0;
         self.efficiency *= efficiency.0;
         self.back_efficiency *= efficiency.0;
-        Ok(self)
+        self
     }
 
     /// A gear that loses more while the load drives it, such as a worm: efficiency with the motor driving, then with the load driving. With equal
     /// losses either way the second is `2 - 1/first`; a worm whose first is one half or less holds its load by itself, which a chain does not show.
+    ///
+    /// Refused: as [`gear`](Self::gear).
     #[must_use]
     pub const fn worm(self, ratio: Ratio, driving: Efficiency, driven: Efficiency) -> Self {
-        match self.try_worm(ratio, driving, driven) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`worm`](Self::worm), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// As [`try_gear`](Self::try_gear).
-    pub const fn try_worm(self, ratio: Ratio, driving: Efficiency, driven: Efficiency) -> Result<Self, Error> {
         if !(driven.0 > 0.0 && driven.0 <= 1.0) {
-            return Err(Error::GearEfficiency);
+            return self.refuse(Error::GearEfficiency);
         }
-        match self.try_gear(ratio, driving) {
-            Ok(mut chain) => {
-                chain.back_efficiency = self.back_efficiency * driven.0;
-                Ok(chain)
-            }
-            Err(error) => Err(error),
-        }
+        let mut chain = self.gear(ratio, driving);
+        chain.back_efficiency = self.back_efficiency * driven.0;
+        chain
     }
 
     /// The efficiency that the chain is referred with.
@@ -224,26 +190,17 @@ impl Chain {
     }
 
     /// A backlash: the whole free travel \[rad\] on its own speed. Referred to the motor it is `ratio` times as wide.
+    ///
+    /// Refused: [`Error::BacklashGap`], [`Error::RotaryAfterDrum`].
     #[must_use]
     pub const fn backlash(self, gap: Gap) -> Self {
-        match self.try_backlash(gap) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`backlash`](Self::backlash), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::BacklashGap`], [`Error::RotaryAfterDrum`].
-    pub const fn try_backlash(self, gap: Gap) -> Result<Self, Error> {
         if self.travel != 0.0 {
-            return Err(Error::RotaryAfterDrum);
+            return self.refuse(Error::RotaryAfterDrum);
         }
         if !not_negative(gap.0) {
-            return Err(Error::BacklashGap);
+            return self.refuse(Error::BacklashGap);
         }
-        Ok(self.slacken(refer_gap(gap.0, self.ratio, Side::Load)))
+        self.slacken(refer_gap(gap.0, self.ratio, Side::Load))
     }
 
     /// Puts a gap \[rad at the motor\] in series with the shaft before it, or keeps it for the next one.
@@ -257,7 +214,7 @@ impl Chain {
     }
 
     /// Adds a referred shaft: a new mass, or a spring in series where the present mass is empty.
-    pub(super) const fn link(mut self, stiffness: f64, damping: f64) -> Result<Self, Error> {
+    pub(super) const fn link(mut self, stiffness: f64, damping: f64) -> Self {
         if self.inertia[self.count - 1] == 0.0 {
             let last = &mut self.shaft[self.count - 2];
             let joined = super::refer::series(last.stiffness, stiffness);
@@ -267,13 +224,13 @@ impl Chain {
             last.stiffness = joined;
             last.gap += self.gap;
         } else if self.count == CAPACITY {
-            return Err(Error::TooManyMasses);
+            return self.refuse(Error::TooManyMasses);
         } else {
             self.shaft[self.count - 1] = Shaft { stiffness, damping, gap: self.gap };
             self.count += 1;
         }
         self.gap = 0.0;
-        Ok(self)
+        self
     }
 
     /// Referred inertias \[kg m2\], the motor first.
@@ -354,11 +311,14 @@ impl Chain {
         self.back_efficiency
     }
 
-    /// Whether the chain is complete: it ends in a mass, and every backlash has its shaft.
+    /// Whether the chain is complete: no element was refused, it ends in a mass, and every backlash has its shaft.
     ///
     /// # Errors
-    /// [`Error::OpenEnd`], [`Error::BacklashAlone`].
+    /// That of the first refused element, [`Error::OpenEnd`], [`Error::BacklashAlone`].
     pub const fn check(&self) -> Result<(), Error> {
+        if let Some(error) = self.error {
+            return Err(error);
+        }
         if self.inertia[self.count - 1] == 0.0 {
             return Err(Error::OpenEnd);
         }

@@ -12,27 +12,18 @@ pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 impl Chain {
     /// A drum (or a pinion on a rack): turning becomes travel. Its own inertia is a rotor before it.
-    #[must_use]
-    pub const fn drum(self, diameter: Diameter) -> Self {
-        match self.try_drum(diameter) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`drum`](Self::drum), with an error for a value out of range.
     ///
-    /// # Errors
-    /// [`Error::DrumDiameter`], [`Error::RotaryAfterDrum`].
-    pub const fn try_drum(mut self, diameter: Diameter) -> Result<Self, Error> {
+    /// Refused: [`Error::DrumDiameter`], [`Error::RotaryAfterDrum`].
+    #[must_use]
+    pub const fn drum(mut self, diameter: Diameter) -> Self {
         if self.travel != 0.0 {
-            return Err(Error::RotaryAfterDrum);
+            return self.refuse(Error::RotaryAfterDrum);
         }
         if !positive(diameter.0) || !positive(diameter.0 / (2.0 * self.ratio)) {
-            return Err(Error::DrumDiameter);
+            return self.refuse(Error::DrumDiameter);
         }
         self.travel = diameter.0 / (2.0 * self.ratio);
-        Ok(self)
+        self
     }
 
     /// A rope without damping: falls, and stiffness \[N/m\] at the load.
@@ -41,155 +32,90 @@ impl Chain {
         self.damped_rope(falls, stiffness, LinearDamping(0.0))
     }
 
-    /// [`rope`](Self::rope), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// As [`try_damped_rope`](Self::try_damped_rope).
-    pub const fn try_rope(self, falls: Falls, stiffness: Stiffness) -> Result<Self, Error> {
-        self.try_damped_rope(falls, stiffness, LinearDamping(0.0))
-    }
-
     /// A rope: falls, stiffness \[N/m\] and damping \[N s/m\] at the load.
-    #[must_use]
-    pub const fn damped_rope(self, falls: Falls, stiffness: Stiffness, damping: LinearDamping) -> Self {
-        match self.try_damped_rope(falls, stiffness, damping) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`damped_rope`](Self::damped_rope), with an error for a value out of range.
     ///
-    /// # Errors
-    /// [`Error::DrumMissing`], [`Error::RopeFalls`], [`Error::RopeStiffness`], [`Error::RopeDamping`],
+    /// Refused: [`Error::DrumMissing`], [`Error::RopeFalls`], [`Error::RopeStiffness`], [`Error::RopeDamping`],
     /// [`Error::TooManyMasses`].
-    pub const fn try_damped_rope(
-        mut self,
-        falls: Falls,
-        stiffness: Stiffness,
-        damping: LinearDamping,
-    ) -> Result<Self, Error> {
+    #[must_use]
+    pub const fn damped_rope(mut self, falls: Falls, stiffness: Stiffness, damping: LinearDamping) -> Self {
         if self.travel == 0.0 {
-            return Err(Error::DrumMissing);
+            return self.refuse(Error::DrumMissing);
         }
         if falls.0 == 0 {
-            return Err(Error::RopeFalls);
+            return self.refuse(Error::RopeFalls);
         }
         self.travel /= falls.0 as f64;
         let referred = self.at_motor(stiffness.0);
         if !positive(stiffness.0) || !positive(referred) {
-            return Err(Error::RopeStiffness);
+            return self.refuse(Error::RopeStiffness);
         }
         if !not_negative(damping.0) {
-            return Err(Error::RopeDamping);
+            return self.refuse(Error::RopeDamping);
         }
         self.link(referred, self.at_motor(damping.0))
     }
 
     /// A mass \[kg\] that the drive lifts: its inertia, and its weight as a load torque.
+    ///
+    /// Refused: [`Error::LoadMass`], [`Error::DrumMissing`].
     #[must_use]
     pub const fn lifted(self, mass: Mass) -> Self {
-        match self.try_lifted(mass) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`lifted`](Self::lifted), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::LoadMass`], [`Error::DrumMissing`].
-    pub const fn try_lifted(self, mass: Mass) -> Result<Self, Error> {
-        match self.try_driven(mass) {
-            Ok(mut chain) => {
-                let weight = mass.0 * STANDARD_GRAVITY * chain.travel;
-                chain.gravity[0] += weight;
-                chain.gravity[1] += weight / chain.efficiency;
-                chain.gravity[2] += weight * chain.back_efficiency;
-                Ok(chain)
-            }
-            Err(error) => Err(error),
-        }
+        let mut chain = self.driven(mass);
+        let weight = mass.0 * STANDARD_GRAVITY * chain.travel;
+        chain.gravity[0] += weight;
+        chain.gravity[1] += weight / chain.efficiency;
+        chain.gravity[2] += weight * chain.back_efficiency;
+        chain
     }
 
     /// A mass \[kg\] that the drive moves on the level: inertia only.
-    #[must_use]
-    pub const fn driven(self, mass: Mass) -> Self {
-        match self.try_driven(mass) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`driven`](Self::driven), with an error for a value out of range.
     ///
-    /// # Errors
-    /// [`Error::LoadMass`], [`Error::DrumMissing`].
-    pub const fn try_driven(mut self, mass: Mass) -> Result<Self, Error> {
+    /// Refused: [`Error::LoadMass`], [`Error::DrumMissing`].
+    #[must_use]
+    pub const fn driven(mut self, mass: Mass) -> Self {
         if self.travel == 0.0 {
-            return Err(Error::DrumMissing);
+            return self.refuse(Error::DrumMissing);
         }
         let referred = self.at_motor(mass.0);
         if !positive(mass.0) || !positive(referred) {
-            return Err(Error::LoadMass);
+            return self.refuse(Error::LoadMass);
         }
         self.inertia[self.count - 1] += referred;
-        Ok(self)
+        self
     }
 
     /// A mass \[kg\] that swings on a rope \[m\] under what travels, such as a crane's load: a spring of `m g/l` at the travel and the mass behind it.
     ///
     /// For small angles: at an amplitude of theta \[rad\] a pendulum swings slower than this by `theta^2/16`, 0.4 % at 15 degrees.
+    ///
+    /// Refused: [`Error::DrumMissing`], [`Error::PendulumLength`], [`Error::LoadMass`], [`Error::TooManyMasses`].
     #[must_use]
     pub const fn swinging(self, mass: Mass, rope: Length) -> Self {
-        match self.try_swinging(mass, rope) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`swinging`](Self::swinging), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::DrumMissing`], [`Error::PendulumLength`], [`Error::LoadMass`], [`Error::TooManyMasses`].
-    pub const fn try_swinging(self, mass: Mass, rope: Length) -> Result<Self, Error> {
         if self.travel == 0.0 {
-            return Err(Error::DrumMissing);
+            return self.refuse(Error::DrumMissing);
         }
         if !positive(rope.0) {
-            return Err(Error::PendulumLength);
+            return self.refuse(Error::PendulumLength);
         }
         let spring = self.at_motor(mass.0 * STANDARD_GRAVITY / rope.0);
         if !positive(mass.0) || !positive(spring) {
-            return Err(Error::LoadMass);
+            return self.refuse(Error::LoadMass);
         }
-        match self.link(spring, 0.0) {
-            Ok(chain) => chain.try_driven(mass),
-            Err(error) => Err(error),
-        }
+        self.link(spring, 0.0).driven(mass)
     }
 
     /// Free travel along the load's path \[m\], such as a slack rope: `2 i n x / D` at the motor.
+    ///
+    /// Refused: [`Error::BacklashGap`], [`Error::DrumMissing`].
     #[must_use]
     pub const fn slack(self, travel: Length) -> Self {
-        match self.try_slack(travel) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`slack`](Self::slack), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::BacklashGap`], [`Error::DrumMissing`].
-    pub const fn try_slack(self, travel: Length) -> Result<Self, Error> {
         if self.travel == 0.0 {
-            return Err(Error::DrumMissing);
+            return self.refuse(Error::DrumMissing);
         }
         if !not_negative(travel.0) {
-            return Err(Error::BacklashGap);
+            return self.refuse(Error::BacklashGap);
         }
-        Ok(self.slacken(travel.0 / self.travel))
+        self.slacken(travel.0 / self.travel)
     }
 
     /// A mass \[kg\], stiffness \[N/m\] or damping \[N s/m\] along the travel, at the motor's shaft.

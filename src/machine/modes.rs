@@ -81,8 +81,14 @@ impl Chain {
     /// Natural frequencies and shapes of the free chain, and its antiresonances with the motor held.
     ///
     /// Gaps count as closed. Relative error of every frequency below 1e-14 for stiffness and inertia ratios up to 1e15.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the chain's [`error`](Self::error).
     #[must_use]
     pub const fn modes(&self) -> Modes {
+        if let Some(error) = self.error {
+            error.stop()
+        }
         let shafts = self.count - 1;
         let mut stiffness = [0.0; SHAFTS];
         let mut j = 0;

@@ -149,60 +149,37 @@ impl PlanetaryGear {
 impl Chain {
     /// A planetary set with one member on the present mass and another held; what follows turns with the third. Which way that turns is left out: nothing in a
     /// chain feels it.
+    ///
+    /// Refused: [`Error::PlanetaryMembers`], and those of [`planetary`](Self::planetary).
     #[must_use]
     pub const fn planetary_gear(self, gear: PlanetaryGear) -> Self {
-        match self.try_planetary_gear(gear) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`planetary_gear`](Self::planetary_gear), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::PlanetaryMembers`], and those of [`try_planetary`](Self::try_planetary).
-    pub const fn try_planetary_gear(self, gear: PlanetaryGear) -> Result<Self, Error> {
         if matches!(
             (gear.input, gear.held),
             (Member::Sun, Member::Sun) | (Member::Ring, Member::Ring) | (Member::Carrier, Member::Carrier)
         ) {
-            return Err(Error::PlanetaryMembers);
+            return self.refuse(Error::PlanetaryMembers);
         }
         if let Err(error) = gear.set.check() {
-            return Err(error);
+            return self.refuse(error);
         }
         if !(not_negative(gear.ring.0) && positive(gear.inertia())) {
-            return Err(Error::PlanetaryInertia);
+            return self.refuse(Error::PlanetaryInertia);
         }
-        match self.try_rotor(Inertia(gear.inertia())) {
-            Ok(chain) => chain.try_gear(Ratio(gear.ratio().abs()), gear.set.efficiency),
-            Err(error) => Err(error),
-        }
+        self.rotor(Inertia(gear.inertia())).gear(Ratio(gear.ratio().abs()), gear.set.efficiency)
     }
 
     /// A planetary set with its sun on the present mass; what follows turns with the carrier.
+    ///
+    /// Refused: [`Error::PlanetaryTeeth`], [`Error::PlanetaryInertia`], [`Error::GearEfficiency`],
+    /// [`Error::RotaryAfterDrum`].
     #[must_use]
     pub const fn planetary(self, set: Planetary) -> Self {
-        match self.try_planetary(set) {
-            Ok(chain) => chain,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`planetary`](Self::planetary), with an error for a value out of range.
-    ///
-    /// # Errors
-    /// [`Error::PlanetaryTeeth`], [`Error::PlanetaryInertia`], [`Error::GearEfficiency`], [`Error::RotaryAfterDrum`].
-    pub const fn try_planetary(self, set: Planetary) -> Result<Self, Error> {
         if let Err(error) = set.check() {
-            return Err(error);
+            return self.refuse(error);
         }
         if !positive(set.inertia_at_sun()) {
-            return Err(Error::PlanetaryInertia);
+            return self.refuse(Error::PlanetaryInertia);
         }
-        match self.try_rotor(Inertia(set.inertia_at_sun())) {
-            Ok(chain) => chain.try_gear(Ratio(set.ratio()), set.efficiency),
-            Err(error) => Err(error),
-        }
+        self.rotor(Inertia(set.inertia_at_sun())).gear(Ratio(set.ratio()), set.efficiency)
     }
 }

@@ -65,7 +65,7 @@ impl Chain {
     /// [`reduce`](Self::reduce), with an error instead of a panic.
     ///
     /// # Errors
-    /// [`Error::OpenEnd`], [`Error::BacklashAlone`], [`Error::Rigid`], [`Error::CutOutOfRange`].
+    /// As [`check`](Self::check), [`Error::Rigid`], [`Error::CutOutOfRange`].
     pub const fn try_reduce(&self, by: Match) -> Result<TwoMass, Error> {
         if let Err(error) = self.check() {
             return Err(error);

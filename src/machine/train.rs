@@ -51,65 +51,69 @@ pub struct Train {
     /// Shafts that close loops.
     closing: usize,
     gravity: f64,
+    /// The first chain or shaft that was refused, and why.
+    error: Option<Error>,
 }
 
 impl Train {
     /// A train of one chain.
     ///
-    /// # Panics
-    /// At compile time in a constant, where the chain is incomplete; so do all methods that have a `try_` form, which returns the [`Error`].
+    /// A train carries the first [`error`](Self::error) of its chains, or of what joins them, to its end, as a chain does.
+    ///
+    /// Refused: as [`Chain::check`].
     #[must_use]
     pub const fn of(chain: Chain) -> Self {
-        match Self::try_of(chain) {
-            Ok(train) => train,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`of`](Self::of), with an error instead of a panic.
-    ///
-    /// # Errors
-    /// As [`Chain::check`].
-    pub const fn try_of(chain: Chain) -> Result<Self, Error> {
-        if let Err(error) = chain.check() {
-            return Err(error);
-        }
         let mut joint = [Joint { from: 0, to: 0, shaft: Shaft::NONE }; TRAIN_SHAFTS];
         let mut j = 0;
         while j + 1 < chain.count {
             joint[j] = Joint { from: j, to: j + 1, shaft: chain.shaft[j] };
             j += 1;
         }
-        Ok(Self { inertia: chain.inertia, count: chain.count, joint, closing: 0, gravity: chain.gravity[0] })
+        Self {
+            inertia: chain.inertia,
+            count: chain.count,
+            joint,
+            closing: 0,
+            gravity: chain.gravity[0],
+            error: match chain.check() {
+                Ok(()) => None,
+                Err(error) => Some(error),
+            },
+        }
+    }
+
+    /// Leaves a branch or a shaft out.
+    const fn refuse(mut self, error: Error) -> Self {
+        if self.error.is_none() {
+            self.error = Some(error);
+        }
+        self
+    }
+
+    /// Why a chain or a shaft was refused, the first one that was.
+    #[must_use]
+    pub const fn error(&self) -> Option<Error> {
+        self.error
     }
 
     /// A chain on a mass of the train: its first inertia is added to the mass of index `at`, which turns `ratio` times as fast (the motor's speed over
     /// that of the branch's first inertia). Its masses follow those that are there, in their order. Its weight counts as well.
-    #[must_use]
-    pub const fn branch(self, at: usize, ratio: Ratio, branch: Chain) -> Self {
-        match self.try_branch(at, ratio, branch) {
-            Ok(train) => train,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`branch`](Self::branch), with an error for a value out of range.
     ///
-    /// # Errors
-    /// [`Error::BranchNode`], [`Error::GearRatio`], [`Error::TooManyMasses`], as [`Chain::check`].
-    pub const fn try_branch(mut self, at: usize, ratio: Ratio, branch: Chain) -> Result<Self, Error> {
+    /// Refused: [`Error::BranchNode`], [`Error::GearRatio`], [`Error::TooManyMasses`], as [`Chain::check`].
+    #[must_use]
+    pub const fn branch(mut self, at: usize, ratio: Ratio, branch: Chain) -> Self {
         if at >= self.count || self.closing > 0 {
-            return Err(Error::BranchNode);
+            return self.refuse(Error::BranchNode);
         }
         let square = ratio.0 * ratio.0;
         if !positive(ratio.0) || !positive(square) {
-            return Err(Error::GearRatio);
+            return self.refuse(Error::GearRatio);
         }
         if let Err(error) = branch.check() {
-            return Err(error);
+            return self.refuse(error);
         }
         if self.count + branch.count - 1 > CAPACITY {
-            return Err(Error::TooManyMasses);
+            return self.refuse(Error::TooManyMasses);
         }
         self.inertia[at] += branch.inertia[0] / square;
         self.gravity += branch.gravity[0] / ratio.0;
@@ -124,52 +128,37 @@ impl Train {
             self.count += 1;
             j += 1;
         }
-        Ok(self)
+        self
     }
 
     /// A shaft between two masses that are there already: it closes a loop. Stiffness and damping on its own speed, the motor's over which is `ratio`.
     /// The ratios of a train that can turn agree round each loop, which is taken as given: ends of the shaft turn alike when nothing twists.
-    #[must_use]
-    pub const fn close(self, from: usize, to: usize, ratio: Ratio, stiffness: Stiffness, damping: Damping) -> Self {
-        match self.try_close(from, to, ratio, stiffness, damping) {
-            Ok(train) => train,
-            Err(error) => error.stop(),
-        }
-    }
-
-    /// [`close`](Self::close), with an error for a value out of range. Branches come before it.
     ///
-    /// # Errors
-    /// [`Error::BranchNode`], [`Error::GearRatio`], [`Error::ShaftStiffness`], [`Error::ShaftDamping`], [`Error::TooManyShafts`].
-    pub const fn try_close(
-        mut self,
-        from: usize,
-        to: usize,
-        ratio: Ratio,
-        stiffness: Stiffness,
-        damping: Damping,
-    ) -> Result<Self, Error> {
+    /// Refused: [`Error::BranchNode`], [`Error::GearRatio`], [`Error::ShaftStiffness`], [`Error::ShaftDamping`],
+    /// [`Error::TooManyShafts`].
+    #[must_use]
+    pub const fn close(mut self, from: usize, to: usize, ratio: Ratio, stiffness: Stiffness, damping: Damping) -> Self {
         if from >= self.count || to >= self.count || from == to {
-            return Err(Error::BranchNode);
+            return self.refuse(Error::BranchNode);
         }
         if !positive(ratio.0) {
-            return Err(Error::GearRatio);
+            return self.refuse(Error::GearRatio);
         }
         let square = ratio.0 * ratio.0;
         if !positive(stiffness.0 / square) {
-            return Err(Error::ShaftStiffness);
+            return self.refuse(Error::ShaftStiffness);
         }
         if !not_negative(damping.0 / square) {
-            return Err(Error::ShaftDamping);
+            return self.refuse(Error::ShaftDamping);
         }
         let at = self.count - 1 + self.closing;
         if at >= TRAIN_SHAFTS {
-            return Err(Error::TooManyShafts);
+            return self.refuse(Error::TooManyShafts);
         }
         let shaft = Shaft { stiffness: stiffness.0 / square, damping: damping.0 / square, gap: 0.0 };
         self.joint[at] = Joint { from, to, shaft };
         self.closing += 1;
-        Ok(self)
+        self
     }
 
     /// Inertias \[kg m2\], the motor first, then those of its chain, then those of the branches in their order.
@@ -219,14 +208,26 @@ impl Train {
     }
 
     /// The whole train as one mass.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the train's [`error`](Self::error).
     #[must_use]
     pub const fn rigid(&self) -> Rigid {
+        if let Some(error) = self.error {
+            error.stop()
+        }
         Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity }
     }
 
     /// Natural frequencies and shapes of the free train, and its antiresonances with the motor held; gaps count as closed.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the train's [`error`](Self::error).
     #[must_use]
     pub const fn modes(&self) -> Modes {
+        if let Some(error) = self.error {
+            error.stop()
+        }
         let free = self.scaled(false);
         let held = self.scaled(true);
         let mut modes = Modes::of(&self.inertia, self.count - 1, free, held);

@@ -30,8 +30,11 @@ impl Train {
     /// [`reduce`](Self::reduce), with an error instead of a panic.
     ///
     /// # Errors
-    /// [`Error::TrainCut`], [`Error::Unseen`].
+    /// That of the train, [`Error::TrainCut`], [`Error::Unseen`].
     pub const fn try_reduce(&self, by: Match) -> Result<TwoMass, Error> {
+        if let Some(error) = self.error() {
+            return Err(error);
+        }
         let modes = self.modes();
         let total = self.total_inertia();
         let Some(seen) = self.seen(&modes, total) else { return Err(Error::Unseen) };

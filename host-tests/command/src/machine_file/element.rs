@@ -288,18 +288,18 @@ impl Element {
     /// # Errors
     /// The library's own sentence where the element cannot follow.
     pub fn follow(self, chain: Chain) -> Result<Chain, Error> {
-        match self {
-            Self::Motor { inertia } => Chain::try_motor(Inertia(inertia)),
-            Self::Rotor { inertia } => chain.try_rotor(Inertia(inertia)),
-            Self::Shaft { stiffness, damping } => chain.try_shaft(Stiffness(stiffness), Damping(damping)),
-            Self::Gear { ratio, efficiency } => chain.try_gear(Ratio(ratio), Efficiency(efficiency)),
+        let chain = match self {
+            Self::Motor { inertia } => Chain::motor(Inertia(inertia)),
+            Self::Rotor { inertia } => chain.rotor(Inertia(inertia)),
+            Self::Shaft { stiffness, damping } => chain.shaft(Stiffness(stiffness), Damping(damping)),
+            Self::Gear { ratio, efficiency } => chain.gear(Ratio(ratio), Efficiency(efficiency)),
             Self::Section { length, diameter, end, bore, modulus, damping } => {
                 let section = Section {
                     length: Length(length),
                     diameter: [Diameter(diameter), Diameter(end)],
                     bore: Diameter(bore),
                 };
-                chain.try_shaft(try_stepped(&[section], ShearModulus(modulus))?, Damping(damping))
+                chain.shaft(try_stepped(&[section], ShearModulus(modulus))?, Damping(damping))
             }
             Self::Crank { inertia, radius, rod, rod_mass, rod_centre, rod_inertia, slider } => {
                 let crank = CrankSlider {
@@ -312,10 +312,10 @@ impl Element {
                     slider: Mass(slider),
                 };
                 crank.check()?;
-                chain.try_rotor(crank.mean_inertia())
+                chain.rotor(crank.mean_inertia())
             }
             Self::Worm { ratio, efficiency, back_efficiency } => {
-                chain.try_worm(Ratio(ratio), Efficiency(efficiency), Efficiency(back_efficiency))
+                chain.worm(Ratio(ratio), Efficiency(efficiency), Efficiency(back_efficiency))
             }
             Self::Planetary {
                 sun_teeth,
@@ -343,28 +343,29 @@ impl Element {
                     efficiency: Efficiency(efficiency),
                 };
                 match (driven, held) {
-                    (Member::Sun, Member::Ring) => chain.try_planetary(set),
-                    _ => chain.try_planetary_gear(PlanetaryGear { set, ring: Inertia(ring), input: driven, held }),
+                    (Member::Sun, Member::Ring) => chain.planetary(set),
+                    _ => chain.planetary_gear(PlanetaryGear { set, ring: Inertia(ring), input: driven, held }),
                 }
             }
-            Self::Belt { driving, driven, stiffness, damping, efficiency } => chain.try_belt(Belt {
+            Self::Belt { driving, driven, stiffness, damping, efficiency } => chain.belt(Belt {
                 driving: Diameter(driving),
                 driven: Diameter(driven),
                 strand: Stiffness(stiffness),
                 damping: LinearDamping(damping),
                 efficiency: Efficiency(efficiency),
             }),
-            Self::Screw { lead } => chain.try_screw(Length(lead)),
-            Self::Swinging { mass, length } => chain.try_swinging(Mass(mass), Length(length)),
-            Self::Slack { travel } => chain.try_slack(Length(travel)),
-            Self::Drum { diameter } => chain.try_drum(Diameter(diameter)),
+            Self::Screw { lead } => chain.screw(Length(lead)),
+            Self::Swinging { mass, length } => chain.swinging(Mass(mass), Length(length)),
+            Self::Slack { travel } => chain.slack(Length(travel)),
+            Self::Drum { diameter } => chain.drum(Diameter(diameter)),
             Self::Rope { falls, stiffness, damping } => {
-                chain.try_damped_rope(Falls(falls), Stiffness(stiffness), LinearDamping(damping))
+                chain.damped_rope(Falls(falls), Stiffness(stiffness), LinearDamping(damping))
             }
-            Self::Lifted { mass } => chain.try_lifted(Mass(mass)),
-            Self::Driven { mass } => chain.try_driven(Mass(mass)),
-            Self::Backlash { gap } => chain.try_backlash(Gap(gap)),
-        }
+            Self::Lifted { mass } => chain.lifted(Mass(mass)),
+            Self::Driven { mass } => chain.driven(Mass(mass)),
+            Self::Backlash { gap } => chain.backlash(Gap(gap)),
+        };
+        chain.error().map_or(Ok(chain), Err)
     }
 
     /// The element in the words of the library's builder, as `.rotor(Inertia(0.08))`.

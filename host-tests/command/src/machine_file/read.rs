@@ -254,10 +254,11 @@ fn branches(
         };
         let before = match train {
             Some(train) => train,
-            None => Train::try_of(chain).map_err(refused)?,
+            None => Train::of(chain),
         };
         let first = before.masses().len();
-        train = Some(before.try_branch(node, Ratio(ratio), own).map_err(refused)?);
+        let branched = before.branch(node, Ratio(ratio), own);
+        train = Some(branched.error().map_or(Ok(branched), |error| Err(refused(error)))?);
         let branch = Branch { at, elements, chain: own, node, ratio, first };
         let below = stations(&branch.elements);
         masses.extend(branch.elements.iter().zip(&below).filter_map(|(part, station)| {

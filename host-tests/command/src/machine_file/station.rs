@@ -22,8 +22,8 @@ pub(crate) const NOTHING: Inertia = Inertia(f64::MIN_POSITIVE);
 /// The chain of a machine with its first element, or of a branch with its first.
 pub(super) fn begun(element: Element) -> Result<Chain, Error> {
     match element {
-        Element::Motor { inertia } | Element::Rotor { inertia } => Chain::try_motor(Inertia(inertia)),
-        element => element.follow(Chain::try_motor(NOTHING)?),
+        Element::Rotor { inertia } => Element::Motor { inertia }.follow(Chain::motor(NOTHING)),
+        element => element.follow(Chain::motor(NOTHING)),
     }
 }
 

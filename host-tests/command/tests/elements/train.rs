@@ -204,29 +204,29 @@ fn referred_through_the_branch() {
 fn wrong_trains_are_refused() {
     let train = Train::of(chain(&[0.4, 0.1], &[2.0e4]));
     let branch = chain(&[0.1, 0.2], &[1.0e4]);
-    assert_eq!(train.try_branch(2, ONE, branch), Err(Error::BranchNode));
-    assert_eq!(train.try_branch(1, Ratio(0.0), branch), Err(Error::GearRatio));
+    assert_eq!(train.branch(2, ONE, branch).error(), Some(Error::BranchNode));
+    assert_eq!(train.branch(1, Ratio(0.0), branch).error(), Some(Error::GearRatio));
     let open = Chain::motor(Inertia(1.0)).shaft(Stiffness(1.0), Damping(0.0));
-    assert_eq!(train.try_branch(1, ONE, open), Err(Error::OpenEnd));
-    assert_eq!(Train::try_of(open), Err(Error::OpenEnd));
-    let close = |to: usize, k: f64, d: f64| train.try_close(0, to, ONE, Stiffness(k), Damping(d));
-    assert_eq!(close(2, 1.0, 0.0), Err(Error::BranchNode));
-    assert_eq!(close(0, 1.0, 0.0), Err(Error::BranchNode));
-    assert_eq!(close(1, 0.0, 0.0), Err(Error::ShaftStiffness));
-    assert_eq!(close(1, 1.0, -1.0), Err(Error::ShaftDamping));
+    assert_eq!(train.branch(1, ONE, open).error(), Some(Error::OpenEnd));
+    assert_eq!(Train::of(open).error(), Some(Error::OpenEnd));
+    let close = |to: usize, k: f64, d: f64| train.close(0, to, ONE, Stiffness(k), Damping(d)).error();
+    assert_eq!(close(2, 1.0, 0.0), Some(Error::BranchNode));
+    assert_eq!(close(0, 1.0, 0.0), Some(Error::BranchNode));
+    assert_eq!(close(1, 0.0, 0.0), Some(Error::ShaftStiffness));
+    assert_eq!(close(1, 1.0, -1.0), Some(Error::ShaftDamping));
     assert_eq!(train.try_reduce(Match::TextbookCut(0)), Err(Error::TrainCut));
     assert_eq!(Train::of(Chain::motor(Inertia(1.0))).try_reduce(Match::ModalTruncation), Err(Error::Unseen));
     // Branches come before what closes loops.
     let looped = train.close(0, 1, ONE, Stiffness(1.0), Damping(0.0));
-    assert_eq!(looped.try_branch(1, ONE, branch), Err(Error::BranchNode));
+    assert_eq!(looped.branch(1, ONE, branch).error(), Some(Error::BranchNode));
     let mut full = looped;
-    while let Ok(more) = full.try_close(0, 1, ONE, Stiffness(1.0), Damping(0.0)) {
-        full = more;
+    while full.close(0, 1, ONE, Stiffness(1.0), Damping(0.0)).error().is_none() {
+        full = full.close(0, 1, ONE, Stiffness(1.0), Damping(0.0));
     }
     assert_eq!(full.joints().len(), driveline::machine::TRAIN_SHAFTS);
     let mut wide = train;
-    while let Ok(more) = wide.try_branch(1, ONE, branch) {
-        wide = more;
+    while wide.branch(1, ONE, branch).error().is_none() {
+        wide = wide.branch(1, ONE, branch);
     }
     assert_eq!(wide.masses().len(), driveline::machine::CAPACITY);
 }
