@@ -56,6 +56,7 @@ sentences! {
     Barred => "barred speeds need frequencies and orders above zero and finite, and a margin above 0 and below 1",
     BarredCount => "there are more barred ranges of speed than the governor has room for: raise K",
     TorqueCurve => "a torque curve needs points of rising speed from zero on, each with a torque of zero or above, all finite",
+    LoopUnstable => "the speed loop is unstable with its observer in it: lower the damping ratio of its shaft, or tell the observer of a livelier load",
     SpeedLoopUnstable => "the speed loop is unstable at this sample rate: lower its bandwidth or raise the rate",
 }
 

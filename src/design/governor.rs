@@ -18,7 +18,8 @@
 //! a virtual inertia of the share s the estimated acceleration is that of the told torque and, late, of what the
 //! machine's motion adds to it: the loop is `A (C P + s F)/(1 + s (1 - F) A)`.
 
-use super::margins::{Late, Loop, Margins};
+use super::late_loop::{Late, LateLoop};
+use super::margins::{Margins, OpenLoop};
 use super::tuning::Rate;
 use super::{Error, ExactStep};
 use crate::machine::TwoMass;
@@ -232,7 +233,16 @@ impl GovernorDesign {
     /// Margins of the loop round a machine, cut at the actuator.
     #[must_use]
     pub const fn margins(&self, machine: &TwoMass) -> Margins {
-        self.open(machine).margins(self.crossover())
+        let open = OpenLoop::Late(self.open(machine));
+        let nyquist = core::f64::consts::PI / self.period;
+        let mut found = Margins::NONE;
+        open.sweep(&mut found, 1e-2 * self.crossover(), nyquist, 300);
+        // Finer about the resonance, where a hardly damped shaft turns the response quickly.
+        let (from, to) = (0.8 * machine.antiresonance(), 1.25 * machine.resonance());
+        if to < nyquist {
+            open.sweep(&mut found, from, to, 300);
+        }
+        found
     }
 
     /// The integral gain is the proportional one over `a^2 T_s`, so their root is the crossover: `1/(a T_s)`.
@@ -240,16 +250,15 @@ impl GovernorDesign {
         sqrt(self.integral / (self.proportional * self.equivalent_delay))
     }
 
-    const fn open(&self, machine: &TwoMass) -> Loop {
+    const fn open(&self, machine: &TwoMass) -> LateLoop {
         let inertia = self.acceleration * machine.load_inertia / machine.total_inertia();
         let Actuator { delay, lag } = self.actuator;
-        Loop {
+        LateLoop {
             step: ExactStep::new(machine, self.period),
             machine: *machine,
             period: self.period,
             proportional: self.proportional,
             integral: self.integral,
-            damping: 0.0,
             late: Late { delay, lag, share: self.share, inertia, estimate: self.lag },
         }
     }

@@ -10,7 +10,6 @@
 //!
 //! Pole placement by the coefficients, after [Zhang and Furusho 2000, IEEE Trans. Ind. Electron. 47(3)], with the slip added.
 
-use super::margins::{Late, Loop, Margins};
 use super::tuning::Rate;
 use super::{Error, ExactStep, Matrix, eigenvalues, spectral_radius};
 use crate::machine::TwoMass;
@@ -115,17 +114,6 @@ impl TwoMass {
             shaft_frequency: w2,
             spectral_radius,
         })
-    }
-}
-
-impl SpeedLoopDesign {
-    /// Margins of the sampled loop round a machine, cut at the torque, with estimates taken as exact.
-    #[must_use]
-    pub const fn margins(&self, machine: &TwoMass) -> Margins {
-        let Self { period, proportional, integral, damping: slip, bandwidth, .. } = *self;
-        let step = ExactStep::new(machine, period);
-        Loop { step, machine: *machine, period, proportional, integral, damping: slip, late: Late::NONE }
-            .margins(bandwidth)
     }
 }
 

@@ -1,8 +1,8 @@
 //! What `design` finds for a machine: the step, the observer, the governor.
 
 use driveline::design::{
-    Disturbance, Encoder, Error, ObserverChoice, Penalty, Rate, Requirement, RigidDesign, SpeedLoopDesign,
-    SpeedLoopTuning, StepChoice, TwoMassDesign,
+    Actuator, ClosedLoop, Disturbance, Encoder, Error, ObserverChoice, Penalty, Plant, Rate, Requirement, RigidDesign,
+    SpeedLoopDesign, SpeedLoopTuning, StepChoice, TwoMassDesign,
 };
 use driveline::machine::{Match, TwoMass};
 use serde::Serialize;
@@ -110,16 +110,51 @@ pub struct SpeedLoop {
     pub damping: f64,
     /// Natural frequency of the speed \[rad/s\].
     pub bandwidth: f64,
-    /// Factor by which the gain may grow; `null` where no growth destabilises.
-    pub gain_margin_up: Option<f64>,
-    /// Factor by which the gain may shrink.
-    pub gain_margin_down: f64,
-    /// Phase margin \[rad\]; `null` where the gain crosses 1 nowhere.
-    pub phase_margin: Option<f64>,
-    /// Smallest distance of the response from -1.
-    pub modulus: f64,
+    /// Margins with the observer and all the machine's vibrations in the loop; `null` where it is unstable so.
+    pub margins: Option<Margins>,
     /// Largest size of a pole of the closed loop.
     pub spectral_radius: f64,
+}
+
+/// How far the speed loop is from instability.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Margins {
+    /// Factor by which the gain may grow; `null` where no growth destabilises.
+    pub gain_up: Option<f64>,
+    /// Factor by which the gain may shrink.
+    pub gain_down: f64,
+    /// Phase margin \[rad\]; `null` where the gain crosses 1 nowhere.
+    pub phase: Option<f64>,
+    /// Dead time more that destabilises \[s\]; `null` as well.
+    pub delay: Option<f64>,
+    /// Smallest distance of the response from -1.
+    pub modulus: f64,
+    /// Factors of the motor side's inertia that the loop of two masses bears, from and to; `null` where any.
+    pub motor_inertia: [Option<f64>; 2],
+    /// The same for the load side's inertia.
+    pub load_inertia: [Option<f64>; 2],
+    /// The same for the stiffness.
+    pub stiffness: [Option<f64>; 2],
+}
+
+impl Margins {
+    fn of(machine: &MachineFile, two: &TwoMass, closed: &ClosedLoop) -> Option<Self> {
+        let plant = Plant::of_modes(two.total_inertia(), &machine.modes());
+        let margins = closed.margins(&plant).ok()?;
+        let ranges = closed.ranges(two);
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let range = |[down, up]: [f64; 2]| [(down > 0.0).then_some(down), finite(up)];
+        Some(Self {
+            gain_up: finite(margins.gain_up),
+            gain_down: margins.gain_down,
+            phase: finite(margins.phase),
+            delay: finite(margins.delay),
+            modulus: margins.modulus,
+            motor_inertia: range(ranges.motor_inertia),
+            load_inertia: range(ranges.load_inertia),
+            stiffness: range(ranges.stiffness),
+        })
+    }
 }
 
 /// The tuning of a file in the library's words.
@@ -148,13 +183,21 @@ impl Plan {
             Some(two) => {
                 let observer = two.try_observer(rate, encoder, disturbance)?;
                 let governor = two.try_speed_loop(rate, SpeedLoopTuning::USUAL)?;
-                Ok(Self::two_mass(machine, &two, &observer, &governor))
+                let closed = ClosedLoop::of(&observer, &governor, Actuator::DIRECT)?;
+                let margins = Margins::of(machine, &two, &closed);
+                Ok(Self::two_mass(machine, &two, &observer, &governor, margins))
             }
             None => Ok(Self::rigid(machine, &machine.rigid()?.try_observer(rate, encoder, disturbance)?)),
         }
     }
 
-    fn two_mass(machine: &MachineFile, two: &TwoMass, observer: &TwoMassDesign, governor: &SpeedLoopDesign) -> Self {
+    fn two_mass(
+        machine: &MachineFile,
+        two: &TwoMass,
+        observer: &TwoMassDesign,
+        governor: &SpeedLoopDesign,
+        margins: Option<Margins>,
+    ) -> Self {
         let deviation = &observer.standard_deviation;
         let of = [
             deviation.motor_angle,
@@ -171,7 +214,6 @@ impl Plan {
             ("load torque", "N m"),
         ];
         let finite = |value: f64| value.is_finite().then_some(value);
-        let margins = governor.margins(two);
         Self {
             name: machine.name.clone(),
             need: machine.duty.map(|duty| needed(machine, two, duty)),
@@ -199,10 +241,7 @@ impl Plan {
                 integral: governor.integral,
                 damping: governor.damping,
                 bandwidth: governor.bandwidth,
-                gain_margin_up: finite(margins.gain_up),
-                gain_margin_down: margins.gain_down,
-                phase_margin: finite(margins.phase),
-                modulus: margins.modulus,
+                margins,
                 spectral_radius: governor.spectral_radius,
             }),
         }

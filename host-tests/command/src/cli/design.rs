@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::controller::Margins;
 use super::{Failure, Plan, rust, say, say_json};
 use crate::machine_file::{MachineFile, read};
 use driveline_report::Table;
@@ -140,20 +141,42 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
         .collect();
     text.push_str(&format!("poles: {} (largest size {:.6})\n", poles.join(", "), plan.spectral_radius));
     if let Some(governor) = &plan.speed_loop {
-        let factor = |factor: Option<f64>| factor.map_or_else(|| "any factor".to_owned(), significant);
-        let phase =
-            governor.phase_margin.map_or_else(|| "any".to_owned(), |phase| format!("{:.0}°", phase.to_degrees()));
         text.push_str(&format!(
-            "\nspeed loop: proportional {} N m s/rad, integral {} N m/rad, slip {} N m s/rad; {} Hz wide\n\
-             margins: gain up {}, gain down {}, phase {phase}, distance from -1 {}\n",
+            "\nspeed loop: proportional {} N m s/rad, integral {} N m/rad, slip {} N m s/rad; {} Hz wide\n{}",
             significant(governor.proportional),
             significant(governor.integral),
             significant(governor.damping),
             significant(governor.bandwidth / TAU),
-            factor(governor.gain_margin_up),
-            significant(governor.gain_margin_down),
-            significant(governor.modulus),
+            governor.margins.as_ref().map_or_else(unstable, margins),
         ));
     }
     text.trim_end().to_owned()
+}
+
+/// A loop without margins.
+fn unstable() -> String {
+    format!("margins: none: {}\n", driveline::design::Error::LoopUnstable)
+}
+
+/// The margins in two lines.
+fn margins(margins: &Margins) -> String {
+    let factor = |factor: Option<f64>| factor.map_or_else(|| "any factor".to_owned(), significant);
+    let range = |[down, up]: [Option<f64>; 2]| match (down, up) {
+        (None, None) => "any".to_owned(),
+        (Some(down), None) => format!("{} times and more", significant(down)),
+        (None, Some(up)) => format!("up to {} times", significant(up)),
+        (Some(down), Some(up)) => format!("{} to {} times", significant(down), significant(up)),
+    };
+    let phase = margins.phase.map_or_else(|| "any".to_owned(), |phase| format!("{:.0}°", phase.to_degrees()));
+    let delay = margins.delay.map_or_else(|| "any".to_owned(), |delay| format!("{} ms", significant(1e3 * delay)));
+    format!(
+        "margins: gain up {}, gain down {}, phase {phase}, delay {delay}, distance from -1 {}\n\
+         bears, each alone: motor inertia {}, load inertia {}, stiffness {}\n",
+        factor(margins.gain_up),
+        significant(margins.gain_down),
+        significant(margins.modulus),
+        range(margins.motor_inertia),
+        range(margins.load_inertia),
+        range(margins.stiffness),
+    )
 }

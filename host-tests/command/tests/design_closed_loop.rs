@@ -1,0 +1,257 @@
+//! The speed loop with its observer in it: against a state matrix built here and its eigenvalues, and against the library's own observer and governor on the
+//! full solver's plant, the torque raised until it oscillates.
+
+use std::collections::VecDeque;
+
+use driveline::design::{Actuator, ClosedLoop, Error, Plant, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
+use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
+use driveline::machine::{Chain, TwoMass};
+use driveline::observer::{self, Observer, RigidConfig, TwoMassConfig};
+use driveline::settings::{Bases, SpeedLoopSettings};
+use driveline_firmware::scenes::{
+    blooming_mill, crane_travel, gear_drive, hoist, planetary_drive, spindle, strip_mill,
+};
+use driveline_solver::plant;
+use nalgebra::{DMatrix, DVector};
+
+/// Transition and input over a period of `x' = A x + b u`, u held.
+fn held(a: &DMatrix<f64>, b: &DVector<f64>, period: f64) -> (DMatrix<f64>, DVector<f64>) {
+    let n = a.nrows();
+    let mut both = DMatrix::zeros(n + 1, n + 1);
+    both.view_mut((0, 0), (n, n)).copy_from(&(a * period));
+    both.view_mut((0, n), (n, 1)).copy_from(&(b * period));
+    let both = both.exp();
+    (both.view((0, 0), (n, n)).into(), both.view((0, n), (n, 1)).column(0).into())
+}
+
+/// Spectral radius of the whole loop, but for the angle that all of it may turn by: machine, observer, integral, lag and the torques on their way.
+fn radius(machine: &TwoMass, o: &TwoMassDesign, l: &SpeedLoopDesign, actuator: Actuator, gain: f64) -> f64 {
+    let two_masses = |m: &TwoMass| {
+        let (jm, jl, k, d) = (m.motor_inertia, m.load_inertia, m.stiffness, m.damping);
+        DMatrix::from_row_slice(
+            5,
+            5,
+            &[
+                0.0,
+                1.0,
+                0.0,
+                0.0,
+                0.0, //
+                0.0,
+                -d / jm,
+                -k / jm,
+                d / jm,
+                0.0, //
+                0.0,
+                1.0,
+                0.0,
+                -1.0,
+                0.0, //
+                0.0,
+                d / jl,
+                k / jl,
+                -d / jl,
+                -1.0 / jl, //
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+            ],
+        )
+    };
+    let input = |m: &TwoMass| DVector::from_column_slice(&[0.0, 1.0 / m.motor_inertia, 0.0, 0.0, 0.0]);
+    let t = o.period;
+    let (f, g) = held(&two_masses(machine), &input(machine), t);
+    let (fo, go) = held(&two_masses(&o.machine), &input(&o.machine), t);
+    let ticks = (actuator.delay / t).round() as usize;
+    // Four states of the machine, five of the observer, integral, lag, torques.
+    let size = 12 + ticks;
+    let unit = |i: usize| DVector::from_fn(size, |r, _| if r == i { 1.0 } else { 0.0 });
+    let (next, lag) = (unit(11), actuator.lag);
+    let keep = if lag > 0.0 { (-t / lag).exp() } else { 0.0 };
+    let left = (unit(10) - &next) * keep;
+    let mean = &next + (unit(10) - &next) * if lag > 0.0 { (1.0 - keep) * lag / t } else { 0.0 };
+    let mut rows = vec![DVector::zeros(size); size];
+    for i in 0..4 {
+        rows[i] = (0..4).fold(&mean * (gain * g[i]), |row, j| row + unit(j) * f[(i, j)]);
+    }
+    let predicted: Vec<_> =
+        (0..5).map(|i| (0..5).fold(&mean * go[i], |row, j| row + unit(4 + j) * fo[(i, j)])).collect();
+    let innovation = &rows[0] - &predicted[0];
+    for i in 0..5 {
+        rows[4 + i] = &predicted[i] + &innovation * o.gains[i];
+    }
+    let (motor, load) = (rows[5].clone(), rows[7].clone());
+    rows[9] = unit(9) - &motor * (l.integral * t);
+    rows[10] = next + left;
+    for i in 0..ticks {
+        rows[11 + i] = unit(12 + i);
+    }
+    rows[11 + ticks] = &rows[9] - &motor * l.proportional - (motor - load) * l.slip;
+    let matrix = DMatrix::from_fn(size, size, |r, c| rows[r][c]);
+    let mut sizes: Vec<f64> = matrix.complex_eigenvalues().iter().map(|z| z.norm()).collect();
+    sizes.sort_by(f64::total_cmp);
+    // One eigenvalue is 1: everything turned by an angle, the observer with it.
+    let nearest = (0..size).min_by(|&i, &j| (sizes[i] - 1.0).abs().total_cmp(&(sizes[j] - 1.0).abs())).unwrap();
+    sizes.remove(nearest);
+    sizes[size - 2]
+}
+
+/// Other machines than the observer knows, at three rates, prompt and late: at the margin's edge the largest pole of the matrix is on the unit circle.
+#[test]
+fn gain_margins_and_ranges_are_where_a_pole_leaves_the_circle() {
+    let mut edges = 0;
+    for (rate, tuning) in [(1_000, 0.1), (4_000, 0.2), (10_000, 0.4)] {
+        let known = hoist::REDUCED;
+        let observer = hoist::observer(&known, rate);
+        let speed_loop =
+            known.speed_loop(Rate::hz(rate), SpeedLoopTuning { shaft_damping: tuning, ..SpeedLoopTuning::USUAL });
+        for (ticks, lag) in [(0.0, 0.0), (1.0, 3.2e-4), (3.0, 0.0)] {
+            let actuator = Actuator { delay: ticks / f64::from(rate), lag };
+            let closed = ClosedLoop::of(&observer, &speed_loop, actuator).unwrap();
+            for [motor, load, stiffness] in [[1.0, 1.0, 1.0], [1.1, 0.3, 1.5], [0.95, 2.0, 0.6]] {
+                let machine = TwoMass {
+                    motor_inertia: known.motor_inertia * motor,
+                    load_inertia: known.load_inertia * load,
+                    stiffness: known.stiffness * stiffness,
+                    ..known
+                };
+                let at = |machine: &TwoMass, gain| radius(machine, &observer, &speed_loop, actuator, gain);
+                let Ok(margins) = closed.margins(&Plant::of(&machine)) else {
+                    assert!(at(&machine, 1.0) > 1.0);
+                    continue;
+                };
+                // A thousandth of the gain moves the critical pole by 1e-6 at the least, the matrix's eigenvalues are good to 1e-9.
+                for (edge, way) in [(margins.gain_up, 1.001), (margins.gain_down, 1.0 / 1.001)] {
+                    if edge.is_finite() && edge > 0.0 {
+                        assert!(
+                            at(&machine, edge / way) < 1.0 && at(&machine, edge * way) > 1.0,
+                            "{rate} {actuator:?} {margins:?}"
+                        );
+                        edges += 1;
+                    }
+                }
+                let ranges = closed.ranges(&machine);
+                let vary: [(fn(&mut TwoMass) -> &mut f64, [f64; 2]); 3] = [
+                    (|m| &mut m.motor_inertia, ranges.motor_inertia),
+                    (|m| &mut m.load_inertia, ranges.load_inertia),
+                    (|m| &mut m.stiffness, ranges.stiffness),
+                ];
+                for (field, [down, up]) in vary {
+                    for (edge, way) in [(down, 1.0 / 1.001), (up, 1.001)] {
+                        if edge > 0.0 && edge.is_finite() {
+                            let with = |factor: f64| {
+                                let mut other = machine;
+                                *field(&mut other) *= factor;
+                                at(&other, 1.0)
+                            };
+                            assert!(with(edge / way) < 1.0 && with(edge * way) > 1.0, "{rate} {actuator:?} {ranges:?}");
+                            edges += 1;
+                        }
+                    }
+                }
+                // Both other margins bound the distance from -1 [Astrom and Murray, Feedback Systems, §10.3]; the sweep's grid
+                // finds the distance within 1 %.
+                assert!(margins.modulus <= 1.01 * (1.0 - 1.0 / margins.gain_up), "{margins:?}");
+                assert!(margins.modulus <= 1.01 * 2.0 * (0.5 * margins.phase).sin(), "{margins:?}");
+            }
+        }
+    }
+    assert!(edges > 40, "{edges}");
+}
+
+/// A loop of the scenes: chain, observer, speed loop, seconds to wait.
+struct Scene(&'static str, Chain, TwoMassDesign, SpeedLoopDesign, f64);
+
+fn scenes() -> [Scene; 8] {
+    let damped = blooming_mill::MACHINE.speed_loop(Rate::hz(10_000), blooming_mill::TUNING);
+    let hoist = |rate| (hoist::observer(&hoist::REDUCED, rate), hoist::speed_loop(rate));
+    let ((slow, slow_loop), (quick, quick_loop)) = (hoist(1_000), hoist(10_000));
+    [
+        Scene("hoist at 1 kHz", hoist::CHAIN, slow, slow_loop, 20.0),
+        Scene("hoist at 10 kHz", hoist::CHAIN, quick, quick_loop, 6.0),
+        Scene("strip mill", strip_mill::CHAIN, strip_mill::OBSERVER, strip_mill::LOOP, 4.0),
+        Scene("spindle", spindle::CHAIN, spindle::OBSERVER, spindle::LOOP, 0.5),
+        Scene("blooming mill, no gap", blooming_mill::CHAIN, blooming_mill::two_mass(10_000), damped, 6.0),
+        Scene("crane travel", crane_travel::CHAIN, crane_travel::OBSERVER, crane_travel::LOOP, 300.0),
+        Scene("gear drive", gear_drive::CHAIN, gear_drive::OBSERVER, gear_drive::LOOP, 10.0),
+        Scene("planetary drive", planetary_drive::CHAIN, planetary_drive::OBSERVER, planetary_drive::LOOP, 10.0),
+    ]
+}
+
+/// Whether the drive holds the full plant still after a small speed, its torque times `gain`; the torque it is told is its own command, `late` ticks late.
+fn settles<O: Observer<f64>>(scene: &Scene, known: &O::Config, gain: f64, late: usize) -> bool {
+    let Scene(_, chain, TwoMassDesign { period, .. }, speed_loop, seconds) = scene;
+    let masses = chain.masses();
+    let mut body = plant::Chain::motor(masses[0]);
+    for (shaft, &mass) in chain.shafts().iter().zip(&masses[1..]) {
+        body = body.shaft(plant::Shaft::elastic(shaft.stiffness).damping(shaft.damping), mass);
+    }
+    let start = plant::Start::Given { twists: vec![0.0; masses.len() - 1], speeds: vec![1.0; masses.len()] };
+    let mut body = body.start(start).build().unwrap();
+    let law = SpeedLoopConfig::<f64>::new(speed_loop, SpeedLoopSettings { torque_limit: 1e30, ramp: 1e30 }, Bases::SI);
+    let mut eye = O::at_rest(known, 0, 0.0);
+    let mut governor = SpeedLoop::<f64>::default();
+    let mut acting = VecDeque::from(vec![0.0; late]);
+    let ticks = (seconds / period) as usize;
+    let (mut torque, mut swings) = (0.0, [0.0_f64; 10]);
+    for tick in 0..ticks {
+        let angle = (body.motor_angle() / std::f64::consts::TAU * 2.0_f64.powi(32)).round() as i64 as u32;
+        eye.step(known, angle, torque);
+        acting.push_back(governor.command(&law, &eye.estimate(known)));
+        torque = acting.pop_front().unwrap();
+        body.advance(gain * torque, *period);
+        let swing = &mut swings[10 * tick / ticks];
+        *swing = swing.max(body.motor_speed().abs());
+        // A hundred times the start; half a turn in a tick, beyond which the angle is ambiguous, is far above that.
+        if *swing > 100.0 {
+            return false;
+        }
+    }
+    // The angle's resolution of 1.5e-9 rad keeps a stable loop moving by less than that at its crossover.
+    swings[9] < swings[4] || swings[9] < 1e-4
+}
+
+/// The printed gain margin within 5 % of that of the full plant under the library's own observer and governor, prompt and a tick late.
+#[test]
+fn gain_margins_are_those_of_the_full_plant() {
+    for scene in scenes() {
+        for late in [0, 1] {
+            let Scene(name, chain, observer, speed_loop, _) = &scene;
+            let actuator = Actuator { delay: late as f64 * observer.period, lag: 0.0 };
+            let margins =
+                ClosedLoop::of(observer, speed_loop, actuator).unwrap().margins(&Plant::of_chain(chain)).unwrap();
+            println!("{name}, {late} late: {margins:?}");
+            let known = TwoMassConfig::<f64>::new(observer, Bases::SI);
+            let settles = |gain| settles::<observer::TwoMassObserver<f64>>(&scene, &known, gain, late);
+            assert!(settles(0.95 * margins.gain_up), "{name}, {late} late: {margins:?}");
+            assert!(!settles(1.05 * margins.gain_up), "{name}, {late} late: {margins:?}");
+        }
+    }
+}
+
+/// The same with the observer of one mass, at three rates. It takes the rope's swing for the load's doing, and damps nothing.
+#[test]
+fn gain_margins_with_one_mass_are_those_of_the_full_plant() {
+    for rate in [1_000, 4_000, 10_000] {
+        let (rigid, speed_loop) = (hoist::rigid(rate), hoist::speed_loop(rate));
+        let scene = Scene("rigid", hoist::CHAIN, hoist::observer(&hoist::REDUCED, rate), speed_loop, 6.0);
+        let closed = ClosedLoop::of_rigid(&rigid, &speed_loop, Actuator::DIRECT).unwrap();
+        let margins = closed.margins(&Plant::of_chain(&hoist::CHAIN)).unwrap();
+        println!("{rate}: {margins:?}");
+        let known = RigidConfig::<f64>::new(&rigid, hoist::LOAD_SHARE, Bases::SI);
+        let settles = |gain| settles::<observer::RigidObserver<f64>>(&scene, &known, gain, 0);
+        assert!(settles(0.95 * margins.gain_up) && !settles(1.05 * margins.gain_up), "{rate}: {margins:?}");
+    }
+}
+
+#[test]
+fn a_loop_of_two_rates_or_far_too_late_is_refused() {
+    let (observer, speed_loop) = (hoist::observer(&hoist::REDUCED, 1_000), hoist::speed_loop(1_000));
+    let refused = |speed_loop, actuator| ClosedLoop::of(&observer, &speed_loop, actuator).err();
+    assert_eq!(refused(speed_loop, Actuator { delay: 0.012, lag: 0.0 }), None);
+    assert_eq!(refused(speed_loop, Actuator { delay: 0.0121, lag: 0.0 }), Some(Error::Actuator));
+    assert_eq!(refused(speed_loop, Actuator { delay: 0.0, lag: f64::NAN }), Some(Error::Actuator));
+    assert_eq!(refused(hoist::speed_loop(4_000), Actuator::DIRECT), Some(Error::Period));
+}

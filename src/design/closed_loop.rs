@@ -1,0 +1,310 @@
+//! The speed loop with everything that is in it: machine, observer, governor, actuator, all sampled.
+//!
+//! A loop whose estimates are taken as exact is told to bear ten times where it bears a quarter: the observer knows the machine that it was
+//! designed with and the torque that the drive reports, and finds what differs with a lag. Here the observer stands in the loop, and the machine may differ
+//! from the one that it knows.
+//!
+//! The loop is cut where the torque that the drive reports acts on the machine. A gain above 1 there is a torque constant that is larger than told, or
+//! as well inertias and stiffness that are all smaller.
+//!
+//! With `phi` and `omega` the mean angle and speed, `delta` and `v` twist and slip, all states of the observer follow from the torque
+//! `tau` of the ended tick and from the innovation `i` by the model's own step. Eliminating `i` from `theta_m - theta_m^ = (1 - K_1) i`
+//! leaves the governor's torque as `u = -(Q tau + P theta_m)/D_o`, with `D_o` the polynomial of the observer's poles; all of it in closed form, in `z - 1`.
+
+use super::margins::{Margins, OpenLoop};
+use super::plant::{Plant, Twist};
+use super::polynomial::Polynomial;
+use super::{Actuator, Error, ExactStep, RigidDesign, SpeedLoopDesign, TwoMassDesign};
+use crate::machine::TwoMass;
+use crate::math::{exp_m1, sqrt};
+
+/// Whole ticks of dead time that a speed loop may have.
+const LATEST: f64 = 12.0;
+
+/// A speed loop and its observer, apart from the machine: from the motor's angle and back to its torque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ClosedLoop {
+    /// Time between two ticks \[s\].
+    pub period: f64,
+    /// Frequency of the integral \[rad/s\]: below it nothing is decided.
+    slowest: f64,
+    numerator: Polynomial,
+    denominator: Polynomial,
+}
+
+/// The observer's model and gains, in the coordinates of mean motion and twist.
+struct Observer {
+    period: f64,
+    /// 1/J, 1/J_m, 1/J_l and J_l/J.
+    inverse: [f64; 3],
+    share: f64,
+    step: ExactStep,
+    twist: Twist,
+    /// Whole angle of the motor, mean angle, mean speed, twist, slip, load torque, each per radian of innovation.
+    angle: f64,
+    mean_angle: f64,
+    mean_speed: f64,
+    twist_gain: f64,
+    slip: f64,
+    load_torque: f64,
+}
+
+impl Observer {
+    const fn of_two_masses(design: &TwoMassDesign) -> Self {
+        let machine = &design.machine;
+        let [angle, motor_speed, twist, load_speed, load_torque] = design.gains;
+        let (jm, jl, total) = (machine.motor_inertia, machine.load_inertia, machine.total_inertia());
+        let share = jl / total;
+        Self {
+            period: design.period,
+            inverse: [1.0 / total, 1.0 / jm, 1.0 / jl],
+            share,
+            step: design.step,
+            twist: Twist::of(&design.step),
+            angle,
+            mean_angle: angle - share * twist,
+            mean_speed: (jm * motor_speed + jl * load_speed) / total,
+            twist_gain: twist,
+            slip: motor_speed - load_speed,
+            load_torque,
+        }
+    }
+
+    /// A twist that nothing moves.
+    const fn of_one_mass(design: &RigidDesign) -> Self {
+        let [angle, speed, load_torque] = design.gains;
+        Self {
+            period: design.period,
+            inverse: [1.0 / design.machine.inertia, 0.0, 0.0],
+            share: 0.0,
+            step: ExactStep { n11: 0.0, n12: 0.0, g1: 0.0, n21: 0.0, n22: 0.0, g2: 0.0, lag: 0.0 },
+            twist: Twist { numerator: Polynomial::new([0.0]), denominator: Polynomial::ONE },
+            angle,
+            mean_angle: angle,
+            mean_speed: speed,
+            twist_gain: 0.0,
+            slip: 0.0,
+            load_torque,
+        }
+    }
+}
+
+impl ClosedLoop {
+    /// A speed loop on the estimates of two masses, its torque within the tick.
+    ///
+    /// # Errors
+    /// [`Error::Period`] where the two are not designed for the same rate; [`Error::Actuator`] for one that is out of range or later than twelve ticks.
+    pub const fn of(observer: &TwoMassDesign, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<Self, Error> {
+        Self::close(&Observer::of_two_masses(observer), speed_loop, actuator)
+    }
+
+    /// A speed loop on the estimates of one mass, which shows no slip.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub const fn of_rigid(
+        observer: &RigidDesign,
+        speed_loop: &SpeedLoopDesign,
+        actuator: Actuator,
+    ) -> Result<Self, Error> {
+        Self::close(&Observer::of_one_mass(observer), speed_loop, actuator)
+    }
+
+    const fn close(o: &Observer, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<Self, Error> {
+        let SpeedLoopDesign { proportional, integral, damping: slip, .. } = *speed_loop;
+        let t = o.period;
+        if (t - speed_loop.period).abs() > 1e-9 * t {
+            return Err(Error::Period);
+        }
+        let Actuator { delay, lag } = actuator;
+        // A millionth of a tick for rounding.
+        let ticks = delay / t - 1e-6;
+        if !(delay >= 0.0 && ticks <= LATEST && lag >= 0.0 && lag.is_finite()) {
+            return Err(Error::Actuator);
+        }
+        let [per_total, per_motor, per_load] = o.inverse;
+        let n = &o.step;
+        let square = &o.twist.denominator;
+        // Of the mean speed, and of the slip, times delta: the governor's law.
+        let law = Polynomial::new([integral * t, proportional + integral * t]);
+        let law_of_slip = law.scaled(o.share).plus(slip, &Polynomial::new([0.0, 1.0]));
+
+        // What an innovation does: mean angle times delta^3; twist and slip beside what comes by the load torque; slip.
+        let glide = t * t * o.load_torque * per_total;
+        let mean = Polynomial::new([-glide, t * o.mean_speed - 0.5 * glide, o.mean_angle]);
+        let twisted = Polynomial::new([n.n12 * o.slip - n.n22 * o.twist_gain, o.twist_gain]);
+        let slipped =
+            Polynomial::new([n.g2 * o.load_torque * per_load + n.n21 * o.twist_gain - n.n11 * o.slip, o.slip]);
+        // The observer's poles: (1 - K_1) delta^3 det + z N, N its angle's answer to an innovation.
+        let answer = mean
+            .times(square)
+            .plus(o.share * o.load_torque * per_load, &o.twist.numerator.raised(2))
+            .plus(o.share, &twisted.raised(3));
+        let poles = square.raised(3).scaled(1.0 - o.angle).plus(1.0, &Polynomial::Z.times(&answer));
+
+        // The governor's answer to torque and to innovation.
+        let of_torque = law.times(square).scaled(t * per_total).plus(n.g2 * per_motor, &law_of_slip.raised(2));
+        let of_innovation = law
+            .times(&Polynomial::new([-t * per_total * o.load_torque, o.mean_speed]))
+            .times(square)
+            .plus(1.0, &law_of_slip.times(&slipped).raised(2));
+
+        // What remains of the products of both, their common divisor delta^2 det taken out by hand.
+        let joint =
+            Polynomial::new([t * o.load_torque * per_total * (per_load + per_motor), -o.mean_speed * per_motor]);
+        let by_twist = twisted.raised(1).scaled(t * per_total).plus(1.0, &o.twist.numerator.times(&joint));
+        let by_slip =
+            mean.scaled(n.g2 * per_motor).plus(-t * t * per_total, &Polynomial::new([1.0, 0.5]).times(&slipped));
+        let both = law
+            .times(square)
+            .scaled(t * per_total * (o.mean_angle - 0.5 * t * o.mean_speed))
+            .plus(o.share, &law.times(&by_twist))
+            .plus(1.0, &law_of_slip.times(&by_slip))
+            .plus(o.share * (n.g2 * o.twist_gain - n.g1 * o.slip) * per_motor, &law_of_slip.raised(2));
+        let known = of_torque.raised(1).scaled(1.0 - o.angle).plus(1.0, &Polynomial::Z.times(&both));
+
+        let (acts, lags) = lagged(lag, t);
+        let mut late = lags.times(&poles);
+        let mut tick = 0.0;
+        while tick < ticks {
+            late = late.times(&Polynomial::Z);
+            tick += 1.0;
+        }
+        Ok(Self {
+            period: t,
+            slowest: integral / proportional,
+            numerator: acts.times(&Polynomial::Z).times(&of_innovation),
+            denominator: late.plus(1.0, &acts.times(&known)),
+        })
+    }
+
+    /// Numerator and denominator of the loop that is closed round a machine.
+    const fn open(&self, plant: &Plant) -> (Polynomial, Polynomial) {
+        let (numerator, denominator) = plant.sampled(self.period);
+        (numerator.times(&self.numerator), denominator.times(&self.denominator))
+    }
+
+    /// Whether the loop round a machine is stable with its torque times `gain`.
+    #[must_use]
+    pub const fn is_stable(&self, plant: &Plant, gain: f64) -> bool {
+        let (numerator, denominator) = self.open(plant);
+        denominator.plus(gain, &numerator).is_stable()
+    }
+
+    /// Margins of the loop round a machine.
+    ///
+    /// # Errors
+    /// [`Error::LoopUnstable`] where there are none.
+    pub const fn margins(&self, plant: &Plant) -> Result<Margins, Error> {
+        let (numerator, denominator) = self.open(plant);
+        if !denominator.plus(1.0, &numerator).is_stable() {
+            return Err(Error::LoopUnstable);
+        }
+        let open = OpenLoop::Ratio(numerator, denominator, self.period);
+        let nyquist = core::f64::consts::PI / self.period;
+        let mut found = Margins::NONE;
+        open.sweep(&mut found, 1e-2 * self.slowest, nyquist, 1000);
+        // Finer about each resonance, where a hardly damped shaft turns the response quickly.
+        let mut k = 0;
+        while k < plant.count {
+            let frequency = sqrt(plant.vibration[k].square);
+            let (from, to) = (0.9 * frequency, 1.1 * frequency);
+            if to < nyquist {
+                open.sweep(&mut found, from, to, 1000);
+            }
+            k += 1;
+        }
+        // By the poles: a frequency response may miss a resonance that is sharp enough.
+        found.gain_up = edge(&Varied::Gain(&numerator, &denominator), true);
+        found.gain_down = edge(&Varied::Gain(&numerator, &denominator), false);
+        Ok(found)
+    }
+
+    /// By which factors motor inertia, load inertia and stiffness of two masses may differ, each alone, from the most to the least that
+    /// the loop bears; 0 and infinity where it bears a hundredth and a hundred times.
+    #[must_use]
+    pub const fn ranges(&self, machine: &TwoMass) -> Ranges {
+        let mut range = [[1.0; 2]; 3];
+        let mut k = 0;
+        while k < 3 {
+            let varied = Varied::Machine(self, machine, k);
+            range[k] = [edge(&varied, false), edge(&varied, true)];
+            k += 1;
+        }
+        Ranges { motor_inertia: range[0], load_inertia: range[1], stiffness: range[2] }
+    }
+}
+
+/// Factors that a loop bears, down and up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Ranges {
+    /// Of the motor side's inertia.
+    pub motor_inertia: [f64; 2],
+    /// Of the load side's inertia.
+    pub load_inertia: [f64; 2],
+    /// Of the stiffness.
+    pub stiffness: [f64; 2],
+}
+
+/// What a factor is applied to.
+enum Varied<'a> {
+    Gain(&'a Polynomial, &'a Polynomial),
+    Machine(&'a ClosedLoop, &'a TwoMass, usize),
+}
+
+impl Varied<'_> {
+    const fn is_stable(&self, factor: f64) -> bool {
+        match self {
+            Self::Gain(numerator, denominator) => denominator.plus(factor, numerator).is_stable(),
+            Self::Machine(closed, machine, which) => {
+                let mut machine = **machine;
+                match which {
+                    0 => machine.motor_inertia *= factor,
+                    1 => machine.load_inertia *= factor,
+                    _ => machine.stiffness *= factor,
+                }
+                closed.is_stable(&Plant::of(&machine), 1.0)
+            }
+        }
+    }
+}
+
+/// The first factor from 1 on, up or down, at which what is varied turns unstable; infinity, or 0, beyond a hundred or a hundredth.
+const fn edge(varied: &Varied, up: bool) -> f64 {
+    // Steps of 2 %: an island of instability narrower than that is passed over.
+    let step = if up { 1.02 } else { 1.0 / 1.02 };
+    let mut good = 1.0;
+    let mut bad = step;
+    while varied.is_stable(bad) {
+        good = bad;
+        bad *= step;
+        if bad > 100.0 {
+            return f64::INFINITY;
+        }
+        if bad < 0.01 {
+            return 0.0;
+        }
+    }
+    let mut halving = 0;
+    while halving < 30 {
+        let middle = 0.5 * (good + bad);
+        if varied.is_stable(middle) {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+        halving += 1;
+    }
+    good
+}
+
+/// The mean torque over a tick of an actuator of first order, its command held: numerator and denominator.
+const fn lagged(lag: f64, period: f64) -> (Polynomial, Polynomial) {
+    if lag == 0.0 {
+        return (Polynomial::ONE, Polynomial::ONE);
+    }
+    let settled = -exp_m1(-period / lag);
+    (Polynomial::new([settled, 1.0 - settled * lag / period]), Polynomial::new([settled, 1.0]))
+}

@@ -1,0 +1,101 @@
+//! The machine as its motor feels it: one inertia that turns freely, and vibrations.
+
+use super::ExactStep;
+use super::polynomial::Polynomial;
+use crate::machine::{Chain, Modes, TwoMass};
+
+const MODES: usize = crate::machine::CAPACITY - 1;
+
+/// A vibration, its shape normalised to unit modal mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Vibration {
+    /// Square of the natural frequency \[1/s2\].
+    pub square: f64,
+    /// Modal damping \[1/s\].
+    pub damping: f64,
+    /// Square of the shape at the motor \[1/(kg m2)\].
+    pub residue: f64,
+}
+
+/// A machine as its motor feels it: what a loop's stability depends on. All vibrations are linear; gaps count as closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Plant {
+    pub(super) inertia: f64,
+    pub(super) vibration: [Vibration; MODES],
+    pub(super) count: usize,
+}
+
+impl Plant {
+    /// Two masses and their one vibration.
+    #[must_use]
+    pub const fn of(machine: &TwoMass) -> Self {
+        let (inertia, reduced) = (machine.total_inertia(), machine.reduced_inertia());
+        let mut plant = Self::rigid(inertia);
+        plant.vibration[0] = Vibration {
+            square: machine.stiffness / reduced,
+            damping: machine.damping / reduced,
+            residue: machine.load_inertia / (inertia * machine.motor_inertia),
+        };
+        plant.count = 1;
+        plant
+    }
+
+    /// A chain with all its vibrations.
+    #[must_use]
+    pub const fn of_chain(chain: &Chain) -> Self {
+        Self::of_modes(chain.total_inertia(), &chain.modes())
+    }
+
+    /// A machine of this inertia \[kg m2\] with vibrations, as of a train.
+    #[must_use]
+    pub const fn of_modes(inertia: f64, modes: &Modes) -> Self {
+        let mut plant = Self::rigid(inertia);
+        let modes = modes.resonances();
+        while plant.count < modes.len() && plant.count < MODES {
+            let mode = &modes[plant.count];
+            plant.vibration[plant.count] =
+                Vibration { square: mode.frequency * mode.frequency, damping: mode.damping, residue: mode.residue };
+            plant.count += 1;
+        }
+        plant
+    }
+
+    const fn rigid(inertia: f64) -> Self {
+        Self { inertia, vibration: [Vibration { square: 0.0, damping: 0.0, residue: 0.0 }; MODES], count: 0 }
+    }
+
+    /// The motor's angle per torque that is held over the tick before it: numerator without its factor z, and denominator.
+    pub(super) const fn sampled(&self, period: f64) -> (Polynomial, Polynomial) {
+        let glide = period * period / self.inertia;
+        let mut numerator = Polynomial::new([glide, 0.5 * glide]);
+        let mut denominator = Polynomial::new([0.0, 0.0, 1.0]);
+        let mut k = 0;
+        while k < self.count && k < MODES {
+            let Vibration { square, damping, residue } = self.vibration[k];
+            let twist = Twist::of(&ExactStep::from_rates(square, damping, period));
+            let turned = denominator.times(&twist.numerator);
+            numerator = numerator.times(&twist.denominator).plus(residue, &turned);
+            denominator = denominator.times(&twist.denominator);
+            k += 1;
+        }
+        (numerator, denominator)
+    }
+}
+
+/// The twist's answer to a forcing that is held over a tick.
+pub(super) struct Twist {
+    pub numerator: Polynomial,
+    pub denominator: Polynomial,
+}
+
+impl Twist {
+    pub(super) const fn of(step: &ExactStep) -> Self {
+        let n = step;
+        Self {
+            numerator: Polynomial::new([n.n12 * n.g2 - n.n22 * n.g1, n.g1]),
+            denominator: Polynomial::new([n.n11 * n.n22 - n.n12 * n.n21, -(n.n11 + n.n22), 1.0]),
+        }
+    }
+}

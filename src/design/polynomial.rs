@@ -1,0 +1,136 @@
+//! Polynomials in delta = z - 1, and whether all their roots are stable.
+//!
+//! A loop that is sampled often has its poles close to z = 1, where the coefficients in z lose their digits. In delta they keep them
+//! [Middleton and Goodwin 1990, Digital Control and Estimation]. The bilinear map `delta = 2 w/(1 - w)` takes the stable disc to the left half
+//! plane, and Routh's array decides there: some hundred multiplications for a loop of eleven poles, no eigenvalue.
+
+use super::margins::Complex;
+
+/// Coefficients that a polynomial may have: a chain of sixteen masses, an observer of five states, a governor, an actuator.
+const CAPACITY: usize = 56;
+
+/// A polynomial in delta, the constant first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Polynomial {
+    coefficient: [f64; CAPACITY],
+    degree: usize,
+}
+
+impl Polynomial {
+    /// 1.
+    pub(super) const ONE: Self = Self::new([1.0]);
+
+    /// z.
+    pub(super) const Z: Self = Self::new([1.0, 1.0]);
+
+    pub(super) const fn new<const N: usize>(coefficients: [f64; N]) -> Self {
+        let mut coefficient = [0.0; CAPACITY];
+        let mut k = 0;
+        while k < N && k < CAPACITY {
+            coefficient[k] = coefficients[k];
+            k += 1;
+        }
+        Self { coefficient, degree: N - 1 }
+    }
+
+    /// This times another. What would not fit is left out; the callers' degrees are bounded below that.
+    pub(super) const fn times(&self, other: &Self) -> Self {
+        let mut product = Self { coefficient: [0.0; CAPACITY], degree: self.degree + other.degree };
+        let mut i = 0;
+        while i <= self.degree && i < CAPACITY {
+            let factor = self.coefficient[i];
+            let mut j = 0;
+            while factor != 0.0 && j <= other.degree && i + j < CAPACITY {
+                product.coefficient[i + j] += factor * other.coefficient[j];
+                j += 1;
+            }
+            i += 1;
+        }
+        product
+    }
+
+    /// This and `factor` times another.
+    pub(super) const fn plus(&self, factor: f64, other: &Self) -> Self {
+        let mut sum = *self;
+        if other.degree > sum.degree {
+            sum.degree = other.degree;
+        }
+        let mut k = 0;
+        while k <= other.degree && k < CAPACITY {
+            sum.coefficient[k] += factor * other.coefficient[k];
+            k += 1;
+        }
+        sum
+    }
+
+    pub(super) const fn scaled(&self, factor: f64) -> Self {
+        Self::new([factor]).times(self)
+    }
+
+    /// Times delta, so many times over.
+    pub(super) const fn raised(&self, times: usize) -> Self {
+        let mut raised = Self { coefficient: [0.0; CAPACITY], degree: self.degree + times };
+        let mut k = 0;
+        while k <= self.degree && k + times < CAPACITY {
+            raised.coefficient[k + times] = self.coefficient[k];
+            k += 1;
+        }
+        raised
+    }
+
+    /// The value at a delta.
+    pub(super) const fn at(&self, delta: Complex) -> Complex {
+        let mut value = (0.0, 0.0);
+        let mut k = if self.degree < CAPACITY { self.degree + 1 } else { CAPACITY };
+        while k > 0 {
+            k -= 1;
+            value =
+                (value.0 * delta.0 - value.1 * delta.1 + self.coefficient[k], value.0 * delta.1 + value.1 * delta.0);
+        }
+        value
+    }
+
+    /// Whether every root lies within the unit circle of z, given a positive leading coefficient.
+    pub(super) const fn is_stable(&self) -> bool {
+        let mut n = self.degree;
+        if n >= CAPACITY {
+            return false;
+        }
+        while n > 0 && self.coefficient[n] == 0.0 {
+            n -= 1;
+        }
+        // `(1 - w)^n` times the value at `2 w/(1 - w)`, by Horner's scheme; the other array holds the powers of `1 - w`.
+        let mut mapped = [0.0; CAPACITY];
+        let mut power = [0.0; CAPACITY];
+        mapped[0] = self.coefficient[n];
+        power[0] = 1.0;
+        let mut k = n;
+        while k > 0 {
+            k -= 1;
+            let coefficient = self.coefficient[k];
+            let mut j = n - k;
+            while j > 0 {
+                power[j] -= power[j - 1];
+                mapped[j] = 2.0 * mapped[j - 1] + coefficient * power[j];
+                j -= 1;
+            }
+            mapped[0] = coefficient;
+        }
+        // Routh's array in place, from the leading coefficient down.
+        let mut i = n;
+        while i > 0 {
+            if !(mapped[i] > 0.0 && mapped[i - 1] > 0.0 && mapped[i].is_finite()) {
+                return false;
+            }
+            let factor = mapped[i] / mapped[i - 1];
+            let mut j = i;
+            while j > 2 {
+                mapped[j - 2] -= factor * mapped[j - 3];
+                j -= 2;
+            }
+            i -= 1;
+        }
+        mapped[0] > 0.0
+    }
+}
