@@ -88,7 +88,7 @@ fn radius(machine: &TwoMass, o: &TwoMassDesign, l: &SpeedLoopDesign, actuator: A
     for i in 0..ticks {
         rows[11 + i] = unit(12 + i);
     }
-    rows[11 + ticks] = &rows[9] - &motor * l.proportional - (motor - load) * l.slip;
+    rows[11 + ticks] = &rows[9] - &motor * l.proportional - (motor - load) * l.damping;
     let matrix = DMatrix::from_fn(size, size, |r, c| rows[r][c]);
     let mut sizes: Vec<f64> = matrix.complex_eigenvalues().iter().map(|z| z.norm()).collect();
     sizes.sort_by(f64::total_cmp);

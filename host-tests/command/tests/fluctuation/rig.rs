@@ -5,7 +5,7 @@ use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::fluctuation::{CycleConfig, Extremes, Ranked, Summed, Waveform, WaveformConfig};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
-use driveline::number::{Fixed, Number};
+use driveline::number::Fixed;
 use driveline::observer::{self, TwoMassConfig};
 use driveline::sample::Sample;
 use driveline::settings::{Bases, Cycle, Screening};

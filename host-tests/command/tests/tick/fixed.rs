@@ -1,6 +1,7 @@
 //! Fixed point against integers of 128 bits: every operation of the tick path, to the bit, and that the carry takes the bias away.
 
 use driveline::number::{Coefficient, Fixed, GAIN_SHIFT, INNOVATION_SHIFT, Number, SPEED_SHIFT, TURN_SHIFT};
+use driveline::observer::Stiction;
 use proptest::prelude::*;
 
 /// The coefficient with these bits: exact, since `f64` holds 32 bits.

@@ -5,7 +5,7 @@ use driveline::drive::{Config, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::number::Fixed;
-use driveline::observer::{GearedObserver, Observer};
+use driveline::observer::{GearedObserver, Observer, Stiction};
 use driveline::sample::Sample;
 use driveline_firmware::scene::governed::Variant;
 use driveline_firmware::scenes::hoist::{Hoist, RATED_SPEED, with};
@@ -114,7 +114,7 @@ fn plays<N: Scaled, O: Observer<N>>(
 /// With the gear and without.
 fn both<V, O>(garbage: &[(Kind, u32, u64)])
 where
-    V: Variant<Number: Scaled, Observer = GearedObserver<O>>,
+    V: Variant<Number: Scaled + Stiction, Observer = GearedObserver<O>>,
     O: Observer<V::Number, Config: Copy>,
 {
     let Config { limits, observer, governor, .. } = V::CONFIG;
