@@ -1,0 +1,4 @@
+//! Elements of machines in closed loop.
+
+mod excited;
+mod scenes;

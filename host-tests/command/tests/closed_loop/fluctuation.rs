@@ -1,0 +1,3 @@
+//! The speed fluctuation in closed loop.
+
+mod stroke;

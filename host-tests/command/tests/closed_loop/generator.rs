@@ -1,0 +1,6 @@
+//! Generator sets: their engines, their governors under attack, their page.
+
+mod attack;
+mod engine;
+mod page;
+mod sets;

@@ -1,0 +1,10 @@
+//! Drives in closed loop with the full solver: scenes, generator sets, balancing, commissioning, sweeps, cases.
+
+mod backlash;
+mod cases;
+mod commission;
+mod elements;
+mod fluctuation;
+mod generator;
+mod rotor;
+mod sweep;

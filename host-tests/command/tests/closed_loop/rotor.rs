@@ -1,0 +1,3 @@
+//! Rotors that their firmware balances.
+
+mod scenes;

@@ -1,0 +1,5 @@
+//! Steps of observers over stiff and extreme machines.
+
+mod discretisation;
+mod errors;
+mod steps;

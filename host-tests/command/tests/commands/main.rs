@@ -1,0 +1,17 @@
+//! The subcommands as a user meets them, the files that they read and the pages that they write.
+
+mod balance;
+mod cli;
+mod cli_emit;
+mod critical;
+mod elements;
+mod machine_file;
+#[path = "../references/mod.rs"]
+mod references;
+mod rotor;
+#[path = "../../../report/tests/report/sample.rs"]
+mod sample;
+mod simulate;
+#[path = "../../../report/tests/report/sound.rs"]
+mod sound;
+mod survey;

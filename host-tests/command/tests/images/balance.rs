@@ -1,0 +1,4 @@
+//! Balancing in images.
+
+mod left_out;
+mod target;

@@ -1,0 +1,4 @@
+//! Boards and telemetry in images.
+
+mod boards;
+mod telemetry;

@@ -1,0 +1,9 @@
+//! Firmware images: built, read and run in QEMU.
+
+mod balance;
+mod hal;
+mod image;
+mod leave_out;
+mod link;
+mod link_log;
+mod panic;

@@ -1,0 +1,10 @@
+//! Balancing: phasors on the tick, influence coefficients off it, weights, the procedure, in-run, the command.
+
+mod holes;
+mod in_run;
+mod influence;
+mod noise;
+mod phasor;
+mod procedure;
+mod tolerance;
+mod wrong_use;

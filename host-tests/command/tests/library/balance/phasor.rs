@@ -1,0 +1,348 @@
+//! Phasors against the vibration that they were made from.
+
+use std::f64::consts::TAU;
+
+use driveline::angle::Synchronous;
+use driveline::balancing::{
+    Balancer, Motion, Phasor, Phasors, PhasorsConfig, Reading, ReadingFault, Sensor, Steadiness,
+};
+use driveline::number::{Fixed, Number};
+use driveline::settings::{PhasorError, PhasorSettings};
+
+use super::noise::Noise;
+
+/// A rotor behind a gear, its motor's angle as an encoder shows it, and one vibration channel.
+struct Rig {
+    /// Turns of the rotor, from where the motor's angle was zero.
+    turned: f64,
+    /// Ticks on a turn of the rotor.
+    ticks: f64,
+    /// Swing of the speed, once a turn of the rotor, over its mean.
+    ripple: f64,
+    /// Gain of speed in a tick, relative.
+    gain: f64,
+    /// Turns of the rotor to one of the motor.
+    ratio: f64,
+    /// Counts of the encoder.
+    counts: f64,
+    noise: Noise,
+}
+
+impl Rig {
+    fn new(ticks: f64) -> Self {
+        Rig { turned: 0.137, ticks, ripple: 0.0, gain: 0.0, ratio: 1.0, counts: 4_294_967_296.0, noise: Noise::new(7) }
+    }
+
+    /// The next tick: the motor's angle, the rotor's in radians.
+    fn next(&mut self) -> (u32, f64) {
+        // the middle of the tick decides its speed
+        let about = self.turned + 0.5 / self.ticks;
+        self.turned += (1.0 + self.ripple * (TAU * about).cos()) / self.ticks;
+        self.ticks /= 1.0 + self.gain;
+        let motor = ((self.turned / self.ratio * self.counts).floor() / self.counts).rem_euclid(1.0);
+        ((motor * 4_294_967_296.0) as u32, TAU * self.turned.rem_euclid(1.0))
+    }
+}
+
+const CALM: PhasorSettings = PhasorSettings::DIRECT;
+
+fn run<N: Synchronous, const EDGES: usize>(
+    config: &PhasorsConfig<N, 1>,
+    rig: &mut Rig,
+    number: impl Fn(f64) -> N,
+    mut vibration: impl FnMut(f64, &mut Noise) -> f64,
+) -> Result<Reading, ReadingFault> {
+    let mut phasors = Phasors::<N, 1, EDGES>::default();
+    for _ in 0..2_000_000 {
+        let (angle, theta) = rig.next();
+        let v = vibration(theta, &mut rig.noise);
+        phasors.measure(config, angle, &[number(v)]);
+        if phasors.is_complete() {
+            break;
+        }
+    }
+    phasors.reading(config, 0)
+}
+
+/// Amplitude relative, phase in degrees.
+fn error(phasor: Phasor, amplitude: f64, phase: f64) -> (f64, f64) {
+    let (re, im) = (f64::from(phasor.re), f64::from(phasor.im));
+    let turned = (im.atan2(re) - phase).rem_euclid(TAU);
+    let turned = if turned > TAU / 2.0 { turned - TAU } else { turned };
+    (re.hypot(im) / amplitude - 1.0, turned.to_degrees())
+}
+
+fn near(reading: &Reading, amplitude: f64, phase: f64, part: f64, degrees: f64) {
+    let (by, turned) = error(reading.phasor, amplitude, phase);
+    assert!(by.abs() < part && turned.abs() < degrees, "{by:e} {turned} deg of {reading:?}");
+}
+
+/// 0.5 % and 0.5 degree under 1 % of speed ripple and noise 20 dB below the vibration: what a reading is asked for.
+#[test]
+fn amplitude_and_phase_under_ripple_and_noise() {
+    let measured = PhasorSettings { rotor_turns: 31, motor_turns: 47, turns: 16, ..CALM };
+    let single = PhasorsConfig::<f32, 1>::new(&measured, [20.0]);
+    let fixed = PhasorsConfig::<Fixed, 1>::new(&measured, [1.0]);
+    let (mut worst, mut most) = (0.0_f64, 0.0_f64);
+    for seed in 0..40 {
+        let mut noise = Noise::new(seed);
+        let (amplitude, phase) = (1.0 + 4.0 * noise.even(), TAU * noise.even());
+        let rig = || Rig {
+            ripple: 0.01,
+            ratio: 31.0 / 47.0,
+            counts: 8192.0,
+            noise: Noise::new(100 + seed),
+            ..Rig::new(40.0 + 60.0 * f64::from(seed as u32) / 40.0)
+        };
+        // 20 dB of power: a tenth of the rms, which is the amplitude over the root of two
+        let signal = |theta: f64, noise: &mut Noise| {
+            amplitude * (theta + phase).cos() + 0.1 * amplitude / 2_f64.sqrt() * noise.normal()
+        };
+        let a = run::<f32, 9>(&single, &mut rig(), |v| v as f32, signal).unwrap();
+        let b = run::<Fixed, 9>(&fixed, &mut rig(), |v| Fixed::from_f64(v / 16.0), signal).unwrap();
+        for (reading, base) in [(a, 1.0), (b, 16.0)] {
+            let (by, turned) = error(reading.phasor, amplitude / base, phase);
+            (worst, most) = (worst.max(by.abs()), most.max(turned.abs()));
+            // What the blocks' scatter says the error is: 0.13 to 0.2 % by the number of samples; from twelve degrees of freedom within
+            // 0.4 to 1.7 of that (chi square, one in a thousand).
+            let said = f64::from(reading.variance).sqrt() / (amplitude / base);
+            assert!((0.0005..0.0034).contains(&said), "{said}");
+        }
+    }
+    println!("worst of 80 readings: {:.3} %, {most:.3} degrees", 100.0 * worst);
+    assert!(worst < 0.005 && most < 0.5);
+}
+
+/// Without noise what is left is the table's 1.5e-4, the samples' 1/(6 n^2) of the edges, and for few ticks the slope's change at an edge.
+#[test]
+fn a_clean_vibration_is_read_to_the_table() {
+    for (ticks, tolerance) in [(200.3, 2e-4), (50.7, 3e-4), (17.3, 2e-3), (9.1, 8e-3)] {
+        for phase in [0.0, 0.8, 2.5, 4.4] {
+            let signal = |theta: f64, _: &mut Noise| 3.0 * (theta + phase).cos() + 11.0 + 0.5 * (2.0 * theta).sin();
+            let config = PhasorsConfig::<f32, 1>::new(&CALM, [20.0]);
+            let reading = run::<f32, 9>(&config, &mut Rig::new(ticks), |v| v as f32, signal).unwrap();
+            near(&reading, 3.0, phase, tolerance, tolerance.to_degrees());
+            let config = PhasorsConfig::<f64, 1>::new(&CALM, [20.0]);
+            let exact = run::<f64, 9>(&config, &mut Rig::new(ticks), |v| v, signal).unwrap();
+            near(&exact, 3.0, phase, tolerance, tolerance.to_degrees());
+            assert!((reading.ticks - ticks as f32).abs() < 0.01 && reading.turns == 64 && reading.speed_spread < 2e-3);
+        }
+    }
+}
+
+/// The second order is read beside a first one of five times its size, and the other way round.
+#[test]
+fn orders_are_told_apart() {
+    let signal = |theta: f64, _: &mut Noise| 5.0 * (theta + 1.0).cos() + (2.0 * theta - 0.7).cos();
+    let second = PhasorsConfig::<f32, 1>::new(&PhasorSettings { order: 2, ..CALM }, [20.0]);
+    let reading = run::<f32, 9>(&second, &mut Rig::new(73.1), |v| v as f32, signal).unwrap();
+    // five times the table's and the edges' error of the first order
+    near(&reading, 1.0, -0.7, 3e-3, 0.2);
+    assert_eq!(reading.turns, 128);
+}
+
+/// The position behind a gear of 31 to 47 is exact: it is where it was after 47 turns of the motor, however often; a year of 50 turns a
+/// second is 1.6e9 turns, of which this does 47e5 in steps of a third and checks that none is lost by half a unit of 2^-26.
+#[test]
+fn a_ratio_loses_nothing() {
+    let measured = PhasorSettings { rotor_turns: 31, motor_turns: 47, turns: 300, ..CALM };
+    let config = PhasorsConfig::<f32, 1>::new(&measured, [1.0]);
+    let mut phasors = Phasors::<f32, 1, 2>::default();
+    let (mut angle, mut seen) = (0_u32, 0);
+    for turn in 0..4_700_000_u32 {
+        for part in [1_431_655_765, 1_431_655_765, 1_431_655_766] {
+            angle = angle.wrapping_add(part);
+            phasors.measure(&config, angle, &[0.0]);
+        }
+        if turn % 47 == 46 {
+            assert_eq!(phasors.angle(&config), 0, "after {turn} turns");
+            seen += 1;
+        } else if turn % 470_000 == 100 {
+            let exact = (u64::from(turn % 47 + 1) * 31 % 47) as f64 / 47.0;
+            let here = f64::from(phasors.angle(&config)) / 4_294_967_296.0;
+            assert!((exact - here).abs() < 1.0 / 67_108_864.0, "{exact} {here}");
+        }
+    }
+    assert_eq!(seen, 100_000);
+}
+
+fn unit(theta: f64, _: &mut Noise) -> f64 {
+    theta.cos()
+}
+
+#[test]
+fn a_reading_that_cannot_be_believed_says_why() {
+    let config = PhasorsConfig::<f32, 1>::new(&CALM, [1.5]);
+    let read = |rig: &mut Rig, signal: &mut dyn FnMut(f64, &mut Noise) -> f64| {
+        run::<f32, 9>(&config, rig, |v| v as f32, |theta, noise| signal(theta, noise))
+    };
+    // a run-up of 2 % over the reading of 64 turns of 50 ticks
+    let moved = read(&mut Rig { gain: 0.02 / 3200.0, ..Rig::new(50.0) }, &mut unit);
+    assert!(matches!(moved, Err(ReadingFault::SpeedMoved { spread }) if (0.014..0.02).contains(&spread)), "{moved:?}");
+    // near a critical: the speed gains 0.4 %, the phase goes by 20 degrees
+    let mut tick = 0.0;
+    let near_critical = read(&mut Rig { gain: 0.004 / 3200.0, ..Rig::new(50.0) }, &mut |theta, _| {
+        tick += 1.0 / 3200.0;
+        (theta + 0.35 * tick).cos()
+    });
+    assert!(
+        matches!(near_critical, Err(ReadingFault::Drifting { drift }) if (0.25..0.4).contains(&drift)),
+        "{near_critical:?}"
+    );
+    // a beat with a neighbour that turns 10.3 % slower
+    let mut other = 0.0_f64;
+    let beat = read(&mut Rig::new(50.0), &mut |theta, _| {
+        other += TAU / 50.0 * 0.897;
+        theta.cos() + 0.9 * other.cos() * 0.5
+    });
+    assert!(matches!(beat, Err(ReadingFault::Scattered { .. })), "{beat:?}");
+    let clipping = read(&mut Rig::new(50.0), &mut |theta, _| (3.0 * theta.cos()).clamp(-1.6, 1.6));
+    assert_eq!(clipping, Err(ReadingFault::Clipped));
+    let mut tick = 0;
+    let broken = read(&mut Rig::new(50.0), &mut |theta, _| {
+        tick += 1;
+        if tick == 1000 { f64::NAN } else { theta.cos() }
+    });
+    assert_eq!(broken, Err(ReadingFault::Clipped));
+    let fast = read(&mut Rig::new(6.3), &mut unit);
+    assert_eq!(fast, Err(ReadingFault::TooFast));
+}
+
+#[test]
+fn turning_backwards_is_no_reading_and_a_negative_ratio_makes_it_one() {
+    let config = PhasorsConfig::<f32, 1>::new(&CALM, [1.5]);
+    let reversed = PhasorsConfig::<f32, 1>::new(&PhasorSettings { rotor_turns: -1, ..CALM }, [1.5]);
+    let (mut wrong, mut right) = (Phasors::<f32, 1, 9>::default(), Phasors::<f32, 1, 9>::default());
+    let mut angle = 0_u32;
+    for _ in 0..5000 {
+        angle = angle.wrapping_sub(80_000_003);
+        let theta = -f64::from(angle) / 4_294_967_296.0 * TAU;
+        let v = (theta + 0.5).cos() as f32;
+        wrong.measure(&config, angle, &[v]);
+        right.measure(&reversed, angle, &[v]);
+    }
+    assert!(matches!(wrong.reading(&config, 0), Err(ReadingFault::Backwards { times }) if times > 80));
+    near(&right.reading(&reversed, 0).unwrap(), 1.0, 0.5, 3e-4, 0.02);
+    assert_eq!(right.reading(&reversed, 1), Err(ReadingFault::NoChannel));
+    // a bad reading is behind it once another is begun
+    right.begin();
+    assert_eq!(right.reading(&reversed, 0), Err(ReadingFault::Incomplete { turns: 0, of: 64 }));
+}
+
+/// Angles that no rotor has leave a measurement that works again.
+#[test]
+fn garbage_is_survived() {
+    let measured = PhasorSettings { rotor_turns: 97, motor_turns: 7, turns: 1, ..CALM };
+    let config = PhasorsConfig::<f32, 1>::new(&measured, [1e3]);
+    let mut phasors = Phasors::<f32, 1, 5>::default();
+    let mut noise = Noise::new(3);
+    for _ in 0..200_000 {
+        let v = [f32::from_bits((noise.even() * 4e9) as u32)];
+        phasors.measure(&config, (noise.even() * 4_294_967_295.0) as u32, &v);
+    }
+    phasors.align(&config, 1 << 30);
+    assert!((i64::from(phasors.angle(&config)) - (1 << 30)).abs() < 64);
+    let mut angle = 0_u32;
+    phasors.measure(&config, angle, &[0.0]);
+    phasors.align(&config, 0);
+    let mut turned = 0.0_f64;
+    for _ in 0..2000 {
+        angle = angle.wrapping_add(3_000_000);
+        turned += 3_000_000.0 / 4_294_967_296.0 * 97.0 / 7.0;
+        phasors.measure(&config, angle, &[(TAU * turned).cos() as f32]);
+    }
+    near(&phasors.reading(&config, 0).unwrap(), 1.0, 0.0, 1e-3, 0.1);
+}
+
+#[test]
+fn run_out_and_sensor_are_taken_off() {
+    let config = PhasorsConfig::<f32, 1>::new(&CALM, [20.0]);
+    let run_out = |theta: f64| 0.8 * (theta + 2.0).cos();
+    let slow = run::<f32, 9>(&config, &mut Rig::new(900.0), |v| v as f32, |theta, _| run_out(theta)).unwrap();
+    let both = |theta: f64, _: &mut Noise| run_out(theta) + 2.0 * (theta - 1.0).cos();
+    let fast = run::<f32, 9>(&config, &mut Rig::new(60.0), |v| v as f32, both).unwrap();
+    let (by, turned) = error(fast.phasor.less(slow.phasor), 2.0, -1.0);
+    assert!(by.abs() < 3e-4 && turned.abs() < 0.03, "{by} {turned}");
+
+    // x = 1e-4 m at 100 rad/s: the acceleration is 1 m/s2 against it, and a pick-up with its corner at 100 rad/s gives 1/sqrt 2 of the
+    // speed, 45 degrees early; 20 V s/m
+    let pick_up = Sensor { sensitivity: 20.0, high_pass: 100.0, ..Sensor::ideal(Motion::Velocity) };
+    let speed = 1e-4 * 100.0;
+    let early = std::f32::consts::FRAC_PI_4 + std::f32::consts::FRAC_PI_2;
+    let volts = Phasor { re: early.cos(), im: early.sin() }.scaled(20.0 * speed / 2_f32.sqrt());
+    let x = pick_up.motion(volts, 100.0, Motion::Displacement).unwrap();
+    assert!((x.re - 1e-4).abs() < 1e-10 && x.im.abs() < 1e-10, "{x:?}");
+    let a = pick_up.motion(volts, 100.0, Motion::Acceleration).unwrap();
+    assert!((a.re + 1.0).abs() < 1e-6 && a.im.abs() < 1e-6, "{a:?}");
+    // a sensor a quarter turn further round sees the same a quarter turn later
+    let aside = Sensor { angle: std::f32::consts::FRAC_PI_2, ..Sensor::ideal(Motion::Displacement) };
+    let seen = aside.motion(Phasor { re: 0.0, im: -1.0 }, 1.0, Motion::Displacement).unwrap();
+    assert!((seen.re - 1.0).abs() < 1e-6 && seen.im.abs() < 1e-6, "{seen:?}");
+}
+
+/// Each wrong setting of a sensor has a sentence of its own.
+#[test]
+fn a_sensor_that_cannot_be_is_refused() {
+    let sound = Sensor { sensitivity: 20.0, high_pass: 100.0, ..Sensor::ideal(Motion::Velocity) };
+    let volts = Phasor { re: 1.0, im: 0.0 };
+    let said = |sensor: Sensor, phasor: Phasor, frequency: f32| {
+        sensor.motion(phasor, frequency, Motion::Displacement).unwrap_err().to_string()
+    };
+    for wrong in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        let of = said(Sensor { sensitivity: wrong, ..sound }, volts, 100.0);
+        assert_eq!(of, "the sensor's sensitivity must be a number above zero");
+        assert_eq!(said(sound, volts, wrong), "the frequency of the reading must be a number above zero");
+    }
+    for wrong in [-1.0, f32::NAN, f32::INFINITY] {
+        let of = said(Sensor { high_pass: wrong, ..sound }, volts, 100.0);
+        assert_eq!(of, "the sensor's lower corner must be a number, zero for none");
+    }
+    for wrong in [0.0, -1.0, f32::NAN] {
+        let of = said(Sensor { low_pass: wrong, ..sound }, volts, 100.0);
+        assert_eq!(of, "the sensor's upper corner must be above zero, infinite for none");
+    }
+    // 90 degrees where radians are expected
+    for wrong in [90.0, f32::NAN, f32::NEG_INFINITY] {
+        let of = said(Sensor { angle: wrong, ..sound }, volts, 100.0);
+        assert_eq!(of, "the sensor's angle must be a number of radians within ten turns");
+    }
+    let nothing = Phasor { re: f32::NAN, im: 0.0 };
+    assert_eq!(said(sound, nothing, 100.0), "the sensor's phasor is not a number");
+    assert!(sound.motion(volts, 100.0, Motion::Acceleration).is_ok());
+}
+
+#[test]
+fn a_measurement_that_cannot_be_is_refused() {
+    type Config = PhasorsConfig<f32, 1>;
+    let of = |measured| Config::try_new(&measured, [1.0]).map(|_| ());
+    assert_eq!(of(PhasorSettings { motor_turns: 0, ..CALM }), Err(PhasorError::Ratio));
+    assert_eq!(of(PhasorSettings { rotor_turns: 16, ..CALM }), Err(PhasorError::Ratio));
+    assert_eq!(of(PhasorSettings { order: 0, ..CALM }), Err(PhasorError::Ratio));
+    assert_eq!(of(PhasorSettings { turns: 0, ..CALM }), Err(PhasorError::Turns));
+    assert_eq!(of(PhasorSettings { turns: 301, ..CALM }), Err(PhasorError::Turns));
+    assert_eq!(Config::try_new(&CALM, [f64::NAN]).map(|_| ()), Err(PhasorError::Limit));
+    assert_eq!(PhasorsConfig::<Fixed, 1>::try_new(&CALM, [2.5]).map(|_| ()), Err(PhasorError::Limit));
+    assert!(of(PhasorSettings { rotor_turns: -15, ..CALM }).is_ok());
+    let _ = Steadiness::USUAL;
+    let _ = <f32 as Number>::ZERO;
+}
+
+/// Two channels and two orders at once, as a drive composes them.
+#[test]
+fn channels_and_orders_side_by_side() {
+    type Both = (Phasors<f32, 2, 9>, Phasors<f32, 1, 9>);
+    let config = (
+        PhasorsConfig::<f32, 2>::new(&CALM, [20.0, 5.0]),
+        PhasorsConfig::<f32, 1>::new(&PhasorSettings { order: 2, turns: 4, ..CALM }, [20.0]),
+    );
+    let mut both = Both::default();
+    let mut rig = Rig::new(61.3);
+    for _ in 0..6000 {
+        let (angle, theta) = rig.next();
+        let v = [(2.0 * (theta + 1.0).cos()) as f32, (theta - 1.0).sin() as f32];
+        both.measure(&config, angle, &(v, [(2.0 * theta).cos() as f32]));
+    }
+    near(&both.0.reading(&config.0, 0).unwrap(), 2.0, 1.0, 5e-4, 0.03);
+    near(&both.0.reading(&config.0, 1).unwrap(), 1.0, -1.0 - TAU / 4.0, 5e-4, 0.03);
+    near(&both.1.reading(&config.1, 0).unwrap(), 1.0, 0.0, 1e-3, 0.06);
+}

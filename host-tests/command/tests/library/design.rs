@@ -1,0 +1,8 @@
+//! Designs against closed forms and high-precision arithmetic.
+
+mod approximate;
+mod kalman;
+mod matrix;
+mod observer;
+mod speed_loop;
+mod step;

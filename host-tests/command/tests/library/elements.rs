@@ -1,0 +1,9 @@
+//! The elements of machines against textbooks, published machines and closed forms.
+
+mod crank;
+mod need;
+mod prime_mover;
+mod section;
+mod starting;
+mod train;
+mod travel;

@@ -1,0 +1,12 @@
+//! The speed's fluctuation: cycles, waveforms and orders against motions in closed form, through the real drive.
+
+mod breakage;
+mod cycle_mean;
+mod extremes;
+mod flywheel;
+mod motion;
+mod numerics;
+mod press;
+mod rig;
+mod toothed_wheel;
+mod waveform;

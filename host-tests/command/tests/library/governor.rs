@@ -1,0 +1,9 @@
+//! The composed governor: its design, its parts, its modes and trips; the generator sets that it governs.
+
+mod barred;
+mod design;
+mod law;
+mod modes;
+mod sharing;
+mod switch;
+mod watch;

@@ -1,0 +1,4 @@
+//! Machines and the elementary functions of their constants.
+
+mod chain;
+mod scalar;

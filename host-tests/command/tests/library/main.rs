@@ -1,0 +1,15 @@
+//! The library on the host: machines, designs, observers, governors, balancing, adapters, the tick.
+
+mod backlash;
+mod balance;
+mod cranked;
+mod design;
+mod elements;
+mod fluctuation;
+mod governor;
+mod hal;
+mod logged;
+mod machine;
+#[path = "../references/mod.rs"]
+mod references;
+mod tick;

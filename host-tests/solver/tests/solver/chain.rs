@@ -1,0 +1,7 @@
+//! Chains.
+
+mod closed_forms;
+mod converge;
+mod lockstep;
+mod modes;
+mod random;

@@ -1,0 +1,13 @@
+//! The full solver beyond chains: branches, loops, meshes, cranks, friction, absorbers, each held to a closed form or
+//! a case.
+
+mod absorber;
+mod against_chain;
+mod crank;
+mod gear_pair;
+mod linear;
+mod mover;
+mod proof;
+mod start;
+mod transfer;
+mod unbalance;
