@@ -12,7 +12,7 @@ pub struct Sample<N> {
     pub angle: u32,
     /// Air-gap torque of the motor over the tick that has just ended; positive accelerates forwards.
     pub torque: N,
-    /// Speed setpoint of the motor
+    /// Speed setpoint of the motor.
     pub setpoint: N,
 }
 

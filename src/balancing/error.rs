@@ -89,13 +89,13 @@ pub enum Error {
 impl Error {
     /// Compile error of a type with room for more planes than readings.
     pub const MORE_PLANES_THAN_READINGS: &str =
-        "more planes than readings cannot be told apart: measure at another place or speed, or take fewer planes";
+        "more planes than readings cannot be separated: measure at another place or speed, or take fewer planes";
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Error::Size => f.write_str("there must be at least one, and no more than there is room for"),
+            Error::Size => f.write_str("planes, readings and runs must number at least one, and no more than there is room for"),
             Error::NoPlane { plane } => write!(f, "there is no plane {}", plane + 1),
             Error::TrialWeightZero { plane } => {
                 write!(f, "the trial weight in plane {} is zero: put a weight there and run again", plane + 1)
@@ -107,7 +107,7 @@ impl fmt::Display for Error {
                 write!(f, "the trial weight in plane {} changed nothing: take a heavier one", plane + 1)
             }
             Error::TrialRepeated { plane } => {
-                write!(f, "plane {} has its trial run already: take that back, or give a further one", plane + 1)
+                write!(f, "plane {} has its trial run already: undo it, or enter an extra one", plane + 1)
             }
             Error::PlaneUnknown { plane } => {
                 write!(f, "the influence of plane {} is not known: make its trial run", plane + 1)
@@ -115,7 +115,7 @@ impl fmt::Display for Error {
             Error::MorePlanesThanReadings { planes, readings } => {
                 write!(
                     f,
-                    "{planes} planes cannot be told apart by {readings} readings: measure at another place or speed"
+                    "{planes} planes cannot be separated by {readings} readings: measure at another place or speed"
                 )
             }
             Error::Setting { index } => write!(f, "setting {} is not a positive number", index + 1),

@@ -30,9 +30,9 @@ sentences! {
     EncoderLines => "the encoder must have at least one line, and no more counts than 2^31 on a turn",
     Torque => "the test's torque must be positive and finite, and within the shaft's bring the first guess of the \
         inertia to the test's speed in half an hour (N m)",
-    ShaftTorque => "the largest torque of the shaft must be above that of the load that is held, and finite (N m)",
+    ShaftTorque => "the largest torque of the shaft must be above the holding torque of the load, and finite (N m)",
     Speed => "the test's speed must make eight turns in an hour, and less than a quarter turn in a tick (rad/s)",
-    Travel => "the travel must be positive and finite, and hold what the tests of friction and encoder need (rad)",
+    Travel => "the travel must be positive and finite, and suffice for the tests of friction and encoder (rad)",
     Held => "the torque that holds the load at the start must be finite (N m)",
     Inertia => "the first guess of the inertia must be positive and finite (kg m2)",
     Band => "the band of the resonance must rise from at least 0.01 Hz to at most a tenth of the rate of the ticks \
@@ -58,8 +58,8 @@ sentences! {
     ResonanceOutside => "the resonance lies outside the band, or at its edge: a wider band is expected",
     AntiresonanceUnclear => "the antiresonance is not told apart from the resonance: the load is too light beside the \
         motor to be weighed",
-    LoadNotHeld => "no gap is told: friction does not hold the load against the test's torque",
-    Preloaded => "no gap is told: the weight of the load presses it shut",
+    LoadNotHeld => "no gap is identified: friction does not hold the load against the test's torque",
+    Preloaded => "no gap is identified: the weight of the load closes it",
     GapBelowResolution => "the gap is below what the encoder resolves",
     GapUnclear => "the ends of the gap did not repeat: a load that friction holds is expected",
 }

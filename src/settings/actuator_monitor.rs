@@ -7,9 +7,9 @@ use crate::governor::ActuatorMonitorConfig;
 use crate::math::exp_m1;
 use crate::number::{Coefficient, Fixed};
 
-const WATCH: &str = "the watch on an actuator needs a tolerance below the largest torque, both positive, finite and \
+const WATCH: &str = "the actuator monitor needs a tolerance below the largest torque, both positive, finite and \
     within twice the base of the torque in fixed point";
-const LAG: &str = "a lag of an actuator that is watched must be positive and finite, in fixed point over 1.5 ticks";
+const LAG: &str = "a lag of a monitored actuator must be positive and finite, in fixed point over 1.5 ticks";
 
 /// Settings of the actuator monitor, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]

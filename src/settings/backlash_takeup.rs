@@ -6,9 +6,9 @@ use crate::design::BacklashTakeUpDesign;
 use crate::governor::BacklashTakeUpConfig;
 use crate::number::Fixed;
 
-const GAIN: &str = "a gain of the taking up of slack is beyond the range of fixed point: let its impact be larger, \
+const GAIN: &str = "a gain of the backlash take-up is beyond the range of fixed point: let its impact be larger, \
     damp less, or raise the base of the torque";
-const TORQUE: &str = "torque, rise and most of the taking up of slack must be positive and finite, and at most twice \
+const TORQUE: &str = "torque, rise and largest torque of the backlash take-up must be positive and finite, and at most twice \
     the base of the torque in fixed point";
 
 /// Torque, step, most, braking and damping, scaled to a format.

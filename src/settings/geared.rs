@@ -9,7 +9,7 @@ use crate::observer::GearedConfig;
 const EFFICIENCY: &str = "the efficiency of the gear must be above 0 and at most 1";
 const MOTOR: &str = "the inertia in front of the gear and the period must be positive and finite";
 const PLAY: &str =
-    "the deadband in front of a held gear must not be negative, and at most 5.6 degrees (0.098 rad) in fixed point";
+    "the deadband of a sticking gear must not be negative, and at most 5.6 degrees (0.098 rad) in fixed point";
 const LIGHT: &str =
     "the inertia in front of the gear is too light for the bases at this rate: raise the rate or the base of the speed";
 const FIXED: &str = "the efficiency of the gear must be above 0.62 in fixed point";

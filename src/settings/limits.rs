@@ -6,14 +6,14 @@ use super::{Bases, Error};
 use crate::drive::Limits;
 use crate::number::{Fixed, INNOVATION_RANGE, TURN_SHIFT};
 
-const TORQUE: &str = "the largest believable torque must be positive and finite, and at most twice the base of the \
+const TORQUE: &str = "the largest plausible torque must be positive and finite, and at most twice the base of the \
     torque in fixed point";
-const SETPOINT: &str = "the largest believable setpoint must be positive and finite, and at most twice the base of the \
+const SETPOINT: &str = "the largest plausible setpoint must be positive and finite, and at most twice the base of the \
     speed in fixed point";
 const STANDSTILL: &str =
-    "the standstill limit must be at least 0 and finite, and at most 5.6 degrees (0.098 rad) in fixed point";
+    "the frozen-turn limit must be at least 0 and finite, and at most 5.6 degrees (0.098 rad) in fixed point";
 const INNOVATION: &str =
-    "the largest believable innovation must be positive and at most 5.6 degrees (0.098 rad) in fixed point";
+    "the largest plausible innovation must be positive and at most 5.6 degrees (0.098 rad) in fixed point";
 
 /// How samples are screened, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]

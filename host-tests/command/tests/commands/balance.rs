@@ -121,7 +121,7 @@ fn faults_are_placed() {
     let said = refused(&FAN.replacen("[[4.9, 114], [9.2, 347]]", "[[4.9, 114]]", 1));
     assert!(said.contains("trial[0].readings") && said.contains("1 of them are missing"), "{said}");
     let said = refused(&FAN.replacen("[\"bearing A\", \"bearing B\"]", "[\"bearing A\"]", 1));
-    assert!(said.contains("2 planes cannot be told apart by 1 readings"), "{said}");
+    assert!(said.contains("2 planes cannot be separated by 1 readings"), "{said}");
     let radians = FAN
         .replace("[7.2, 238], [13.5, 296]", "[7.2, 4.154], [13.5, 5.166]")
         .replace("[4.9, 114], [9.2, 347]", "[4.9, 1.99], [9.2, 6.056]")
@@ -168,8 +168,8 @@ fn refused_at(text: &str, needle: &str, words: &[&str]) {
 #[test]
 fn settings_that_cannot_be_are_placed() {
     refused_at(&with("limits = [0, 10]"), "0, 10]", &["`limits[0]`", "found 0"]);
-    refused_at(&with("weighting = [0, 0]"), "[0, 0]", &["`weighting`", "2 planes cannot be told apart by 0 readings"]);
-    refused_at(&with("weighting = [1, 0]"), "[1, 0]", &["`weighting`", "2 planes cannot be told apart by 1 readings"]);
+    refused_at(&with("weighting = [0, 0]"), "[0, 0]", &["`weighting`", "2 planes cannot be separated by 0 readings"]);
+    refused_at(&with("weighting = [1, 0]"), "[1, 0]", &["`weighting`", "2 planes cannot be separated by 1 readings"]);
     let light = "[0.5, 1.0, 1.5, 2.0, 2.5, 3.0]";
     refused_at(&FAN.replacen(light, "[0.01]", 1), "[0.01]", &["`holes[0].weights`", "more than its holes can take"]);
     refused_at(&FAN.replacen(light, "[]", 1), "[]\n", &["`holes[0].weights`", "one weight at least"]);

@@ -177,7 +177,7 @@ fn a_plane_is_tried_again_or_further() {
     assert!((field.influence().unwrap().get(0, 1).unwrap() - fan.influence.get(0, 1).unwrap()).norm() < 1e-13);
     assert_eq!(
         Error::TrialRepeated { plane: 0 }.to_string(),
-        "plane 1 has its trial run already: take that back, or give a further one"
+        "plane 1 has its trial run already: undo it, or enter an extra one"
     );
 }
 

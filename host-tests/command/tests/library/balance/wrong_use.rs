@@ -47,7 +47,7 @@ fn every_wrong_use_has_its_own_sentence_and_loses_nothing() {
         assert!(field.correction().unwrap().rms < 1e-12);
     }
     let planes = Field::new(Plan::usual(1, 2, 0.1)).unwrap_err().to_string();
-    assert_eq!(planes, "2 planes cannot be told apart by 1 readings: measure at another place or speed");
+    assert_eq!(planes, "2 planes cannot be separated by 1 readings: measure at another place or speed");
     let mut aim = driveline::balancing::Aim::default();
     aim.weighting[0] = 0.0;
     let mut field = Field::new(Plan { aim, ..Plan::usual(2, 2, 0.1) }).unwrap();
