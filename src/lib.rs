@@ -64,3 +64,8 @@ pub mod sample;
 pub mod settings;
 #[cfg(feature = "telemetry")]
 pub mod telemetry;
+
+/// The listings of the book.
+#[cfg(all(doctest, feature = "hal"))]
+#[doc = include_str!("../doc/first-drive.md")]
+mod first_drive_on_a_board {}

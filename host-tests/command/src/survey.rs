@@ -26,7 +26,7 @@ pub use aim::Aim;
 pub use factor::Factor;
 pub use figures::{Failure, Gentle, Run, SceneFigures, Survey};
 pub use jobs::{CASES, Job, Piece, REVERSALS, SWEEP, jobs};
-pub use page::{survey_page, survey_table};
+pub use page::{survey_markdown, survey_page, survey_table};
 pub use pool::work;
 pub use reason::{Quantity, Reason, Share, reasons};
 pub use selection::{COMMISSIONING, GENERATOR, Wanted};

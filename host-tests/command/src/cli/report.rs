@@ -11,7 +11,7 @@ use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::survey::{Wanted, jobs, work};
-use crate::survey::{survey_page, survey_table};
+use crate::survey::{survey_markdown, survey_page, survey_table};
 use driveline_qemu::setup::Need;
 
 /// Run every scene in all its variants, and every stiff or extreme case, and put it all on one page.
@@ -24,6 +24,7 @@ use driveline_qemu::setup::Need;
   cargo driveline report
   cargo driveline report --scene hoist spindle
   cargo driveline report --quick --html report/quick.html
+  cargo driveline report --markdown doc/results.md
   cargo driveline report --json > report.json")]
 pub struct Report {
     /// Only these scenes, and no cases
@@ -35,6 +36,9 @@ pub struct Report {
     /// Where the page goes
     #[arg(long, value_name = "FILE", default_value = "report/report.html")]
     html: PathBuf,
+    /// Where the tables go as Markdown, for the book
+    #[arg(long, value_name = "FILE")]
+    markdown: Option<PathBuf>,
     /// Two seconds of each scene, unproven, and a coarse sweep: for trying out, not for figures to quote
     #[arg(long)]
     quick: bool,
@@ -48,7 +52,8 @@ impl Report {
     pub fn execute(&self) -> Result<(), Failure> {
         let wanted = Wanted::scenes(&self.scene).map_err(Failure::usage)?;
         let file = Destination::chosen("page", &self.html);
-        check(&[], [&file])?;
+        let markdown = self.markdown.as_ref().map(|path| Destination::chosen("tables", path));
+        check(&[], [Some(&file), markdown.as_ref()].into_iter().flatten())?;
         ready(&Need::to_run(BOARDS))?;
         let began = Instant::now();
         let (jobs, mut survey) = jobs(&wanted, self.quick);
@@ -76,6 +81,9 @@ impl Report {
             }
         }
         file.write_and_say(&survey_page(&survey), self.json)?;
+        if let Some(markdown) = markdown {
+            markdown.write_and_say(&survey_markdown(&survey), self.json)?;
+        }
         match survey.failures.as_slice() {
             [] => Ok(()),
             [first, rest @ ..] => {

@@ -97,6 +97,8 @@ impl Quantity {
     pub const DEGREES: Self = Quantity { unit: "degrees", least: -3600.0, most: 3600.0, zero: true, whole: false };
     /// Time.
     pub const TIME: Self = positive("s");
+    /// Frequency of something that repeats.
+    pub const FREQUENCY: Self = positive("Hz");
     /// Time in which something comes about, none for a step.
     pub const RISE: Self = not_negative("s");
 

@@ -373,7 +373,7 @@ impl Reading {
             if contact <= 1.0 || contact >= 2.0 {
                 return Err(spur.wrong("contact_ratio", "a number between 1 and 2"));
             }
-            let frequency = spur.number("frequency", Quantity::TIME)?;
+            let frequency = spur.number("frequency", Quantity::FREQUENCY)?;
             let (double, single) = (spur.number("double", Quantity::SPRING)?, spur.number("single", Quantity::SPRING)?);
             let error = spur.number_or("error", Quantity::ANY, 0.0)?;
             link = link.varying(Variation::spur(contact, frequency, double, single, error));
@@ -395,7 +395,7 @@ impl Reading {
             mesh.finish()?;
         }
         if let Some(mut swing) = table.table_if("harmonics")? {
-            let frequency = swing.number("frequency", Quantity::TIME)?;
+            let frequency = swing.number("frequency", Quantity::FREQUENCY)?;
             let stiffness = if swing.has("stiffness") { harmonics(&mut swing, "stiffness")? } else { Vec::new() };
             let error = if swing.has("error") { harmonics(&mut swing, "error")? } else { Vec::new() };
             link = link.varying(Variation::Harmonics { frequency, stiffness, error });
@@ -441,7 +441,7 @@ impl Reading {
             "starting" => Torque::Starting {
                 torque: any(&mut table, "torque")?,
                 time: table.number("time", Quantity::TIME)?,
-                power: table.number("power", Quantity { least: 1.0, most: 2.0, whole: true, ..Quantity::SPEED })? as u8,
+                power: table.number("power", Quantity { least: 1.0, most: 2.0, whole: true, ..Quantity::RATIO })? as u8,
             },
             "steps" | "table" => {
                 let rows = table.rows("points", 2, "rows of [time in s, torque], one after the other in time")?;

@@ -6,6 +6,7 @@ mod commissioning;
 mod factors;
 mod front;
 mod generator;
+mod markdown;
 mod scenes;
 mod section;
 mod sizes;
@@ -39,37 +40,50 @@ fn summary(survey: &Survey) -> String {
     format!("{}{}", if survey.part { part } else { whole }, if survey.quick { quick } else { "" })
 }
 
-/// The page as HTML, one file.
-pub fn survey_page(survey: &Survey) -> String {
-    let sections = |all: Vec<Section>| all.into_iter().filter(|section| !section.is_empty()).collect();
-    fill(
-        "survey.html",
-        View {
-            summary: summary(survey),
-            facts: scenes::facts(survey),
-            front: front::costs(survey),
-            before: sections(vec![scenes::overview(survey), front::section(survey)]),
+/// The sections that have something to show, by their place on the page.
+struct Sections {
+    before: Vec<Section>,
+    scenes: Vec<Section>,
+    after: Vec<Section>,
+    last: Vec<Section>,
+}
+
+impl Sections {
+    fn of(survey: &Survey) -> Self {
+        let shown = |all: Vec<Section>| all.into_iter().filter(|section| !section.is_empty()).collect();
+        Self {
+            before: shown(vec![scenes::overview(survey), front::section(survey)]),
             scenes: survey.scenes.iter().map(|scene| scenes::section(survey, scene)).collect(),
-            after: sections(vec![
+            after: shown(vec![
                 sizes::section(survey),
                 factors::section(survey),
                 cases::section(survey),
                 cases::reversals(survey),
             ]),
-            sweeps: Sweeps::of(&survey.sweeps),
-            last: sections(vec![
+            last: shown(vec![
                 cases::sweep_failures(survey),
                 generator::section(survey),
                 balancing::section(survey),
                 commissioning::section(survey),
-                Section::new(
-                    "Every fault of every adapter",
-                    "From doc/adapters.md, which a test writes from runs on mocked buses and compares ever since.",
-                )
-                .table("", "", &adapters()),
             ]),
-        },
-    )
+        }
+    }
+}
+
+/// The facts and tables of the page in Markdown, as a page of the book.
+pub fn survey_markdown(survey: &Survey) -> String {
+    let Sections { before, scenes, after, last } = Sections::of(survey);
+    let sections: Vec<Section> = before.into_iter().chain(scenes).chain(after).chain(last).collect();
+    markdown::page(&summary(survey), &scenes::facts(survey), &sections)
+}
+
+/// The page as HTML, one file.
+pub fn survey_page(survey: &Survey) -> String {
+    let Sections { before, scenes, after, mut last } = Sections::of(survey);
+    let text = "From doc/adapters.md, which a test writes from runs on mocked buses and compares ever since.";
+    last.push(Section::new("Every fault of every adapter", text).table("", "", &adapters()));
+    let (facts, front, sweeps) = (scenes::facts(survey), front::costs(survey), Sweeps::of(&survey.sweeps));
+    fill("survey.html", View { summary: summary(survey), facts, front, before, scenes, after, sweeps, last })
 }
 
 /// The table of all scenes beside their aims, for the terminal.

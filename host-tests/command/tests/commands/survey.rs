@@ -7,7 +7,7 @@ use cargo_driveline::drivetrains::SCENES;
 use cargo_driveline::survey::{
     Aim, Factor, Failure, Quantity, Reason, Run, SceneFigures, Share, Survey, Wanted, adapters, jobs,
 };
-use cargo_driveline::survey::{survey_page, survey_table};
+use cargo_driveline::survey::{survey_markdown, survey_page, survey_table};
 use driveline_report::chart::front;
 use proptest::prelude::*;
 
@@ -47,6 +47,23 @@ fn survey(error: f64) -> Survey {
 
 fn case(name: &str, found: f64) -> Case {
     Case { group: "chains", name: name.into(), compared: "frequencies", found, allowed: 1e-6 }
+}
+
+/// The page of the book has a section for every scene, and every row of a table has the cells of its heading.
+#[test]
+fn every_scene_is_in_the_book_with_whole_tables() {
+    let text = survey_markdown(&survey(0.01));
+    for (name, _) in SCENES {
+        assert!(text.contains(&format!("\n## {name}\n")), "{name}");
+    }
+    let cells = |row: &str| row.replace("\\|", "").matches('|').count();
+    let tables = text.split("\n\n").filter(|block| block.starts_with('|'));
+    for table in tables {
+        let mut rows = table.lines();
+        let heading = rows.next().unwrap();
+        assert!(rows.next().unwrap().starts_with("| --- |"), "{table}");
+        assert!(rows.all(|row| cells(row) == cells(heading)), "{table}");
+    }
 }
 
 #[test]

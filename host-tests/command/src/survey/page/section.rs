@@ -18,15 +18,15 @@ pub struct Section {
 /// A table as the page shows it.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Shown {
-    title: String,
-    text: String,
-    headings: Vec<Cell>,
-    rows: Vec<Vec<Cell>>,
+    pub(super) title: String,
+    pub(super) text: String,
+    pub(super) headings: Vec<Cell>,
+    pub(super) rows: Vec<Vec<Cell>>,
 }
 
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Cell {
-    text: String,
+    pub(super) text: String,
     class: String,
 }
 
