@@ -57,8 +57,8 @@ impl Plant {
     }
 }
 
-/// Time \[s\], true and estimated speed of the roll \[rad/s\], true and estimated torque of the shaft \[N m\], of each tick: up to 100 rad/s,
-/// then a load of 150 N m from 3 s on.
+/// Time \[s\], true and estimated speed of the roll \[rad/s\], true and estimated torque of the shaft \[N m\], of each
+/// tick: up to 100 rad/s, then a load of 150 N m from 3 s on.
 fn run<N: Units>(config: &ConfigOf<RollDrive<N>>) -> Vec<[f64; 5]> {
     let (mut drive, mut plant, mut torque) = (RollDrive::<N>::new(config, 0), Plant::default(), 0.0);
     let mut rows = Vec::new();
@@ -84,9 +84,9 @@ fn main() {
     }
 }
 
-/// In the last of six seconds, under the load, the errors are below the standard deviations that the design predicts: the torque here is known
-/// exactly, which the design does not count on. The integral leaves no mean error of the speed; a thousandth is for what the encoder's counts
-/// make of it within the second.
+/// In the last of six seconds, under the load, the errors are below the standard deviations that the design predicts:
+/// the torque here is known exactly, which the design does not count on. The integral leaves no mean error of the
+/// speed; a thousandth is for what the encoder's counts make of it within the second.
 #[test]
 fn both_numbers_govern_the_roll() {
     let predicted = Roll::OBSERVER.standard_deviation;

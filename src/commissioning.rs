@@ -7,12 +7,12 @@
 //! | [`Stage::Holding`] | stands | nothing: the load settles |
 //! | [`Stage::Friction`] | two speeds and the ramps between, both ways | total inertia, Coulomb and viscous friction, weight |
 //! | [`Stage::Encoder`] | 8 to 40 turns at the test's speed | eccentricity of the encoder, which is then taken off |
-//! | [`Stage::Backlash`] | creeps to and fro against a load that friction holds | gap |
+//! | [`Stage::Backlash`] | creeps in both directions against a load held by friction | gap |
 //! | [`Stage::Resonance`] | turns slowly under a multisine, first small, then as large as the shaft may carry, both ways | inertias, stiffness, damping |
 //!
 //! A stage ends with a [`Job`]: a copy of its sums, solved in `f64` outside the tick ([`Job::solve`]) while the tick
-//! holds the motor, and handed back ([`Commissioning::accept`]). The last one gives [`CommissioningResult`]: the two-mass
-//! machine, with standard deviations, for the same [`try_observer`](crate::machine::TwoMass::try_observer) and
+//! holds the motor, and handed back ([`Commissioning::accept`]). The last one gives [`CommissioningResult`]: the
+//! two-mass machine, with standard deviations, for the same [`try_observer`](crate::machine::TwoMass::try_observer) and
 //! [`try_speed_loop`](crate::machine::TwoMass::try_speed_loop) that the compiler uses; or a [`Error`] why the data do
 //! not support an answer.
 //!
@@ -47,15 +47,17 @@
 //! ```
 //!
 //! # How it is found
-//! The response is correlated with the commanded torque, so that noise in the motor's torque and the encoder's counts average out. While the motor turns at a speed with a slow ramp in it, counts of the encoder fall at all phases, and
+//! The response is correlated with the commanded torque, so that noise in the motor's torque and the encoder's counts
+//! average out. While the motor turns at a speed with a slow ramp in it, counts of the encoder fall at all phases, and
 //! dry friction is but a constant. The speed is held by a servo whose torque is correlated too, so that it does not
 //! bias the answer. Each line of the multisine gives the response of the acceleration `H = s^2 Theta/T`, through a Hann
 //! window, corrected for the hold of the torque and the mean of the angle over a block; to them
-//! `H = 1/J + (1/J_m - 1/J) s^2/(s^2 + 2 zeta w_r s + w_r^2) + R s^2` is fitted, the two-mass machine [Huang 1987
-//! part 2] and the compliance R of all higher modes, with weights of noise in torque and angle. Deviations follow from
-//! the fit's curvature and its own residuals.
+//! `H = 1/J + (1/J_m - 1/J) s^2/(s^2 + 2 zeta w_r s + w_r^2) + R s^2` is fitted, the two-mass machine
+//! [Huang 1987 part 2] and the compliance R of all higher modes, with weights of noise in torque and angle. Deviations
+//! follow from the fit's curvature and its own residuals.
 //!
-//! The gap is the angle from flank to flank at creep speed while friction holds the load. Each flank is measured under two torques and extrapolated to none, which removes the twist of the shafts.
+//! The gap is the angle from flank to flank at creep speed while friction holds the load. Each flank is measured under
+//! two torques and extrapolated to none, which removes the twist of the shafts.
 //!
 //! A gear that loses a share of its torque makes the machine look heavier when it drives and lighter when it is driven
 //! [Wang 1989 §1-3]: the mean of both ways is taken.
@@ -65,7 +67,8 @@
 //! Before the multisine, while it is not known whether the load is free, the torque takes half of the shaft's room at
 //! most, and the first run-up is gentle.
 //! A motor that lags too far ([`Error::NotFollowed`]), a torque that goes from bound to bound
-//! ([`Error::Unsteady`]), an angle jump or an exceeded travel ends the test without torque: the brake must hold the load. Where data do not support an answer the test ends holding the load, with its [`Error`].
+//! ([`Error::Unsteady`]), an angle jump or an exceeded travel ends the test without torque: the brake must hold the
+//! load. Where data do not support an answer the test ends holding the load, with its [`Error`].
 //!
 //! # Limits
 //! - The arithmetic in the tick is in `f32`: for cores with an FPU. A record's solving, in `f64`, takes 163 million
@@ -82,7 +85,8 @@
 //!   [`Error::LoadNotHeld`] or [`Error::Preloaded`].
 //! - With a gap the multisine stays below the friction: low friction means long records.
 //! - The inertia before the gap is taken to turn freely under half of the friction.
-//! - Eccentricity cannot be distinguished from the torque of an unbalance: at the test's speed the rotor's own swing must be small beside it.
+//! - Eccentricity cannot be distinguished from the torque of an unbalance: at the test's speed the rotor's own swing
+//!   must be small beside it.
 
 mod complex;
 mod eccentricity;

@@ -1,9 +1,9 @@
 //! Configuration: the constants of a drive's parts, derived from the machine.
 //!
-//! A [`Machine`] says what the machine, its motor, its encoder and its tick rate are. [`Configure`] says what the constants of a part are for
-//! such a machine; it is implemented once per part and number, and for compositions of parts. [`Drive::configure`] asks all parts of a drive
-//! at once. All of it is evaluated by the compiler: the firmware holds the coefficients, and a machine that cannot be controlled is a
-//! compile error with its sentence.
+//! A [`Machine`] describes the machine, its motor, its encoder and its tick rate. [`Configure`] gives the constants of
+//! a part for such a machine; it is implemented once per part and number, and for compositions of parts.
+//! [`Drive::configure`] configures all parts of a drive. All of it is evaluated by the compiler: the firmware holds the
+//! coefficients, and a machine that cannot be controlled is a compile error with its sentence.
 //!
 //! ```
 //! use driveline::observer::GearedObserver;
@@ -48,8 +48,8 @@
 //! | [`Extremes`](crate::fluctuation::Extremes), [`Waveform`](crate::fluctuation::Waveform), [`CycleMean`](crate::fluctuation::CycleMean) | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
 //! | [`Phasors`](crate::balancing::Phasors) | [`HasVibration::PHASORS`] | [`HasVibration`] |
 //!
-//! A part of one's own implements [`Configure`] for itself and any machine; a part of the library that a machine uses with constants of its
-//! own is a newtype.
+//! A part of one's own implements [`Configure`] for itself and any machine; a part of the library that a machine uses
+//! with constants of its own is a newtype.
 //!
 //! # One file for several drives
 //! A machine that is driven in several ways is one type with a parameter, or several types that share constants:
@@ -108,7 +108,7 @@ use crate::observer::Observer;
     note = "what has no sensible default is a trait of its own: see the table of parts in `driveline::configure`"
 )]
 pub trait Configure<M: Machine, N: Number> {
-    /// What the part's constants are.
+    /// The part's constants.
     type Config;
     /// The constants.
     const CONFIG: Self::Config;
@@ -167,7 +167,8 @@ where
 {
     /// The constants of this drive for the machine `M`.
     ///
-    /// In a `static` or a constant the compiler evaluates them, and a machine that cannot be controlled stops it with a sentence.
+    /// In a `static` or a constant the compiler evaluates them, and a machine that cannot be controlled stops it with a
+    /// sentence.
     pub const fn configure<M: Machine>() -> ConfigOf<Self>
     where
         Self: Configure<M, N, Config = ConfigOf<Self>>,

@@ -1,15 +1,16 @@
 //! How a machine will be controlled: from its description to the final coefficients.
 //!
 //! Every function is a `const fn` in `f64`. In a constant the compiler evaluates it, and the firmware holds nothing but
-//! the coefficients; at run time (a machine read from a file, or commissioned in the field) it gives the same bits. A design
-//! that cannot work is a compile error in a constant, and an [`Error`] with the same sentence from the `try_` form.
+//! the coefficients; at run time (a machine read from a file, or commissioned in the field) it gives the same bits. A
+//! design that cannot work is a compile error in a constant, and an [`Error`] with the same sentence from the `try_`
+//! form.
 //!
 //! | term | meaning | unit |
 //! |---|---|---|
 //! | period T | time between two ticks of the controller | s |
 //! | twist delta | motor angle less load angle, referred to the motor | rad |
-//! | slip v | rate of the twist, motor speed less load speed | rad/s |
-//! | drive s | `tau_m/J_m + tau_L/J_l`: what accelerates the slip | rad/s2 |
+//! | twist rate v | rate of the twist, motor speed less load speed | rad/s |
+//! | forcing s | `tau_m/J_m + tau_L/J_l`: acceleration of the twist | rad/s2 |
 //! | filter gain K | correction of each state per radian of innovation, applied at the tick of the measurement | state/rad |
 //! | prior, posterior | covariance before and after the measurement of a tick | state squared |
 

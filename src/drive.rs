@@ -1,30 +1,30 @@
-//! One tick through all parts: screen the sample, estimate, measure, govern.
+//! One tick through all parts: screening, observer, fluctuation, governor.
 //!
-//! A drive is composed by type, `Drive<N, Observer, Fluctuation, Governor, Balancer>`, with `()` for a part that the machine does not need;
-//! such a part costs nothing. Configuration stands apart: one [`Config`] may serve many drives.
+//! A drive is composed by type, `Drive<N, Observer, Fluctuation, Governor, Balancer>`, with `()` for a part that the
+//! machine does not need; such a part costs nothing. Configuration stands apart: one [`Config`] may serve many drives.
 //!
 //! # Bad samples
-//! A sample is believed as far as it can be true, and what is not believed is flagged and left out, never taken in:
+//! A sample is used only if plausible. An implausible value is flagged and left out:
 //!
 //! | sample | flag | the tick |
 //! |---|---|---|
-//! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque that was last commanded; without a governor, the last one that was believed |
+//! | torque NaN, infinite, beyond its limit | [`Faults::TORQUE`] | takes the torque last commanded; without a governor, the last plausible one |
 //! | setpoint NaN, infinite, beyond its limit | [`Faults::SETPOINT`] | keeps the last good one |
 //! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
-//! | angle unchanged though the motor should have turned by more than the standstill limit, or far from the prediction | [`Faults::ANGLE_FROZEN`] | coasts |
+//! | angle unchanged though the motor should have turned by more than the frozen-turn limit, or far from the prediction | [`Faults::ANGLE_FROZEN`] | coasts |
 //! | no angle at all ([`Drive::coast`]) | [`Faults::ANGLE_MISSING`] | coasts |
 //! | after more than the limit of such ticks | [`Faults::ANGLE_LOST`] as well | keeps the estimates and commands no torque until there are two angles in a row that differ |
 //!
-//! Without an angle the drive is blind: it gives no torque, and what holds the machine then is for its brake. The governor starts anew when the angle
-//! is found.
+//! With a lost angle the drive commands no torque: the brake must hold the machine. The governor starts anew when the
+//! angle is reacquired.
 //!
-//! Of two such angles the second is taken as it comes. If they differ by the speed that is known, to the standstill limit, the estimates stand: the
-//! angle has merely moved elsewhere. If not, the observer starts anew at the speed that they show, as if the machine turned steadily under the
-//! torque that is applied: so a machine is caught that was spinning when the drive was switched on, or that has changed its speed unseen. A speed
-//! beyond twice the largest setpoint is not believed.
+//! Of two such angles the second is accepted. If their difference agrees with the estimated speed, to the frozen-turn
+//! limit, the estimates stand: only the angle has shifted. If not, the observer starts anew at the speed of the two
+//! angles, in steady motion under the applied torque. So a drive that is switched on catches a spinning machine, and
+//! one whose speed has changed without an angle. A speed beyond twice the largest setpoint is rejected.
 //!
-//! Below the speed at which the motor turns by the standstill limit in a tick, a frozen encoder and a machine that something holds
-//! look alike from the motor's side; the estimate of the load torque then shows what it would take to hold it.
+//! Below the speed of the frozen-turn limit, a frozen encoder and a locked machine cannot be distinguished from the
+//! motor's side. The estimated load torque is then the torque that would lock it.
 
 mod axis;
 
@@ -36,23 +36,24 @@ use crate::number::Number;
 use crate::observer::Observer;
 use crate::sample::{Command, Estimate, Sample};
 
-/// Limits of what a sample can be.
+/// Plausibility limits of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Limits<N: Number> {
-    /// Largest applied torque that is believed [N m].
+    /// Largest plausible applied torque [N m].
     pub torque: N,
-    /// Largest setpoint that is believed [rad/s].
+    /// Largest plausible setpoint [rad/s].
     pub setpoint: N,
-    /// Largest innovation that is believed [2^-32 turn].
+    /// Largest plausible innovation [2^-32 turn].
     pub innovation: N,
-    /// Largest predicted turn in a tick that an unchanged angle is believed with, as [`Number::less_turn`] takes it.
+    /// Largest predicted turn in a tick for which an unchanged angle is plausible, in the unit of
+    /// [`Number::less_turn`].
     pub frozen_turn: N,
-    /// Ticks without a usable angle, less those with one, after which it counts as lost: no more than the motor needs for half a turn at the
-    /// largest setpoint, after which its angle says no longer how far it has turned.
+    /// Ticks without a usable angle, less those with one, after which the angle counts as lost: at most the ticks of
+    /// half a turn at the largest setpoint, beyond which the angle is ambiguous.
     ///
-    /// Less, and not in a row: where the estimated speed is far off, a prediction of the angle comes past the measured one now and then, and
-    /// is none the better for it.
+    /// Less those with one, and not in a row: with a wrong speed the predicted angle agrees with the measured one now
+    /// and then by chance.
     pub max_coast: u32,
 }
 
@@ -60,7 +61,7 @@ pub struct Limits<N: Number> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Config<N: Number, O, F = (), G = (), B = ()> {
-    /// Limits of what a sample can be.
+    /// Plausibility limits of a sample.
     pub limits: Limits<N>,
     /// Constants of the observer.
     pub observer: O,
@@ -103,7 +104,7 @@ pub struct Drive<N, O, F = (), G = (), B = ()> {
     fluctuation: F,
     governor: G,
     balancer: B,
-    /// What stands in for a torque that cannot be believed.
+    /// Substitute for an implausible torque.
     commanded: N,
     /// Ticks without a usable angle, less those with one; while the angle is lost [`NONE_YET`] or [`ONE`].
     coasted: i32,
@@ -135,7 +136,7 @@ where
         }
     }
 
-    /// One tick with the governor at work.
+    /// One tick with the governor active.
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
         if self.coasted < 0 {
@@ -152,9 +153,10 @@ where
         Command { torque, faults }
     }
 
-    /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken to carry
-    /// it, and the next [`Drive::tick`] starts from there, within the governor's limit. A torque that is NaN or beyond what a sample may have counts as zero and raises
-    /// [`Faults::SETPOINT`]. A governor that has tripped holds with none.
+    /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken
+    /// to carry it, and the next [`Drive::tick`] starts from there, within the governor's limit. A torque that is NaN
+    /// or beyond the sample's limit counts as zero and raises [`Faults::SETPOINT`]. A governor that has tripped holds
+    /// with none.
     pub fn hold(&mut self, config: &ConfigOf<Self>, angle: u32, torque: N) -> Command<N> {
         let mut command = Command { torque, faults: Faults::NONE };
         if torque.exceeds(config.limits.torque) {
@@ -171,7 +173,7 @@ where
         command
     }
 
-    /// What is known of the machine now.
+    /// The present estimate.
     #[inline(always)]
     pub fn estimate(&self, config: &ConfigOf<Self>) -> Estimate<N> {
         self.observer.estimate(&config.observer)
@@ -182,7 +184,7 @@ where
         &self.observer
     }
 
-    /// The observer, to be told what no sample says, as where a crank is.
+    /// The observer, to set data that no sample contains, such as the crank's angle.
     pub fn observer_mut(&mut self) -> &mut O {
         &mut self.observer
     }
@@ -192,7 +194,7 @@ where
         &self.fluctuation
     }
 
-    /// The fluctuation's measurement, to take from it what it has finished.
+    /// The fluctuation's measurement, to take its finished results.
     pub fn fluctuation_mut(&mut self) -> &mut F {
         &mut self.fluctuation
     }
@@ -202,7 +204,7 @@ where
         &self.governor
     }
 
-    /// The governor, to ask for another mode or to switch its constants, between two ticks.
+    /// The governor, to request a start or stop or to switch its constants, between two ticks.
     pub fn governor_mut(&mut self) -> &mut G {
         &mut self.governor
     }
@@ -212,7 +214,7 @@ where
         &self.balancer
     }
 
-    /// The balancer, to begin a reading or to tell it the rotor's angle: between two ticks.
+    /// The balancer, to begin a reading or to set the rotor's angle: between two ticks.
     pub fn balancer_mut(&mut self) -> &mut B {
         &mut self.balancer
     }
@@ -223,12 +225,13 @@ where
         self.balancer.measure(&config.balancer, self.observer.angle(), vibration);
     }
 
-    /// Tells the balancer of a tick whose vibration was not sound, and why: what it measures across the gap is doubted.
+    /// Reports a tick without a valid vibration sample to the balancer, with the cause: a reading across the gap is
+    /// rejected.
     pub fn vibration_missing(&mut self, faults: Faults) {
         self.balancer.missed(faults);
     }
 
-    /// The angle that was last believed, 2^32 per turn.
+    /// The last accepted angle, 2^32 per turn.
     pub fn angle(&self) -> u32 {
         self.observer.angle()
     }

@@ -1,7 +1,8 @@
 //! Measure: how far the speed swings about its mean, cycle by cycle.
 //!
-//! Everything is synchronous in angle. The cycle is a turn of the motor, two for a four-stroke engine, or any ratio of whole numbers; where
-//! in it the motor is follows from its wrapped angle in integers, so that nothing drifts however long the machine runs.
+//! Everything is synchronous in angle. The cycle is a turn of the motor, two for a four-stroke engine, or any ratio of
+//! whole numbers; where in it the motor is follows from its wrapped angle in integers, so that nothing drifts however
+//! long the machine runs.
 //!
 //! | part | a tick does | gives |
 //! |---|---|---|
@@ -10,20 +11,23 @@
 //! | [`CycleMean`] | nothing but at the ends of segments | several times a cycle: the speed without its ripple, for a governor |
 //! | a pair of any | both | both |
 //!
-//! [`ToothedWheel`] takes the times of teeth instead of the angles of ticks and gives the same [`Ripple`]. From a ripple and the machine's constants follow
-//! the load's speed and torque ([`Ripple::behind`]) and the flywheel that is missing ([`Ripple::flywheel`]).
+//! [`ToothedWheel`] takes the times of teeth instead of the angles of ticks and gives the same [`Ripple`]. From a
+//! ripple and the machine's constants follow speed and torque of the load ([`Ripple::behind`]) and the required
+//! flywheel ([`Ripple::flywheel`]).
 //!
-//! What takes longer than a tick (divisions, sines, the waveform from its bins) is done by a `reading` between the ticks, in `f64`.
+//! Lengthy calculations (divisions, sines, the waveform from its bins) are done by a `reading` between the ticks, in
+//! `f64`.
 //!
-//! # Why time is what is counted
-//! An observer's speed follows a ripple late and not quite, and the quantisation of the encoder makes every largest value too large. The
-//! time that the motor spends at each angle has neither fault: dt/dphi = 1/omega is what a tick samples when it merely counts, and over
-//! some cycles the counts of an encoder average out. With 2048 lines and 10,000 ticks a second a hundred turns tell an amplitude of 1/1000 of the speed to
-//! 0.5 % at the first order of a turn; the error grows with the order, and falls with the root of the turns.
+//! # Measurement by time
+//! An observer follows a ripple with delay and reduced amplitude, and the quantisation of the encoder increases every
+//! maximum. The time that the motor spends at each angle has neither error: counting ticks samples dt/dphi = 1/omega,
+//! and over several cycles the counts of an encoder average out. With 2048 lines and 10,000 ticks a second a hundred
+//! turns give an amplitude of 1/1000 of the speed to 0.5 % at the first order of a turn; the error grows with the
+//! order, and falls with the root of the turns.
 //!
 //! # Where the cycle begins
-//! At the angle 0 of the encoder. A cycle of several turns begins in the turn that the machine was switched on in, and in any turn after the angle was lost: where
-//! half orders must have a phase, the phase of a cam is to be added.
+//! At the angle 0 of the encoder. A cycle of several turns begins in the turn that the machine was switched on in, and
+//! in any turn after the angle was lost: where half orders must have a phase, the phase of a cam is to be added.
 //!
 //! ```
 //! use driveline::settings::{Bases, Cycle};
@@ -50,9 +54,9 @@
 //! ```
 //!
 //! # Terms
-//! *Slowness*: dt/dphi, the inverse of the speed. *Order*: multiples of a cycle's frequency; order 1 of a cycle of two turns is the
-//! half order of the engine. *Delta*: (omega_max - omega_min)/omega_m [Notes ch. 5]. *Ripple*: what repeats every cycle; *trend*: what
-//! does not.
+//! *Slowness*: dt/dphi, the inverse of the speed. *Order*: multiples of a cycle's frequency; order 1 of a cycle of two
+//! turns is the half order of the engine. *Delta*: coefficient of speed fluctuation (omega_max - omega_min)/omega_m
+//! [Notes ch. 5]. *Ripple*: part of the speed that is periodic in the cycle; *trend*: the rest.
 
 mod cycle_mean;
 mod extremes;
@@ -86,11 +90,11 @@ pub trait Fluctuation<N: Number>: Default {
     /// Takes one tick's angle [2^-32 turn], the torque that the motor gave in it and the estimate into account.
     fn measure(&mut self, config: &Self::Config, angle: u32, torque: N, estimate: &Estimate<N>);
 
-    /// This tick's angle cannot be used: what is being measured is void.
+    /// This tick's angle cannot be used: the present measurement is void.
     fn disturb(&mut self);
 
-    /// The motor's speed without what repeats in every cycle, where the measurement knows it: what a governor acts on that is to leave the ripple
-    /// alone, by [`CycleAverage`](crate::governor::CycleAverage).
+    /// The motor's speed without its ripple, where it is known: input of a governor that is not to act on the ripple,
+    /// by [`CycleAverage`](crate::governor::CycleAverage).
     #[inline(always)]
     fn steady_speed(&self) -> Option<N> {
         None

@@ -1,14 +1,14 @@
-//! Act: the torque that the motor is to produce.
+//! Speed governors: from estimate and setpoint to the torque command.
 //!
 //! # Terms
-//! *Setpoint*: the motor speed that is wanted. *Anti-windup*: the integral stops where the torque is limited.
-//! *Active damping*: torque against the rate of twist, as a damper between motor and load would give it, by the motor alone.
-//! *Droop*: how much the setpoint yields to the load. *Isochronous*: without droop. *Trip*: a stop that stands until it is reset.
+//! *Setpoint*: the commanded motor speed. *Anti-windup*: back-calculation that keeps the integral from growing while
+//! the torque is limited. *Active damping*: motor torque proportional and opposite to the twist rate. *Droop*: fall of
+//! the setpoint with the load. *Isochronous*: without droop. *Trip*: a stop that is latched until it is reset.
 //!
 //! | governor | for |
 //! |---|---|
-//! | [`SpeedLoop`] | a drive that is always at work: proportional, integral, active damping |
-//! | [`SpeedGovernor`] | anything more, composed of parts: droop, feed-forward, limits by a curve, modes and trips |
+//! | [`SpeedLoop`] | continuous operation: proportional, integral, active damping |
+//! | [`SpeedGovernor`] | composed of parts: droop, feed-forward, limits by a curve, run sequence and trips |
 
 mod actuator_monitor;
 mod backlash_takeup;
@@ -49,28 +49,28 @@ pub trait Governor<N: Number>: Default {
     /// Whether it commands the torque. Where it does not, something else does.
     const COMMANDS: bool;
 
-    /// Takes a setpoint that can be believed; it stands until the next.
+    /// Sets a plausible setpoint; it is held until the next.
     fn set_setpoint(&mut self, setpoint: N);
 
-    /// Takes what the measurement of the fluctuation says of the speed without its ripple, `None` where it says nothing: once a tick, before
-    /// [`command`](Self::command).
+    /// Sets the speed without its ripple, as measured by the fluctuation, `None` where it is unknown: once a tick,
+    /// before [`command`](Self::command).
     #[inline(always)]
     fn set_steady_speed(&mut self, _steady_speed: Option<N>) {}
 
     /// The torque for the tick that begins.
     fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N;
 
-    /// Starts anew from the speed that the machine has and the torque that it is given now, so that the first command is no jolt; the set
-    /// point is a standstill.
+    /// Starts anew from the present speed and torque (bumpless transfer); the
+    /// setpoint is zero.
     fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N);
 
-    /// The angle is lost: starts anew without torque, as after every further tick without it.
+    /// The angle is lost: starts anew without torque, in this and every further tick without it.
     #[inline(always)]
     fn angle_lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
         self.start(config, estimate, N::ZERO);
     }
 
-    /// Whether torque may be commanded at all: a drive that has tripped may not even hold.
+    /// Whether torque may be commanded at all: a tripped drive may not even hold.
     #[inline(always)]
     fn permits(&self) -> bool {
         true

@@ -1,4 +1,5 @@
-//! Between a drive and a motor: adapters to `embedded-hal` 1.0, and the [`Axis`] that ties them to a [`Drive`](crate::drive::Drive).
+//! Between a drive and a motor: adapters to `embedded-hal` 1.0, and the [`Axis`] that ties them to a
+//! [`Drive`](crate::drive::Drive).
 //!
 //! | adapter | takes | for |
 //! |---|---|---|
@@ -14,17 +15,22 @@
 //! | [`AdcVibration`] | a slice of conversions | vibration, analog |
 //! | `AwaitedAngle`, `AwaitedTorque` | values awaited between two ticks | the four on `SpiDevice` under `embedded-hal-async` |
 //!
-//! A reading is a value that is new and sound, or [`Faults`](crate::fault::Faults); there is no third answer, so that a failed bus never repeats the last
-//! value. `doc/adapters.md` lists every fault of every adapter and the drive's reaction, from runs.
+//! A reading is a value that is new and sound, or [`Faults`](crate::fault::Faults); there is no third answer, so that a
+//! failed bus never repeats the last value. `doc/adapters.md` lists every fault of every adapter and the drive's
+//! reaction, from runs.
 //!
-//! Crates for the encoders and the accelerometer exist (`as5048a`, `adxl355`), on `embedded-hal` 0.2; these are our own.
+//! Crates for the encoders and the accelerometer exist (`as5048a`, `adxl355`), on `embedded-hal` 0.2; these are our
+//! own.
 //!
 //! # Awaited
-//! With the feature `hal-async` the four adapters on `SpiDevice` also run on that of `embedded-hal-async`. They are the same types with the same frames and checks; awaited methods end in `_async`: `MagneticEncoder::angle_async`, `SpiDac::set_torque_async`, `Tmc4671::set_torque_async`,
-//! `Adxl355::start_async` and `vibration_async`. So a bus that implements both traits is never ambiguous, and nothing need be imported. A future may be
-//! dropped at any point: the next call starts afresh, and a lost value raises a fault.
+//! With the feature `hal-async` the four adapters on `SpiDevice` also run on that of `embedded-hal-async`. They are the
+//! same types with the same frames and checks; awaited methods end in `_async`: `MagneticEncoder::angle_async`,
+//! `SpiDac::set_torque_async`, `Tmc4671::set_torque_async`, `Adxl355::start_async` and `vibration_async`. So a bus that
+//! implements both traits is never ambiguous, and nothing need be imported. A future may be dropped at any point: the
+//! next call starts afresh, and a lost value raises a fault.
 //!
-//! [`Axis::tick`] never waits. `AwaitedAngle` and `AwaitedTorque` are the board's parts between the tick and the awaited bus:
+//! [`Axis::tick`] never waits. `AwaitedAngle` and `AwaitedTorque` are the board's parts between the tick and the
+//! awaited bus:
 //!
 //! ```
 //! # #[cfg(feature = "hal-async")] mod awaited {
@@ -46,11 +52,12 @@
 //! # }
 //! ```
 //!
-//! A time limit round either await is safe: without an angle the tick is blind, and a torque that did not arrive trips in the next tick.
+//! A time limit round either await is safe: without an angle the tick is blind, and a torque that did not arrive trips
+//! in the next tick.
 //!
 //! # A board
-//! A new board is one file with one type that implements [`Board`]: an angle in, a torque out, the power stage on and off. [`Parts`] is that type
-//! made of adapters. This is a board and its control loop:
+//! A new board is one file with one type that implements [`Board`]: an angle in, a torque out, the power stage on and
+//! off. [`Parts`] is that type made of adapters. This is a board and its control loop:
 //!
 //! ```
 //! use driveline::fault::Faults;

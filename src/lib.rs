@@ -4,8 +4,9 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Errors
-//! A machine that cannot be, or cannot be controlled, is a compile error with a sentence. At run time, where the machine is read from a
-//! file, a chain carries its first error, and the `try_` form of what ends it returns the same sentence:
+//! A machine that cannot be, or cannot be controlled, is a compile error with a sentence. At run time, where the
+//! machine is read from a file, a chain carries its first error, and the `try_` form of what ends it returns the same
+//! sentence:
 //!
 //! ```
 //! # use driveline::design::{Disturbance, Encoder, Error, Rate};
@@ -17,28 +18,28 @@
 //! assert!(Chain::motor(Inertia(-0.62)).error().unwrap().message().contains("inertia"));
 //! ```
 //!
-//! # The rooms
-//! [`machine`] says what the machine is, [`design`] how it will be controlled (both `const fn` in `f64`), and [`settings`] turns a design into
-//! what a [`number`] can hold. [`observer`], [`fluctuation`], [`governor`] and [`balancing`] are the parts of a [`drive`], composed by type: a
-//! part that a machine does not need is `()` and costs nothing. [`commissioning`] finds the machine by a test. [`sample`] is what goes in and
-//! comes out, [`fault`] what was wrong with it.
+//! # Modules
+//! [`machine`] describes the machine and [`design`] its control (both `const fn` in `f64`); [`settings`] converts a
+//! design to a [`number`] type. [`observer`], [`fluctuation`], [`governor`] and [`balancing`] are the parts of a
+//! [`drive`], composed by type: a part that a machine does not need is `()` and costs nothing. [`commissioning`]
+//! identifies the machine by a test. [`sample`] holds inputs and outputs of a tick, [`fault`] its flags.
 //!
 //! # Glossary
 //! | term | meaning | unit |
 //! |---|---|---|
 //! | twist | motor angle less load angle, referred to the motor | rad |
-//! | slip, twist rate | motor speed less load speed | rad/s |
+//! | twist rate | motor speed less load speed | rad/s |
 //! | shaft torque | torque that the shaft or rope carries, referred to the motor | N m |
 //! | load torque | torque that the load opposes to its motion | N m |
-//! | resonance, antiresonance | natural frequency of the free machine; of the machine with its motor held | rad/s |
+//! | resonance, antiresonance | natural frequency of the free machine; of the machine with its motor locked | rad/s |
 //! | reduction | two masses that stand for a longer chain | |
 //! | innovation | measured less predicted motor angle | 2^-32 turn |
-//! | cycle | what repeats: a turn of the motor, two of a four-stroke engine, or any ratio | |
+//! | cycle | period of the machine: a turn of the motor, two of a four-stroke engine, or any ratio | |
 //! | order | multiple of the cycle's frequency | |
-//! | delta | largest less least speed of a cycle, over its mean | |
+//! | delta | coefficient of speed fluctuation (cyclic irregularity): largest less smallest speed of a cycle, over its mean | |
 //! | tick | one run of the controller, at a fixed rate | |
-//! | coast | a tick by prediction alone, since the angle cannot be used | |
-//! | base | what a fixed-point number is a fraction of | |
+//! | coast | a tick by prediction alone (dead reckoning), without a usable angle | |
+//! | base | unit of a fixed-point number | |
 
 pub mod angle;
 pub mod balancing;

@@ -1,4 +1,4 @@
-//! What the machine is: a chain of elements from the motor to the load, described once, as a constant.
+//! Machine models: a chain of elements from the motor to the load, described once as a constant.
 //!
 //! ```
 //! use driveline::machine::{Chain, Damping, Diameter, Efficiency, Falls, Inertia, Mass, Match, Ratio, Stiffness, TwoMass};
@@ -16,8 +16,8 @@
 //!
 //! Everything is referred to the motor's shaft, keeping the power, the kinetic energy and the strain energy
 //! [Wang 1989 §1-3, Huang 1987 ch. 1, Pfützner 1980 §1.2]. Every function is a `const fn` in `f64`: evaluated by the
-//! compiler or at run time it gives the same bits. A chain carries its first [`Error`]: a constant that is made of a wrong
-//! chain is a compile error with its sentence, which the `try_` form of the same method returns.
+//! compiler or at run time it gives the same bits. A chain carries its first [`Error`]: a constant that is made of a
+//! wrong chain is a compile error with its sentence, which the `try_` form of the same method returns.
 //!
 //! | term | meaning | unit |
 //! |---|---|---|
@@ -26,7 +26,7 @@
 //! | gap | whole free travel of a backlash, at the motor | rad |
 //! | ratio | motor-side speed over load-side speed of a gear | 1 |
 //! | resonance | natural frequency of the free chain | rad/s |
-//! | antiresonance | natural frequency of the chain with the motor held | rad/s |
+//! | antiresonance | natural frequency of the chain with the motor locked | rad/s |
 //! | residue | square of a mass-normalised mode shape at the motor | 1/(kg m2) |
 
 mod belt;

@@ -6,10 +6,10 @@
 //!
 //! # The carry
 //! The tick path is a chain of sums `x + c y`. In fixed point such a sum is a single long multiply-accumulate
-//! (`SMLAL`): `x` stands in the upper word of the accumulator, and what remains in the lower word is handed to the
-//! next sum instead of being cut off. Cutting off would pull every state downwards by half a unit in the last
-//! place each tick; a remainder that is as often large as small takes that pull away, at no cost. For floats
-//! the carry is `()`.
+//! (`SMLAL`): `x` stands in the upper word of the accumulator, and the remainder in the lower word is carried to the
+//! next sum instead of being cut off. Cutting off would pull every state downwards by half a unit in the last place
+//! each tick; a remainder that is as often large as small takes that pull away, at no cost. For floats the carry is
+//! `()`.
 
 mod fixed;
 mod float;
@@ -27,9 +27,9 @@ use core::ops::{Add, Neg, Sub};
 pub trait Number:
     Copy + Default + PartialEq + PartialOrd + Debug + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self>
 {
-    /// What a number is multiplied by. In fixed point a fraction of 2^32.
+    /// Type of a factor. In fixed point a fraction of 2^32.
     type Coefficient: Copy + Default + PartialEq + Debug;
-    /// What one sum leaves to the next.
+    /// Remainder carried from one sum to the next.
     type Carry: Copy;
 
     /// Zero.
@@ -57,7 +57,7 @@ pub trait Number:
     fn scaled(self, by: Self) -> Self;
     /// A part of one, from 2^-32 parts.
     fn fraction(part: u32) -> Self;
-    /// Held within twice the base in fixed point; floats are left alone.
+    /// Limited to twice the base in fixed point; floats are unchanged.
     fn saturated(self) -> Self;
     /// In fixed point 1 where any of three saturated states is beyond its base, 0 where not; always 0 for floats.
     fn beyond_base(states: [Self; 3]) -> u32;
@@ -70,18 +70,19 @@ pub trait Number:
 
     /// An angle difference, from 2^-32 turns.
     fn from_angle(turned: i32) -> Self;
-    /// An angle difference less a turn, which is in 2^-32 turns for floats and 2^-25 turns in fixed point ([`TURN_SHIFT`]).
+    /// An angle difference less a turn, which is in 2^-32 turns for floats and 2^-25 turns in fixed point
+    /// ([`TURN_SHIFT`]).
     fn less_turn(self, turn: Self) -> Self;
     /// An angle difference as the operand of the correction gains.
     fn innovation_operand(self) -> Self;
-    /// A difference of speeds or torques as the operand of a governor's gain: held within what a gain may
-    /// amplify without overflow.
+    /// A difference of speeds or torques as the operand of a governor's gain: limited so that a gain cannot overflow.
     fn gain_operand(self) -> Self;
 
-    /// The speed at which the motor turns by this angle difference in a tick; held within four times the base in fixed point.
+    /// The speed at which the motor turns by this angle difference in a tick; limited to four times the base in fixed
+    /// point.
     fn speed_of_turn(self, c: Self::Coefficient) -> Self;
 
-    /// The value in the SI unit, or per unit of its base: for what is done between the ticks.
+    /// The value in the SI unit, or per unit of its base: for calculations between the ticks.
     fn to_real(self) -> f64;
 
     /// The bits, as they travel over a link; an `f64` is rounded to `f32` first.
@@ -90,12 +91,12 @@ pub trait Number:
     fn from_word(word: u32) -> Self;
 }
 
-/// Binary places by which a turn in fixed point is coarser than 2^-32 turns: it has a resolution of 2^7 of them (0.19 urad), which the
-/// carry refines over the ticks.
+/// Binary places by which a turn in fixed point is coarser than 2^-32 turns: it has a resolution of 2^7 of them (0.19
+/// urad), which the carry refines over the ticks.
 pub const TURN_SHIFT: u32 = 7;
 
-/// Binary places by which an innovation is shifted up before its gains, which then range over +-16 units in the last place per 2^-32
-/// turn.
+/// Binary places by which an innovation is shifted up before its gains, which then range over +-16 units in the last
+/// place per 2^-32 turn.
 pub const INNOVATION_SHIFT: u32 = 5;
 
 /// Torque per speed, per unit, that brings a standing gear to rest in fixed point.
@@ -107,6 +108,6 @@ pub const INNOVATION_RANGE: f64 = 67_108_863.0;
 /// Binary places by which a governor's gain exceeds other coefficients: gains range over +-16 per unit.
 pub const GAIN_SHIFT: u32 = 5;
 
-/// Binary places by which the factor from an angle difference to a speed exceeds other coefficients: it ranges to 32,768 units in the
-/// last place per 2^-32 turn.
+/// Binary places by which the factor from an angle difference to a speed exceeds other coefficients: it ranges to
+/// 32,768 units in the last place per 2^-32 turn.
 pub const SPEED_SHIFT: u32 = 16;

@@ -1,4 +1,4 @@
-//! The prelude: what a first drive needs, by one `use`.
+//! The prelude: the imports of a first drive, by one `use`.
 
 pub use crate::configure::{Machine, Rating};
 pub use crate::design::Encoder;

@@ -1,8 +1,8 @@
 //! Settings: from a design to the constants that the tick loads, in floats or fixed point.
 //!
-//! A design is in `f64` and SI units. Floats take it as it is, rounded; [`Fixed`](crate::number::Fixed) is per unit of [`Bases`], and its
-//! coefficients have formats of their own. Everything is `const fn`, so a firmware holds nothing but the result; the same functions run
-//! on a machine that is commissioned in the field.
+//! A design is in `f64` and SI units. Floats take it as it is, rounded; [`Fixed`](crate::number::Fixed) is per unit of
+//! [`Bases`], and its coefficients have formats of their own. Everything is `const fn`, so a firmware holds nothing but
+//! the result; the same functions run on a machine that is commissioned in the field.
 
 mod actuator_monitor;
 mod backlash;

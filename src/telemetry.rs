@@ -1,12 +1,15 @@
 //! Telemetry: a record of every tick at a fixed cost, framed over `embedded-io`.
 //!
-//! The tick puts a record of `VALUES` words into a ring ([`Ring::record`]); the main loop takes records out and sends them as frames
-//! ([`Ring::send`]). A record that finds the ring full is dropped and counted; the tick never waits, and takes the same instructions whether the record is
-//! kept or not. That is why the ring is our own: a queue of `heapless` takes another way where it is full. It holds words of 32 bits, which even a
-//! Cortex-M0+ loads and stores as a whole, and needs neither a lock nor unsafe code.
+//! The tick puts a record of `VALUES` words into a ring ([`Ring::record`]); the main loop takes records out and sends
+//! them as frames ([`Ring::send`]). A record that finds the ring full is dropped and counted; the tick never waits, and
+//! takes the same instructions whether the record is kept or not. That is why the ring is our own: a queue of
+//! `heapless` takes another way where it is full. It holds words of 32 bits, which even a Cortex-M0+ loads and stores
+//! as a whole, and needs neither a lock nor unsafe code.
 //!
 //! # Frames
-//! A frame is a packet after consistent overhead byte stuffing [Cheshire, Baker 1999], and a zero. A packet ends with the CRC-16 of its preceding bytes (polynomial 0x1021, begun with 0xffff, most significant bit first), all words least significant byte first:
+//! A frame is a packet after consistent overhead byte stuffing [Cheshire, Baker 1999], and a zero. A packet ends with
+//! the CRC-16 of its preceding bytes (polynomial 0x1021, begun with 0xffff, most significant bit first), all words
+//! least significant byte first:
 //!
 //! | packet | bytes |
 //! |---|---|

@@ -95,7 +95,9 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Error::Size => f.write_str("planes, readings and runs must number at least one, and no more than there is room for"),
+            Error::Size => {
+                f.write_str("planes, readings and runs must number at least one, and no more than there is room for")
+            }
             Error::NoPlane { plane } => write!(f, "there is no plane {}", plane + 1),
             Error::TrialWeightZero { plane } => {
                 write!(f, "the trial weight in plane {} is zero: put a weight there and run again", plane + 1)

@@ -195,7 +195,7 @@ impl fmt::Display for ReadingFault {
                 f.write_str(" while the speed stood: a resonance is near, or the rotor is getting warm")
             }
             ReadingFault::Scattered { scatter } => {
-                f.write_str("the vibration goes to and fro by ")?;
+                f.write_str("the vibration fluctuates by ")?;
                 tenths(f, *scatter)
             }
         }

@@ -15,13 +15,13 @@ use crate::governor::{
 use crate::number::{Fixed, Number};
 use crate::settings::{Bases, SequencerSettings, SpeedLoopSettings};
 
-/// What [`SpeedGovernor`] takes its gains from.
+/// Source of the gains of [`SpeedGovernor`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum GainSource {
     /// The speed loop of a torque-controlled drive.
     SpeedLoop(SpeedLoopDesign),
-    /// The governor of a late actuator, with what it feeds forward.
+    /// The governor of a slow actuator, with its feed-forward.
     Governor(GovernorDesign),
 }
 
@@ -36,9 +36,9 @@ impl GainSource {
     }
 }
 
-/// A machine whose backlash or slack rope is taken up.
+/// A machine with backlash take-up, or with a slack rope.
 pub trait HasBacklash: Machine {
-    /// How it is taken up.
+    /// Tuning of the take-up.
     const TAKING_UP: BacklashTakeUpTuning;
     /// The taking up, from the two masses, rate and tuning.
     const TAKE_UP: BacklashTakeUpDesign = Self::TWO_MASS.take_up(Self::RATE, Self::TAKING_UP);
@@ -73,7 +73,7 @@ pub trait HasSlew: Machine {
 
 /// A machine that starts, runs, stops and trips.
 pub trait HasSequencer: Machine {
-    /// Limits of the modes.
+    /// Limits of the sequencer.
     const SEQUENCER: SequencerSettings;
 }
 
@@ -99,7 +99,7 @@ where
     };
 }
 
-/// Nothing: what is renewed over a cycle comes from the measurement of the fluctuation.
+/// None: the average over a cycle comes from the measurement of the fluctuation.
 impl<M: Machine, N: Number> Configure<M, N> for CycleAverage<N> {
     type Config = ();
     const CONFIG: () = ();

@@ -1,4 +1,4 @@
-//! What a sample can be, for a machine.
+//! Plausibility limits of a sample, for a machine.
 
 use super::{Configure, Machine};
 use crate::drive::Limits;

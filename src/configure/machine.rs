@@ -1,4 +1,4 @@
-//! The machine, its rating, and what follows from them.
+//! The machine, its rating, and the constants derived from them.
 
 use super::GainSource;
 use crate::design::{
@@ -11,7 +11,7 @@ use crate::number::Fixed;
 use crate::observer::TwoMassConfig;
 use crate::settings::{Bases, Cycle, Gear, Screening, SpeedLoopSettings};
 
-/// What the motor is rated for.
+/// Rating of the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rating {
@@ -24,16 +24,18 @@ pub struct Rating {
 }
 
 impl Rating {
-    /// The drive holds its torque to 1 % of rated in a tick, as a current-controlled motor does; the load torque wanders by half of rated
-    /// in 10 s, so that the observer follows a step of the rated torque in some tens of milliseconds.
+    /// The drive holds its torque to 1 % of rated in a tick, as a current-controlled motor does; the load torque
+    /// wanders by half of rated in 10 s, so that the observer follows a step of the rated torque in some tens of
+    /// milliseconds.
     #[must_use]
     pub const fn disturbance(&self) -> Disturbance {
         Disturbance { torque_accuracy: 0.01 * self.torque, load_torque_step: 0.5 * self.torque, within: 10.0 }
     }
 
-    /// Limits of a sample: torque two thirds over its limit, which no healthy drive reaches; setpoint a fifth over rated speed; innovation
-    /// 1/128 turn, half of what fixed point holds; two counts of the encoder for an angle that stands still; and as many ticks without an
-    /// angle as the motor needs for half a turn at the largest setpoint, after which the angle is ambiguous.
+    /// Limits of a sample: torque two thirds over its limit, which no healthy drive reaches; setpoint a fifth over
+    /// rated speed; innovation 1/128 turn, half of what fixed point holds; two counts of the encoder for an angle that
+    /// stands still; and as many ticks without an angle as the motor needs for half a turn at the largest setpoint,
+    /// after which the angle is ambiguous.
     ///
     /// # Panics
     /// At compile time in a constant, for an encoder without lines or a rate that is not positive.
@@ -49,18 +51,19 @@ impl Rating {
         }
     }
 
-    /// Acceleration of the setpoint \[rad/s2\]: rated speed in two seconds, or what half of the torque limit gives this inertia
-    /// \[kg m2\] where that is less, so that the other half is left for the load.
+    /// Acceleration of the setpoint \[rad/s2\]: rated speed in two seconds, or the acceleration of this inertia
+    /// \[kg m2\] by half of the torque limit where that is less, so that the other half remains for the load.
     #[must_use]
     pub const fn ramp(&self, inertia: f64) -> f64 {
         let (usual, possible) = (self.speed / 2.0, 0.5 * self.torque_limit / inertia);
         if usual < possible { usual } else { possible }
     }
 
-    /// Bases of fixed point: twice the torque limit, since the shaft swings by as much as the motor gives, and a third over rated speed.
+    /// Bases of fixed point: twice the torque limit, since the shaft swings by as much as the motor gives, and a third
+    /// over rated speed.
     ///
-    /// The base of the torque is doubled until the gains of observer and speed loop fit, at most twelve times: a fine encoder or a stiff shaft
-    /// makes them large. Each doubling takes a bit of the torque's 28.
+    /// The base of the torque is doubled until the gains of observer and speed loop fit, at most twelve times: a fine
+    /// encoder or a stiff shaft makes them large. Each doubling takes a bit of the torque's 28.
     #[must_use]
     pub const fn bases(&self, observer: &TwoMassDesign, speed_loop: &SpeedLoopDesign) -> Bases {
         let settings = SpeedLoopSettings { torque_limit: self.torque_limit, ramp: self.speed };
@@ -79,9 +82,9 @@ impl Rating {
 
 /// A machine with its motor, its encoder and its tick rate: four constants, and those that follow from them.
 ///
-/// Every constant with a default says how it follows. To override it, name it; what follows from it follows then. A constant that no part of
-/// the drive uses is never evaluated. The defaults have been compared with the 18 machines of the project's firmware, each tuned on a full
-/// simulation; "n of 18" says how many of them keep the default.
+/// Every default states its derivation. Name a constant to override it; constants derived from it follow. A constant
+/// that no part of the drive uses is never evaluated. The defaults have been compared with the 18 machines of the
+/// project's firmware, each tuned on a full simulation; "n of 18" says how many of them keep the default.
 pub trait Machine {
     /// The machine, from the motor to the load.
     const CHAIN: Chain;
@@ -106,8 +109,8 @@ pub trait Machine {
 
     /// How torque and load torque wander: [`Rating::disturbance`].
     ///
-    /// The torque's 1 % is kept by 15 of 18. The load's wandering is the tuning of the observer: loads that hardly change take 100 s instead
-    /// of 10 s, loads that come at once take 1 s.
+    /// The torque's 1 % is kept by 15 of 18. The load's wandering is the tuning of the observer: loads that hardly
+    /// change take 100 s instead of 10 s, loads that come at once take 1 s.
     const DISTURBANCE: Disturbance = Self::RATING.disturbance();
     /// The observer of two masses, from machine, rate, encoder and disturbance.
     const OBSERVER: TwoMassDesign = Self::TWO_MASS.observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE);
@@ -118,8 +121,9 @@ pub trait Machine {
     /// The observer of backlash, from the two masses with their gap.
     const BACKLASH_OBSERVER: BacklashDesign =
         Self::TWO_MASS.backlash_observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE, Self::BACKLASH_TUNING);
-    /// The gear's losses as the observer has to know them: the chain's efficiency, the inertia on the motor side, and eight counts of the
-    /// encoder by which the motor can turn while friction holds the gear. All three machines with a lossy gear keep it.
+    /// The gear's losses as the observer has to know them: the chain's efficiency, the inertia on the motor side, and
+    /// eight counts of the encoder by which the motor can turn while friction holds the gear. All three machines with a
+    /// lossy gear keep it.
     const GEAR: Gear = Gear {
         efficiency: Self::CHAIN.efficiency(),
         inertia: Self::TWO_MASS.motor_inertia,
@@ -128,30 +132,30 @@ pub trait Machine {
 
     /// How brisk the speed loop is: 0.4 of the antiresonance, damping ratios 1 and 0.4.
     ///
-    /// Kept by 3 of 18. A machine that has more than one resonance within reach, or a motor much heavier than its load, takes a bandwidth of
-    /// 0.1 and a damping ratio of the shaft of 0.1.
+    /// Kept by 3 of 18. A machine that has more than one resonance within reach, or a motor much heavier than its load,
+    /// takes a bandwidth of 0.1 and a damping ratio of the shaft of 0.1.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning::USUAL;
     /// The speed loop, from the two masses, rate and tuning.
     const SPEED_LOOP: SpeedLoopDesign = Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING);
     /// Acceleration of the setpoint \[rad/s2\]: [`Rating::ramp`] with the inertia of the whole chain.
     const RAMP: f64 = Self::RATING.ramp(Self::CHAIN.total_inertia());
-    /// What the composed governor takes its gains from: the speed loop.
+    /// Source of the composed governor's gains: the speed loop.
     const GAINS: GainSource = GainSource::SpeedLoop(Self::SPEED_LOOP);
     /// Smallest torque of a motor whose limits differ \[N m\], zero or below: zero, as an engine cannot brake.
     const LEAST_TORQUE: f64 = 0.0;
 
-    /// Limits of what a sample can be: [`Rating::screening`].
+    /// Plausibility limits of a sample: [`Rating::screening`].
     ///
-    /// Torque and setpoint are kept by 15 of 18, the innovation by 15. With an encoder of more than 2^17 counts a smaller one is found out
-    /// sooner.
+    /// Torque and setpoint are kept by 15 of 18, the innovation by 15. With an encoder of more than 2^17 counts a
+    /// smaller one is found out sooner.
     const SCREENING: Screening = Self::RATING.screening(Self::ENCODER, Self::RATE);
     /// Bases of fixed point: [`Rating::bases`] with observer and speed loop.
     ///
-    /// Kept by 9 of 18; the others have a fine encoder or a soft governor, or leave more room for the speed. A machine of one mass, or one whose
-    /// shaft no observer can follow, names [`Bases::rigid`] or [`Bases::new`].
+    /// Kept by 9 of 18; the others have a fine encoder or a soft governor, or leave more room for the speed. A machine
+    /// of one mass, or one whose shaft no observer can follow, names [`Bases::rigid`] or [`Bases::new`].
     const BASES: Bases = Self::RATING.bases(&Self::OBSERVER, &Self::SPEED_LOOP);
 
-    /// What repeats, for the measurement of the speed's fluctuation: a turn of the motor.
+    /// The cycle, for the measurement of the speed's fluctuation: a turn of the motor.
     const CYCLE: Cycle = Cycle::TURN;
     /// Cycles in a window of the waveform.
     const CYCLES: u32 = 16;

@@ -4,7 +4,7 @@ use super::Machine;
 use crate::number::{Fixed, Number};
 use crate::sample::{Command, Estimate, Sample};
 
-/// A number that quantities of a machine are held in: SI units in floats, per unit of its bases in fixed point.
+/// A number type for the quantities of a machine: SI units in floats, per unit of its bases in fixed point.
 pub trait Units: Number {
     /// A torque \[N m\].
     fn from_torque<M: Machine>(torque: f32) -> Self;
@@ -45,7 +45,7 @@ float!(f64);
 /// Units in the last place to the base.
 const ONE: f64 = Fixed::ONE.to_bits() as f64;
 
-/// What is no number is beyond every limit, so that the drive finds it out.
+/// A value that is not a number is beyond every limit, so the drive rejects it.
 fn fixed(units: f32) -> Fixed {
     Fixed::from_bits(if units.is_nan() { i32::MAX } else { units as i32 })
 }

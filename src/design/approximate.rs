@@ -1,4 +1,4 @@
-//! Cheaper steps of the same twist and slip, and how far each is from the exact one.
+//! Cheaper steps of twist and twist rate, and their errors against the exact one.
 
 use super::ExactStep;
 use crate::machine::TwoMass;
@@ -11,8 +11,8 @@ const LONGEST_HORIZON: u32 = 4096;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Fidelity {
-    /// Largest error of twist and slip over [`horizon`](Self::horizon) ticks of free motion, relative to the start, in the
-    /// energy norm (twist times w, slip); infinite where the step is unstable.
+    /// Largest error of twist and twist rate over [`horizon`](Self::horizon) ticks of free motion, relative to the
+    /// start, in the energy norm (twist times w, twist rate); infinite where the step is unstable.
     pub error_bound: f64,
     /// Ticks that the bound covers: one period of the resonance, at least 1 and at most 4096.
     pub horizon: u32,
@@ -32,15 +32,15 @@ pub struct Fidelity {
 pub struct ApproximateStep {
     /// Twist from twist \[1\], less one.
     pub n11: f64,
-    /// Twist from slip \[s\].
+    /// Twist from twist rate \[s\].
     pub n12: f64,
     /// Twist from drive \[s2\].
     pub g1: f64,
-    /// Slip from twist \[1/s\].
+    /// Twist rate from twist \[1/s\].
     pub n21: f64,
-    /// Slip from slip \[1\], less one.
+    /// Twist rate from twist rate \[1\], less one.
     pub n22: f64,
-    /// Slip from drive \[s\].
+    /// Twist rate from forcing \[s\].
     pub g2: f64,
     /// How far it is from the exact step.
     pub fidelity: Fidelity,
@@ -70,7 +70,7 @@ impl ApproximateStep {
     }
 }
 
-/// Semi-implicit Euler: `v += dt s - stiffness_dt delta - damping_dt v`, then `delta += dt v` with the new slip.
+/// Semi-implicit Euler: `v += dt s - stiffness_dt delta - damping_dt v`, then `delta += dt v` with the new twist rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SemiImplicitStep {
@@ -106,7 +106,8 @@ pub enum StepChoice {
 }
 
 impl StepChoice {
-    /// Error over a period of the resonance below which the cheap step does: 1 %, less than a stiffness is ever known to.
+    /// Error over a period of the resonance below which the cheap step does: 1 %, less than a stiffness is ever known
+    /// to.
     pub const THRESHOLD: f64 = 0.01;
 
     /// The semi-implicit step where it is stable and its [`Fidelity::error_bound`] is at most `threshold`.

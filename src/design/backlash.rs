@@ -1,9 +1,8 @@
 //! Observer of two masses with a backlash between them, from the motor's angle alone.
 //!
 //! Two sets of gains, both steady states of a Kalman filter of the shaft in contact. The settled ones are
-//! [`TwoMass::observer`]'s. The searching ones belong to a shaft whose twist wanders besides: what an open gap leaves
-//! unknown is where the flank will be met, and a filter that takes the twist for a random walk draws it to where the
-//! motor's angle says that it must be, within a few milliseconds of the impact.
+//! [`TwoMass::observer`]'s. The searching ones are those of a shaft with a random walk of the twist: an open gap leaves
+//! the position of the flank unknown, and the filter draws the twist to it within a few milliseconds of the impact.
 //!
 //! How far the twist is to wander and how long the searching gains stand is one pair of numbers, [`BacklashTuning`], in
 //! units of the gap and of the resonance's period. [`BacklashTuning::USUAL`] was found by search over two-mass machines
@@ -37,7 +36,7 @@ impl BacklashTuning {
 pub struct BacklashDesign {
     /// The observer of the same machine in contact; its gains are the settled ones.
     pub contact: TwoMassDesign,
-    /// The step of twist and slip in free flight.
+    /// The step of twist and twist rate in free flight.
     pub free: ExactStep,
     /// Whole free travel of the gap \[rad\].
     pub gap: f64,

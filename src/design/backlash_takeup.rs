@@ -1,11 +1,11 @@
-//! How slack is taken up: creep, rise and damping from what the shaft may feel.
+//! Design of backlash take-up: approach speed, torque rise and damping from the permissible impact.
 
 use super::Error;
 use super::tuning::Rate;
 use crate::machine::TwoMass;
 use crate::math::sqrt;
 
-/// How slack is to be taken up.
+/// Tuning of backlash take-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTakeUpTuning {
@@ -15,23 +15,23 @@ pub struct BacklashTakeUpTuning {
     pub torque: f64,
     /// By how much the largest torque rises in a period of the resonance once the gap has closed [N m], above 0.
     pub rise: f64,
-    /// What it rises to [N m]: the largest torque of the motor, above 0.
+    /// Final limit [N m]: the largest torque of the motor, above 0.
     pub max_torque: f64,
     /// Damping ratio that the motor adds to the shaft; not negative.
     pub damping: f64,
 }
 
-/// How slack is taken up.
+/// Design of backlash take-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTakeUpDesign {
     /// Time between two ticks \[s\].
     pub period: f64,
-    /// Slip at which an open gap is closed, at the most [rad/s].
+    /// Approach speed: largest twist rate in an open gap [rad/s].
     pub approach_speed: f64,
     /// Largest torque while the gap is open [N m].
     pub torque: f64,
-    /// Damping of the slip while the gap is open [N m s/rad]: torque over creep.
+    /// Damping of the twist rate while the gap is open [N m s/rad]: torque over approach speed.
     pub braking: f64,
     /// Rate at which the largest torque rises once the gap has closed [N m/s].
     pub slew: f64,
@@ -42,10 +42,10 @@ pub struct BacklashTakeUpDesign {
 }
 
 impl TwoMass {
-    /// Designs how slack is taken up.
+    /// Designs backlash take-up.
     ///
-    /// The creep is the impact over `sqrt(k J_m J_l/(J_m + J_l))` [Huang 1987 part 2], the damping
-    /// `2 zeta omega J_m`: what a torque on the motor alone adds to the twist.
+    /// The approach speed is the impact over `sqrt(k J_m J_l/(J_m + J_l))` [Huang 1987 part 2], the damping
+    /// `2 zeta omega J_m` (derived; the motor's torque alone).
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_take_up`](Self::try_take_up)

@@ -2,7 +2,7 @@
 
 use super::Error;
 
-/// The share of a critical speed, either way, within which a machine should not dwell: 10 %.
+/// Margin to a critical speed, either side, within which a machine should not dwell: 10 %.
 pub const USUAL_MARGIN: f64 = 0.1;
 
 /// Barred ranges of speed, rising and apart, at most `K`.

@@ -1,15 +1,16 @@
 //! The speed loop with everything that is in it: machine, observer, governor, actuator, all sampled.
 //!
-//! A loop whose estimates are taken as exact is told to bear ten times where it bears a quarter: the observer knows the machine that it was
-//! designed with and the torque that the drive reports, and finds what differs with a lag. Here the observer stands in the loop, and the machine may differ
-//! from the one that it knows.
+//! A loop whose estimates are taken as exact is told to bear ten times where it bears a quarter: the observer knows the
+//! machine that it was designed with and the torque that the drive reports, and finds what differs with a lag. Here the
+//! observer stands in the loop, and the machine may differ from the one that it knows.
 //!
-//! The loop is cut where the torque that the drive reports acts on the machine. A gain above 1 there is a torque constant that is larger than told, or
-//! as well inertias and stiffness that are all smaller.
+//! The loop is cut where the torque that the drive reports acts on the machine. A gain above 1 there is a torque
+//! constant that is larger than told, or as well inertias and stiffness that are all smaller.
 //!
-//! With `phi` and `omega` the mean angle and speed, `delta` and `v` twist and slip, all states of the observer follow from the torque
-//! `tau` of the ended tick and from the innovation `i` by the model's own step. Eliminating `i` from `theta_m - theta_m^ = (1 - K_1) i`
-//! leaves the governor's torque as `u = -(Q tau + P theta_m)/D_o`, with `D_o` the polynomial of the observer's poles; all of it in closed form, in `z - 1`.
+//! With `phi` and `omega` the mean angle and speed, `delta` and `v` twist and slip, all states of the observer follow
+//! from the torque `tau` of the ended tick and from the innovation `i` by the model's own step. Eliminating `i` from
+//! `theta_m - theta_m^ = (1 - K_1) i` leaves the governor's torque as `u = -(Q tau + P theta_m)/D_o`, with `D_o` the
+//! polynomial of the observer's poles; all of it in closed form, in `z - 1`.
 
 use super::margins::{Margins, OpenLoop};
 use super::plant::{Plant, Twist};
@@ -94,7 +95,8 @@ impl ClosedLoop {
     /// A speed loop on the estimates of two masses, its torque within the tick.
     ///
     /// # Errors
-    /// [`Error::Period`] where the two are not designed for the same rate; [`Error::Actuator`] for one that is out of range or later than twelve ticks.
+    /// [`Error::Period`] where the two are not designed for the same rate; [`Error::Actuator`] for one that is out of
+    /// range or later than twelve ticks.
     pub const fn of(observer: &TwoMassDesign, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<Self, Error> {
         Self::close(&Observer::of_two_masses(observer), speed_loop, actuator)
     }
@@ -221,8 +223,8 @@ impl ClosedLoop {
         Ok(found)
     }
 
-    /// By which factors motor inertia, load inertia and stiffness of two masses may differ, each alone, from the most to the least that
-    /// the loop bears; 0 and infinity where it bears a hundredth and a hundred times.
+    /// By which factors motor inertia, load inertia and stiffness of two masses may differ, each alone, from the most
+    /// to the least that the loop bears; 0 and infinity where it bears a hundredth and a hundred times.
     #[must_use]
     pub const fn ranges(&self, machine: &TwoMass) -> Ranges {
         let mut range = [[1.0; 2]; 3];
@@ -271,7 +273,8 @@ impl Varied<'_> {
     }
 }
 
-/// The first factor from 1 on, up or down, at which what is varied turns unstable; infinity, or 0, beyond a hundred or a hundredth.
+/// The first factor from 1 on, up or down, at which what is varied turns unstable; infinity, or 0, beyond a hundred or
+/// a hundredth.
 const fn edge(varied: &Varied, up: bool) -> f64 {
     // Steps of 2 %: an island of instability narrower than that is passed over.
     let step = if up { 1.02 } else { 1.0 / 1.02 };

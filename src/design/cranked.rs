@@ -12,7 +12,7 @@ pub struct CrankedDesign {
     pub machine: Cranked,
     /// The observer of the mean inertia, whose gains stand at every angle.
     pub rigid: RigidDesign,
-    /// Largest size of a pole with the inertia held at its least and at its largest.
+    /// Largest pole magnitude at the smallest and the largest inertia.
     pub spectral_radii: [f64; 2],
 }
 
@@ -20,7 +20,8 @@ impl Cranked {
     /// Designs the observer.
     ///
     /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer) returns.
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer)
+    /// returns.
     #[must_use]
     pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> CrankedDesign {
         match self.try_observer(rate, encoder, disturbance) {
@@ -32,8 +33,8 @@ impl Cranked {
     /// [`observer`](Self::observer), with an error instead of a panic.
     ///
     /// # Errors
-    /// As [`Rigid::try_observer`], and [`Error::CrankedNotStabilising`] where the gains of the mean inertia leave a pole on or outside the unit
-    /// circle at the least or the largest one.
+    /// As [`Rigid::try_observer`], and [`Error::CrankedNotStabilising`] where the gains of the mean inertia leave a
+    /// pole on or outside the unit circle at the least or the largest one.
     pub const fn try_observer(
         &self,
         rate: Rate,

@@ -37,26 +37,37 @@ sentences! {
     LoadTorqueStep => "load_torque_step of the disturbance must be positive and finite (N m)",
     Within => "within of the disturbance must be positive and finite (s)",
     Unobservable => "the load is unobservable from the motor's angle: the stiffness between the two masses is zero",
-    SampleRate => "the sample rate cannot follow the shaft: its resonance lies above half the rate and is hardly damped",
-    NotConverged => "the observer's gain was not found: the Riccati equation has no stabilising solution for these disturbances",
-    NotStabilising => "the observer's gain does not stabilise the estimate: the disturbances are too small for this machine",
-    CrankedNotStabilising => "the gains for the crank drive's mean inertia do not stabilise the estimate at its least or its largest one: the inertia swings too far, or the disturbances are too small",
+    SampleRate => "the sample rate cannot follow the shaft: its resonance lies above half the rate and is hardly \
+        damped",
+    NotConverged => "the observer's gain was not found: the Riccati equation has no stabilising solution for these \
+        disturbances",
+    NotStabilising => "the observer's gain does not stabilise the estimate: the disturbances are too small for this \
+        machine",
+    CrankedNotStabilising => "the gains for the crank drive's mean inertia do not stabilise the estimate at its least \
+        or its largest one: the inertia swings too far, or the disturbances are too small",
     NoGap => "the machine has no backlash: take the observer of two masses",
     Wander => "the wander of the backlash's tuning must be above zero and finite (share of the gap)",
     Hold => "the hold of the backlash's tuning must not be negative, and within 2^32 ticks (periods of the resonance)",
-    Slack => "impact, torque, rise and largest torque of the backlash take-up must be positive and finite, its damping zero or above (N m, N m, N m, N m, 1)",
+    Slack => "impact, torque, rise and largest torque of the backlash take-up must be positive and finite, its damping \
+        zero or above (N m, N m, N m, N m, 1)",
     Noise => "the measurement noise must have a positive definite covariance",
     Bandwidth => "the bandwidth of the speed loop must be above zero and below the antiresonance of the machine",
     DampingRatio => "the damping ratios of the speed loop must be above zero and finite",
-    Actuator => "the actuator's delay and lag must be zero or above and finite (s), its engine must have cylinders and turn",
-    OptimumFactor => "the symmetrical-optimum factor of the governor must be above 1 and finite: from 2 (fast) to 4 (well damped)",
-    VirtualInertia => "the virtual inertia must be from 0 to 1 of the machine's own, the lag of the estimate zero or above and finite (s)",
-    FeedForward => "the share of the load torque that is fed forward must be from 0 to 1, the lag of its estimate zero or above and finite (s)",
+    Actuator => "the actuator's delay and lag must be zero or above and finite (s), its engine must have cylinders and \
+        turn",
+    OptimumFactor => "the symmetrical-optimum factor of the governor must be above 1 and finite: from 2 (fast) to 4 \
+        (well damped)",
+    VirtualInertia => "the virtual inertia must be from 0 to 1 of the machine's own, the lag of the estimate zero or \
+        above and finite (s)",
+    FeedForward => "the share of the load torque that is fed forward must be from 0 to 1, the lag of its estimate zero \
+        or above and finite (s)",
     GovernorUnstable => "the governor is unstable with this actuator and shaft: raise its symmetrical-optimum factor",
     Barred => "barred speeds need frequencies and orders above zero and finite, and a margin above 0 and below 1",
     BarredCount => "there are more barred ranges of speed than the governor has room for: raise K",
-    TorqueCurve => "a torque curve needs points of rising speed from zero on, each with a torque of zero or above, all finite",
-    LoopUnstable => "the speed loop is unstable with its observer in it: lower the damping ratio of its shaft, or tell the observer of a livelier load",
+    TorqueCurve => "a torque curve needs points of rising speed from zero on, each with a torque of zero or above, all \
+        finite",
+    LoopUnstable => "the speed loop is unstable with its observer in it: lower the damping ratio of its shaft, or tell \
+        the observer of a livelier load",
     SpeedLoopUnstable => "the speed loop is unstable at this sample rate: lower its bandwidth or raise the rate",
 }
 

@@ -1,22 +1,22 @@
-//! Gains of a governor whose actuator is late: a fuel rack, a valve.
+//! Design of a governor with a slow actuator: a fuel rack, a steam valve.
 //!
-//! To a governor that is slower than the shaft's vibration the machine is one mass of the total inertia J, and
-//! everything that is late, the dead time and lag of the actuator and the tick, acts as one lag T_s, their sum. With
-//! `a` the span of the loop,
+//! To a governor slower than the shaft's vibration the machine is one mass of the total inertia J. Dead time and lag of
+//! the actuator and the tick act as one equivalent delay T_s, their sum. With `a` the factor of the symmetrical
+//! optimum,
 //!
 //! - `k_p = J/(a T_s)`, `k_i = k_p/(a^2 T_s)`
 //!
-//! put the crossover at `1/(a T_s)`, in the middle of a range of `a^2` over which the phase stays above -180 degrees:
-//! the symmetrical optimum [Kessler 1958, Regelungstechnik 6(11); Föllinger, Regelungstechnik, ch. 7]. For a true
-//! first-order lag the phase margin is `atan(a) - atan(1/a)`: 37 degrees at 2, 53 at 3.
+//! put the crossover at `1/(a T_s)`, the geometric mean of a range of `a^2` over which the phase stays above -180
+//! degrees: the symmetrical optimum [Kessler 1958, Regelungstechnik 6(11); Föllinger, Regelungstechnik, ch. 7]. For a
+//! true first-order lag the phase margin is `atan(a) - atan(1/a)`: 37 degrees at 2, 53 at 3.
 //!
-//! Margins are those of the loop as it is: two masses, sampled, dead time and lag apart, and what is fed forward. With
+//! Margins are those of the full loop: two masses, sampled, with dead time, lag and feed-forward. With
 //! P the machine, A the actuator, C the controller, F the lag of the estimated load torque and g its share, the
 //! observer finds the load from the machine's motion and from the torque that acts, so the loop cut at the actuator is
-//! `A (C P + g F)/(1 - g F A)`. The closed loop is that of `A C P` alone, as long as the actuator is what the observer
-//! is told it is; the margins say how far it may be something else. At g = 1 the feed-forward integrates by itself. With
-//! a virtual inertia of the share s the estimated acceleration is that of the told torque and, late, of what the
-//! machine's motion adds to it: the loop is `A (C P + s F)/(1 + s (1 - F) A)`.
+//! `A (C P + g F)/(1 - g F A)`. The closed loop is that of `A C P` alone, as long as the actuator matches its model;
+//! the margins cover the mismatch. At g = 1 the feed-forward integrates by itself. With a virtual inertia of the share
+//! s the estimated acceleration is that of the reported torque plus, delayed, that of the machine's motion: the loop is
+//! `A (C P + s F)/(1 + s (1 - F) A)`.
 
 use super::late_loop::{Late, LateLoop};
 use super::margins::{Margins, OpenLoop};
@@ -25,7 +25,7 @@ use super::{Error, ExactStep};
 use crate::machine::TwoMass;
 use crate::math::sqrt;
 
-/// How late the torque acts after its command.
+/// Dead time and lag of the actuator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Actuator {
@@ -69,7 +69,7 @@ impl Actuator {
     }
 }
 
-/// What is fed forward of the estimated load torque.
+/// Feed-forward of the estimated load torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadFeedForward {
@@ -86,9 +86,9 @@ impl LoadFeedForward {
 
 /// An inertia that the governor gives the machine by the actuator, against the estimated acceleration.
 ///
-/// With a share `s` of the machine's own inertia J the actuator A is closed into the inner loop `A/(1 + s A)`. For a sum
-/// of lags that is a lag of `1/(1 + s)` of theirs and of `1/(1 + s)` of their gain. The loop round it is designed for the
-/// shorter lag, with the gain left as it is, which is as if the machine were heavier: both raise the margins.
+/// With a share `s` of the machine's own inertia J the actuator A is closed into the inner loop `A/(1 + s A)`. For a
+/// sum of lags that is a lag of `1/(1 + s)` of theirs and of `1/(1 + s)` of their gain. The loop round it is designed
+/// for the shorter lag, with the gain left as it is, which is as if the machine were heavier: both raise the margins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct VirtualInertia {
@@ -98,7 +98,7 @@ pub struct VirtualInertia {
     pub lag: f64,
 }
 
-/// A finished governor for a late actuator.
+/// Design of a governor for a slow actuator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GovernorDesign {
@@ -108,7 +108,7 @@ pub struct GovernorDesign {
     pub proportional: f64,
     /// Integral gain \[N m/rad\].
     pub integral: f64,
-    /// Sum of all that is late \[s\], less what a virtual inertia takes of it.
+    /// Equivalent delay of the loop \[s\], as reduced by a virtual inertia.
     pub equivalent_delay: f64,
     /// Share of the load torque that is fed forward.
     pub share: f64,
@@ -121,8 +121,8 @@ pub struct GovernorDesign {
 }
 
 impl TwoMass {
-    /// Designs a governor for a late actuator. `optimum_factor` is a of the symmetrical optimum, above 1; from 2 (brisk) to 4
-    /// (quiet).
+    /// Designs a governor for a slow actuator. `optimum_factor` is a of the symmetrical optimum, above 1; from 2 (fast)
+    /// to 4 (well damped).
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_governor`](Self::try_governor)
@@ -194,7 +194,7 @@ impl TwoMass {
         self.late_governor(rate, actuator, optimum_factor, [0.0, inertia.share, inertia.lag])
     }
 
-    /// The governor with what it takes of the estimates: share of the load torque, of the inertia, and their lag.
+    /// The governor with its use of the estimates: share of the load torque, of the inertia, and their lag.
     const fn late_governor(
         &self,
         rate: Rate,
@@ -217,7 +217,7 @@ impl TwoMass {
             return Err(Error::OptimumFactor);
         }
         let [share, inertia, estimate] = taken;
-        // The torque acts in the tick after its sample, and is held for a tick: half of one more in the mean.
+        // The torque acts in the tick after its sample and is held for a tick: another half tick in the mean.
         let equivalent_delay = (delay + lag + 1.5 * period) / (1.0 + inertia);
         let proportional = self.total_inertia() / (optimum_factor * equivalent_delay);
         let integral = proportional / (optimum_factor * optimum_factor * equivalent_delay);

@@ -25,12 +25,13 @@ pub struct Kalman<const N: usize, const M: usize> {
 impl<const N: usize, const M: usize> Kalman<N, M> {
     /// Designs the gains.
     ///
-    /// The states may have very different units: the equation is solved in the units that make F balanced, then again in
-    /// units of the standard deviations found.
+    /// The states may have very different units: the equation is solved in the units that make F balanced, then again
+    /// in units of the standard deviations found.
     ///
     /// # Errors
-    /// [`Error::Noise`] where R is not invertible or not positive on its diagonal, [`Error::NotConverged`] where there is no stabilising solution,
-    /// [`Error::NotStabilising`] where the gain leaves a pole on or outside the unit circle.
+    /// [`Error::Noise`] where R is not invertible or not positive on its diagonal, [`Error::NotConverged`] where there
+    /// is no stabilising solution, [`Error::NotStabilising`] where the gain leaves a pole on or outside the unit
+    /// circle.
     pub const fn design(f: &Matrix<N, N>, h: &Matrix<M, N>, q: &Matrix<N, N>, r: &Matrix<M, M>) -> Result<Self, Error> {
         let mut j = 0;
         while j < M {

@@ -1,4 +1,5 @@
-//! The loop of a governor with a late actuator, by its frequency response: dead times of any length, and estimates with a lag.
+//! The loop of a governor with a late actuator, by its frequency response: dead times of any length, and estimates with
+//! a lag.
 
 use super::ExactStep;
 use super::margins::{Complex, over, times};
@@ -16,14 +17,14 @@ pub(super) struct LateLoop {
     pub late: Late,
 }
 
-/// What acts later than the tick, in continuous time.
+/// Delays beyond the tick, in continuous time.
 #[derive(Clone, Copy)]
 pub(super) struct Late {
     /// Dead time and lag of the actuator.
     pub delay: f64,
     pub lag: f64,
-    /// Share of the load torque that is fed forward, share of the inertia that is given against the acceleration, and the lag of the
-    /// estimated load torque.
+    /// Share of the load torque that is fed forward, share of the inertia that is given against the acceleration, and
+    /// the lag of the estimated load torque.
     pub share: f64,
     pub inertia: f64,
     pub estimate: f64,
@@ -56,22 +57,22 @@ impl LateLoop {
         self.with_late(over(speed, z), z, frequency)
     }
 
-    /// The response with what is late: `A (L + (g + s) F)/(1 - g F A + s (1 - F) A)`.
+    /// The response with delays: `A (L + (g + s) F)/(1 - g F A + s (1 - F) A)`.
     const fn with_late(&self, prompt: Complex, z: Complex, frequency: f64) -> Complex {
         let Late { delay, lag, share, inertia, estimate } = self.late;
         let (sine, cosine) = sin_cos(frequency * delay);
         let actuator = over((cosine, -sine), (1.0, frequency * lag));
         let taken = share + inertia;
         let filter = over(over((taken, 0.0), (1.0, frequency * estimate)), z);
-        // What acts on the told torque: (g + s) F - s/z.
+        // Acts on the reported torque: (g + s) F - s/z.
         let own = over((inertia, 0.0), z);
         let fed = times((filter.0 - own.0, filter.1 - own.1), actuator);
         over(times(actuator, (prompt.0 + filter.0, prompt.1 + filter.1)), (1.0 - fed.0, -fed.1))
     }
 
-    /// Whether the closed loop of a proportional and integral controller on a free mass is stable, by Nyquist's criterion: two poles at the
-    /// origin, none to its right, so the response turns about -1 by half a turn from zero frequency to the Nyquist frequency; by three quarters
-    /// where the whole load torque is fed forward.
+    /// Whether the closed loop of a proportional and integral controller on a free mass is stable, by Nyquist's
+    /// criterion: two poles at the origin, none to its right, so the response turns about -1 by half a turn from zero
+    /// frequency to the Nyquist frequency; by three quarters where the whole load torque is fed forward.
     pub(super) const fn is_stable(&self, bandwidth: f64) -> bool {
         let nyquist = core::f64::consts::PI / self.period;
         let (ws, wr) = (self.machine.antiresonance(), self.machine.resonance());

@@ -25,7 +25,8 @@ pub struct Margins {
     pub gain_down: f64,
     /// Smallest phase margin over all crossings of gain 1 \[rad\].
     pub phase: f64,
-    /// Smallest dead time more that destabilises \[s\]: over all crossings, the phase to -180 degrees over the frequency.
+    /// Smallest dead time more that destabilises \[s\]: over all crossings, the phase to -180 degrees over the
+    /// frequency.
     pub delay: f64,
     /// Highest frequency at which the gain crosses 1 \[rad/s\].
     pub crossover: f64,

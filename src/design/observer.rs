@@ -1,7 +1,7 @@
 //! Observer of two masses from the motor's angle alone.
 //!
-//! The state is `[theta_m, omega_m, delta, omega_l, tau_L]` \[rad, rad/s, rad, rad/s, N m\], the input the motor's torque. The
-//! transition is exact: momentum moves as one rigid machine, and the twist by [`ExactStep`].
+//! The state is `[theta_m, omega_m, delta, omega_l, tau_L]` \[rad, rad/s, rad, rad/s, N m\], the input the motor's
+//! torque. The transition is exact: momentum moves as one rigid machine, and the twist by [`ExactStep`].
 
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
 use super::{Error, ExactStep, Kalman, Matrix, SemiImplicitStep, StepChoice};
@@ -11,7 +11,7 @@ use crate::math::{exp, sqrt};
 /// Share of a swing that may survive one tick where the resonance lies above half the sample rate.
 const SURVIVING_SWING: f64 = 0.1;
 
-/// Predicted standard deviations of what the observer estimates, after the measurement of a tick.
+/// Predicted standard deviations of the estimates, after the measurement of a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StandardDeviation {
@@ -37,7 +37,7 @@ pub struct TwoMassDesign {
     pub period: f64,
     /// The machine that it observes.
     pub machine: TwoMass,
-    /// The exact step of twist and slip.
+    /// The exact step of twist and twist rate.
     pub step: ExactStep,
     /// The cheap step, with its error.
     pub semi_implicit: SemiImplicitStep,
@@ -67,7 +67,8 @@ impl TwoMass {
     /// A backlash counts as closed, a weight as part of the load torque.
     ///
     /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer) returns.
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer)
+    /// returns.
     #[must_use]
     pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> TwoMassDesign {
         match self.try_observer(rate, encoder, disturbance) {
@@ -79,8 +80,8 @@ impl TwoMass {
     /// [`observer`](Self::observer), with an error instead of a panic.
     ///
     /// # Errors
-    /// A value out of range; [`Error::Unobservable`] without stiffness; [`Error::SampleRate`] where the resonance lies above
-    /// half the rate and more than a tenth of a swing survives a tick (a faster decay leaves nothing to follow);
+    /// A value out of range; [`Error::Unobservable`] without stiffness; [`Error::SampleRate`] where the resonance lies
+    /// above half the rate and more than a tenth of a swing survives a tick (a faster decay leaves nothing to follow);
     /// [`Error::NotConverged`] or [`Error::NotStabilising`].
     pub const fn try_observer(
         &self,
@@ -161,7 +162,8 @@ const fn transition(machine: &TwoMass, step: &ExactStep, t: f64) -> (Matrix<5, 5
     let (motor, load) = (jm / total, jl / total);
     // theta_m = mean angle + (J_l/J) delta; the mean angle moves as one rigid machine.
     let glide = 0.5 * t * t / total;
-    // The slip's change splits in inverse proportion to the inertias, on top of the mean speed's T (tau_m - tau_L)/J.
+    // The twist rate's change splits in inverse proportion to the inertias, on top of the mean speed's T (tau_m -
+    // tau_L)/J.
     let transition = Matrix([
         [1.0, t * motor + load * step.n12, load * step.n11, t * load - load * step.n12, load * step.g1 / jl - glide],
         [0.0, 1.0 + load * step.n22, load * step.n21, -load * step.n22, -step.lag / total],

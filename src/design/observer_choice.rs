@@ -1,20 +1,24 @@
-//! Which observer a machine needs, by the error that leaving something out would cause.
+//! Selection of an observer, by the error of each simplification.
 //!
-//! A change of torque, of the motor's or the load's, sets the shaft swinging. A rigid observer shows the steady part of the shaft's torque and not the swing; an
-//! observer that takes a gap for closed does not see the blow with which it closes. Both errors follow from the machine and from what it is asked to do:
+//! A change of torque, of the motor's or the load's, sets the shaft swinging. A rigid observer shows the steady part of
+//! the shaft's torque and not the swing; an observer that takes a gap for closed does not see the blow with which it
+//! closes. Both errors follow from the machine and its load cycle:
 //!
-//! - a change D that takes the time r sets off a swing of at most `D min(1, 2/(w r))` times the larger share of the inertia [Huang 1987 part 2];
-//! - a gap that is crossed under the torque D closes at `v = sqrt(2 D gap/J_m)`, and the blow swings by `v sqrt(k J_r)` [Huang 1987 part 2];
-//! - a swing A in the shaft's torque is one of `A w/k J_m/J` in the load's speed, and decays as `exp(-zeta w t)` until the next change.
+//! - a change D that takes the time r sets off a swing of at most `D min(1, 2/(w r))` times the larger share of the
+//!   inertia [Huang 1987 part 2];
+//! - a gap that is crossed under the torque D closes at `v = sqrt(2 D gap/J_m)`, and the blow swings by `v sqrt(k J_r)`
+//!   [Huang 1987 part 2];
+//! - a swing A in the shaft's torque is one of `A w/k J_m/J` in the load's speed, and decays as `exp(-zeta w t)` until
+//!   the next change.
 //!
-//! The figures are rms over the time between two changes. Noise and lag, which every observer has, come on top: so an observer that leaves something out is taken
-//! only where that costs no more than half of what is aimed at.
+//! The figures are rms over the time between two changes. Noise and lag, common to all observers, come on top. A
+//! simpler observer is therefore chosen only where its error is at most half of the requirement.
 
 use super::{SemiImplicitStep, StepChoice};
 use crate::machine::TwoMass;
 use crate::math::{exp_m1, sqrt};
 
-/// What a machine is asked to do, as far as it shakes the shaft.
+/// Load cycle, as far as it excites the shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadCycle {
@@ -32,7 +36,7 @@ pub struct LoadCycle {
     pub reverses: bool,
 }
 
-/// Errors that are aimed at, rms.
+/// Required accuracy, rms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Requirement {
@@ -46,11 +50,11 @@ impl Requirement {
     /// 2 % of the shaft's peak torque and 0.3 % of rated speed.
     pub const USUAL: Self = Self { shaft_torque: 0.02, load_speed: 0.003 };
 
-    /// Part of the aim that may be spent on what is left out.
+    /// Share of the requirement available to a simplification.
     pub const SHARE: f64 = 0.5;
 }
 
-/// What leaving something out costs, rms.
+/// Error of a simplification, rms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Penalty {
@@ -81,7 +85,7 @@ pub enum ObserverChoice {
     Backlash,
 }
 
-/// What each observer would miss, and the cheapest that misses little enough.
+/// Errors of each observer, and the cheapest that meets the requirement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverSelection {
@@ -91,14 +95,14 @@ pub struct ObserverSelection {
     pub without_gap: Penalty,
     /// Error of the semi-implicit step over a period of the resonance, as [`StepChoice`] takes it.
     pub semi_implicit: f64,
-    /// The cheapest observer that will do.
+    /// The cheapest sufficient observer.
     pub chosen: ObserverChoice,
 }
 
 impl TwoMass {
-    /// Which observer this machine needs for a duty, in ticks of a period \[s\].
+    /// The observer for a load cycle, at a tick period \[s\].
     ///
-    /// A scene may take another; then the difference between what it misses and what is aimed at is what that costs. Without damping a swing does not decay.
+    /// A scene may take another, at the cost of the excess error. Without damping a swing does not decay.
     #[must_use]
     pub const fn select_observer(&self, cycle: &LoadCycle, aim: &Requirement, period: f64) -> ObserverSelection {
         let share = if self.motor_inertia > self.load_inertia { self.motor_inertia } else { self.load_inertia };
@@ -125,7 +129,7 @@ impl TwoMass {
         ObserverSelection { without_shaft, without_gap, semi_implicit: step.fidelity.error_bound, chosen }
     }
 
-    /// What a swing of the shaft's torque of this amplitude \[N m\] comes to, rms until the next change.
+    /// Rms error of a shaft torque oscillation of this amplitude \[N m\], until the next change.
     const fn swing(&self, amplitude: f64, cycle: &LoadCycle) -> Penalty {
         let resonance = self.resonance();
         let decays = 2.0 * self.damping_ratio() * resonance * cycle.every;

@@ -18,7 +18,8 @@ pub(super) struct Vibration {
     pub residue: f64,
 }
 
-/// A machine as its motor feels it: what a loop's stability depends on. All vibrations are linear; gaps count as closed.
+/// A machine as its motor feels it: what a loop's stability depends on. All vibrations are linear; gaps count as
+/// closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Plant {
@@ -66,7 +67,8 @@ impl Plant {
         Self { inertia, vibration: [Vibration { square: 0.0, damping: 0.0, residue: 0.0 }; MODES], count: 0 }
     }
 
-    /// The motor's angle per torque that is held over the tick before it: numerator without its factor z, and denominator.
+    /// The motor's angle per torque that is held over the tick before it: numerator without its factor z, and
+    /// denominator.
     pub(super) const fn sampled(&self, period: f64) -> (Polynomial, Polynomial) {
         let glide = period * period / self.inertia;
         let mut numerator = Polynomial::new([glide, 0.5 * glide]);

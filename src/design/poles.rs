@@ -47,7 +47,8 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
     let mut values = [(f64::NAN, f64::NAN); N];
     let mut last = N;
     let mut tries = 0;
-    // The bounds beside the loops' own, here and below, hold anyway: they are there for the compiler, which then leaves no panic in an image.
+    // The bounds beside the loops' own, here and below, hold anyway: they are there for the compiler, which then leaves
+    // no panic in an image.
     while last > 0 && last <= N {
         let n = last - 1;
         // The block that is still joined to its last row.
@@ -73,7 +74,7 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
         qr_step(&mut h, low, n, shift);
         tries += 1;
     }
-    // A real matrix has real eigenvalues and conjugate pairs: clear what rounding left.
+    // A real matrix has real eigenvalues and conjugate pairs: remove rounding residues.
     let mut i = 0;
     while i < N {
         if values[i].1.abs() <= 1e-14 * size(values[i]) {

@@ -1,12 +1,14 @@
 //! Polynomials in delta = z - 1, and whether all their roots are stable.
 //!
-//! A loop that is sampled often has its poles close to z = 1, where the coefficients in z lose their digits. In delta they keep them
-//! [Middleton and Goodwin 1990, Digital Control and Estimation]. The bilinear map `delta = 2 w/(1 - w)` takes the stable disc to the left half
-//! plane, and Routh's array decides there: some hundred multiplications for a loop of eleven poles, no eigenvalue.
+//! A loop that is sampled often has its poles close to z = 1, where the coefficients in z lose their digits. In delta
+//! they keep them [Middleton and Goodwin 1990, Digital Control and Estimation]. The bilinear map `delta = 2 w/(1 - w)`
+//! takes the stable disc to the left half plane, and Routh's array decides there: some hundred multiplications for a
+//! loop of eleven poles, no eigenvalue.
 
 use super::margins::Complex;
 
-/// Coefficients that a polynomial may have: a chain of sixteen masses, an observer of five states, a governor, an actuator.
+/// Coefficients that a polynomial may have: a chain of sixteen masses, an observer of five states, a governor, an
+/// actuator.
 const CAPACITY: usize = 56;
 
 /// A polynomial in delta, the constant first.
@@ -100,7 +102,8 @@ impl Polynomial {
         while n > 0 && self.coefficient[n] == 0.0 {
             n -= 1;
         }
-        // `(1 - w)^n` times the value at `2 w/(1 - w)`, by Horner's scheme; the other array holds the powers of `1 - w`.
+        // `(1 - w)^n` times the value at `2 w/(1 - w)`, by Horner's scheme; the other array holds the powers of
+        // `1 - w`.
         let mut mapped = [0.0; CAPACITY];
         let mut power = [0.0; CAPACITY];
         mapped[0] = self.coefficient[n];

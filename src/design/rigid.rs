@@ -35,7 +35,8 @@ impl Rigid {
     /// Designs the observer.
     ///
     /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer) returns.
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_observer`](Self::try_observer)
+    /// returns.
     #[must_use]
     pub const fn observer(&self, rate: Rate, encoder: Encoder, disturbance: Disturbance) -> RigidDesign {
         match self.try_observer(rate, encoder, disturbance) {

@@ -1,14 +1,15 @@
-//! Gains of the speed loop: proportional, integral, and active damping of the shaft by the estimated slip.
+//! Gains of the speed loop: proportional, integral, and active damping of the shaft by the estimated twist rate.
 //!
-//! With `tau_m = K_p e + K_i int e - K_v v`, e the error of the motor's speed and v the slip, the closed loop of the undamped
-//! machine is `s^4 + (k_p + k_v) s^3 + (k_i + w_r^2) s^2 + k_p w_a^2 s + k_i w_a^2` with gains per motor
-//! inertia, resonance w_r and antiresonance w_a. Setting it equal to
-//! `(s^2 + 2 z1 w1 s + w1^2)(s^2 + 2 z2 w2 s + w2^2)` fixes all gains and w2 once w1, z1, z2 are chosen:
+//! With `tau_m = K_p e + K_i int e - K_v v`, e the error of the motor's speed and v the twist rate, the closed loop of
+//! the undamped machine is `s^4 + (k_p + k_v) s^3 + (k_i + w_r^2) s^2 + k_p w_a^2 s + k_i w_a^2` with gains per motor
+//! inertia, resonance w_r and antiresonance w_a. Setting it equal to `(s^2 + 2 z1 w1 s + w1^2)(s^2 + 2 z2 w2 s + w2^2)`
+//! fixes all gains and w2 once w1, z1, z2 are chosen:
 //!
 //! - `(1 - b^2) w2^2 + 4 z1 z2 w1 w2 + w1^2 - w_r^2 = 0` with `b = w1/w_a`: one positive root for every b below 1;
 //! - `k_i = b^2 w2^2`, `k_p = 2 w1 w2 (z1 w2 + z2 w1)/w_a^2`, `k_v = 2 z1 w1 + 2 z2 w2 - k_p`.
 //!
-//! Pole placement by the coefficients, after [Zhang and Furusho 2000, IEEE Trans. Ind. Electron. 47(3)], with the slip added.
+//! Pole placement by the coefficients, after [Zhang and Furusho 2000, IEEE Trans. Ind. Electron. 47(3)], with the twist
+//! rate added.
 
 use super::tuning::Rate;
 use super::{Error, ExactStep, Matrix, eigenvalues, spectral_radius};
@@ -42,7 +43,7 @@ pub struct SpeedLoopDesign {
     pub proportional: f64,
     /// Integral gain \[N m/rad\].
     pub integral: f64,
-    /// Gain on the slip (motor speed less load speed) \[N m s/rad\], taken off the torque.
+    /// Active damping: gain on the twist rate \[N m s/rad\], subtracted from the torque.
     pub damping: f64,
     /// Natural frequency of the speed \[rad/s\].
     pub bandwidth: f64,
@@ -59,7 +60,8 @@ impl TwoMass {
     /// torque acting one tick after its sample, with estimates taken as exact: the observer's own lag comes on top.
     ///
     /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_speed_loop`](Self::try_speed_loop) returns.
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_speed_loop`](Self::try_speed_loop)
+    /// returns.
     #[must_use]
     pub const fn speed_loop(&self, rate: Rate, tuning: SpeedLoopTuning) -> SpeedLoopDesign {
         match self.try_speed_loop(rate, tuning) {

@@ -1,8 +1,8 @@
 //! The exact step of two masses over one tick, in closed form.
 //!
-//! Twist and slip are a closed pair: `delta' = v`, `v' = s - w^2 delta - 2 a v` with `w^2 = k/J_r`, `2 a = d/J_r`,
-//! `J_r = J_m J_l/(J_m + J_l)`, and s constant over the tick. Everything follows from the answer to a unit step of s from rest,
-//! `g1(t) = delta` and `g2(t) = v = g1'(t)`:
+//! Twist and twist rate are a closed pair: `delta' = v`, `v' = s - w^2 delta - 2 a v` with `w^2 = k/J_r`,
+//! `2 a = d/J_r`, `J_r = J_m J_l/(J_m + J_l)`, and s constant over the tick. Everything follows from the answer to a
+//! unit step of s from rest, `g1(t) = delta` and `g2(t) = v = g1'(t)`:
 //!
 //! `n11 = -w^2 g1`, `n12 = g2`, `n21 = -w^2 g2`, `n22 = -(w^2 g1 + 2 a g2)`.
 //!
@@ -20,17 +20,17 @@ use crate::math::{exp, exp_m1, sin_cos, sqrt};
 pub struct ExactStep {
     /// Twist from twist \[1\], less one.
     pub n11: f64,
-    /// Twist from slip \[s\].
+    /// Twist from twist rate \[s\].
     pub n12: f64,
     /// Twist from drive \[s2\].
     pub g1: f64,
-    /// Slip from twist \[1/s\].
+    /// Twist rate from twist \[1/s\].
     pub n21: f64,
-    /// Slip from slip \[1\], less one.
+    /// Twist rate from twist rate \[1\], less one.
     pub n22: f64,
-    /// Slip from drive \[s\].
+    /// Twist rate from forcing \[s\].
     pub g2: f64,
-    /// What the shaft takes off the slip: `T - g2` \[s\], to full precision.
+    /// Reduction of the twist rate by the shaft: `T - g2` \[s\], to full precision.
     pub lag: f64,
 }
 
@@ -50,7 +50,7 @@ impl ExactStep {
         Self { n11: -w2 * g1, n12: g2, g1, n21: -w2 * g2, n22: -(w2 * g1 + two_a * g2), g2, lag }
     }
 
-    /// Impulse \[N m s\] that the shaft passes from the motor to the load in a tick, from twist, slip and drive:
+    /// Impulse \[N m s\] from motor to load by the shaft in a tick, from twist, twist rate and forcing:
     /// `h = h.0 delta + h.1 v + h.2 s`. Then `J_m w_m += T tau_m - h` and `J_l w_l += h - T tau_L`.
     #[must_use]
     pub const fn impulse(&self, machine: &TwoMass) -> (f64, f64, f64) {

@@ -1,4 +1,4 @@
-//! The largest torque that a prime mover can give, against its speed.
+//! Largest torque of a prime mover against its speed.
 
 use super::Error;
 

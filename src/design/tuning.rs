@@ -1,4 +1,4 @@
-//! What the observer is tuned by: the rate, the encoder, and how hard the machine is disturbed.
+//! Tuning data of the observer: rate, encoder and disturbance.
 
 use super::Error;
 
@@ -98,8 +98,8 @@ impl Disturbance {
     /// Variance that the load torque gains in a tick \[N2 m2\]: `step^2 T / within`.
     ///
     /// The load torque is modelled as a random walk. Its variance grows in proportion to time, so one that has wandered
-    /// by a root mean square of `load_torque_step` after the time `within` has an intensity of `step^2/within`; a real step
-    /// of that size is then as likely as not, and the filter follows it in about that time.
+    /// by a root mean square of `load_torque_step` after the time `within` has an intensity of `step^2/within`; a real
+    /// step of that size is then as likely as not, and the filter follows it in about that time.
     ///
     /// # Errors
     /// [`Error::LoadTorqueStep`], [`Error::Within`].
@@ -117,7 +117,7 @@ impl Disturbance {
     }
 }
 
-/// What a filter is designed from, in SI units.
+/// Variances for the filter's design, in SI units.
 #[derive(Clone, Copy)]
 pub(super) struct Variances {
     pub(super) period: f64,
@@ -125,7 +125,7 @@ pub(super) struct Variances {
     pub(super) angle: f64,
     /// Of the motor's torque in a tick.
     pub(super) torque: f64,
-    /// What the load torque gains in a tick.
+    /// Variance of the load torque's change in a tick.
     pub(super) load_torque: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What an axis asks of a drive beside its ticks: one without an angle, and to start while the machine turns.
+//! Further ticks of a drive: one without an angle, and starting while the machine turns.
 
 use super::{ConfigOf, Drive, NONE_YET};
 use crate::balancing::Balancer;
@@ -17,9 +17,10 @@ where
     G: Governor<N>,
     B: Balancer<N>,
 {
-    /// One tick whose angle did not come: the sensor's bus failed, or what it gave was not sound or not new.
+    /// One tick by prediction alone (dead reckoning), without an angle: the sensor's bus failed, or its value was
+    /// invalid or not new.
     ///
-    /// It coasts, as for an angle that cannot be believed, and raises [`Faults::ANGLE_MISSING`]; after more than the limit of such ticks also
+    /// It raises [`Faults::ANGLE_MISSING`]; after more than the limit of such ticks also
     /// [`Faults::ANGLE_LOST`], and commands no torque. Torque and setpoint are screened as in [`Drive::tick`].
     pub fn coast(&mut self, config: &ConfigOf<Self>, torque: N, setpoint: N) -> Command<N> {
         let limits = &config.limits;
@@ -56,7 +57,8 @@ where
         Command { torque, faults: faults | Faults::range(self.observer.beyond_base()) }
     }
 
-    /// The governor starts anew, from the speed that the machine has and no torque; its setpoint is a standstill. The estimates stand.
+    /// The governor starts anew, from the speed that the machine has and no torque; its setpoint is zero. The estimates
+    /// stand.
     pub fn engage(&mut self, config: &ConfigOf<Self>) {
         let estimate = self.estimate(config);
         self.governor.start(&config.governor, &estimate, N::ZERO);

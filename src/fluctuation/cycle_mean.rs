@@ -1,18 +1,21 @@
-//! The speed without its ripple, for a governor: the mean over the last cycle, put forward by half of what the speed has changed in it.
+//! The speed without its ripple, for a governor: the mean over the last cycle, extrapolated by half of the change of
+//! speed in it.
 //!
 //! ```text
 //! omega = phi_c/(t - t_c) + (omega_m - omega_m,c)/2
 //! ```
 //!
-//! Index c is where the motor was exactly one cycle ago. Both parts are blind to whatever repeats every cycle, of any shape and at any speed,
-//! for the cycle is one of angle. The mean alone is late by half a cycle; with half the change it is exact under a steady acceleration,
-//! and late by nothing but the second order otherwise: `(1 - e^-sT)(1/sT + 1/2) = 1 - (sT)^2/12 + ...`.
+//! Index c is where the motor was exactly one cycle ago. Both parts are blind to whatever repeats every cycle, of any
+//! shape and at any speed, for the cycle is one of angle. The mean alone is late by half a cycle; with half the change
+//! it is exact under a steady acceleration, and late by nothing but the second order otherwise:
+//! `(1 - e^-sT)(1/sT + 1/2) = 1 - (sT)^2/12 + ...`.
 //!
-//! It is renewed at the end of every segment of the cycle. The mean comes from two angles and the ticks between them by one division in
-//! integers, the same bits in every number; nothing is summed up, so nothing drifts.
+//! It is renewed at the end of every segment of the cycle. The mean comes from two angles and the ticks between them by
+//! one division in integers, the same bits in every number; nothing is summed up, so nothing drifts.
 //!
-//! There is none before a first whole cycle, nor after the angle was lost or the direction has changed, nor while the machine takes more than
-//! four times as long for a segment as it did in the mean: then a governor has to act on the speed as it is.
+//! There is none before a first whole cycle, nor after the angle was lost or the direction has changed, nor while the
+//! machine takes more than four times as long for a segment as it did in the mean: then a governor has to act on the
+//! speed as it is.
 
 use super::position::{Crossing, Position};
 use super::{CycleConfig, Fluctuation};
@@ -46,7 +49,8 @@ struct Mark<N> {
     speed: N,
 }
 
-/// The speed without its ripple, renewed `SEGMENTS` times a cycle: a power of two from 4 on, no segment longer than a quarter of a turn.
+/// The speed without its ripple, renewed `SEGMENTS` times a cycle: a power of two from 4 on, no segment longer than a
+/// quarter of a turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CycleMean<N, const SEGMENTS: usize> {
@@ -68,7 +72,13 @@ pub struct CycleMean<N, const SEGMENTS: usize> {
 
 impl<N: Number, const SEGMENTS: usize> Default for CycleMean<N, SEGMENTS> {
     fn default() -> Self {
-        const { assert!(SEGMENTS.is_power_of_two() && SEGMENTS >= 4 && SEGMENTS <= 1024, "a power of two from 4 to 1024") };
+        const {
+            assert!(
+                SEGMENTS.is_power_of_two() && SEGMENTS >= 4 && SEGMENTS <= 1024,
+                "a power of two from 4 to \
+            1024"
+            )
+        };
         CycleMean {
             position: Position::default(),
             tick: 0,
@@ -95,8 +105,8 @@ impl<N: Number, const SEGMENTS: usize> Fluctuation<N> for CycleMean<N, SEGMENTS>
         }
     }
 
-    /// A tick or some without a usable angle are no harm: the end of a segment is then seen a little late. Where ticks are not measured at all, as
-    /// while the angle is lost or the drive is held, it begins anew.
+    /// A tick or some without a usable angle are no harm: the end of a segment is then seen a little late. Where ticks
+    /// are not measured at all, as while the angle is lost or the drive is held, it begins anew.
     fn disturb(&mut self) {
         if self.disturbed == self.tick {
             self.give_up();
@@ -151,7 +161,7 @@ impl<N: Number, const SEGMENTS: usize> CycleMean<N, SEGMENTS> {
             self.stands = 0;
             return;
         }
-        // Turned in a tick, in two digits: the angle is below 2^31 and what is left of the first division below 2^22.
+        // Turned in a tick, in two digits: the angle is below 2^31 and the remainder of the first division below 2^22.
         let turned = config.angle.wrapping_add(now.beyond).wrapping_sub(then.beyond);
         let (whole, rest) = (turned / ticks, turned % ticks);
         let per_tick = (whole << 6 | ((rest << 10) / ticks) >> 4) as i32;

@@ -1,12 +1,15 @@
 //! Largest and least speed of every cycle, of motor and load, and its mean.
 //!
-//! The work is spread evenly over the ticks: of four, one looks at the motor's speed, one at the load's, and the two between look for the end of the
-//! cycle or do a slice of what it brings. The extreme between the samples is found by a parabola through three of them: of a sine with 64 ticks to its
-//! period it then misses at most 0.06 % of the amplitude, with 40 ticks 0.35 %. The mean by time is exact: the cycle's angle over the time between its two
-//! ends, which are interpolated. A cycle, and a turn of a longer one, must have 64 ticks: what its end brings takes half of them.
+//! The work is spread evenly over the ticks: of four, one looks at the motor's speed, one at the load's, and the two
+//! between detect the end of the cycle or do a slice of its work. The extreme between the samples is found by a
+//! parabola through three of them: of a sine with 64 ticks to its period it then misses at most 0.06 % of the
+//! amplitude, with 40 ticks 0.35 %. The mean by time is exact: the cycle's angle over the time between its two ends,
+//! which are interpolated. A cycle, and a turn of a longer one, must have 64 ticks: the work at its end takes half of
+//! them.
 //!
-//! The speeds are the observer's. A ripple much faster than the observer is smaller in them than it is, and their noise makes the largest value too
-//! large and the least too small by two or three of its standard deviations; where delta is not far above that, take a [`super::Waveform`].
+//! The speeds are the observer's. A ripple much faster than the observer is smaller in them than it is, and their noise
+//! makes the largest value too large and the least too small by two or three of its standard deviations; where delta is
+//! not far above that, take a [`super::Waveform`].
 
 use core::f64::consts::{PI, TAU};
 
@@ -92,14 +95,14 @@ impl<R: Copy + Ord> Speed<R> {
         }
     }
 
-    /// What the next cycle begins with: the speed as it was last.
+    /// Start of the next cycle: the last speed.
     #[inline(always)]
     fn fresh(&self, place: u32) -> Peak<R> {
         Peak { value: self.last, before: self.last, after: self.last, place }
     }
 }
 
-/// What the ticks between the samples do: one of these each.
+/// Work of the ticks between the samples: one of these each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Slice {
@@ -147,7 +150,7 @@ type Finished<R> = [[Peak<R>; 2]; 2];
 pub struct Extremes<N: Ranked> {
     tick: u32,
     slice: Slice,
-    /// Which way the end of a cycle was passed that is being dealt with, and the ends before.
+    /// Direction in which the end of the present cycle was passed, and the ends before.
     ahead: bool,
     forward: bool,
     /// Which of the two is that of the finished cycle.
@@ -188,7 +191,7 @@ impl<N: Ranked> Fluctuation<N> for Extremes<N> {
 }
 
 impl<N: Ranked> Extremes<N> {
-    /// One slice of what the end of a segment or of a cycle brings.
+    /// One slice of the work at the end of a segment or of a cycle.
     #[inline(always)]
     fn slice(&mut self, config: &CycleConfig, angle: u32, tick: u32, estimate: &Estimate<N>) {
         let position = &mut self.position;
@@ -346,7 +349,7 @@ impl<N: Ranked> Extremes<N> {
         };
     }
 
-    /// What is not that of the finished cycle.
+    /// State apart from the finished cycle's.
     #[inline(always)]
     fn hidden(&mut self) -> &mut Finished<N::Rank> {
         let [one, other] = &mut self.finished;
@@ -369,8 +372,8 @@ impl<N: Ranked> Extremes<N> {
         }
     }
 
-    /// The cycle that was finished last, `None` until there is one since the last disturbance or change of direction, and for a cycle in which an
-    /// estimated speed was no number or changed its sign.
+    /// The cycle that was finished last, `None` until there is one since the last disturbance or change of direction,
+    /// and for a cycle in which an estimated speed was no number or changed its sign.
     ///
     /// Not for the tick: it divides, in `f64`.
     pub fn reading(&self, config: &CycleConfig) -> Option<Reading> {
@@ -382,7 +385,7 @@ impl<N: Ranked> Extremes<N> {
         let [motor, load] = if self.other { second } else { first };
         let fluctuations = |[max, min]: &[Peak<N::Rank>; 2]| {
             let (max, min) = (self.vertex(config, max), self.vertex(config, min));
-            // Floats below zero have it the other way round.
+            // Negative floats are ordered the other way round.
             let [max, min] = if max.speed < min.speed { [min, max] } else { [max, min] };
             (max.speed * min.speed >= 0.0 && (max.speed - min.speed).is_finite())
                 .then(|| Fluctuations::of(max, min, mean))
@@ -396,8 +399,8 @@ impl<N: Ranked> Extremes<N> {
         })
     }
 
-    /// Mean speed by time of the cycle that was finished last [rad/s], negative backwards: what a governor acts on that is to leave the
-    /// ripple alone.
+    /// Mean speed by time of the cycle that was finished last [rad/s], negative backwards: input of a governor that is
+    /// not to act on the ripple.
     pub fn mean(&self, config: &CycleConfig) -> Option<f64> {
         if self.good < 2 {
             return None;
@@ -424,7 +427,8 @@ impl<N: Ranked> Extremes<N> {
         Extreme { speed: value - 0.25 * (before - after) * offset, angle }
     }
 
-    /// Where in the cycle that was finished last a sample was \[rad\]: to the turn by its segment, within it by its angle.
+    /// Where in the cycle that was finished last a sample was \[rad\]: to the turn by its segment, within it by its
+    /// angle.
     fn place(&self, config: &CycleConfig, peak: &Peak<N::Rank>) -> f64 {
         let (from, to) = (self.edge(1), self.edge(0));
         let foot = if self.forward { from.angle.wrapping_sub(from.beyond) } else { to.angle.wrapping_add(to.beyond) };
@@ -489,7 +493,8 @@ impl Fluctuations {
 pub struct Reading {
     /// Mean by time [rad/s], of motor and load alike; negative backwards.
     pub mean: f64,
-    /// The mean less that of the cycle before [rad/s]: the part that is not periodic, which a governor mends and a flywheel does not.
+    /// The mean less that of the cycle before [rad/s]: the part that is not periodic, which a governor mends and a
+    /// flywheel does not.
     pub change: Option<f64>,
     /// How long the cycle took \[s\].
     pub duration: f64,

@@ -1,15 +1,16 @@
 //! The flywheel that is still missing, and whether it is one that is missing.
 //!
-//! For a constant inertia J the work of the outer torques over the cycle swings by A_max, and delta is A_max/(J omega_m^2) with the arithmetic mean
-//! [Wang 1989 ch. 5]; a flywheel of A_max/(omega_m^2 [delta]) less J does. Where the inertia varies with the angle that is wrong, for the speed then swings without
-//! any work at all. The energy balance holds always: `J(phi) omega^2/2` is the work W(phi) but for a constant, and with a flywheel the speed is what
-//! `(J(phi) + J_F) omega'^2/2 = W'(phi)` says, W' being W less what the motor gives less where it runs faster.
+//! For a constant inertia J the work of the outer torques over the cycle swings by A_max, and delta is A_max/(J
+//! omega_m^2) with the arithmetic mean [Wang 1989 ch. 5]; a flywheel of A_max/(omega_m^2 [delta]) less J does. Where
+//! the inertia varies with the angle that is wrong, for the speed then swings without any work at all. The energy
+//! balance holds always: `J(phi) omega^2/2` is the work W(phi) up to a constant. With a flywheel the speed follows from
+//! `(J(phi) + J_F) omega'^2/2 = W'(phi)`, with W' reduced by the motor's fall of torque with speed.
 
 use super::series::{Circle, GRID, Grid, Series, circle};
 use super::{CycleConfig, Ripple};
 use crate::math::sqrt;
 
-/// A kind of machine and what it stands of delta [Notes ch. 5].
+/// Class of machine with its permissible delta [Notes ch. 5].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum MachineClass {
@@ -34,7 +35,7 @@ pub enum MachineClass {
 }
 
 impl MachineClass {
-    /// The permissible delta: what the strictest machine of the class stands, and what the most tolerant one does.
+    /// The permissible delta: of the strictest and of the most tolerant machine of the class.
     pub const fn permissible(self) -> [f64; 2] {
         match self {
             MachineClass::Crusher => [1.0 / 20.0, 1.0 / 5.0],
@@ -50,11 +51,11 @@ impl MachineClass {
     }
 }
 
-/// What would mend a fluctuation.
+/// Remedy for a fluctuation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Remedy {
-    /// Nothing is beyond what is permitted.
+    /// All within limits.
     Nothing,
     /// A flywheel: the periodic part is too large.
     Flywheel,
@@ -64,11 +65,12 @@ pub enum Remedy {
     Both,
 }
 
-/// What the machine is turned by and what it turns.
+/// Inertia of the machine and slope of the motor's characteristic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Balance {
-    /// Inertia over the angle of the cycle, referred to the motor \[kg m2\]: [`Series::constant`], or [`Series::from_samples`] of a table.
+    /// Inertia over the angle of the cycle, referred to the motor \[kg m2\]: [`Series::constant`], or
+    /// [`Series::from_samples`] of a table.
     pub inertia: Series,
     /// By how much the driving torque falls with the speed [N m s/rad], 0 for a constant one.
     pub slope: f64,
@@ -89,7 +91,8 @@ pub struct Flywheel {
 }
 
 impl Ripple {
-    /// The flywheel that brings delta, by the arithmetic mean, to `permissible`; `None` where no flywheel does, or a figure is not positive and finite.
+    /// The flywheel that brings delta, by the arithmetic mean, to `permissible`; `None` where no flywheel does, or a
+    /// figure is not positive and finite.
     ///
     /// Not for the tick: some hundred thousand operations in `f64`, square roots among them.
     pub fn flywheel(&self, cycle: &CycleConfig, balance: &Balance, permissible: f64) -> Option<Flywheel> {
@@ -131,8 +134,8 @@ impl Ripple {
         ((flywheel.remaining / permissible - 1.0).abs() < 1e-6).then_some(flywheel)
     }
 
-    /// What would mend it: a flywheel where delta is beyond what is permitted, a governor where the mean speed changes by more than `drift` of itself in
-    /// a second.
+    /// The remedy: a flywheel where delta exceeds the permissible value, a governor where the mean speed changes by
+    /// more than `drift` of itself in a second.
     pub fn remedy(&self, permissible: f64, drift: f64) -> Remedy {
         match (self.motor.delta > permissible, self.acceleration.abs() > drift * self.mean.abs()) {
             (false, false) => Remedy::Nothing,
@@ -157,7 +160,8 @@ struct Machine {
 impl Machine {
     /// Delta by the arithmetic mean with a flywheel.
     fn delta(&self, added: f64, circle: &Circle, cycle: &CycleConfig) -> Option<f64> {
-        // The mean speed over the angle is kept, for only then has the motor given the same work: Newton's method for the energy to begin with.
+        // The mean speed over the angle is kept, for only then has the motor given the same work: Newton's method for
+        // the energy to begin with.
         let mut energy = self.work.first()? + 0.5 * added * self.speed.first()? * self.speed.first()?;
         for _ in 0..20 {
             let (speed, off) = self.run(added, energy)?;
@@ -173,8 +177,8 @@ impl Machine {
         None
     }
 
-    /// The speed over a cycle that begins with this energy, and the sum of what it is faster than it was; `None` where it stops. By the rule of trapezia for the motor's
-    /// part, implicitly, so that a stiff motor does not matter.
+    /// The speed over a cycle that begins with this energy, and the sum of its increases; `None` where it stops. By the
+    /// rule of trapezia for the motor's part, implicitly, so that a stiff motor does not matter.
     fn run(&self, added: f64, energy: f64) -> Option<(Grid, f64)> {
         let mut speeds: Grid = [0.0; GRID];
         let (mut energy, mut work, mut faster, mut sum) = (energy, *self.work.first()?, None, 0.0);
@@ -185,7 +189,7 @@ impl Machine {
             let speed = match faster {
                 None => sqrt(2.0 * energy / total),
                 Some(faster) => {
-                    // total w^2/2 + quarter w = what is left once w is moved to this side.
+                    // total w^2/2 + quarter w = the remainder once w is moved to this side.
                     let left = energy + (now - work) - quarter * (faster - was);
                     (sqrt(quarter * quarter + 2.0 * total * left) - quarter) / total
                 }

@@ -1,11 +1,13 @@
-//! What is behind the shaft, order by order: from the motor's speed and torque by the machine's own law, without an observer's lag.
+//! Load side, order by order: shaft torque, load speed and load torque from the motor's speed and torque, without an
+//! observer's lag.
 //!
 //! ```text
 //! T = tau_m - J_m d omega_m/dt,   k delta + d d delta/dt = T,   omega_l = omega_m - d delta/dt,   tau_L = T - J_l d omega_l/dt
 //! ```
 //!
-//! The law needs no knowledge of the load's torque, which an observer has to guess. It differentiates: the rounding of the encoder's counts grows with
-//! the square of the order in the shaft torque, with its cube in the load's speed, so take few orders.
+//! The law needs no knowledge of the load's torque, which an observer has to guess. It differentiates: the rounding of
+//! the encoder's counts grows with the square of the order in the shaft torque, with its cube in the load's speed, so
+//! take few orders.
 
 use core::f64::consts::TAU;
 
@@ -27,7 +29,7 @@ pub struct Drivetrain {
     pub damping: f64,
 }
 
-/// The waveforms behind the motor.
+/// Waveforms on the load side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadSide {
@@ -39,20 +41,21 @@ pub struct LoadSide {
     pub load_torque: Series,
     /// Extremes of the load's speed, and its delta.
     pub load: Fluctuations,
-    /// Energy swing over the cycle, largest less least of the kinetic energy of both masses and the energy in the shaft: A_max \[J\]
-    /// [Wang 1989 ch. 5].
+    /// Energy swing over the cycle, largest less least of the kinetic energy of both masses and the energy in the
+    /// shaft: A_max \[J\] [Wang 1989 ch. 5].
     pub energy_swing: f64,
 }
 
 impl<N: Summed, const BINS: usize> Window<N, BINS> {
-    /// The motor's torque over the angle of the cycle [N m], with orders up to `highest`: the mean of each bin over the window.
+    /// The motor's torque over the angle of the cycle [N m], with orders up to `highest`: the mean of each bin over the
+    /// window.
     pub fn motor_torque(&self, config: &WaveformConfig, highest: usize) -> Series {
         let torques = self
             .bins
             .iter()
             .map(|bin| N::total_to_real(bin.torque) / f64::from(bin.ticks.max(1)) * config.cycle.torque);
         let mut series = Series::sampled(torques, BINS, 0.5, highest);
-        // A bin's mean is less than what is in its middle: sin(x)/x of half a bin.
+        // A bin's mean is smaller than the value at its middle: sin(x)/x of half a bin.
         for (n, order) in (1_u32..).zip(&mut series.orders) {
             let x = f64::from(n) * 0.5 * TAU / BINS as f64;
             let (sin, _) = crate::math::sin_cos(x);
@@ -64,7 +67,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
 }
 
 impl Ripple {
-    /// The waveforms behind the motor, which gave `torque` over the cycle.
+    /// The waveforms on the load side under the motor's `torque` over the cycle.
     ///
     /// Not for the tick: some ten thousand operations in `f64`.
     pub fn load_side(&self, cycle: &CycleConfig, machine: &Drivetrain, torque: &Series) -> LoadSide {
@@ -99,7 +102,8 @@ impl Ripple {
         LoadSide { shaft_torque, load_speed, load_torque, load, energy_swing: most - least }
     }
 
-    /// What is left of a torque after an inertia has been accelerated as `speed` says: `torque - J d omega/dt`, d/dt being omega d/dphi and the trend.
+    /// Torque beyond an inertia accelerated as in `speed`: `torque - J d omega/dt`, d/dt being omega d/dphi and the
+    /// trend.
     fn reaction(&self, speed: &Series, torque: &Series, inertia: f64, per_angle: f64, circle: &Circle) -> Series {
         let slope = speed.derivative();
         let values = circle.map(|(cos, sin)| {

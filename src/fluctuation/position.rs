@@ -1,7 +1,7 @@
 //! Where in its cycle the motor is, in integers, and when it passed the cycle's end.
 //!
-//! The end of a segment, and even more that of a cycle, takes more than a tick has time for. It is found late and dealt with in slices, one
-//! in every other tick, none of which takes longer than a tick's usual work.
+//! The end of a segment, and even more that of a cycle, takes more than a tick has time for. It is found late and dealt
+//! with in slices, one in every other tick, none of which takes longer than a tick's usual work.
 
 use core::f64::consts::TAU;
 
@@ -15,9 +15,9 @@ pub struct CycleConfig {
     pub length: u32,
     /// Number of segments less one, all ones in binary.
     pub last_segment: u32,
-    /// What whole segments leave of the cycle [2^-32 turn] ...
+    /// Remainder of the cycle after whole segments [2^-32 turn] ...
     pub whole: u32,
-    /// ... and what that leaves [2^-32 turn over `divisor`].
+    /// ... and its own remainder [2^-32 turn over `divisor`].
     pub part: u32,
     /// Cycles in the whole number of turns that the ratio is given by.
     pub divisor: u32,
@@ -49,8 +49,8 @@ pub struct Edge<N> {
 const LATEST: f64 = 64.0;
 
 impl<N: Number> Edge<N> {
-    /// How long before its tick the end was passed \[ticks\], where the motor turned by `turned` in a tick \[rad\]; half a tick where that says nothing
-    /// of it.
+    /// How long before its tick the end was passed \[ticks\], where the motor turned by `turned` in a tick \[rad\];
+    /// half a tick where that is undefined.
     pub fn fraction(&self, turned: f64) -> f64 {
         let fraction = f64::from(self.beyond) * RADIANS / turned;
         if fraction < LATEST { fraction } else { 0.5 }
@@ -74,20 +74,20 @@ pub(super) struct Position {
     pub start: u32,
     /// The segment's number.
     pub segment: u32,
-    /// What whole units of 2^-32 turn had left over where the cycle began, in `divisor`s of one.
+    /// Remainder of whole units of 2^-32 turn at the cycle's beginning, in `divisor`s of one.
     carry: u32,
-    /// What the cycle is longer by than its segments [2^-32 turn].
+    /// Excess of the cycle over its segments [2^-32 turn].
     extra: u32,
-    /// A tick was left out: what is passed next may have been passed in more than one tick.
+    /// A tick was left out: the next passage may have taken more than one tick.
     pub unsure: bool,
 }
 
-/// What a tick has passed that does all slices at once.
+/// Passage of a tick that does all slices at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Crossing {
     /// At most the end of one segment or of the cycle.
     Passed,
-    /// More, or nobody knows when: the angle was elsewhere.
+    /// More, or at an unknown time: the angle was elsewhere.
     Lost,
 }
 
@@ -98,7 +98,7 @@ pub(super) enum Way {
     Segment,
     /// In another cycle.
     Cycle,
-    /// Not this way.
+    /// Not in this direction.
     Other,
 }
 
@@ -109,7 +109,7 @@ impl Position {
         angle.wrapping_sub(self.start)
     }
 
-    /// Which way the motor is that is so far beyond the segment's end [2^-32 turn].
+    /// Direction of a motor so far beyond the segment's end [2^-32 turn].
     // A segment is at most a quarter of a turn. The motor is looked for in the next two, and in the one before.
     #[inline(always)]
     pub fn ahead(&self, cycle: &CycleConfig, beyond: u32) -> Way {
@@ -165,21 +165,21 @@ impl Position {
         self.segment = 0;
     }
 
-    /// What a cycle leaves to the next, that being the present one.
+    /// Remainder of a cycle for the next, now the present one.
     #[inline(always)]
     pub fn carry_on(&mut self, cycle: &CycleConfig) {
         let carry = self.carry.wrapping_add(cycle.part);
         self.carry = if carry >= cycle.divisor { carry.wrapping_sub(cycle.divisor) } else { carry };
     }
 
-    /// What the cycle before the last had left, for that to be gone back to.
+    /// Remainder of the cycle before the last, for going back.
     #[inline(always)]
     pub fn carry_back(&mut self, cycle: &CycleConfig) {
         let carry = self.carry.wrapping_sub(cycle.part);
         self.carry = if self.carry < cycle.part { carry.wrapping_add(cycle.divisor) } else { carry };
     }
 
-    /// The length of the cycle, from what the one before has left.
+    /// The length of the cycle, from the remainder of the one before.
     #[inline(always)]
     pub fn measure(&mut self, cycle: &CycleConfig) {
         let up = self.carry.wrapping_add(cycle.part) >= cycle.divisor;

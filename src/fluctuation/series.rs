@@ -10,14 +10,14 @@ pub const MAX_ORDER: usize = 16;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Order {
-    /// What goes with the cosine.
+    /// Cosine coefficient.
     pub cos: f64,
-    /// What goes with the sine.
+    /// Sine coefficient.
     pub sin: f64,
 }
 
 impl Order {
-    /// Half of what it swings from peak to peak.
+    /// Half of its peak-to-peak value.
     pub fn amplitude(&self) -> f64 {
         hypot(self.cos, self.sin)
     }
@@ -49,8 +49,8 @@ impl Series {
         Series { mean: value, ..Series::default() }
     }
 
-    /// Of a table of values at evenly spaced angles over the cycle, the first at theta = 0 and the last one step before 2 pi; orders up to less than half
-    /// of what the table has.
+    /// Of a table of values at evenly spaced angles over the cycle, the first at theta = 0 and the last one step before
+    /// 2 pi; orders below half of the table's length.
     pub fn from_samples(values: &[f64]) -> Series {
         Series::sampled(values.iter().copied(), values.len(), 0.0, values.len().saturating_sub(1) / 2)
     }
@@ -147,8 +147,8 @@ impl Series {
         circle.map(|(cos, sin)| self.along(cos, sin))
     }
 
-    /// Where a stationary value near `theta` is, by Newton's method; `theta` itself where that leads further than half a period of the
-    /// highest order.
+    /// Where a stationary value near `theta` is, by Newton's method; `theta` itself where that leads further than half
+    /// a period of the highest order.
     pub(super) fn stationary(&self, theta: f64) -> f64 {
         let (slope, curvature) = (self.derivative(), self.derivative().derivative());
         let mut found = theta;

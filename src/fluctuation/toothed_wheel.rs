@@ -1,8 +1,9 @@
 //! A toothed wheel with missing teeth as the source: the times at which its teeth pass a sensor.
 //!
-//! The gap tells where the wheel is. The times since the cycle's first tooth are averaged tooth by tooth over some cycles, and what they differ by
-//! from an even turn is the ripple, and the wheel's own errors with it: a tooth a tenth of a degree beside its place looks as a delta of 1/500
-//! does. So the errors are learnt while there is no ripple, as the machine coasts without fuel or load, and taken off.
+//! The gap marks the wheel's zero. The times since the cycle's first tooth are averaged tooth by tooth over several
+//! cycles. Their deviation from uniform rotation is the ripple plus the wheel's pitch errors: a tooth displaced by a
+//! tenth of a degree appears as a delta of 1/500. So the errors are learnt while there is no ripple, as the machine
+//! coasts without fuel or load, and taken off.
 
 use core::f64::consts::TAU;
 
@@ -32,7 +33,8 @@ struct Place {
     in_cycle: u32,
 }
 
-/// The measured wheel. `PLACES` is what a cycle has, 60 of a 60-2 wheel that turns once in it, 120 where it turns twice.
+/// The measured wheel. `PLACES` is the number in a cycle: 60 of a 60-2 wheel that turns once in it, 120 where it turns
+/// twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ToothedWheel<const PLACES: usize> {
@@ -97,9 +99,9 @@ impl<const PLACES: usize> Default for ToothedWheel<PLACES> {
 impl<const PLACES: usize> ToothedWheel<PLACES> {
     /// A tooth has passed, at this reading of a clock that wraps; to be called from the interrupt of its capture.
     ///
-    /// A gap is an interval longer than halfway between the last pitch and what a gap of that pitch would be, and shorter than halfway to that of one more
-    /// tooth missing. One that comes where there is none, does not come, or is longer voids the window, and the place is looked for anew: a wheel that
-    /// is not the one that was described gives no window.
+    /// A gap is an interval longer than halfway between the last pitch and a gap at that pitch, and shorter than
+    /// halfway to that of one more missing tooth. One that comes where there is none, does not come, or is longer voids
+    /// the window, and the place is looked for anew: a wheel that is not the one that was described gives no window.
     pub fn tooth(&mut self, config: &ToothedWheelConfig, time: u32) {
         let interval = time.wrapping_sub(self.last);
         self.last = time;
@@ -184,7 +186,8 @@ impl<const PLACES: usize> ToothWindow<PLACES> {
         place % places < places.saturating_sub(config.missing)
     }
 
-    /// A cycle's mean length [clock], by what share of it the slowness rises over a cycle, linearly and with the square, and the ramp.
+    /// A cycle's mean length [clock], the relative rise of the slowness over a cycle, linear and quadratic, and the
+    /// ramp.
     fn trend(&self) -> (f64, [f64; 2], Ramp) {
         let cycles = f64::from(self.cycles.max(1));
         let whole = self.whole as f64;
@@ -207,8 +210,9 @@ impl<const PLACES: usize> ToothWindow<PLACES> {
         late
     }
 
-    /// The wheel's errors, from a window in which the machine had no ripple: it coasted, without fuel and without load. Over some 16 turns:
-    /// fewer average less of the clock's rounding, and while the speed falls by more than a quarter it falls no longer as steadily as is taken off.
+    /// The wheel's errors, from a window in which the machine had no ripple: it coasted, without fuel and without load.
+    /// Over some 16 turns: fewer average less of the clock's rounding, and while the speed falls by more than a quarter
+    /// it falls no longer as steadily as is taken off.
     pub fn errors(&self, config: &ToothedWheelConfig) -> ToothErrors<PLACES> {
         let (mean, trend, _) = self.trend();
         let mut errors = [0.0; PLACES];
@@ -220,17 +224,19 @@ impl<const PLACES: usize> ToothWindow<PLACES> {
         ToothErrors(errors)
     }
 
-    /// The waveform of the wheel's speed with the orders up to `highest`, which counts at most [`MAX_ORDER`] and a sixth of the places.
+    /// The waveform of the wheel's speed with the orders up to `highest`, which counts at most [`MAX_ORDER`] and a
+    /// sixth of the places.
     ///
-    /// Take no more orders than the machine has: the clock's rounding, which a steady speed may repeat in every turn, shows in the n-th order n times.
+    /// Take no more orders than the machine has: the clock's rounding, which a steady speed may repeat in every turn,
+    /// shows in the n-th order n times.
     ///
-    /// The lateness of the missing teeth is what the orders make of that of the others: found by repetition, each time closer.
+    /// The lateness of the missing teeth follows from the orders of the others, by iteration.
     pub fn ripple(&self, config: &ToothedWheelConfig, errors: &ToothErrors<PLACES>, highest: usize) -> Ripple {
         let highest = highest.min(MAX_ORDER).min(PLACES / 6);
         let (mean, trend, ramp) = self.trend();
         let late = self.lateness(mean, trend);
         let mut slowness = Series::constant(1.0);
-        // A tooth's error takes as long to pass as the ripple there says.
+        // The passage time of a tooth's error depends on the ripple there.
         for _ in 0..3 {
             let mut own = late;
             for ((place, own), &error) in (0_u32..).zip(&mut own).zip(&errors.0) {
@@ -257,5 +263,6 @@ impl<const PLACES: usize> ToothWindow<PLACES> {
     }
 }
 
-/// How often the missing teeth are put where the orders have them: with a sixth of the places as orders each time is closer by a third or more.
+/// How often the missing teeth are put where the orders have them: with a sixth of the places as orders each time is
+/// closer by a third or more.
 const ROUNDS: u32 = 40;

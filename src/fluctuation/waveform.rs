@@ -1,13 +1,14 @@
 //! The waveform of a cycle, averaged over some cycles: each tick counts itself in the bin of its angle.
 //!
-//! A bin holds how many ticks fell into it and the first two moments of where in it they fell. Together they are the integral of any smooth
-//! function of the angle over time: a sine of a low order is next to a parabola within a bin. So the bins hold every order at once, and a
-//! tick needs no sine. All of it is in integers: the same bits in every number, and no drift.
+//! A bin holds how many ticks fell into it and the first two moments of where in it they fell. Together they are the
+//! integral of any smooth function of the angle over time: a sine of a low order is next to a parabola within a bin. So
+//! the bins hold every order at once, and a tick needs no sine. All of it is in integers: the same bits in every
+//! number, and no drift.
 //!
-//! The table is filled over a whole number of cycles, from one end of a cycle to another, and then stands until it is taken between two
-//! ticks ([`Waveform::take`]). The next window begins at the next end of a cycle. Every other tick also looks for the end of a segment, or does a slice
-//! of what it brings: it counts as little when that is late, since a bin is found from any segment near it, and the parts of a cycle that a window has
-//! too much or too little are known at its ends.
+//! The table is filled over a whole number of cycles, from one end of a cycle to another, and then stands until it is
+//! taken between two ticks ([`Waveform::take`]). The next window begins at the next end of a cycle. Every other tick
+//! also detects the end of a segment, or does a slice of its work. Its delay does no harm: a bin is found from any
+//! segment near it, and a window's fractions of a cycle are known at its ends.
 
 use super::position::{Position, Way};
 use super::{CycleConfig, Edge, Fluctuation, Window};
@@ -40,7 +41,7 @@ pub trait Summed: Number {
     type Total: Copy + Default + PartialEq + core::fmt::Debug;
     /// `total` and the number.
     fn added_to(self, total: Self::Total) -> Self::Total;
-    /// A total in the SI unit, or per unit of its base: for what is done between the ticks.
+    /// A total in the SI unit, or per unit of its base: for calculations between the ticks.
     fn total_to_real(total: Self::Total) -> f64;
 }
 
@@ -77,7 +78,7 @@ macro_rules! summed {
 summed!(f32);
 summed!(f64);
 
-/// What has fallen into a bin.
+/// Content of a bin.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Bin<N: Summed> {
@@ -106,7 +107,7 @@ enum Stage {
     Void,
 }
 
-/// What every other tick does besides: one of these.
+/// Further work of every other tick: one of these.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Slice {
@@ -131,7 +132,7 @@ enum Slice {
     LastCycle,
     /// The angle was elsewhere, a tick was left out on the way here, or the motor has turned back.
     ReadingFault,
-    /// What the end of the cycle is to the window.
+    /// Role of the cycle's end in the window.
     Decide,
     Open,
     Direction,
@@ -213,7 +214,7 @@ impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
         self.reconsider(Slice::Watch);
     }
 
-    /// What is being decided about the end of a cycle is no longer so.
+    /// The pending decision on a cycle's end is void.
     fn reconsider(&mut self, slice: Slice) {
         if let Slice::Open | Slice::Direction | Slice::Duration | Slice::Note | Slice::NoteBack = self.slice {
             self.slice = slice;
@@ -236,7 +237,7 @@ impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
         }
     }
 
-    /// One slice of what the end of a segment or of a cycle brings.
+    /// One slice of the work at the end of a segment or of a cycle.
     #[inline(always)]
     fn slice(&mut self, config: &WaveformConfig, angle: u32, tick: u32, estimate: &Estimate<N>) {
         let cycle = &config.cycle;
@@ -382,8 +383,9 @@ impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
         };
     }
 
-    /// Takes a finished window and lets the next one begin; `None` while there is none. To be called between two ticks; it copies and empties
-    /// the table, and it must be called now and then also for a window that was disturbed to be given up.
+    /// Takes a finished window and lets the next one begin; `None` while there is none. To be called between two ticks;
+    /// it copies and empties the table, and it must be called now and then also for a window that was disturbed to be
+    /// given up.
     pub fn take(&mut self) -> Option<Window<N, BINS>> {
         // While an end is being filed the window is not complete.
         if let Slice::File | Slice::FileFirst = self.slice {

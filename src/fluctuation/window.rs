@@ -19,14 +19,14 @@ pub struct Window<N: Summed, const BINS: usize> {
     pub(super) forward: bool,
 }
 
-/// What repeats in every cycle of a window, and what does not.
+/// Periodic part (ripple) and trend of a window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Ripple {
     /// Mean speed by time [rad/s]; negative backwards.
     pub mean: f64,
-    /// Acceleration of the cycle's mean speed over the window [rad/s2]: the part that is not periodic, which a governor mends and a flywheel
-    /// does not; 0 over a single cycle.
+    /// Acceleration of the cycle's mean speed over the window [rad/s2]: the part that is not periodic, which a governor
+    /// mends and a flywheel does not; 0 over a single cycle.
     pub acceleration: f64,
     /// The motor's speed over the angle of the cycle [rad/s], its trend taken off.
     pub speed: Series,
@@ -42,10 +42,12 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         &self.bins
     }
 
-    /// The waveform of the motor's speed with the orders up to `highest`, which counts at most [`MAX_ORDER`] and a quarter of the bins.
+    /// The waveform of the motor's speed with the orders up to `highest`, which counts at most [`MAX_ORDER`] and a
+    /// quarter of the bins.
     ///
-    /// The integral of a function of the angle over time is, bin by bin, that of the parabola nearest to it. The parts of a tick at the two ends
-    /// of the window are put right, and the trend of the slowness, a sawtooth over the cycle, is taken off, as that of a steady acceleration.
+    /// The integral of a function of the angle over time is, bin by bin, that of the parabola nearest to it. The parts
+    /// of a tick at the two ends of the window are put right, and the trend of the slowness, a sawtooth over the cycle,
+    /// is taken off, as that of a steady acceleration.
     ///
     /// Not for the tick: some thousand operations in `f64`, and sines.
     pub fn ripple(&self, config: &WaveformConfig, highest: usize) -> Ripple {
@@ -57,7 +59,8 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
             *order = self.counted(f64::from(n));
             order.sin *= sign;
         }
-        // How far the motor turns in a tick at both ends, which the parts of a tick there need, is known from the waveform that they belong to.
+        // How far the motor turns in a tick at both ends, which the parts of a tick there need, is known from the
+        // waveform that they belong to.
         let [first, _, _, last] = self.edges;
         let whole = f64::from(last.tick.wrapping_sub(first.tick).max(1));
         let mut turned = [cycles * config.cycle.angle / whole; 2];
@@ -103,7 +106,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         let mut sum = Order::default();
         for (index, bin) in (0_u32..).zip(&self.bins) {
             let ticks = f64::from(bin.ticks);
-            // The distances were rounded down: half a unit is missing, and in the squares what that makes of them.
+            // The distances were rounded down: half a unit is missing, with its effect on the squares.
             let first = f64::from(bin.first) / 1024.0 + 0.5 * ticks / 1024.0;
             let second = (f64::from(bin.second) + 64.0 * first - ticks / 3.0) / 4096.0;
             let even = constant * ticks + square * h * h * second;
@@ -171,16 +174,20 @@ struct Ends {
     opening: f64,
     /// Its last cycle.
     closing: f64,
-    /// From the first end of a cycle to half a tick before the first tick that was counted; from the last end to half a tick before the first that was not.
+    /// From the first end of a cycle to half a tick before the first tick that was counted; from the last end to half a
+    /// tick before the first that was not.
     parts: [f64; 2],
 }
 
-/// How often the trend and the ends are put right anew, by the ripple that is then known; each round is closer by the ratio of trend and mean.
+/// How often the trend and the ends are put right anew, by the ripple that is then known; each round is closer by the
+/// ratio of trend and mean.
 const ROUNDS: u32 = 4;
 
-/// What a steady acceleration changes from one end of a window to the other, angles in 2 pi to the cycle and times in ticks.
+/// Change by a steady acceleration from one end of a window to the other, angles in 2 pi to the cycle and times in
+/// ticks.
 ///
-/// The integral of the slowness sigma times e^(j n theta) over whole cycles is, by parts, `[sigma]/(j n) + [sigma']/n^2 + ...`: a trend shows in every order.
+/// The integral of the slowness sigma times e^(j n theta) over whole cycles is, by parts,
+/// `[sigma]/(j n) + [sigma']/n^2 + ...`: a trend shows in every order.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Ramp {
     /// Of the speed.
@@ -194,7 +201,8 @@ pub(super) struct Ramp {
 }
 
 impl Ramp {
-    /// From the lengths of the window, of its first cycle and of its last: the mean speed of a cycle is that of its middle.
+    /// From the lengths of the window, of its first cycle and of its last: the mean speed of a cycle is that of its
+    /// middle.
     pub fn of(ticks: f64, first: f64, last: f64, cycles: u32) -> Ramp {
         if cycles < 2 {
             return Ramp { ends: [TAU / ticks; 2], ..Ramp::default() };
@@ -210,11 +218,11 @@ impl Ramp {
         (self.slope / (k * k), -self.slowness / k)
     }
 
-    /// The orders of the ripple over its mean, from the integrals of slowness times cos(n theta) and sin(n theta) over a window of so many ticks, in
-    /// its direction of travel, and from the ripple as it was `known` before: the slowness is the trend times the ripple, so that each order of the
-    /// ripple also shows in the others.
+    /// The orders of the ripple over its mean, from the integrals of slowness times cos(n theta) and sin(n theta) over
+    /// a window of so many ticks, in its direction of travel, and from the ripple as it was `known` before: the
+    /// slowness is the trend times the ripple, so that each order of the ripple also shows in the others.
     fn taken_off(&self, known: &Series, integrals: &Series, ticks: f64, highest: usize) -> Series {
-        // What order n, and the mean, gets from the orders m and -m of the ripple; half of an order belongs to each.
+        // Contribution of the orders m and -m of the ripple to order n and the mean; half of an order belongs to each.
         let leaked = |n: f64| {
             let mut sum = if n == 0.0 { (0.0, 0.0) } else { self.integral(n) };
             for (m, order) in (1_u32..).zip(known.orders.iter().take(highest)) {

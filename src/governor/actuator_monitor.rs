@@ -1,30 +1,30 @@
-//! Whether an actuator is where it was told to be.
+//! Actuator position monitor.
 //!
-//! A rack or a valve follows its command with lags that are known. What its position says is compared with what the
-//! commands of the past make of them: where both differ by more than a tolerance, the position is not believed and the
-//! expected torque stands in, so that the observer is not misled; where that lasts, the actuator sticks or its sensor is
-//! lost, and the machine has to be tripped. Which of the two it is, the torque alone does not tell.
+//! A rack or a valve follows its command with known lags. The measured position is compared with the command behind
+//! these lags. Beyond a tolerance the position is rejected and the expected torque replaces it, so that the observer is
+//! not misled. Beyond the timeout the actuator sticks or its sensor has failed, and the machine must be tripped. The
+//! torque alone does not distinguish the two.
 //!
-//! | position | what becomes of it |
+//! | position | reaction |
 //! |---|---|
-//! | as expected, to the tolerance | believed |
+//! | as expected, to the tolerance | accepted |
 //! | beyond the tolerance: dropped, negated, noisy, stuck | the expected torque instead, [`Faults::TORQUE`]; after the timeout [`Trip::Actuator`] |
-//! | no torque at all: NaN, infinite, beyond what the actuator can give | the same, and [`Trip::SensorLoss`] |
-//! | frozen at what is still expected | believed: it is right; found when the command moves by more than the tolerance |
+//! | no torque: NaN, infinite, beyond the actuator's range | the same, and [`Trip::SensorLoss`] |
+//! | frozen at what is still expected | accepted: it is right; detected when the command moves by more than the tolerance |
 
 use super::Trip;
 use crate::fault::Faults;
 use crate::number::Number;
 
-/// Watches an actuator of `K` lags in a row, at least one.
+/// Monitors an actuator of `K` lags in a row, at least one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ActuatorMonitor<N, const K: usize> {
     /// The torque that each lag has come to.
     expected: [N; K],
-    /// Ticks without a position that can be believed, less those with one.
+    /// Ticks without a plausible position, less those with one.
     outside: u32,
-    /// The last that was not believed is no torque at all.
+    /// The last rejected one is no torque at all.
     absent: bool,
 }
 
@@ -32,35 +32,35 @@ pub struct ActuatorMonitor<N, const K: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ActuatorMonitorConfig<N: Number, const K: usize> {
-    /// What each lag covers of its way in a tick, `1 - exp(-T/lag)`.
+    /// Share of a step that each lag covers in a tick, `1 - exp(-T/lag)`.
     pub share: [N::Coefficient; K],
-    /// Largest difference that is believed \[N m\].
+    /// Largest plausible difference \[N m\].
     pub tolerance: N,
-    /// Largest torque that the actuator can stand for, either way \[N m\].
+    /// Largest torque of the actuator, in either direction \[N m\].
     pub max_torque: N,
-    /// Ticks beyond the tolerance, less those within, that are ridden through.
+    /// Ticks beyond the tolerance, less those within, before a trip.
     pub timeout: u32,
 }
 
 impl<N: Number, const K: usize> ActuatorMonitor<N, K> {
-    /// A watch on an actuator that has stood at no torque.
+    /// A monitor of an actuator that has been at zero torque.
     pub const fn new() -> Self {
         const { assert!(K > 0, "an actuator that is watched has a lag") };
         ActuatorMonitor { expected: [N::ZERO; K], outside: 0, absent: false }
     }
 
-    /// The torque that the actuator's position should stand for \[N m\].
+    /// The expected torque of the actuator's position \[N m\].
     #[inline(always)]
     pub fn expected(&self) -> N {
         self.expected.last().copied().unwrap_or(N::ZERO)
     }
 
-    /// The torque to believe where the position stands for `measured`, and what is wrong with it.
+    /// The plausible torque for a measured position's torque, and its fault.
     #[inline(always)]
     pub fn check(&mut self, config: &ActuatorMonitorConfig<N, K>, measured: N) -> (N, Faults) {
         let expected = self.expected();
         if (measured - expected).exceeds(config.tolerance) {
-            // One beyond the timeout: what mends is believed again after as long a time.
+            // One beyond the timeout: a recovered position is accepted again after the same time.
             if self.outside <= config.timeout {
                 self.outside = self.outside.wrapping_add(1);
             }
@@ -81,7 +81,7 @@ impl<N: Number, const K: usize> ActuatorMonitor<N, K> {
         }
     }
 
-    /// Why the machine has to be tripped, for [`Sequencer::trip`](super::Sequencer::trip); none while it need not be.
+    /// The trip to pass to [`Sequencer::trip`](super::Sequencer::trip), if any.
     #[inline(always)]
     pub fn trip(&self, config: &ActuatorMonitorConfig<N, K>) -> Option<Trip> {
         if self.outside <= config.timeout {

@@ -1,20 +1,19 @@
-//! Slack taken up gently: a limit round another one that closes an open gap at a creep, lets the torque rise slowly
-//! after it, and damps the shaft.
+//! Backlash take-up: a limit around another one that closes an open gap at the approach speed, then ramps the torque
+//! up, and damps the shaft.
 //!
-//! A motor that accelerates freely through a gap meets the load at a speed delta omega, and the impact adds
-//! `delta omega sqrt(k J_m J_l/(J_m + J_l))` to the shaft's torque [Huang 1987 part 2]; a torque that is there at once
-//! adds its share of the load's inertia a second time. So
+//! A motor that accelerates freely through a gap meets the load at a relative speed delta omega, and the impact adds
+//! `delta omega sqrt(k J_m J_l/(J_m + J_l))` to the shaft's torque [Huang 1987 part 2]; a torque applied at once adds
+//! its share of the load's inertia a second time. So
 //!
-//! - while the gap is open, the governor's torque is held within a small one, less a damping of the twist rate: the gap closes
-//!   at a creep, torque over damping, at the most;
-//! - once it has closed, the largest torque rises from there by a step a tick, so that what the governor wants comes
-//!   over a part of a period of the resonance and not at once; a shaft that has been in contact for longer is not held
-//!   back;
+//! - while the gap is open, the governor's torque is limited to a small value, less a damping of the twist rate: the
+//!   gap closes at the approach speed, torque over damping, at most;
+//! - once it has closed, the limit rises from there by a step per tick, so that the governor's torque builds up over
+//!   part of a period of the resonance; a shaft in contact for longer is not limited;
 //! - in contact, `-k_d (omega_m - omega_l)` damps the shaft.
 //!
-//! The gap counts as open where the estimated shaft torque is exactly zero, which is how
-//! [`BacklashObserver`](crate::observer::BacklashObserver) says so. What is cut off does not wind up the integral of the
-//! [`SpeedGovernor`](super::SpeedGovernor) that this is a part of.
+//! The gap counts as open where the estimated shaft torque is exactly zero, as in
+//! [`BacklashObserver`](crate::observer::BacklashObserver). The limit does not wind up the integral of its
+//! [`SpeedGovernor`](super::SpeedGovernor).
 
 use super::Limit;
 use crate::number::Number;
@@ -28,9 +27,9 @@ pub struct BacklashTakeUpConfig<N: Number, L> {
     pub torque: N,
     /// Damping of the twist rate while the gap is open [N m s/rad], negative.
     pub braking: N::Coefficient,
-    /// By how much the largest torque rises in a tick once the gap has closed [N m].
+    /// Rise of the limit per tick once the gap has closed [N m].
     pub step: N,
-    /// What it rises to [N m].
+    /// The final limit [N m].
     pub max_torque: N,
     /// Active damping -k_d [N m s/rad], on the twist rate, in contact.
     pub damping: N::Coefficient,
@@ -38,7 +37,7 @@ pub struct BacklashTakeUpConfig<N: Number, L> {
     pub limit: L,
 }
 
-/// Another limit, and an open gap is closed at a creep.
+/// Another limit, and an open gap is closed at the approach speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTakeUp<N, L> {

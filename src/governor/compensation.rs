@@ -1,20 +1,20 @@
-//! Torque beside the loop's own: the estimated load fed forward, the twist damped, acceleration opposed.
+//! Compensation torque: load feed-forward, active damping, acceleration feedback.
 
 use crate::number::Number;
 use crate::sample::Estimate;
 
-/// What adds torque; `()` adds none, a tuple adds one after the other.
+/// Compensation torque added to the loop's; `()` adds none, a tuple adds one after the other.
 pub trait Compensation<N: Number>: Default {
     /// Its constants.
     type Config;
 
-    /// `torque` with what stands as long as the load does, which counts for the droop.
+    /// `torque` with the steady compensation, which counts for the droop.
     #[inline(always)]
     fn steady(&self, _config: &Self::Config, _estimate: &Estimate<N>, torque: N) -> N {
         torque
     }
 
-    /// `torque` with what passes.
+    /// `torque` with the transient compensation.
     #[inline(always)]
     fn transient(&self, _config: &Self::Config, _estimate: &Estimate<N>, torque: N) -> N {
         torque
@@ -40,10 +40,10 @@ impl<N: Number, A: Compensation<N>, B: Compensation<N>> Compensation<N> for (A, 
     }
 }
 
-/// A share of the estimated load torque, so that the loop need not wait for the speed to fall.
+/// Load feed-forward: a share of the estimated load torque, added before the speed falls.
 ///
-/// The estimate contains the torque that was given. Where the actuator is late, the observer must be told the torque as
-/// late as it acts ([`TransportDelay`](super::TransportDelay)), or what is fed forward feeds itself.
+/// The estimate depends on the applied torque. With a slow actuator the observer must be given the torque with the same
+/// delay ([`TransportDelay`](super::TransportDelay)), or the feed-forward feeds itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FeedForward;
@@ -65,7 +65,7 @@ impl<N: Number> Compensation<N> for FeedForward {
     }
 }
 
-/// Torque against the estimated twist rate, as a damper between motor and load would give it.
+/// Active damping: torque against the estimated twist rate, like a damper between motor and load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ActiveDamping;
@@ -88,12 +88,13 @@ impl<N: Number> Compensation<N> for ActiveDamping {
     }
 }
 
-/// Torque against the estimated acceleration of the load, as a flywheel would give it, by the actuator alone: it begins to
-/// act when the load has changed, before the speed has, and lets a loop with a late actuator be quicker
-/// ([`VirtualInertia`](crate::design::VirtualInertia)). At constant speed it gives none, and the droop does not count it.
+/// Acceleration feedback: torque against the estimated acceleration of the load, like a flywheel. It acts when the load
+/// has changed, before the speed has, and allows a faster loop with a slow actuator
+/// ([`VirtualInertia`](crate::design::VirtualInertia)). At constant speed it is zero, and the droop does not include
+/// it.
 ///
-/// The acceleration is what the shaft carries beyond the load's torque, over the load's inertia; so it is for a shaft
-/// whose torque does not swing in every cycle.
+/// The acceleration is the shaft torque less the load torque, over the load's inertia. Use it where the shaft torque
+/// has no ripple in every cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AccelerationFeedback;
@@ -111,7 +112,7 @@ impl<N: Number> Compensation<N> for AccelerationFeedback {
 
     #[inline(always)]
     fn transient(&self, config: &AccelerationFeedbackConfig<N>, estimate: &Estimate<N>, torque: N) -> N {
-        // Held within twice the base, of which fixed point has four times in an operand.
+        // Limited to twice the base; an operand in fixed point has room for four times.
         let accelerating = (estimate.shaft_torque - estimate.load_torque).saturated();
         torque + accelerating.widened().times(config.feedback)
     }

@@ -8,15 +8,15 @@ pub trait Limit<N: Number>: Default {
     /// Its constants.
     type Config;
 
-    /// The torque nearest to `wanted` that is allowed.
+    /// The permitted torque nearest to `wanted`.
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N;
 
-    /// The machine is given this torque now.
+    /// Starts from this torque.
     #[inline(always)]
     fn start(&mut self, _torque: N) {}
 }
 
-/// As much either way.
+/// The same limit in both directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SymmetricLimit;
@@ -25,7 +25,7 @@ pub struct SymmetricLimit;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SymmetricLimitConfig<N> {
-    /// Largest torque, either way [N m].
+    /// Largest torque, in either direction [N m].
     pub torque: N,
 }
 
@@ -38,7 +38,7 @@ impl<N: Number> Limit<N> for SymmetricLimit {
     }
 }
 
-/// Between two torques: an engine or a turbine, which drives and does not brake.
+/// A range of torque: an engine or a turbine, which drives and does not brake.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorqueRange;
@@ -53,7 +53,7 @@ pub struct TorqueRangeConfig<N> {
     pub max: N,
 }
 
-/// Written so that a NaN comes out as the least.
+/// Written so that a NaN gives the smallest.
 #[inline(always)]
 fn between<N: Number>(wanted: N, min: N, max: N) -> N {
     if wanted > max {
@@ -125,8 +125,7 @@ impl<N: Number, const K: usize> Limit<N> for Curve<K> {
     }
 }
 
-/// Another limit, and the torque moves by at most a step in a tick. Where the other limit falls faster than that, it
-/// prevails.
+/// Another limit, and a slew limit. Where the other limit falls faster, it prevails.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Slew<N, L> {

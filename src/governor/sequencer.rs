@@ -1,4 +1,4 @@
-//! Modes of a governed machine, and the trips that end them.
+//! Run and stop sequence of a governed machine, and its trips.
 //!
 //! ```text
 //! Stopped -- start --> Starting -- speed in the running range --> Running
@@ -8,35 +8,36 @@
 //! any of them -- trip --> Tripped(reason) -- reset --> Stopped
 //! ```
 //!
-//! A stopped machine is not watched: it trips only where it is [requested](Sequencer::request) or [commanded](Sequencer::trip). Stopped and tripped machines are given no torque. A trip keeps its first reason until it is reset.
+//! A stopped machine is not monitored: it trips only on [request](Sequencer::request) or by [`trip`](Sequencer::trip).
+//! Stopped and tripped machines have no torque. A trip keeps its first cause until it is reset.
 
 use super::SpeedRange;
 use crate::number::Number;
 use crate::sample::Estimate;
 
-/// What a governor has to do in a tick.
+/// Action of a governor in a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RunAction {
     /// Govern.
     Govern,
-    /// Begin from the speed that the machine has, without torque, and govern.
+    /// Begin from the present speed without torque, and govern.
     Begin,
-    /// Govern towards a standstill.
+    /// Govern with a setpoint of zero.
     Brake,
     /// Command no torque.
     Idle,
 }
 
-/// Decides what a governor has to do; `()` has it govern always.
+/// A run sequence; `()` governs always.
 pub trait Sequence<N: Number>: Default {
     /// Its constants.
     type Config;
 
-    /// What there is to do in the tick that begins.
+    /// The action of the tick that begins.
     fn action(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> RunAction;
 
-    /// The drive holds the machine by a torque, to be governed from there.
+    /// The drive holds the machine by a torque, and governs from there.
     #[inline(always)]
     fn start(&mut self) {}
 
@@ -51,7 +52,7 @@ pub trait Sequence<N: Number>: Default {
     }
 }
 
-/// Always at work.
+/// Always governing.
 impl<N: Number> Sequence<N> for () {
     type Config = ();
 
@@ -69,17 +70,17 @@ pub enum Trip {
     Overspeed,
     /// Slower than the underspeed limit while running, for longer than is allowed.
     Underspeed,
-    /// Turning backwards faster than is allowed.
+    /// Turning backwards faster than permitted.
     Reverse,
-    /// More torque in the shaft than it may carry.
+    /// Shaft torque beyond its limit.
     ShaftOverload,
     /// A sensor was lost: that of the angle, or that of the actuator's position.
     SensorLoss,
-    /// Not at speed in the time that a start may take.
+    /// Not at speed within the starting time.
     NotStarted,
-    /// Asked for, as by an emergency stop.
+    /// Requested, as by an emergency stop.
     Requested,
-    /// The actuator is not where it was told to be: it sticks, or its position reads wrong.
+    /// The actuator does not follow its command: it sticks, or its position is measured wrongly.
     Actuator,
 }
 
@@ -103,28 +104,28 @@ impl core::fmt::Display for Trip {
     }
 }
 
-/// The mode of a machine.
+/// State of the run sequence.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RunState {
     /// Without torque, to be started.
     #[default]
     Stopped,
-    /// On its way to the running range.
+    /// Accelerating to the running range.
     Starting,
-    /// At work.
+    /// Running.
     Running,
-    /// On its way to a standstill.
+    /// Decelerating to standstill.
     Braking,
     /// Without torque, until it is reset.
     Tripped(Trip),
 }
 
-/// What may be asked of [`Sequencer`].
+/// Requests to [`Sequencer`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum RunRequest {
-    /// A stopped machine starts, at the speed that it has; a braking one goes on.
+    /// A stopped machine starts at its present speed; a braking one goes on.
     Start,
     /// A starting or running machine brakes to a standstill.
     Stop,
@@ -146,15 +147,15 @@ pub struct SequencerConfig<N> {
     pub shaft_torque: N,
     /// The speed below which a braking machine has stopped [rad/s].
     pub standstill: N,
-    /// Ticks of overspeed, of turning backwards or of too much torque, less those without, that do not trip yet.
+    /// Trip delay of overspeed, reverse rotation and shaft overload: ticks beyond the limit, less those within.
     pub trip_delay: u32,
-    /// Ticks of underspeed, less those without, that do not trip yet.
+    /// Trip delay of underspeed: ticks beyond the limit, less those within.
     pub underspeed_delay: u32,
-    /// Ticks that a start may take.
+    /// Starting time \[ticks\].
     pub start: u32,
 }
 
-/// The modes and trips of a machine.
+/// The run sequence of a machine, with its trips.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sequencer {
@@ -165,12 +166,12 @@ pub struct Sequencer {
 }
 
 impl Sequencer {
-    /// The mode.
+    /// The state.
     pub fn state(&self) -> RunState {
         self.state
     }
 
-    /// Asks for another mode; `false` where the present one does not allow it, and nothing changes.
+    /// Requests another state; `false`, and no change, where the present one does not permit it.
     pub fn request(&mut self, request: RunRequest) -> bool {
         let (state, fresh) = match (request, self.state) {
             (RunRequest::Start, RunState::Stopped) => (RunState::Starting, true),
@@ -186,8 +187,8 @@ impl Sequencer {
         true
     }
 
-    /// Trips for a reason that something beside the estimates has found, as [`ActuatorMonitor`](super::ActuatorMonitor); `false` where the
-    /// machine has tripped already, and the first reason stands.
+    /// Trips for an external cause, such as [`ActuatorMonitor`](super::ActuatorMonitor); `false` where the machine has
+    /// already tripped: the first cause stands.
     pub fn trip(&mut self, reason: Trip) -> bool {
         if matches!(self.state, RunState::Tripped(_)) {
             return false;
@@ -196,7 +197,7 @@ impl Sequencer {
         true
     }
 
-    /// Counts a tick outside the limits, or one within them.
+    /// Counts a tick outside or within the limits.
     fn count<N: Number>(&mut self, config: &SequencerConfig<N>, estimate: &Estimate<N>, window: &SpeedRange<N>) {
         let speed = estimate.motor_speed;
         let (trip, ticks) = if estimate.shaft_torque.exceeds(config.shaft_torque) {
@@ -217,7 +218,7 @@ impl Sequencer {
         }
     }
 
-    /// A tick of any mode but [`RunState::Running`].
+    /// A tick in any state but [`RunState::Running`].
     #[cold]
     fn other<N: Number>(&mut self, config: &SequencerConfig<N>, estimate: &Estimate<N>) -> RunAction {
         match self.state {
@@ -239,7 +240,7 @@ impl Sequencer {
                 }
                 action
             }
-            // One that is stopped before its first tick begins at its speed all the same.
+            // A machine stopped before its first tick still begins at its speed.
             RunState::Braking if estimate.motor_speed.exceeds(config.standstill) => match action {
                 RunAction::Begin => action,
                 _ => RunAction::Brake,

@@ -1,26 +1,26 @@
-//! What shapes the setpoint: droop, and speeds that the machine must not dwell at.
+//! Shaping of the setpoint: droop and barred speed ranges.
 
 use crate::number::Number;
 
-/// A shape of the setpoint; `()` leaves it as it is, a tuple is one after the other.
+/// Shaping of the setpoint; `()` is none, a tuple is one after the other.
 pub trait SetpointShape<N: Number>: Default {
     /// Its constants.
     type Config;
 
-    /// Where the ramp is to go for a reference, and its largest step in this tick, from where it stands now [rad/s].
+    /// The ramp's target for a setpoint and its largest step in this tick, from its present value [rad/s].
     #[inline(always)]
     fn goal(&self, _config: &Self::Config, setpoint: N, _ramped: N, ramp: N) -> (N, N) {
         (setpoint, ramp)
     }
 
-    /// The setpoint less what it yields to a standing torque (the integral and what is fed forward).
+    /// The setpoint less its droop under a steady torque (the integral and the feed-forward).
     #[inline(always)]
     fn lower(&self, _config: &Self::Config, ramped: N, _standing: N) -> N {
         ramped
     }
 }
 
-/// Isochronous, and no speed is barred.
+/// Isochronous, without barred ranges.
 impl<N: Number> SetpointShape<N> for () {
     type Config = ();
 }
@@ -40,9 +40,9 @@ impl<N: Number, A: SetpointShape<N>, B: SetpointShape<N>> SetpointShape<N> for (
     }
 }
 
-/// Droop: the setpoint yields in proportion to the standing torque, so that sets which turn together share the load.
+/// Droop: the setpoint falls in proportion to the steady torque, so that gensets in parallel share the load.
 ///
-/// Sets with equal droop per rated torque carry equal shares of theirs; a set with none would carry all. The
+/// Gensets of equal droop per rated torque carry equal shares of it; one without droop would carry the whole load. The
 /// proportional part does not count: a droop on the whole torque would be an algebraic loop of gain k_p R in every
 /// tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -66,8 +66,8 @@ impl<N: Number> SetpointShape<N> for Droop {
     }
 }
 
-/// Barred ranges of speed: a reference inside one stops at the edge on the machine's side, and a setpoint that must
-/// pass one does so by a quick ramp. Ranges for both directions are ranges of their own.
+/// Barred speed ranges: a setpoint inside one stops at the edge on the machine's side, and a ramp that must pass one is
+/// quick. Ranges of both directions are given separately.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Barred<const K: usize>;

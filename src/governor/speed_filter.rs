@@ -1,59 +1,58 @@
-//! What a governor sees of the machine: the estimates as they are, or their mean over an interval in which the
-//! machine's torque repeats itself.
+//! Speed filters before the governor: none, a moving average over the firing interval, or the average over a cycle.
 //!
-//! An engine's speed swings with every firing, and a governor that follows the swing wears the rack and mends nothing:
-//! a flywheel mends what is periodic, a governor what is not [Notes ch. 5]. The mean over one firing interval at rated
-//! speed has none of the firing's orders. Where the speed varies, or the cycle is long, what repeats is known by the angle: [`CycleAverage`] takes
-//! the speed without its ripple from the drive's measurement of the fluctuation.
+//! An engine's speed fluctuates with every firing, and a governor that follows the ripple only wears the rack: a
+//! flywheel reduces periodic fluctuation, a governor the rest [Notes ch. 5]. The moving average over one firing
+//! interval at rated speed contains none of the firing orders. For a varying speed or a long cycle the ripple follows
+//! the angle: [`CycleAverage`] takes the speed without its ripple from the drive's measurement of the fluctuation.
 
 use crate::number::Number;
 use crate::sample::Estimate;
 
-/// What a governor sees; `()` sees the estimates as they are.
+/// A filter of the speed; `()` passes the estimates unchanged.
 pub trait SpeedFilter<N: Number>: Default {
     /// Its constants.
     type Config;
 
-    /// Takes the speed without its ripple, where the drive's fluctuation knows it.
+    /// Sets the speed without its ripple, where the drive's fluctuation measures it.
     #[inline(always)]
     fn set_steady_speed(&mut self, _steady_speed: Option<N>) {}
 
-    /// What is seen in this tick.
+    /// The filtered estimate of this tick.
     #[inline(always)]
     fn filter(&mut self, _config: &Self::Config, estimate: &Estimate<N>) -> Estimate<N> {
         *estimate
     }
 
-    /// What was seen in the last tick, of estimates that have not changed since.
+    /// The filtered estimate of the last tick, for unchanged estimates.
     fn filtered(&self, estimate: &Estimate<N>) -> Estimate<N> {
         *estimate
     }
 
-    /// What the modes and trips see, of the estimates as they are and as they are seen.
+    /// The estimate for sequence and trips: filtered or not.
     #[inline(always)]
     fn monitored<'e>(_estimate: &'e Estimate<N>, filtered: &'e Estimate<N>) -> &'e Estimate<N> {
         filtered
     }
 
-    /// Starts anew with these estimates.
+    /// Restarts from these estimates.
     #[inline(always)]
     fn start(&mut self, _config: &Self::Config, _estimate: &Estimate<N>) {}
 }
 
-/// The estimates as they are.
+/// No filter.
 impl<N: Number> SpeedFilter<N> for () {
     type Config = ();
 }
 
-/// The means of motor speed and load torque over the last `K` ticks, a power of two from 4 on; late by half of them.
-/// Shaft torque and load speed are seen as they are.
+/// Moving averages of motor speed and load torque over the last `K` ticks, a power of two from 4 on; their delay is
+/// half of it. Shaft torque and load speed pass unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MovingAverage<N, const K: usize> {
     past: [[N; 2]; K],
     sum: [N; 2],
-    /// The sum of the ring's beginning up to here, by additions alone: what replaces the running sum once a round, so
-    /// that its roundings do not add up.
+    /// The sum of the ring up to here, by additions alone. It replaces the running sum once a round, so that roundings
+    /// do not accumulate.
     fresh: [N; 2],
     at: u32,
 }
@@ -108,11 +107,12 @@ impl<N: Number, const K: usize> SpeedFilter<N> for MovingAverage<N, K> {
     }
 }
 
-/// The motor's speed without what repeats in every cycle, as the drive's fluctuation has it ([`CycleMean`](crate::fluctuation::CycleMean)); as it
-/// is where the fluctuation does not know. Everything else is seen as it is, and so is the speed by the modes and their trips.
+/// The motor's speed without its ripple, as measured by the drive's fluctuation
+/// ([`CycleMean`](crate::fluctuation::CycleMean)); unfiltered where that is unknown. All else passes unchanged;
+/// sequence and trips use the unfiltered speed.
 ///
-/// A load torque that is fed forward brings the ripple back: leave [`FeedForward`](super::FeedForward) out, or take [`MovingAverage`], which sees the
-/// mean of the load torque as well, where the speed hardly varies.
+/// Load feed-forward brings the ripple back: leave [`FeedForward`](super::FeedForward) out, or at nearly constant speed
+/// take [`MovingAverage`], which averages the load torque as well.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CycleAverage<N> {

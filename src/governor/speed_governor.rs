@@ -1,22 +1,21 @@
-//! A governor composed by type: ramp, proportional and integral with anti-windup, and whatever else the machine needs.
+//! A speed governor composed by type: ramp, proportional and integral action with anti-windup, and optional parts.
 //!
 //! ```text
 //! omega* = ramp(reference) - droop,    e = omega* - omega_m
 //! tau    = limit(k_p e + I + compensation),  I' = I + k_i e + k_u (tau - wanted)
 //! ```
 //!
-//! What the limit cuts off is taken from the integral at the rate at which it would otherwise have grown
-//! (back-calculation), so that it does not wind up, whichever part of the limit cuts: torque, power or slew.
+//! Anti-windup by back-calculation at the integral's own rate, for every part of the limit: torque, power or slew.
 //!
 //! | parameter | parts |
 //! |---|---|
-//! | `S`, the setpoint | `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred) |
-//! | `F`, added torque | `()`, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping), [`AccelerationFeedback`](super::AccelerationFeedback) |
+//! | `S`, shaping of the setpoint | `()` isochronous, [`Droop`](super::Droop), [`Barred`](super::Barred) |
+//! | `F`, compensation | `()`, [`FeedForward`](super::FeedForward), [`ActiveDamping`](super::ActiveDamping), [`AccelerationFeedback`](super::AccelerationFeedback) |
 //! | `L`, the limit | [`SymmetricLimit`], [`TorqueRange`](super::TorqueRange), [`Curve`](super::Curve), [`Slew`](super::Slew) or [`BacklashTakeUp`](super::BacklashTakeUp) round any of them |
-//! | `M`, the modes | `()` always at work, [`Sequencer`](super::Sequencer) |
-//! | `V`, the filter | `()` the estimates as they are, [`MovingAverage`](super::MovingAverage) over an engine's firing interval, [`CycleAverage`](super::CycleAverage) without what repeats every cycle |
+//! | `M`, run sequence | `()` always governing, [`Sequencer`](super::Sequencer) |
+//! | `V`, speed filter | `()` none, [`MovingAverage`](super::MovingAverage) over an engine's firing interval, [`CycleAverage`](super::CycleAverage) over a cycle |
 //!
-//! Two parts of one kind are a tuple: `(Droop, Barred<f32, 2>)`. What is left out costs nothing.
+//! Two parts of one kind are a tuple: `(Droop, Barred<f32, 2>)`. A part left out costs nothing.
 
 use super::{Compensation, Governor, Limit, RunAction, Sequence, SetpointShape, SpeedFilter, SymmetricLimit};
 use crate::number::Number;
@@ -30,7 +29,7 @@ pub struct Gains<N: Number> {
     pub proportional: N::Coefficient,
     /// Integral gain per tick, k_i T [N m s/rad].
     pub integral: N::Coefficient,
-    /// The share of what the limit cuts off that is taken from the integral in a tick, k_i T/k_p.
+    /// Anti-windup gain: share of the limited torque fed back to the integral in a tick, k_i T/k_p.
     pub anti_windup: N::Coefficient,
     /// Largest change of the setpoint in a tick [rad/s].
     pub ramp: N,
@@ -42,13 +41,13 @@ pub struct Gains<N: Number> {
 pub struct SpeedGovernorConfig<N: Number, S, F, L, M, V> {
     /// Gains and ramp.
     pub gains: Gains<N>,
-    /// Constants of what shapes the setpoint.
+    /// Constants of the setpoint's shaping.
     pub shape: S,
-    /// Constants of what adds torque.
+    /// Constants of the compensation.
     pub compensation: F,
     /// Constants of the limit.
     pub limit: L,
-    /// Constants of the modes.
+    /// Constants of the run sequence.
     pub sequence: M,
     /// Constants of the filter.
     pub filter: V,
@@ -87,7 +86,7 @@ where
     M: Sequence<N>,
     V: SpeedFilter<N>,
 {
-    /// Where the ramp stands, before the droop [rad/s].
+    /// The ramped setpoint, before the droop [rad/s].
     pub fn ramped_setpoint(&self) -> N {
         self.ramped
     }
@@ -97,20 +96,20 @@ where
         self.integral
     }
 
-    /// The modes.
+    /// The run sequence.
     pub fn sequence(&self) -> &M {
         &self.sequence
     }
 
-    /// The modes, to ask for another.
+    /// The run sequence, to request another state.
     pub fn sequence_mut(&mut self) -> &mut M {
         &mut self.sequence
     }
 
-    /// Makes the next tick's torque under the constants `to` what it would have been under `from`: call it once,
-    /// between two ticks, when the constants change (gains, droop, feed-forward). The integral takes up the difference
-    /// of the torques; the setpoint takes up that of the droops, and comes back by its ramp. In fixed point the
-    /// integral ends at twice the base.
+    /// Bumpless transfer from the constants `from` to `to`: the next tick's torque is as under `from`. Call it once,
+    /// between two ticks, when gains, droop or feed-forward change. The integral takes over the difference of the
+    /// torques; the ramped setpoint that of the droops, and returns by its ramp. In fixed point the integral ends at
+    /// twice the base.
     pub fn switch(
         &mut self,
         from: &SpeedGovernorConfigOf<N, S, F, L, M, V>,
@@ -145,7 +144,7 @@ where
         self.compensation.transient(&config.compensation, estimate, standing + error.times(config.gains.proportional))
     }
 
-    /// Starts from the speed that the machine has, with a standing torque, so that the first command is no jolt.
+    /// Starts from the present speed with a steady torque (bumpless transfer).
     fn begin(&mut self, config: &SpeedGovernorConfigOf<N, S, F, L, M, V>, estimate: &Estimate<N>, torque: N) {
         let speed = estimate.motor_speed;
         let lowered = self.shape.lower(&config.shape, speed, torque);

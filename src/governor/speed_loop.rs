@@ -4,9 +4,8 @@
 //! tau = k_p (omega* - omega_m) + I - k_d (omega_m - omega_l),   I' = I + k_i (omega* - omega_m)
 //! ```
 //!
-//! limited to the drive's torque. What the limit cuts off is taken from the integral at the rate at which it would
-//! otherwise have grown (back-calculation with the integral's own time constant), so that it does not wind up. The setpoint moves by at
-//! most the ramp's step a tick.
+//! limited to the drive's torque. Anti-windup is by back-calculation with the integral's own time constant. The
+//! setpoint moves by at most the ramp's step a tick.
 
 use super::Governor;
 use crate::number::Number;
@@ -22,9 +21,9 @@ pub struct SpeedLoopConfig<N: Number> {
     pub integral: N::Coefficient,
     /// Active damping -k_d [N m s/rad], on the twist rate.
     pub damping: N::Coefficient,
-    /// The share of what the limit cuts off that is taken from the integral in a tick, k_i T/k_p.
+    /// Anti-windup gain: share of the limited torque fed back to the integral in a tick, k_i T/k_p.
     pub anti_windup: N::Coefficient,
-    /// Largest torque, either way [N m].
+    /// Largest torque, in either direction [N m].
     pub torque_limit: N,
     /// Largest change of the setpoint in a tick [rad/s].
     pub ramp: N,
@@ -40,7 +39,7 @@ pub struct SpeedLoop<N> {
 }
 
 impl<N: Copy> SpeedLoop<N> {
-    /// Where the ramp stands [rad/s].
+    /// The ramped setpoint [rad/s].
     pub fn ramped_setpoint(&self) -> N {
         self.ramped
     }

@@ -1,10 +1,10 @@
-//! A fuel rack or valve: its torque acts later than its position says.
+//! Transport delay of a fuel rack or steam valve: its torque acts later than its position.
 
 use crate::number::Number;
 
-/// Delays the torque that an actuator's position stands for by the time after which it acts, for the observer.
+/// Delays the torque of an actuator's position by its dead time, for the observer.
 ///
-/// A ring of `K` ticks, a power of two. Nothing is screened: what goes in comes out.
+/// A ring of `K` ticks, a power of two. Nothing is screened.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TransportDelay<N, const K: usize> {
@@ -21,13 +21,13 @@ pub struct TransportDelayConfig<const K: usize> {
 }
 
 impl<N: Number, const K: usize> TransportDelay<N, K> {
-    /// A rack that has stood at no torque.
+    /// An actuator that has been at zero torque.
     pub const fn new() -> Self {
         const { assert!(K.is_power_of_two() && K <= 1 << 16, "the ring of a rack must hold a power of two of ticks") };
         TransportDelay { past: [N::ZERO; K], at: 0 }
     }
 
-    /// Takes the torque of the tick that has just ended, and gives the one that acts.
+    /// Takes the torque of the tick that has just ended, and returns the delayed one.
     #[inline(always)]
     pub fn delayed(&mut self, config: &TransportDelayConfig<K>, torque: N) -> N {
         let (at, mask) = (self.at as usize, K - 1);

@@ -7,8 +7,9 @@ use super::{Chain, Diameter, Efficiency, Error, Length, LinearDamping, Ratio, St
 
 /// A belt, chain or toothed belt, pretensioned so that neither strand goes slack.
 ///
-/// One strand tightens by what the other slackens, so both resist: the twist `r_1 phi_1 - r_2 phi_2` meets twice the strand's stiffness. At the
-/// driving pulley that is `2 k r_1^2`, by the strain energy [Wang 1989 §1-3]. A strand of length l, cross-section A and modulus E has `k = E A/l`.
+/// One strand tightens as the other slackens, so both resist: the twist `r_1 phi_1 - r_2 phi_2` meets twice the
+/// strand's stiffness. At the driving pulley that is `2 k r_1^2`, by the strain energy [Wang 1989 §1-3]. A strand of
+/// length l, cross-section A and modulus E has `k = E A/l`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Belt {
@@ -43,7 +44,7 @@ impl Belt {
 }
 
 impl Chain {
-    /// A belt to the next mass, which turns at the driven pulley's speed. The pulleys are rotors before and after it.
+    /// A belt to the next mass, at the driven pulley's speed. The pulleys are rotors before and after it.
     ///
     /// Refused: [`Error::PulleyDiameter`], [`Error::BeltStiffness`], [`Error::BeltDamping`], [`Error::GearEfficiency`],
     /// [`Error::RotaryAfterDrum`], [`Error::TooManyMasses`].

@@ -27,12 +27,11 @@ impl Shaft {
 ///
 /// Each element follows the one before it. A [`shaft`](Self::shaft) or [`rope`](Self::rope) opens a new mass, which
 /// stays empty until a rotor, a planetary set or a mass is put on it; two shafts with nothing between them become
-/// one (stiffnesses in series, gaps added, damping by equal loss). A backlash belongs to the shaft before it when nothing lies
-/// between, or else to the next one.
+/// one (stiffnesses in series, gaps added, damping by equal loss). A backlash belongs to the shaft before it when
+/// nothing lies between, or else to the next one.
 ///
-/// The chain is referred without losses, which is what the observer needs: it keeps energy, and the friction that the
-/// efficiency stands for is constant or slow and ends up in the estimated load torque. Only
-/// [`gravity_torque_hoisting`](Self::gravity_torque_hoisting) and
+/// The chain is referred without losses, as the observer requires: energy is conserved, and friction, constant or slow,
+/// becomes part of the estimated load torque. Only [`gravity_torque_hoisting`](Self::gravity_torque_hoisting) and
 /// [`gravity_torque_lowering`](Self::gravity_torque_lowering) use the efficiency, unless the chain begins with
 /// [`starting`](Self::starting) or [`braking`](Self::braking).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,8 +59,9 @@ pub struct Chain {
 impl Chain {
     /// Begins a chain with the motor's own inertia \[kg m2\].
     ///
-    /// An element that is wrong, or that cannot follow, is left out, and the chain carries the first such [`error`](Self::error) to its
-    /// end: what is made of the chain stops with its sentence, or returns it from its `try_` form.
+    /// An element that is wrong, or that cannot follow, is left out, and the chain carries the first such
+    /// [`error`](Self::error) to its end: what is made of the chain stops with its sentence, or returns it from its
+    /// `try_` form.
     ///
     /// Refused: [`Error::MotorInertia`].
     #[must_use]
@@ -98,14 +98,16 @@ impl Chain {
         self.error
     }
 
-    /// Refers what follows with the losses of starting: inertias and stiffnesses over the efficiency [Huang 1987 ch. 1].
+    /// Refers the following elements with the losses of motoring: inertias and stiffnesses over the efficiency
+    /// [Huang 1987 ch. 1].
     #[must_use]
     pub const fn starting(mut self) -> Self {
         self.flow = Flow::Motoring;
         self
     }
 
-    /// Refers what follows with the losses of braking: inertias and stiffnesses times the efficiency [Huang 1987 ch. 1].
+    /// Refers the following elements with the losses of overhauling: inertias and stiffnesses times the efficiency
+    /// [Huang 1987 ch. 1].
     #[must_use]
     pub const fn braking(mut self) -> Self {
         self.flow = Flow::Overhauling;
@@ -147,7 +149,7 @@ impl Chain {
         self
     }
 
-    /// A gear: what follows turns `ratio` times slower. Its wheels are rotors before and after it.
+    /// A gear: the following elements turn `ratio` times slower. Its wheels are rotors before and after it.
     ///
     /// Refused: [`Error::GearRatio`], [`Error::GearEfficiency`], [`Error::RotaryAfterDrum`].
     #[must_use]
@@ -167,8 +169,9 @@ impl Chain {
         self
     }
 
-    /// A gear that loses more while the load drives it, such as a worm: efficiency with the motor driving, then with the load driving. With equal
-    /// losses either way the second is `2 - 1/first`; a worm whose first is one half or less holds its load by itself, which a chain does not show.
+    /// A gear that loses more while the load drives it, such as a worm: efficiency with the motor driving, then with
+    /// the load driving. With equal losses in both directions the second is `2 - 1/first`; a worm whose first is one
+    /// half or less is self-locking, which a chain does not model.
     ///
     /// Refused: as [`gear`](Self::gear).
     #[must_use]

@@ -1,11 +1,12 @@
-//! Crank and slider: an inertia that depends on the angle, and the forces of the masses that go to and fro.
+//! Crank and slider: the inertia as a function of the angle, and the forces of the reciprocating masses.
 //!
-//! With crank radius r, rod length l, `lambda = r/l` and the angle phi from the outer dead centre, the rod leans by beta, `sin beta = lambda sin phi`.
-//! The slider's travel from the dead centre is `s = r (1 - cos phi) + l (1 - cos beta)`. The energy `1/2 J(phi) omega^2` of everything that moves
-//! gives the inertia, and `J(phi) omega' + 1/2 J'(phi) omega^2 = tau` the motion [Wang 1989 (1-14), (1-15), §1-3].
+//! With crank radius r, connecting rod length l, `lambda = r/l` and the angle phi from the top dead centre, the
+//! connecting rod leans by beta, `sin beta = lambda sin phi`. The slider's travel from the dead centre is
+//! `s = r (1 - cos phi) + l (1 - cos beta)`. The energy `1/2 J(phi) omega^2` of everything that moves gives the
+//! inertia, and `J(phi) omega' + 1/2 J'(phi) omega^2 = tau` the motion [Wang 1989 (1-14), (1-15), §1-3].
 //!
-//! The rod counts exactly: as a mass at either end that keeps its mass and its centre, and an inertia that corrects the rest
-//! (negative for a rod of two knobs and a thin stick) [Pfützner 1980 ch. 3].
+//! The connecting rod is exact: two point masses with its mass and centre of mass, and a correcting inertia (negative
+//! for a rod with heavy ends) [derived; heading: Pfützner 1980 ch. 3].
 
 use core::f64::consts::TAU;
 
@@ -13,27 +14,27 @@ use super::error::{not_negative, positive};
 use super::{Error, Inertia, Length, Mass};
 use crate::math::{sin_cos, sqrt};
 
-/// A crank, a rod and a slider in line with the crank's axis.
+/// A crank, a connecting rod and a slider in line with the crank's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CrankSlider {
     /// Radius of the crank \[m\].
     pub radius: Length,
-    /// Length of the rod from pin to pin \[m\].
+    /// Length of the connecting rod from pin to pin \[m\].
     pub rod: Length,
-    /// Inertia of the crank and of what turns with it \[kg m2\].
+    /// Inertia of the crank and the parts rotating with it \[kg m2\].
     pub crank: Inertia,
-    /// Mass of the rod \[kg\].
+    /// Mass of the connecting rod \[kg\].
     pub rod_mass: Mass,
-    /// Distance of the rod's centre of mass from the crank's pin \[m\].
+    /// Distance of the connecting rod's centre of mass from the crank pin \[m\].
     pub rod_centre: Length,
-    /// Inertia of the rod about its centre of mass \[kg m2\].
+    /// Inertia of the connecting rod about its centre of mass \[kg m2\].
     pub rod_inertia: Inertia,
     /// Mass of the slider \[kg\].
     pub slider: Mass,
 }
 
-/// The slider's travel from the outer dead centre and its derivatives by the crank's angle.
+/// The slider's travel from the top dead centre and its derivatives by the crank angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Travel {
@@ -56,7 +57,7 @@ pub struct VariableInertia {
 }
 
 impl CrankSlider {
-    /// A crank and a slider with a rod without mass.
+    /// A crank and a slider with a massless connecting rod.
     #[must_use]
     pub const fn massless_rod(radius: Length, rod: Length, crank: Inertia, slider: Mass) -> Self {
         let (rod_mass, rod_centre, rod_inertia) = (Mass(0.0), Length(0.0), Inertia(0.0));
@@ -81,13 +82,13 @@ impl CrankSlider {
         }
     }
 
-    /// Crank radius over rod length, below 1.
+    /// Crank radius over connecting rod length, below 1.
     #[must_use]
     pub const fn lambda(&self) -> f64 {
         self.radius.0 / self.rod.0
     }
 
-    /// Where the slider is at an angle \[rad\] from the outer dead centre.
+    /// Position of the slider at an angle \[rad\] from the top dead centre.
     #[must_use]
     pub const fn travel(&self, angle: f64) -> Travel {
         let (r, lambda) = (self.radius.0, self.lambda());
@@ -105,13 +106,13 @@ impl CrankSlider {
         }
     }
 
-    /// Second derivative of the rod's lean by the angle, from its first one.
+    /// Second derivative of the connecting rod's angle, from its first one.
     const fn lean_rate(&self, sine: f64, upright: f64, swing: f64) -> f64 {
         let lean = self.lambda() * sine;
         lean * (swing * swing - 1.0) / upright
     }
 
-    /// Inertia at the crank at an angle \[rad\] from the outer dead centre.
+    /// Inertia at the crank at an angle \[rad\] from the top dead centre.
     #[must_use]
     pub const fn inertia(&self, angle: f64) -> VariableInertia {
         let (sine, cosine) = sin_cos(angle);
@@ -127,28 +128,29 @@ impl CrankSlider {
         }
     }
 
-    /// Mass that goes to and fro: the slider and the rod's share \[kg\].
+    /// Reciprocating mass: the slider and the connecting rod's share \[kg\].
     #[must_use]
     pub const fn reciprocating_mass(&self) -> Mass {
         Mass(self.slider.0 + self.rod_mass.0 * self.rod_centre.0 / self.rod.0)
     }
 
-    /// Inertia that turns with the crank: its own and the rod's share at the pin \[kg m2\].
+    /// Inertia rotating with the crank: its own and the connecting rod's share at the pin \[kg m2\].
     #[must_use]
     pub const fn rotating_inertia(&self) -> Inertia {
         let share = self.rod_mass.0 * (1.0 - self.rod_centre.0 / self.rod.0);
         Inertia(self.crank.0 + share * self.radius.0 * self.radius.0)
     }
 
-    /// What the rod's inertia is above that of its masses at the pins \[kg m2\].
+    /// Excess of the connecting rod's inertia over that of its masses at the pins \[kg m2\].
     const fn rod_correction(&self) -> f64 {
         let a = self.rod_centre.0;
         self.rod_inertia.0 - self.rod_mass.0 * a * (self.rod.0 - a)
     }
 
-    /// Mean of J(phi) over a turn \[kg m2\]: what a chain takes the crank drive for.
+    /// Mean of J(phi) over a turn \[kg m2\]: the crank drive's inertia in a chain.
     ///
-    /// By 256 equidistant angles, which for a periodic function is exact but for harmonics of 256 and more: below 1e-12 up to lambda 0.9.
+    /// By 256 equidistant angles, which for a periodic function is exact but for harmonics of 256 and more: below 1e-12
+    /// up to lambda 0.9.
     #[must_use]
     pub const fn mean_inertia(&self) -> Inertia {
         let mut sum = 0.0;
@@ -160,16 +162,17 @@ impl CrankSlider {
         Inertia(sum / 256.0)
     }
 
-    /// Force of the masses that go to and fro, on the frame along the slider's path \[N\], away from the crank, at an angle \[rad\], a speed
-    /// \[rad/s\] and an acceleration \[rad/s2\] of the crank: `m (s'' omega^2 + s' omega')` [Notes ch. 5].
+    /// Force of the reciprocating masses on the frame along the slider's path \[N\], away from the crank, at an angle
+    /// \[rad\], a speed \[rad/s\] and an acceleration \[rad/s2\] of the crank: `m (s'' omega^2 + s' omega')`
+    /// [Notes ch. 5].
     #[must_use]
     pub const fn mass_force(&self, angle: f64, speed: f64, acceleration: f64) -> f64 {
         let travel = self.travel(angle);
         self.reciprocating_mass().0 * (travel.second * speed * speed + travel.first * acceleration)
     }
 
-    /// First and second order of that force at a steady speed \[N\]: `m r omega^2` and `lambda m r omega^2`, the amplitudes of `cos phi` and `cos 2 phi`
-    /// [Notes ch. 5]. What the series leaves out is of the order of lambda cubed.
+    /// First and second order of that force at a steady speed \[N\]: `m r omega^2` and `lambda m r omega^2`, the
+    /// amplitudes of `cos phi` and `cos 2 phi` [Notes ch. 5]. The truncation error is of the order of lambda cubed.
     #[must_use]
     pub const fn force_orders(&self, speed: f64) -> [f64; 2] {
         let first = self.reciprocating_mass().0 * self.radius.0 * speed * speed;

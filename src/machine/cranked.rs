@@ -18,7 +18,7 @@ use super::{CrankSlider, Error, Inertia, VariableInertia};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Cranked {
-    /// Inertia of the motor and of what turns at a constant ratio to it \[kg m2\].
+    /// Inertia of the motor and all parts at a constant ratio to it \[kg m2\].
     pub constant: f64,
     /// The crank drive, on its own shaft.
     pub crank: CrankSlider,
@@ -29,8 +29,8 @@ pub struct Cranked {
 }
 
 impl Cranked {
-    /// A machine of a motor and a crank that turns `turns` times while the motor turns `motor_turns` times; negative `turns` where it
-    /// turns the other way.
+    /// A machine of a motor and a crank that turns `turns` times while the motor turns `motor_turns` times; negative
+    /// `turns` where it turns the other way.
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -65,7 +65,8 @@ impl Cranked {
         self.turns as f64 / self.motor_turns as f64
     }
 
-    /// Inertia at the motor, and its derivative by the motor's angle, with the crank at an angle \[rad\] from its outer dead centre.
+    /// Inertia at the motor, and its derivative by the motor's angle, with the crank at an angle \[rad\] from its top
+    /// dead centre.
     ///
     /// Referred by the ratio r: `J_m + r^2 J(phi)`, `r^3 J'(phi)` [Wang 1989 (1-15)].
     #[must_use]

@@ -1,4 +1,4 @@
-//! What can be wrong with the description of a machine.
+//! Errors in the description of a machine.
 
 use core::fmt;
 
@@ -32,7 +32,8 @@ sentences! {
     GearRatio => "ratio of the gear must be positive and finite (speed of the motor's side over the load's)",
     GearEfficiency => "efficiency of the gear must be above 0 and at most 1",
     PlanetaryTeeth => "teeth of the planetary set must be above zero, with more on the ring than on the sun",
-    PlanetaryInertia => "inertias and masses of the planetary set must be zero or positive and finite, its module positive",
+    PlanetaryInertia => "inertias and masses of the planetary set must be zero or positive and finite, its module \
+        positive",
     PlanetaryMembers => "the held member of the planetary set must not be its input",
     DrumDiameter => "diameter of the drum must be positive and finite (m)",
     RopeFalls => "falls of the rope must be at least 1",
@@ -49,7 +50,8 @@ sentences! {
     CutOutOfRange => "the shaft of the textbook cut must be one of the chain's shafts, counted from 0 at the motor",
     ShaftStiffnessNegative => "stiffness between the two masses must be zero or positive and finite (N m/rad)",
     GravityTorque => "gravity torque of the load must be finite (N m at the motor)",
-    SectionDiameter => "outer diameters of the shaft's section must be positive and finite, its bore smaller than both (m)",
+    SectionDiameter => "outer diameters of the shaft's section must be positive and finite, its bore smaller than both \
+        (m)",
     SectionLength => "length of the shaft's section must be positive and finite (m)",
     ShearModulus => "shear modulus must be positive and finite (Pa)",
     Density => "density must be positive and finite (kg/m3)",
@@ -58,8 +60,10 @@ sentences! {
     BeltDamping => "damping of the belt's strand must be zero or positive and finite (N s/m)",
     ScrewLead => "lead of the screw must be positive and finite (m of travel a turn)",
     PendulumLength => "length of the pendulum must be positive and finite (m)",
-    CrankRadius => "radius of the crank must be positive and finite, and smaller than the length of the connecting rod (m)",
-    CrankMass => "masses and inertias of the crank drive must be zero or positive and finite, the connecting rod's centre of mass within it",
+    CrankRadius => "radius of the crank must be positive and finite, and smaller than the length of the connecting rod \
+        (m)",
+    CrankMass => "masses and inertias of the crank drive must be zero or positive and finite, the connecting rod's \
+        centre of mass within it",
     BranchNode => "the mass that a branch or a closing shaft stands on must be one of the train's masses, counted from 0 at the motor",
     TooManyShafts => "a train holds at most 30 shafts",
     TrainCut => "a train with branches has no textbook cut: match resonance and antiresonance, or keep the first mode",
@@ -68,8 +72,10 @@ sentences! {
     Overload => "overload capacity of the motor must be above 1 and finite (breakdown torque over rated torque)",
     InductionSpeed => "rated speed of the induction motor must lie between zero and its synchronous speed (rad/s)",
     RotorResistance => "rotor resistance must be positive and finite (whole over own resistance)",
-    DirectCurrent => "voltage, armature resistance and flux of the direct-current motor must be positive and finite (V, ohm, V s or H)",
-    CombustionEngine => "rated torque and speeds of the combustion engine must be positive and finite, rising from idle over rated to no load",
+    DirectCurrent => "voltage, armature resistance and flux of the direct-current motor must be positive and finite \
+        (V, ohm, V s or H)",
+    CombustionEngine => "rated torque and speeds of the combustion engine must be positive and finite, rising from \
+        idle over rated to no load",
     StartingTime => "starting time must be positive and finite, the starting torque finite (s, N m)",
 }
 

@@ -84,9 +84,11 @@ impl Chain {
         self
     }
 
-    /// A mass \[kg\] that swings on a rope \[m\] under what travels, such as a crane's load: a spring of `m g/l` at the travel and the mass behind it.
+    /// A mass \[kg\] that swings on a rope \[m\] under a travelling mass, such as a crane's load: a spring of `m g/l`
+    /// at the travel, then the mass.
     ///
-    /// For small angles: at an amplitude of theta \[rad\] a pendulum swings slower than this by `theta^2/16`, 0.4 % at 15 degrees.
+    /// For small angles: at an amplitude of theta \[rad\] a pendulum swings slower than this by `theta^2/16`, 0.4 % at
+    /// 15 degrees.
     ///
     /// Refused: [`Error::DrumMissing`], [`Error::PendulumLength`], [`Error::LoadMass`], [`Error::TooManyMasses`].
     #[must_use]

@@ -1,4 +1,4 @@
-//! Natural frequencies and mode shapes of a chain, with the motor free and with the motor held.
+//! Natural frequencies and mode shapes of a chain, with the motor free and with the motor locked.
 //!
 //! With B the incidence matrix (a shaft's twist from the angles), the frequencies are the singular values of
 //! `sqrt(k) B / sqrt(J)`, and the left singular vectors of its transpose over `sqrt(J)` are the mass-normalised mode
@@ -21,7 +21,7 @@ pub struct Mode {
     pub frequency: f64,
     /// Mass-normalised shape, the motor first \[1/sqrt(kg m2)\]; zero beyond the chain's masses.
     pub shape: [f64; CAPACITY],
-    /// Square of the shape at the motor \[1/(kg m2)\]: what a torque at the motor excites and its angle shows.
+    /// Square of the shape at the motor \[1/(kg m2)\]: modal gain from the motor's torque to its angle.
     pub residue: f64,
     /// Modal damping \[1/s\]: twice the decay rate of the vibration while it is small against the frequency.
     pub damping: f64,
@@ -43,7 +43,8 @@ impl Modes {
         self.mode.split_at(self.count).0
     }
 
-    /// Modes without damping from the transposes of the scaled stiffness roots of the free machine and of the machine with its motor held.
+    /// Modes without damping from the transposes of the scaled stiffness roots of the free machine and of the machine
+    /// with its motor locked.
     pub(super) const fn of(inertia: &[f64; CAPACITY], count: usize, free: Columns, held: Columns) -> Self {
         let (free, held) = (singular(free, count), singular(held, count));
         let mut modes = Self {
@@ -70,7 +71,7 @@ impl Modes {
         &mut self.mode[index]
     }
 
-    /// Natural frequencies with the motor held \[rad/s\], one for each mass but the motor, lowest first.
+    /// Natural frequencies with the motor locked \[rad/s\], one for each mass but the motor, lowest first.
     #[must_use]
     pub const fn antiresonances(&self) -> &[f64] {
         self.antiresonance.split_at(self.count).0
@@ -78,7 +79,7 @@ impl Modes {
 }
 
 impl Chain {
-    /// Natural frequencies and shapes of the free chain, and its antiresonances with the motor held.
+    /// Natural frequencies and shapes of the free chain, and its antiresonances with the motor locked.
     ///
     /// Gaps count as closed. Relative error of every frequency below 1e-14 for stiffness and inertia ratios up to 1e15.
     ///
@@ -121,7 +122,7 @@ pub(super) const fn lowest(inertia: &[f64; CAPACITY], stiffness: &[f64; SHAFTS],
     (free.0[0], held.0[0])
 }
 
-/// The transpose of `sqrt(k) B / sqrt(J)`, by columns; without the motor's row where it is held.
+/// The transpose of `sqrt(k) B / sqrt(J)`, by columns; without the motor's row where it is locked.
 const fn scaled_incidence(inertia: &[f64; CAPACITY], stiffness: &[f64; SHAFTS], shafts: usize, held: bool) -> Columns {
     let mut columns = [[0.0; CAPACITY]; SHAFTS];
     let mut j = 0;
@@ -181,8 +182,8 @@ const fn singular(mut columns: Columns, shafts: usize) -> ([f64; SHAFTS], Column
     (values, columns)
 }
 
-/// Turns columns p and q orthogonal, the larger one first; false where they already are. One that changes places counts as turned: it has not met
-/// all the others in this sweep.
+/// Turns columns p and q orthogonal, the larger one first; false where they already are. One that changes places counts
+/// as turned: it has not met all the others in this sweep.
 const fn rotate(columns: &mut Columns, p: usize, q: usize, rows: usize) -> bool {
     let mut alpha = dot(&columns[p], &columns[p], rows);
     let mut beta = dot(&columns[q], &columns[q], rows);

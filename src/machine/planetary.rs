@@ -1,13 +1,15 @@
 //! A planetary set of one sun, planets, a ring and a carrier (2K-H), any of sun, ring and carrier held.
 //!
-//! Speeds follow from Willis: seen from the carrier, sun and ring turn as `z_sun (w_sun - w_H) = -z_ring (w_ring - w_H)`, and a planet as `z_planet (w - w_H) =
-//! -z_sun (w_sun - w_H)` [Wang 1989 example 1-4]. The inertia at the driven member is that of each part by the square of its speed over the driven one's.
+//! Speeds follow from Willis: seen from the carrier, sun and ring turn as
+//! `z_sun (w_sun - w_H) = -z_ring (w_ring - w_H)`, and a planet as `z_planet (w - w_H) = -z_sun (w_sun - w_H)`
+//! [Wang 1989 example 1-4]. The inertia at the input is that of each part times the square of its speed over the
+//! input's.
 
 use super::error::{not_negative, positive};
 use super::{Chain, Efficiency, Error, Inertia, Mass, Ratio};
 
-/// A planetary set; by itself driven at the sun, with the ring held and the carrier as output [Wang 1989 example 1-4]. Other members are driven or held in a
-/// [`PlanetaryGear`].
+/// A planetary set; by default with the sun as input, the ring held and the carrier as output [Wang 1989 example 1-4].
+/// [`PlanetaryGear`] has other inputs and held members.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Planetary {
@@ -64,7 +66,7 @@ impl Planetary {
         self.inertia_at_sun() * self.ratio() * self.ratio()
     }
 
-    /// Checks what holds whichever member is driven.
+    /// Checks common to every input member.
     const fn check(&self) -> Result<(), Error> {
         if self.sun_teeth == 0 || self.ring_teeth <= self.sun_teeth || self.planets == 0 {
             return Err(Error::PlanetaryTeeth);
@@ -77,7 +79,7 @@ impl Planetary {
     }
 }
 
-/// A member of a planetary set that can be driven, held, or give the power on.
+/// A member of a planetary set: input, held, or output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Member {
@@ -89,7 +91,7 @@ pub enum Member {
     Carrier,
 }
 
-/// A planetary set of which one member is driven and another held; the third gives the power on.
+/// A planetary set with one member as input and another held; the third is the output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlanetaryGear {
@@ -99,12 +101,13 @@ pub struct PlanetaryGear {
     pub ring: Inertia,
     /// The member on the motor's side.
     pub input: Member,
-    /// The member that stands still.
+    /// The held member.
     pub held: Member,
 }
 
 impl PlanetaryGear {
-    /// Speeds of sun, ring, carrier and planet (about its own axis in space) over that of the driven member; negative where one turns against it.
+    /// Speeds of sun, ring, carrier and planet (about its own axis in space) over that of the input; negative where
+    /// opposite to it.
     const fn speeds(&self) -> [f64; 4] {
         let (sun, ring) = (self.set.sun_teeth as f64, self.set.ring_teeth as f64);
         let both = sun + ring;
@@ -122,8 +125,7 @@ impl PlanetaryGear {
         [w_sun, w_ring, w_carrier, w_carrier - (w_sun - w_carrier) * sun / planet]
     }
 
-    /// Speed of the driven member over that of the member that gives the power on; negative where they turn against each other, which is so with the
-    /// carrier held.
+    /// Speed of the input over that of the output; negative where opposite, as with the carrier held.
     #[must_use]
     pub const fn ratio(&self) -> f64 {
         let [sun, ring, carrier, _] = self.speeds();
@@ -134,7 +136,7 @@ impl PlanetaryGear {
         }
     }
 
-    /// Inertia of the whole set at the driven member \[kg m2\], without losses.
+    /// Inertia of the whole set at the input \[kg m2\], without losses.
     #[must_use]
     pub const fn inertia(&self) -> f64 {
         let [sun, ring, carrier, planet] = self.speeds();
@@ -147,8 +149,8 @@ impl PlanetaryGear {
 }
 
 impl Chain {
-    /// A planetary set with one member on the present mass and another held; what follows turns with the third. Which way that turns is left out: nothing in a
-    /// chain feels it.
+    /// A planetary set with one member on the present mass and another held; the following elements turn with the
+    /// third. Its direction is left out: it does not affect a chain.
     ///
     /// Refused: [`Error::PlanetaryMembers`], and those of [`planetary`](Self::planetary).
     #[must_use]
@@ -168,7 +170,7 @@ impl Chain {
         self.rotor(Inertia(gear.inertia())).gear(Ratio(gear.ratio().abs()), gear.set.efficiency)
     }
 
-    /// A planetary set with its sun on the present mass; what follows turns with the carrier.
+    /// A planetary set with its sun on the present mass; the following elements turn with the carrier.
     ///
     /// Refused: [`Error::PlanetaryTeeth`], [`Error::PlanetaryInertia`], [`Error::GearEfficiency`],
     /// [`Error::RotaryAfterDrum`].

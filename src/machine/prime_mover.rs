@@ -1,4 +1,4 @@
-//! What drives a machine: the torque of a prime mover against its speed, and against time while it starts.
+//! Prime movers: torque against speed, and against time during a start.
 //!
 //! | prime mover | shape | source |
 //! |---|---|---|
@@ -9,8 +9,9 @@
 //! | [`Shunt`], [`Series`] | direct-current motors from voltage, resistance and flux | [Wang 1989 §1-2] |
 //! | [`StartingLaw`] | `tau`, `tau (1 - t/T)`, `tau (1 - t^2/T^2)` | [Huang 1987 §2.2] |
 //!
-//! Torques are in N m, speeds in rad/s, at the motor's shaft. The stiffness of a characteristic is `|d tau/d omega|` \[N m s/rad\]: it damps the
-//! machine where the torque falls with the speed. The overload capacity is the largest torque over the rated one.
+//! Torques are in N m, speeds in rad/s, at the motor's shaft. The stiffness of a characteristic is `|d tau/d omega|`
+//! \[N m s/rad\]: it damps the machine where the torque falls with the speed. The overload capacity is the largest
+//! torque over the rated one.
 //!
 //! ```
 //! use driveline::machine::{Induction, Speed, Torque};

@@ -28,7 +28,7 @@ quantity! {
     Mass,
     /// Free travel of a backlash \[rad\] on its own shaft: the whole gap, not half of it.
     Gap,
-    /// Travel along a straight line, or length of a shaft, rod or pendulum \[m\].
+    /// Travel along a straight line, or length of a shaft, connecting rod or pendulum \[m\].
     Length,
     /// Torque \[N m\].
     Torque,
@@ -40,7 +40,8 @@ quantity! {
     Density,
 }
 
-/// Falls of a rope: how many parts carry the load, at least 1. The load travels `1/falls` of what the drum winds.
+/// Falls of a rope: how many parts carry the load, at least 1. The load travels `1/falls` of the rope wound by the
+/// drum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Falls(pub u32);

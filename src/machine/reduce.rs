@@ -1,4 +1,4 @@
-//! Two masses in place of a chain, as the motor sees it, and what that leaves out.
+//! Reduction of a chain to two masses, equivalent at the motor, and its errors.
 
 use super::refer::series;
 use super::{Chain, Error, Mode, TwoMass};
@@ -7,17 +7,19 @@ use super::{Chain, Error, Mode, TwoMass};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Match {
-    /// Same first resonance and first antiresonance (motor held): the choice for control at the motor.
+    /// Same first resonance and first antiresonance (motor locked): the choice for control at the motor.
     ResonanceAntiresonance,
     /// Same first resonance and same residue at the motor: the first mode kept exactly, the others dropped.
     ModalTruncation,
-    /// Inertias lumped left and right of this shaft (0 at the motor), joined by all shafts in series [Huang 1987 ch. 1].
+    /// Inertias lumped left and right of this shaft (0 at the motor), joined by all shafts in series
+    /// [Huang 1987 ch. 1].
     TextbookCut(usize),
-    /// Inertias lumped left and right of this shaft (0 at the motor), joined by this shaft alone, the others taken as rigid.
+    /// Inertias lumped left and right of this shaft (0 at the motor), joined by this shaft alone, the others taken as
+    /// rigid.
     TextbookShaft(usize),
 }
 
-/// What two masses do not show of the chain that they stand for.
+/// Errors of two masses against their chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ReductionError {
@@ -29,11 +31,13 @@ pub struct ReductionError {
     pub resonance: f64,
     /// Relative error of the first antiresonance, signed.
     pub antiresonance: f64,
-    /// Relative error of the static give at the motor (its twist against the mean angle under a steady torque), signed.
+    /// Relative error of the static compliance at the motor (its twist against the mean angle under a steady torque),
+    /// signed.
     pub compliance: f64,
     /// Worst case: bound of the error of the motor's speed after a blow to the motor, at any time, over its first jump.
     ///
-    /// The undamped answer to an impulse is `1/J + sum r_i cos(w_i t)`; the bound adds the residues that differ or are missing.
+    /// The undamped answer to an impulse is `1/J + sum r_i cos(w_i t)`; the bound adds the residues that differ or are
+    /// missing.
     pub worst: f64,
 }
 
@@ -162,7 +166,8 @@ impl Chain {
         }
     }
 
-    /// Static give at the motor \[rad/(N m)\]: its angle against the mean angle of all masses under a steady torque.
+    /// Static compliance at the motor \[rad/(N m)\]: its angle against the mean angle of all masses under a steady
+    /// torque.
     ///
     /// Each shaft passes on the share of the torque that the inertia beyond it takes: `sum (J_beyond/J)^2 / k`.
     #[must_use]

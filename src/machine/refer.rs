@@ -1,27 +1,27 @@
 //! Equivalent quantities on another shaft of a gear train [Huang 1987 ch. 1, Wang 1989 §1-3].
 //!
-//! The driving side supplies the loss: with the motor driving, what lies behind the gear weighs `1/efficiency` as much at the motor;
-//! with the load driving, `efficiency` as much. Referring from the motor's side to the load's is the inverse.
+//! The driving side supplies the loss: motoring, elements behind the gear count `1/efficiency` times at the motor;
+//! overhauling, `efficiency` times. Referring from the motor's side to the load's is the inverse.
 
-/// Which way the power flows through a lossy gear.
+/// Direction of power through a gear with losses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Flow {
     /// No loss: energy is kept.
     Lossless,
-    /// The motor drives the load.
+    /// Motoring: the motor drives the load.
     Motoring,
-    /// The load drives the motor.
+    /// Overhauling: the load drives the motor.
     Overhauling,
 }
 
-/// On which side of the gear the quantity is given.
+/// Side of the gear on which the quantity is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Side {
-    /// Given on the load's (slow) side, wanted on the motor's.
+    /// From the load's (slow) side to the motor's.
     Load,
-    /// Given on the motor's (fast) side, wanted on the load's.
+    /// From the motor's (fast) side to the load's.
     Motor,
 }
 

@@ -1,7 +1,7 @@
 //! Shafts from their dimensions: stepped, hollow and tapered.
 //!
-//! A section twists by `tau/(G J_p(x))` along its length, `J_p = pi (D^4 - d^4)/32`; the sections of a stepped shaft carry one torque, so that
-//! their compliances add up [Wang 1989 §1-3, (1-16)].
+//! A section twists by `tau/(G J_p(x))` along its length, `J_p = pi (D^4 - d^4)/32`; the sections of a stepped shaft
+//! carry one torque, so that their compliances add up [Wang 1989 §1-3, (1-16)].
 //!
 //! ```
 //! use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, Stiffness, stepped};
@@ -80,9 +80,9 @@ impl Section {
 
     /// Integral of `dx/(D^4 - d^4)` over the section \[1/m3\].
     ///
-    /// A cylinder and a solid cone in closed form. A bored cone in partial fractions has the difference of two near equal terms where the taper is
-    /// slight, so it goes by Gauss and Legendre's rule of 16 points on 8 equal pieces: within 1e-12 up to ends as two to one and a bore
-    /// of nine tenths of the thin end.
+    /// A cylinder and a solid cone in closed form. A bored cone in partial fractions has the difference of two near
+    /// equal terms where the taper is slight, so it goes by Gauss and Legendre's rule of 16 points on 8 equal pieces:
+    /// within 1e-12 up to ends as two to one and a bore of nine tenths of the thin end.
     const fn slenderness(&self) -> f64 {
         let (l, a, b, bore) = (self.length.0, self.diameter[0].0, self.diameter[1].0, self.bore.0);
         if a == b {
@@ -152,7 +152,8 @@ impl Section {
         Ok(Inertia(density.0 * PI / 32.0 * self.length.0 * (mean - bore2 * bore2)))
     }
 
-    /// Length that a solid cylinder of another diameter needs to twist as much: `l_e = l (d_e/d)^4` \[m\] [Wang 1989 (1-16)].
+    /// Length that a solid cylinder of another diameter needs to twist as much: `l_e = l (d_e/d)^4` \[m\]
+    /// [Wang 1989 (1-16)].
     ///
     /// # Panics
     /// At compile time in a constant, where a dimension is out of its range.
@@ -204,7 +205,8 @@ pub const fn try_stepped(sections: &[Section], modulus: ShearModulus) -> Result<
     Ok(Stiffness(modulus.0 * PI / (32.0 * sum)))
 }
 
-/// Points and weights of Gauss and Legendre's rule of 16 points, one side of it [Abramowitz and Stegun 1964, table 25.4].
+/// Points and weights of Gauss and Legendre's rule of 16 points, one side of it
+/// [Abramowitz and Stegun 1964, table 25.4].
 const GAUSS: [(f64, f64); 8] = [
     (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
     (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),

@@ -1,7 +1,7 @@
-//! Which parts of a chain are worth keeping: what changes at the motor when one is left out.
+//! Sensitivity of a chain: changes at the motor when one of its parts is left out.
 //!
-//! The textbooks say: leave out a drum below 10 % of its neighbours' inertia, a shaft ten times as stiff as the next one
-//! [Huang 1987 ch. 1]. Here each is left out in turn and the change is computed.
+//! A rule of thumb leaves out a drum below 10 % of its neighbours' inertia and a shaft ten times as stiff as the next
+//! one [Huang 1987 ch. 1]. Here each is left out in turn and the change is computed.
 
 use super::chain::{CAPACITY, Chain};
 use super::modes::lowest;
@@ -28,7 +28,7 @@ pub struct Part {
     pub resonance: f64,
     /// Change of the first antiresonance.
     pub antiresonance: f64,
-    /// Change of the static give at the motor, [`Chain::compliance`].
+    /// Change of the static compliance at the motor, [`Chain::compliance`].
     pub compliance: f64,
 }
 
@@ -57,7 +57,7 @@ impl Sensitivity {
 }
 
 impl Chain {
-    /// What leaving out each shaft and each mass (but the motor) would change; empty for a rigid chain.
+    /// The changes when each shaft and each mass (but the motor) is left out; empty for a rigid chain.
     #[must_use]
     pub const fn sensitivity(&self) -> Sensitivity {
         let shafts = self.count - 1;
@@ -87,7 +87,7 @@ impl Chain {
             let change = f64::INFINITY;
             return Part { element, resonance: change, antiresonance: change, compliance: -1.0 };
         }
-        // The mass and the shaft that go; what lies beyond moves up.
+        // The mass and the shaft that are left out; the elements beyond move up.
         let (mass, shaft) = match element {
             Element::Shaft(j) => {
                 inertia[j] += inertia[j + 1];

@@ -13,10 +13,11 @@
 //! assert!((TWO.total_inertia() / SHIP.total_inertia() - 1.0).abs() < 1e-14);
 //! ```
 //!
-//! Everything is referred to the motor, the mass of index 0. Twists of the shafts of a tree are independent; a shaft that closes a loop is twisted by the sum
-//! of those round the loop, with signs and no other factors. So the strain energy is `|R delta|^2`, R from the tree's shafts and, where there are
-//! loops, from a triangulation of all shafts by Householder's reflections, and frequencies are the singular values of `R B / sqrt(J)`. `inv(J) K` is
-//! never formed; without loops R is diagonal, and the accuracy is that of a chain [Pfützner 1980 ch. 1, Demmel and Veselić 1992].
+//! Everything is referred to the motor, the mass of index 0. Twists of the shafts of a tree are independent; a shaft
+//! that closes a loop is twisted by the sum of those round the loop, with signs and no other factors. So the strain
+//! energy is `|R delta|^2`, R from the tree's shafts and, where there are loops, from a triangulation of all shafts by
+//! Householder's reflections, and frequencies are the singular values of `R B / sqrt(J)`. `inv(J) K` is never formed;
+//! without loops R is diagonal, and the accuracy is that of a chain [Pfützner 1980 ch. 1, Demmel and Veselić 1992].
 
 use super::chain::{CAPACITY, Chain, Shaft};
 use super::error::not_negative;
@@ -58,7 +59,8 @@ pub struct Train {
 impl Train {
     /// A train of one chain.
     ///
-    /// A train carries the first [`error`](Self::error) of its chains, or of what joins them, to its end, as a chain does.
+    /// A train carries the first [`error`](Self::error) of its chains, or of what joins them, to its end, as a chain
+    /// does.
     ///
     /// Refused: as [`Chain::check`].
     #[must_use]
@@ -96,8 +98,9 @@ impl Train {
         self.error
     }
 
-    /// A chain on a mass of the train: its first inertia is added to the mass of index `at`, which turns `ratio` times as fast (the motor's speed over
-    /// that of the branch's first inertia). Its masses follow those that are there, in their order. Its weight counts as well.
+    /// A chain on a mass of the train: its first inertia is added to the mass of index `at`, which turns `ratio` times
+    /// as fast (the motor's speed over that of the branch's first inertia). Its masses follow those that are there, in
+    /// their order. Its weight counts as well.
     ///
     /// Refused: [`Error::BranchNode`], [`Error::GearRatio`], [`Error::TooManyMasses`], as [`Chain::check`].
     #[must_use]
@@ -131,8 +134,9 @@ impl Train {
         self
     }
 
-    /// A shaft between two masses that are there already: it closes a loop. Stiffness and damping on its own speed, the motor's over which is `ratio`.
-    /// The ratios of a train that can turn agree round each loop, which is taken as given: ends of the shaft turn alike when nothing twists.
+    /// A shaft between two masses that are there already: it closes a loop. Stiffness and damping on its own speed, the
+    /// motor's over which is `ratio`. The ratios of a train that can turn agree round each loop, which is taken as
+    /// given: ends of the shaft turn alike when nothing twists.
     ///
     /// Refused: [`Error::BranchNode`], [`Error::GearRatio`], [`Error::ShaftStiffness`], [`Error::ShaftDamping`],
     /// [`Error::TooManyShafts`].
@@ -219,7 +223,8 @@ impl Train {
         Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity }
     }
 
-    /// Natural frequencies and shapes of the free train, and its antiresonances with the motor held; gaps count as closed.
+    /// Natural frequencies and shapes of the free train, and its antiresonances with the motor locked; gaps count as
+    /// closed.
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the train's [`error`](Self::error).
@@ -246,7 +251,7 @@ impl Train {
         modes
     }
 
-    /// The transpose of `R B / sqrt(J)`, by columns; without the motor's row where it is held.
+    /// The transpose of `R B / sqrt(J)`, by columns; without the motor's row where it is locked.
     const fn scaled(&self, held: bool) -> Columns {
         let edges = self.count - 1;
         let root = self.triangle();
@@ -281,7 +286,7 @@ impl Train {
         }
         let mut j = edges;
         while j < edges + self.closing {
-            // From either end up to the motor: what both ends pass cancels exactly.
+            // From either end up to the motor: the common part cancels exactly.
             let Joint { from, to, shaft } = self.joint[j];
             let stiff = sqrt(shaft.stiffness);
             let mut node = to;

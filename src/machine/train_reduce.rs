@@ -1,13 +1,13 @@
-//! Two masses in place of a branched or closed train, as its motor sees it.
+//! Reduction of a branched or closed train to two masses, equivalent at the motor.
 
 use super::reduce::{matched, truncated};
 use super::{Error, Match, Modes, ReductionError, Train, TwoMass};
 
-/// Share at the motor (residue times total inertia) below which a vibration is one that the motor neither excites nor feels, such as two
-/// equal branches that swing against one another.
+/// Modal share at the motor (residue times total inertia) below which a mode is unobservable at the motor, such as two
+/// equal branches in opposition.
 const UNSEEN: f64 = 1e-6;
 
-/// What the motor feels of a train: its vibrations but the unseen ones, and the antiresonances that belong to them.
+/// Modes of a train that are observable at the motor, with their antiresonances.
 struct Seen {
     /// Index of the first vibration that is seen, and of the second; `count` where there is none.
     mode: [usize; 2],
@@ -15,10 +15,11 @@ struct Seen {
 }
 
 impl Train {
-    /// Two masses for this train. Vibrations that the motor cannot feel are passed over.
+    /// Two masses for this train. Modes that are unobservable at the motor are left out.
     ///
     /// # Panics
-    /// At compile time in a constant, where the match is a textbook's cut, which only a chain has, or the motor feels no vibration.
+    /// At compile time in a constant, where the match is a textbook's cut, which only a chain has, or no mode is
+    /// observable at the motor.
     #[must_use]
     pub const fn reduce(&self, by: Match) -> TwoMass {
         match self.try_reduce(by) {
@@ -62,7 +63,8 @@ impl Train {
         let held = modes.antiresonances();
         let mut mode = [all.len(); 2];
         let mut found = 0;
-        // Resonances and antiresonances alternate. An unseen resonance coincides with an antiresonance beside it; the other one of the two stays.
+        // Resonances and antiresonances alternate. An unseen resonance coincides with an antiresonance beside it; the
+        // other one of the two stays.
         let mut lower = 0.0;
         let mut antiresonance = 0.0;
         let mut i = 0;

@@ -1,4 +1,4 @@
-//! Two masses joined by one shaft: what the observer knows of the machine.
+//! Two masses joined by one shaft: the observer's model of the machine.
 
 use super::error::{not_negative, positive};
 use super::{Damping, Error, Gap, Inertia, ReductionError, Stiffness, Torque};
@@ -23,7 +23,7 @@ pub struct TwoMass {
     pub gap: f64,
     /// Torque of the weight at the motor \[N m\], without losses; positive where it decelerates.
     pub gravity_torque: f64,
-    /// What the reduction left out; all zero for a machine of two masses.
+    /// Errors of the reduction; all zero for a machine of two masses.
     pub error: ReductionError,
 }
 
@@ -114,7 +114,7 @@ impl TwoMass {
         self.motor_inertia + self.load_inertia
     }
 
-    /// `J_m J_l / (J_m + J_l)` \[kg m2\]: the inertia that the shaft sees.
+    /// Reduced inertia `J_m J_l / (J_m + J_l)` \[kg m2\].
     #[must_use]
     pub const fn reduced_inertia(&self) -> f64 {
         super::refer::series(self.motor_inertia, self.load_inertia)
@@ -126,7 +126,7 @@ impl TwoMass {
         sqrt(self.stiffness / self.reduced_inertia())
     }
 
-    /// Antiresonance: resonance with the motor held, undamped \[rad/s\].
+    /// Antiresonance: resonance with the motor locked, undamped \[rad/s\].
     #[must_use]
     pub const fn antiresonance(&self) -> f64 {
         sqrt(self.stiffness / self.load_inertia)

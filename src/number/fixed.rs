@@ -4,9 +4,10 @@ use core::ops::{Add, Neg, Sub};
 
 use super::{GAIN_SHIFT, INNOVATION_SHIFT, Number, SPEED_SHIFT, TURN_SHIFT};
 
-/// A number per unit of its base: 2^28 is the base, the resolution 3.7e-9 of it, the representable range +-8. Sums wrap.
+/// A number per unit of its base: 2^28 is the base, the resolution 3.7e-9 of it, the representable range +-8. Sums
+/// wrap.
 ///
-/// A state beyond +-1 is reported, and held within +-2 ([`Number::saturated`]); the bits above are headroom for the sums
+/// A state beyond +-1 is reported, and limited to +-2 ([`Number::saturated`]); the bits above are headroom for the sums
 /// of a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -59,7 +60,7 @@ impl Coefficient {
     }
 }
 
-/// To the nearest integer, halves away from zero; what is too large to have a fraction stays as it is.
+/// To the nearest integer, halves away from zero; a value too large to have a fraction stays unchanged.
 const fn round(value: f64) -> f64 {
     if value.abs() < 4_503_599_627_370_496.0 {
         let half = if value < 0.0 { -0.5 } else { 0.5 };

@@ -10,8 +10,8 @@
 //! ```
 //!
 //! A tick in which a flank is met or left is predicted by the law that it begins with; that leaves the twist y beyond
-//! the flank, after the share rho = y/(delta' - delta) of the tick. What the other law would have done in that share is
-//! then put right, by
+//! the flank, after the share rho = y/(delta' - delta) of the tick. The effect of the other law in that share is then
+//! corrected, by
 //!
 //! ```text
 //! v' -+ (2 a y + (T w^2/2) rho y)       delta' -+ b rho y
@@ -25,11 +25,11 @@
 //! is put right by the same innovations that put the twist right.
 //!
 //! # The gains
-//! In a gap the motor's angle says nothing of the load. What is known of the load then decays, and the impact brings it
-//! back at once: it is the innovations just after an impact that say when it came. Two sets of constant gains do this.
+//! In a gap the motor's angle contains no information on the load. The information on the load decays, and the impact
+//! restores it at once: the innovations just after an impact determine its time. Two sets of constant gains do this.
 //! *Settled* gains are those of the shaft in contact. *Searching* gains are the Kalman gains of the shaft in contact
-//! whose twist wanders besides; they stand in the gap, where they draw the twist to a flank as soon as the motor feels
-//! one, and for part of a period of the resonance after it. Which set a tick takes is counted, not computed.
+//! with a random walk of the twist; they act in the gap, where they draw the twist to a flank at the first contact, and
+//! for part of a period of the resonance after it. Which set a tick takes is counted, not computed.
 
 use super::{AngleTracker, Observer, Prediction};
 use crate::number::{Fixed, Number};
@@ -43,7 +43,7 @@ pub struct Contact<N: Number> {
     pub twist: [N::Coefficient; 3],
     /// Increment of v from stretch, v and s.
     pub twist_rate: [N::Coefficient; 3],
-    /// What is put right where the tick ends in the gap: v from y and rho y, the twist from rho y.
+    /// Correction where the tick ends in the gap: v from y and rho y, the twist from rho y.
     pub leaving: [N::Coefficient; 3],
 }
 
@@ -55,7 +55,7 @@ pub struct FreeFlight<N: Number> {
     pub twist: [N::Coefficient; 2],
     /// Increment of v from s.
     pub twist_rate: N::Coefficient,
-    /// What is put right where the tick ends in contact: v from y and rho y, the twist from rho y.
+    /// Correction where the tick ends in contact: v from y and rho y, the twist from rho y.
     pub meeting: [N::Coefficient; 3],
 }
 
@@ -121,8 +121,9 @@ pub trait Gap: Number {
     fn flank(self, half: Self) -> Self;
     /// Whether the signs differ, of two numbers of which neither is zero.
     fn opposes(self, other: Self) -> bool;
-    /// `self^2/travel`, widened, where `travel` is not zero, of the number's sign and at least as large: how far a motion has passed a flank,
-    /// times the share of the tick that this took. In fixed point the share has 12 binary places, fewer where the travel is below 2^24 units in the last place.
+    /// `self^2/travel`, widened, where `travel` is not zero, of the number's sign and at least as large: how far a
+    /// motion has passed a flank, times the share of the tick that this took. In fixed point the share has 12 binary
+    /// places, fewer where the travel is below 2^24 units in the last place.
     fn passed(self, travel: Self) -> Self;
 }
 
@@ -139,8 +140,8 @@ impl Gap for Fixed {
         (self.to_bits() ^ other.to_bits()) < 0
     }
 
-    // The divisor's last bit is set, which keeps it from zero, and the dividend's, which keeps it from the one number that
-    // -1 does not divide: neither is then checked for. The share is below 2 for a travel below 2^13.
+    // The divisor's last bit is set, which keeps it from zero, and the dividend's, which keeps it from the one number
+    // that -1 does not divide: neither is then checked for. The share is below 2 for a travel below 2^13.
     #[inline(always)]
     fn passed(self, travel: Self) -> Self {
         let share = (self.to_bits() | 1).wrapping_div((travel.to_bits() >> 12) | 1);

@@ -6,15 +6,15 @@
 //! J(phi) omega' = tau_m - tau_L - 1/2 J'(phi) omega^2
 //! ```
 //!
-//! [Wang 1989 (1-14), §1-3]. An observer of constant inertia takes the energy that goes to and fro for load torque. Here it is reckoned with:
-//! the rigid observer of the mean inertia J is given the torque
+//! [Wang 1989 (1-14), §1-3]. An observer of constant inertia takes the exchange of kinetic energy for load torque.
+//! Here it is reckoned with: the rigid observer of the mean inertia J is given the torque
 //!
 //! ```text
 //! tau = tau_L + J/J(phi) (tau_m - tau_L - 1/2 J'(phi) omega^2)
 //! ```
 //!
-//! under which a machine of constant inertia would move as this one does. `J/J(phi)` and `1/2 J'(phi)` come from a table of constants over a
-//! turn of the crank, straight between its points.
+//! under which a machine of constant inertia would move as this one does. `J/J(phi)` and `1/2 J'(phi)` come from a
+//! table of constants over a turn of the crank, straight between its points.
 //!
 //! The crank's angle follows from the motor's, exactly whatever the gear, once it is known: [`CrankObserver::home`].
 
@@ -23,7 +23,8 @@ use crate::angle::{RotorAngle, RotorAngleConfig};
 use crate::number::Number;
 use crate::sample::Estimate;
 
-/// Places of the table on a turn of the crank. A second harmonic of the inertia is off by 0.5 % of its amplitude at most.
+/// Places of the table on a turn of the crank. A second harmonic of the inertia is off by 0.5 % of its amplitude at
+/// most.
 pub const TABLE_POINTS: usize = 64;
 
 /// Binary places of an angle below the table's.
@@ -35,7 +36,8 @@ const BELOW: u32 = 32 - TABLE_POINTS.trailing_zeros();
 pub struct TablePoint<N> {
     /// Mean inertia over the inertia here.
     pub inertia_ratio: N,
-    /// Torque that the turning crank takes at the base of the speed, or at 1 rad/s: half the derivative of the inertia [N m s2/rad2].
+    /// Torque that the turning crank takes at the base of the speed, or at 1 rad/s: half the derivative of the inertia
+    /// [N m s2/rad2].
     pub inertia_slope: N,
 }
 
@@ -47,7 +49,7 @@ pub struct CrankConfig<N: Number> {
     pub rigid: RigidConfig<N>,
     /// Turns of the crank to those of the motor.
     pub turning: RotorAngleConfig,
-    /// The machine from the crank's outer dead centre on.
+    /// The machine from the crank's top dead centre on.
     pub points: [TablePoint<N>; TABLE_POINTS],
 }
 
@@ -62,15 +64,16 @@ pub struct CrankObserver<N> {
 }
 
 impl<N: Number> CrankObserver<N> {
-    /// Says where the crank is: its angle from the outer dead centre [2^-32 turn], positive as the motor's.
+    /// Homing: sets the crank's angle from the top dead centre [2^-32 turn], positive as the motor's.
     ///
-    /// Until then it counts from where the observer was started. It stays known as long as the drive sees the motor's angle at least every
-    /// half turn; a drive that has lost the angle takes the shorter way, so a crank behind a gear is to be homed again after [`crate::fault::Faults::ANGLE_LOST`].
+    /// Until then it counts from where the observer was started. It stays valid as long as the motor's angle is
+    /// measured at least every half turn. After [`crate::fault::Faults::ANGLE_LOST`] the shorter displacement is
+    /// assumed: home a crank behind a gear again.
     pub fn home(&mut self, config: &CrankConfig<N>, crank_angle: u32) {
         self.turning.set(&config.turning, crank_angle);
     }
 
-    /// The crank's angle from the outer dead centre [2^-32 turn], with the resolution of 2^-26 turns.
+    /// The crank's angle from the top dead centre [2^-32 turn], with the resolution of 2^-26 turns.
     pub fn crank_angle(&self, config: &CrankConfig<N>) -> u32 {
         self.turning.angle(&config.turning)
     }
@@ -100,7 +103,7 @@ impl<N: Number> Observer<N> for CrankObserver<N> {
     type Config = CrankConfig<N>;
     type States = (<RigidObserver<N> as Observer<N>>::States, N);
 
-    /// The crank is at its outer dead centre.
+    /// The crank is at its top dead centre.
     fn steady(config: &CrankConfig<N>, angle: u32, torque: N, speed: N) -> Self {
         let mut cranked = CrankObserver {
             rigid: RigidObserver::steady(&config.rigid, angle, torque, speed),
@@ -111,7 +114,7 @@ impl<N: Number> Observer<N> for CrankObserver<N> {
         cranked
     }
 
-    /// The crank has turned with the motor since the angle that was last believed.
+    /// The crank has turned with the motor since the last accepted angle.
     fn restart(&mut self, config: &CrankConfig<N>, angle: u32, torque: N, speed: N) {
         self.rigid.restart(&config.rigid, angle, torque, speed);
         self.inertia_torque = N::ZERO;
@@ -144,7 +147,7 @@ impl<N: Number> Observer<N> for CrankObserver<N> {
         self.follow(&config.turning, angle);
     }
 
-    /// The crank's angle stays where it was last believed.
+    /// The crank's angle stays at the last accepted one.
     #[inline(always)]
     fn coast(&mut self, predicted: Prediction<N, Self::States>, angle: u32) {
         let (predicted, inertia_torque) = predicted.split();
@@ -152,7 +155,8 @@ impl<N: Number> Observer<N> for CrankObserver<N> {
         self.inertia_torque = inertia_torque;
     }
 
-    /// The shaft is the one between the motor and the crank drive: it carries what the motor gives less what its own inertia takes.
+    /// The shaft is that between the motor and the crank drive: its torque is the motor's less that of the motor's own
+    /// acceleration.
     #[inline(always)]
     fn estimate(&self, config: &CrankConfig<N>) -> Estimate<N> {
         let rigid = self.rigid.estimate(&config.rigid);

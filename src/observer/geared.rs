@@ -1,19 +1,20 @@
-//! A gear's loss, taken off the torque before an observer sees it.
+//! Gear losses, deducted from the motor's torque before an observer.
 //!
-//! The driving side supplies the loss [Wang 1989 §1-3, Huang 1987 ch. 1]: while the motor drives it feels T/eta for a shaft torque T, while the
-//! load drives only eta T. The difference is a friction of about lambda T, with lambda half of (1/eta - 1) + (1 - eta), that opposes the motion;
-//! at a standstill it takes any value up to that, and holds the gear. What is left of the motor's torque is
+//! The driving side supplies the loss [Wang 1989 §1-3, Huang 1987 ch. 1]: motoring, the motor carries T/eta for a shaft
+//! torque T; overhauling, only eta T. The difference is a friction of about lambda T, with lambda half of (1/eta - 1) +
+//! (1 - eta), that opposes the motion; at a standstill it takes any value up to that, and holds the gear. The remaining
+//! torque of the motor is
 //!
 //! ```text
-//! tau = tau_m - friction,   friction = tau_m - T + c omega_m, held within +-lambda |T|
+//! tau = tau_m - friction,   friction = tau_m - T + c omega_m, limited to +-lambda |T|
 //! ```
 //!
-//! in motion the limit, at a standstill just what balances the motor against the shaft, with c omega_m to bring the estimate to rest there. T
-//! is the torque behind the gear, the one that shaft, rope and load feel. Without this a loss of 6 % is taken for shaft torque,
-//! and its reversal for a jerk of the load.
+//! in motion the limit, at standstill the balance of motor and shaft, with c omega_m (the stiction gain) to bring the
+//! estimate to rest. T is the torque after the gear, in shaft, rope and load. Without this a loss of 6 % is taken for
+//! shaft torque, and its reversal for a jerk of the load.
 //!
-//! While the gear is held, the motor's angle says nothing of the load: what little it moves is the motor on its own shaft. The innovation is then
-//! left out, up to the play that such a shaft has.
+//! While the gear sticks, the motor's angle contains no information on the load: it only moves within its own shaft's
+//! twist. The innovation is then left out, up to the play that such a shaft has.
 
 use super::{Observer, Prediction};
 use crate::number::{Fixed, Number};
@@ -27,9 +28,9 @@ pub struct GearedConfig<N: Stiction, C> {
     pub observer: C,
     /// Friction per shaft torque in motion, lambda.
     pub friction: N::Coefficient,
-    /// How firmly a standing gear is held, c [N m s/rad].
+    /// Stiction gain c [N m s/rad].
     pub stiction_gain: N::StictionGain,
-    /// Largest innovation that a held gear leaves out [2^-32 turn].
+    /// Deadband: largest innovation left out while the gear sticks [2^-32 turn].
     pub deadband: N,
 }
 
@@ -42,7 +43,8 @@ pub struct GearedObserver<O> {
 
 /// Stiction of a gear at rest, beside the operations of [`Number`].
 pub trait Stiction: Number {
-    /// How firmly a standing gear is held: a factor for floats; in fixed point always [`STICTION_GAIN`](crate::number::STICTION_GAIN).
+    /// How firmly a standing gear is held: a factor for floats; in fixed point always
+    /// [`STICTION_GAIN`](crate::number::STICTION_GAIN).
     type StictionGain: Copy + Default + PartialEq + core::fmt::Debug;
     /// The torque that brings a speed to rest; in fixed point it ends at twice the base.
     fn braked(self, stiction_gain: Self::StictionGain) -> Self;

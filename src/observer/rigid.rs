@@ -1,10 +1,10 @@
-//! The rigid observer: one inertia, for machines whose shafts the controller cannot feel.
+//! The rigid observer: one inertia, for shafts that are rigid at the controller's bandwidth.
 //!
 //! ```text
 //! omega' = omega + T/J (tau_m - tau_L)
 //! ```
 //!
-//! The shaft torque is then the load torque plus what accelerates the load's share of the inertia.
+//! The shaft torque is then the load torque plus the acceleration torque of the load's share of the inertia.
 
 use super::{AngleTracker, Observer, Prediction};
 use crate::number::Number;

@@ -8,14 +8,16 @@
 //! tau_s'   = tau_s + (k T + d) (omega_m' - omega_l') - d (omega_m - omega_l)
 //! ```
 //!
-//! Symplectic Euler: the undamped pair turns on an ellipse that closes, whatever the rounding, as long as omega T < 2; its
-//! frequency is high by (omega T)^2/24. `design` states the error of both and chooses between this step and the exact one.
+//! Symplectic Euler: the undamped pair turns on an ellipse that closes, whatever the rounding, as long as omega T < 2;
+//! its frequency is high by (omega T)^2/24. `design` states the error of both and chooses between this step and the
+//! exact one.
 
 use super::{AngleTracker, Observer, Prediction};
 use crate::number::Number;
 use crate::sample::Estimate;
 
-/// Constants of [`SemiImplicitObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for floats.
+/// Constants of [`SemiImplicitObserver`]. Made by [`crate::settings`] from a design; the fields are in SI units for
+/// floats.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SemiImplicitConfig<N: Number> {

@@ -1,4 +1,4 @@
-//! Constants of the taking up of slack.
+//! Constants of backlash take-up.
 
 use super::convert::{fixed, get, or_stop, per_unit, positive};
 use super::{Bases, Error, Format};
@@ -8,7 +8,8 @@ use crate::number::Fixed;
 
 const GAIN: &str = "a gain of the backlash take-up is beyond the range of fixed point: let its impact be larger, \
     damp less, or raise the base of the torque";
-const TORQUE: &str = "torque, rise and largest torque of the backlash take-up must be positive and finite, and at most twice \
+const TORQUE: &str = "torque, rise and largest torque of the backlash take-up must be positive and finite, and at most \
+    twice \
     the base of the torque in fixed point";
 
 /// Torque, step, most, braking and damping, scaled to a format.

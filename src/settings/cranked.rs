@@ -12,7 +12,8 @@ use crate::observer::{CrankConfig, RigidConfig, TABLE_POINTS, TablePoint};
 const GEAR: &str =
     "the crank must turn between 1/65536 and 15 times while the motor turns once, in at most 2^20 turns of the motor";
 const LIGHT: &str = "the crank's inertia swings too far for fixed point: the least one must be above 0.35 of the mean";
-const DRAG: &str = "the crank's inertia torque is too large for the bases: at the base of the speed it must be below 0.9 of \
+const DRAG: &str = "the crank's inertia torque is too large for the bases: at the base of the speed it must be below \
+    0.9 of \
     the base of the torque";
 
 impl CrankedDesign {

@@ -19,7 +19,8 @@ const DROOP: &str = "the droop must be zero or above and finite, for a rated spe
 const SHARE: &str = "the share of the load torque that is fed forward must be from 0 to 1";
 pub(super) const LIMIT: &str = "the torque limit of the governor must be positive and finite, its least zero or below, \
     and both within twice the base of the torque in fixed point";
-const MODES: &str = "the speeds of the sequencer must be standstill < underspeed < overspeed, none of them negative, the \
+const MODES: &str = "the speeds of the sequencer must be standstill < underspeed < overspeed, none of them negative, \
+    the \
     shaft's torque positive, all finite and within twice their bases in fixed point";
 const TIMES: &str =
     "the times of the sequencer must be zero or above and below 2^31 ticks, and the period of a tick positive";

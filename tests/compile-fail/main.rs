@@ -1,6 +1,7 @@
 //! A wrong machine does not compile, and the compiler says the sentence that the run-time error says.
 //!
-//! A test of the root package: the compiler that it starts needs the library alone, not what the host's programs depend on.
+//! A test of the root package: the compiler that it starts needs the library alone, not what the host's programs depend
+//! on.
 
 /// What each file beside this one must be told; the sentence of the error, and the file's name.
 const SENTENCES: [(&str, &str); 6] = [
@@ -12,7 +13,8 @@ const SENTENCES: [(&str, &str); 6] = [
     ("first_drive_too_slow", driveline::design::Error::SampleRate.message()),
 ];
 
-/// What is refused where the type is used, and not in a constant: such a case has to be built, and one that compiles makes the compiler build.
+/// What is refused where the type is used, and not in a constant: such a case has to be built, and one that compiles
+/// makes the compiler build.
 #[cfg(feature = "balancing")]
 const BUILT: [(&str, &str); 1] =
     [("more_planes_than_readings", driveline::balancing::Error::MORE_PLANES_THAN_READINGS)];
@@ -45,8 +47,8 @@ fn the_compiler_says_the_sentence_of_the_error() {
     }
 }
 
-/// The README's listing keeps within 20 lines and 12 names of the prelude, and is the same for both numbers but for one word: both are built
-/// and run.
+/// The README's listing keeps within 20 lines and 12 names of the prelude, and is the same for both numbers but for one
+/// word: both are built and run.
 #[test]
 fn the_first_drive_differs_in_one_word_between_the_numbers() {
     let (_, after) = include_str!("../../README.md").split_once("```rust\n").unwrap();

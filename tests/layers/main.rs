@@ -1,9 +1,10 @@
-//! Layers: in no crate of the workspace do files import each other in a circle, and no import runs back up between folders.
+//! Layers: in no crate of the workspace do files import each other in a circle, and no import runs back up between
+//! folders.
 //!
-//! A file imports another where a path in it, resolved through re-exports, leads to an item that stands there. A `mod` line and a
-//! re-export that is not used where it stands are no imports: they say where things are. What is compiled only for unit tests does
-//! not count. Folders are judged as files are: in each folder, its files and its folders, each taken as one, have an order from
-//! the ground up.
+//! A file imports another where a path in it, resolved through re-exports, leads to an item that stands there. A `mod`
+//! line and a re-export that is not used where it stands are no imports: they say where things are. What is compiled
+//! only for unit tests does not count. Folders are judged as files are: in each folder, its files and its folders, each
+//! taken as one, have an order from the ground up.
 
 mod graph;
 mod imports;

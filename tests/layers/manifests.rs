@@ -51,6 +51,7 @@ fn images_and_their_link_know_no_plant() {
 
 #[test]
 fn a_dependency_is_found_however_it_is_written() {
-    let text = "[package]\nname = \"x\"\n[dependencies]\na = \"1\"\nb.workspace = true\nc = { package = \"d\" }\n[dev-dependencies.e]\npath = \"f\"\n";
+    let text = "[package]\nname = \"x\"\n[dependencies]\na = \"1\"\nb.workspace = true\nc = { package = \"d\" \
+        }\n[dev-dependencies.e]\npath = \"f\"\n";
     assert_eq!(dependencies(text), ["a", "b", "c", "d", "e"]);
 }

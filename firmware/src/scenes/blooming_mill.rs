@@ -67,7 +67,7 @@ pub const DISTURBANCE: Disturbance =
 /// Bases of fixed point: twice the motor's largest torque, and twice rated speed.
 pub const BASES: Bases = Bases::new(&MACHINE, 2.0 * TORQUE_LIMIT, 2.0 * RATED_SPEED);
 
-/// Limits of what a sample can be: two thirds over the largest torque; 1/128 turn; two counts; a quarter of a second,
+/// Plausibility limits of a sample: two thirds over the largest torque; 1/128 turn; two counts; a quarter of a second,
 /// in which the motor turns by less than half a turn.
 pub const fn screening(rate_hz: u32) -> Screening {
     Screening {

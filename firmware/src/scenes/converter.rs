@@ -70,7 +70,7 @@ pub const BASES: Bases = Bases::new(&MACHINE, 2.0 * TORQUE_LIMIT, 2.0 * RATED_SP
 /// Ticks a second.
 pub const RATE_HZ: u32 = 10_000;
 
-/// Limits of what a sample can be: two thirds over the largest torque; 1/128 turn; two counts; 30 ms, in which the
+/// Plausibility limits of a sample: two thirds over the largest torque; 1/128 turn; two counts; 30 ms, in which the
 /// motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,

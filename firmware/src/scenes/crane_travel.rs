@@ -88,7 +88,7 @@ pub const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE
 /// Bases of fixed point.
 pub const BASES: Bases = Bases::new(&MACHINE, 2.0 * TORQUE_LIMIT, 1.34 * RATED_SPEED);
 
-/// Limits of what a sample can be. In 15 ms the motor turns by less than half a turn.
+/// Plausibility limits of a sample. In 15 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
     setpoint: 1.2 * RATED_SPEED,

@@ -228,7 +228,7 @@ impl Set {
         Bases::new(&self.machine, 2.5 * self.rated_torque, 1.34 * RATED_SPEED)
     }
 
-    /// Limits of what a sample can be: the torque to a sixth over its limit, half over rated speed, 1/128 turn, two
+    /// Plausibility limits of a sample: the torque to a sixth over its limit, half over rated speed, 1/128 turn, two
     /// counts, 15 ms, in which the set turns by less than half a turn.
     pub const fn screening(&self) -> Screening {
         Screening {

@@ -65,7 +65,7 @@ pub const DISTURBANCE: Disturbance =
 /// Bases of fixed point: twice the motor's largest torque, a third over rated speed.
 pub const BASES: Bases = Bases::new(&REDUCED, 2.0 * TORQUE_LIMIT, 1.34 * RATED_SPEED);
 
-/// Limits of what a sample can be: two thirds over the largest torque; 1/128 turn, which that torque does not move the motor before
+/// Plausibility limits of a sample: two thirds over the largest torque; 1/128 turn, which that torque does not move the motor before
 /// the observer has followed; two counts; 15 ms, in which it turns by less than half a turn.
 pub const fn screening(rate_hz: u32) -> Screening {
     Screening {

@@ -98,7 +98,7 @@ pub const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE
 /// Bases of fixed point: the shaft carries five times the motor's largest torque, and the observer's gains want a base of this size.
 pub const BASES: Bases = Bases::rigid(10_000.0, 1.34 * RATED_SPEED);
 
-/// Limits of what a sample can be. In 25 ms the motor turns by less than half a turn.
+/// Plausibility limits of a sample. In 25 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
     setpoint: 1.2 * RATED_SPEED,

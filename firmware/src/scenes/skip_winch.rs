@@ -117,7 +117,7 @@ pub const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE
 /// Bases of fixed point.
 pub const BASES: Bases = Bases::new(&REDUCED, 2.0 * TORQUE_LIMIT, 1.34 * RATED_SPEED);
 
-/// Limits of what a sample can be. In 40 ms the motor turns by less than half a turn.
+/// Plausibility limits of a sample. In 40 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
     setpoint: 1.2 * RATED_SPEED,
@@ -158,7 +158,7 @@ pub const EMERGENCY_RAMP: f64 = 8.0 * RATED_SPEED;
 /// The plain speed loop: the design's proportional and integral gains, without its damping.
 pub const PLAIN: SpeedLoopDesign = SpeedLoopDesign { damping: 0.0, ..LOOP };
 
-/// How slack is taken up. While the rope is slack, rated torque holds the drum to the skip's speed, also against the brake. A tight rope's torque rises by
+/// Design of backlash take-up. While the rope is slack, rated torque holds the drum to the skip's speed, also against the brake. A tight rope's torque rises by
 /// as much within a period of the swing, which is damped as far as motor and drum, as heavy as the skip, can.
 pub const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
     impact: 0.2 * RATED_TORQUE,

@@ -87,7 +87,7 @@ pub const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE
 /// Bases of fixed point. That of the torque is forty times the largest, for the gains: a radian of innovation is much with such an encoder.
 pub const BASES: Bases = Bases::new(&MACHINE, 40.0 * TORQUE_LIMIT, 1.34 * RATED_SPEED);
 
-/// Limits of what a sample can be. In 6 ms the motor turns by less than half a turn.
+/// Plausibility limits of a sample. In 6 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
     setpoint: 1.2 * RATED_SPEED,

@@ -86,7 +86,7 @@ pub const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE
 /// Bases of fixed point. They are far above what is reached, for the gains: a radian of innovation is much with such an encoder.
 pub const BASES: Bases = Bases::new(&REDUCED, 20.0 * TORQUE_LIMIT, 4.0 * RATED_SPEED);
 
-/// Limits of what a sample can be. In 0.2 s the motor turns by less than half a turn.
+/// Plausibility limits of a sample. In 0.2 s the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
     setpoint: 1.2 * RATED_SPEED,

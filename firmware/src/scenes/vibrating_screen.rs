@@ -114,7 +114,7 @@ pub const QUICK_RAMP: f64 = 0.9 * TORQUE_LIMIT / (MACHINE.motor_inertia + MACHIN
 /// resolution is 2 mN m.
 pub const BASES: Bases = Bases::new(&MACHINE, 1000.0 * TORQUE_LIMIT, 2.0 * RATED_SPEED);
 
-/// Limits of what a sample can be. In 20 ms the motor turns by less than half a turn.
+/// Plausibility limits of a sample. In 20 ms the motor turns by less than half a turn.
 pub const SCREENING: Screening = Screening {
     torque: 1.67 * TORQUE_LIMIT,
     setpoint: 1.2 * RATED_SPEED,

@@ -24,7 +24,7 @@ impl Described {
     }
 }
 
-/// What was recorded in a tick.
+/// Record of a tick.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Told {
     /// Number of the tick.

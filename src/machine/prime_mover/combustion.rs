@@ -16,8 +16,9 @@ pub enum CombustionType {
 }
 
 impl CombustionType {
-    /// Coefficients a, b, c of `P/P_N = a x + b x^2 - c x^3`, `x = omega/omega_N`: the relation of Leiderman and Khlystov with the coefficients of Jazar,
-    /// Vehicle Dynamics, ch. 4. They are of naturally aspirated engines; a turbocharged one needs its own curve.
+    /// Coefficients a, b, c of `P/P_N = a x + b x^2 - c x^3`, `x = omega/omega_N`: the relation of Leiderman and
+    /// Khlystov with the coefficients of Jazar, Vehicle Dynamics, ch. 4. They are of naturally aspirated engines; a
+    /// turbocharged one needs its own curve.
     const fn coefficients(self) -> [f64; 3] {
         match self {
             Self::Spark => [1.0, 1.0, 1.0],
@@ -27,8 +28,9 @@ impl CombustionType {
     }
 }
 
-/// An engine at full load from idle to rated speed, `tau = tau_N (a + b x - c x^2)`; from there the governor takes the torque down to zero at the speed
-/// without load, in a straight line, and there is none beyond. Below idle it stalls: no torque.
+/// An engine at full load from idle to rated speed, `tau = tau_N (a + b x - c x^2)`; from there the governor takes the
+/// torque down to zero at the speed without load, in a straight line, and there is none beyond. Below idle it stalls:
+/// no torque.
 ///
 /// This is the mean over a working cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -96,7 +96,8 @@ impl Series {
         }
     }
 
-    /// Current at a speed \[A\], for speeds above `-R/c`: driven backward faster than that it feeds its own field without bound.
+    /// Current at a speed \[A\], for speeds above `-R/c`: overhauled backwards beyond that, it builds up its own field
+    /// without bound.
     #[must_use]
     pub const fn current(&self, speed: Speed) -> f64 {
         self.voltage / (self.resistance + self.flux * speed.0)

@@ -7,8 +7,8 @@ use crate::math::sqrt;
 /// An induction motor on a stiff supply, stator resistance neglected: `tau = 2 tau_A/(s/s_A + s_A/s)` with the slip
 /// `s = 1 - omega/omega_0` (Kloss's formula).
 ///
-/// It passes through the rated point where the breakdown speed is that of Wang 1989 (1-8). Above synchronous speed it brakes; driven backward it
-/// brakes too, which is how a crane lowers against the current.
+/// It passes through the rated point where the breakdown speed is that of Wang 1989 (1-8). It brakes above synchronous
+/// speed, and when turned backwards (plugging), as a crane when lowering.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Induction {
@@ -52,8 +52,8 @@ impl Induction {
         Ok(Self { synchronous: synchronous.0, breakdown: overload * rated.0, breakdown_slip: slip * steepness })
     }
 
-    /// The same motor with resistors at its slip rings: the rotor's whole resistance over its own. The breakdown torque stays, its slip grows by
-    /// that factor [Wang 1989 §1-2].
+    /// The same motor with resistors at its slip rings: the rotor's whole resistance over its own. The breakdown torque
+    /// stays, its slip grows by that factor [Wang 1989 §1-2].
     ///
     /// # Panics
     /// At compile time in a constant, where the factor is not positive and finite.
@@ -84,8 +84,8 @@ impl Induction {
         Torque(2.0 * self.breakdown * s * a / (s * s + a * a))
     }
 
-    /// Stiffness of the characteristic at a speed \[N m s/rad\], without regard to its sign: below the breakdown speed the torque rises with the
-    /// speed, and the machine is driven off that branch.
+    /// Stiffness of the characteristic at a speed \[N m s/rad\], without regard to its sign: below the breakdown speed
+    /// the torque rises with the speed, and the machine is driven off that branch.
     #[must_use]
     pub const fn stiffness(&self, speed: Speed) -> f64 {
         let (s, a) = (1.0 - speed.0 / self.synchronous, self.breakdown_slip);

@@ -72,7 +72,7 @@ impl StartingLaw {
     /// Starting time T \[s\] that brings a rigid machine to a speed \[rad/s\] against a load torque that is constant:
     /// `J omega = integral of (tau - tau_L)`; infinite where the torque does not suffice.
     ///
-    /// The law's own time does not matter: it is what is asked for.
+    /// The law's own time has no effect: it is the result.
     #[must_use]
     pub const fn time_to(&self, machine: &Rigid, load: Torque, speed: f64) -> f64 {
         let (torque, mean) = match *self {
@@ -92,8 +92,9 @@ impl Line {
         machine.inertia / self.slope
     }
 
-    /// Time \[s\] from standstill to a speed \[rad/s\] against a constant load torque, `J/b ln(omega_e/(omega_e - omega))` with the speed omega_e that
-    /// it tends to; infinite where that is not above the speed that is wanted.
+    /// Time \[s\] from standstill to a speed \[rad/s\] against a constant load torque,
+    /// `J/b ln(omega_e/(omega_e - omega))` with the speed omega_e that it tends to; infinite where that is not above
+    /// the target speed.
     #[must_use]
     pub const fn time_to(&self, machine: &Rigid, load: Torque, speed: f64) -> f64 {
         let end = (self.stall - load.0) / self.slope;
@@ -105,7 +106,8 @@ impl Line {
     }
 }
 
-/// Peak of the shaft's torque in a start of two masses [Huang 1987 part 2]; see [`crate::machine::TwoMass::starting_peak`].
+/// Peak of the shaft's torque in a start of two masses [Huang 1987 part 2]; see
+/// [`crate::machine::TwoMass::starting_peak`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum StartCondition {
@@ -113,12 +115,14 @@ pub enum StartCondition {
     Pretensioned,
     /// The shaft is without torque, the load's torque acts from the start.
     Untensioned,
-    /// The shaft is slack by the machine's gap and the load is held by its own friction until the shaft carries its torque.
+    /// The shaft is unloaded, with the machine's gap open, and the load is held by its own friction until the shaft
+    /// carries its torque.
     Slack,
 }
 
 impl crate::machine::TwoMass {
-    /// Torque that the shaft carries while both masses accelerate alike \[N m\]: `(tau_m J_l + tau_L J_m)/(J_m + J_l)` [Huang 1987 part 2].
+    /// Torque that the shaft carries while both masses accelerate alike \[N m\]: `(tau_m J_l + tau_L J_m)/(J_m + J_l)`
+    /// [Huang 1987 part 2].
     #[must_use]
     pub const fn accelerating_torque(&self, motor: Torque, load: Torque) -> Torque {
         Torque((motor.0 * self.load_inertia + load.0 * self.motor_inertia) / self.total_inertia())
@@ -126,9 +130,9 @@ impl crate::machine::TwoMass {
 
     /// Largest torque in the shaft after a constant motor torque sets in, undamped \[N m\] [Huang 1987 part 2].
     ///
-    /// For a slack start motor and load torque must be positive. The motor crosses the gap, twists the shaft against the load that friction still holds,
-    /// until the shaft carries the load's torque; then both swing about the accelerating torque. A motor too weak for the load swings against
-    /// it locked.
+    /// For a slack start motor and load torque must be positive. The motor crosses the gap, twists the shaft against
+    /// the load that friction still holds, until the shaft carries the load's torque; then both swing about the
+    /// accelerating torque. A motor too weak for the load swings against it locked.
     #[must_use]
     pub const fn starting_peak(&self, condition: StartCondition, motor: Torque, load: Torque) -> Torque {
         let mean = self.accelerating_torque(motor, load).0;
@@ -155,15 +159,15 @@ impl crate::machine::TwoMass {
         self.starting_peak(condition, motor, load).0 / load.0
     }
 
-    /// Torque that an impact of the masses at a relative speed \[rad/s\] adds, undamped: `delta_omega sqrt(k J_m J_l/(J_m + J_l))` \[N m\]
-    /// [Huang 1987 part 2].
+    /// Torque that an impact of the masses at a relative speed \[rad/s\] adds, undamped:
+    /// `delta_omega sqrt(k J_m J_l/(J_m + J_l))` \[N m\] [Huang 1987 part 2].
     #[must_use]
     pub const fn impact_torque(&self, relative_speed: f64) -> Torque {
         Torque(relative_speed * sqrt(self.stiffness * self.reduced_inertia()))
     }
 
-    /// Least torque in the shaft after the load's torque has gone at once, the motor's torque staying what carried it \[N m\]; negative where the
-    /// shaft would change sides.
+    /// Least torque in the shaft after the load's torque has gone at once, the motor's torque staying what carried it
+    /// \[N m\]; negative where the shaft would change sides.
     #[must_use]
     pub const fn load_loss_torque(&self, torque: Torque) -> Torque {
         Torque(torque.0 * (self.load_inertia - self.motor_inertia) / self.total_inertia())

@@ -45,7 +45,7 @@ pub struct Verdict {
     pub seconds: f64,
     /// Largest torque of the shaft, of rated; half is allowed.
     pub peak: f64,
-    /// Why there is no answer.
+    /// Errors of the commissioning test.
     pub refused: Option<&'static str>,
     /// Why no gap was told.
     pub gap_refused: Option<&'static str>,

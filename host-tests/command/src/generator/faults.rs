@@ -1,4 +1,4 @@
-//! A fault on every input in turn, and what becomes of it.
+//! A fault on every input in turn, and reaction.
 
 use driveline::governor::Trip;
 use driveline_firmware::Words;

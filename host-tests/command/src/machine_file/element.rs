@@ -60,9 +60,9 @@ pub enum Element {
         rod: f64,
         /// Mass of the rod \[kg\]; 0 where the file is silent, as the next two.
         rod_mass: f64,
-        /// Distance of the rod's centre of mass from the crank's pin \[m\].
+        /// Distance of the connecting rod's centre of mass from the crank pin \[m\].
         rod_centre: f64,
-        /// Inertia of the rod about its centre of mass \[kg m2\].
+        /// Inertia of the connecting rod about its centre of mass \[kg m2\].
         rod_inertia: f64,
         /// Mass of the slider \[kg\].
         slider: f64,
