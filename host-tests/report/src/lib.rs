@@ -17,26 +17,18 @@
 //! assert!(page.starts_with("<!doctype html>"));
 //! ```
 
-mod balance_page;
 pub mod chart;
 pub mod format;
-mod modes_page;
 pub mod page;
-mod plots_page;
 mod results;
 mod sheet;
-mod simulation_page;
 pub mod svg;
 mod sweep;
 mod table;
 mod trajectory;
 
-pub use balance_page::{BalancePage, PolarFigure, PolarKey};
-pub use modes_page::{MachinePage, ModeFigure};
-pub use plots_page::PlotsPage;
 pub use results::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Report, Variant};
-pub use sheet::{Figure, Sheet};
-pub use simulation_page::SimulationPage;
+pub use sheet::{Arrangement, Figure, Key, Section, Sheet};
 pub use sweep::{Slice, Sweep, SweepPoint};
 pub use table::{Table, variants_table};
 pub use trajectory::{Mark, Signal, Trajectory};

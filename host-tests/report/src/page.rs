@@ -15,12 +15,7 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("costs.html", include_str!("page/costs.html")),
     ("sweeps.html", include_str!("page/sweeps.html")),
     ("survey.html", include_str!("page/survey.html")),
-    ("machine.html", include_str!("page/machine.html")),
     ("sheet.html", include_str!("page/sheet.html")),
-    ("simulation.html", include_str!("page/simulation.html")),
-    ("backlash.html", include_str!("page/backlash.html")),
-    ("balance.html", include_str!("page/balance.html")),
-    ("plots.html", include_str!("page/plots.html")),
     ("frame.html", include_str!("page/frame.html")),
     ("style.css", include_str!("page/style.css")),
 ];

@@ -1,5 +1,7 @@
 //! A page of figures and tables under a heading, for commands that show one thing.
 
+use std::fmt;
+
 use serde::Serialize;
 
 use super::page::fill;
@@ -19,8 +21,8 @@ pub struct Sheet {
     pub facts: Vec<Fact>,
     /// The figures.
     pub figures: Vec<Figure>,
-    /// Tables as title, text and table.
-    pub tables: Vec<(String, String, Table)>,
+    /// The tables.
+    pub tables: Vec<Section>,
 }
 
 /// A section with plots.
@@ -30,12 +32,70 @@ pub struct Figure {
     pub title: String,
     /// What is to be seen, in a sentence or two.
     pub text: String,
-    /// Names and style classes of the curves.
-    pub legend: Vec<(String, String)>,
-    /// The plots as `<svg>`, one below the other.
+    /// What the curves or arrows are.
+    pub legend: Vec<Key>,
+    /// The plots as `<svg>`.
     pub plots: Vec<String>,
-    /// Whether the plots stand beside each other.
-    pub beside: bool,
+    /// How the plots stand.
+    pub arrangement: Arrangement,
+}
+
+/// How the plots of a figure stand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Arrangement {
+    /// One below the other, each as wide as the page.
+    #[default]
+    Below,
+    /// Beside each other.
+    Beside,
+}
+
+/// A line of a legend.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Key {
+    /// What it stands for.
+    pub name: String,
+    /// Its style class, a colour.
+    pub class: String,
+    /// An arrow, not a curve.
+    pub arrow: bool,
+}
+
+impl Key {
+    /// Of a curve.
+    pub fn curve(name: impl Into<String>, class: impl Into<String>) -> Self {
+        Self { name: name.into(), class: class.into(), arrow: false }
+    }
+
+    /// Of an arrow in a polar plot.
+    pub fn arrow(name: impl Into<String>, class: impl Into<String>) -> Self {
+        Self { arrow: true, ..Self::curve(name, class) }
+    }
+}
+
+/// A section with a table. On a terminal the text is left out.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Section {
+    /// Title.
+    pub title: String,
+    /// What is in it, in a sentence or two.
+    pub text: String,
+    /// The table.
+    pub table: Table,
+}
+
+impl Section {
+    /// A table with its title and text.
+    pub fn new(title: impl Into<String>, text: impl Into<String>, table: Table) -> Self {
+        Self { title: title.into(), text: text.into(), table }
+    }
+}
+
+impl fmt::Display for Section {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n{}", self.title, self.table)
+    }
 }
 
 #[derive(Serialize)]
@@ -45,11 +105,11 @@ struct View<'a> {
     summary: &'a str,
     facts: &'a [Fact],
     figures: &'a [Figure],
-    tables: Vec<Section<'a>>,
+    tables: Vec<Shown<'a>>,
 }
 
 #[derive(Serialize)]
-struct Section<'a> {
+struct Shown<'a> {
     title: &'a str,
     text: &'a str,
     headings: &'a [String],
@@ -60,10 +120,7 @@ impl Sheet {
     /// The page as HTML, one file.
     #[must_use]
     pub fn page(&self) -> String {
-        let section = |(title, text, table): &'_ (String, String, Table)| -> (String, String, Table) {
-            (title.clone(), text.clone(), table.clone())
-        };
-        let tables: Vec<_> = self.tables.iter().map(section).collect();
+        let tables = self.tables.iter();
         let view = View {
             name: &self.name,
             kicker: &self.kicker,
@@ -71,8 +128,12 @@ impl Sheet {
             facts: &self.facts,
             figures: &self.figures,
             tables: tables
-                .iter()
-                .map(|(title, text, table)| Section { title, text, headings: table.headings(), rows: table.filled() })
+                .map(|Section { title, text, table }| Shown {
+                    title,
+                    text,
+                    headings: table.headings(),
+                    rows: table.filled(),
+                })
                 .collect(),
         };
         fill("sheet.html", view)

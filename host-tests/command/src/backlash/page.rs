@@ -1,12 +1,9 @@
 //! The page of `backlash`: approaches beside each other, a stretch of a course over time, the tables.
 
-use serde::Serialize;
-
 use crate::backlash::{Comparison, Row, Stretch};
-use driveline_report::Table;
 use driveline_report::format::percent;
-use driveline_report::page::fill;
 use driveline_report::svg::{Anchor, Scale, Svg, trace};
+use driveline_report::{Figure, Key, Section, Sheet};
 
 const WIDTH: f64 = 1080.0;
 const LEFT: f64 = 330.0;
@@ -17,67 +14,48 @@ const HEIGHT: f64 = 340.0;
 /// What the project allows.
 const LIMIT: f64 = 0.06;
 
-#[derive(Serialize)]
-struct View {
-    summary: String,
-    courses: usize,
-    approaches: String,
-    stretch: String,
-    legend: Vec<Curve>,
-    over_time: String,
-    tables: Vec<Section>,
-}
-
-#[derive(Serialize)]
-struct Curve {
-    name: String,
-    class: String,
-}
-
-#[derive(Serialize)]
-struct Section {
-    title: String,
-    text: String,
-    headings: Vec<String>,
-    rows: Vec<Vec<String>>,
-}
-
 /// The page as HTML, one file.
 pub fn backlash_page(comparison: &Comparison) -> String {
-    let section = |title: &str, text: &str, table: Table| Section {
-        title: title.to_owned(),
-        text: text.to_owned(),
-        headings: table.headings().to_vec(),
-        rows: table.filled(),
-    };
     let names: Vec<String> =
         comparison.rows.iter().enumerate().map(|(index, row)| format!("{} {}", index + 1, row.approach)).collect();
-    let mut legend = vec![Curve { name: "truth".to_owned(), class: "truth".to_owned() }];
-    for (index, (name, _)) in comparison.stretch.estimates.iter().enumerate() {
-        legend.push(Curve { name: (*name).to_owned(), class: format!("s{index}") });
+    let estimates = comparison.stretch.estimates.iter().enumerate();
+    let legend = estimates.map(|(index, (name, _))| Key::curve(*name, format!("s{index}")));
+    Sheet {
+        name: "Through the gap".to_owned(),
+        kicker: "observers through backlash".to_owned(),
+        summary: format!(
+            "Six two-mass machines of 15 Hz with a gap of {} mrad, {} courses of {} s each, all through the full solver: 2048 lines, torque known to \
+             1 % of rated in a tick, {} ticks a second.",
+            1e3 * comparison.gap,
+            comparison.courses.len(),
+            comparison.seconds,
+            comparison.rate_hz
+        ),
+        facts: Vec::new(),
+        figures: vec![
+            Figure {
+                title: "Approaches".to_owned(),
+                text: format!(
+                    "Error of the shaft torque, rms of its peak, over {} courses: a point a course, a bar for their mean. The line is the limit, 6 %.",
+                    comparison.courses.len()
+                ),
+                plots: vec![approaches(&comparison.rows)],
+                ..Figure::default()
+            },
+            Figure {
+                title: "Half a second of it".to_owned(),
+                text: format!("{}: shaft torque as it is, and as four approaches take it.", comparison.stretch.course),
+                legend: [Key::curve("truth", "truth")].into_iter().chain(legend).collect(),
+                plots: vec![over_time(&comparison.stretch)],
+                ..Figure::default()
+            },
+        ],
+        tables: vec![
+            Section::new("Means", "Over all courses.", comparison.table()),
+            Section::new("Course by course", format!("Shaft torque. {}.", names.join("; ")), comparison.by_course()),
+        ],
     }
-    fill(
-        "backlash.html",
-        View {
-            summary: format!(
-                "Six two-mass machines of 15 Hz with a gap of {} mrad, {} courses of {} s each, all through the full solver: 2048 lines, torque known to \
-                 1 % of rated in a tick, {} ticks a second.",
-                1e3 * comparison.gap,
-                comparison.courses.len(),
-                comparison.seconds,
-                comparison.rate_hz
-            ),
-            courses: comparison.courses.len(),
-            approaches: approaches(&comparison.rows),
-            stretch: comparison.stretch.course.clone(),
-            legend,
-            over_time: over_time(&comparison.stretch),
-            tables: vec![
-                section("Means", "Over all courses.", comparison.table()),
-                section("Course by course", &format!("Shaft torque. {}.", names.join("; ")), comparison.by_course()),
-            ],
-        },
-    )
+    .page()
 }
 
 fn approaches(rows: &[Row]) -> String {

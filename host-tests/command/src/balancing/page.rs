@@ -4,11 +4,11 @@ use super::outcome::{Outcome, Stage, Vector};
 use super::scene::{Ran, Scene};
 use driveline_report::chart::{Arrow, Curve, Lines, polar};
 use driveline_report::format::significant;
-use driveline_report::{Fact, Figure, Sheet, Table};
+use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table};
 
 /// The tables as title, explanation and table: for the terminal and the page alike.
 #[must_use]
-pub fn tables(ran: &[Ran]) -> Vec<(String, String, Table)> {
+pub fn tables(ran: &[Ran]) -> Vec<Section> {
     let mut claims = Table::new(["variant", "what", "measured", "at most", ""]);
     for ran in ran {
         for claim in &ran.outcome.claims {
@@ -19,7 +19,7 @@ pub fn tables(ran: &[Ran]) -> Vec<(String, String, Table)> {
         }
     }
     let text = "By the full solver, from the weights as they were set.";
-    let mut all = vec![("What it had to show".to_owned(), text.to_owned(), claims)];
+    let mut all = vec![Section::new("What it had to show", text, claims)];
     let mut costs = Table::new([
         "variant",
         "instructions mean",
@@ -47,14 +47,14 @@ pub fn tables(ran: &[Ran]) -> Vec<(String, String, Table)> {
     }
     let text = "A tick of drive, measurement and link words in QEMU; the panel works between ticks and is not counted. Stack and sizes \
                 hold drive, measurement and panel.";
-    all.push(("What it took".to_owned(), text.to_owned(), costs));
+    all.push(Section::new("What it took", text, costs));
     if let Some(first) = ran.first() {
         all.push(stages(&first.outcome));
     }
     all
 }
 
-fn stages(outcome: &Outcome) -> (String, String, Table) {
+fn stages(outcome: &Outcome) -> Section {
     let planes = outcome.stages.first().map_or(0, |stage| stage.unbalance.len());
     let unbalance = (0..planes).map(|plane| format!("plane {} g mm", plane + 1));
     let rows = outcome.rows.iter().map(|row| format!("{row} µm"));
@@ -69,7 +69,7 @@ fn stages(outcome: &Outcome) -> (String, String, Table) {
         table.row(start.into_iter().chain(unbalance).chain(vibration));
     }
     let text = "Unbalance and displacement by the full solver, sizes with angles, of the first variant.";
-    ("Stage by stage".to_owned(), text.to_owned(), table)
+    Section::new("Stage by stage", text, table)
 }
 
 /// The page as HTML.
@@ -90,8 +90,8 @@ pub fn page(scene: &Scene, ran: &[Ran]) -> String {
         Fact { name: "time at the machine".to_owned(), value: format!("{:.0} s", outcome.time) },
         Fact { name: "readings refused".to_owned(), value: outcome.doubts.len().to_string() },
     ];
-    let legend: Vec<(String, String)> =
-        outcome.stages.iter().enumerate().map(|(index, stage)| (stage.name.clone(), class(index).to_owned())).collect();
+    let legend: Vec<Key> =
+        outcome.stages.iter().enumerate().map(|(index, stage)| Key::curve(&*stage.name, class(index))).collect();
     let rows = outcome.rows.iter().enumerate();
     let vibration = rows.map(|(row, name)| plot(name, "µm", outcome, |stage| stage.vibration.get(row).copied()));
     sheet.figures.push(Figure {
@@ -99,7 +99,7 @@ pub fn page(scene: &Scene, ran: &[Ran]) -> String {
         text: "Steady displacement of each sensor by the full solver; angles from the rotor's zero.".to_owned(),
         legend: legend.clone(),
         plots: vibration.collect(),
-        beside: true,
+        arrangement: Arrangement::Beside,
     });
     let planes = outcome.stages.first().map_or(0, |stage| stage.unbalance.len());
     let unbalance = (0..planes).map(|plane| {
@@ -110,7 +110,7 @@ pub fn page(scene: &Scene, ran: &[Ran]) -> String {
         text: "What is left in each plane.".to_owned(),
         legend: legend.clone(),
         plots: unbalance.collect(),
-        beside: true,
+        arrangement: Arrangement::Beside,
     });
     sheet.figures.push(over_speed(outcome, legend));
     sheet.page()
@@ -131,7 +131,7 @@ fn plot(title: &str, unit: &str, outcome: &Outcome, of: impl Fn(&Stage) -> Optio
     polar(title, unit, &arrows)
 }
 
-fn over_speed(outcome: &Outcome, legend: Vec<(String, String)>) -> Figure {
+fn over_speed(outcome: &Outcome, legend: Vec<Key>) -> Figure {
     let (speeds, amplitudes) = &outcome.over_speed;
     let curve = |(index, amplitudes): (usize, &Vec<f64>)| Curve {
         class: class(index).to_owned(),
@@ -151,6 +151,6 @@ fn over_speed(outcome: &Outcome, legend: Vec<(String, String)>) -> Figure {
         text: "The larger of the sensors' displacements, steady at each speed.".to_owned(),
         legend,
         plots: vec![lines.draw()],
-        beside: false,
+        ..Figure::default()
     }
 }

@@ -17,7 +17,7 @@ use super::{Failure, say, say_json};
 use crate::machine_file::balance::{BalanceFile, Measured, PLANES, ROWS, read};
 use driveline_report::chart::polar;
 use driveline_report::format::{percent, significant};
-use driveline_report::{BalancePage, Fact, PolarFigure, PolarKey, Table};
+use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table};
 
 use fault::Fault;
 use grade::{Grade, grade};
@@ -112,7 +112,7 @@ impl Balance {
         file: &BalanceFile,
         outcome: &impl Serialize,
         said: &str,
-        page: impl FnOnce() -> BalancePage,
+        page: impl FnOnce() -> Sheet,
     ) -> Result<(), Failure> {
         let slug: String =
             file.name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
@@ -130,8 +130,8 @@ impl Balance {
 /// All that is said on the terminal.
 fn said(outcome: &Outcome) -> String {
     let mut said = format!("{}\n\n", summary(outcome));
-    for (title, _, table) in tables(outcome) {
-        let _ = writeln!(said, "{title}\n{table}");
+    for section in tables(outcome) {
+        let _ = writeln!(said, "{section}");
     }
     for fact in facts(outcome) {
         let _ = writeln!(said, "{}: {}", fact.name, fact.value);
@@ -226,7 +226,7 @@ fn facts(outcome: &Outcome) -> Vec<Fact> {
 }
 
 /// The tables as title, explanation and table: for the terminal and the page alike.
-fn tables(outcome: &Outcome) -> Vec<(String, String, Table)> {
+fn tables(outcome: &Outcome) -> Vec<Section> {
     let mut weights = Table::new(["plane", &format!("add {}", outcome.weight_unit), "at °", "holes"]);
     for plane in &outcome.planes {
         let holes = plane.left_out.clone().unwrap_or_else(|| told(plane.holes.as_deref()));
@@ -242,16 +242,16 @@ fn tables(outcome: &Outcome) -> Vec<(String, String, Table)> {
     }
     let unit = if outcome.unit.is_empty() { String::new() } else { format!(" [{}]", outcome.unit) };
     vec![
-        (
-            "Weights".to_owned(),
-            "To be added to what is on the rotor now, angles as those of the trial weights.".to_owned(),
+        Section::new(
+            "Weights",
+            "To be added to what is on the rotor now, angles as those of the trial weights.",
             weights,
         ),
-        (format!("Vibration{unit}"), "As predicted from the influence of the trial weights.".to_owned(), rows),
+        Section::new(format!("Vibration{unit}"), "As predicted from the influence of the trial weights.", rows),
     ]
 }
 
-fn page(outcome: &Outcome) -> BalancePage {
+fn page(outcome: &Outcome) -> Sheet {
     let vibration = |row: &Row| {
         let mut arrows = vec![arrow("s5", "baseline", row.baseline), arrow("s1", "now", row.now)];
         arrows.push(arrow("s2", "predicted", row.predicted_with_holes.unwrap_or(row.predicted)));
@@ -261,23 +261,25 @@ fn page(outcome: &Outcome) -> BalancePage {
         let arrows = arrows_of(plane.weight, plane.holes.as_deref());
         polar(&plane.plane, outcome.weight_unit, &arrows)
     };
-    let key = |name, class| PolarKey { name, class };
-    BalancePage {
+    Sheet {
         name: outcome.name.clone(),
+        kicker: "balancing".to_owned(),
         summary: summary(outcome),
         facts: facts(outcome),
         figures: vec![
-            PolarFigure {
+            Figure {
                 title: "Weights".to_owned(),
                 text: "What is to be added in each plane, and what goes into which hole.".to_owned(),
-                legend: vec![key("weight", "s0"), key("in a hole", "s3")],
+                legend: vec![Key::arrow("weight", "s0"), Key::arrow("in a hole", "s3")],
                 plots: outcome.planes.iter().map(weight).collect(),
+                arrangement: Arrangement::Beside,
             },
-            PolarFigure {
+            Figure {
                 title: "Vibration".to_owned(),
                 text: "Amplitude and phase of each reading: at the beginning, now, and as predicted.".to_owned(),
-                legend: vec![key("baseline", "s5"), key("now", "s1"), key("predicted", "s2")],
+                legend: vec![Key::arrow("baseline", "s5"), Key::arrow("now", "s1"), Key::arrow("predicted", "s2")],
                 plots: outcome.rows.iter().map(vibration).collect(),
+                arrangement: Arrangement::Beside,
             },
         ],
         tables: tables(outcome),

@@ -58,8 +58,8 @@ pub fn run(scene: &Scene, wanted: Wanted<'_>) -> Result<(), Failure> {
     if wanted.json {
         say_json(&json!({ "scene": scene.name, "variants": all }))?;
     } else {
-        for (title, _, table) in tables(&all) {
-            say(format_args!("{title}\n{table}"));
+        for section in tables(&all) {
+            say(section);
         }
     }
     file.write_and_say(&page(scene, &all), wanted.json)?;

@@ -2,6 +2,7 @@
 
 mod campbell;
 mod chain;
+mod figures;
 mod page;
 mod tables;
 mod train;
@@ -19,7 +20,7 @@ use train::TrainVibration;
 use super::results::{Destination, check};
 use super::{Failure, say, say_json};
 use crate::machine_file::{is_train, read, read_train};
-use driveline_report::Table;
+use driveline_report::Section;
 
 /// Natural frequencies and shapes of a machine, the two masses that can stand for it, the parts not worth keeping.
 ///
@@ -64,14 +65,14 @@ impl Modes {
         slug: &str,
         page: impl FnOnce() -> String,
         vibration: &impl serde::Serialize,
-        tables: Vec<(String, String, Table)>,
+        tables: Vec<Section>,
     ) -> Result<(), Failure> {
         let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{slug}-modes"));
         check(&[&self.file], &file)?;
         if self.json {
             say_json(vibration)?;
         } else {
-            tables.into_iter().for_each(|(title, _, table)| say(format_args!("{title}\n{table}")));
+            tables.into_iter().for_each(say);
         }
         file.map_or(Ok(()), |file| file.write_and_say(&page(), self.json))
     }

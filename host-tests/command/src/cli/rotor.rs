@@ -11,7 +11,7 @@ use super::{Failure, say, say_json};
 use crate::machine_file::{RotorFile, read_rotor};
 use driveline_report::chart::{Curve, Lines};
 use driveline_report::format::{percent, significant};
-use driveline_report::{Fact, Figure, Sheet, Table};
+use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
 use driveline_solver::rotor::{Critical, Modal, Natural, Polar, RotorError, WhirlSense};
 
 /// Critical speeds of a rotor, its natural whirls over the speed, and its vibration by unbalance.
@@ -92,7 +92,7 @@ impl Rotor {
         if self.json {
             say_json(&found)?;
         } else {
-            tables(&found).into_iter().for_each(|(title, _, table)| say(format_args!("{title}\n{table}")));
+            tables(&found).into_iter().for_each(say);
         }
         file.map_or(Ok(()), |file| file.write_and_say(&page(&rotor, &found, &response), self.json))
     }
@@ -161,7 +161,7 @@ fn rpm(speed: f64) -> f64 {
 }
 
 /// The tables as title, explanation and table: for the terminal and the page alike.
-fn tables(found: &Found) -> Vec<(String, String, Table)> {
+fn tables(found: &Found) -> Vec<Section> {
     let mut criticals = Table::new(["critical speed", "r/min", "rad/s", "Hz", "whirl"]);
     for (index, critical) in found.critical_speeds.iter().enumerate() {
         let numbers = [rpm(critical.speed), critical.speed, critical.speed / TAU].map(|value| format!("{value:.2}"));
@@ -170,7 +170,7 @@ fn tables(found: &Found) -> Vec<(String, String, Table)> {
     }
     let text =
         "Without damping. Where the supports are alike in all directions, unbalance excites the forward ones only.";
-    let mut all = vec![("Critical speeds".to_owned(), text.to_owned(), criticals)];
+    let mut all = vec![Section::new("Critical speeds", text, criticals)];
     let mut whirls = Table::new(["whirl", "at rest Hz", "damping", "at the highest speed Hz", "damping", "sense"]);
     if let (Some(first), Some(last)) = (found.whirls.first(), found.whirls.last()) {
         for (index, (slow, fast)) in first.iter().zip(last).enumerate() {
@@ -185,7 +185,7 @@ fn tables(found: &Found) -> Vec<(String, String, Table)> {
         }
     }
     let text = "Damped frequencies, lowest first; a negative damping grows.";
-    all.push(("Natural whirls".to_owned(), text.to_owned(), whirls));
+    all.push(Section::new("Natural whirls", text, whirls));
     if !found.peaks.is_empty() {
         let mut peaks = Table::new(["sensor", "largest µm", "at r/min", "leads by °"]);
         for peak in &found.peaks {
@@ -197,7 +197,7 @@ fn tables(found: &Found) -> Vec<(String, String, Table)> {
             ]);
         }
         let text = "Amplitude of the displacement by the unbalance of the file, up to the highest speed.";
-        all.push(("Vibration by unbalance".to_owned(), text.to_owned(), peaks));
+        all.push(Section::new("Vibration by unbalance", text, peaks));
     }
     all
 }
@@ -222,18 +222,18 @@ fn page(rotor: &RotorFile, found: &Found, response: &Response) -> String {
                unbalance meets it too."
             .to_owned(),
         legend: [("forward", "s0"), ("backward", "s1"), ("mixed", "s5"), ("once a turn", "truth")]
-            .map(|(name, class)| (name.to_owned(), class.to_owned()))
+            .map(|(name, class)| Key::curve(name, class))
             .to_vec(),
         plots: vec![campbell(found).draw()],
-        beside: false,
+        ..Figure::default()
     }];
     if !response.amplitudes.is_empty() {
         let named = |(index, (node, angle)): (usize, &(usize, f64))| {
-            (format!("node {node}, {}°", significant(*angle)), format!("s{}", index % 6))
+            Key::curve(format!("node {node}, {}°", significant(*angle)), format!("s{}", index % 6))
         };
-        let legend: Vec<(String, String)> = rotor.sensors.iter().enumerate().map(named).collect();
-        let curve = |(values, (_, class)): (&Vec<f64>, &(String, String))| Curve {
-            class: class.clone(),
+        let legend: Vec<Key> = rotor.sensors.iter().enumerate().map(named).collect();
+        let curve = |(values, key): (&Vec<f64>, &Key)| Curve {
+            class: key.class.clone(),
             values: values.iter().map(|value| value * 1e6).collect(),
         };
         let lines = Lines {
@@ -251,7 +251,7 @@ fn page(rotor: &RotorFile, found: &Found, response: &Response) -> String {
             text: "Displacement at the sensors, steady at each speed.".to_owned(),
             legend,
             plots: vec![lines.draw()],
-            beside: false,
+            ..Figure::default()
         });
     }
     let summary = "Natural whirls of the rotor on its bearings, and where its unbalance meets them.".to_owned();

@@ -9,9 +9,9 @@ use clap::Args;
 use super::results::{Destination, check};
 use super::{Failure, say, say_json};
 use crate::machine_file::{TrainFile, read_train};
-use driveline_report::chart::Line;
+use driveline_report::chart::{Line, over_time};
 use driveline_report::format::significant;
-use driveline_report::{Fact, SimulationPage, Table};
+use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
 use result::Simulation;
 
 /// Lines of the events' table.
@@ -64,7 +64,7 @@ impl Simulate {
         if self.json {
             say_json(&simulation)?;
         } else {
-            tables(&simulation).into_iter().for_each(|(title, _, table)| say(format_args!("{title}\n{table}")));
+            tables(&simulation).into_iter().for_each(say);
             say(proof(&simulation));
         }
         csv.map_or(Ok(()), |csv| csv.write_and_say(&simulation.csv(), self.json))?;
@@ -82,7 +82,7 @@ fn proof(simulation: &Simulation) -> String {
     }
 }
 
-fn tables(simulation: &Simulation) -> Vec<(String, String, Table)> {
+fn tables(simulation: &Simulation) -> Vec<Section> {
     let mut forces = Table::new(["link", "least N m", "at s", "greatest N m", "at s", "static N m", "K", "contacts"]);
     for link in &simulation.links {
         let numbers = [link.least, link.least_time, link.greatest, link.greatest_time, link.static_force];
@@ -98,17 +98,14 @@ fn tables(simulation: &Simulation) -> Vec<(String, String, Table)> {
     let text = "Torques of links between angles; along a line of action or a way, forces in N. The dynamic factor K is \
                 the greatest size over the static force: that of the file, or the mean of the second half of the run. \
                 Extremes are found between the lines of the run, not on them.";
-    let mut all = vec![
-        ("Forces".to_owned(), text.to_owned(), forces),
-        ("Speeds".to_owned(), "Of ways in m/s.".to_owned(), speeds),
-    ];
+    let mut all = vec![Section::new("Forces", text, forces), Section::new("Speeds", "Of ways in m/s.", speeds)];
     if !simulation.events.is_empty() {
         let mut events = Table::new(["time s", "what", "where"]);
         for event in simulation.events.iter().take(EVENTS) {
             events.row([format!("{:.6}", event.time), event.what.clone(), event.place.clone()]);
         }
         let (count, shown) = (simulation.events.len(), simulation.events.len().min(EVENTS));
-        all.push(("Events".to_owned(), format!("The first {shown} of {count}."), events));
+        all.push(Section::new("Events", format!("The first {shown} of {count}."), events));
     }
     all
 }
@@ -126,13 +123,21 @@ fn page(file: &TrainFile, simulation: &Simulation) -> String {
     let text = |count: usize| {
         if count > DRAWN { format!("The first {DRAWN} of {count}.") } else { String::new() }
     };
-    let mut plots = Vec::new();
+    let marks: Vec<f64> = simulation.events.iter().map(|event| event.time).collect();
+    let figure = |title: &str, count: usize, axis: &str, drawn: Vec<Line>| Figure {
+        title: title.to_owned(),
+        text: text(count),
+        legend: drawn.iter().map(|line| Key::curve(&*line.name, &*line.class)).collect(),
+        plots: vec![over_time(&simulation.times, &drawn, axis, &marks)],
+        ..Figure::default()
+    };
+    let mut figures = Vec::new();
     if !file.links.is_empty() {
         let forces = lines(&file.links, &simulation.forces);
-        plots.push(("Forces".to_owned(), text(file.links.len()), "torque, N m (force, N)".to_owned(), forces));
+        figures.push(figure("Forces", file.links.len(), "torque, N m (force, N)", forces));
     }
     let speeds = lines(&file.coordinates, &simulation.speeds);
-    plots.push(("Speeds".to_owned(), text(file.coordinates.len()), "speed, rad/s (m/s)".to_owned(), speeds));
+    figures.push(figure("Speeds", file.coordinates.len(), "speed, rad/s (m/s)", speeds));
     let mut facts = vec![
         fact("length of the run", format!("{} s", significant(simulation.time))),
         fact("events", simulation.events.len().to_string()),
@@ -142,15 +147,14 @@ fn page(file: &TrainFile, simulation: &Simulation) -> String {
     if let Some((name, k)) = simulation.links.iter().filter_map(factor).max_by(|a, b| a.1.total_cmp(&b.1)) {
         facts.push(fact("greatest dynamic factor", format!("{} ({name})", significant(k))));
     }
-    SimulationPage {
+    Sheet {
         name: file.name.clone(),
+        kicker: "simulation by the full solver".to_owned(),
         summary:
             "A run of the machine by the full solver: exact between its events, and done again by a second integrator."
                 .to_owned(),
         facts,
-        time: simulation.times.clone(),
-        marks: simulation.events.iter().map(|event| event.time).collect(),
-        plots,
+        figures,
         tables: tables(simulation),
     }
     .page()

@@ -10,7 +10,7 @@ use super::course::Course;
 use super::engine::Target;
 use super::machine::Case;
 use driveline_report::chart::{Curve, Lines};
-use driveline_report::{Fact, PlotsPage, Table};
+use driveline_report::{Fact, Figure, Section, Sheet, Table};
 
 /// A figure beside its true value.
 #[derive(Clone, Debug, Serialize)]
@@ -61,7 +61,7 @@ pub struct Verdict {
     #[serde(skip)]
     summary: String,
     #[serde(skip)]
-    plots: Vec<(String, String, String)>,
+    plots: Vec<Figure>,
 }
 
 const NAMES: [(&str, Option<f64>); 14] = [
@@ -197,24 +197,24 @@ impl Verdict {
             Some((name, value)) => Fact { name: name.into(), value: value.into() },
             None => Fact { name: "duration".into(), value: sentence },
         };
-        PlotsPage {
+        Sheet {
             kicker: "commissioning".into(),
             name: self.machine.clone(),
             summary: self.summary.clone(),
             facts: self.sentences().into_iter().map(fact).collect(),
-            tables: vec![(
-                "Found and true".into(),
-                "The true values are those of the full plant, referred to the motor: the two masses that have its first resonance, its first antiresonance and its total inertia.".into(),
+            tables: vec![Section::new(
+                "Found and true",
+                "The true values are those of the full plant, referred to the motor: the two masses that have its first resonance, its first antiresonance and its total inertia.",
                 self.table(),
             )],
-            plots: self.plots.clone(),
+            figures: self.plots.clone(),
         }
         .page()
     }
 }
 
 /// The response, measured and fitted; torques and speed over time.
-fn plots(case: &Case, course: &Course) -> Vec<(String, String, String)> {
+fn plots(case: &Case, course: &Course) -> Vec<Figure> {
     let mut plots = Vec::new();
     let size = |re: f64, im: f64| re.hypot(im);
     let mut points = Vec::new();
@@ -250,7 +250,12 @@ fn plots(case: &Case, course: &Course) -> Vec<(String, String, String)> {
         };
         let text = "Acceleration of the motor per torque: the lines of the last records upwards and downwards as points, the two masses that were \
                     found, and those that have the plant's resonance, antiresonance and inertia.";
-        plots.push(("Response".to_owned(), text.to_owned(), lines.draw()));
+        plots.push(Figure {
+            title: "Response".to_owned(),
+            text: text.to_owned(),
+            plots: vec![lines.draw()],
+            ..Figure::default()
+        });
     }
     let time: Vec<f64> = course.moments.iter().map(|moment| moment.time).collect();
     let mut marks = Vec::new();
@@ -273,7 +278,7 @@ fn plots(case: &Case, course: &Course) -> Vec<(String, String, String)> {
             marks: marks.clone(),
             ..Lines::default()
         };
-        plots.push((title.to_owned(), String::new(), lines.draw()));
+        plots.push(Figure { title: title.to_owned(), plots: vec![lines.draw()], ..Figure::default() });
     };
     let moments = || course.moments.iter();
     over("Torque of the shaft", "torque, N m", "truth", moments().map(|m| m.shaft).collect());

@@ -4,7 +4,7 @@ use super::faults::Outcome;
 use super::standard::{CLASS_D, CLASSES, TRIP};
 use super::verdict::{Verdict, Verdicts};
 use driveline_report::chart::{Panel, panels};
-use driveline_report::{Fact, PlotsPage, Table};
+use driveline_report::{Fact, Figure, Section, Sheet, Table};
 
 fn percent(fraction: f64) -> String {
     format!("{:.2} %", 100.0 * fraction)
@@ -190,7 +190,7 @@ pub fn trips(verdicts: &Verdicts) -> Table {
     table
 }
 
-fn plot(one: &Verdict) -> (String, String, String) {
+fn plot(one: &Verdict) -> Figure {
     let time: Vec<f64> = one.moments.iter().map(|moment| moment.time).collect();
     let of = |value: &dyn Fn(&super::run::Moment) -> f64| one.moments.iter().map(value).collect::<Vec<f64>>();
     let frequency = of(&|moment| 100.0 * moment.frequency.clamp(0.8, 1.2));
@@ -209,8 +209,8 @@ fn plot(one: &Verdict) -> (String, String, String) {
         "Frequency by the electrical period; lines at 100 % and at the trip. Below, the load as it is (wide) and as it is estimated tick by \
             tick (fine){swing}."
     );
-    let svg = panels(&time, &drawn, 500, &title);
-    (title, text, svg)
+    let plots = vec![panels(&time, &drawn, 500, &title)];
+    Figure { title, text, plots, ..Figure::default() }
 }
 
 /// The page.
@@ -227,24 +227,24 @@ pub fn page(verdicts: &Verdicts) -> String {
     let with_trips = (!verdicts.trips.is_empty()).then(|| {
         let text = "On the diesel. The cause goes a second after the time that the trip may take; the run switch goes off half a second later, which \
             resets it. Torques are of rated.";
-        ("Every trip, brought about".to_owned(), text.to_owned(), trips(verdicts))
+        Section::new("Every trip, brought about", text, trips(verdicts))
     });
     let with_faults = (!verdicts.faults.is_empty()).then(|| {
         let text = "At half load, on the diesel. What cannot be true is left out; where an input is lost for longer than it can be missed, the \
             drive trips and commands no torque. Torques are of rated.";
-        ("A fault on every input".to_owned(), text.to_owned(), faults(verdicts))
+        Section::new("A fault on every input", text, faults(verdicts))
     });
     let ran = |set: &str| verdicts.verdicts.iter().any(|one| one.set == set);
     let with_diesel = ran("diesel").then(|| {
         let text = "Load steps of 0-50-80-100 % and the loss of it all. Frequencies by the electrical period.";
-        ("Diesel set against ISO 8528-5".to_owned(), text.to_owned(), diesel(verdicts))
+        Section::new("Diesel set against ISO 8528-5", text, diesel(verdicts))
     });
     let with_turbine = ran("turbine").then(|| {
         let text = "Load steps of a quarter, and the loss of it all.";
-        ("Turbine set against NEMA SM 23".to_owned(), text.to_owned(), turbine(verdicts))
+        Section::new("Turbine set against NEMA SM 23", text, turbine(verdicts))
     });
-    let with_steps = ("Every load step".to_owned(), String::new(), steps(verdicts));
-    PlotsPage {
+    let with_steps = Section::new("Every load step", "", steps(verdicts));
+    Sheet {
         kicker: "generator sets".to_owned(),
         name: "Generator sets".to_owned(),
         summary: "A diesel set of 400 kW and a turbine set of 2 MW, governed from the flywheel's angle and the actuator's position: the \
@@ -252,7 +252,7 @@ pub fn page(verdicts: &Verdicts) -> String {
             .to_owned(),
         facts,
         tables: [with_diesel, with_turbine, Some(with_steps), with_faults, with_trips].into_iter().flatten().collect(),
-        plots: verdicts.verdicts.iter().map(plot).collect(),
+        figures: verdicts.verdicts.iter().map(plot).collect(),
     }
     .page()
 }

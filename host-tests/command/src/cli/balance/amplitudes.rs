@@ -11,7 +11,7 @@ use super::weight::{Hole, Polar, arrows_of, fill, told};
 use crate::machine_file::balance::BalanceFile;
 use driveline_report::chart::polar;
 use driveline_report::format::{percent, significant};
-use driveline_report::{BalancePage, Fact, PolarFigure, PolarKey, Table};
+use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table};
 
 /// What comes of it.
 #[derive(Clone, Debug, Serialize)]
@@ -111,7 +111,7 @@ impl Outcome {
     }
 
     /// The page.
-    pub fn page(&self) -> BalancePage {
+    pub fn page(&self) -> Sheet {
         let mut table = Table::new(["answer", &format!("add {}", self.weight_unit), "at °", "holes"]);
         for (index, answer) in self.answers.iter().enumerate() {
             let [amount, angle] = answer.weight.told();
@@ -121,21 +121,19 @@ impl Outcome {
             let arrows = arrows_of(answer.weight, answer.holes.as_deref());
             polar(&format!("answer {}", index + 1), self.weight_unit, &arrows)
         };
-        BalancePage {
+        Sheet {
             name: self.name.clone(),
+            kicker: "balancing".to_owned(),
             summary: self.summary(),
             facts: self.facts(),
-            figures: vec![PolarFigure {
+            figures: vec![Figure {
                 title: "Weights".to_owned(),
                 text: "What is to be added, and what goes into which hole.".to_owned(),
-                legend: vec![PolarKey { name: "weight", class: "s0" }, PolarKey { name: "in a hole", class: "s3" }],
+                legend: vec![Key::arrow("weight", "s0"), Key::arrow("in a hole", "s3")],
                 plots: self.answers.iter().enumerate().map(plot).collect(),
+                arrangement: Arrangement::Beside,
             }],
-            tables: vec![(
-                "Weights".to_owned(),
-                "From amplitudes alone: angles as those of the trial weight.".to_owned(),
-                table,
-            )],
+            tables: vec![Section::new("Weights", "From amplitudes alone: angles as those of the trial weight.", table)],
         }
     }
 }

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use crate::machine_file::{Excitation, Running};
-use driveline_report::Table;
 use driveline_report::chart::{Crossing, Ray, campbell};
 use driveline_report::format::{percent, significant};
+use driveline_report::{Section, Table};
 
 /// A critical speed nearer to the running range than this share of it is flagged.
 pub const NEAR: f64 = 0.1;
@@ -61,7 +61,7 @@ pub fn critical_speeds(natural: &[f64], running: Option<&Running>, excitations: 
 }
 
 /// The table of critical speeds; none where nothing excites.
-pub fn critical(speeds: &[Critical]) -> Option<(String, String, Table)> {
+pub fn critical(speeds: &[Critical]) -> Option<Section> {
     if speeds.is_empty() {
         return None;
     }
@@ -88,7 +88,7 @@ pub fn critical(speeds: &[Critical]) -> Option<(String, String, Table)> {
     }
     let text = "Speeds of the motor at which an order meets a natural frequency, and how far they lie outside the \
                 running range.";
-    Some(("Critical speeds".to_owned(), text.to_owned(), table))
+    Some(Section::new("Critical speeds", text, table))
 }
 
 /// The Campbell diagram; none where nothing excites. Natural frequencies in Hz.

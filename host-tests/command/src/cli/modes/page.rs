@@ -6,11 +6,12 @@ use driveline::machine::{Match, TwoMass};
 
 use super::Vibration;
 use super::campbell::diagram;
+use super::figures::{campbell, shapes};
 use super::tables::tables;
 use crate::machine_file::MachineFile;
-use driveline_report::chart::{Response, Station};
+use driveline_report::chart::{Response, Station, response};
 use driveline_report::format::significant;
-use driveline_report::{Fact, MachinePage, ModeFigure};
+use driveline_report::{Fact, Figure, Key, Sheet};
 
 /// Points of a response.
 const POINTS: usize = 1_600;
@@ -25,10 +26,6 @@ type Seen = (f64, f64, f64);
 pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
     let total: f64 = vibration.masses.iter().map(|mass| mass.inertia).sum();
     let station = |mass: &super::chain::Mass| Station { name: mass.name.clone(), share: mass.inertia / total };
-    let figure = |(index, mode): (usize, &super::chain::Resonance)| ModeFigure {
-        title: format!("{}. {} Hz", index + 1, significant(mode.hz)),
-        shape: mode.shape.clone(),
-    };
     let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     let mut facts = vec![
         fact("inertia at the motor", format!("{} kg m²", significant(total))),
@@ -42,23 +39,29 @@ pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
         facts.push(fact("weight at the motor", format!("{} N m", significant(machine.gravity_torque()))));
     }
     let frequency = frequencies(vibration);
-    MachinePage {
+    let stations: Vec<Station> = vibration.masses.iter().map(station).collect();
+    let responses = responses(machine, vibration, &frequency, total);
+    let felt = (!responses.is_empty()).then(|| Figure {
+        title: "What the motor feels".to_owned(),
+        text: "Motor speed per motor torque: the whole chain, and the two masses that stand for it. Peaks are resonances, \
+               troughs antiresonances."
+            .to_owned(),
+        legend: responses.iter().map(|item| Key::curve(&*item.name, &*item.class)).collect(),
+        plots: vec![response(&frequency, &responses)],
+        ..Figure::default()
+    });
+    let natural: Vec<f64> = vibration.resonances.iter().map(|mode| mode.hz).collect();
+    let diagram = diagram(&natural, machine.running.as_ref(), &machine.excitations, &vibration.critical);
+    let modes = vibration.resonances.iter().map(|mode| (mode.hz, &*mode.shape));
+    Sheet {
         name: machine.name.clone(),
+        kicker: "natural vibrations and reduction".to_owned(),
         summary:
             "Natural vibrations, and the two masses that can stand for the machine in a controller. Everything is \
                   referred to the motor's shaft."
                 .to_owned(),
         facts,
-        stations: vibration.masses.iter().map(station).collect(),
-        modes: vibration.resonances.iter().enumerate().map(figure).collect(),
-        responses: responses(machine, vibration, &frequency, total),
-        frequency,
-        campbell: diagram(
-            &vibration.resonances.iter().map(|mode| mode.hz).collect::<Vec<_>>(),
-            machine.running.as_ref(),
-            &machine.excitations,
-            &vibration.critical,
-        ),
+        figures: shapes(&stations, modes).into_iter().chain(felt).chain(diagram.map(campbell)).collect(),
         tables: tables(vibration),
     }
     .page()

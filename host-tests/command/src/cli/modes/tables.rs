@@ -2,14 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use driveline_report::Table;
 use driveline_report::format::{DIVERGED, percent, significant};
+use driveline_report::{Section, Table};
 
 use super::campbell::critical;
 use super::chain::{Leaving, Reduction, Vibration, WORTH};
 
 /// The tables as title, explanation and table: for the terminal and the page alike.
-pub fn tables(vibration: &Vibration) -> Vec<(String, String, Table)> {
+pub fn tables(vibration: &Vibration) -> Vec<Section> {
     let mut all = Vec::new();
     let mut parts = Table::new(["part", "inertia kg m²", "stiffness N m/rad", "damping N m s/rad", "gap rad"]);
     for (index, mass) in vibration.masses.iter().enumerate() {
@@ -19,7 +19,7 @@ pub fn tables(vibration: &Vibration) -> Vec<(String, String, Table)> {
             parts.row([shaft.name.clone(), String::new()].into_iter().chain(numbers));
         }
     }
-    all.push(("Machine, referred to the motor".to_owned(), String::new(), parts));
+    all.push(Section::new("Machine, referred to the motor", "", parts));
     if vibration.resonances.is_empty() {
         return all;
     }
@@ -36,7 +36,7 @@ pub fn tables(vibration: &Vibration) -> Vec<(String, String, Table)> {
         modes.row([(index + 1).to_string()].into_iter().chain(numbers).chain(shape));
     }
     let text = "Frequencies of the free machine, and with the motor held; amplitudes of the masses, the largest 1.";
-    all.push(("Frequencies and shapes".to_owned(), text.to_owned(), modes));
+    all.push(Section::new("Frequencies and shapes", text, modes));
     all.extend(critical(&vibration.critical));
     all.push(reductions(&vibration.reductions));
     if !vibration.worth.is_empty() {
@@ -45,7 +45,7 @@ pub fn tables(vibration: &Vibration) -> Vec<(String, String, Table)> {
     all
 }
 
-fn reductions(reductions: &[Reduction]) -> (String, String, Table) {
+fn reductions(reductions: &[Reduction]) -> Section {
     let mut table = Table::new([
         "two masses by",
         "motor kg m²",
@@ -69,10 +69,10 @@ fn reductions(reductions: &[Reduction]) -> (String, String, Table) {
     let text = "Errors of the first resonance, the first antiresonance and the static give at the motor; the lowest mode \
                 left out and its share at the motor (1 moves it as much as the rigid turning does); a bound of the error of \
                 the motor's speed after a blow, over its first jump.";
-    ("Reduction to two masses".to_owned(), text.to_owned(), table)
+    Section::new("Reduction to two masses", text, table)
 }
 
-fn worth(parts: &[Leaving]) -> (String, String, Table) {
+fn worth(parts: &[Leaving]) -> Section {
     let mut table = Table::new(["if it were simplified", "resonance", "antiresonance", "give", "worth keeping"]);
     let change = |value: Option<f64>| value.map_or_else(|| "none left".to_owned(), signed);
     for part in parts {
@@ -84,7 +84,7 @@ fn worth(parts: &[Leaving]) -> (String, String, Table) {
         "Computed change at the motor when a part is left out; below {} in all three it is not worth keeping.",
         percent(WORTH)
     );
-    ("Parts and what they are worth".to_owned(), text, table)
+    Section::new("Parts and what they are worth", text, table)
 }
 
 /// A relative change in percent with its sign; what rounding leaves is none.

@@ -5,11 +5,12 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use super::campbell::{Critical, critical, critical_speeds, diagram};
+use super::figures::{campbell, shapes};
 use crate::cli::Failure;
 use crate::machine_file::TrainFile;
 use driveline_report::chart::Station;
 use driveline_report::format::significant;
-use driveline_report::{Fact, MachinePage, ModeFigure, Table};
+use driveline_report::{Fact, Section, Sheet, Table};
 
 /// The vibrations of a train, every part on its own shaft.
 #[derive(Clone, Debug, Serialize)]
@@ -65,7 +66,7 @@ impl TrainVibration {
     }
 
     /// Title, text and table of each part.
-    pub fn tables(&self) -> Vec<(String, String, Table)> {
+    pub fn tables(&self) -> Vec<Section> {
         let headings = ["mode", "Hz", "rad/s"].map(String::from).into_iter().chain(self.coordinates.iter().cloned());
         let mut table = Table::new(headings);
         for (index, mode) in self.resonances.iter().enumerate() {
@@ -78,7 +79,7 @@ impl TrainVibration {
              without strain: {}.",
             self.rigid_motions
         );
-        let modes = ("Frequencies and shapes".to_owned(), text, table);
+        let modes = Section::new("Frequencies and shapes", text, table);
         [modes].into_iter().chain(critical(&self.critical)).collect()
     }
 
@@ -88,27 +89,25 @@ impl TrainVibration {
         let inertia = file.train.inertias();
         let total: f64 = inertia.iter().sum();
         let stations = self.coordinates.iter().zip(&inertia);
-        let figure = |(index, mode): (usize, &TrainResonance)| ModeFigure {
-            title: format!("{}. {} Hz", index + 1, significant(mode.hz)),
-            shape: mode.energy.clone(),
-        };
         let natural: Vec<f64> = self.resonances.iter().map(|mode| mode.hz).collect();
         let mut facts = vec![fact("coordinates", self.coordinates.len().to_string())];
         facts.push(fact("motions without strain", self.rigid_motions.to_string()));
         if let Some(first) = natural.first() {
             facts.push(fact("first resonance", format!("{} Hz", significant(*first))));
         }
-        MachinePage {
+        let stations: Vec<Station> =
+            stations.map(|(name, j)| Station { name: name.clone(), share: j / total }).collect();
+        let diagram = diagram(&natural, file.running.as_ref(), &file.excitations, &self.critical);
+        let modes = self.resonances.iter().map(|mode| (mode.hz, &*mode.energy));
+        Sheet {
             name: self.name.clone(),
+            kicker: "natural vibrations and reduction".to_owned(),
             summary: "Natural vibrations of the whole train, every part on its own shaft: shares of the kinetic \
                       energy."
                 .to_owned(),
             facts,
-            stations: stations.map(|(name, j)| Station { name: name.clone(), share: j / total }).collect(),
-            modes: self.resonances.iter().enumerate().map(figure).collect(),
-            campbell: diagram(&natural, file.running.as_ref(), &file.excitations, &self.critical),
+            figures: shapes(&stations, modes).into_iter().chain(diagram.map(campbell)).collect(),
             tables: self.tables(),
-            ..MachinePage::default()
         }
         .page()
     }

@@ -13,8 +13,8 @@ pub fn section(survey: &Survey) -> Section {
         if ran.is_empty() {
             continue;
         }
-        for (title, text, table) in tables(ran) {
-            section = section.table(&format!("{scene}: {}", title.to_lowercase()), &text, &table);
+        for part in tables(ran) {
+            section = section.table(&format!("{scene}: {}", part.title.to_lowercase()), &part.text, &part.table);
         }
     }
     section
