@@ -28,25 +28,25 @@
 //! # Parts
 //! | part | constants | needs |
 //! |---|---|---|
-//! | [`TwoMassObserver`](crate::observer::TwoMassObserver), [`SemiImplicitObserver`](crate::observer::SemiImplicitObserver) | [`Machine::OBSERVER`] | |
-//! | [`RigidObserver`](crate::observer::RigidObserver) | [`Machine::RIGID_OBSERVER`], [`Machine::LOAD_SHARE`] | |
-//! | [`BacklashObserver`](crate::observer::BacklashObserver) | [`Machine::BACKLASH_OBSERVER`] | a gap in the chain |
-//! | [`CrankObserver`](crate::observer::CrankObserver) | [`HasCrank::CRANK_OBSERVER`] | [`HasCrank`] |
-//! | [`GearedObserver`](crate::observer::GearedObserver) | those of its observer, [`Machine::GEAR`] | |
-//! | [`SpeedLoop`](crate::governor::SpeedLoop) | [`Machine::SPEED_LOOP`], [`Machine::RAMP`], torque limit | |
-//! | [`SpeedGovernor`](crate::governor::SpeedGovernor) | [`Machine::GAINS`], [`Machine::RAMP`], those of its parts | |
-//! | [`SymmetricLimit`](crate::governor::SymmetricLimit), [`TorqueRange`](crate::governor::TorqueRange) | torque limit, [`Machine::LEAST_TORQUE`] | |
-//! | [`Curve`](crate::governor::Curve) | [`HasTorqueCurve::CURVE`], [`Machine::LEAST_TORQUE`] | [`HasTorqueCurve`] |
-//! | [`Slew`](crate::governor::Slew) | [`HasSlew::SLEW`], those of its limit | [`HasSlew`] |
-//! | [`BacklashTakeUp`](crate::governor::BacklashTakeUp) | [`HasBacklash::TAKE_UP`], those of its limit | [`HasBacklash`] |
-//! | [`Droop`](crate::governor::Droop) | [`HasDroop::DROOP`] | [`HasDroop`] |
-//! | [`Barred`](crate::governor::Barred) | [`HasBarredSpeeds::BARRED`] | [`HasBarredSpeeds`] |
-//! | [`FeedForward`](crate::governor::FeedForward), [`AccelerationFeedback`](crate::governor::AccelerationFeedback) | [`Machine::GAINS`] | [`GainSource::Governor`] |
-//! | [`ActiveDamping`](crate::governor::ActiveDamping) | [`Machine::SPEED_LOOP`] | |
-//! | [`Sequencer`](crate::governor::Sequencer) | [`HasSequencer::SEQUENCER`] | [`HasSequencer`] |
-//! | [`MovingAverage`](crate::governor::MovingAverage), [`CycleAverage`](crate::governor::CycleAverage) | none | |
-//! | [`Extremes`](crate::fluctuation::Extremes), [`Waveform`](crate::fluctuation::Waveform), [`CycleMean`](crate::fluctuation::CycleMean) | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
-//! | [`Phasors`](crate::balancing::Phasors) | [`HasVibration::PHASORS`] | [`HasVibration`] |
+//! | `TwoMassObserver`, `SemiImplicitObserver` | [`Machine::OBSERVER`] | |
+//! | `RigidObserver` | [`Machine::RIGID_OBSERVER`], [`Machine::LOAD_SHARE`] | |
+//! | `BacklashObserver` | [`Machine::BACKLASH_OBSERVER`] | a gap in the chain |
+//! | `CrankObserver` | [`HasCrank::CRANK_OBSERVER`] | [`HasCrank`] |
+//! | `GearedObserver` | those of its observer, [`Machine::GEAR`] | |
+//! | `SpeedLoop` | [`Machine::SPEED_LOOP`], [`Machine::RAMP`], torque limit | |
+//! | `SpeedGovernor` | [`Machine::GAINS`], [`Machine::RAMP`], those of its parts | |
+//! | `SymmetricLimit`, `TorqueRange` | torque limit, [`Machine::LEAST_TORQUE`] | |
+//! | `Curve` | [`HasTorqueCurve::CURVE`], [`Machine::LEAST_TORQUE`] | [`HasTorqueCurve`] |
+//! | `Slew` | [`HasSlew::SLEW`], those of its limit | [`HasSlew`] |
+//! | `BacklashTakeUp` | [`HasBacklash::TAKE_UP`], those of its limit | [`HasBacklash`] |
+//! | `Droop` | [`HasDroop::DROOP`] | [`HasDroop`] |
+//! | `Barred` | [`HasBarredSpeeds::BARRED`] | [`HasBarredSpeeds`] |
+//! | `FeedForward`, `AccelerationFeedback` | [`Machine::GAINS`] | [`GainSource::Governor`] |
+//! | `ActiveDamping` | [`Machine::SPEED_LOOP`] | |
+//! | `Sequencer` | [`HasSequencer::SEQUENCER`] | [`HasSequencer`] |
+//! | `MovingAverage`, `CycleAverage` | none | |
+//! | `Extremes`, `Waveform`, `CycleMean` | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
+//! | `Phasors` | [`HasVibration::PHASORS`] | [`HasVibration`] |
 //!
 //! A part of one's own implements [`Configure`] for itself and any machine; a part of the library that a machine uses
 //! with constants of its own is a newtype.

@@ -20,6 +20,7 @@ mod observer;
 mod phasors;
 mod settled;
 mod speed_loop;
+mod to;
 
 pub use actuator_monitor::ActuatorMonitorSettings;
 pub use bases::Bases;

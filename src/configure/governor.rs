@@ -140,8 +140,10 @@ macro_rules! governors {
                 TorqueRangeConfig::<$number>::new(M::LEAST_TORQUE, M::RATING.torque_limit, $bases);
             [K] HasTorqueCurve<K>, Curve<K> => CurveConfig<$number, K>,
                 CurveConfig::<$number, K>::new(&M::CURVE, M::LEAST_TORQUE, $bases);
-            [] HasSequencer, Sequencer => SequencerConfig<$number>, SequencerConfig::<$number>::new(&M::SEQUENCER, M::PERIOD, $bases);
-            [K] Machine, MovingAverage<$number, K> => MovingAverageConfig<$number, K>, MovingAverageConfig::<$number, K>::of_ticks();
+            [] HasSequencer, Sequencer => SequencerConfig<$number>,
+                SequencerConfig::<$number>::new(&M::SEQUENCER, M::PERIOD, $bases);
+            [K] Machine, MovingAverage<$number, K> => MovingAverageConfig<$number, K>,
+                MovingAverageConfig::<$number, K>::of_ticks();
         }
 
         impl<M: HasSlew, L> Configure<M, $number> for Slew<$number, L>

@@ -146,12 +146,12 @@ pub trait Machine {
 
     /// Plausibility limits of a sample: [`Rating::screening`].
     ///
-    /// Torque and setpoint are kept by 15 of 18, the innovation by 15. With an encoder of more than 2^17 counts a
+    /// Torque and setpoint are kept by 14 of 18, the innovation by 15. With an encoder of more than 2^17 counts a
     /// smaller one is found out sooner.
     const SCREENING: Screening = Self::RATING.screening(Self::ENCODER, Self::RATE);
     /// Bases of fixed point: [`Rating::bases`] with observer and speed loop.
     ///
-    /// Kept by 9 of 18; the others have a fine encoder or a soft governor, or leave more room for the speed. A machine
+    /// Kept by 7 of 18; the others have a fine encoder or a soft governor, or leave more room for the speed. A machine
     /// of one mass, or one whose shaft no observer can follow, names [`Bases::rigid`] or [`Bases::new`].
     const BASES: Bases = Self::RATING.bases(&Self::OBSERVER, &Self::SPEED_LOOP);
 

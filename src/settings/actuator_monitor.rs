@@ -1,11 +1,11 @@
 //! Constants of the watch on an actuator.
 
-use super::convert::{get, or_stop};
-use super::governor_parts::{Values, all_finite, in_fixed, ticks};
-use super::{Bases, Error, Format};
+use super::convert::{constants, get};
+use super::governor_parts::{all_finite, ticks};
+use super::to::Values;
+use super::{Error, Format};
 use crate::governor::ActuatorMonitorConfig;
 use crate::math::exp_m1;
-use crate::number::{Coefficient, Fixed};
 
 const WATCH: &str = "the actuator monitor needs a tolerance below the largest torque, both positive, finite and \
     within twice the base of the torque in fixed point";
@@ -24,13 +24,13 @@ pub struct ActuatorMonitorSettings {
     pub timeout: f64,
 }
 
-const fn torques(settings: &ActuatorMonitorSettings, format: &Format) -> Values<2, 0> {
+const fn torques(settings: &ActuatorMonitorSettings, format: &Format) -> Values<2, 1> {
     let ActuatorMonitorSettings { tolerance, max_torque, .. } = *settings;
     let per_unit = tolerance / format.bases.torque;
     // A tolerance that rounds to zero would reject every position.
     let measured = if format.unit == 1.0 { per_unit as f32 > 0.0 } else { per_unit * format.unit >= 1.0 };
     if measured && max_torque > tolerance && all_finite(&[tolerance, max_torque]) {
-        Ok(([per_unit, max_torque / format.bases.torque], []))
+        Ok(([per_unit, max_torque / format.bases.torque], [0.0]))
     } else {
         Err(Error::Value(WATCH))
     }
@@ -41,79 +41,20 @@ const fn covered(lag: f64, period: f64) -> Result<f64, Error> {
     if lag > 0.0 && lag.is_finite() { Ok(-exp_m1(-period / lag)) } else { Err(Error::Value(LAG)) }
 }
 
-macro_rules! float {
-    ($float:ident) => {
-        impl<const K: usize> ActuatorMonitorConfig<$float, K> {
-            /// The constants as floats: the actuator's lags in a row \[s\], and the period of a tick \[s\].
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(lags: &[f64; K], settings: &ActuatorMonitorSettings, period: f64, bases: Bases) -> Self {
-                or_stop!(Self::try_new(lags, settings, period, bases))
-            }
-
-            /// The constants as floats.
-            ///
-            /// # Errors
-            /// [`Error::Value`] for a torque or a lag that is not positive and finite, a tolerance of the largest
-            /// torque or more, a timeout of 2^31 ticks or more.
-            pub const fn try_new(
-                lags: &[f64; K],
-                settings: &ActuatorMonitorSettings,
-                period: f64,
-                _: Bases,
-            ) -> Result<Self, Error> {
-                let ([tolerance, max_torque], []) = get!(torques(settings, &Format::FLOAT));
-                let timeout = get!(ticks(settings.timeout, period));
-                let mut share = [0.0; K];
-                let mut k = 0;
-                while k < K {
-                    share[k] = get!(covered(lags[k], period)) as $float;
-                    k += 1;
-                }
-                Ok(ActuatorMonitorConfig {
-                    share,
-                    tolerance: tolerance as $float,
-                    max_torque: max_torque as $float,
-                    timeout,
-                })
-            }
-        }
-    };
-}
-
-float!(f32);
-float!(f64);
-
-impl<const K: usize> ActuatorMonitorConfig<Fixed, K> {
-    /// The constants in fixed point: the actuator's lags in a row \[s\], and the period of a tick \[s\].
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(lags: &[f64; K], settings: &ActuatorMonitorSettings, period: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(lags, settings, period, bases))
-    }
-
-    /// The constants in fixed point.
-    ///
-    /// # Errors
-    /// [`Error::Value`] as for floats, for a lag of 1.44 ticks or less, and for torques beyond twice their base.
-    pub const fn try_new(
-        lags: &[f64; K],
-        settings: &ActuatorMonitorSettings,
-        period: f64,
-        bases: Bases,
-    ) -> Result<Self, Error> {
-        get!(bases.check());
-        let ([tolerance, max_torque], []) = get!(in_fixed(torques(settings, &Format::fixed(bases)), WATCH));
+constants! {
+    /// [`Error::Value`] for a torque or a lag that is not positive and finite, a tolerance of the largest torque or
+    /// more, a timeout of 2^31 ticks or more; in fixed point for a lag of 1.44 ticks or less, and for torques beyond
+    /// twice their base.
+    impl[const K: usize] ActuatorMonitorConfig[, K],
+    new, try_new(lags: &[f64; K], settings: &ActuatorMonitorSettings, period: f64), |format| {
+        let ([tolerance, max_torque], [none]) = get!(To::part(torques(settings, &format), WATCH));
         let timeout = get!(ticks(settings.timeout, period));
-        let mut share = [Coefficient::ZERO; K];
+        let mut share = [none; K];
         let mut k = 0;
         while k < K {
-            share[k] = match Coefficient::from_f64(get!(covered(lags[k], period))) {
-                Some(share) => share,
-                None => return Err(Error::Value(LAG)),
+            share[k] = match To::coefficient(get!(covered(lags[k], period)), LAG) {
+                Ok(share) => share,
+                Err(_) => return Err(Error::Value(LAG)),
             };
             k += 1;
         }

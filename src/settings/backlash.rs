@@ -1,10 +1,9 @@
 //! Constants of the observer of backlash.
 
-use super::convert::{fixed, get, or_stop, positive, single};
+use super::convert::{constants, get, positive};
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
 use crate::design::BacklashDesign;
-use crate::number::Fixed;
 use crate::observer::{BacklashConfig, Contact, Correction, FreeFlight, TwoMassConfig};
 
 const GAIN: &str = "a searching gain of the observer of backlash is beyond the range of fixed point: let the twist \
@@ -57,91 +56,36 @@ const fn added(design: &BacklashDesign, format: &Format) -> Added {
     }
 }
 
-macro_rules! float {
-    ($float:ident, $rounded:ident) => {
-        impl BacklashConfig<$float> {
-            /// The constants of a design as floats.
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(design: &BacklashDesign, bases: Bases) -> Self {
-                or_stop!(Self::try_new(design, bases))
-            }
-
-            /// The constants of a design as floats.
-            ///
-            /// # Errors
-            /// [`Error::Value`] for a gap that is not positive and finite.
-            pub const fn try_new(design: &BacklashDesign, bases: Bases) -> Result<Self, Error> {
-                let c = TwoMassConfig::<$float>::new(&design.contact, bases);
-                let a = added(design, &Format::FLOAT);
-                Ok(BacklashConfig {
-                    forcing: c.forcing,
-                    half_gap: get!(positive(a.half_gap, GAP)) as $float,
-                    contact: Contact { twist: c.twist, twist_rate: c.twist_rate, leaving: $rounded(a.leaving) },
-                    free: FreeFlight {
-                        twist: $rounded(a.free.twist),
-                        twist_rate: a.free.twist_rate as $float,
-                        meeting: $rounded(a.free.meeting),
-                    },
-                    acceleration: c.acceleration,
-                    turn: c.turn,
-                    settled: Correction { states: c.correction, angle: c.angle_correction },
-                    searching: Correction { states: $rounded(a.searching.states), angle: a.searching.angle as $float },
-                    hold: design.hold,
-                    speed: c.speed,
-                    share: c.share,
-                    shaft: c.shaft,
-                    compliance: c.compliance,
-                })
-            }
-        }
-    };
-}
-
-float!(f32, single);
-float!(f64, exactly);
-
-const fn exactly<const K: usize>(values: [f64; K]) -> [f64; K] {
-    values
-}
-
-impl BacklashConfig<Fixed> {
-    /// The constants of a design in fixed point.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(design: &BacklashDesign, bases: Bases) -> Self {
-        or_stop!(Self::try_new(design, bases))
-    }
-
-    /// The constants of a design in fixed point.
-    ///
-    /// # Errors
-    /// [`Error::Coefficient`] where one is beyond the range of fixed point, [`Error::Value`] for a gap wider than the
-    /// bases allow.
-    pub const fn try_new(design: &BacklashDesign, bases: Bases) -> Result<Self, Error> {
-        let c = get!(TwoMassConfig::<Fixed>::try_new(&design.contact, bases));
-        let a = added(design, &Format::fixed(bases));
-        if !(a.half_gap > 0.0 && a.half_gap <= 1.0) {
+constants! {
+    /// [`Error::Coefficient`] where one is beyond the range of fixed point, [`Error::Value`] for a gap that is not
+    /// positive and finite, or wider than the bases allow.
+    impl[] BacklashConfig[], new, try_new(design: &BacklashDesign), |format| {
+        let c = get!(TwoMassConfig::<Number>::try_new(&design.contact, format.bases));
+        let a = added(design, &format);
+        if format.unit == 1.0 {
+            get!(positive(a.half_gap, GAP));
+        } else if !(a.half_gap > 0.0 && a.half_gap <= 1.0) {
             return Err(Error::Value(GAP));
         }
-        let [angle] = get!(fixed([a.searching.angle], GAIN));
-        let [twist_rate] = get!(fixed([a.free.twist_rate], STEP));
+        let angle = get!(To::coefficient(a.searching.angle, GAIN));
+        let twist_rate = get!(To::coefficient(a.free.twist_rate, STEP));
         Ok(BacklashConfig {
             forcing: c.forcing,
-            half_gap: Fixed::from_f64(a.half_gap),
-            contact: Contact { twist: c.twist, twist_rate: c.twist_rate, leaving: get!(fixed(a.leaving, STEP)) },
+            half_gap: get!(To::number(a.half_gap, GAP)),
+            contact: Contact {
+                twist: c.twist,
+                twist_rate: c.twist_rate,
+                leaving: get!(To::coefficients(a.leaving, STEP)),
+            },
             free: FreeFlight {
-                twist: get!(fixed(a.free.twist, STEP)),
+                twist: get!(To::coefficients(a.free.twist, STEP)),
                 twist_rate,
-                meeting: get!(fixed(a.free.meeting, STEP)),
+                meeting: get!(To::coefficients(a.free.meeting, STEP)),
             },
             acceleration: c.acceleration,
             turn: c.turn,
             settled: Correction { states: c.correction, angle: c.angle_correction },
-            searching: Correction { states: get!(fixed(a.searching.states, GAIN)), angle },
+            searching: Correction { states: get!(To::coefficients(a.searching.states, GAIN)), angle },
             hold: design.hold,
             speed: c.speed,
             share: c.share,

@@ -51,17 +51,6 @@ pub(super) const fn fixed<const K: usize>(values: [f64; K], sentence: &'static s
     Ok(out)
 }
 
-/// Coefficients in `f32`.
-pub(super) const fn single<const K: usize>(values: [f64; K]) -> [f32; K] {
-    let mut out = [0.0; K];
-    let mut k = 0;
-    while k < K {
-        out[k] = values[k] as f32;
-        k += 1;
-    }
-    out
-}
-
 /// A positive value per unit of its base, which does not round to zero; the error names it.
 pub(super) const fn per_unit(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
     let fixed = Fixed::from_f64(value);
@@ -71,6 +60,55 @@ pub(super) const fn per_unit(value: f64, sentence: &'static str) -> Result<Fixed
 /// A positive value that a float holds, and not as zero; the error names it.
 pub(super) const fn positive(value: f64, sentence: &'static str) -> Result<f64, Error> {
     if value as f32 > 0.0 && (value as f32).is_finite() { Ok(value) } else { Err(Error::Value(sentence)) }
+}
+
+/// `new` and `try_new` of constants in each number, with the bases behind their own arguments. The body is that of
+/// `try_new`, with [`To`] of the number and the format that the bases give it.
+macro_rules! constants {
+    (
+        $(#[$doc:meta])* impl[$($generic:tt)*] $name:ident[$($rest:tt)*],
+        $new:ident, $try_new:ident($($argument:ident: $type:ty),*), |$format:ident| $body:block
+    ) => {
+        constants! {
+            @one f32, [$(#[$doc])*] [$($generic)*] $name [$($rest)*] $new $try_new ($($argument: $type,)*) $format $body
+        }
+        constants! {
+            @one f64, [$(#[$doc])*] [$($generic)*] $name [$($rest)*] $new $try_new ($($argument: $type,)*) $format $body
+        }
+        constants! {
+            @one $crate::number::Fixed,
+            [$(#[$doc])*] [$($generic)*] $name [$($rest)*] $new $try_new ($($argument: $type,)*) $format $body
+        }
+    };
+    (
+        @one $number:ty, [$($doc:tt)*] [$($generic:tt)*] $name:ident [$($rest:tt)*]
+        $new:ident $try_new:ident ($($argument:ident: $type:ty,)*) $format:ident $body:block
+    ) => {
+        impl<$($generic)*> $name<$number $($rest)*> {
+            /// The constants in this number. Floats are in SI units and leave the bases aside.
+            ///
+            /// # Panics
+            /// At compile time in a constant, with the sentence of the error of the `try_` form.
+            pub const fn $new($($argument: $type,)* bases: $crate::settings::Bases) -> Self {
+                $crate::settings::convert::or_stop!(Self::$try_new($($argument,)* bases))
+            }
+
+            /// The constants in this number. Floats are in SI units and leave the bases aside.
+            ///
+            /// # Errors
+            $($doc)*
+            pub const fn $try_new(
+                $($argument: $type,)* bases: $crate::settings::Bases
+            ) -> Result<Self, $crate::settings::Error> {
+                #[allow(dead_code)]
+                type Number = $number;
+                #[allow(dead_code)]
+                type To = $crate::settings::to::To<$number>;
+                let $format = $crate::settings::convert::get!(To::format(bases));
+                $body
+            }
+        }
+    };
 }
 
 /// Unwraps a result in a `const fn` that returns one.
@@ -93,4 +131,4 @@ macro_rules! or_stop {
     };
 }
 
-pub(super) use {get, or_stop};
+pub(super) use {constants, get, or_stop};

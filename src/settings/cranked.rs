@@ -1,13 +1,11 @@
 //! Constants of the observer of a cranked machine.
 
-use core::f64::consts::TAU;
-
-use super::convert::{get, or_stop};
-use super::{Bases, Error};
+use super::Error;
+use super::convert::{constants, get};
 use crate::angle::RotorAngleConfig;
 use crate::design::CrankedDesign;
-use crate::number::Fixed;
 use crate::observer::{CrankConfig, RigidConfig, TABLE_POINTS, TablePoint};
+use core::f64::consts::TAU;
 
 const GEAR: &str =
     "the crank must turn between 1/65536 and 15 times while the motor turns once, in at most 2^20 turns of the motor";
@@ -44,77 +42,27 @@ impl CrankedDesign {
     }
 }
 
-macro_rules! float {
-    ($float:ident) => {
-        impl CrankConfig<$float> {
-            /// The constants of a design as floats.
-            ///
-            /// The shaft torque is that between the constant inertia and the crank drive.
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(design: &CrankedDesign, bases: Bases) -> Self {
-                or_stop!(Self::try_new(design, bases))
-            }
-
-            /// [`new`](Self::new), with an error instead of a panic.
-            ///
-            /// # Errors
-            /// [`Error::Value`] for a gear that cannot be followed.
-            pub const fn try_new(design: &CrankedDesign, bases: Bases) -> Result<Self, Error> {
-                let exact = design.points(1.0, 1.0);
-                let mut points = [TablePoint { inertia_ratio: 0.0, inertia_slope: 0.0 }; TABLE_POINTS];
-                let mut k = 0;
-                while k < TABLE_POINTS {
-                    points[k] =
-                        TablePoint { inertia_ratio: exact[k][0] as $float, inertia_slope: exact[k][1] as $float };
-                    k += 1;
-                }
-                Ok(CrankConfig {
-                    rigid: RigidConfig::<$float>::new(&design.rigid, design.load_share(), bases),
-                    turning: get!(design.turning()),
-                    points,
-                })
-            }
-        }
-    };
-}
-
-float!(f32);
-float!(f64);
-
-impl CrankConfig<Fixed> {
-    /// The constants of a design in fixed point.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(design: &CrankedDesign, bases: Bases) -> Self {
-        or_stop!(Self::try_new(design, bases))
-    }
-
-    /// The constants of a design in fixed point.
-    ///
-    /// # Errors
-    /// [`Error::Coefficient`] or [`Error::Value`] for a value beyond fixed point, or a gear ratio out of range.
-    pub const fn try_new(design: &CrankedDesign, bases: Bases) -> Result<Self, Error> {
-        let rigid = get!(RigidConfig::<Fixed>::try_new(&design.rigid, design.load_share(), bases));
-        let exact = design.points(bases.torque, bases.speed);
-        let mut points = [TablePoint { inertia_ratio: Fixed::ONE, inertia_slope: Fixed::ONE }; TABLE_POINTS];
+constants! {
+    /// [`Error::Coefficient`] or [`Error::Value`] for what fixed point cannot hold, or a gear that cannot be followed.
+    impl[] CrankConfig[], new, try_new(design: &CrankedDesign), |format| {
+        let rigid = get!(RigidConfig::<Number>::try_new(&design.rigid, design.load_share(), format.bases));
+        let exact = design.points(format.bases.torque, format.bases.speed);
+        let none = To::exactly(0.0);
+        let mut points = [TablePoint { inertia_ratio: none, inertia_slope: none }; TABLE_POINTS];
         let mut k = 0;
         while k < TABLE_POINTS {
             let [inertia_ratio, inertia_slope] = exact[k];
             // With the accelerating torque held within twice the base, the torque that is given stays within the
             // headroom.
-            if !(inertia_ratio < 1.0 / 0.35) {
+            if format.unit != 1.0 && !(inertia_ratio < 1.0 / 0.35) {
                 return Err(Error::Value(LIGHT));
             }
-            if !(inertia_slope.abs() < 0.9) {
+            if format.unit != 1.0 && !(inertia_slope.abs() < 0.9) {
                 return Err(Error::Value(DRAG));
             }
             points[k] = TablePoint {
-                inertia_ratio: Fixed::from_f64(inertia_ratio),
-                inertia_slope: Fixed::from_f64(inertia_slope),
+                inertia_ratio: To::exactly(inertia_ratio),
+                inertia_slope: To::exactly(inertia_slope),
             };
             k += 1;
         }

@@ -1,13 +1,14 @@
 //! Constants of the composed governor's parts.
 
-use super::convert::{fixed, get, or_stop};
+use super::convert::{constants, fixed, get, or_stop};
+use super::to::Values;
 use super::{Bases, Error, Format};
 use crate::design::{GovernorDesign, SpeedLoopDesign};
 use crate::governor::{
     AccelerationFeedbackConfig, ActiveDampingConfig, DroopConfig, FeedForwardConfig, Gains, MovingAverageConfig,
     SequencerConfig, SpeedRange, SymmetricLimitConfig, TorqueRangeConfig, TransportDelayConfig,
 };
-use crate::number::{Coefficient, Fixed};
+use crate::number::Fixed;
 
 const GAIN: &str =
     "a gain of the governor is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
@@ -49,9 +50,6 @@ pub struct SequencerSettings {
     /// Time that a start may take \[s\].
     pub start: f64,
 }
-
-/// Numbers and coefficients of a part, per unit of a format.
-pub(super) type Values<const N: usize, const C: usize> = Result<([f64; N], [f64; C]), Error>;
 
 pub(super) const fn all_finite(values: &[f64]) -> bool {
     let mut k = 0;
@@ -152,197 +150,89 @@ pub(super) const fn ticks(time: f64, period: f64) -> Result<u32, Error> {
     if time >= 0.0 && period > 0.0 && ticks < 2_147_483_648.0 { Ok(ticks as u32) } else { Err(Error::Value(TIMES)) }
 }
 
-/// Numbers in fixed point, each within twice its base.
-const fn numbers<const K: usize>(values: [f64; K], sentence: &'static str) -> Result<[Fixed; K], Error> {
-    let mut out = [Fixed::from_bits(0); K];
-    let mut k = 0;
-    while k < K {
-        if !(values[k].abs() <= 2.0) {
-            return Err(Error::Value(sentence));
-        }
-        out[k] = Fixed::from_f64(values[k]);
-        k += 1;
+constants! {
+    /// [`Error::Value`] for a ramp [rad/s2] that is not positive and finite, or that the number rounds to none;
+    /// [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.
+    impl[] Gains[], new, try_new(design: &GovernorDesign, ramp: f64), |format| {
+        let design = [design.proportional, design.integral, 0.0, design.acceleration, design.period];
+        let ([ramp], [proportional, integral, anti_windup]) = get!(To::part(gains(&design, ramp, &format), GAIN));
+        Ok(Gains { proportional, integral, anti_windup, ramp })
     }
-    Ok(out)
 }
 
-/// Nothing, where a part has no numbers or no coefficients.
-pub(super) const fn in_fixed<const N: usize, const C: usize>(
-    values: Values<N, C>,
-    sentence: &'static str,
-) -> Result<([Fixed; N], [Coefficient; C]), Error> {
-    let (n, c) = get!(values);
-    Ok((get!(numbers(n, sentence)), get!(fixed(c, sentence))))
-}
-
-/// `new` and `try_new` of a part for floats and for fixed point, from its values in a format.
-macro_rules! part {
-    (
-        $name:ident, ($($argument:ident: $type:ty),*), $sentence:ident, $errors:literal,
-        |$format:ident| $values:expr, |$cast:ident, $n:pat_param, $c:pat_param| $build:expr
-    ) => {
-        part!(@float f32, $name, ($($argument: $type),*), $errors, |$format| $values, |$cast, $n, $c| $build);
-        part!(@float f64, $name, ($($argument: $type),*), $errors, |$format| $values, |$cast, $n, $c| $build);
-
-        impl $name<Fixed> {
-            /// The constants in fixed point.
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new($($argument: $type,)* bases: Bases) -> Self {
-                or_stop!(Self::try_new($($argument,)* bases))
-            }
-
-            /// The constants in fixed point.
-            ///
-            /// # Errors
-            #[doc = $errors]
-            pub const fn try_new($($argument: $type,)* bases: Bases) -> Result<Self, Error> {
-                macro_rules! $cast { ($value:expr) => { core::convert::identity($value) }; }
-                get!(bases.check());
-                let $format = Format::fixed(bases);
-                let ($n, $c) = get!(in_fixed($values, $sentence));
-                Ok($build)
-            }
-        }
-    };
-    (
-        @float $float:ident, $name:ident, ($($argument:ident: $type:ty),*), $errors:literal,
-        |$format:ident| $values:expr, |$cast:ident, $n:pat_param, $c:pat_param| $build:expr
-    ) => {
-        impl $name<$float> {
-            /// The constants as floats.
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new($($argument: $type,)* bases: Bases) -> Self {
-                or_stop!(Self::try_new($($argument,)* bases))
-            }
-
-            /// The constants as floats.
-            ///
-            /// # Errors
-            #[doc = $errors]
-            pub const fn try_new($($argument: $type,)* _: Bases) -> Result<Self, Error> {
-                macro_rules! $cast { ($value:expr) => { $value as $float }; }
-                let $format = Format::FLOAT;
-                let ($n, $c) = get!($values);
-                Ok($build)
-            }
-        }
-    };
-}
-
-part!(
-    Gains, (design: &GovernorDesign, ramp: f64), GAIN,
-    "[`Error::Value`] for a ramp [rad/s2] that is not positive and finite, or that the number rounds to none; \
-        [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.",
-    |format| gains(&[design.proportional, design.integral, 0.0, design.acceleration, design.period], ramp, &format),
-    |cast, [ramp], [proportional, integral, anti_windup]| Gains {
-        proportional: cast!(proportional),
-        integral: cast!(integral),
-        anti_windup: cast!(anti_windup),
-        ramp: cast!(ramp),
+constants! {
+    /// [`Error`] for a droop (a fraction of the rated speed [rad/s] at the rated torque [N m]) that is out of range.
+    impl[] DroopConfig[], new, try_new(fraction: f64, rated_speed: f64, rated_torque: f64), |format| {
+        let ([], [droop]) = get!(To::part(droop(fraction, rated_speed, rated_torque, &format), DROOP));
+        Ok(DroopConfig { droop })
     }
-);
-
-part!(
-    DroopConfig, (fraction: f64, rated_speed: f64, rated_torque: f64), DROOP,
-    "[`Error`] for a droop (a fraction of the rated speed [rad/s] at the rated torque [N m]) that is out of range.",
-    |format| droop(fraction, rated_speed, rated_torque, &format),
-    |cast, [], [droop]| DroopConfig { droop: cast!(droop) }
-);
-
-part!(
-    FeedForwardConfig, (share: f64), SHARE,
-    "[`Error::Value`] for a share that is not from 0 to 1.",
-    |format| feed_forward(share, &format),
-    |cast, [], [share]| FeedForwardConfig { share: cast!(share) }
-);
-
-part!(
-    AccelerationFeedbackConfig, (design: &GovernorDesign), ACCELERATION,
-    "[`Error`] for a feedback that is negative or not finite, or in fixed point of twice the torque that accelerates \
-        the load or more.",
-    |format| acceleration(design.acceleration, &format),
-    |cast, [], [feedback]| AccelerationFeedbackConfig { feedback: cast!(feedback) }
-);
-
-part!(
-    ActiveDampingConfig, (design: &SpeedLoopDesign), GAIN,
-    "[`Error::Coefficient`] for a gain that is not finite, or beyond fixed point.",
-    |format| damping(design.damping, &format),
-    |cast, [], [damping]| ActiveDampingConfig { damping: cast!(damping) }
-);
-
-part!(
-    SymmetricLimitConfig, (torque: f64), LIMIT,
-    "[`Error::Value`] for a torque [N m] that is not positive and finite, or beyond twice its base.",
-    |format| between(0.0, torque, &format),
-    |cast, [_, torque], []| SymmetricLimitConfig { torque: cast!(torque) }
-);
-
-part!(
-    TorqueRangeConfig, (min: f64, max: f64), LIMIT,
-    "[`Error::Value`] for torques [N m] that are not at most and above zero and finite, or beyond twice their base.",
-    |format| between(min, max, &format),
-    |cast, [min, max], []| TorqueRangeConfig { min: cast!(min), max: cast!(max) }
-);
-
-part!(
-    SequencerConfig, (settings: &SequencerSettings, period: f64), MODES,
-    "[`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` \\[s\\] or \
-        more.",
-    |format| windows(settings, &format),
-    |cast, [middle, half, centre, reach, shaft, standstill], []| SequencerConfig {
-        running: SpeedRange { middle: cast!(middle), half: cast!(half) },
-        allowed: SpeedRange { middle: cast!(centre), half: cast!(reach) },
-        shaft_torque: cast!(shaft),
-        standstill: cast!(standstill),
-        trip_delay: get!(ticks(settings.trip_delay, period)),
-        underspeed_delay: get!(ticks(settings.underspeed_delay, period)),
-        start: get!(ticks(settings.start, period)),
-    }
-);
-
-macro_rules! gains_of_speed_loop {
-    ($float:ident) => {
-        impl Gains<$float> {
-            /// The gains of a speed loop, for a torque-controlled drive, as floats; [`ActiveDampingConfig`] takes the
-            /// rest of it.
-            ///
-            /// # Panics
-            /// At compile time in a constant, where the ramp [rad/s2] is not positive and finite.
-            pub const fn of_speed_loop(design: &SpeedLoopDesign, ramp: f64, _: Bases) -> Self {
-                let design = [design.proportional, design.integral, design.damping, 0.0, design.period];
-                let ([ramp], [proportional, integral, anti_windup]) = or_stop!(gains(&design, ramp, &Format::FLOAT));
-                Gains {
-                    proportional: proportional as $float,
-                    integral: integral as $float,
-                    anti_windup: anti_windup as $float,
-                    ramp: ramp as $float,
-                }
-            }
-        }
-    };
 }
 
-gains_of_speed_loop!(f32);
-gains_of_speed_loop!(f64);
+constants! {
+    /// [`Error::Value`] for a share that is not from 0 to 1.
+    impl[] FeedForwardConfig[], new, try_new(share: f64), |format| {
+        let ([], [share]) = get!(To::part(feed_forward(share, &format), SHARE));
+        Ok(FeedForwardConfig { share })
+    }
+}
 
-impl Gains<Fixed> {
-    /// The gains of a speed loop, for a torque-controlled drive, in fixed point; [`ActiveDampingConfig`] takes the rest
-    /// of it.
-    ///
-    /// # Panics
-    /// At compile time in a constant, where a gain or the ramp [rad/s2] is beyond fixed point.
-    pub const fn of_speed_loop(design: &SpeedLoopDesign, ramp: f64, bases: Bases) -> Self {
+constants! {
+    /// [`Error`] for a feedback that is negative or not finite, or in fixed point of twice the torque that
+    /// accelerates the load or more.
+    impl[] AccelerationFeedbackConfig[], new, try_new(design: &GovernorDesign), |format| {
+        let ([], [feedback]) = get!(To::part(acceleration(design.acceleration, &format), ACCELERATION));
+        Ok(AccelerationFeedbackConfig { feedback })
+    }
+}
+
+constants! {
+    /// [`Error::Coefficient`] for a gain that is not finite, or beyond fixed point.
+    impl[] ActiveDampingConfig[], new, try_new(design: &SpeedLoopDesign), |format| {
+        let ([], [damping]) = get!(To::part(damping(design.damping, &format), GAIN));
+        Ok(ActiveDampingConfig { damping })
+    }
+}
+
+constants! {
+    /// [`Error::Value`] for a torque [N m] that is not positive and finite, or beyond twice its base.
+    impl[] SymmetricLimitConfig[], new, try_new(torque: f64), |format| {
+        let ([_, torque], []) = get!(To::part(between(0.0, torque, &format), LIMIT));
+        Ok(SymmetricLimitConfig { torque })
+    }
+}
+
+constants! {
+    /// [`Error::Value`] for torques [N m] that are not at most and above zero and finite, or beyond twice their base.
+    impl[] TorqueRangeConfig[], new, try_new(min: f64, max: f64), |format| {
+        let ([min, max], []) = get!(To::part(between(min, max, &format), LIMIT));
+        Ok(TorqueRangeConfig { min, max })
+    }
+}
+
+constants! {
+    /// [`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` \[s\] or
+    /// more.
+    impl[] SequencerConfig[], new, try_new(settings: &SequencerSettings, period: f64), |format| {
+        let ([middle, half, centre, reach, shaft, standstill], []) = get!(To::part(windows(settings, &format), MODES));
+        Ok(SequencerConfig {
+            running: SpeedRange { middle, half },
+            allowed: SpeedRange { middle: centre, half: reach },
+            shaft_torque: shaft,
+            standstill,
+            trip_delay: get!(ticks(settings.trip_delay, period)),
+            underspeed_delay: get!(ticks(settings.underspeed_delay, period)),
+            start: get!(ticks(settings.start, period)),
+        })
+    }
+}
+
+constants! {
+    /// [`Error::Value`] for a ramp [rad/s2] that is not positive and finite, [`Error::Coefficient`] for a gain beyond
+    /// fixed point.
+    impl[] Gains[], of_speed_loop, try_of_speed_loop(design: &SpeedLoopDesign, ramp: f64), |format| {
         let design = [design.proportional, design.integral, design.damping, 0.0, design.period];
-        let values = gains(&design, ramp, &Format::fixed(bases));
-        let ([ramp], [proportional, integral, anti_windup]) = or_stop!(in_fixed(values, GAIN));
-        Gains { proportional, integral, anti_windup, ramp }
+        let ([ramp], [proportional, integral, anti_windup]) = get!(To::part(gains(&design, ramp, &format), GAIN));
+        Ok(Gains { proportional, integral, anti_windup, ramp })
     }
 }
 

@@ -1,12 +1,12 @@
 //! Constants of the composed governor's parts that are shapes: barred ranges, torque curves, and the slew round another
 //! limit.
 
-use super::convert::{get, or_stop};
-use super::governor_parts::{LIMIT, RAMP, Values, all_finite, between, in_fixed, least_step};
+use super::convert::{constants, get};
+use super::governor_parts::{LIMIT, RAMP, all_finite, between, least_step};
+use super::to::Values;
 use super::{Bases, Error, Format};
 use crate::design::{BarredSpeeds, TorqueCurve};
 use crate::governor::{BarredConfig, CurveConfig, CurvePiece, SlewConfig, SpeedRange};
-use crate::number::{Coefficient, Fixed};
 
 const SLEW: &str =
     "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
@@ -54,116 +54,17 @@ const fn quick(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
     }
 }
 
-macro_rules! float_arrays {
-    ($float:ident) => {
-        impl<const K: usize> BarredConfig<$float, K> {
-            /// The constants as floats.
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64, bases: Bases) -> Self {
-                or_stop!(Self::try_new(barred, quick_ramp, period, bases))
-            }
-
-            /// The constants as floats.
-            ///
-            /// # Errors
-            /// [`Error::Value`] for other than `K` ranges, or a quick ramp [rad/s2] that is not positive and finite.
-            pub const fn try_new(
-                barred: &BarredSpeeds<K>,
-                quick_ramp: f64,
-                period: f64,
-                _: Bases,
-            ) -> Result<Self, Error> {
-                let format = Format::FLOAT;
-                let ([step], []) = get!(quick(quick_ramp, period, &format));
-                let mut ranges = [SpeedRange { middle: 0.0, half: 0.0 }; K];
-                let mut k = 0;
-                while k < K {
-                    let ([middle, half], []) = get!(range(barred, k, &format));
-                    ranges[k] = SpeedRange { middle: middle as $float, half: half as $float };
-                    k += 1;
-                }
-                Ok(BarredConfig { ranges, quick: step as $float })
-            }
-        }
-
-        impl<const K: usize> CurveConfig<$float, K> {
-            /// The constants as floats; `min` is the smallest torque, zero or below [N m].
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(curve: &TorqueCurve<K>, min: f64, bases: Bases) -> Self {
-                or_stop!(Self::try_new(curve, min, bases))
-            }
-
-            /// The constants as floats; `min` is the smallest torque, zero or below [N m].
-            ///
-            /// # Errors
-            /// [`Error::Value`] for a least torque above zero or not finite.
-            pub const fn try_new(curve: &TorqueCurve<K>, min: f64, _: Bases) -> Result<Self, Error> {
-                let format = Format::FLOAT;
-                let ([min, _], []) = get!(between(min, 1.0, &format));
-                let mut pieces = [CurvePiece::<$float> { speed: 0.0, torque: 0.0, slope: 0.0 }; K];
-                let mut k = 0;
-                while k < K {
-                    let ([speed, torque], [slope]) = get!(piece(curve, k, &format));
-                    pieces[k] = CurvePiece { speed: speed as $float, torque: torque as $float, slope: slope as $float };
-                    k += 1;
-                }
-                Ok(CurveConfig { pieces, min: min as $float })
-            }
-        }
-
-        impl<L: Copy> SlewConfig<$float, L> {
-            /// The constants as floats: torque per time [N m/s], the other limit, and the period of a tick \[s\].
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(rate: f64, limit: L, period: f64, bases: Bases) -> Self {
-                or_stop!(Self::try_new(rate, limit, period, bases))
-            }
-
-            /// The constants as floats.
-            ///
-            /// # Errors
-            /// [`Error::Value`] for a rate that is not positive and finite.
-            pub const fn try_new(rate: f64, limit: L, period: f64, _: Bases) -> Result<Self, Error> {
-                let ([step], []) = get!(slew(rate, period, &Format::FLOAT));
-                Ok(SlewConfig { step: step as $float, limit })
-            }
-        }
-    };
-}
-
-float_arrays!(f32);
-float_arrays!(f64);
-
-impl<const K: usize> BarredConfig<Fixed, K> {
-    /// The constants in fixed point.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(barred, quick_ramp, period, bases))
-    }
-
-    /// The constants in fixed point.
-    ///
-    /// # Errors
+constants! {
     /// [`Error::Value`] for other than `K` ranges, one beyond twice the base of the speed, or a quick ramp [rad/s2]
     /// that is not positive and finite.
-    pub const fn try_new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
-        let format = Format::fixed(bases);
-        let ([quick], []) = get!(in_fixed(quick(quick_ramp, period, &format), RAMP));
-        let mut ranges = [SpeedRange { middle: Fixed::from_bits(0), half: Fixed::from_bits(0) }; K];
+    impl[const K: usize] BarredConfig[, K],
+    new, try_new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64), |format| {
+        let ([quick], []) = get!(To::part(quick(quick_ramp, period, &format), RAMP));
+        let ([none], []) = get!(To::part(Ok(([0.0], [])), BARRED));
+        let mut ranges = [SpeedRange { middle: none, half: none }; K];
         let mut k = 0;
         while k < K {
-            let ([middle, half], []) = get!(in_fixed(range(barred, k, &format), BARRED));
+            let ([middle, half], []) = get!(To::part(range(barred, k, &format), BARRED));
             ranges[k] = SpeedRange { middle, half };
             k += 1;
         }
@@ -171,29 +72,16 @@ impl<const K: usize> BarredConfig<Fixed, K> {
     }
 }
 
-impl<const K: usize> CurveConfig<Fixed, K> {
-    /// The constants in fixed point; `min` is the smallest torque, zero or below [N m].
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(curve: &TorqueCurve<K>, min: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(curve, min, bases))
-    }
-
-    /// The constants in fixed point; `min` is the smallest torque, zero or below [N m].
-    ///
-    /// # Errors
-    /// [`Error`] for a least torque above zero, a point beyond twice its base, or a slope of 2 bases of the torque per
-    /// base of the speed or more.
-    pub const fn try_new(curve: &TorqueCurve<K>, min: f64, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
-        let format = Format::fixed(bases);
-        let ([min, _], []) = get!(in_fixed(between(min, bases.torque, &format), LIMIT));
-        let mut pieces =
-            [CurvePiece { speed: Fixed::from_bits(0), torque: Fixed::from_bits(0), slope: Coefficient::ZERO }; K];
+constants! {
+    /// [`Error`] for a smallest torque [N m] above zero or not finite, a point beyond twice its base, or a slope of 2
+    /// bases of the torque per base of the speed or more.
+    impl[const K: usize] CurveConfig[, K], new, try_new(curve: &TorqueCurve<K>, min: f64), |format| {
+        let ([min, _], []) = get!(To::part(between(min, format.bases.torque, &format), LIMIT));
+        let ([none], [flat]) = get!(To::part(Ok(([0.0], [0.0])), CURVE));
+        let mut pieces = [CurvePiece { speed: none, torque: none, slope: flat }; K];
         let mut k = 0;
         while k < K {
-            let ([speed, torque], [slope]) = get!(in_fixed(piece(curve, k, &format), CURVE));
+            let ([speed, torque], [slope]) = get!(To::part(piece(curve, k, &format), CURVE));
             pieces[k] = CurvePiece { speed, torque, slope };
             k += 1;
         }
@@ -201,22 +89,11 @@ impl<const K: usize> CurveConfig<Fixed, K> {
     }
 }
 
-impl<L: Copy> SlewConfig<Fixed, L> {
-    /// The constants in fixed point: torque per time [N m/s], the other limit, and the period of a tick \[s\].
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(rate: f64, limit: L, period: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(rate, limit, period, bases))
-    }
-
-    /// The constants in fixed point.
-    ///
-    /// # Errors
-    /// [`Error::Value`] for a rate that is not positive and finite, or twice the base of the torque in a tick.
-    pub const fn try_new(rate: f64, limit: L, period: f64, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
-        let ([step], []) = get!(in_fixed(slew(rate, period, &Format::fixed(bases)), SLEW));
+constants! {
+    /// [`Error::Value`] for a torque per time [N m/s] that is not positive and finite, or twice the base of the torque
+    /// in a tick.
+    impl[L: Copy] SlewConfig[, L], new, try_new(rate: f64, limit: L, period: f64), |format| {
+        let ([step], []) = get!(To::part(slew(rate, period, &format), SLEW));
         Ok(SlewConfig { step, limit })
     }
 }

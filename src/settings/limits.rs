@@ -1,10 +1,9 @@
 //! Plausibility limits of a sample.
 
-use super::convert::{get, or_stop, per_unit, positive};
+use super::Error;
+use super::convert::{constants, get, positive};
 use super::format::ANGLE_PER_RADIAN;
-use super::{Bases, Error};
 use crate::drive::Limits;
-use crate::number::{Fixed, INNOVATION_RANGE, TURN_SHIFT};
 
 const TORQUE: &str = "the largest plausible torque must be positive and finite, and at most twice the base of the \
     torque in fixed point";
@@ -47,66 +46,17 @@ const fn checked(screening: &Screening) -> Result<[f64; 4], Error> {
     ])
 }
 
-macro_rules! float {
-    ($float:ident) => {
-        impl Limits<$float> {
-            /// The limits as floats.
-            ///
-            /// # Panics
-            /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
-            /// returns.
-            pub const fn new(screening: &Screening, bases: Bases) -> Self {
-                or_stop!(Self::try_new(screening, bases))
-            }
-
-            /// The limits as floats.
-            ///
-            /// # Errors
-            /// [`Error::Value`] for one that is not positive and finite.
-            pub const fn try_new(screening: &Screening, _: Bases) -> Result<Self, Error> {
-                let [torque, setpoint, innovation, frozen_turn] = get!(checked(screening));
-                Ok(Limits {
-                    torque: torque as $float,
-                    setpoint: setpoint as $float,
-                    innovation: innovation as $float,
-                    frozen_turn: frozen_turn as $float,
-                    max_coast: screening.max_coast,
-                })
-            }
-        }
-    };
-}
-
-float!(f32);
-float!(f64);
-
-impl Limits<Fixed> {
-    /// The limits in fixed point.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(screening: &Screening, bases: Bases) -> Self {
-        or_stop!(Self::try_new(screening, bases))
-    }
-
-    /// The limits in fixed point.
-    ///
-    /// # Errors
-    /// [`Error::Value`] for one that its base leaves no room for.
-    pub const fn try_new(screening: &Screening, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
+constants! {
+    /// [`Error::Value`] for a limit that is not positive and finite, or that its base leaves no room for.
+    impl[] Limits[], new, try_new(screening: &Screening), |format| {
         let [torque, setpoint, innovation, frozen_turn] = get!(checked(screening));
-        if innovation > INNOVATION_RANGE {
-            return Err(Error::Value(INNOVATION));
-        }
-        if frozen_turn > INNOVATION_RANGE {
-            return Err(Error::Value(STANDSTILL));
-        }
+        let (innovation, frozen_turn) =
+            (get!(To::angle(innovation, INNOVATION)), get!(To::turn(frozen_turn, STANDSTILL)));
         Ok(Limits {
-            torque: get!(per_unit(torque / bases.torque, TORQUE)),
-            setpoint: get!(per_unit(setpoint / bases.speed, SETPOINT)),
-            innovation: Fixed::from_bits(innovation as i32),
-            frozen_turn: Fixed::from_bits(frozen_turn as i32 >> TURN_SHIFT),
+            torque: get!(To::positive(torque / format.bases.torque, TORQUE)),
+            setpoint: get!(To::positive(setpoint / format.bases.speed, SETPOINT)),
+            innovation,
+            frozen_turn,
             max_coast: screening.max_coast,
         })
     }

@@ -1,11 +1,9 @@
 //! Constants of the observers.
 
-use super::convert::{fixed, get, or_stop, single};
+use super::convert::{constants, get};
 use super::format::ANGLE_PER_RADIAN;
-use super::settled::{settled, unit_single};
 use super::{Bases, Error, Format};
 use crate::design::{RigidDesign, TwoMassDesign};
-use crate::number::Fixed;
 use crate::observer::{RigidConfig, SemiImplicitConfig, TwoMassConfig};
 
 const STEP: &str = "a coefficient of the observer's step is beyond the range of fixed point: the machine is too soft, \
@@ -92,189 +90,62 @@ const fn rigid(design: &RigidDesign, load_share: f64, format: &Format) -> RigidC
     }
 }
 
-impl TwoMassConfig<f64> {
-    /// The constants of a design in `f64`.
-    pub const fn new(design: &TwoMassDesign, _: Bases) -> Self {
-        two_mass(design, &Format::FLOAT)
-    }
-}
-
-impl TwoMassConfig<f32> {
-    /// The constants of a design in `f32`.
-    pub const fn new(design: &TwoMassDesign, _: Bases) -> Self {
-        let c = two_mass(design, &Format::FLOAT);
-        let pair = [c.twist[0], c.twist[1], c.twist_rate[0], c.twist_rate[1]];
-        let [a, b, d, e] = single(pair);
-        let unit = [unit_single(pair[0]), unit_single(pair[1]), unit_single(pair[2]), unit_single(pair[3])];
-        let [n11, n12, n21, n22] = single(settled(pair, [a as f64, b as f64, d as f64, e as f64], unit));
-        TwoMassConfig {
-            forcing: single(c.forcing),
-            twist: [n11, n12, c.twist[2] as f32],
-            twist_rate: [n21, n22, c.twist_rate[2] as f32],
-            acceleration: c.acceleration as f32,
-            turn: single(c.turn),
-            correction: single(c.correction),
-            angle_correction: c.angle_correction as f32,
-            speed: c.speed as f32,
-            share: single(c.share),
-            shaft: single(c.shaft),
-            compliance: c.compliance as f32,
-        }
-    }
-}
-
-impl TwoMassConfig<Fixed> {
-    /// The constants of a design in fixed point.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(design: &TwoMassDesign, bases: Bases) -> Self {
-        or_stop!(Self::try_new(design, bases))
-    }
-
-    /// The constants of a design in fixed point.
-    ///
-    /// # Errors
+constants! {
     /// [`Error::Coefficient`] where one is beyond the range of fixed point.
-    pub const fn try_new(design: &TwoMassDesign, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
-        let c = two_mass(design, &Format::fixed(bases));
-        let [acceleration, compliance, speed] = get!(fixed([c.acceleration, c.compliance, c.speed], STEP));
-        let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
-        let [g1, g2] = get!(fixed([c.twist[2], c.twist_rate[2]], STEP));
+    impl[] TwoMassConfig[], new, try_new(design: &TwoMassDesign), |format| {
+        let c = two_mass(design, &format);
+        let [acceleration, compliance, speed] = get!(To::coefficients([c.acceleration, c.compliance, c.speed], STEP));
+        let angle_correction = get!(To::coefficient(c.angle_correction, GAIN));
+        let [g1, g2] = get!(To::coefficients([c.twist[2], c.twist_rate[2]], STEP));
         let pair = [c.twist[0], c.twist[1], c.twist_rate[0], c.twist_rate[1]];
-        let near = get!(fixed(pair, STEP));
-        // Scaled by the operand's widening, and back.
-        let (wide, unit) = (4.0, 4.0 / 4_294_967_296.0);
-        let rounded =
-            [wide * near[0].to_f64(), wide * near[1].to_f64(), wide * near[2].to_f64(), wide * near[3].to_f64()];
-        let pair = [wide * pair[0], wide * pair[1], wide * pair[2], wide * pair[3]];
-        let [n11, n12, n21, n22] = settled(pair, rounded, [unit; 4]);
-        let [n11, n12, n21, n22] = get!(fixed([n11 / wide, n12 / wide, n21 / wide, n22 / wide], STEP));
+        let [n11, n12, n21, n22] = get!(To::pair(pair, STEP));
         Ok(TwoMassConfig {
-            forcing: get!(fixed(c.forcing, STEP)),
+            forcing: get!(To::coefficients(c.forcing, STEP)),
             twist: [n11, n12, g1],
             twist_rate: [n21, n22, g2],
             acceleration,
-            turn: get!(fixed(c.turn, STEP)),
-            correction: get!(fixed(c.correction, GAIN)),
+            turn: get!(To::coefficients(c.turn, STEP)),
+            correction: get!(To::coefficients(c.correction, GAIN)),
             angle_correction,
             speed,
-            share: get!(fixed(c.share, STEP)),
-            shaft: get!(fixed(c.shaft, STEP)),
+            share: get!(To::coefficients(c.share, STEP)),
+            shaft: get!(To::coefficients(c.shaft, STEP)),
             compliance,
         })
     }
 }
 
-impl SemiImplicitConfig<f64> {
-    /// The constants of a design in `f64`.
-    pub const fn new(design: &TwoMassDesign, _: Bases) -> Self {
-        semi_implicit(design, &Format::FLOAT)
-    }
-}
-
-impl SemiImplicitConfig<f32> {
-    /// The constants of a design in `f32`.
-    pub const fn new(design: &TwoMassDesign, _: Bases) -> Self {
-        let c = semi_implicit(design, &Format::FLOAT);
-        SemiImplicitConfig {
-            motor: c.motor as f32,
-            load: c.load as f32,
-            shaft: single(c.shaft),
-            turn: c.turn as f32,
-            correction: single(c.correction),
-            angle_correction: c.angle_correction as f32,
-            speed: c.speed as f32,
-        }
-    }
-}
-
-impl SemiImplicitConfig<Fixed> {
-    /// The constants of a design in fixed point.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(design: &TwoMassDesign, bases: Bases) -> Self {
-        or_stop!(Self::try_new(design, bases))
-    }
-
-    /// The constants of a design in fixed point.
-    ///
-    /// # Errors
+constants! {
     /// [`Error::Coefficient`] where one is beyond the range of fixed point.
-    pub const fn try_new(design: &TwoMassDesign, bases: Bases) -> Result<Self, Error> {
-        get!(bases.check());
-        let c = semi_implicit(design, &Format::fixed(bases));
-        let [motor, load, turn, speed] = get!(fixed([c.motor, c.load, c.turn, c.speed], STEP));
-        let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
+    impl[] SemiImplicitConfig[], new, try_new(design: &TwoMassDesign), |format| {
+        let c = semi_implicit(design, &format);
+        let [motor, load, turn, speed] = get!(To::coefficients([c.motor, c.load, c.turn, c.speed], STEP));
+        let angle_correction = get!(To::coefficient(c.angle_correction, GAIN));
         Ok(SemiImplicitConfig {
             motor,
             load,
-            shaft: get!(fixed(c.shaft, STEP)),
+            shaft: get!(To::coefficients(c.shaft, STEP)),
             turn,
-            correction: get!(fixed(c.correction, GAIN)),
+            correction: get!(To::coefficients(c.correction, GAIN)),
             angle_correction,
             speed,
         })
     }
 }
 
-impl RigidConfig<f64> {
-    /// The constants of a design in `f64`; `load_share` is the part of the inertia that lies behind the shaft, 0 to 1.
-    ///
-    /// # Panics
-    /// At compile time in a constant, for a share outside 0 to 1.
-    pub const fn new(design: &RigidDesign, load_share: f64, _: Bases) -> Self {
-        or_stop!(share(load_share));
-        rigid(design, load_share, &Format::FLOAT)
-    }
-}
-
-impl RigidConfig<f32> {
-    /// The constants of a design in `f32`; `load_share` is the part of the inertia that lies behind the shaft, 0 to 1.
-    ///
-    /// # Panics
-    /// At compile time in a constant, for a share outside 0 to 1.
-    pub const fn new(design: &RigidDesign, load_share: f64, _: Bases) -> Self {
-        or_stop!(share(load_share));
-        let c = rigid(design, load_share, &Format::FLOAT);
-        RigidConfig {
-            acceleration: c.acceleration as f32,
-            turn: c.turn as f32,
-            correction: single(c.correction),
-            angle_correction: c.angle_correction as f32,
-            speed: c.speed as f32,
-            load_share: c.load_share as f32,
-        }
-    }
-}
-
-impl RigidConfig<Fixed> {
-    /// The constants of a design in fixed point; `load_share` is the part of the inertia that lies behind the shaft, 0
-    /// to 1.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new(design: &RigidDesign, load_share: f64, bases: Bases) -> Self {
-        or_stop!(Self::try_new(design, load_share, bases))
-    }
-
-    /// The constants of a design in fixed point.
-    ///
-    /// # Errors
-    /// [`Error::Coefficient`] where one is beyond the range of fixed point.
-    pub const fn try_new(design: &RigidDesign, load_share: f64, bases: Bases) -> Result<Self, Error> {
+constants! {
+    /// [`Error::Value`] for a part of the inertia on the load side that is not from 0 to 1, [`Error::Coefficient`]
+    /// where a coefficient is beyond the range of fixed point.
+    impl[] RigidConfig[], new, try_new(design: &RigidDesign, load_share: f64), |format| {
         get!(share(load_share));
-        get!(bases.check());
-        let c = rigid(design, load_share, &Format::fixed(bases));
+        let c = rigid(design, load_share, &format);
         let [acceleration, turn, load_share, speed] =
-            get!(fixed([c.acceleration, c.turn, c.load_share, c.speed], STEP));
-        let [angle_correction] = get!(fixed([c.angle_correction], GAIN));
+            get!(To::coefficients([c.acceleration, c.turn, c.load_share, c.speed], STEP));
+        let angle_correction = get!(To::coefficient(c.angle_correction, GAIN));
         Ok(RigidConfig {
             acceleration,
             turn,
-            correction: get!(fixed(c.correction, GAIN)),
+            correction: get!(To::coefficients(c.correction, GAIN)),
             angle_correction,
             speed,
             load_share,

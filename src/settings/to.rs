@@ -1,0 +1,160 @@
+//! What a number type makes of values and coefficients in `f64`.
+
+use core::marker::PhantomData;
+
+use super::convert::{fixed, get, per_unit, positive};
+use super::settled::{settled, unit_single};
+use super::{Bases, Error, Format};
+use crate::number::{Coefficient, Fixed, INNOVATION_RANGE, TURN_SHIFT};
+
+/// Numbers and coefficients of a part, per unit of a format.
+pub(super) type Values<const N: usize, const C: usize> = Result<([f64; N], [f64; C]), Error>;
+
+/// Conversion to a number.
+pub(super) struct To<N>(PhantomData<N>);
+
+macro_rules! float {
+    ($float:ident, |$pair:ident| $settled:expr) => {
+        impl To<$float> {
+            pub(super) const fn format(_: Bases) -> Result<Format, Error> {
+                Ok(Format::FLOAT)
+            }
+
+            /// A number.
+            pub(super) const fn number(value: f64, _: &'static str) -> Result<$float, Error> {
+                Ok(value as $float)
+            }
+
+            /// A number within the headroom.
+            pub(super) const fn exactly(value: f64) -> $float {
+                value as $float
+            }
+
+            /// A positive number.
+            pub(super) const fn positive(value: f64, sentence: &'static str) -> Result<$float, Error> {
+                Ok(get!(positive(value, sentence)) as $float)
+            }
+
+            /// An angle \[2^-32 turn\].
+            pub(super) const fn angle(value: f64, _: &'static str) -> Result<$float, Error> {
+                Ok(value as $float)
+            }
+
+            /// The turn of a tick \[2^-32 turn\], as `less_turn` takes it.
+            pub(super) const fn turn(value: f64, _: &'static str) -> Result<$float, Error> {
+                Ok(value as $float)
+            }
+
+            pub(super) const fn coefficient(value: f64, _: &'static str) -> Result<$float, Error> {
+                Ok(value as $float)
+            }
+
+            pub(super) const fn coefficients<const K: usize>(
+                values: [f64; K],
+                _: &'static str,
+            ) -> Result<[$float; K], Error> {
+                Ok(Self::rounded(values))
+            }
+
+            /// The coefficients of the twist's free motion.
+            pub(super) const fn pair($pair: [f64; 4], _: &'static str) -> Result<[$float; 4], Error> {
+                Ok(Self::rounded($settled))
+            }
+
+            /// Numbers and coefficients of a part.
+            pub(super) const fn part<const A: usize, const B: usize>(
+                values: Values<A, B>,
+                _: &'static str,
+            ) -> Result<([$float; A], [$float; B]), Error> {
+                let (numbers, coefficients) = get!(values);
+                Ok((Self::rounded(numbers), Self::rounded(coefficients)))
+            }
+
+            const fn rounded<const K: usize>(values: [f64; K]) -> [$float; K] {
+                let mut out = [0.0; K];
+                let mut k = 0;
+                while k < K {
+                    out[k] = values[k] as $float;
+                    k += 1;
+                }
+                out
+            }
+        }
+    };
+}
+
+float!(f32, |pair| {
+    let [a, b, c, d] = pair;
+    let rounded = [a as f32 as f64, b as f32 as f64, c as f32 as f64, d as f32 as f64];
+    settled(pair, rounded, [unit_single(a), unit_single(b), unit_single(c), unit_single(d)])
+});
+float!(f64, |pair| pair);
+
+impl To<Fixed> {
+    pub(super) const fn format(bases: Bases) -> Result<Format, Error> {
+        get!(bases.check());
+        Ok(Format::fixed(bases))
+    }
+
+    /// A number within twice its base.
+    pub(super) const fn number(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
+        if value.abs() <= 2.0 { Ok(Fixed::from_f64(value)) } else { Err(Error::Value(sentence)) }
+    }
+
+    /// A number within the headroom.
+    pub(super) const fn exactly(value: f64) -> Fixed {
+        Fixed::from_f64(value)
+    }
+
+    /// A positive number within twice its base.
+    pub(super) const fn positive(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
+        per_unit(value, sentence)
+    }
+
+    /// An angle \[2^-32 turn\].
+    pub(super) const fn angle(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
+        if value > INNOVATION_RANGE { Err(Error::Value(sentence)) } else { Ok(Fixed::from_bits(value as i32)) }
+    }
+
+    /// The turn of a tick \[2^-32 turn\], as `less_turn` takes it.
+    pub(super) const fn turn(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
+        Ok(Fixed::from_bits(get!(Self::angle(value, sentence)).to_bits() >> TURN_SHIFT))
+    }
+
+    pub(super) const fn coefficient(value: f64, sentence: &'static str) -> Result<Coefficient, Error> {
+        let [coefficient] = get!(fixed([value], sentence));
+        Ok(coefficient)
+    }
+
+    pub(super) const fn coefficients<const K: usize>(
+        values: [f64; K],
+        sentence: &'static str,
+    ) -> Result<[Coefficient; K], Error> {
+        fixed(values, sentence)
+    }
+
+    /// The coefficients of the twist's free motion: settled times what the operand is widened by, and back.
+    pub(super) const fn pair(pair: [f64; 4], sentence: &'static str) -> Result<[Coefficient; 4], Error> {
+        let [a, b, c, d] = get!(fixed(pair, sentence));
+        let (wide, unit) = (4.0, 4.0 / 4_294_967_296.0);
+        let rounded = [wide * a.to_f64(), wide * b.to_f64(), wide * c.to_f64(), wide * d.to_f64()];
+        let exact = [wide * pair[0], wide * pair[1], wide * pair[2], wide * pair[3]];
+        let [a, b, c, d] = settled(exact, rounded, [unit; 4]);
+        fixed([a / wide, b / wide, c / wide, d / wide], sentence)
+    }
+
+    /// Numbers and coefficients of a part.
+    pub(super) const fn part<const A: usize, const B: usize>(
+        values: Values<A, B>,
+        sentence: &'static str,
+    ) -> Result<([Fixed; A], [Coefficient; B]), Error> {
+        let (numbers, coefficients) = get!(values);
+        let mut out = [Fixed::from_bits(0); A];
+        let mut k = 0;
+        while k < A {
+            out[k] = get!(Self::number(numbers[k], sentence));
+            k += 1;
+        }
+        Ok((out, get!(fixed(coefficients, sentence))))
+    }
+}
