@@ -40,6 +40,9 @@
 //! | coast | a tick by prediction alone, since the angle cannot be used | |
 //! | base | what a fixed-point number is a fraction of | |
 
+#[macro_use]
+mod sentences;
+
 pub mod angle;
 pub mod balancing;
 pub mod commissioning;
@@ -51,8 +54,6 @@ pub mod fluctuation;
 pub mod governor;
 #[cfg(feature = "hal")]
 pub mod hal;
-#[cfg(feature = "defmt")]
-mod logged;
 pub mod machine;
 pub mod math;
 pub mod number;
