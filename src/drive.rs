@@ -142,15 +142,11 @@ where
         if self.coasted < 0 {
             return self.reacquire(config, sample);
         }
-        let (faults, applied) = self.observe(config, sample);
+        let (faults, applied) = self.observe(config, sample, true);
         let estimate = self.estimate(config);
         self.fluctuation.measure(&config.fluctuation, self.observer.angle(), applied, &estimate);
         self.governor.set_steady_speed(self.fluctuation.steady_speed());
-        let torque = self.governor.command(&config.governor, &estimate);
-        if G::COMMANDS {
-            self.commanded = torque;
-        }
-        Command { torque, faults }
+        self.govern(config, &estimate, faults)
     }
 
     /// One tick against a closed brake: the machine stands still, the drive gives a constant torque, the shaft is taken
@@ -236,8 +232,9 @@ where
         self.observer.angle()
     }
 
+    /// Screens a sample and advances the observer, which coasts where there is no angle; gives the faults and the torque that was used.
     #[inline(always)]
-    fn observe(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> (Faults, N) {
+    fn observe(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>, has_angle: bool) -> (Faults, N) {
         let limits = &config.limits;
         let (mut torque, mut faults) = (sample.torque, Faults::NONE);
         if torque.exceeds(limits.torque) {
@@ -255,8 +252,14 @@ where
         let predicted = self.observer.predict(&config.observer, sample.angle, torque);
         let unchanged = sample.angle == self.observer.angle();
         let frozen = unchanged && predicted.turn().exceeds(limits.frozen_turn);
-        if frozen || predicted.innovation().exceeds(limits.innovation) {
-            faults |= if unchanged { Faults::ANGLE_FROZEN } else { Faults::ANGLE_JUMP };
+        if !has_angle || frozen || predicted.innovation().exceeds(limits.innovation) {
+            faults |= if !has_angle {
+                Faults::ANGLE_MISSING
+            } else if unchanged {
+                Faults::ANGLE_FROZEN
+            } else {
+                Faults::ANGLE_JUMP
+            };
             self.observer.coast(predicted, sample.angle);
             self.coasted = if (coasted as u32) < limits.max_coast { coasted.wrapping_add(1) } else { NONE_YET };
             self.fluctuation.disturb();
@@ -269,14 +272,31 @@ where
         (faults | Faults::range(self.observer.beyond_base()), torque)
     }
 
+    #[inline(always)]
+    fn govern(&mut self, config: &ConfigOf<Self>, estimate: &Estimate<N>, faults: Faults) -> Command<N> {
+        let torque = self.governor.command(&config.governor, estimate);
+        if G::COMMANDS {
+            self.commanded = torque;
+        }
+        Command { torque, faults }
+    }
+
+    /// No torque while the angle is lost.
+    fn release(&mut self, config: &ConfigOf<Self>, faults: Faults) -> Command<N> {
+        self.fluctuation.disturb();
+        self.commanded = N::ZERO;
+        let estimate = self.estimate(config);
+        self.governor.angle_lost(&config.governor, &estimate);
+        Command { torque: N::ZERO, faults: faults | Faults::ANGLE_LOST }
+    }
+
     /// The angle is lost: commands no torque, looks for two angles in a row that differ, and goes on from the second.
     // Out of line: it leaves the registers to the tick.
     #[cold]
     #[inline(never)]
     fn reacquire(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
         let limits = &config.limits;
-        self.fluctuation.disturb();
-        let mut faults = Faults::ANGLE_JUMP | Faults::ANGLE_LOST;
+        let mut faults = Faults::ANGLE_JUMP;
         let mut torque = sample.torque;
         if torque.exceeds(limits.torque) {
             torque = N::ZERO;
@@ -286,7 +306,7 @@ where
         let turned = N::from_angle(sample.angle.wrapping_sub(last) as i32);
         let speed = O::speed_of_turn(&config.observer, turned);
         if sample.angle == last {
-            faults = Faults::ANGLE_FROZEN | Faults::ANGLE_LOST;
+            faults = Faults::ANGLE_FROZEN;
             self.coasted = NONE_YET;
         } else if self.coasted == NONE_YET || speed.exceeds(limits.setpoint + limits.setpoint) {
             self.observer.resync(sample.angle);
@@ -301,10 +321,7 @@ where
             }
             self.coasted = limits.max_coast as i32 & i32::MAX;
         }
-        self.commanded = N::ZERO;
-        let estimate = self.estimate(config);
-        self.governor.angle_lost(&config.governor, &estimate);
-        Command { torque: N::ZERO, faults }
+        self.release(config, faults)
     }
 }
 

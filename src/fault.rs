@@ -97,7 +97,15 @@ impl Faults {
 
     /// The faults with these bits; bits that mean nothing are dropped.
     pub const fn from_bits(bits: u32) -> Faults {
-        Faults(bits & 0x3f00_003f)
+        const ALL: u32 = {
+            let (mut all, mut k) = (0, 0);
+            while k < Faults::NAMES.len() {
+                all |= Faults::NAMES[k].0.0;
+                k += 1;
+            }
+            all
+        };
+        Faults(bits & ALL)
     }
 }
 

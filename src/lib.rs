@@ -41,6 +41,9 @@
 //! | coast | a tick by prediction alone (dead reckoning), without a usable angle | |
 //! | base | unit of a fixed-point number | |
 
+#[macro_use]
+mod sentences;
+
 pub mod angle;
 pub mod balancing;
 pub mod commissioning;
@@ -52,8 +55,6 @@ pub mod fluctuation;
 pub mod governor;
 #[cfg(feature = "hal")]
 pub mod hal;
-#[cfg(feature = "defmt")]
-mod logged;
 pub mod machine;
 pub mod math;
 pub mod number;

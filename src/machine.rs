@@ -64,7 +64,7 @@ pub use quantity::{
     Speed, Stiffness, Torque,
 };
 pub use reduce::{Match, ReductionError};
-pub use refer::{Flow, Side, parallel, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};
+pub use refer::{Flow, Side, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};
 pub use rigid::Rigid;
 pub use section::{Section, stepped, try_stepped};
 pub use sensitivity::{Element, Part, Sensitivity};

@@ -15,6 +15,7 @@ pub enum Objective {
 
 /// How weights are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Aim<T: Scalar, const ROWS: usize, const PLANES: usize> {
     /// The norm to minimise.
     pub objective: Objective,

@@ -11,6 +11,7 @@ use super::scalar::{Complex, Scalar, real, zero};
 
 /// A weight found from amplitudes alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct FromAmplitudes<T: Scalar> {
     /// The weight to add.
     pub weight: Complex<T>,

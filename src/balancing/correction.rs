@@ -13,6 +13,7 @@ use super::scalar::{Complex, Scalar, real, size, square, zero};
 
 /// A plane that is not used, and why.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct LeftOut<T: Scalar, const PLANES: usize> {
     /// The plane.
     pub plane: usize,
@@ -24,6 +25,7 @@ pub struct LeftOut<T: Scalar, const PLANES: usize> {
 
 /// Correction weights and the predicted residual.
 #[derive(Clone, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Correction<T: Scalar, const ROWS: usize, const PLANES: usize> {
     /// The weight of each plane; zero in planes that are left out.
     pub weights: [Complex<T>; PLANES],

@@ -17,6 +17,7 @@ pub enum CorrectionMethod {
 
 /// The holes of a plane and the weights for them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Holes<'a, T> {
     /// Angles of the holes \[rad\].
     pub angles: &'a [T],
@@ -28,6 +29,7 @@ pub struct Holes<'a, T> {
 
 /// The chosen holes and weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Fitted<T: Scalar> {
     /// Two holes, by their places in [`Holes::angles`], and the weight in each; a weight of zero is none.
     pub holes: [(usize, T); 2],

@@ -42,6 +42,7 @@ pub struct InRunConfig<T, const PLANES: usize> {
 
 /// The next action on the weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub enum Action<T: Scalar, const PLANES: usize> {
     /// Set these weights, wait for a steady reading and give it.
     Set([Complex<T>; PLANES]),
@@ -80,6 +81,7 @@ const DEVIATIONS: f64 = 4.0;
 
 /// In-run balancing of at most `ROWS` readings by `PLANES` heads.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct InRun<T: Scalar, const ROWS: usize, const PLANES: usize> {
     config: InRunConfig<T, PLANES>,
     rows: usize,

@@ -12,6 +12,7 @@ use super::scalar::{Complex, Scalar, given, real, size, square, zero};
 ///
 /// A row is a sensor at a speed; the order is the user's, and the same in all runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Influence<T: Scalar, const ROWS: usize, const PLANES: usize> {
     rows: usize,
     planes: usize,

@@ -18,6 +18,7 @@ pub const CORRECTIONS: usize = 6;
 
 /// A run: a reading for each row, and the speed it was taken at.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Run<T: Scalar, const ROWS: usize> {
     /// The readings.
     pub(crate) readings: [Complex<T>; ROWS],
@@ -57,6 +58,7 @@ impl<T: Scalar, const ROWS: usize> Run<T, ROWS> {
 
 /// How a procedure goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Plan<T: Scalar, const ROWS: usize, const PLANES: usize> {
     /// Readings of a run.
     pub rows: usize,
@@ -120,6 +122,7 @@ struct Trial<T: Scalar, const ROWS: usize> {
 
 /// A procedure under way. `TRIALS` trial runs are kept: one for each plane by default.
 #[derive(Clone, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Procedure<T: Scalar, const ROWS: usize, const PLANES: usize, const TRIALS: usize = PLANES> {
     plan: Plan<T, ROWS, PLANES>,
     /// Coefficients that were known before.

@@ -54,6 +54,7 @@ use crate::parameters::Parameters;
 /// Everything that was entered into a procedure, in at most `WORDS` words: [`Procedure::words`] gives the number
 /// needed. In front of them are words of the firmware's own, as the run-out that its readings are less.
 #[derive(Clone, Debug, PartialEq, Eq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Record<const WORDS: usize>(Vec<u32, WORDS>);
 
 impl<const WORDS: usize> Record<WORDS> {

@@ -1,7 +1,5 @@
 //! Transfer of a vibration sensor: from its signal to the motion.
 
-use core::fmt;
-
 use super::reading::Phasor;
 
 /// Quantity that a sensor measures, or a reading is converted to.
@@ -46,39 +44,16 @@ pub struct Sensor {
     pub angle: f32,
 }
 
-/// Invalid parameters of a sensor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum SensorError {
-    /// [`Sensor::sensitivity`].
-    Sensitivity,
-    /// [`Sensor::high_pass`].
-    HighPass,
-    /// [`Sensor::low_pass`].
-    LowPass,
-    /// [`Sensor::angle`].
-    Angle,
-    /// The frequency that the reading was taken at.
-    Frequency,
-    /// The phasor is not a number.
-    Phasor,
+sentences! {
+    /// A parameter of a sensor that is out of its range, or a reading that it cannot give.
+    SensorError:
+    Sensitivity => "the sensor's sensitivity must be a number above zero",
+    HighPass => "the sensor's lower corner must be a number, zero for none",
+    LowPass => "the sensor's upper corner must be above zero, infinite for none",
+    Angle => "the sensor's angle must be a number of radians within ten turns",
+    Frequency => "the frequency of the reading must be a number above zero",
+    Phasor => "the sensor's phasor is not a number",
 }
-
-impl fmt::Display for SensorError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            SensorError::Sensitivity => "the sensor's sensitivity must be a number above zero",
-            SensorError::HighPass => "the sensor's lower corner must be a number, zero for none",
-            SensorError::LowPass => "the sensor's upper corner must be above zero, infinite for none",
-            SensorError::Angle => "the sensor's angle must be a number of radians within ten turns",
-            SensorError::Frequency => "the frequency of the reading must be a number above zero",
-            SensorError::Phasor => "the sensor's phasor is not a number",
-        })
-    }
-}
-
-impl core::error::Error for SensorError {}
 
 /// Largest angle of mounting: ten turns, larger than any angle in radians; most numbers of degrees are beyond it.
 const MOST_ANGLE: f32 = 10.0 * core::f32::consts::TAU;

@@ -1,31 +1,8 @@
 //! Errors of the commissioning test.
 
-use core::fmt;
-
-macro_rules! sentences {
-    ($($(#[$doc:meta])* $name:ident => $sentence:literal),* $(,)?) => {
-        /// Why the test did not begin, was ended, or why its data do not support an answer.
-        ///
-        /// [`Display`](fmt::Display) names the parameter and the expected value.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-        #[non_exhaustive]
-        pub enum Error { $(#[doc = $sentence] $name),* }
-
-        impl Error {
-            /// All of them, in the order of their numbers (`reason as usize`).
-            pub const ALL: &'static [Self] = &[$(Self::$name),*];
-
-            /// The sentence that names the parameter and the reason.
-            #[must_use]
-            pub const fn message(self) -> &'static str {
-                match self { $(Self::$name => $sentence),* }
-            }
-        }
-    };
-}
-
 sentences! {
+    /// Why the test did not begin, was ended, or why its data do not support an answer.
+    Error:
     Rate => "the rate of the ticks must be positive and finite",
     EncoderLines => "the encoder must have at least one line, and no more counts than 2^31 on a turn",
     Torque => "the test's torque must be positive and finite, and within the shaft's bring the first guess of the \
@@ -63,11 +40,3 @@ sentences! {
     GapBelowResolution => "the gap is below what the encoder resolves",
     GapUnclear => "the ends of the gap did not repeat: a load that friction holds is expected",
 }
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.message())
-    }
-}
-
-impl core::error::Error for Error {}

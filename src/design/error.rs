@@ -1,36 +1,8 @@
 //! Why a design cannot work.
 
-use core::fmt;
-
-macro_rules! sentences {
-    ($($name:ident => $sentence:literal),* $(,)?) => {
-        /// A parameter of a design that is out of its range, or a machine that cannot be observed or governed so.
-        ///
-        /// [`Display`](fmt::Display) gives a sentence that names the parameter; the `const` forms stop the
-        /// compilation with the same sentence.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-        #[non_exhaustive]
-        pub enum Error {
-            /// The machine itself is out of range.
-            Machine(crate::machine::Error),
-            $(#[doc = $sentence] $name),*
-        }
-
-        impl Error {
-            /// The sentence that names the parameter and the reason.
-            #[must_use]
-            pub const fn message(self) -> &'static str {
-                match self {
-                    Self::Machine(error) => error.message(),
-                    $(Self::$name => $sentence),*
-                }
-            }
-        }
-    };
-}
-
 sentences! {
+    /// A parameter of a design that is out of its range, or a machine that cannot be observed or governed so.
+    Error: [Machine(crate::machine::Error)]
     Period => "the sample rate must be positive and finite (Hz)",
     EncoderLines => "the encoder must have at least one line",
     TorqueAccuracy => "torque_accuracy of the disturbance must be positive and finite (N m)",
@@ -70,21 +42,6 @@ sentences! {
         the observer of a livelier load",
     SpeedLoopUnstable => "the speed loop is unstable at this sample rate: lower its bandwidth or raise the rate",
 }
-
-impl Error {
-    /// Stops with the sentence: a compile error in a constant.
-    pub(crate) const fn stop(self) -> ! {
-        panic!("{}", self.message())
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.message())
-    }
-}
-
-impl core::error::Error for Error {}
 
 impl From<crate::machine::Error> for Error {
     fn from(error: crate::machine::Error) -> Self {

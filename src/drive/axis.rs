@@ -7,7 +7,7 @@ use crate::fluctuation::Fluctuation;
 use crate::governor::Governor;
 use crate::number::Number;
 use crate::observer::Observer;
-use crate::sample::Command;
+use crate::sample::{Command, Sample};
 
 impl<N, O, F, G, B> Drive<N, O, F, G, B>
 where
@@ -23,38 +23,16 @@ where
     /// It raises [`Faults::ANGLE_MISSING`]; after more than the limit of such ticks also
     /// [`Faults::ANGLE_LOST`], and commands no torque. Torque and setpoint are screened as in [`Drive::tick`].
     pub fn coast(&mut self, config: &ConfigOf<Self>, torque: N, setpoint: N) -> Command<N> {
-        let limits = &config.limits;
-        let (mut torque, mut faults) = (torque, Faults::ANGLE_MISSING);
-        if torque.exceeds(limits.torque) {
-            torque = self.commanded;
-            faults |= Faults::TORQUE;
-        } else if !G::COMMANDS {
-            self.commanded = torque;
-        }
-        self.fluctuation.disturb();
         if self.coasted < 0 {
-            // the search for two angles in a row begins anew
+            // The search for two angles in a row begins anew.
             self.coasted = NONE_YET;
-            let estimate = self.estimate(config);
-            self.governor.angle_lost(&config.governor, &estimate);
-            self.commanded = N::ZERO;
-            return Command { torque: N::ZERO, faults: faults | Faults::ANGLE_LOST };
+            let torque = if torque.exceeds(config.limits.torque) { Faults::TORQUE } else { Faults::NONE };
+            return self.release(config, torque | Faults::ANGLE_MISSING);
         }
-        if setpoint.exceeds(limits.setpoint) {
-            faults |= Faults::SETPOINT;
-        } else {
-            self.governor.set_setpoint(setpoint);
-        }
-        let last = self.observer.angle();
-        let predicted = self.observer.predict(&config.observer, last, torque);
-        self.observer.coast(predicted, last);
-        self.coasted = if (self.coasted as u32) < limits.max_coast { self.coasted.wrapping_add(1) } else { NONE_YET };
+        let sample = Sample { angle: self.observer.angle(), torque, setpoint };
+        let (faults, _) = self.observe(config, &sample, false);
         let estimate = self.estimate(config);
-        let torque = self.governor.command(&config.governor, &estimate);
-        if G::COMMANDS {
-            self.commanded = torque;
-        }
-        Command { torque, faults: faults | Faults::range(self.observer.beyond_base()) }
+        self.govern(config, &estimate, faults)
     }
 
     /// The governor starts anew, from the speed that the machine has and no torque; its setpoint is zero. The estimates

@@ -8,6 +8,7 @@
 
 use super::series::{Circle, GRID, Grid, Series, circle};
 use super::{CycleConfig, Ripple};
+use crate::design::flywheel_inertia;
 use crate::math::sqrt;
 
 /// Class of machine with its permissible delta [Notes ch. 5].
@@ -119,7 +120,7 @@ impl Ripple {
         // 1/delta is next to a straight line over the inertia: the secant's method.
         let (mut before, mut at_before) = (0.0, 1.0 / machine.delta(0.0, &circle, cycle)?);
         let mean = 0.5 * (self.motor.max.speed + self.motor.min.speed);
-        let mut added = (flywheel.energy_swing / (mean * mean * permissible)).max(1e-3 * balance.inertia.mean);
+        let mut added = flywheel_inertia(flywheel.energy_swing, mean, permissible).max(1e-3 * balance.inertia.mean);
         for _ in 0..24 {
             let inverse = 1.0 / machine.delta(added, &circle, cycle)?;
             if (inverse * permissible - 1.0).abs() < 1e-9 || inverse == at_before {

@@ -15,6 +15,7 @@ pub const TRIPPING: Faults = Faults::TORQUE_OUTPUT.with(Faults::ENABLE).with(Fau
 
 /// A drive on a board. It starts with the power stage off.
 #[derive(Debug)]
+// Not logged: holds the parts of a board.
 pub struct Axis<P, N, O, F = (), G = (), B = ()> {
     board: P,
     drive: Drive<N, O, F, G, B>,

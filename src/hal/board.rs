@@ -38,6 +38,7 @@ pub trait Board<N> {
 
 /// A board made of adapters.
 #[derive(Clone, Copy, Debug)]
+// Not logged: holds the parts of a board.
 pub struct Parts<A, T, E> {
     /// The angle.
     pub angle: A,

@@ -19,6 +19,7 @@ pub trait Enabling {
 
 /// A pin and the level at which it permits torque.
 #[derive(Clone, Copy, Debug)]
+// Not logged: holds the parts of a board.
 pub struct EnableLine<P> {
     pin: P,
     on: PinState,
@@ -49,6 +50,7 @@ impl<P: OutputPin> EnableLine<P> {
 /// Lines that go on in order and off in the reverse order: contactor, gate driver, brake, say. Pins of different types
 /// go in as `&mut dyn OutputPin<Error = _>`.
 #[derive(Clone, Copy, Debug)]
+// Not logged: holds the parts of a board.
 pub struct EnableChain<P, const LINES: usize> {
     lines: [EnableLine<P>; LINES],
 }
@@ -89,6 +91,7 @@ impl<P: OutputPin, const LINES: usize> Enabling for EnableChain<P, LINES> {
 
 /// A trip output: a pin that is on while the axis is healthy, and off to trip a contactor or a superior control.
 #[derive(Clone, Copy, Debug)]
+// Not logged: holds the parts of a board.
 pub struct TripLine<P>(EnableLine<P>);
 
 impl<P: OutputPin> TripLine<P> {

@@ -1,29 +1,8 @@
 //! Errors in the description of a machine.
 
-use core::fmt;
-
-macro_rules! sentences {
-    ($($(#[$doc:meta])* $name:ident => $sentence:literal),* $(,)?) => {
-        /// A parameter of a machine that is out of its range, or elements in an impossible order.
-        ///
-        /// [`Display`](fmt::Display) gives a sentence that names the parameter; the `const` builders stop the
-        /// compilation with the same sentence.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-        #[non_exhaustive]
-        pub enum Error { $(#[doc = $sentence] $name),* }
-
-        impl Error {
-            /// The sentence that names the parameter and the reason.
-            #[must_use]
-            pub const fn message(self) -> &'static str {
-                match self { $(Self::$name => $sentence),* }
-            }
-        }
-    };
-}
-
 sentences! {
+    /// A parameter of a machine that is out of its range, or elements in an impossible order.
+    Error:
     MotorInertia => "inertia of the motor must be positive and finite (kg m2)",
     RotorInertia => "inertia of the rotor must be positive and finite (kg m2)",
     LoadInertia => "inertia of the load must be positive and finite (kg m2)",
@@ -78,21 +57,6 @@ sentences! {
         idle over rated to no load",
     StartingTime => "starting time must be positive and finite, the starting torque finite (s, N m)",
 }
-
-impl Error {
-    /// Stops with the sentence: a compile error in a constant.
-    pub(crate) const fn stop(self) -> ! {
-        panic!("{}", self.message())
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.message())
-    }
-}
-
-impl core::error::Error for Error {}
 
 /// `value` is a number above zero.
 pub(crate) const fn positive(value: f64) -> bool {

@@ -74,9 +74,3 @@ pub const fn series(k1: f64, k2: f64) -> f64 {
     let (soft, stiff) = if k1 < k2 { (k1, k2) } else { (k2, k1) };
     soft / (1.0 + soft / stiff)
 }
-
-/// Stiffness of two springs side by side \[N m/rad\]: `k = k1 + k2`.
-#[must_use]
-pub const fn parallel(k1: f64, k2: f64) -> f64 {
-    k1 + k2
-}

@@ -46,6 +46,7 @@ pub struct Loaded<P> {
 
 /// Parameters in a range of a flash.
 #[derive(Debug)]
+// Not logged: holds the flash.
 pub struct Store<F> {
     flash: F,
     start: u32,

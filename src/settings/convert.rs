@@ -1,7 +1,5 @@
 //! Coefficients of one number type from those of `f64`.
 
-use core::fmt;
-
 use crate::number::{Coefficient, Fixed};
 
 /// A constant that a number type cannot hold.
@@ -22,20 +20,9 @@ impl Error {
             Error::Coefficient(sentence) | Error::Value(sentence) => sentence,
         }
     }
-
-    /// Stops with the sentence: a compile error in a constant.
-    pub(crate) const fn stop(self) -> ! {
-        panic!("{}", self.message())
-    }
 }
 
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.message())
-    }
-}
-
-impl core::error::Error for Error {}
+messages!(Error);
 
 /// Coefficients in fixed point; the error names their parameter.
 pub(super) const fn fixed<const K: usize>(values: [f64; K], sentence: &'static str) -> Result<[Coefficient; K], Error> {

@@ -1,7 +1,5 @@
 //! Constants of the measurement of a rotor's vibration.
 
-use core::fmt;
-
 use crate::angle::RotorAngleConfig;
 use crate::balancing::{PhasorsConfig, Steadiness};
 use crate::number::{Fixed, Number};
@@ -29,39 +27,13 @@ impl PhasorSettings {
         PhasorSettings { rotor_turns: 1, motor_turns: 1, order: 1, turns: 8, steadiness: Steadiness::USUAL };
 }
 
-/// Why a measurement cannot be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum PhasorError {
-    /// The turns of rotor and motor, or the order.
-    Ratio,
-    /// The turns of a block.
-    Turns,
-    /// A channel's limit.
-    Limit,
+sentences! {
+    /// A setting of the measurement that is out of its range.
+    PhasorError:
+    Ratio => "turns of the motor must be 1 to 2^20, turns of the rotor times the order at most 15 times as many",
+    Turns => "turns of a block, times the order, must be 1 to 300",
+    Limit => "the limit of each channel must be a positive number, in fixed point at most 2",
 }
-
-impl PhasorError {
-    /// The sentence that names the parameter.
-    pub const fn message(self) -> &'static str {
-        match self {
-            PhasorError::Ratio => {
-                "turns of the motor must be 1 to 2^20, turns of the rotor times the order at most 15 times as many"
-            }
-            PhasorError::Turns => "turns of a block, times the order, must be 1 to 300",
-            PhasorError::Limit => "the limit of each channel must be a positive number, in fixed point at most 2",
-        }
-    }
-}
-
-impl fmt::Display for PhasorError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.message())
-    }
-}
-
-impl core::error::Error for PhasorError {}
 
 const fn turning(measured: &PhasorSettings) -> Result<(RotorAngleConfig, u32), PhasorError> {
     if measured.order == 0 || measured.order > 64 {

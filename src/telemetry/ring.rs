@@ -19,6 +19,7 @@ pub struct Record<const VALUES: usize> {
 /// A ring of records for one that records (the tick) and one that takes (the main loop); a static serves both. Two that
 /// record, or two that take, garble records.
 #[derive(Debug)]
+// Not logged: a tick writes it while it is read.
 pub struct Ring<const VALUES: usize, const RECORDS: usize> {
     slots: [Slot<VALUES>; RECORDS],
     /// Records kept so far.
