@@ -42,7 +42,7 @@ const OWNERS: [&str; 5] = ["Axis", "EnableChain", "Parts", "Ring", "Store"];
 
 #[test]
 fn every_public_type_is_in_the_list() {
-    let source = driveline_qemu::image::workspace().join("src");
+    let source = driveline_qemu::clone::workspace().unwrap().join("src");
     let list = fs::read_to_string(source.join("logged.rs")).unwrap();
     let mut names = Vec::new();
     public_types(&source, &mut names);
