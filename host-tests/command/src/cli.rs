@@ -17,6 +17,7 @@ mod commission;
 mod controller;
 mod design;
 mod emit;
+mod example;
 mod failure;
 mod generator;
 mod modes;
@@ -60,6 +61,7 @@ enum Command {
     Backlash(backlash::Backlash),
     Modes(modes::Modes),
     Design(design::Design),
+    Example(example::Example),
     Rotor(rotor::Rotor),
     Balancing(balance::Balance),
     Genset(generator::Generator),
@@ -79,6 +81,7 @@ impl Command {
             Self::Backlash(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
+            Self::Example(_) => false,
             Self::Rotor(command) => command.json,
             Self::Balancing(command) => command.json,
             Self::Genset(command) => command.json,
@@ -98,6 +101,7 @@ impl Command {
             Self::Backlash(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
+            Self::Example(command) => command.execute(),
             Self::Rotor(command) => command.execute(),
             Self::Balancing(command) => command.execute(),
             Self::Genset(command) => command.execute(),

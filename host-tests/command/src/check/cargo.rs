@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use super::{Count, Failed, Voice};
 use driveline_qemu::children::{Folder, Running};
-use driveline_qemu::image::{target_directory, workspace};
+use driveline_qemu::clone::workspace;
 use driveline_qemu::setup;
 
 /// Runs cargo as one check.
@@ -25,15 +25,11 @@ pub fn tests(arguments: &[&str], voice: &Voice) -> Result<Count, Failed> {
     Err(Failed { count, message: refused(arguments) })
 }
 
-/// The arguments that keep the firmware's builds apart from the host's.
-pub fn firmware_directory() -> String {
-    format!("--target-dir={}", target_directory().join("firmware").display())
-}
-
 fn run(arguments: &[&str], voice: &Voice) -> Result<(bool, Count), Failed> {
     let failed = |error: std::io::Error| Failed::whole(format!("cargo {}: {error}", arguments.join(" ")));
+    let root = workspace().map_err(Failed::whole)?;
     let mut command = Command::new(setup::cargo());
-    command.args(arguments).current_dir(workspace()).stdin(Stdio::null()).stdout(Stdio::piped());
+    command.args(arguments).current_dir(root).stdin(Stdio::null()).stdout(Stdio::piped());
     if arguments.iter().any(|argument| argument.starts_with("--target=")) {
         // these would replace the linker script that .cargo/config.toml names
         command.env_remove("RUSTFLAGS").env_remove("CARGO_ENCODED_RUSTFLAGS");

@@ -1,17 +1,18 @@
 //! `cargo driveline check`: everything that must hold before a commit, in order, up to the first failure.
 
 mod cargo;
+mod clock;
 pub mod comparison;
 mod step;
 mod steps;
 
-use std::time::{Duration, Instant};
-
+use driveline_report::Table;
 use serde::Serialize;
 
 pub use step::{Count, Step};
 pub use steps::STEPS;
 
+use clock::{Clock, Took};
 use step::{Failed, Voice};
 
 /// What to check and how to say it.
@@ -31,8 +32,9 @@ pub struct Done {
     /// What it found.
     #[serde(flatten)]
     pub count: Count,
-    /// Wall time, seconds.
-    pub seconds: f64,
+    /// How long it took.
+    #[serde(flatten)]
+    pub took: Took,
     /// What went wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
@@ -82,30 +84,49 @@ pub fn run(options: &Options) -> Result<Vec<Done>, CheckError> {
 
 fn once(step: &Step, voice: &Voice) -> Done {
     voice.say(&format!("== {}", step.name));
-    let started = Instant::now();
+    let clock = Clock::start();
     let result = (step.run)(voice);
-    let seconds = (started.elapsed().as_secs_f64() * 1e3).round() / 1e3;
+    let took = clock.took();
     let (count, error) = match result {
         Ok(count) => (count, None),
         Err(Failed { count, message }) => (count, Some(message)),
     };
     let verdict = if error.is_none() { "ok" } else { "FAILED" };
-    let time = Duration::from_secs_f64(seconds);
-    voice.say(&format!("== {}: {verdict}, {} passed, {time:.1?}", step.name, count.passed));
-    let done = Done { step: step.name, count, seconds, error, repeat: step.repeat.into() };
+    voice.say(&format!("== {}: {verdict}, {} passed, {:.1} s", step.name, count.passed, took.seconds));
+    let done = Done { step: step.name, count, took, error, repeat: step.repeat.into() };
     if voice.json {
         println!("{}", serde_json::to_string(&done).unwrap_or_default());
     }
     done
 }
 
-/// The closing line.
+/// The steps with what they took, and the closing line.
 fn close(all: &[Done], voice: &Voice) {
     let passed: u64 = all.iter().map(|done| done.count.passed).sum();
     let failed: u64 = all.iter().map(|done| done.count.failed).sum();
+    voice.say(times(all).to_string().trim_end());
     if voice.json {
         println!("{}", serde_json::json!({ "passed": passed, "failed": failed }));
     } else {
         println!("{passed} passed, {failed} failed");
     }
+}
+
+/// What each step took, and their sum.
+fn times(all: &[Done]) -> Table {
+    let mut table = Table::new(["step", "passed", "failed", "wall s", "processor s"]);
+    let mut row = |name: &str, Count { passed, failed }, took: Took| {
+        let processor = took.processor_seconds.map_or_else(String::new, |seconds| format!("{seconds:.1}"));
+        let seconds = format!("{:.1}", took.seconds);
+        table.row([name.to_owned(), passed.to_string(), failed.to_string(), seconds, processor]);
+    };
+    for done in all {
+        row(done.step, done.count, done.took);
+    }
+    let sum = |of: fn(&Done) -> u64| all.iter().map(of).sum();
+    let count = Count { passed: sum(|done| done.count.passed), failed: sum(|done| done.count.failed) };
+    let seconds = all.iter().map(|done| done.took.seconds).sum();
+    let processor_seconds = all.iter().map(|done| done.took.processor_seconds).sum();
+    row("all", count, Took { seconds, processor_seconds });
+    table
 }

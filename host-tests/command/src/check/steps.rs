@@ -6,7 +6,8 @@ use driveline_firmware::variants::VARIANTS;
 
 use super::comparison::Comparison;
 use super::{Count, Failed, Step, Voice, cargo};
-use driveline_qemu::image::{ON_NUCLEO, Program, belongs, build, workspace};
+use driveline_qemu::clone::workspace;
+use driveline_qemu::image::{ON_NUCLEO, Program, belongs, build};
 use driveline_qemu::measure::budgets::Budgets;
 use driveline_qemu::measure::{Cost, self_test};
 use driveline_qemu::setup;
@@ -43,13 +44,13 @@ fn clippy(voice: &Voice) -> Result<Count, Failed> {
     let links = ["rustdoc", "--package=driveline", "--all-features", "--", "-D", "warnings"];
     count.passed += cargo::passes(&links, voice)?.passed;
     for board in BOARDS {
-        let (target, directory) = (format!("--target={}", board.target), cargo::firmware_directory());
+        let target = format!("--target={}", board.target);
         // the board with a motor is linted with the others of its core, of which the binaries for QEMU take theirs
         let of_core = if board.target == NUCLEO.target { ",nucleo-g474re" } else { "" };
         let features = format!("--features=target,defmt{of_core}");
         let this = format!("--config=env.DRIVELINE_BOARD='{}'", board.name);
         let package = ["clippy", &this, "--package=driveline-firmware", &features];
-        let arguments = [&package[..], &[&target, &directory, "--", "-D", "warnings"]].concat();
+        let arguments = [&package[..], &[&target, "--", "-D", "warnings"]].concat();
         count.passed += cargo::passes(&arguments, voice)?.passed;
     }
     Ok(count)
@@ -93,7 +94,8 @@ fn self_tests(voice: &Voice) -> Result<Count, Failed> {
 
 /// Every figure is within its budget.
 fn budgets(voice: &Voice) -> Result<Count, Failed> {
-    let budgets = Budgets::read(&workspace().join("budgets.toml")).map_err(Failed::whole)?;
+    let root = workspace().map_err(Failed::whole)?;
+    let budgets = Budgets::read(&root.join("budgets.toml")).map_err(Failed::whole)?;
     let mut costs = each(|variant, board| {
         let cost = Cost::measure(variant, board, |_| {}).map_err(|error| error.to_string())?;
         Ok((variant.to_string(), board.core, cost))

@@ -29,7 +29,8 @@ use weight::{Hole, arrow, arrows_of, fill, told};
 /// The file says the planes, the sensors, a baseline and a trial run for each plane, with phases in degrees.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  cargo driveline balancing host-tests/command/rotors/fan-balance.toml
+  cargo driveline example fan-balance > fan-balance.toml
+  cargo driveline balancing fan-balance.toml
   cargo driveline balancing my.toml --html my.html
   cargo driveline balancing my.toml --json")]
 pub struct Balance {

@@ -4,6 +4,7 @@ use clap::Args;
 
 use super::Failure;
 use crate::check::{CheckError, Options, STEPS, run};
+use driveline_qemu::clone::workspace;
 
 /// Check everything: formatting, clippy, tests, firmware builds, the QEMU self-test, the budgets.
 ///
@@ -25,6 +26,7 @@ impl Check {
     /// # Errors
     /// The step that failed.
     pub fn execute(&self) -> Result<(), Failure> {
+        workspace().map_err(|error| Failure::usage(error.to_string()))?;
         match run(&Options { json: self.json, only: self.only.clone() }) {
             Ok(_) => Ok(()),
             Err(error @ CheckError::NoSuchStep(_)) => Err(Failure::usage(error.to_string())),

@@ -22,7 +22,7 @@ use driveline_qemu::setup::Need;
 #[command(after_help = "Examples:
   cargo driveline commissioning mill
   cargo driveline commissioning hoist --qemu
-  cargo driveline commissioning host-tests/command/machines/mill.toml --friction 0.05
+  cargo driveline commissioning mill.toml --friction 0.05
   cargo driveline commissioning spindle --json > spindle.json")]
 pub struct Commission {
     /// `hoist`, `mill`, `spindle`, or a TOML file of elements from the motor to the load

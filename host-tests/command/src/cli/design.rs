@@ -16,7 +16,8 @@ use driveline_report::format::{percent, rate, significant};
 /// The same functions design a firmware's constants at compile time; with --emit rust they are printed to paste.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  cargo driveline design host-tests/command/machines/hoist.toml
+  cargo driveline example hoist > hoist.toml
+  cargo driveline design hoist.toml
   cargo driveline design my.toml --emit rust > src/my_machine.rs
   cargo driveline design my.toml --json")]
 pub struct Design {

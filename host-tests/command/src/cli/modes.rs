@@ -30,7 +30,8 @@ use driveline_report::Section;
 /// flagged. The page with the plots opens in any browser.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  cargo driveline modes host-tests/command/machines/hoist.toml
+  cargo driveline example hoist > hoist.toml
+  cargo driveline modes hoist.toml
   cargo driveline modes my.toml --html my.html
   cargo driveline modes my.toml --json")]
 pub struct Modes {

@@ -19,7 +19,8 @@ use driveline_solver::rotor::{Critical, Modal, Natural, Polar, RotorError, Whirl
 /// The page with the Campbell diagram opens in any browser.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  cargo driveline rotor host-tests/command/rotors/three_discs.toml
+  cargo driveline example three-discs > three_discs.toml
+  cargo driveline rotor three_discs.toml
   cargo driveline rotor my.toml --html my.html
   cargo driveline rotor my.toml --json")]
 pub struct Rotor {

@@ -4,6 +4,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::{Failure, say, say_json};
+use driveline_qemu::clone::workspace;
 use driveline_qemu::setup::{Need, ensure, missing};
 
 /// Install what is missing: Rust targets, rustfmt, clippy, QEMU for Arm.
@@ -21,8 +22,17 @@ pub struct Setup {
     pub json: bool,
 }
 
+/// For what builds from the repository: finds the clone and installs what of some needs is missing.
+///
+/// # Errors
+/// The current folder is in no clone; what could not be installed.
+pub(super) fn ready(needs: &[Need]) -> Result<(), Failure> {
+    workspace().map_err(|error| Failure::usage(error.to_string()))?;
+    install(needs).map(drop)
+}
+
 /// Installs what of some needs is missing, with each command on standard error; the names of what was installed.
-pub(super) fn ready(needs: &[Need]) -> Result<Vec<String>, Failure> {
+fn install(needs: &[Need]) -> Result<Vec<String>, Failure> {
     ensure(needs, |command| eprintln!("{command}")).map_err(|error| Failure::failed(error.to_string()))
 }
 
@@ -34,7 +44,7 @@ impl Setup {
     pub fn execute(&self) -> Result<(), Failure> {
         let needs = Need::all();
         let lacking: Vec<String> = missing(&needs).iter().map(|need| need.name()).collect();
-        let installed = if self.dry_run { Vec::new() } else { ready(&needs)? };
+        let installed = if self.dry_run { Vec::new() } else { install(&needs)? };
         if self.json {
             return say_json(&json!({ "missing": lacking, "installed": installed }));
         }

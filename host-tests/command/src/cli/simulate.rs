@@ -26,8 +26,9 @@ const DRAWN: usize = 6;
 /// peaks is refused.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  cargo driveline simulate host-tests/command/trains/gear-pair.toml
-  cargo driveline simulate host-tests/command/trains/hoist-start.toml --csv start.csv
+  cargo driveline example gear-pair > gear-pair.toml
+  cargo driveline simulate gear-pair.toml
+  cargo driveline simulate hoist-start.toml --csv start.csv
   cargo driveline simulate my.toml --html my.html --json")]
 pub struct Simulate {
     /// The train and its run: a TOML file

@@ -9,7 +9,8 @@ use super::scenario::Machine;
 use super::{SCENES, facts, other_steps};
 use crate::closed_loop::candidates::{Candidate, candidates};
 use crate::sweep;
-use driveline_qemu::image::{compositions, workspace};
+use driveline_qemu::clone::workspace;
+use driveline_qemu::image::compositions;
 use driveline_qemu::measure::budgets::Budgets;
 use driveline_report::{Budget, Report};
 
@@ -135,7 +136,7 @@ impl Plan {
 
     /// What `budgets.toml` allows beside what was measured in closed loop.
     fn budgets(&self, report: &mut Report) -> Result<(), Box<dyn Error>> {
-        let budgets = Budgets::read(&workspace().join("budgets.toml"))?;
+        let budgets = Budgets::read(&workspace()?.join("budgets.toml"))?;
         for (candidate, variant) in self.candidates.iter().zip(&report.variants) {
             let Some(budget) = budgets.of(candidate.variant, candidate.board.core) else { continue };
             let figures = [

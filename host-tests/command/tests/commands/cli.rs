@@ -210,6 +210,41 @@ fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
     assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
 }
 
+/// In a folder of nothing: what a file is needed for gets it from the program, what a clone is needed for says so.
+#[test]
+fn an_installed_command_works_in_any_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+        command
+            .arg("driveline")
+            .args(arguments)
+            .current_dir(folder.path())
+            .env_remove("CARGO_TARGET_DIR")
+            .output()
+            .unwrap()
+    };
+    let names = out(&run(&["example"]));
+    for line in names.lines() {
+        let (name, commands) = line.split_once(' ').unwrap();
+        let file = format!("{name}.toml");
+        std::fs::write(folder.path().join(&file), out(&run(&["example", name]))).unwrap();
+        // a test of half an hour is left to its own tests
+        for command in commands.trim().split(", ").filter(|command| *command != "commissioning") {
+            let output = run(&[command, &file]);
+            assert!(output.status.success(), "{command} {file}: {}", err(&output));
+        }
+    }
+    assert!(run(&["commissioning", "axis.toml", "--json"]).status.success());
+    for command in
+        [&["run"][..], &["report"], &["check"], &["sizes"], &["genset"], &["commissioning", "mill", "--qemu"]]
+    {
+        let output = run(command);
+        assert_eq!(output.status.code(), Some(2), "{command:?}");
+        assert!(err(&output).contains("needs a clone of driveline's repository"), "{command:?}: {}", err(&output));
+    }
+}
+
 /// The commands that read a file, each with one, and the option that names a result.
 const READERS: [(&str, &str, &str); 7] = [
     ("modes", "machines/hoist.toml", "--html"),

@@ -6,7 +6,6 @@
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader};
-use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use driveline_firmware::board::Facts;
@@ -14,10 +13,14 @@ use driveline_firmware::board::Facts;
 use super::fresh::fingerprint;
 use super::{Image, Program};
 use crate::children::{Folder, Running};
+use crate::clone::{NoClone, target_directory, workspace};
 
 /// Why an image was not built.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
+    /// There is nothing to build it from.
+    #[error(transparent)]
+    NoClone(#[from] NoClone),
     /// A file or cargo could not be reached.
     #[error("{place}: {error}")]
     Io {
@@ -36,18 +39,6 @@ pub enum BuildError {
     },
 }
 
-/// The root of the workspace.
-pub fn workspace() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap_or(Path::new("."))
-}
-
-/// Cargo's target directory.
-pub fn target_directory() -> PathBuf {
-    let named = std::env::var_os("CARGO_TARGET_DIR").filter(|name| !name.is_empty());
-    let named = named.map_or_else(|| workspace().join("target"), PathBuf::from);
-    std::path::absolute(&named).unwrap_or(named)
-}
-
 /// Builds `program` holding `variant` for `board`, unless the image on disk is what would be built; `progress` is told each line that
 /// cargo prints.
 pub fn build(
@@ -56,14 +47,15 @@ pub fn build(
     program: Program,
     mut progress: impl FnMut(&str),
 ) -> Result<Image, BuildError> {
-    let images = target_directory().join("images");
+    let (workspace, target) = (workspace()?, target_directory()?);
+    let images = target.join("images");
     let place = |what: String| move |error| BuildError::Io { place: what, error };
     fs::create_dir_all(&images).map_err(place(format!("making {}", images.display())))?;
     let lock = images.join(format!(".{}.lock", board.target));
     let held = File::create(&lock).map_err(place(format!("making {}", lock.display())))?;
     held.lock().map_err(place(format!("locking {}", lock.display())))?;
 
-    let firmware = target_directory().join("firmware").join(board.target);
+    let firmware = target.join("firmware").join(board.target);
     let arguments = [
         "build",
         "--package=driveline-firmware",
@@ -79,7 +71,7 @@ pub fn build(
     );
     let path = images.join(format!("{}.{}.{}.elf", variant.replace('/', "-"), board.core, program.name()));
     let stamp = path.with_extension("stamp");
-    let fresh = fingerprint(workspace(), &command).map_err(place("reading the firmware's sources".into()))?;
+    let fresh = fingerprint(workspace, &command).map_err(place("reading the firmware's sources".into()))?;
     let image = Image { path: path.clone(), variant: variant.into(), board, program };
     if path.exists() && fs::read_to_string(&stamp).is_ok_and(|old| old == fresh) {
         return Ok(image);
@@ -99,7 +91,7 @@ pub fn build(
         // these would replace the linker script that .cargo/config.toml names
         .env_remove("RUSTFLAGS")
         .env_remove("CARGO_ENCODED_RUSTFLAGS")
-        .current_dir(workspace())
+        .current_dir(workspace)
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::piped());

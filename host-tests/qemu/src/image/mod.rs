@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 use driveline_firmware::board::{BOARDS, Facts};
 
-pub use build::{BuildError, build, links, target_directory, workspace};
+pub use build::{BuildError, build, links};
 pub use compositions::compositions;
 pub use footprint::{Footprint, footprints};
 pub use machine_code::{Function, Referent, tick_code};

@@ -6,8 +6,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::image::target_directory;
-
 /// The program.
 pub const PROGRAM: &str = "qemu-system-arm";
 
@@ -31,12 +29,12 @@ impl Emulator {
         copy.answers().then_some(copy)
     }
 
-    /// The folder of the private copy: `driveline/qemu` in the user's cache, in the target directory where there is none.
+    /// The folder of the private copy: `driveline/qemu` in the user's cache, else among temporary files.
     pub fn folder() -> PathBuf {
         let cache = env::var_os("XDG_CACHE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
         let home = || env::var_os("HOME").filter(|home| !home.is_empty());
         let cache = cache.or_else(|| Some(PathBuf::from(home()?).join(".cache")));
-        cache.unwrap_or_else(target_directory).join("driveline").join("qemu")
+        cache.unwrap_or_else(env::temp_dir).join("driveline").join("qemu")
     }
 
     /// A command that starts it.

@@ -1,0 +1,50 @@
+//! `cargo driveline example`: files to begin with, which the program carries.
+
+use clap::Args;
+
+use super::{Failure, say};
+
+/// Print a file to begin with: a machine, a train with its run, a rotor, readings of a rotor to be balanced.
+///
+/// Without a name, prints what there is.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline example
+  cargo driveline example hoist > hoist.toml
+  cargo driveline modes hoist.toml")]
+pub struct Example {
+    /// Its name
+    name: Option<String>,
+}
+
+/// Name, for which commands, and text of each.
+const EXAMPLES: [(&str, &str, &str); 9] = [
+    ("hoist", "modes, design, commissioning", include_str!("../../machines/hoist.toml")),
+    ("axis", "modes, design, commissioning", include_str!("../../machines/axis.toml")),
+    ("mill", "modes, design, commissioning", include_str!("../../machines/mill.toml")),
+    ("ship", "modes, design", include_str!("../../machines/ship.toml")),
+    ("gear-pair", "simulate, modes", include_str!("../../trains/gear-pair.toml")),
+    ("hoist-start", "simulate, modes", include_str!("../../trains/hoist-start.toml")),
+    ("tilting", "simulate, modes", include_str!("../../trains/tilting.toml")),
+    ("three-discs", "rotor", include_str!("../../rotors/three_discs.toml")),
+    ("fan-balance", "balancing", include_str!("../../rotors/fan-balance.toml")),
+];
+
+impl Example {
+    /// Prints the file, or the names.
+    ///
+    /// # Errors
+    /// No such example.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let Some(name) = &self.name else {
+            EXAMPLES.iter().for_each(|(name, commands, _)| say(format_args!("{name:<12} {commands}")));
+            return Ok(());
+        };
+        let Some((_, _, text)) = EXAMPLES.iter().find(|(known, ..)| known == name) else {
+            let names = EXAMPLES.map(|(name, ..)| format!("`{name}`")).join(", ");
+            return Err(Failure::usage(format!("there is no example `{name}`; there are {names}")));
+        };
+        say(text.trim_end());
+        Ok(())
+    }
+}

@@ -1,0 +1,60 @@
+//! The clone of the repository that images are built from: the current folder is in it.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// No folder from the current one upwards is a clone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("this needs a clone of driveline's repository, and the current folder is in none; type it inside one")]
+pub struct NoClone;
+
+/// Files that only the root of the repository has together.
+const ROOT: [&str; 3] = ["budgets.toml", "firmware/Cargo.toml", "src/lib.rs"];
+
+/// The root of the clone.
+///
+/// # Errors
+/// The current folder is in none.
+pub fn workspace() -> Result<&'static Path, NoClone> {
+    static FOUND: OnceLock<Option<PathBuf>> = OnceLock::new();
+    FOUND.get_or_init(|| root(&env::current_dir().ok()?)).as_deref().ok_or(NoClone)
+}
+
+/// The nearest root at or above a folder.
+fn root(folder: &Path) -> Option<PathBuf> {
+    folder.ancestors().find(|folder| ROOT.iter().all(|file| folder.join(file).is_file())).map(Path::to_owned)
+}
+
+/// Cargo's target directory of the clone.
+///
+/// # Errors
+/// The current folder is in none.
+pub fn target_directory() -> Result<PathBuf, NoClone> {
+    let root = workspace()?;
+    let named = env::var_os("CARGO_TARGET_DIR").filter(|name| !name.is_empty());
+    let named = named.map_or_else(|| root.join("target"), PathBuf::from);
+    Ok(std::path::absolute(&named).unwrap_or(named))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::{ROOT, root, workspace};
+
+    #[test]
+    fn a_clone_is_found_from_any_folder_in_it_and_from_no_other() {
+        let other = tempfile::tempdir().unwrap();
+        assert_eq!(root(other.path()), None);
+        for file in ROOT {
+            let file = other.path().join(file);
+            fs::create_dir_all(file.parent().unwrap()).unwrap();
+            fs::write(file, "").unwrap();
+        }
+        let deep = other.path().join("a/b");
+        fs::create_dir_all(&deep).unwrap();
+        assert_eq!(root(&deep).as_deref(), Some(other.path()));
+        assert!(workspace().unwrap().join("budgets.toml").exists());
+    }
+}
