@@ -1,16 +1,19 @@
 //! What the loop, the bench and the self-test need to know of a scene, in words of 32 bits.
 //!
-//! A scene is a drive composed from parts, with its constants. Every word is the bit pattern of the scene's own number
-//! type (`f32` in SI units, or fixed point per unit of the scene's limits), so that host and target can be
-//! compared bit for bit and the link needs no conversion.
+//! A scene is a drive composed from parts, with its constants; a variant has a name in the table of scenes. Every word
+//! is the bit pattern of the scene's own number type (`f32` in SI units, or fixed point per unit of the scene's
+//! limits), so that host and target can be compared bit for bit and the link needs no conversion.
 
-pub mod assembled;
 pub mod balanced;
+pub mod composed;
 pub mod expected;
-pub mod governed;
 pub mod on_axis;
 pub mod panel_keys;
 pub mod table;
+
+use core::marker::PhantomData;
+
+use driveline::drive::{Composition, ConfigOf};
 
 use expected::Expected;
 
@@ -33,7 +36,8 @@ pub struct Input {
 }
 
 impl Input {
-    /// Flag: the brake is open and the governor at work; without it the scene holds, and [`Input::setpoint`] is the torque that it holds with.
+    /// Flag: the brake is open and the governor at work; without it the scene holds, and [`Input::setpoint`] is the
+    /// torque that it holds with.
     pub const RELEASED: u32 = 1;
 }
 
@@ -59,26 +63,15 @@ pub struct Output {
     pub answer: u32,
 }
 
-/// A drive of a scene, ready to tick; state and constants together.
+/// A drive of a scene, ready to tick.
 pub trait Scene {
-    /// The scene's name, number, observer and rate, as `hoist/f32/reduced/10000`.
-    const NAME: &'static str;
-    /// Ticks a second.
-    const RATE_HZ: u32;
-    /// A drive at rest.
-    fn new() -> Self;
     /// One tick. Pure: no clock, no allocation, no panic.
     fn tick(&mut self, input: &Input) -> Output;
 
-    /// What a panel or a terminal does between two ticks: gives a value, asks for one. It may take longer than a tick, and a scene without
-    /// a panel has nothing of it.
+    /// What a panel or a terminal does between two ticks: gives a value, asks for one. It may take longer than a tick,
+    /// and a scene without a panel has nothing of it.
     fn panel(&mut self, _asked: [u32; 2]) -> u32 {
         0
-    }
-
-    /// What the design says of its observer's errors; none where the scene does not tell.
-    fn expected() -> Option<Expected> {
-        None
     }
 
     /// A tick and the panel's turn after it, as the control loop runs them.
@@ -86,4 +79,49 @@ pub trait Scene {
         let output = self.tick(input);
         Output { answer: self.panel(input.asked), ..output }
     }
+}
+
+#[cfg(not(target_os = "none"))]
+impl<S: Scene + ?Sized> Scene for alloc::boxed::Box<S> {
+    fn tick(&mut self, input: &Input) -> Output {
+        (**self).tick(input)
+    }
+
+    fn panel(&mut self, asked: [u32; 2]) -> u32 {
+        (**self).panel(asked)
+    }
+}
+
+/// One variant of a scene.
+pub trait Variant: 'static {
+    /// Its drive.
+    type Scene: Scene;
+    /// Scene, number, observer and rate, as `hoist/f32/reduced/10000`.
+    const NAME: &'static str;
+    /// Ticks a second.
+    const RATE_HZ: u32;
+    /// The drive at rest.
+    fn start() -> Self::Scene;
+
+    /// What the design says of its observer's errors; none where it says nothing.
+    fn expected() -> Option<Expected> {
+        None
+    }
+}
+
+/// A scene that its drive's constants are all that is needed of.
+pub trait FromConfig: Scene {
+    /// The drive.
+    type Drive: Composition;
+    /// The drive at rest.
+    fn from_config(config: &'static ConfigOf<Self::Drive>) -> Self;
+}
+
+/// The variant of a scene for a machine, with the constants that follow from the machine.
+pub struct Of<M, S>(PhantomData<(M, S)>);
+
+/// The constants of a variant's drive.
+pub trait Constants: Variant<Scene: FromConfig> {
+    /// The constants.
+    const CONFIG: &'static ConfigOf<<Self::Scene as FromConfig>::Drive>;
 }

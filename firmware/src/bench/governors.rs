@@ -9,9 +9,9 @@ use driveline::sample::{Command, Estimate};
 
 use super::Bench;
 use crate::board::Board;
-use crate::scene::governed::Variant;
+use crate::scene::{Constants, Of};
 use crate::scenes::generator::{self, parts};
-use crate::scenes::hoist::{Hoist, with};
+use crate::scenes::hoist::{Hoist, Reduced};
 use crate::self_test::inputs::Program;
 
 /// One call's state: the constants and the governor.
@@ -49,7 +49,7 @@ macro_rules! governors {
                 };
             }
             use parts::$run as p;
-            let hoist = &<Hoist<N, with::Reduced, 10_000> as Variant>::CONFIG.governor;
+            let hoist = &<Of<Hoist<10_000>, Reduced<N>> as Constants>::CONFIG.governor;
             bench.measure("governor/speed-loop", (hoist, SpeedLoop::default()), input::<N>, command);
             one!("governor/core", (), (), SymmetricLimit, (), (), (), p::SYMMETRIC, ());
             one!("governor/between", (), (), TorqueRange, (), (), (), p::BETWEEN, ());

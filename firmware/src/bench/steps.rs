@@ -1,5 +1,6 @@
 //! The steps of the observers and the whole tick, on the hoist's constants.
 
+use driveline::configure::Machine;
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::number::{Fixed, Number};
@@ -11,39 +12,33 @@ use driveline::sample::{Command, Sample};
 use super::Bench;
 use crate::board::Board;
 use crate::control_loop::telemetry::{Told, VALUES};
-use crate::scene::governed::Variant;
-use crate::scenes::blooming_mill::{self, BASES, BloomingMill};
-use crate::scenes::hoist::{Hoist, with};
-use crate::self_test::backlash_inputs::{self, Rattle};
+use crate::scene::Of;
+use crate::scene::composed::GovernedVariant;
+use crate::scenes::blooming_mill::{Backlash, BloomingMill};
+use crate::scenes::hoist::{Exact, Hoist, Reduced, Rigid};
+use crate::self_test::backlash_inputs::Rattle;
 use crate::self_test::inputs::Program;
 
 /// The steps in `f32`.
 pub fn single<B: Board>(bench: &mut Bench<'_, B>) {
-    all::<B, f32, Hoist<f32, with::Exact, 10_000>, Hoist<f32, with::Reduced, 10_000>, Hoist<f32, with::Rigid, 10_000>>(
-        bench,
-    );
-    backlash::<B, f32, BloomingMill<f32, blooming_mill::with::Backlash, { backlash_inputs::RATE_HZ }>>(
-        bench,
-        |torque| torque,
-    );
+    all::<B, f32, AtTenKilohertz<Exact<f32>>, AtTenKilohertz<Reduced<f32>>, AtTenKilohertz<Rigid<f32>>>(bench);
+    backlash::<B, f32, Of<BloomingMill, Backlash<f32>>>(bench, |torque| torque);
 }
 
 /// The steps in fixed point.
 pub fn fixed<B: Board>(bench: &mut Bench<'_, B>) {
-    all::<
-        B,
-        Fixed,
-        Hoist<Fixed, with::Exact, 10_000>,
-        Hoist<Fixed, with::Reduced, 10_000>,
-        Hoist<Fixed, with::Rigid, 10_000>,
-    >(bench);
+    all::<B, Fixed, AtTenKilohertz<Exact<Fixed>>, AtTenKilohertz<Reduced<Fixed>>, AtTenKilohertz<Rigid<Fixed>>>(bench);
     // To 2^-24 of the base.
-    let word = |torque: f32| Fixed::from_bits(((torque * (16_777_216.0 / BASES.torque as f32)) as i32) << 4);
-    backlash::<B, Fixed, BloomingMill<Fixed, blooming_mill::with::Backlash, { backlash_inputs::RATE_HZ }>>(bench, word);
+    let word =
+        |torque: f32| Fixed::from_bits(((torque * (16_777_216.0 / BloomingMill::BASES.torque as f32)) as i32) << 4);
+    backlash::<B, Fixed, Of<BloomingMill, Backlash<Fixed>>>(bench, word);
 }
 
+/// The hoist at 10 kHz.
+type AtTenKilohertz<S> = Of<Hoist<10_000>, S>;
+
 /// The observer of backlash on a machine that rattles through its gap: every regime, every crossing.
-fn backlash<B: Board, N: Gap, V: Variant<Number = N, Observer = BacklashObserver<N>>>(
+fn backlash<B: Board, N: Gap, V: GovernedVariant<Number = N, Observer = BacklashObserver<N>>>(
     bench: &mut Bench<'_, B>,
     number: impl Fn(f32) -> N,
 ) {
@@ -79,9 +74,9 @@ fn all<B, N, E, R, G>(bench: &mut Bench<'_, B>)
 where
     B: Board,
     N: Stiction + 'static,
-    E: Variant<Number = N, Observer = GearedObserver<TwoMassObserver<N>>>,
-    R: Variant<Number = N, Observer = GearedObserver<SemiImplicitObserver<N>>>,
-    G: Variant<Number = N, Observer = GearedObserver<RigidObserver<N>>>,
+    E: GovernedVariant<Number = N, Observer = GearedObserver<TwoMassObserver<N>>>,
+    R: GovernedVariant<Number = N, Observer = GearedObserver<SemiImplicitObserver<N>>>,
+    G: GovernedVariant<Number = N, Observer = GearedObserver<RigidObserver<N>>>,
 {
     observer::<B, N, TwoMassObserver<N>>(bench, "step/exact", &E::CONFIG.observer.observer);
     observer::<B, N, SemiImplicitObserver<N>>(bench, "step/semi-implicit", &R::CONFIG.observer.observer);
@@ -121,12 +116,23 @@ fn step<N: Number, O: Observer<N>>(config: &O::Config, observer: &mut O, angle: 
     observer.step(config, angle, torque);
 }
 
-type Whole<V> = Drive<<V as Variant>::Number, <V as Variant>::Observer, (), SpeedLoop<<V as Variant>::Number>>;
-type Constants<V> =
-    ConfigOf<Drive<<V as Variant>::Number, <V as Variant>::Observer, (), SpeedLoop<<V as Variant>::Number>>>;
+type Whole<V> = Drive<
+    <V as GovernedVariant>::Number,
+    <V as GovernedVariant>::Observer,
+    (),
+    SpeedLoop<<V as GovernedVariant>::Number>,
+>;
+type Constants<V> = ConfigOf<
+    Drive<
+        <V as GovernedVariant>::Number,
+        <V as GovernedVariant>::Observer,
+        (),
+        SpeedLoop<<V as GovernedVariant>::Number>,
+    >,
+>;
 
 /// The whole tick, checks and flags included, good and bad samples alike.
-fn drive<B: Board, V: Variant>(bench: &mut Bench<'_, B>, name: &str) {
+fn drive<B: Board, V: GovernedVariant>(bench: &mut Bench<'_, B>, name: &str) {
     let input = |inputs: &mut Program| {
         let input = inputs.next_input();
         let number = V::Number::from_word;
@@ -136,7 +142,7 @@ fn drive<B: Board, V: Variant>(bench: &mut Bench<'_, B>, name: &str) {
 }
 
 #[inline(never)]
-fn tick<V: Variant>(
+fn tick<V: GovernedVariant>(
     drive: &mut (&Constants<V>, Whole<V>),
     sample: &Sample<V::Number>,
     command: &mut Command<V::Number>,

@@ -1,5 +1,6 @@
 //! What the bench measures: a line a function, with its state, its inputs and the function.
 
+use driveline::configure::Machine;
 use driveline::fluctuation::CycleMeanConfig;
 use driveline::number::Fixed;
 use driveline::settings::Bases;
@@ -10,16 +11,16 @@ use super::{advice, correction, cranked, fluctuation, governors, phasors, steps}
 use crate::Words;
 use crate::board::Board;
 use crate::measure::count::Measured;
-use crate::scene::{Input, Output, Scene};
-use crate::scenes::hoist::BASES;
+use crate::scene::{Input, Output, Variant};
+use crate::scenes::hoist::Hoist;
 use crate::self_test::inputs::Program;
 
-/// Measures everything; `tick` is that of scene `S`.
-pub fn run<S: Scene, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<S, Input, Output>) {
+/// Measures everything; `tick` is that of variant `V`.
+pub fn run<V: Variant, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<V::Scene, Input, Output>) {
     bench.measure("nops/10", (), |_| (), ten_nops);
     bench.measure("nops/1000", (), |_| (), thousand_nops);
-    bench.measure("tick", S::new(), Program::next_input, tick);
-    match const { Words::of::<S>() } {
+    bench.measure("tick", V::start(), Program::next_input, tick);
+    match const { Words::of::<V>() } {
         Words::Single => {
             steps::single(bench);
             cranked::single(bench);
@@ -35,6 +36,7 @@ pub fn run<S: Scene, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<S, Input
             steps::fixed(bench);
             cranked::fixed(bench);
             phasors::fixed(bench);
+            const BASES: Bases = Hoist::<10_000>::BASES;
             let mean = CycleMeanConfig::<Fixed>::new::<4>(fluctuation::QUARTER, 1e-4, BASES);
             fluctuation::all::<B, Fixed>(bench, BASES, mean);
             governors::fixed(bench);

@@ -6,7 +6,7 @@ use cortex_m_rt::entry;
 use driveline_firmware::Words;
 use driveline_firmware::bench::{self, Bench};
 use driveline_firmware::board::{Board, ThisBoard};
-use driveline_firmware::scene::Scene;
+use driveline_firmware::scene::Variant;
 use driveline_firmware::self_test::fingerprint::SEED;
 use driveline_firmware::self_test::inputs::Program;
 

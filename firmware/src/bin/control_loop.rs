@@ -9,19 +9,19 @@ use driveline_firmware::board::json_line::Line;
 use driveline_firmware::board::{Board, Link, ThisBoard};
 use driveline_firmware::measure::count::Counter;
 use driveline_firmware::measure::stack;
-use driveline_firmware::scene::{Input, Output, Scene};
+use driveline_firmware::scene::{Input, Output, Scene, Variant};
 
 driveline_firmware::selected!();
 
 #[entry]
 fn main() -> ! {
     // a static, so that the drive's memory shows in the image's
-    static mut DRIVE: MaybeUninit<Selected> = MaybeUninit::uninit();
+    static mut DRIVE: MaybeUninit<<Selected as Variant>::Scene> = MaybeUninit::uninit();
 
     let board = ThisBoard::start();
     let Some(link) = board.open_link() else { board.exit(false) };
     let counter = Counter::new(&board);
-    let drive = DRIVE.write(Selected::new());
+    let drive = DRIVE.write(Selected::start());
     let (mut input, mut output) = (Input::default(), Output::default());
     let mut ticks = 0_u32;
     stack::paint();
@@ -39,7 +39,7 @@ fn main() -> ! {
         .text("board", ThisBoard::FACTS.name)
         .number("ticks", ticks)
         .number("stack", stack)
-        .number("state", size_of::<Selected>() as u32)
+        .number("state", size_of::<<Selected as Variant>::Scene>() as u32)
         .number("overhead", counter.overhead());
     board.print(line.finish());
     board.exit(true)

@@ -5,7 +5,7 @@
 use cortex_m_rt::entry;
 use driveline_firmware::Words;
 use driveline_firmware::board::{Board, ThisBoard};
-use driveline_firmware::scene::Scene;
+use driveline_firmware::scene::{Scene, Variant};
 use driveline_firmware::self_test::fingerprint::{SEED, TICKS};
 use driveline_firmware::self_test::inputs::Program;
 
@@ -14,7 +14,7 @@ driveline_firmware::selected!();
 #[entry]
 fn main() -> ! {
     let board = ThisBoard::start();
-    let mut drive = Selected::new();
+    let mut drive = Selected::start();
     let mut inputs = Program::new(SEED, const { Words::of::<Selected>() });
     let mut faults = 0;
     defmt::info!("{=str} on {=str}", Selected::NAME, ThisBoard::FACTS.name);

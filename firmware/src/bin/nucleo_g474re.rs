@@ -1,8 +1,10 @@
 #![no_std]
 #![no_main]
-//! The test rig on a NUCLEO-G474RE: the control loop in the timer's interrupt, balancing and telemetry in the main loop.
+//! The test rig on a NUCLEO-G474RE: the control loop in the timer's interrupt, balancing and telemetry in the main
+//! loop.
 //!
-//! The blue button stops the drive when it is touched, and starts it when it was pressed and let go. `cargo driveline watch` shows the telemetry; what is asked for comes as frames of [`Asking`]. See `doc/boards.md`.
+//! The blue button stops the drive when it is touched, and starts it when it was pressed and let go. `cargo driveline
+//! watch` shows the telemetry; what is asked for comes as frames of [`Asking`]. See `doc/boards.md`.
 
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
@@ -20,17 +22,17 @@ use driveline_firmware::control_loop::main_loop_watch::Attended;
 use driveline_firmware::control_loop::step::{Asked, Turn};
 use driveline_firmware::control_loop::telemetry;
 use driveline_firmware::panel::serial_request::{Asking, RELEASE, SPEED};
-use driveline_firmware::scene::Scene;
-use driveline_firmware::scene::balanced::{Adviser, Measurement, Variant, reading, state};
+use driveline_firmware::scene::balanced::{Adviser as _, Measurement, reading, state};
 use driveline_firmware::scene::panel_keys::{DONE, Key};
-use driveline_firmware::scenes::test_rig::{self, TestRig};
+use driveline_firmware::scene::{Constants, Variant};
+use driveline_firmware::scenes::test_rig::{self, Adviser, TestRig};
 use stm32_metapac::{Interrupt, interrupt};
 
 driveline_firmware::selected!("test-rig/f32/two-mass/10000");
 
 /// What the interrupt owns.
 struct Control {
-    scene: Selected,
+    scene: <Selected as Variant>::Scene,
     turn: Turn<Nucleo<PwmTorque<Channel<0>, f32>>, f32>,
     vibration: Vibration,
     attended: Attended,
@@ -71,7 +73,8 @@ const COLUMNS: [Column<'static>; VALUES] = {
 #[interrupt]
 fn TIM6_DAC() {
     tick_taken();
-    // SAFETY: it was initialised before the interrupt was unmasked; the main loop uses it with interrupts off, and nothing else does.
+    // SAFETY: it was initialised before the interrupt was unmasked; the main loop uses it with interrupts off, and
+    // nothing else does.
     let Control { scene, turn, vibration, attended, left } = unsafe { (*CONTROL.0.get()).assume_init_mut() };
     if !attended.check(TURNS.load(Ordering::Relaxed)) {
         // until it is started again: not by a main loop that comes back
@@ -91,10 +94,10 @@ fn TIM6_DAC() {
 
 #[entry]
 fn main() -> ! {
-    let full_scale = const { FullScale::<f32>::new(test_rig::TORQUE_LIMIT) };
+    let full_scale = const { FullScale::<f32>::new(TestRig::RATING.torque_limit) };
     let (nucleo, Beside { vibration, serial, button }) = Nucleo::torque_input(test_rig::COUNTS, full_scale);
     let control = Control {
-        scene: Selected::new(),
+        scene: Selected::start(),
         turn: Turn::new(nucleo),
         vibration,
         attended: Attended::default(),
@@ -108,7 +111,7 @@ fn main() -> ! {
     // SAFETY: what the interrupt uses is there.
     unsafe { NVIC::unmask(Interrupt::TIM6_DAC) };
 
-    let mut desk = Desk { serial, asking: Asking::default(), adviser: <TestRig as Variant>::Adviser::new() };
+    let mut desk = Desk { serial, asking: Asking::default(), adviser: Adviser::new() };
     let mut starter = Starter { resting: button.is_high(), button, pressed: false, turns: 0, stopped: false };
     let mut told = DESCRIBED;
     loop {
@@ -124,8 +127,8 @@ fn main() -> ! {
     }
 }
 
-/// The blue button. Its level at reset counts as that of rest: whichever way it is wired, and even if it is held then, the drive does not start by a release
-/// alone.
+/// The blue button. Its level at reset counts as that of rest: whichever way it is wired, and even if it is held then,
+/// the drive does not start by a release alone.
 struct Starter {
     button: Pin,
     resting: bool,
@@ -164,7 +167,7 @@ impl Starter {
 struct Desk {
     serial: Serial,
     asking: Asking,
-    adviser: <TestRig as Variant>::Adviser,
+    adviser: Adviser,
 }
 
 impl Desk {
@@ -202,15 +205,16 @@ impl Desk {
     }
 
     fn advise(&mut self, key: Key, value: u32, measurement: &Measurement<f32>) -> u32 {
+        let balancer = &<Selected as Constants>::CONFIG.balancer;
         match key {
-            Key::State => state::<TestRig>(measurement),
-            key => self.adviser.ask(key, value, reading::<TestRig>(measurement).ok()),
+            Key::State => state::<TestRig, f32>(balancer, measurement),
+            key => self.adviser.ask(key, value, reading::<TestRig, f32>(balancer, measurement).ok()),
         }
     }
 }
 
 /// Does something with the scene between two ticks; once the interrupt is unmasked.
-fn between_ticks<T>(action: impl FnOnce(&mut Selected) -> T) -> T {
+fn between_ticks<T>(action: impl FnOnce(&mut <Selected as Variant>::Scene) -> T) -> T {
     free(|_| {
         // SAFETY: interrupts are off, and `main` has initialised it before there was anything to answer.
         let control = unsafe { (*CONTROL.0.get()).assume_init_mut() };

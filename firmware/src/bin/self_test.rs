@@ -3,9 +3,10 @@
 //! The fingerprint of the selected scene over the built-in inputs, to be compared with the host's.
 
 use cortex_m_rt::entry;
+use driveline_firmware::Words;
 use driveline_firmware::board::json_line::Line;
 use driveline_firmware::board::{Board, ThisBoard};
-use driveline_firmware::scene::Scene;
+use driveline_firmware::scene::Variant;
 use driveline_firmware::self_test::fingerprint;
 
 driveline_firmware::selected!();
@@ -17,7 +18,7 @@ fn main() -> ! {
         .text("self_test", Selected::NAME)
         .text("board", ThisBoard::FACTS.name)
         .number("ticks", fingerprint::TICKS)
-        .hex("fingerprint", fingerprint::of_run::<Selected>());
+        .hex("fingerprint", fingerprint::of_run(&mut Selected::start(), const { Words::of::<Selected>() }));
     board.print(line.finish());
     board.exit(true)
 }

@@ -1,13 +1,14 @@
 #![no_std]
 #![no_main]
-//! The selected scene over the built-in inputs, told as frames of telemetry to the host's pipe `told` until nobody listens.
+//! The selected scene over the built-in inputs, told as frames of telemetry to the host's pipe `told` until nobody
+//! listens.
 
 use cortex_m_rt::entry;
 use driveline::telemetry::Channel;
 use driveline_firmware::Words;
 use driveline_firmware::board::{Board, Sink, ThisBoard};
 use driveline_firmware::control_loop::telemetry::{Told, channels, values};
-use driveline_firmware::scene::Scene;
+use driveline_firmware::scene::{Scene, Variant};
 use driveline_firmware::self_test::fingerprint::SEED;
 use driveline_firmware::self_test::inputs::Program;
 
@@ -25,7 +26,7 @@ fn main() -> ! {
 
     let board = ThisBoard::start();
     let Some(mut sink) = Sink::open(c"told") else { board.exit(false) };
-    let mut drive = Selected::new();
+    let mut drive = Selected::start();
     let mut inputs = Program::new(SEED, const { Words::of::<Selected>() });
     for tick in 0..TICKS {
         let input = inputs.next_input();

@@ -3,7 +3,7 @@
 use driveline::telemetry::{Channel, Kind, Ring};
 
 use crate::Words;
-use crate::scene::{Input, Output, Scene};
+use crate::scene::{Input, Output, Variant};
 
 /// Values a record.
 pub const VALUES: usize = 8;
@@ -26,9 +26,9 @@ pub fn values(input: &Input, output: &Output) -> [u32; VALUES] {
     ]
 }
 
-/// The channels of scene `S`; fixed point is told per unit of the scene's bases.
-pub const fn channels<S: Scene>() -> [Channel<'static>; VALUES] {
-    let (kind, torque, speed) = match const { Words::of::<S>() } {
+/// The channels of variant `V`; fixed point is told per unit of the scene's bases.
+pub const fn channels<V: Variant>() -> [Channel<'static>; VALUES] {
+    let (kind, torque, speed) = match const { Words::of::<V>() } {
         Words::Single => (Kind::Single, "N m", "rad/s"),
         Words::Fixed => (Kind::Integer(1.0 / 268_435_456.0), "pu", "pu"),
     };

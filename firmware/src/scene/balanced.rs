@@ -1,14 +1,18 @@
 //! A governed drive whose rotor is balanced, as a scene: two vibration channels on the tick, and a panel between ticks.
 
+use core::marker::PhantomData;
+
 use driveline::angle::Synchronous;
-use driveline::balancing::{Phasors, Reading, ReadingFault};
+use driveline::balancing::{Phasors, PhasorsConfig, Reading, ReadingFault};
+use driveline::configure::HasVibration;
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
+use driveline::number::Fixed;
 use driveline::observer::Observer;
 
-use crate::scene::governed::advance;
+use crate::scene::composed::{Beside, Composed, OverWords};
 use crate::scene::panel_keys::{DONE, Key, MEASURING, refused};
-use crate::scene::{Input, Output, Scene};
+use crate::scene::{Input, Output};
 
 /// Vibration channels.
 pub const CHANNELS: usize = 2;
@@ -19,28 +23,28 @@ pub const EDGES: usize = 9;
 /// The measurement of a balanced scene.
 pub type Measurement<N> = Phasors<N, CHANNELS, EDGES>;
 
-/// The constants of a balanced drive.
-pub type Constants<N, O> = ConfigOf<BalancedDrive<N, O>>;
-
 /// The drive of a balanced scene.
 pub type BalancedDrive<N, O> = Drive<N, O, (), SpeedLoop<N>, Measurement<N>>;
 
-/// The parts and constants of one variant of a balanced scene.
-pub trait Variant: 'static {
-    /// What it calculates with.
-    type Number: Synchronous + 'static;
-    /// What it estimates with.
-    type Observer: Observer<Self::Number>;
-    /// What its panel does with readings.
-    type Adviser: Adviser;
-    /// Scene, number, observer and rate.
-    const NAME: &'static str;
-    /// Ticks a second.
-    const RATE_HZ: u32;
-    /// What a vibration of one is in the unit of the sensors: 1 for floats, the base in fixed point.
-    const UNIT: f32;
-    /// The drive's constants.
-    const CONFIG: &'static Constants<Self::Number, Self::Observer>;
+/// A scene whose rotor is balanced: the machine, the number, the observer, and what its panel does with readings.
+pub type Balanced<M, N, O, A> = Composed<BalancedDrive<N, O>, Panel<M, A>>;
+
+/// A number that vibration is measured in.
+pub trait SensorUnit: Synchronous {
+    /// What a vibration of one is in the unit of the sensors.
+    fn unit<M: HasVibration>() -> f32;
+}
+
+impl SensorUnit for f32 {
+    fn unit<M: HasVibration>() -> f32 {
+        1.0
+    }
+}
+
+impl SensorUnit for Fixed {
+    fn unit<M: HasVibration>() -> f32 {
+        M::VIBRATION_BASE as f32
+    }
 }
 
 /// A complete reading.
@@ -61,40 +65,50 @@ pub trait Adviser {
     fn ask(&mut self, key: Key, value: u32, measured: Option<Measured>) -> u32;
 }
 
-/// A drive with its constants, and its panel.
-pub struct Balanced<V: Variant> {
-    // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static Constants<V::Number, V::Observer>,
-    drive: BalancedDrive<V::Number, V::Observer>,
-    adviser: V::Adviser,
+/// The panel of a scene that is balanced.
+pub struct Panel<M, A> {
+    adviser: A,
+    machine: PhantomData<M>,
 }
 
-impl<V: Variant> Scene for Balanced<V> {
-    const NAME: &'static str = V::NAME;
-    const RATE_HZ: u32 = V::RATE_HZ;
-
-    fn new() -> Self {
-        // An incremental encoder counts from where it was switched on.
-        Balanced { config: V::CONFIG, drive: Drive::new(V::CONFIG, 0), adviser: V::Adviser::new() }
+impl<M, N, O, A> Beside<BalancedDrive<N, O>> for Panel<M, A>
+where
+    M: HasVibration,
+    N: SensorUnit,
+    O: Observer<N>,
+    A: Adviser,
+{
+    fn start(_: &mut BalancedDrive<N, O>, _: &ConfigOf<BalancedDrive<N, O>>) -> Self {
+        Panel { adviser: A::new(), machine: PhantomData }
     }
 
     #[inline(always)]
-    fn tick(&mut self, input: &Input) -> Output {
-        let output = advance(&mut self.drive, self.config, input);
-        self.drive.vibration(self.config, &input.vibration.map(<V::Number as driveline::number::Number>::from_word));
+    fn tick(
+        &mut self,
+        drive: &mut BalancedDrive<N, O>,
+        config: &ConfigOf<BalancedDrive<N, O>>,
+        input: &Input,
+    ) -> Output {
+        let output = drive.advance(config, input);
+        drive.vibration(config, &input.vibration.map(N::from_word));
         output
     }
 
-    fn panel(&mut self, asked: [u32; 2]) -> u32 {
+    fn panel(
+        &mut self,
+        drive: &mut BalancedDrive<N, O>,
+        config: &mut &'static ConfigOf<BalancedDrive<N, O>>,
+        asked: [u32; 2],
+    ) -> u32 {
         let [key, value] = asked;
         match Key::of(key) {
             None => 0,
             Some(Key::Begin) => {
-                self.drive.balancer_mut().begin();
+                drive.balancer_mut().begin();
                 DONE
             }
-            Some(Key::State) => state::<V>(self.drive.balancer()),
-            Some(key) => self.adviser.ask(key, value, reading::<V>(self.drive.balancer()).ok()),
+            Some(Key::State) => state::<M, N>(&config.balancer, drive.balancer()),
+            Some(key) => self.adviser.ask(key, value, reading::<M, N>(&config.balancer, drive.balancer()).ok()),
         }
     }
 }
@@ -103,21 +117,25 @@ impl<V: Variant> Scene for Balanced<V> {
 ///
 /// # Errors
 /// Why it is no reading, or not yet.
-pub fn reading<V: Variant>(measurement: &Measurement<V::Number>) -> Result<Measured, ReadingFault> {
+pub fn reading<M: HasVibration, N: SensorUnit>(
+    config: &PhasorsConfig<N, CHANNELS>,
+    measurement: &Measurement<N>,
+) -> Result<Measured, ReadingFault> {
+    let unit = N::unit::<M>();
     let read = |channel| {
-        let reading = measurement.reading(&V::CONFIG.balancer, channel)?;
-        let (phasor, variance) = (reading.phasor.scaled(V::UNIT), reading.variance * V::UNIT * V::UNIT);
+        let reading = measurement.reading(config, channel)?;
+        let (phasor, variance) = (reading.phasor.scaled(unit), reading.variance * unit * unit);
         Ok(Reading { phasor, variance, ..reading })
     };
     let readings: [Reading; CHANNELS] = [read(0)?, read(1)?];
     // a reading has eight ticks on a turn at least
-    let speed = core::f32::consts::TAU * V::RATE_HZ as f32 / readings[0].ticks;
+    let speed = core::f32::consts::TAU * M::RATE_HZ as f32 / readings[0].ticks;
     Ok(Measured { readings, speed })
 }
 
 /// The answer to [`Key::State`].
-pub fn state<V: Variant>(measurement: &Measurement<V::Number>) -> u32 {
-    match reading::<V>(measurement) {
+pub fn state<M: HasVibration, N: SensorUnit>(config: &PhasorsConfig<N, CHANNELS>, measurement: &Measurement<N>) -> u32 {
+    match reading::<M, N>(config, measurement) {
         Ok(_) => DONE,
         Err(ReadingFault::Incomplete { .. }) => MEASURING,
         Err(doubt) => refused(number(&doubt)),

@@ -2,8 +2,14 @@
 //!
 //! For the host, which puts it beside what was measured. No image has anything of it: the tick does not ask.
 
-use driveline::design::{BacklashDesign, RigidDesign, TwoMassDesign};
-use driveline::machine::TwoMass;
+use driveline::configure::Machine;
+use driveline::design::TwoMassDesign;
+use driveline::drive::Drive;
+use driveline::machine;
+use driveline::number::Number;
+use driveline::observer::{
+    BacklashObserver, CrankObserver, GearedObserver, RigidObserver, SemiImplicitObserver, TwoMassObserver,
+};
 
 /// What a design says of its observer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,34 +19,63 @@ pub struct Expected {
     /// Standard deviation of the load speed's estimate [rad/s].
     pub load_speed: f64,
     /// The machine as the observer has it, with what its reduction left out; none where it is one mass.
-    pub machine: Option<TwoMass>,
+    pub machine: Option<machine::TwoMass>,
 }
 
-/// A design that says what is to be expected.
-pub trait Expects {
-    /// What it says.
-    fn expected(&self) -> Expected;
-}
-
-impl Expects for TwoMassDesign {
-    fn expected(&self) -> Expected {
+impl Expected {
+    const fn of_two_masses(design: &TwoMassDesign) -> Self {
         Expected {
-            shaft_torque: Some(self.standard_deviation.shaft_torque),
-            load_speed: self.standard_deviation.load_speed,
-            machine: Some(self.machine),
+            shaft_torque: Some(design.standard_deviation.shaft_torque),
+            load_speed: design.standard_deviation.load_speed,
+            machine: Some(design.machine),
         }
     }
 }
 
-/// The shaft in contact: of the gap itself the design predicts nothing.
-impl Expects for BacklashDesign {
-    fn expected(&self) -> Expected {
-        self.contact.expected()
+/// A drive whose design for a machine says what is to be expected.
+pub trait Expects<M> {
+    /// What it says; none of what no design predicts.
+    fn expected() -> Option<Expected> {
+        None
     }
 }
 
-impl Expects for RigidDesign {
-    fn expected(&self) -> Expected {
-        Expected { shaft_torque: None, load_speed: self.standard_deviation[1], machine: None }
+impl<M, N, O: Expects<M>, F, G, B> Expects<M> for Drive<N, O, F, G, B> {
+    fn expected() -> Option<Expected> {
+        O::expected()
+    }
+}
+
+impl<M: Machine, N: Number> Expects<M> for TwoMassObserver<N> {
+    fn expected() -> Option<Expected> {
+        Some(Expected::of_two_masses(&M::OBSERVER))
+    }
+}
+
+impl<M: Machine, N: Number> Expects<M> for SemiImplicitObserver<N> {
+    fn expected() -> Option<Expected> {
+        Some(Expected::of_two_masses(&M::OBSERVER))
+    }
+}
+
+/// The shaft in contact: of the gap itself the design predicts nothing.
+impl<M: Machine, N: Number> Expects<M> for BacklashObserver<N> {
+    fn expected() -> Option<Expected> {
+        Some(Expected::of_two_masses(&M::BACKLASH_OBSERVER.contact))
+    }
+}
+
+impl<M: Machine, N: Number> Expects<M> for RigidObserver<N> {
+    fn expected() -> Option<Expected> {
+        let [_, load_speed, ..] = M::RIGID_OBSERVER.standard_deviation;
+        Some(Expected { shaft_torque: None, load_speed, machine: None })
+    }
+}
+
+impl<M, N: Number> Expects<M> for CrankObserver<N> {}
+
+impl<M, O: Expects<M>> Expects<M> for GearedObserver<O> {
+    fn expected() -> Option<Expected> {
+        O::expected()
     }
 }

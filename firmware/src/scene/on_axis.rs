@@ -1,20 +1,27 @@
 //! An axis as a scene: the drive and what becomes of a board's faults, over an image of what the board reads and does.
 //!
-//! What was read goes in, what is to be done comes out, and nothing in between touches a register. So the tick is the same machine code on a board
-//! with a motor, where [`Turn`](crate::control_loop::step::Turn) reads and does, and in QEMU, where the host does.
+//! What was read goes in, what is to be done comes out, and nothing in between touches a register. So the tick is the
+//! same machine code on a board with a motor, where [`Turn`](crate::control_loop::step::Turn) reads and does, and in
+//! QEMU, where the host does.
 //!
-//! Into [`Input::flags`] go [`Input::RELEASED`] and the board's faults as bits of [`Faults`]: of this reading (angle, torque, vibration) and of
-//! what was to be done after the last tick (torque output, enable). [`Output::faults`] has [`Faults::TRIPPED`] while the power stage is to be off.
+//! Into [`Input::flags`] go [`Input::RELEASED`] and the board's faults as bits of [`Faults`]: of this reading (angle,
+//! torque, vibration) and of what was to be done after the last tick (torque output, enable). [`Output::faults`] has
+//! [`Faults::TRIPPED`] while the power stage is to be off.
 
+use core::marker::PhantomData;
+
+use driveline::configure::HasVibration;
+use driveline::drive::ConfigOf;
 use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
 use driveline::hal::{Axis, Board, TRIPPING};
 use driveline::number::Number;
+use driveline::observer::Observer;
 
-use crate::scene::balanced::{Constants, Measurement, Variant, state};
-use crate::scene::governed::output;
+use crate::scene::balanced::{BalancedDrive, Measurement, SensorUnit, state};
+use crate::scene::composed::output;
 use crate::scene::panel_keys::{DONE, Key, refused};
-use crate::scene::{Input, Output, Scene};
+use crate::scene::{FromConfig, Input, Output, Scene};
 
 /// The faults that a board tells in the flags of an input.
 const OF_THE_BOARD: Faults = Faults::ANGLE_MISSING
@@ -62,38 +69,40 @@ impl<N: Number> Board<N> for Image<N> {
 type Parts<N, O> = Axis<Image<N>, N, O, (), SpeedLoop<N>, Measurement<N>>;
 
 /// An axis with its constants. What balances is beside it: the panel only begins readings.
-pub struct OnAxis<V: Variant> {
+pub struct OnAxis<M, N: SensorUnit + 'static, O: Observer<N, Config: 'static>> {
     // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static Constants<V::Number, V::Observer>,
-    axis: Parts<V::Number, V::Observer>,
+    config: &'static ConfigOf<BalancedDrive<N, O>>,
+    axis: Parts<N, O>,
     released: bool,
+    machine: PhantomData<M>,
 }
 
-impl<V: Variant> OnAxis<V> {
+impl<M, N: SensorUnit, O: Observer<N, Config: 'static>> OnAxis<M, N, O> {
     /// Begins a reading of the vibration: between two ticks.
     pub fn begin(&mut self) {
         self.axis.drive_mut().balancer_mut().begin();
     }
 
     /// The reading, complete or not: to be copied between two ticks, and worked on at leisure.
-    pub fn measurement(&self) -> &Measurement<V::Number> {
+    pub fn measurement(&self) -> &Measurement<N> {
         self.axis.drive().balancer()
     }
 }
 
-impl<V: Variant> Scene for OnAxis<V> {
-    const NAME: &'static str = V::NAME;
-    const RATE_HZ: u32 = V::RATE_HZ;
+impl<M: HasVibration, N: SensorUnit, O: Observer<N, Config: 'static>> FromConfig for OnAxis<M, N, O> {
+    type Drive = BalancedDrive<N, O>;
 
-    fn new() -> Self {
+    fn from_config(config: &'static ConfigOf<BalancedDrive<N, O>>) -> Self {
         // An incremental encoder counts from where it was switched on.
-        let board = Image { angle: 0, torque: V::Number::ZERO, faults: Faults::NONE };
-        OnAxis { config: V::CONFIG, axis: Axis::new(board, V::CONFIG, TRIPPING), released: false }
+        let board = Image { angle: 0, torque: N::ZERO, faults: Faults::NONE };
+        OnAxis { config, axis: Axis::new(board, config, TRIPPING), released: false, machine: PhantomData }
     }
+}
 
+impl<M: HasVibration, N: SensorUnit, O: Observer<N, Config: 'static>> Scene for OnAxis<M, N, O> {
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
-        let word = <V::Number as Number>::from_word;
+        let word = <N as Number>::from_word;
         let config = self.config;
         let faults = Faults::from_bits(input.flags) & OF_THE_BOARD;
         *self.axis.board() = Image { angle: input.angle, torque: word(input.torque), faults };
@@ -120,7 +129,7 @@ impl<V: Variant> Scene for OnAxis<V> {
                 self.begin();
                 DONE
             }
-            Some(Key::State) => state::<V>(self.measurement()),
+            Some(Key::State) => state::<M, N>(&self.config.balancer, self.measurement()),
             Some(_) => refused(3),
         }
     }

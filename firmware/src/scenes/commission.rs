@@ -10,11 +10,15 @@
 //! about the resonance is looked for.
 
 use driveline::commissioning::{Commissioning, CommissioningResult, Error, Figure, Stage, TestConfig, TestSettings};
-use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopTuning};
+use driveline::configure::Machine;
+use driveline::design::{Disturbance, Rate, SpeedLoopTuning};
 use driveline::machine::TwoMass;
 
-use super::{blooming_mill, hoist, spindle};
-use crate::scene::{Input, Output, Scene};
+use super::blooming_mill::BloomingMill;
+use super::hoist::Hoist;
+use super::spindle::Spindle;
+use crate::scene::table::variants;
+use crate::scene::{Input, Output, Scene, Variant};
 
 /// Lines of the multisine.
 pub const LINES: usize = 24;
@@ -29,46 +33,46 @@ pub const HELD: f64 = 3_000.0 * 9.80665 * 0.8 / (2.0 * 2.0 * 31.5);
 /// What is known of the hoist.
 pub const HOIST: TestSettings = TestSettings {
     rate: Rate::hz(RATE_HZ),
-    encoder: hoist::ENCODER,
-    torque: 0.25 * hoist::RATED_TORQUE,
-    shaft_torque: 0.5 * hoist::RATED_TORQUE,
+    encoder: Hoist::<RATE_HZ>::ENCODER,
+    torque: 0.25 * Hoist::<RATE_HZ>::RATING.torque,
+    shaft_torque: 0.5 * Hoist::<RATE_HZ>::RATING.torque,
     speed: 12.0,
     // 6 m of the load's way
     travel: 950.0,
     held: HELD,
     inertia: 0.62,
     band: [2.5, 12.0],
-    torque_accuracy: 0.01 * hoist::RATED_TORQUE,
+    torque_accuracy: 0.01 * Hoist::<RATE_HZ>::RATING.torque,
     delay: 0.0,
 };
 
 /// What is known of the mill.
 pub const MILL: TestSettings = TestSettings {
     rate: Rate::hz(RATE_HZ),
-    encoder: blooming_mill::ENCODER,
-    torque: 0.3 * blooming_mill::RATED_TORQUE,
-    shaft_torque: 0.5 * blooming_mill::RATED_TORQUE,
+    encoder: BloomingMill::ENCODER,
+    torque: 0.3 * BloomingMill::RATING.torque,
+    shaft_torque: 0.5 * BloomingMill::RATING.torque,
     speed: 3.0,
     travel: 1.0e4,
     held: 0.0,
     inertia: 1.1e5,
     band: [6.0, 30.0],
-    torque_accuracy: 0.01 * blooming_mill::RATED_TORQUE,
+    torque_accuracy: 0.01 * BloomingMill::RATING.torque,
     delay: 0.0,
 };
 
 /// What is known of the spindle.
 pub const SPINDLE: TestSettings = TestSettings {
     rate: Rate::hz(RATE_HZ),
-    encoder: Encoder::counts(spindle::COUNTS),
-    torque: 0.4 * spindle::RATED_TORQUE,
-    shaft_torque: 0.5 * spindle::RATED_TORQUE,
+    encoder: Spindle::ENCODER,
+    torque: 0.4 * Spindle::RATING.torque,
+    shaft_torque: 0.5 * Spindle::RATING.torque,
     speed: 200.0,
     travel: 1.0e5,
     held: 0.0,
     inertia: 0.012,
     band: [200.0, 1_000.0],
-    torque_accuracy: 0.01 * spindle::RATED_TORQUE,
+    torque_accuracy: 0.01 * Spindle::RATING.torque,
     delay: 0.0,
 };
 
@@ -172,14 +176,6 @@ impl Commission {
 }
 
 impl Scene for Commission {
-    const NAME: &'static str = "commission/f32/two-mass/10000";
-    const RATE_HZ: u32 = RATE_HZ;
-
-    fn new() -> Self {
-        let [first, ..] = &CONFIGS;
-        Self::of(first)
-    }
-
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
         self.begun |= input.flags & Input::RELEASED != 0;
@@ -234,6 +230,19 @@ impl Scene for Commission {
         }
     }
 }
+
+impl Variant for Commission {
+    type Scene = Commission;
+    const NAME: &'static str = "commission/f32/two-mass/10000";
+    const RATE_HZ: u32 = RATE_HZ;
+
+    fn start() -> Self {
+        let [first, ..] = &CONFIGS;
+        Self::of(first)
+    }
+}
+
+variants! { Commission }
 
 /// The reason of a number that the panel gave.
 pub fn reason(number: u32) -> Option<Error> {

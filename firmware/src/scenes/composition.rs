@@ -1,164 +1,93 @@
-//! The hoist's drive with parts left out, to measure what each costs: an observer alone, with a governor, with a measurement of the fluctuation,
-//! and an observer that is called by hand, without a drive.
+//! The hoist's drive with parts left out, to measure what each costs: an observer alone, with a governor, with a
+//! measurement of the fluctuation, and an observer that is called by hand, without a drive.
 
-use core::marker::PhantomData;
-
-use driveline::drive::{Config, ConfigOf, Drive, Limits};
+use driveline::balancing::Balancer;
+use driveline::drive::{ConfigOf, Drive};
 use driveline::fault::Faults;
-use driveline::fluctuation::{CycleConfig, Extremes, Fluctuation, Waveform, WaveformConfig};
-use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
-use driveline::number::{Fixed, Number};
-use driveline::observer::{
-    GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver,
-    TwoMassConfig, TwoMassObserver,
-};
+use driveline::fluctuation::{Extremes, Fluctuation, Waveform};
+use driveline::governor::{Governor, SpeedLoop};
+use driveline::number::Number;
+use driveline::observer::{GearedObserver, Observer, RigidObserver, SemiImplicitObserver, TwoMassObserver};
 use driveline::sample::{Command, Sample};
-use driveline::settings::{Bases, Cycle};
 
-use super::hoist::{BASES, GEAR, LOAD_SHARE, REDUCED, SETTINGS, observer, rigid, screening, speed_loop};
-use crate::scene::governed::output;
-use crate::scene::{Input, Output, Scene};
+use super::hoist::Hoist;
+use crate::scene::composed::{Beside, Composed, output, sample};
+use crate::scene::table::variants;
+use crate::scene::{FromConfig, Input, Output, Scene};
 
-const RATE_HZ: u32 = 10_000;
+/// A tick and nothing else: the drive is always at work.
+pub struct AtWork;
 
-/// The parts of a drive and their constants.
-pub trait Composition: 'static {
-    /// What it calculates with.
-    type Number: Number + 'static;
-    /// What it estimates with.
-    type Observer: Observer<Self::Number>;
-    /// What it measures the speed's fluctuation with, `()` for nothing.
-    type Fluctuation: Fluctuation<Self::Number>;
-    /// What it governs with, `()` for nothing.
-    type Governor: Governor<Self::Number>;
-    /// Scene, number, parts and rate.
-    const NAME: &'static str;
-    /// The constants.
-    const CONFIG: &'static ConfigOf<Drive<Self::Number, Self::Observer, Self::Fluctuation, Self::Governor>>;
-}
-
-/// A number, an observer, a governor and a measurement of the fluctuation, with the hoist's constants.
-pub struct Of<N, O, G, F = ()>(PhantomData<(N, O, G, F)>);
-
-/// A drive of these parts.
-pub struct Composed<C: Composition> {
-    // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static ConfigOf<Drive<C::Number, C::Observer, C::Fluctuation, C::Governor>>,
-    drive: Drive<C::Number, C::Observer, C::Fluctuation, C::Governor>,
-}
-
-impl<C: Composition> Scene for Composed<C> {
-    const NAME: &'static str = C::NAME;
-    const RATE_HZ: u32 = RATE_HZ;
-
-    fn new() -> Self {
-        Composed { config: C::CONFIG, drive: Drive::new(C::CONFIG, 0) }
+impl<N, O, F, G, B> Beside<Drive<N, O, F, G, B>> for AtWork
+where
+    N: Number,
+    O: Observer<N>,
+    F: Fluctuation<N>,
+    G: Governor<N>,
+    B: Balancer<N>,
+{
+    fn start(_: &mut Drive<N, O, F, G, B>, _: &ConfigOf<Drive<N, O, F, G, B>>) -> Self {
+        AtWork
     }
 
     #[inline(always)]
-    fn tick(&mut self, input: &Input) -> Output {
-        let command = self.drive.tick(self.config, &sample(input));
-        output(&command, &self.drive.estimate(self.config))
+    fn tick(
+        &mut self,
+        drive: &mut Drive<N, O, F, G, B>,
+        config: &ConfigOf<Drive<N, O, F, G, B>>,
+        input: &Input,
+    ) -> Output {
+        let command = drive.tick(config, &sample(input));
+        output(&command, &drive.estimate(config))
     }
 }
 
-#[inline(always)]
-fn sample<N: Number>(input: &Input) -> Sample<N> {
-    let word = N::from_word;
-    Sample { angle: input.angle, torque: word(input.torque), setpoint: word(input.setpoint) }
-}
+/// A drive of these parts.
+pub type Parts<N, O, G = (), F = ()> = Composed<Drive<N, O, F, G>, AtWork>;
 
-macro_rules! compositions {
-    ($number:ident, $text:literal, $limits:expr, $governor:expr, $($name:literal: $observer:ty = $config:expr;)+) => {$(
-        impl Composition for Of<$number, $observer, ()> {
-            type Number = $number;
-            type Observer = $observer;
-            type Fluctuation = ();
-            type Governor = ();
-            const NAME: &'static str = concat!("composition/", $text, "/", $name, "-observer/10000");
-            const CONFIG: &'static ConfigOf<Drive<$number, $observer>> =
-                &Config { limits: $limits, observer: $config, fluctuation: (), governor: (), balancer: () };
-        }
+/// One mass, observed.
+pub type Rigid<N> = Parts<N, RigidObserver<N>>;
+/// One mass, governed.
+pub type RigidGoverned<N> = Parts<N, RigidObserver<N>, SpeedLoop<N>>;
+/// Two masses, semi-implicit step, observed.
+pub type SemiImplicit<N> = Parts<N, SemiImplicitObserver<N>>;
+/// Two masses, semi-implicit step, governed.
+pub type SemiImplicitGoverned<N> = Parts<N, SemiImplicitObserver<N>, SpeedLoop<N>>;
+/// Two masses, exact step, observed.
+pub type TwoMass<N> = Parts<N, TwoMassObserver<N>>;
+/// Two masses, exact step, governed.
+pub type TwoMassGoverned<N> = Parts<N, TwoMassObserver<N>, SpeedLoop<N>>;
+/// Two masses behind a gear, observed.
+pub type Geared<N> = Parts<N, GearedObserver<TwoMassObserver<N>>>;
+/// Two masses behind a gear, governed.
+pub type GearedGoverned<N> = Parts<N, GearedObserver<TwoMassObserver<N>>, SpeedLoop<N>>;
+/// Two masses, and the extremes of the speed.
+pub type TwoMassExtremes<N> = Parts<N, TwoMassObserver<N>, (), Extremes<N>>;
+/// Two masses, and the waveform of the speed.
+pub type TwoMassWaveform<N> = Parts<N, TwoMassObserver<N>, (), Waveform<N, 64>>;
+/// Two masses, called by hand.
+pub type TwoMassByHand<N> = ByHand<N, TwoMassObserver<N>>;
 
-        impl Composition for Of<$number, $observer, SpeedLoop<$number>> {
-            type Number = $number;
-            type Observer = $observer;
-            type Fluctuation = ();
-            type Governor = SpeedLoop<$number>;
-            const NAME: &'static str = concat!("composition/", $text, "/", $name, "-governed/10000");
-            const CONFIG: &'static ConfigOf<Drive<$number, $observer, (), SpeedLoop<$number>>> =
-                &Config { limits: $limits, observer: $config, fluctuation: (), governor: $governor, balancer: () };
-        }
-    )+};
-}
-
-const PERIOD: f64 = 1.0 / RATE_HZ as f64;
-
-/// A turn of the motor, and a waveform over 16 of them.
-const fn waveform(bases: Bases) -> WaveformConfig {
-    WaveformConfig::new::<64>(CycleConfig::new(Cycle::TURN, PERIOD, bases), 16)
-}
-
-macro_rules! measured {
-    ($number:ident, $text:literal, $limits:expr, $observer:expr;
-        $($name:literal: $fluctuation:ty = $config:expr;)+) => {$(
-        impl Composition for Of<$number, TwoMassObserver<$number>, (), $fluctuation> {
-            type Number = $number;
-            type Observer = TwoMassObserver<$number>;
-            type Fluctuation = $fluctuation;
-            type Governor = ();
-            const NAME: &'static str = concat!("composition/", $text, "/two-mass-", $name, "/10000");
-            const CONFIG: &'static ConfigOf<Drive<$number, TwoMassObserver<$number>, $fluctuation>> = &Config {
-                limits: $limits,
-                observer: $observer,
-                fluctuation: $config,
-                governor: (),
-                balancer: (),
-            };
-        }
-    )+};
-}
-
-measured! {
-    f32, "f32", Limits::<f32>::new(&screening(RATE_HZ), Bases::SI), TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI);
-    "extremes": Extremes<f32> = waveform(Bases::SI).cycle;
-    "waveform": Waveform<f32, 64> = waveform(Bases::SI);
-}
-
-measured! {
-    Fixed, "fixed", Limits::<Fixed>::new(&screening(RATE_HZ), BASES),
-    TwoMassConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES);
-    "extremes": Extremes<Fixed> = waveform(BASES).cycle;
-    "waveform": Waveform<Fixed, 64> = waveform(BASES);
-}
-
-compositions! {
-    f32, "f32", Limits::<f32>::new(&screening(RATE_HZ), Bases::SI), SpeedLoopConfig::<f32>::new(&speed_loop(RATE_HZ), SETTINGS, Bases::SI),
-    "rigid": RigidObserver<f32> = RigidConfig::<f32>::new(&rigid(RATE_HZ), LOAD_SHARE, Bases::SI);
-    "semi-implicit": SemiImplicitObserver<f32> = SemiImplicitConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI);
-    "two-mass": TwoMassObserver<f32> = TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI);
-    "two-mass-geared": GearedObserver<TwoMassObserver<f32>> = GearedConfig::<f32, _>::new(
-        TwoMassConfig::<f32>::new(&observer(&REDUCED, RATE_HZ), Bases::SI), &GEAR, PERIOD, Bases::SI
-    );
-}
-
-compositions! {
-    Fixed, "fixed", Limits::<Fixed>::new(&screening(RATE_HZ), BASES),
-    SpeedLoopConfig::<Fixed>::new(&speed_loop(RATE_HZ), SETTINGS, BASES),
-    "rigid": RigidObserver<Fixed> = RigidConfig::<Fixed>::new(&rigid(RATE_HZ), LOAD_SHARE, BASES);
-    "semi-implicit": SemiImplicitObserver<Fixed> = SemiImplicitConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES);
-    "two-mass": TwoMassObserver<Fixed> = TwoMassConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES);
-    "two-mass-geared": GearedObserver<TwoMassObserver<Fixed>> = GearedConfig::<Fixed, _>::new(
-        TwoMassConfig::<Fixed>::new(&observer(&REDUCED, RATE_HZ), BASES), &GEAR, PERIOD, BASES
-    );
+variants! {
+    "rigid-observer": Rigid for Hoist<10_000>;
+    "rigid-governed": RigidGoverned for Hoist<10_000>;
+    "semi-implicit-observer": SemiImplicit for Hoist<10_000>;
+    "semi-implicit-governed": SemiImplicitGoverned for Hoist<10_000>;
+    "two-mass-observer": TwoMass for Hoist<10_000>;
+    "two-mass-governed": TwoMassGoverned for Hoist<10_000>;
+    "two-mass-geared-observer": Geared for Hoist<10_000>;
+    "two-mass-geared-governed": GearedGoverned for Hoist<10_000>;
+    "two-mass-extremes": TwoMassExtremes for Hoist<10_000>;
+    "two-mass-waveform": TwoMassWaveform for Hoist<10_000>;
+    "two-mass-by-hand": TwoMassByHand for Hoist<10_000>;
 }
 
 // As in the drive, which keeps them to itself.
 const NONE_YET: i32 = i32::MIN;
 const ONE: i32 = NONE_YET + 1;
 
-/// An observer called by hand with the screening of [`driveline::drive`], without a drive: what a drive of nothing but an observer is
-/// measured against. It follows `Drive::observe` and `Drive::search` line by line.
+/// An observer called by hand with the screening of [`driveline::drive`], without a drive: what a drive of nothing but
+/// an observer is measured against. It follows `Drive::observe` and `Drive::search` line by line.
 pub struct ByHand<N: Number + 'static, O: Observer<N, Config: 'static> + 'static> {
     config: &'static ConfigOf<Drive<N, O>>,
     observer: O,
@@ -237,26 +166,18 @@ impl<N: Number, O: Observer<N>> ByHand<N, O> {
     }
 }
 
-macro_rules! by_hand {
-    ($number:ident, $text:literal) => {
-        impl Scene for ByHand<$number, TwoMassObserver<$number>> {
-            const NAME: &'static str = concat!("composition/", $text, "/two-mass-by-hand/10000");
-            const RATE_HZ: u32 = RATE_HZ;
+impl<N: Number, O: Observer<N, Config: 'static>> FromConfig for ByHand<N, O> {
+    type Drive = Drive<N, O>;
 
-            fn new() -> Self {
-                let config = <Of<$number, TwoMassObserver<$number>, ()> as Composition>::CONFIG;
-                let observer = Observer::<$number>::at_rest(&config.observer, 0, <$number as Number>::ZERO);
-                ByHand { config, observer, torque: <$number as Number>::ZERO, missed: 0 }
-            }
-
-            #[inline(always)]
-            fn tick(&mut self, input: &Input) -> Output {
-                let command = ByHand::tick(self, &sample(input));
-                output(&command, &self.observer.estimate(&self.config.observer))
-            }
-        }
-    };
+    fn from_config(config: &'static ConfigOf<Drive<N, O>>) -> Self {
+        ByHand { config, observer: O::at_rest(&config.observer, 0, N::ZERO), torque: N::ZERO, missed: 0 }
+    }
 }
 
-by_hand!(f32, "f32");
-by_hand!(Fixed, "fixed");
+impl<N: Number, O: Observer<N>> Scene for ByHand<N, O> {
+    #[inline(always)]
+    fn tick(&mut self, input: &Input) -> Output {
+        let command = ByHand::tick(self, &sample(input));
+        output(&command, &self.observer.estimate(&self.config.observer))
+    }
+}

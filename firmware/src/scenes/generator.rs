@@ -11,12 +11,12 @@
 //! What the observer is told is the torque that the chest's pressure stands for.
 //!
 //! # The loss of the turbine's whole load
-//! By the time the valve can have closed the steam has gone on driving: rated torque for the sum of the lags, 0.35 s, and
-//! the governor's view and ticks, 7 ms. Against 8 s of acceleration time that is a rise of 4.4 %, less what friction takes
-//! (2 % of rated torque, less than 0.1 % of speed), and no governor does better. A proportional and integral loop closes the
-//! valve only as fast as the speed rises: at a span of 2.5 it rose by 9.68 %. A span of 1.4 would keep the 7 % of class
-//! D, at a phase margin of 15 degrees. So the governor without feed-forward opposes the estimated acceleration, as half
-//! the set's inertia more would ([`VirtualInertia`]), which raises the margins as well.
+//! By the time the valve can have closed the steam has gone on driving: rated torque for the sum of the lags, 0.35 s,
+//! and the governor's view and ticks, 7 ms. Against 8 s of acceleration time that is a rise of 4.4 %, less what
+//! friction takes (2 % of rated torque, less than 0.1 % of speed), and no governor does better. A proportional and
+//! integral loop closes the valve only as fast as the speed rises: at a span of 2.5 it rose by 9.68 %. A span of 1.4
+//! would keep the 7 % of class D, at a phase margin of 15 degrees. So the governor without feed-forward opposes the
+//! estimated acceleration, as half the set's inertia more would ([`VirtualInertia`]), which raises the margins as well.
 //!
 //! # Inputs that fail
 //! An [`ActuatorMonitor`] compares rack or chest with what was commanded. What becomes of a fault on each input:
@@ -34,25 +34,25 @@ pub mod parts;
 
 use core::marker::PhantomData;
 
+use driveline::configure::{GainSource, HasBarredSpeeds, HasDroop, HasSequencer, HasTorqueCurve, Machine, Rating};
 use driveline::design::{
     Actuator, BarredSpeeds, Disturbance, Encoder, GovernorDesign, LoadFeedForward, Rate, TorqueCurve, TwoMassDesign,
     USUAL_MARGIN, VirtualInertia,
 };
-use driveline::drive::{Config, ConfigOf, Drive, Limits};
+use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::{
-    AccelerationFeedback, AccelerationFeedbackConfig, ActuatorMonitor, ActuatorMonitorConfig, Barred, BarredConfig,
-    Compensation, Curve, CurveConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, MovingAverage,
-    MovingAverageConfig, RunRequest, RunState, Sequencer, SequencerConfig, SpeedGovernor, SpeedGovernorConfig,
-    TransportDelay, TransportDelayConfig, Trip,
+    AccelerationFeedback, ActuatorMonitor, ActuatorMonitorConfig, Barred, Compensation, Curve, Droop, FeedForward,
+    MovingAverage, RunRequest, RunState, Sequencer, SpeedGovernor, TransportDelay, TransportDelayConfig, Trip,
 };
-use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass as Machine};
+use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass as TwoMassMachine};
 use driveline::number::{Fixed, Number};
-use driveline::observer::{TwoMassConfig, TwoMassObserver};
+use driveline::observer::TwoMassObserver;
 use driveline::sample::Sample;
 use driveline::settings::{ActuatorMonitorSettings, Bases, Screening, SequencerSettings};
 
-use crate::scene::governed::output;
-use crate::scene::{Input, Output, Scene};
+use crate::scene::composed::{Beside, Composed, output};
+use crate::scene::table::variants;
+use crate::scene::{Input, Output};
 
 /// Ticks a second: 32 to the firing interval of the diesel at rated speed.
 pub const RATE_HZ: u32 = 2_400;
@@ -70,7 +70,7 @@ pub struct Set {
     /// Rated torque [N m].
     pub rated_torque: f64,
     /// Engine or turbine, coupling, generator.
-    pub machine: Machine,
+    pub machine: TwoMassMachine,
     /// The actuator.
     pub actuator: Actuator,
     /// Delay of the rack's torque for the observer [s].
@@ -100,7 +100,7 @@ pub struct Set {
 /// The parts of the diesel: engine with flywheel, coupling, generator.
 pub const DIESEL_CHAIN: Chain = Chain::motor(Inertia(4.4)).shaft(Stiffness(5.0e4), Damping(66.0)).rotor(Inertia(8.0));
 
-const DIESEL_MACHINE: Machine = DIESEL_CHAIN.reduce(Match::ResonanceAntiresonance);
+const DIESEL_MACHINE: TwoMassMachine = DIESEL_CHAIN.reduce(Match::ResonanceAntiresonance);
 
 /// Rated torque of the diesel [N m]: 400 kW.
 pub const DIESEL_TORQUE: f64 = 4.0e5 / RATED_SPEED;
@@ -153,10 +153,12 @@ pub const CHEST_LAG: f64 = 0.25;
 /// Sum of the turbine set's inertias [kg m2], from its acceleration time of 8 s.
 pub const TURBINE_INERTIA: f64 = 8.0 * TURBINE_TORQUE / RATED_SPEED;
 
-const TURBINE_MACHINE: Machine = Chain::motor(Inertia(0.4 * TURBINE_INERTIA))
+/// The parts of the turbine: turbine with gear, coupling, generator.
+pub const TURBINE_CHAIN: Chain = Chain::motor(Inertia(0.4 * TURBINE_INERTIA))
     .shaft(Stiffness(6.0e6), Damping(600.0))
-    .rotor(Inertia(0.6 * TURBINE_INERTIA))
-    .reduce(Match::ResonanceAntiresonance);
+    .rotor(Inertia(0.6 * TURBINE_INERTIA));
+
+const TURBINE_MACHINE: TwoMassMachine = TURBINE_CHAIN.reduce(Match::ResonanceAntiresonance);
 
 /// The turbine set. Of its two lags the shorter counts as a dead time; no order excites its coupling, so what is barred
 /// lies below its turning gear.
@@ -240,7 +242,8 @@ impl Set {
         }
     }
 
-    /// The watch on the actuator: a fifth of the rated torque beside what was commanded; nine sixteenths over it is none.
+    /// The watch on the actuator: a fifth of the rated torque beside what was commanded; nine sixteenths over it is
+    /// none.
     pub const fn watch(&self) -> ActuatorMonitorSettings {
         ActuatorMonitorSettings {
             tolerance: 0.2 * self.rated_torque,
@@ -274,25 +277,118 @@ pub const FIRING: usize = 32;
 /// The governor of a set: the diesel's, or with what else adds torque.
 pub type Governor<N, F = FeedForward> =
     SpeedGovernor<N, (Droop, Barred<1>), F, Curve<4>, Sequencer, MovingAverage<N, FIRING>>;
-type Constants<N, F> = ConfigOf<DriveOf<N, F>>;
 /// The drive of a set.
 pub type DriveOf<N, F = FeedForward> = Drive<N, TwoMassObserver<N>, (), Governor<N, F>>;
 
-/// A set and a number.
-pub trait Variant: 'static {
-    /// What it calculates with.
-    type Number: Number + 'static;
-    /// What adds torque.
-    type Added: Compensation<Self::Number, Config: 'static> + 'static;
-    /// Scene, number, set and rate.
-    const NAME: &'static str;
-    /// With feed-forward and isochronous, without feed-forward, with droop.
-    const CONFIGS: &'static [Constants<Self::Number, Self::Added>; 3];
-    /// The rack.
-    const RACK: TransportDelayConfig<RING>;
-    /// The watch on it.
-    const WATCH: ActuatorMonitorConfig<Self::Number, 2>;
+/// The diesel set's drive.
+pub type Diesel<N> = Composed<DriveOf<N>, Actuated<N, DieselSet>>;
+/// The turbine set's drive.
+pub type Turbine<N> = Composed<DriveOf<N, (FeedForward, AccelerationFeedback)>, Actuated<N, TurbineSet>>;
+
+variants! {
+    "diesel": Diesel for With<DieselSet, FED>;
+    "turbine": Turbine for With<TurbineSet, FED>;
 }
+
+/// The diesel set.
+pub struct DieselSet;
+
+/// The turbine set.
+pub struct TurbineSet;
+
+/// A set and its designs.
+pub trait HasSet: 'static {
+    /// The chain that the set's two masses come from.
+    const CHAIN: Chain;
+    /// The set.
+    const SET: Set;
+    /// Its designs.
+    const DESIGNS: Designs;
+}
+
+impl HasSet for DieselSet {
+    const CHAIN: Chain = DIESEL_CHAIN;
+    const SET: Set = DIESEL;
+    const DESIGNS: Designs = DIESEL_DESIGNS;
+}
+
+impl HasSet for TurbineSet {
+    const CHAIN: Chain = TURBINE_CHAIN;
+    const SET: Set = TURBINE;
+    const DESIGNS: Designs = TURBINE_DESIGNS;
+}
+
+/// Constants that the panel chooses: with feed-forward and isochronous.
+pub const FED: usize = 0;
+/// Without feed-forward.
+pub const PLAIN: usize = 1;
+/// Without feed-forward, with droop.
+pub const DROOPING: usize = 2;
+
+/// A set as a machine, with one of its three kinds of constants.
+pub struct With<S, const CONSTANTS: usize>(PhantomData<S>);
+
+impl<S: HasSet, const CONSTANTS: usize> Machine for With<S, CONSTANTS> {
+    const CHAIN: Chain = S::CHAIN;
+    const RATING: Rating =
+        Rating { torque: S::SET.rated_torque, speed: RATED_SPEED, torque_limit: 1.2 * S::SET.rated_torque };
+    const ENCODER: Encoder = ENCODER;
+    const RATE_HZ: u32 = RATE_HZ;
+    const TWO_MASS: TwoMassMachine = S::SET.machine;
+    const DISTURBANCE: Disturbance = S::SET.disturbance;
+    const OBSERVER: TwoMassDesign = S::DESIGNS.observer;
+    const GAINS: GainSource = GainSource::Governor(S::DESIGNS.governors[if CONSTANTS == FED { 0 } else { 1 }]);
+    const RAMP: f64 = S::SET.ramp;
+    const BASES: Bases = S::SET.bases();
+    const SCREENING: Screening = S::SET.screening();
+}
+
+impl<S: HasSet, const CONSTANTS: usize> HasDroop for With<S, CONSTANTS> {
+    const DROOP: f64 = if CONSTANTS == DROOPING { DROOP } else { 0.0 };
+}
+
+impl<S: HasSet, const CONSTANTS: usize> HasBarredSpeeds<1> for With<S, CONSTANTS> {
+    const BARRED: BarredSpeeds<1> = S::SET.barred;
+    const QUICK_RAMP: f64 = 4.0 * S::SET.ramp;
+}
+
+impl<S: HasSet, const CONSTANTS: usize> HasTorqueCurve<4> for With<S, CONSTANTS> {
+    const CURVE: TorqueCurve<4> = S::SET.curve;
+}
+
+impl<S: HasSet, const CONSTANTS: usize> HasSequencer for With<S, CONSTANTS> {
+    const SEQUENCER: SequencerSettings = S::SET.modes();
+}
+
+/// The constants of a set in a number, beside those of its drive at the start.
+pub trait InNumber<N: Number + 'static>: HasSet {
+    /// What adds torque.
+    type Added: Compensation<N, Config: 'static>;
+    /// The constants that the panel chooses from.
+    const CONFIGS: &'static [ConfigOf<DriveOf<N, Self::Added>>; 3];
+    /// The watch on the actuator.
+    const WATCH: ActuatorMonitorConfig<N, 2>;
+}
+
+macro_rules! in_number {
+    ($set:ident, $number:ty, $added:ty, $bases:expr) => {
+        impl InNumber<$number> for $set {
+            type Added = $added;
+            const CONFIGS: &'static [ConfigOf<DriveOf<$number, $added>>; 3] = &[
+                DriveOf::<$number, $added>::configure::<With<$set, FED>>(),
+                DriveOf::<$number, $added>::configure::<With<$set, PLAIN>>(),
+                DriveOf::<$number, $added>::configure::<With<$set, DROOPING>>(),
+            ];
+            const WATCH: ActuatorMonitorConfig<$number, 2> =
+                ActuatorMonitorConfig::<$number, 2>::new(&Self::SET.lags, &Self::SET.watch(), PERIOD, $bases);
+        }
+    };
+}
+
+in_number!(DieselSet, f32, FeedForward, Bases::SI);
+in_number!(DieselSet, Fixed, FeedForward, Self::SET.bases());
+in_number!(TurbineSet, f32, (FeedForward, AccelerationFeedback), Bases::SI);
+in_number!(TurbineSet, Fixed, (FeedForward, AccelerationFeedback), Self::SET.bases());
 
 /// The setpoints and switches of the panel, as keys of what it asks.
 pub mod panel {
@@ -316,32 +412,27 @@ pub fn mode_word(mode: RunState) -> u32 {
     }
 }
 
-/// A generator set's drive. [`Input::RELEASED`] is its run switch: on it starts, off it brakes, and off resets a trip.
-pub struct Generator<V: Variant> {
-    configs: &'static [Constants<V::Number, V::Added>; 3],
-    // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static Constants<V::Number, V::Added>,
-    drive: DriveOf<V::Number, V::Added>,
-    watch: ActuatorMonitor<V::Number, 2>,
-    rack: TransportDelay<V::Number, RING>,
+/// What stands beside a set's drive: its run switch ([`Input::RELEASED`]: on it starts, off it brakes, and off resets a
+/// trip), the watch on its actuator, and the delay from the rack to the torque.
+pub struct Actuated<N: Number, S> {
+    watch: ActuatorMonitor<N, 2>,
+    rack: TransportDelay<N, RING>,
     released: bool,
+    set: PhantomData<S>,
 }
 
-impl<V: Variant> Generator<V> {
-    /// The drive, to look at.
-    pub fn drive(&self) -> &DriveOf<V::Number, V::Added> {
-        &self.drive
+impl<N: Number + 'static, S: InNumber<N>> Actuated<N, S> {
+    const RACK: TransportDelayConfig<RING> = TransportDelayConfig::new(S::SET.delay, PERIOD);
+
+    #[cold]
+    fn trip(drive: &mut DriveOf<N, S::Added>, reason: Trip) {
+        drive.governor_mut().sequence_mut().trip(reason);
     }
 
     #[cold]
-    fn trip(&mut self, reason: Trip) {
-        self.drive.governor_mut().sequence_mut().trip(reason);
-    }
-
-    #[cold]
-    fn switched(&mut self, released: bool) {
+    fn switched(&mut self, drive: &mut DriveOf<N, S::Added>, released: bool) {
         self.released = released;
-        let modes = self.drive.governor_mut().sequence_mut();
+        let modes = drive.governor_mut().sequence_mut();
         if released {
             modes.request(RunRequest::Start);
         } else if !modes.request(RunRequest::Stop) {
@@ -350,129 +441,57 @@ impl<V: Variant> Generator<V> {
     }
 }
 
-impl<V: Variant> Scene for Generator<V> {
-    const NAME: &'static str = V::NAME;
-    const RATE_HZ: u32 = RATE_HZ;
+impl<N: Number + 'static, S: InNumber<N, Added = F>, F: Compensation<N, Config: 'static>> Beside<DriveOf<N, F>>
+    for Actuated<N, S>
+{
+    fn constants(_: &'static ConfigOf<DriveOf<N, F>>) -> &'static ConfigOf<DriveOf<N, F>> {
+        let [first, ..] = S::CONFIGS;
+        first
+    }
 
-    fn new() -> Self {
-        let [config, ..] = V::CONFIGS;
-        Generator {
-            configs: V::CONFIGS,
-            config,
-            drive: Drive::new(config, 0),
-            watch: ActuatorMonitor::new(),
-            rack: TransportDelay::new(),
-            released: false,
-        }
+    fn start(_: &mut DriveOf<N, F>, _: &ConfigOf<DriveOf<N, F>>) -> Self {
+        Actuated { watch: ActuatorMonitor::new(), rack: TransportDelay::new(), released: false, set: PhantomData }
     }
 
     #[inline(always)]
-    fn tick(&mut self, input: &Input) -> Output {
-        let word = V::Number::from_word;
+    fn tick(&mut self, drive: &mut DriveOf<N, F>, config: &ConfigOf<DriveOf<N, F>>, input: &Input) -> Output {
         let released = input.flags & Input::RELEASED != 0;
         if released != self.released {
-            self.switched(released);
+            self.switched(drive, released);
         }
-        let (told, unlike) = self.watch.check(&V::WATCH, word(input.torque));
-        if let Some(reason) = self.watch.trip(&V::WATCH) {
-            self.trip(reason);
+        let (told, unlike) = self.watch.check(&S::WATCH, N::from_word(input.torque));
+        if let Some(reason) = self.watch.trip(&S::WATCH) {
+            Self::trip(drive, reason);
         }
-        let torque = self.rack.delayed(&V::RACK, told);
-        let sample = Sample { angle: input.angle, torque, setpoint: word(input.setpoint) };
-        let mut command = self.drive.tick(self.config, &sample);
+        let torque = self.rack.delayed(&Self::RACK, told);
+        let mut command =
+            drive.tick(config, &Sample { angle: input.angle, torque, setpoint: N::from_word(input.setpoint) });
         command.faults |= unlike;
-        self.watch.advance(&V::WATCH, command.torque);
-        output(&command, &self.drive.estimate(self.config))
+        self.watch.advance(&S::WATCH, command.torque);
+        output(&command, &drive.estimate(config))
     }
 
-    fn panel(&mut self, [key, value]: [u32; 2]) -> u32 {
+    fn panel(
+        &mut self,
+        drive: &mut DriveOf<N, F>,
+        config: &mut &'static ConfigOf<DriveOf<N, F>>,
+        [key, value]: [u32; 2],
+    ) -> u32 {
         match key {
             panel::CONSTANTS => {
-                if let Some(to) = self.configs.get(value as usize) {
-                    let estimate = self.drive.estimate(self.config);
-                    self.drive.governor_mut().switch(&self.config.governor, &to.governor, &estimate);
-                    self.config = to;
+                if let Some(to) = S::CONFIGS.get(value as usize) {
+                    let estimate = drive.estimate(config);
+                    drive.governor_mut().switch(&config.governor, &to.governor, &estimate);
+                    *config = to;
                 }
                 value
             }
             panel::TRIP => {
-                self.trip(Trip::Requested);
-                mode_word(self.drive.governor().sequence().state())
+                Self::trip(drive, Trip::Requested);
+                mode_word(drive.governor().sequence().state())
             }
-            panel::MODE => mode_word(self.drive.governor().sequence().state()),
+            panel::MODE => mode_word(drive.governor().sequence().state()),
             _ => 0,
         }
     }
 }
-
-/// The sets.
-pub mod with {
-    /// The diesel engine.
-    pub struct Diesel;
-    /// The steam turbine.
-    pub struct Turbine;
-}
-
-/// A set with a number.
-pub struct Of<N, S>(PhantomData<(N, S)>);
-
-macro_rules! variant {
-    (Diesel $number:ident, $name:literal, $bases:expr) => {
-        variant!(@of Diesel, DIESEL, DIESEL_DESIGNS, $number, $name, FeedForward, |design|
-            FeedForwardConfig::<$number>::new(design.share, $bases), $bases);
-    };
-    (Turbine $number:ident, $name:literal, $bases:expr) => {
-        variant!(@of Turbine, TURBINE, TURBINE_DESIGNS, $number, $name, (FeedForward, AccelerationFeedback), |design| (
-            FeedForwardConfig::<$number>::new(design.share, $bases),
-            AccelerationFeedbackConfig::<$number>::new(design, $bases),
-        ), $bases);
-    };
-    (
-        @of $set:ident, $constants:ident, $designs:ident, $number:ident, $name:literal, $added:ty,
-        |$design:ident| $prompt:expr, $bases:expr
-    ) => {
-        impl Of<$number, with::$set> {
-            const fn config($design: &GovernorDesign, droop: f64) -> Constants<$number, $added> {
-                Config {
-                    limits: Limits::<$number>::new(&$constants.screening(), $bases),
-                    observer: TwoMassConfig::<$number>::new(&$designs.observer, $bases),
-                    fluctuation: (),
-                    governor: SpeedGovernorConfig {
-                        gains: Gains::<$number>::new($design, $constants.ramp, $bases),
-                        shape: (
-                            DroopConfig::<$number>::new(droop, RATED_SPEED, $constants.rated_torque, $bases),
-                            BarredConfig::<$number, 1>::new(
-                                &$constants.barred, 4.0 * $constants.ramp, PERIOD, $bases
-                            ),
-                        ),
-                        compensation: $prompt,
-                        limit: CurveConfig::<$number, 4>::new(&$constants.curve, 0.0, $bases),
-                        sequence: SequencerConfig::<$number>::new(&$constants.modes(), PERIOD, $bases),
-                        filter: MovingAverageConfig::<$number, FIRING>::of_ticks(),
-                    },
-                    balancer: (),
-                }
-            }
-        }
-
-        impl Variant for Of<$number, with::$set> {
-            type Number = $number;
-            type Added = $added;
-            const NAME: &'static str = $name;
-            const CONFIGS: &'static [Constants<$number, $added>; 3] =
-                &[
-                    Self::config(&$designs.governors[0], 0.0),
-                    Self::config(&$designs.governors[1], 0.0),
-                    Self::config(&$designs.governors[1], DROOP),
-                ];
-            const RACK: TransportDelayConfig<RING> = TransportDelayConfig::new($constants.delay, PERIOD);
-            const WATCH: ActuatorMonitorConfig<$number, 2> =
-                ActuatorMonitorConfig::<$number, 2>::new(&$constants.lags, &$constants.watch(), PERIOD, $bases);
-        }
-    };
-}
-
-variant!(Diesel f32, "generator/f32/diesel/2400", Bases::SI);
-variant!(Diesel Fixed, "generator/fixed/diesel/2400", DIESEL.bases());
-variant!(Turbine f32, "generator/f32/turbine/2400", Bases::SI);
-variant!(Turbine Fixed, "generator/fixed/turbine/2400", TURBINE.bases());

@@ -1,44 +1,38 @@
-//! An eccentric punch press: 800 kN at 69 strokes a minute, a flywheel on the motor's shaft, crank and slider behind a gear of 14.
+//! An eccentric punch press: 800 kN at 69 strokes a minute, a flywheel on the motor's shaft, crank and slider behind a
+//! gear of 14.
 //!
-//! An 18.5 kW, six-pole motor at 970 r/min (182 N m; makers' tables give 0.3 kg m2 for frame size 200) carries a flywheel of 4.5 kg m2 (0.62 m
-//! by 40 mm of steel). Gear wheel and crank disc have 40 kg m2, the eccentric shaft of 0.16 m by 0.32 m has 16 MN m/rad (G pi d^4/(32 l)
-//! [Wang 1989 (1-16)]); the crank has a radius of 80 mm, the rod 0.7 m, slider and upper die 2.5 t. A stroke blanks thick plate by a die with
-//! shear, over 40 degrees before the bottom, and takes some 9 kJ of the 26 kJ that the flywheel holds. The figures are of the size of a C-frame
-//! press of 80 t; they are not those of one machine.
+//! An 18.5 kW, six-pole motor at 970 r/min (182 N m; makers' tables give 0.3 kg m2 for frame size 200) carries a
+//! flywheel of 4.5 kg m2 (0.62 m by 40 mm of steel). Gear wheel and crank disc have 40 kg m2, the eccentric shaft of
+//! 0.16 m by 0.32 m has 16 MN m/rad (G pi d^4/(32 l) [Wang 1989 (1-16)]); the crank has a radius of 80 mm, the rod 0.7
+//! m, slider and upper die 2.5 t. A stroke blanks thick plate by a die with shear, over 40 degrees before the bottom,
+//! and takes some 9 kJ of the 26 kJ that the flywheel holds. The figures are of the size of a C-frame press of 80 t;
+//! they are not those of one machine.
 //!
-//! The slider's mass makes the inertia at the motor swing: the observer has it as J(phi), by a table of constants. The crank's angle is
-//! known from its top: the press starts there. The motor's encoder has 2048 sine periods on a turn, each interpolated to 64 counts, as
-//! drives of this kind have it.
+//! The slider's mass makes the inertia at the motor swing: the observer has it as J(phi), by a table of constants. The
+//! crank's angle is known from its top: the press starts there. The motor's encoder has 2048 sine periods on a turn,
+//! each interpolated to 64 counts, as drives of this kind have it.
 //!
 //! | variant | governs | measures |
 //! |---|---|---|
 //! | `plain` | by a plain speed loop, which fights the ripple | nothing |
 //! | `mean` | on the speed without its ripple, so that the flywheel does the stroke's work | the fluctuation over the stroke; advises a flywheel |
 
-use core::marker::PhantomData;
-
+use driveline::configure::{GainSource, HasCrank, Machine, Rating};
 use driveline::design::{
-    Actuator, CrankedDesign, Disturbance, Encoder, GovernorDesign, LoadFeedForward, Rate, SpeedLoopDesign,
-    SpeedLoopTuning,
+    Actuator, Disturbance, Encoder, GovernorDesign, LoadFeedForward, SpeedLoopDesign, SpeedLoopTuning,
 };
-use driveline::drive::{Config, ConfigOf, Drive, Limits};
-use driveline::fluctuation::{
-    Balance, CycleConfig, CycleMean, CycleMeanConfig, Fluctuation, Flywheel, Ripple, Series, Summed, Waveform,
-    WaveformConfig, Window,
-};
-use driveline::governor::{
-    CycleAverage, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit,
-    SymmetricLimitConfig,
-};
+use driveline::drive::{ConfigOf, Drive};
+use driveline::fluctuation::{Balance, CycleMean, Flywheel, Ripple, Series, Summed, Waveform, WaveformConfig, Window};
+use driveline::governor::{CycleAverage, SpeedGovernor, SpeedLoop, SymmetricLimit};
 use driveline::machine::{
     Chain, CrankSlider, Cranked, Damping, Efficiency, Inertia, Length, Mass, Match, Ratio, Stiffness, TwoMass,
 };
-use driveline::number::{Fixed, Number};
-use driveline::observer::{self, CrankConfig};
-use driveline::settings::{Bases, Cycle, Screening, SpeedLoopSettings};
+use driveline::number::Number;
+use driveline::observer;
+use driveline::settings::{Bases, Cycle, Screening};
 
-use crate::scene::governed::advance;
-use crate::scene::{Input, Output, Scene};
+use crate::scene::composed::{Beside, Composed};
+use crate::scene::table::variants;
 
 /// Turns of the motor to one of the crank.
 pub const RATIO: u32 = 14;
@@ -49,63 +43,46 @@ pub const FLYWHEEL: f64 = 0.3 + 4.5;
 /// Crank, rod and slider, on the crank's shaft.
 pub const RAM: CrankSlider = CrankSlider::massless_rod(Length(0.08), Length(0.7), Inertia(40.0), Mass(2_500.0));
 
-/// The machine as the observer has it.
-pub const MACHINE: Cranked = Cranked::new(Inertia(FLYWHEEL), &RAM, 1, RATIO);
-
 /// The machine with its shaft and the crank drive's mean inertia, for the governors.
-pub const CHAIN: Chain = Chain::motor(Inertia(FLYWHEEL))
-    .gear(Ratio(RATIO as f64), Efficiency(1.0))
-    .shaft(Stiffness(1.6e7), Damping(2_100.0))
-    .rotor(RAM.mean_inertia());
+pub struct PunchPress;
 
-/// The same referred to the motor.
-pub const REDUCED: TwoMass = CHAIN.reduce(Match::TextbookCut(0));
+impl Machine for PunchPress {
+    const CHAIN: Chain = Chain::motor(Inertia(FLYWHEEL))
+        .gear(Ratio(RATIO as f64), Efficiency(1.0))
+        .shaft(Stiffness(1.6e7), Damping(2_100.0))
+        .rotor(RAM.mean_inertia());
+    const RATING: Rating = Rating { torque: 182.0, speed: 101.6, torque_limit: 364.0 };
+    const ENCODER: Encoder = Encoder::counts(COUNTS);
+    const RATE_HZ: u32 = 10_000;
+    /// Referred to the motor.
+    const TWO_MASS: TwoMass = Self::CHAIN.reduce(Match::TextbookCut(0));
+    /// The punch comes and goes within hundredths of a second: of what was tried, the least error in the shaft's
+    /// torque. A quicker observer is noisy.
+    const DISTURBANCE: Disturbance =
+        Disturbance { load_torque_step: 1_000.0, within: 3.0, ..Self::RATING.disturbance() };
+    const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.03, damping: 1.0, shaft_damping: 0.04 };
+    /// As any other drive has it: three hundredths of the antiresonance, 3 Hz.
+    const SPEED_LOOP: SpeedLoopDesign =
+        SpeedLoopDesign { damping: 0.0, ..Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING) };
+    /// On the speed without its ripple.
+    const GAINS: GainSource = GainSource::Governor(OVER_STROKE);
+    const RAMP: f64 = Self::RATING.speed / 2.0;
+    /// The shaft carries five times the motor's largest torque, and the observer's gains want a base of this size.
+    const BASES: Bases = Bases::rigid(10_000.0, 1.34 * Self::RATING.speed);
+    /// In 25 ms the motor turns by less than half a turn.
+    const SCREENING: Screening =
+        Screening { max_coast: Self::RATE_HZ / 40, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
+    const CYCLE: Cycle = STROKE;
+    const CYCLES: u32 = 4;
+}
 
-/// Rated speed of the motor [rad/s]: 69 strokes a minute.
-pub const RATED_SPEED: f64 = 101.6;
-
-/// Rated torque of the motor [N m].
-pub const RATED_TORQUE: f64 = 182.0;
-
-/// Largest torque of the motor [N m].
-pub const TORQUE_LIMIT: f64 = 364.0;
-
-/// Ticks a second.
-pub const RATE_HZ: u32 = 10_000;
-
-/// Time between two ticks \[s\].
-pub const PERIOD: f64 = 1.0 / RATE_HZ as f64;
+/// As the observer has it.
+impl HasCrank for PunchPress {
+    const CRANKED: Cranked = Cranked::new(Inertia(FLYWHEEL), &RAM, 1, RATIO);
+}
 
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 2048 * 64;
-
-/// The punch comes and goes within hundredths of a second: of what was tried, the least error in the shaft's torque. A quicker observer is noisy.
-pub const DISTURBANCE: Disturbance =
-    Disturbance { torque_accuracy: 0.01 * RATED_TORQUE, load_torque_step: 1_000.0, within: 3.0 };
-
-/// The observer.
-pub const OBSERVER: CrankedDesign = MACHINE.observer(Rate::hz(RATE_HZ), Encoder::counts(COUNTS), DISTURBANCE);
-
-/// A speed loop as any other drive has it: three hundredths of the antiresonance, 3 Hz.
-pub const LOOP: SpeedLoopDesign = SpeedLoopDesign {
-    damping: 0.0,
-    ..REDUCED.speed_loop(Rate::hz(RATE_HZ), SpeedLoopTuning { bandwidth: 0.03, damping: 1.0, shaft_damping: 0.04 })
-};
-
-/// The governor: rated speed in two seconds.
-pub const SETTINGS: SpeedLoopSettings = SpeedLoopSettings { torque_limit: TORQUE_LIMIT, ramp: RATED_SPEED / 2.0 };
-
-/// Bases of fixed point: the shaft carries five times the motor's largest torque, and the observer's gains want a base of this size.
-pub const BASES: Bases = Bases::rigid(10_000.0, 1.34 * RATED_SPEED);
-
-/// Plausibility limits of a sample. In 25 ms the motor turns by less than half a turn.
-pub const SCREENING: Screening = Screening {
-    torque: 1.67 * TORQUE_LIMIT,
-    setpoint: 1.2 * RATED_SPEED,
-    innovation: core::f64::consts::TAU / 128.0,
-    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    max_coast: RATE_HZ / 40,
-};
 
 /// Where the crank is when the press is switched on: at its top, half a turn from the outer dead centre [2^-32 turn].
 pub const TOP: u32 = 1 << 31;
@@ -114,12 +91,13 @@ pub const TOP: u32 = 1 << 31;
 pub const STROKE: Cycle = Cycle { turns: RATIO, cycles: 1 };
 
 /// The longest stroke that the press is governed in by its mean \[s\]: at four fifths of rated speed.
-pub const LONGEST_STROKE: f64 = core::f64::consts::TAU * RATIO as f64 / (0.8 * RATED_SPEED);
+pub const LONGEST_STROKE: f64 = core::f64::consts::TAU * RATIO as f64 / (0.8 * PunchPress::RATING.speed);
 
-/// The governor on the speed without its ripple. That is renewed from a whole stroke: a gain of 1.5 J over the stroke's time crosses over at 1.5/T,
-/// where `(1 - e^-sT)(1/sT + 1/2)` has lost little, and the integral takes three strokes. `tests/governor` has the loop's margin.
-pub const OVER_STROKE: GovernorDesign = REDUCED.governor(
-    Rate::hz(RATE_HZ),
+/// The governor on the speed without its ripple. That is renewed from a whole stroke: a gain of 1.5 J over the stroke's
+/// time crosses over at 1.5/T, where `(1 - e^-sT)(1/sT + 1/2)` has lost little, and the integral takes three strokes.
+/// `tests/governor` has the loop's margin.
+pub const OVER_STROKE: GovernorDesign = PunchPress::TWO_MASS.governor(
+    PunchPress::RATE,
     Actuator { delay: 0.0, lag: LONGEST_STROKE / 6.75 },
     4.5,
     LoadFeedForward::NONE,
@@ -131,10 +109,8 @@ pub const SEGMENTS: usize = 64;
 /// Bins of the waveform.
 pub const BINS: usize = 128;
 
-/// Strokes in a window of the waveform.
-pub const STROKES: u32 = 4;
-
-/// Highest order of the waveform: a punch over a ninth of the stroke has orders beyond, which are a thousandth of delta.
+/// Highest order of the waveform: a punch over a ninth of the stroke has orders beyond, which are a thousandth of
+/// delta.
 pub const HIGHEST: usize = 16;
 
 /// The inertia at the motor over the stroke, from the top on \[kg m2\].
@@ -142,24 +118,16 @@ pub static INERTIA: [f64; 64] = {
     let mut table = [0.0; 64];
     let mut k = 0;
     while k < 64 {
-        table[k] = MACHINE.inertia((0.5 + k as f64 / 64.0) * core::f64::consts::TAU).inertia;
+        table[k] = PunchPress::CRANKED.inertia((0.5 + k as f64 / 64.0) * core::f64::consts::TAU).inertia;
         k += 1;
     }
     table
 };
 
-/// What the press is tried with.
-pub mod with {
-    /// A plain speed loop.
-    pub struct Plain;
-    /// A governor on the speed without its ripple, and the measurement of the fluctuation.
-    pub struct Mean;
-}
-
 /// Keys of the panel.
 pub mod panel {
-    /// Advise a flywheel for a permissible delta, as the bits of `f32`: answers [`DONE`], or [`NOT_YET`] where no window of strokes is
-    /// finished, or [`NONE`] where no flywheel does it. The other keys answer for this advice.
+    /// Advise a flywheel for a permissible delta, as the bits of `f32`: answers [`DONE`], or [`NOT_YET`] where no
+    /// window of strokes is finished, or [`NONE`] where no flywheel does it. The other keys answer for this advice.
     pub const ADVISE: u32 = 1;
     /// Mean speed [rad/s], as the bits of `f32`.
     pub const MEAN: u32 = 2;
@@ -178,67 +146,52 @@ pub mod panel {
     pub const NONE: u32 = 3;
 }
 
-/// The parts and constants of one variant of the press.
-pub trait Variant: Sized + 'static {
-    /// What it calculates with.
-    type Number: Number + 'static;
-    /// What it measures with.
-    type Fluctuation: Fluctuation<Self::Number, Config: 'static>;
-    /// What it governs with.
-    type Governor: Governor<Self::Number, Config: 'static>;
-    /// What its panel keeps.
-    type Notes: Default;
-    /// Scene, number, variant and rate.
-    const NAME: &'static str;
-    /// The drive's constants.
-    const CONFIG: &'static Constants<Self>;
-    /// What the panel does between two ticks.
-    fn panel(_drive: &mut PressDrive<Self>, _notes: &mut Self::Notes, _asked: [u32; 2]) -> u32 {
-        0
-    }
-}
-
-/// The constants of a variant.
-pub type Constants<V> = ConfigOf<PressDrive<V>>;
-
-/// The drive of a variant.
-pub type PressDrive<V> = Drive<
-    <V as Variant>::Number,
-    observer::CrankObserver<<V as Variant>::Number>,
-    <V as Variant>::Fluctuation,
-    <V as Variant>::Governor,
+/// The drive of a press that is governed by a plain speed loop.
+pub type PlainDrive<N> = Drive<N, observer::CrankObserver<N>, (), SpeedLoop<N>>;
+/// The drive of a press that is governed on the mean over a stroke, with the measurement of the fluctuation.
+pub type MeanDrive<N> = Drive<
+    N,
+    observer::CrankObserver<N>,
+    (CycleMean<N, SEGMENTS>, Waveform<N, BINS>),
+    SpeedGovernor<N, (), (), SymmetricLimit, (), CycleAverage<N>>,
 >;
 
-/// The press with a number and what it is tried with.
-pub struct Of<N, W>(PhantomData<(N, W)>);
+/// A plain speed loop.
+pub type Plain<N> = Composed<PlainDrive<N>, FromTop>;
+/// A governor on the speed without its ripple, and the measurement of the fluctuation.
+pub type Mean<N> = Composed<MeanDrive<N>, Notes<N>>;
 
-/// The press: its drive with its constants.
-///
-/// While the governor is not released, [`Input::reference`] is the torque that the drive holds.
-pub struct PunchPress<V: Variant> {
-    // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static Constants<V>,
-    drive: PressDrive<V>,
-    notes: V::Notes,
+variants! {
+    "plain": Plain for PunchPress;
+    "mean": Mean for PunchPress;
 }
 
-impl<V: Variant> Scene for PunchPress<V> {
-    const NAME: &'static str = V::NAME;
-    const RATE_HZ: u32 = RATE_HZ;
+/// A crank that starts at its top.
+pub struct FromTop;
 
-    fn new() -> Self {
-        let mut drive: PressDrive<V> = Drive::new(V::CONFIG, 0);
-        drive.observer_mut().home(&V::CONFIG.observer, TOP);
-        PunchPress { config: V::CONFIG, drive, notes: V::Notes::default() }
+impl<N: Number> Beside<PlainDrive<N>> for FromTop {
+    fn start(drive: &mut PlainDrive<N>, config: &ConfigOf<PlainDrive<N>>) -> Self {
+        drive.observer_mut().home(&config.observer, TOP);
+        FromTop
+    }
+}
+
+impl<N: Summed> Beside<MeanDrive<N>> for Notes<N> {
+    fn start(drive: &mut MeanDrive<N>, config: &ConfigOf<MeanDrive<N>>) -> Self {
+        drive.observer_mut().home(&config.observer, TOP);
+        Notes { window: None, advice: None }
     }
 
-    #[inline(always)]
-    fn tick(&mut self, input: &Input) -> Output {
-        advance(&mut self.drive, self.config, input)
-    }
-
-    fn panel(&mut self, asked: [u32; 2]) -> u32 {
-        V::panel(&mut self.drive, &mut self.notes, asked)
+    fn panel(
+        &mut self,
+        drive: &mut MeanDrive<N>,
+        config: &mut &'static ConfigOf<MeanDrive<N>>,
+        asked: [u32; 2],
+    ) -> u32 {
+        if let Some(window) = drive.fluctuation_mut().1.take() {
+            self.window = Some(window);
+        }
+        self.answer(&config.fluctuation.1, asked)
     }
 }
 
@@ -246,12 +199,6 @@ impl<V: Variant> Scene for PunchPress<V> {
 pub struct Notes<N: Summed> {
     window: Option<Window<N, BINS>>,
     advice: Option<(Ripple, Flywheel)>,
-}
-
-impl<N: Summed> Default for Notes<N> {
-    fn default() -> Self {
-        Notes { window: None, advice: None }
-    }
 }
 
 impl<N: Summed> Notes<N> {
@@ -278,63 +225,3 @@ impl<N: Summed> Notes<N> {
         if self.advice.is_some() { panel::DONE } else { panel::NONE }
     }
 }
-
-/// What the `mean` variant measures with.
-pub type Measured<N> = (CycleMean<N, SEGMENTS>, Waveform<N, BINS>);
-
-/// What it governs with.
-pub type OnMean<N> = SpeedGovernor<N, (), (), SymmetricLimit, (), CycleAverage<N>>;
-
-macro_rules! variants {
-    ($number:ident, $text:literal, $bases:expr) => {
-        impl Variant for Of<$number, with::Plain> {
-            type Number = $number;
-            type Fluctuation = ();
-            type Governor = SpeedLoop<$number>;
-            type Notes = ();
-            const NAME: &'static str = concat!("punch-press/", $text, "/plain/10000");
-            const CONFIG: &'static Constants<Self> = &Config {
-                limits: Limits::<$number>::new(&SCREENING, $bases),
-                observer: CrankConfig::<$number>::new(&OBSERVER, $bases),
-                fluctuation: (),
-                governor: SpeedLoopConfig::<$number>::new(&LOOP, SETTINGS, $bases),
-                balancer: (),
-            };
-        }
-
-        impl Variant for Of<$number, with::Mean> {
-            type Number = $number;
-            type Fluctuation = Measured<$number>;
-            type Governor = OnMean<$number>;
-            type Notes = Notes<$number>;
-            const NAME: &'static str = concat!("punch-press/", $text, "/mean/10000");
-            const CONFIG: &'static Constants<Self> = &Config {
-                limits: Limits::<$number>::new(&SCREENING, $bases),
-                observer: CrankConfig::<$number>::new(&OBSERVER, $bases),
-                fluctuation: (
-                    CycleMeanConfig::<$number>::new::<SEGMENTS>(STROKE, PERIOD, $bases),
-                    WaveformConfig::new::<BINS>(CycleConfig::new(STROKE, PERIOD, $bases), STROKES),
-                ),
-                governor: SpeedGovernorConfig {
-                    gains: Gains::<$number>::new(&OVER_STROKE, SETTINGS.ramp, $bases),
-                    shape: (),
-                    compensation: (),
-                    limit: SymmetricLimitConfig::<$number>::new(TORQUE_LIMIT, $bases),
-                    sequence: (),
-                    filter: (),
-                },
-                balancer: (),
-            };
-
-            fn panel(drive: &mut PressDrive<Self>, notes: &mut Self::Notes, asked: [u32; 2]) -> u32 {
-                if let Some(window) = drive.fluctuation_mut().1.take() {
-                    notes.window = Some(window);
-                }
-                notes.answer(&Self::CONFIG.fluctuation.1, asked)
-            }
-        }
-    };
-}
-
-variants!(f32, "f32", Bases::SI);
-variants!(Fixed, "fixed", BASES);

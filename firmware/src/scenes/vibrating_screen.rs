@@ -1,31 +1,28 @@
 //! A dual-mass vibrating screen that runs up through its resonances.
 //!
-//! A screen box of 8 t with its charge, for a deck of 2.4 m by 6 m, stands on springs on a frame of 5 t, and that on springs on the ground, so that the
-//! ground feels little. Two unbalanced shafts that turn against each other shake the box along a line at 45 degrees: 40 kg m together give 5 mm to either side
-//! at 970 r/min, five times gravity, as makers have it for such screens. A motor of 30 kW on the ground (295 N m, 1.2 kg m2) turns them through a cardan shaft of
-//! 60 mm by 1 m. The figures are not those of one machine.
+//! A screen box of 8 t with its charge, for a deck of 2.4 m by 6 m, stands on springs on a frame of 5 t, and that on
+//! springs on the ground, so that the ground feels little. Two unbalanced shafts that turn against each other shake the
+//! box along a line at 45 degrees: 40 kg m together give 5 mm to either side at 970 r/min, five times gravity, as
+//! makers have it for such screens. A motor of 30 kW on the ground (295 N m, 1.2 kg m2) turns them through a cardan
+//! shaft of 60 mm by 1 m. The figures are not those of one machine.
 //!
-//! On the way up the machine passes both resonances of its springs, where a motor that is too weak would stay: what it gives goes into the
-//! swing (Sommerfeld's effect). The governor bars both ranges and passes them by a quick ramp. At speed gravity pulls on the
-//! unbalance once a turn, and the box gives and takes energy twice a turn.
+//! On the way up the machine passes both resonances of its springs, where a motor that is too weak would stay: what it
+//! gives goes into the swing (Sommerfeld's effect). The governor bars both ranges and passes them by a quick ramp. At
+//! speed gravity pulls on the unbalance once a turn, and the box gives and takes energy twice a turn.
 
-use core::marker::PhantomData;
-
+use driveline::configure::{HasBarredSpeeds, Machine, Rating};
 use driveline::design::{
-    BarredSpeeds, Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Rate, Requirement,
-    SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign, USUAL_MARGIN,
+    BarredSpeeds, Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Requirement, SpeedLoopDesign,
+    SpeedLoopTuning, USUAL_MARGIN,
 };
-use driveline::drive::{Config, ConfigOf, Drive, Limits};
-use driveline::governor::{
-    Barred, BarredConfig, Gains, SpeedGovernor, SpeedGovernorConfig, SymmetricLimit, SymmetricLimitConfig,
-};
-use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Match, Section, ShearModulus, TwoMass};
+use driveline::governor::{Barred, SpeedGovernor, SymmetricLimit};
+use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus};
 use driveline::math::sqrt;
-use driveline::number::Fixed;
-use driveline::observer::{self, TwoMassConfig};
+use driveline::observer::TwoMassObserver;
 use driveline::settings::{Bases, Screening};
 
-use crate::scene::assembled::Parts;
+use crate::scene::composed::GovernedBy;
+use crate::scene::table::variants;
 
 /// Mass of the box with its charge, and of the frame [kg].
 pub const MASSES: [f64; 2] = [8000.0, 5000.0];
@@ -39,28 +36,46 @@ pub const UNBALANCE: f64 = 40.0;
 /// Inertia of both exciter shafts with their unbalances [kg m2].
 pub const EXCITER: f64 = 8.5;
 
-/// The motor, the cardan shaft, and the exciter. The box swings freely at speed and takes `S^2/2M` off its inertia on the mean over a turn.
-pub const CHAIN: Chain = Chain::motor(Inertia(1.2))
-    .shaft(Section::solid(Length(1.0), Diameter(0.060)).stiffness(ShearModulus::STEEL), Damping(13.0))
-    .rotor(Inertia(EXCITER - UNBALANCE * UNBALANCE / (2.0 * MASSES[0])));
+/// The motor, the cardan shaft, and the exciter. The box swings freely at speed and takes `S^2/2M` off its inertia on
+/// the mean over a turn.
+pub struct VibratingScreen;
 
-/// Two masses: the machine has no more that turn.
-pub const MACHINE: TwoMass = CHAIN.reduce(Match::ResonanceAntiresonance);
+impl Machine for VibratingScreen {
+    const CHAIN: Chain = Chain::motor(Inertia(1.2))
+        .shaft(Section::solid(Length(1.0), Diameter(0.060)).stiffness(ShearModulus::STEEL), Damping(13.0))
+        .rotor(Inertia(EXCITER - UNBALANCE * UNBALANCE / (2.0 * MASSES[0])));
+    /// 970 r/min.
+    const RATING: Rating = Rating { torque: 295.0, speed: 101.6, torque_limit: 2.0 * 295.0 };
+    const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
+    const RATE_HZ: u32 = 4_000;
+    /// Of the load torque, what the box gives and takes at 32 Hz has to be followed: a thousand newton metres within
+    /// milliseconds.
+    const DISTURBANCE: Disturbance =
+        Disturbance { load_torque_step: 4.0 * Self::RATING.torque, within: 0.05, ..Self::RATING.disturbance() };
+    const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.03 };
+    /// A tenth of the antiresonance, without damping of the shaft.
+    const SPEED_LOOP: SpeedLoopDesign =
+        SpeedLoopDesign { damping: 0.0, ..Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING) };
+    const RAMP: f64 = Self::RATING.speed / 5.0;
+    /// That of the torque is a thousand times the largest, for the gains: a radian of innovation is much with such an
+    /// encoder. What is left of the resolution is 2 mN m.
+    const BASES: Bases = Bases::new(&Self::TWO_MASS, 1000.0 * Self::RATING.torque_limit, 2.0 * Self::RATING.speed);
+    /// In 20 ms the motor turns by less than half a turn.
+    const SCREENING: Screening = Screening {
+        innovation: core::f64::consts::TAU / 256.0,
+        max_coast: Self::RATE_HZ / 50,
+        ..Self::RATING.screening(Self::ENCODER, Self::RATE)
+    };
+}
 
-/// Rated speed [rad/s], 970 r/min.
-pub const RATED_SPEED: f64 = 101.6;
+/// What the governor does not let the machine dwell at: 10 % about either resonance. It passes through as fast as the
+/// motor can.
+impl HasBarredSpeeds<2> for VibratingScreen {
+    const BARRED: BarredSpeeds<2> = BarredSpeeds::new(&CRITICAL, &[1.0], USUAL_MARGIN, Self::RATING.speed);
+}
 
-/// Rated torque [N m].
-pub const RATED_TORQUE: f64 = 295.0;
-
-/// Largest torque [N m].
-pub const TORQUE_LIMIT: f64 = 2.0 * RATED_TORQUE;
-
-/// Ticks a second.
-pub const RATE_HZ: u32 = 4_000;
-
-/// Counts of the encoder on a turn: a sine encoder of 512 lines, interpolated 1024 times. One of 2048 lines is too coarse to follow the box's push from
-/// behind the shaft.
+/// Counts of the encoder on a turn: a sine encoder of 512 lines, interpolated 1024 times. One of 2048 lines is too
+/// coarse to follow the box's push from behind the shaft.
 pub const COUNTS: u32 = 524_288;
 
 /// Resonances of box and frame on their springs [rad/s], each a critical speed: the roots of
@@ -72,110 +87,27 @@ pub const CRITICAL: [f64; 2] = {
     [sqrt(half - root), sqrt(half + root)]
 };
 
-/// What the governor does not let the machine dwell at: 10 % about either.
-pub const BARRED: BarredSpeeds<2> = BarredSpeeds::new(&CRITICAL, &[1.0], USUAL_MARGIN, RATED_SPEED);
-
-/// Of the load torque, what the box gives and takes at 32 Hz has to be followed: a thousand newton metres within milliseconds.
-pub const DISTURBANCE: Disturbance =
-    Disturbance { torque_accuracy: 0.01 * RATED_TORQUE, load_torque_step: 4.0 * RATED_TORQUE, within: 0.05 };
-
-/// The observer.
-pub const OBSERVER: TwoMassDesign = MACHINE.observer(Rate::hz(RATE_HZ), Encoder::lines(COUNTS / 4), DISTURBANCE);
-
 /// What it needs for the box's push: at speed `S^2 w^2/2M` either way, twice a turn.
-pub const SELECTION: ObserverSelection = MACHINE.select_observer(
+pub const SELECTION: ObserverSelection = VibratingScreen::TWO_MASS.select_observer(
     &LoadCycle {
-        speed: RATED_SPEED,
-        torque: 2.0 * RATED_TORQUE,
-        change: UNBALANCE * UNBALANCE * RATED_SPEED * RATED_SPEED / MASSES[0],
-        rise: 0.5 * core::f64::consts::PI / RATED_SPEED,
-        every: 0.5 * core::f64::consts::PI / RATED_SPEED,
+        speed: VibratingScreen::RATING.speed,
+        torque: 2.0 * VibratingScreen::RATING.torque,
+        change: UNBALANCE * UNBALANCE * VibratingScreen::RATING.speed * VibratingScreen::RATING.speed / MASSES[0],
+        rise: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed,
+        every: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed,
         reverses: true,
     },
     &Requirement::USUAL,
-    1.0 / RATE_HZ as f64,
+    VibratingScreen::PERIOD,
 );
 
 const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::Exact));
 
-/// The speed loop: a tenth of the antiresonance, without damping of the shaft.
-pub const LOOP: SpeedLoopDesign = SpeedLoopDesign {
-    damping: 0.0,
-    ..MACHINE.speed_loop(Rate::hz(RATE_HZ), SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.03 })
-};
+/// The resonances passed by a quick ramp.
+pub type Exact<N> = GovernedBy<N, TwoMassObserver<N>, SpeedGovernor<N, Barred<2>, (), SymmetricLimit>>;
+/// The resonances passed as any other speed; for comparison, in no image.
+pub type Plain<N> = GovernedBy<N, TwoMassObserver<N>, SpeedGovernor<N, (), (), SymmetricLimit>>;
 
-/// Rated speed in five seconds [rad/s2].
-pub const RAMP: f64 = RATED_SPEED / 5.0;
-
-/// Through a barred range as fast as the motor can: nine tenths of its largest torque on all that turns [rad/s2].
-pub const QUICK_RAMP: f64 = 0.9 * TORQUE_LIMIT / (MACHINE.motor_inertia + MACHINE.load_inertia);
-
-/// Bases of fixed point. That of the torque is a thousand times the largest, for the gains: a radian of innovation is much with such an encoder. What is left of
-/// resolution is 2 mN m.
-pub const BASES: Bases = Bases::new(&MACHINE, 1000.0 * TORQUE_LIMIT, 2.0 * RATED_SPEED);
-
-/// Plausibility limits of a sample. In 20 ms the motor turns by less than half a turn.
-pub const SCREENING: Screening = Screening {
-    torque: 1.67 * TORQUE_LIMIT,
-    setpoint: 1.2 * RATED_SPEED,
-    innovation: core::f64::consts::TAU / 256.0,
-    frozen_turn: 2.0 * core::f64::consts::TAU / COUNTS as f64,
-    max_coast: RATE_HZ / 50,
-};
-
-/// How the screen passes its resonances.
-pub mod with {
-    /// By a quick ramp.
-    pub struct Quick;
-    /// As any other speed; for comparison, in no image.
-    pub struct Plain;
+variants! {
+    "exact": Exact for VibratingScreen;
 }
-
-/// The screen with a number and a governor.
-pub struct VibratingScreen<N, G>(PhantomData<(N, G)>);
-
-macro_rules! variant {
-    ($with:ident, $number:ident, $name:literal, $shape:ty, $set_point:expr, $bases:expr) => {
-        impl Parts for VibratingScreen<$number, with::$with> {
-            type Number = $number;
-            type Observer = observer::TwoMassObserver<$number>;
-            type Governor = SpeedGovernor<$number, $shape, (), SymmetricLimit>;
-            const NAME: &'static str = concat!("vibrating-screen/", $name, "/4000");
-            const RATE_HZ: u32 = RATE_HZ;
-            const CONFIG: &'static ConfigOf<Drive<$number, Self::Observer, (), Self::Governor>> = &Config {
-                limits: Limits::<$number>::new(&SCREENING, $bases),
-                observer: TwoMassConfig::<$number>::new(&OBSERVER, $bases),
-                fluctuation: (),
-                governor: SpeedGovernorConfig {
-                    filter: (),
-                    gains: Gains::<$number>::of_speed_loop(&LOOP, RAMP, $bases),
-                    shape: $set_point,
-                    compensation: (),
-                    limit: SymmetricLimitConfig::<$number>::new(TORQUE_LIMIT, $bases),
-                    sequence: (),
-                },
-                balancer: (),
-            };
-        }
-    };
-}
-
-const PERIOD: f64 = 1.0 / RATE_HZ as f64;
-
-variant!(
-    Quick,
-    f32,
-    "f32/exact",
-    Barred<2>,
-    BarredConfig::<f32, 2>::new(&BARRED, QUICK_RAMP, PERIOD, Bases::SI),
-    Bases::SI
-);
-variant!(
-    Quick,
-    Fixed,
-    "fixed/exact",
-    Barred<2>,
-    BarredConfig::<Fixed, 2>::new(&BARRED, QUICK_RAMP, PERIOD, BASES),
-    BASES
-);
-variant!(Plain, f32, "f32/plain", (), (), Bases::SI);

@@ -3,11 +3,15 @@
 //! Two masses by the semi-implicit step, from an impact on, under a motor torque that changes its sign every 25 ms. It
 //! is for counting instructions, not for judging estimates. A test on the host counts how often each path is taken.
 
-use crate::scenes::blooming_mill::{GAP, MACHINE, TORQUE_LIMIT};
+use driveline::configure::Machine;
+use driveline::machine::TwoMass;
+
+use crate::scenes::blooming_mill::{BloomingMill, GAP};
 
 /// Ticks a second.
 pub const RATE_HZ: u32 = 10_000;
 
+const MACHINE: TwoMass = BloomingMill::TWO_MASS;
 const STEP: f32 = 1.0 / RATE_HZ as f32;
 const MOTOR: f32 = MACHINE.motor_inertia as f32;
 const LOAD: f32 = MACHINE.load_inertia as f32;
@@ -17,7 +21,7 @@ const HALF_GAP: f32 = 0.5 * GAP as f32;
 /// Drag of the rolls [N m s/rad], which lets the gap open.
 const DRAG: f32 = 5.0e4;
 /// Torque of the motor [N m]: more than it has, for more impacts, and still believed.
-const TORQUE: f32 = 1.6 * TORQUE_LIMIT as f32;
+const TORQUE: f32 = 1.6 * BloomingMill::RATING.torque_limit as f32;
 /// 2^32 to the turn.
 const PER_RADIAN: f32 = 4_294_967_296.0 / core::f32::consts::TAU;
 

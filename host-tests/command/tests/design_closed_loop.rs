@@ -1,18 +1,26 @@
-//! The speed loop with its observer in it: against a state matrix built here and its eigenvalues, and against the library's own observer and governor on the
-//! full solver's plant, the torque raised until it oscillates.
+//! The speed loop with its observer in it: against a state matrix built here and its eigenvalues, and against the
+//! library's own observer and governor on the full solver's plant, the torque raised until it oscillates.
 
 use std::collections::VecDeque;
 
+use driveline::configure::Machine;
 use driveline::design::{Actuator, ClosedLoop, Error, Plant, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
 use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{Chain, TwoMass};
 use driveline::observer::{self, Observer, RigidConfig, TwoMassConfig};
 use driveline::settings::{Bases, SpeedLoopSettings};
-use driveline_firmware::scenes::{
-    blooming_mill, crane_travel, gear_drive, hoist, planetary_drive, spindle, strip_mill,
-};
+use driveline_firmware::scenes::blooming_mill::BloomingMill;
+use driveline_firmware::scenes::crane_travel::CraneTravel;
+use driveline_firmware::scenes::gear_drive::GearDrive;
+use driveline_firmware::scenes::hoist::Hoist;
+use driveline_firmware::scenes::planetary::PlanetaryDrive;
+use driveline_firmware::scenes::spindle::Spindle;
+use driveline_firmware::scenes::strip_mill::StripMill;
 use driveline_solver::plant;
 use nalgebra::{DMatrix, DVector};
+
+/// The hoist as its observers know it, whatever their rate.
+type Known = Hoist<10_000>;
 
 /// Transition and input over a period of `x' = A x + b u`, u held.
 fn held(a: &DMatrix<f64>, b: &DVector<f64>, period: f64) -> (DMatrix<f64>, DVector<f64>) {
@@ -24,7 +32,8 @@ fn held(a: &DMatrix<f64>, b: &DVector<f64>, period: f64) -> (DMatrix<f64>, DVect
     (both.view((0, 0), (n, n)).into(), both.view((0, n), (n, 1)).column(0).into())
 }
 
-/// Spectral radius of the whole loop, but for the angle that all of it may turn by: machine, observer, integral, lag and the torques on their way.
+/// Spectral radius of the whole loop, but for the angle that all of it may turn by: machine, observer, integral, lag
+/// and the torques on their way.
 fn radius(machine: &TwoMass, o: &TwoMassDesign, l: &SpeedLoopDesign, actuator: Actuator, gain: f64) -> f64 {
     let two_masses = |m: &TwoMass| {
         let (jm, jl, k, d) = (m.motor_inertia, m.load_inertia, m.stiffness, m.damping);
@@ -98,13 +107,14 @@ fn radius(machine: &TwoMass, o: &TwoMassDesign, l: &SpeedLoopDesign, actuator: A
     sizes[size - 2]
 }
 
-/// Other machines than the observer knows, at three rates, prompt and late: at the margin's edge the largest pole of the matrix is on the unit circle.
+/// Other machines than the observer knows, at three rates, prompt and late: at the margin's edge the largest pole of
+/// the matrix is on the unit circle.
 #[test]
 fn gain_margins_and_ranges_are_where_a_pole_leaves_the_circle() {
     let mut edges = 0;
     for (rate, tuning) in [(1_000, 0.1), (4_000, 0.2), (10_000, 0.4)] {
-        let known = hoist::REDUCED;
-        let observer = hoist::observer(&known, rate);
+        let known = Known::TWO_MASS;
+        let observer = known.observer(Rate::hz(rate), Known::ENCODER, Known::DISTURBANCE);
         let speed_loop =
             known.speed_loop(Rate::hz(rate), SpeedLoopTuning { shaft_damping: tuning, ..SpeedLoopTuning::USUAL });
         for (ticks, lag) in [(0.0, 0.0), (1.0, 3.2e-4), (3.0, 0.0)] {
@@ -122,7 +132,8 @@ fn gain_margins_and_ranges_are_where_a_pole_leaves_the_circle() {
                     assert!(at(&machine, 1.0) > 1.0);
                     continue;
                 };
-                // A thousandth of the gain moves the critical pole by 1e-6 at the least, the matrix's eigenvalues are good to 1e-9.
+                // A thousandth of the gain moves the critical pole by 1e-6 at the least, the matrix's eigenvalues are
+                // good to 1e-9.
                 for (edge, way) in [(margins.gain_up, 1.001), (margins.gain_down, 1.0 / 1.001)] {
                     if edge.is_finite() && edge > 0.0 {
                         assert!(
@@ -151,8 +162,8 @@ fn gain_margins_and_ranges_are_where_a_pole_leaves_the_circle() {
                         }
                     }
                 }
-                // Both other margins bound the distance from -1 [Astrom and Murray, Feedback Systems, §10.3]; the sweep's grid
-                // finds the distance within 1 %.
+                // Both other margins bound the distance from -1 [Astrom and Murray, Feedback Systems, §10.3]; the
+                // sweep's grid finds the distance within 1 %.
                 assert!(margins.modulus <= 1.01 * (1.0 - 1.0 / margins.gain_up), "{margins:?}");
                 assert!(margins.modulus <= 1.01 * 2.0 * (0.5 * margins.phase).sin(), "{margins:?}");
             }
@@ -164,23 +175,28 @@ fn gain_margins_and_ranges_are_where_a_pole_leaves_the_circle() {
 /// A loop of the scenes: chain, observer, speed loop, seconds to wait.
 struct Scene(&'static str, Chain, TwoMassDesign, SpeedLoopDesign, f64);
 
+impl Scene {
+    fn of<M: Machine>(name: &'static str, seconds: f64) -> Self {
+        Scene(name, M::CHAIN, M::OBSERVER, M::SPEED_LOOP, seconds)
+    }
+}
+
 fn scenes() -> [Scene; 8] {
-    let damped = blooming_mill::MACHINE.speed_loop(Rate::hz(10_000), blooming_mill::TUNING);
-    let hoist = |rate| (hoist::observer(&hoist::REDUCED, rate), hoist::speed_loop(rate));
-    let ((slow, slow_loop), (quick, quick_loop)) = (hoist(1_000), hoist(10_000));
+    let damped = BloomingMill::TWO_MASS.speed_loop(BloomingMill::RATE, BloomingMill::TUNING);
     [
-        Scene("hoist at 1 kHz", hoist::CHAIN, slow, slow_loop, 20.0),
-        Scene("hoist at 10 kHz", hoist::CHAIN, quick, quick_loop, 6.0),
-        Scene("strip mill", strip_mill::CHAIN, strip_mill::OBSERVER, strip_mill::LOOP, 4.0),
-        Scene("spindle", spindle::CHAIN, spindle::OBSERVER, spindle::LOOP, 0.5),
-        Scene("blooming mill, no gap", blooming_mill::CHAIN, blooming_mill::two_mass(10_000), damped, 6.0),
-        Scene("crane travel", crane_travel::CHAIN, crane_travel::OBSERVER, crane_travel::LOOP, 300.0),
-        Scene("gear drive", gear_drive::CHAIN, gear_drive::OBSERVER, gear_drive::LOOP, 10.0),
-        Scene("planetary drive", planetary_drive::CHAIN, planetary_drive::OBSERVER, planetary_drive::LOOP, 10.0),
+        Scene::of::<Hoist<1_000>>("hoist at 1 kHz", 20.0),
+        Scene::of::<Hoist<10_000>>("hoist at 10 kHz", 6.0),
+        Scene::of::<StripMill>("strip mill", 4.0),
+        Scene::of::<Spindle>("spindle", 0.5),
+        Scene("blooming mill, no gap", BloomingMill::CHAIN, BloomingMill::OBSERVER, damped, 6.0),
+        Scene::of::<CraneTravel>("crane travel", 300.0),
+        Scene::of::<GearDrive>("gear drive", 10.0),
+        Scene::of::<PlanetaryDrive>("planetary drive", 10.0),
     ]
 }
 
-/// Whether the drive holds the full plant still after a small speed, its torque times `gain`; the torque it is told is its own command, `late` ticks late.
+/// Whether the drive holds the full plant still after a small speed, its torque times `gain`; the torque it is told is
+/// its own command, `late` ticks late.
 fn settles<O: Observer<f64>>(scene: &Scene, known: &O::Config, gain: f64, late: usize) -> bool {
     let Scene(_, chain, TwoMassDesign { period, .. }, speed_loop, seconds) = scene;
     let masses = chain.masses();
@@ -213,7 +229,8 @@ fn settles<O: Observer<f64>>(scene: &Scene, known: &O::Config, gain: f64, late: 
     swings[9] < swings[4] || swings[9] < 1e-4
 }
 
-/// The printed gain margin within 5 % of that of the full plant under the library's own observer and governor, prompt and a tick late.
+/// The printed gain margin within 5 % of that of the full plant under the library's own observer and governor, prompt
+/// and a tick late.
 #[test]
 fn gain_margins_are_those_of_the_full_plant() {
     for scene in scenes() {
@@ -231,16 +248,19 @@ fn gain_margins_are_those_of_the_full_plant() {
     }
 }
 
-/// The same with the observer of one mass, at three rates. It takes the rope's swing for the load's doing, and damps nothing.
+/// The same with the observer of one mass, at three rates. It takes the rope's swing for the load's doing, and damps
+/// nothing.
 #[test]
 fn gain_margins_with_one_mass_are_those_of_the_full_plant() {
     for rate in [1_000, 4_000, 10_000] {
-        let (rigid, speed_loop) = (hoist::rigid(rate), hoist::speed_loop(rate));
-        let scene = Scene("rigid", hoist::CHAIN, hoist::observer(&hoist::REDUCED, rate), speed_loop, 6.0);
+        let rigid = Known::CHAIN.rigid().observer(Rate::hz(rate), Known::ENCODER, Known::DISTURBANCE);
+        let observer = Known::TWO_MASS.observer(Rate::hz(rate), Known::ENCODER, Known::DISTURBANCE);
+        let speed_loop = Known::TWO_MASS.speed_loop(Rate::hz(rate), Known::TUNING);
+        let scene = Scene("rigid", Known::CHAIN, observer, speed_loop, 6.0);
         let closed = ClosedLoop::of_rigid(&rigid, &speed_loop, Actuator::DIRECT).unwrap();
-        let margins = closed.margins(&Plant::of_chain(&hoist::CHAIN)).unwrap();
+        let margins = closed.margins(&Plant::of_chain(&Known::CHAIN)).unwrap();
         println!("{rate}: {margins:?}");
-        let known = RigidConfig::<f64>::new(&rigid, hoist::LOAD_SHARE, Bases::SI);
+        let known = RigidConfig::<f64>::new(&rigid, Known::LOAD_SHARE, Bases::SI);
         let settles = |gain| settles::<observer::RigidObserver<f64>>(&scene, &known, gain, 0);
         assert!(settles(0.95 * margins.gain_up) && !settles(1.05 * margins.gain_up), "{rate}: {margins:?}");
     }
@@ -248,10 +268,10 @@ fn gain_margins_with_one_mass_are_those_of_the_full_plant() {
 
 #[test]
 fn a_loop_of_two_rates_or_far_too_late_is_refused() {
-    let (observer, speed_loop) = (hoist::observer(&hoist::REDUCED, 1_000), hoist::speed_loop(1_000));
+    let (observer, speed_loop) = (Hoist::<1_000>::OBSERVER, Hoist::<1_000>::SPEED_LOOP);
     let refused = |speed_loop, actuator| ClosedLoop::of(&observer, &speed_loop, actuator).err();
     assert_eq!(refused(speed_loop, Actuator { delay: 0.012, lag: 0.0 }), None);
     assert_eq!(refused(speed_loop, Actuator { delay: 0.0121, lag: 0.0 }), Some(Error::Actuator));
     assert_eq!(refused(speed_loop, Actuator { delay: 0.0, lag: f64::NAN }), Some(Error::Actuator));
-    assert_eq!(refused(hoist::speed_loop(4_000), Actuator::DIRECT), Some(Error::Period));
+    assert_eq!(refused(Hoist::<4_000>::SPEED_LOOP, Actuator::DIRECT), Some(Error::Period));
 }

@@ -16,7 +16,7 @@ use stm32_metapac::{ADC1, ADC2, ADC12_COMMON, DMA1, DMAMUX1, TIM4};
 
 use super::clock::CLOCK_HZ;
 use super::pin::analog;
-use crate::scenes::test_rig::VIBRATION_LIMIT;
+use crate::scenes::test_rig::TestRig;
 
 /// Conversions a tick.
 const SLICE: usize = 8;
@@ -29,7 +29,7 @@ const REQUESTS: [u8; 2] = [5, 36];
 /// 12 bits.
 const MOST: u16 = 4095;
 /// Half of the range is the largest velocity; a count is given in 1/256.
-const PER_COUNT: PerCount<f32> = PerCount::<f32>::new(VIBRATION_LIMIT / 2048.0 / 256.0);
+const PER_COUNT: PerCount<f32> = PerCount::<f32>::new(TestRig::VIBRATION_LIMIT / 2048.0 / 256.0);
 
 /// What the DMA fills.
 struct Ring(UnsafeCell<[u16; 2 * SLICE]>);

@@ -5,8 +5,11 @@ macro_rules! parts {
         /// The parts with this number.
         pub mod $module {
             use super::super::*;
-            use crate::scenes::hoist;
-            use driveline::governor::{ActiveDampingConfig, SlewConfig, SymmetricLimitConfig, TorqueRangeConfig};
+            use crate::scenes::hoist::Hoist;
+            use driveline::governor::{
+                ActiveDampingConfig, BarredConfig, CurveConfig, DroopConfig, FeedForwardConfig, Gains,
+                MovingAverageConfig, SequencerConfig, SlewConfig, SymmetricLimitConfig, TorqueRangeConfig,
+            };
 
             /// Gains and ramp.
             pub const GAINS: Gains<$number> = Gains::<$number>::new(&DIESEL_PLAIN, DIESEL.ramp, $bases);
@@ -20,7 +23,7 @@ macro_rules! parts {
             pub const FORWARD: FeedForwardConfig<$number> = FeedForwardConfig::<$number>::new(DIESEL.share, $bases);
             /// Active damping, the hoist's.
             pub const DAMPING: ActiveDampingConfig<$number> =
-                ActiveDampingConfig::<$number>::new(&hoist::speed_loop(10_000), $bases);
+                ActiveDampingConfig::<$number>::new(&Hoist::<10_000>::SPEED_LOOP, $bases);
             /// A limit either way.
             pub const SYMMETRIC: SymmetricLimitConfig<$number> =
                 SymmetricLimitConfig::<$number>::new(DIESEL_TORQUE, $bases);

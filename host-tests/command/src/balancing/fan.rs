@@ -1,8 +1,10 @@
 //! The fan: two planes, trial weights, one correction and one trim.
 
+use driveline::configure::HasVibration as _;
+use driveline::configure::Machine as _;
 use driveline_firmware::Words;
 use driveline_firmware::scene::panel_keys::{Key, next};
-use driveline_firmware::scenes::balanced_fan as scene;
+use driveline_firmware::scenes::balanced_fan::BalancedFan;
 use nalgebra::Complex;
 
 use super::error::BalancingError;
@@ -42,7 +44,7 @@ fn model() -> Result<Model, BalancingError> {
 
 /// Permissible unbalance of a plane in a grade [kg m]: each carries half the rotor.
 fn permissible(grade: f64) -> f64 {
-    0.5 * ROTOR[0] * grade * 1e-3 / scene::RATED_SPEED
+    0.5 * ROTOR[0] * grade * 1e-3 / BalancedFan::RATING.speed
 }
 
 /// The grade that the worse of the planes is in.
@@ -55,25 +57,25 @@ fn machine(words: Words, model: &Model, found: &[Complex<f64>], seed: u64) -> Re
     let drivetrain = Drivetrain {
         plant,
         rotor: 1,
-        load: 0.9 * scene::RATED_TORQUE / scene::RATED_SPEED.powi(2),
+        load: 0.9 * BalancedFan::RATING.torque / BalancedFan::RATING.speed.powi(2),
         // ten blades, and a misaligned coupling
         ripple: vec![(10.0, 40.0), (2.0, 30.0)],
-        rated: scene::RATED_SPEED,
-        torque_noise: 0.01 * scene::RATED_TORQUE,
+        rated: BalancedFan::RATING.speed,
+        torque_noise: 0.01 * BalancedFan::RATING.torque,
     };
-    let mut whirl = Whirl::new(Modal::of(model)?, 1.0 / f64::from(scene::RATE_HZ));
+    let mut whirl = Whirl::new(Modal::of(model)?, 1.0 / f64::from(BalancedFan::RATE_HZ));
     whirl.set_unbalance(found)?;
     // The noise is 20 dB below the vibration as it is found.
-    let amplitude = model.response(scene::RATED_SPEED, found)?.iter().map(|x| x.norm()).fold(0.0, f64::max);
-    let noise = 0.1 * amplitude * scene::RATED_SPEED / 2f64.sqrt();
+    let amplitude = model.response(BalancedFan::RATING.speed, found)?.iter().map(|x| x.norm()).fold(0.0, f64::max);
+    let noise = 0.1 * amplitude * BalancedFan::RATING.speed / 2f64.sqrt();
     let sensor = |seed: u64, share: f64, phase: f64| {
         Faulty::new(Transducer::Velocity, seed)
             .error(share, f64::to_radians(phase))
             .noise(noise)
-            .range(scene::VIBRATION_LIMIT)
+            .range(BalancedFan::VIBRATION_LIMIT)
     };
     let sensors = [sensor(2 * seed + 1, 0.05, 10.0), sensor(2 * seed + 2, -0.05, -10.0)];
-    Ok(Machine::new(drivetrain, whirl, sensors, Units::new(words, scene::BASES), scene::VIBRATION_BASE))
+    Ok(Machine::new(drivetrain, whirl, sensors, Units::new(words, BalancedFan::BASES), BalancedFan::VIBRATION_BASE))
 }
 
 /// Balances the fan with a drive; `seed` is that of everything that is left to chance.
@@ -137,7 +139,7 @@ pub fn run(words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outcome, Ba
         claims,
         operator,
         &model,
-        1.25 * scene::RATED_SPEED,
+        1.25 * BalancedFan::RATING.speed,
     )
 }
 
@@ -147,7 +149,7 @@ fn rows() -> Vec<String> {
 
 /// To speed, and a reading of both channels.
 fn measure(operator: &mut Operator<'_>) -> Result<(), BalancingError> {
-    operator.bring_to(scene::RATED_SPEED, SETTLE)?;
+    operator.bring_to(BalancedFan::RATING.speed, SETTLE)?;
     operator.read()?;
     operator.press(Key::Row, 0)
 }
@@ -171,7 +173,7 @@ fn stage(
     Ok(Stage {
         name: name.to_owned(),
         unbalance: unbalance.iter().map(|&u| Vector::of(u)).collect(),
-        vibration: model.response(scene::RATED_SPEED, unbalance)?.into_iter().map(Vector::of).collect(),
+        vibration: model.response(BalancedFan::RATING.speed, unbalance)?.into_iter().map(Vector::of).collect(),
         read,
         measure: grade(unbalance),
         time: operator.machine.time(),

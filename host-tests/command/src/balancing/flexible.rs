@@ -1,8 +1,10 @@
 //! The flexible rotor: three planes, two speeds, one correction.
 
+use driveline::configure::HasVibration as _;
+use driveline::configure::Machine as _;
 use driveline_firmware::Words;
 use driveline_firmware::scene::panel_keys::{Key, next};
-use driveline_firmware::scenes::flexible as scene;
+use driveline_firmware::scenes::flexible::{self as scene, Flexible};
 use nalgebra::Complex;
 
 use super::error::BalancingError;
@@ -54,10 +56,10 @@ fn machine(words: Words, model: &Model, found: &[Complex<f64>], seed: u64) -> Re
         rotor: 1,
         load: 0.0,
         ripple: vec![(1.0, 2.0), (6.0, 4.0)],
-        rated: scene::RATED_SPEED,
-        torque_noise: 0.01 * scene::RATED_TORQUE,
+        rated: Flexible::RATING.speed,
+        torque_noise: 0.01 * Flexible::RATING.torque,
     };
-    let mut whirl = Whirl::new(Modal::lowest(model, KEPT)?, 1.0 / f64::from(scene::RATE_HZ));
+    let mut whirl = Whirl::new(Modal::lowest(model, KEPT)?, 1.0 / f64::from(Flexible::RATE_HZ));
     whirl.set_unbalance(found)?;
     let mut amplitude = 0.0_f64;
     for speed in scene::SPEEDS {
@@ -69,10 +71,10 @@ fn machine(words: Words, model: &Model, found: &[Complex<f64>], seed: u64) -> Re
             .noise(NOISE * amplitude)
             .run_out(1.0, RUN_OUT, run_out)
             .run_out(2.0, 0.5 * RUN_OUT, 1.0)
-            .range(scene::VIBRATION_LIMIT)
+            .range(Flexible::VIBRATION_LIMIT)
     };
     let sensors = [sensor(2 * seed + 1, 0.05, 10.0, 0.3), sensor(2 * seed + 2, -0.05, -10.0, 2.2)];
-    Ok(Machine::new(drivetrain, whirl, sensors, Units::new(words, scene::BASES), scene::VIBRATION_BASE))
+    Ok(Machine::new(drivetrain, whirl, sensors, Units::new(words, Flexible::BASES), Flexible::VIBRATION_BASE))
 }
 
 /// Balances the rotor with a drive; `seed` is that of everything that is left to chance.

@@ -3,17 +3,17 @@
 use std::error::Error;
 use std::io;
 
+use driveline_firmware::Words;
 use driveline_firmware::board::{BOARDS, Facts};
 use driveline_firmware::scene::{Input, Output};
-use driveline_firmware::variants::{VARIANTS, visit};
-use driveline_firmware::{Visitor, Words, scene};
+use driveline_firmware::scenes::{Row, VARIANTS, find};
 
 use super::error::BalancingError;
 use super::operator::Operator;
 use super::outcome::{Claim, Outcome, Stage};
 use super::power_cut::PowerCuts;
 use crate::closed_loop::ticks::{OnHost, Ticks};
-use driveline_qemu::image::{Contents, Image, Program, belongs, build};
+use driveline_qemu::image::{Contents, Program, belongs, build};
 use driveline_qemu::link::Link;
 use driveline_solver::rotor::{Model, Polar};
 
@@ -85,11 +85,12 @@ impl Scene {
     /// # Panics
     /// For a variant that is not in the firmware's table.
     pub fn on_host(&self, variant: &str, seed: u64) -> Result<Outcome, BalancingError> {
-        visit(variant, HostRun { scene: *self, seed }).expect("a variant of the firmware's table")
+        let row = row(variant);
+        (self.balance)(row.words(), &mut OnHost(row.start()), seed)
     }
 
-    /// Balances a variant on the host, or on a board in QEMU, with a power cut after every entry: the outcome, the cuts, and those after which the
-    /// panel went on otherwise.
+    /// Balances a variant on the host, or on a board in QEMU, with a power cut after every entry: the outcome, the
+    /// cuts, and those after which the panel went on otherwise.
     ///
     /// # Errors
     /// A build or a link that failed; why it could not be balanced.
@@ -103,12 +104,18 @@ impl Scene {
         seed: u64,
     ) -> Result<(Outcome, usize, usize), Box<dyn Error>> {
         let image = board.map(|board| build(variant, board, Program::ControlLoop, |_| {})).transpose()?;
-        let run = CutRun { scene: *self, image: image.as_ref(), seed };
-        Ok(visit(variant, run).expect("a variant of the firmware's table")?)
+        let row = row(variant);
+        let start: super::power_cut::Start<'_> = match &image {
+            Some(image) => Box::new(move || Ok(Box::new(Link::start(image)?))),
+            None => Box::new(|| Ok(Box::new(OnHost(row.start())))),
+        };
+        let mut drive = PowerCuts::new(start)?;
+        let outcome = (self.balance)(row.words(), &mut drive, seed)?;
+        Ok((outcome, drive.cuts, drive.differing))
     }
 
-    /// Balances a variant in QEMU; the same scene on the host is given the same inputs beside it. `seed` is that of everything
-    /// that is left to chance.
+    /// Balances a variant in QEMU; the same scene on the host is given the same inputs beside it. `seed` is that of
+    /// everything that is left to chance.
     ///
     /// # Errors
     /// A build or a link that failed; why it could not be balanced.
@@ -121,13 +128,19 @@ impl Scene {
         let image = build(variant, board, Program::ControlLoop, |_| {})?;
         let sizes = Contents::read(&image.path)?.sizes;
         says(&format!("{name}: balancing in QEMU"));
-        let run = QemuRun { scene: *self, link: Link::start(&image)?, seed };
-        let (outcome, stack, same_on_host) = visit(variant, run)
-            .expect("a variant of the firmware's table")
-            .map_err(|error| format!("{name}: {error}"))?;
+        let row = row(variant);
+        let mut beside = Beside { link: Link::start(&image)?, host: row.start(), same: true };
+        let outcome = (self.balance)(row.words(), &mut beside, seed).map_err(|error| format!("{name}: {error}"))?;
+        let stack = beside.link.finish().map_err(|error| format!("{name}: {error}"))?.stack;
+        let same_on_host = beside.same;
         let cost = Cost { instructions: outcome.instructions, stack, flash: sizes.flash(), ram: sizes.ram() };
         Ok(Ran { variant: name, outcome, cost, same_on_host })
     }
+}
+
+/// A variant of the firmware's table.
+fn row(variant: &str) -> &'static Row {
+    find(variant).expect("a variant of the firmware's table")
 }
 
 /// Number, core, observer and rate of a variant on a board.
@@ -137,27 +150,14 @@ fn key(variant: &str, board: &Facts) -> String {
     format!("{number}/{}/{}", board.core, parts.collect::<Vec<_>>().join("/"))
 }
 
-struct HostRun {
-    scene: Scene,
-    seed: u64,
-}
-
-impl Visitor for HostRun {
-    type Outcome = Result<Outcome, BalancingError>;
-
-    fn visit<S: scene::Scene>(self) -> Self::Outcome {
-        (self.scene.balance)(Words::of::<S>(), &mut OnHost(S::new()), self.seed)
-    }
-}
-
 /// A scene in QEMU, and the same on the host beside it.
-struct Beside<S> {
+struct Beside {
     link: Link,
-    host: S,
+    host: Box<dyn driveline_firmware::scene::Scene>,
     same: bool,
 }
 
-impl<S: scene::Scene> Ticks for Beside<S> {
+impl Ticks for Beside {
     fn tick(&mut self, input: &Input) -> io::Result<Output> {
         let output = self.link.tick(input)?;
         let host = self.host.exchange(input);
@@ -165,43 +165,6 @@ impl<S: scene::Scene> Ticks for Beside<S> {
         let tick = Output { instructions: 0, answer: 0, ..output };
         self.same &= tick == Output { answer: 0, ..host };
         Ok(output)
-    }
-}
-
-struct CutRun<'i> {
-    scene: Scene,
-    image: Option<&'i Image>,
-    seed: u64,
-}
-
-impl Visitor for CutRun<'_> {
-    type Outcome = Result<(Outcome, usize, usize), BalancingError>;
-
-    fn visit<S: scene::Scene>(self) -> Self::Outcome {
-        let start: super::power_cut::Start<'_> = match self.image {
-            Some(image) => Box::new(move || Ok(Box::new(Link::start(image)?))),
-            None => Box::new(|| Ok(Box::new(OnHost(S::new())))),
-        };
-        let mut drive = PowerCuts::new(start)?;
-        let outcome = (self.scene.balance)(Words::of::<S>(), &mut drive, self.seed)?;
-        Ok((outcome, drive.cuts, drive.differing))
-    }
-}
-
-struct QemuRun {
-    scene: Scene,
-    link: Link,
-    seed: u64,
-}
-
-impl Visitor for QemuRun {
-    type Outcome = Result<(Outcome, u32, bool), BalancingError>;
-
-    fn visit<S: scene::Scene>(self) -> Self::Outcome {
-        let mut beside = Beside { link: self.link, host: S::new(), same: true };
-        let outcome = (self.scene.balance)(Words::of::<S>(), &mut beside, self.seed)?;
-        let stack = beside.link.finish()?.stack;
-        Ok((outcome, stack, beside.same))
     }
 }
 

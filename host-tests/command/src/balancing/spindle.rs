@@ -1,8 +1,10 @@
 //! The grinding spindle: a balancing head, in-run, from nothing known.
 
+use driveline::configure::HasVibration as _;
+use driveline::configure::Machine as _;
 use driveline_firmware::Words;
 use driveline_firmware::scene::panel_keys::Key;
-use driveline_firmware::scenes::grinding_spindle as scene;
+use driveline_firmware::scenes::grinding_spindle::{self as scene, GrindingSpindle};
 use nalgebra::Complex;
 use serde::Serialize;
 
@@ -96,13 +98,13 @@ pub fn spindle(words: Words, drive: &mut dyn Ticks, start: &SpindleStart) -> Res
     let found = Polar::degrees(start.unbalance.size, start.unbalance.angle);
     let mut operator = Operator::new(machine(words, &model, found, start)?, drive);
     let size = |unbalance: Complex<f64>| -> Result<f64, BalancingError> {
-        let vibration = model.response(scene::RATED_SPEED, &[unbalance])?;
+        let vibration = model.response(GrindingSpindle::RATING.speed, &[unbalance])?;
         Ok(vibration.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt())
     };
     let first = size(found)?;
     let (mut now, mut left, mut stages) = (found, vec![1.0], Vec::new());
 
-    operator.bring_to(scene::RATED_SPEED, SETTLE[0])?;
+    operator.bring_to(GrindingSpindle::RATING.speed, SETTLE[0])?;
     for step in 0..=STEPS {
         operator.read()?;
         let pressed = operator.press(Key::Step, 0);
@@ -125,7 +127,7 @@ pub fn spindle(words: Words, drive: &mut dyn Ticks, start: &SpindleStart) -> Res
     ];
     let rows = ["front bearing", "rear bearing"].map(str::to_owned).to_vec();
     let measure = "share of the vibration that is left";
-    let highest = 1.25 * scene::RATED_SPEED;
+    let highest = 1.25 * GrindingSpindle::RATING.speed;
     let outcome = super::scene::outcome("grinding-spindle", measure, rows, stages, claims, operator, &model, highest)?;
     Ok((Course { left, worst }, outcome))
 }
@@ -154,26 +156,32 @@ fn machine(words: Words, model: &Model, found: Complex<f64>, start: &SpindleStar
     let drivetrain = Drivetrain {
         plant,
         rotor: 1,
-        load: 0.5 * scene::RATED_TORQUE / scene::RATED_SPEED.powi(2),
+        load: 0.5 * GrindingSpindle::RATING.torque / GrindingSpindle::RATING.speed.powi(2),
         ripple: vec![(1.0, start.ripple), (4.0, 1.0)],
-        rated: scene::RATED_SPEED,
-        torque_noise: 0.01 * scene::RATED_TORQUE,
+        rated: GrindingSpindle::RATING.speed,
+        torque_noise: 0.01 * GrindingSpindle::RATING.torque,
     };
-    let mut whirl = Whirl::new(Modal::of(model)?, 1.0 / f64::from(scene::RATE_HZ));
+    let mut whirl = Whirl::new(Modal::of(model)?, 1.0 / f64::from(GrindingSpindle::RATE_HZ));
     whirl.set_unbalance(&[found])?;
     // The noise is 20 dB below the vibration as it is found.
-    let response = model.response(scene::RATED_SPEED, &[found])?;
-    let acceleration = response.iter().map(|x| x.norm()).fold(0.0, f64::max) * scene::RATED_SPEED.powi(2);
+    let response = model.response(GrindingSpindle::RATING.speed, &[found])?;
+    let acceleration = response.iter().map(|x| x.norm()).fold(0.0, f64::max) * GrindingSpindle::RATING.speed.powi(2);
     let noise = 0.1 * acceleration / 2f64.sqrt();
     let sensor = |(share, phase): (f64, f64), seed: u64| {
         Faulty::new(Transducer::Acceleration, seed)
             .error(share, phase.to_radians())
             .noise(noise)
-            .range(scene::VIBRATION_LIMIT)
+            .range(GrindingSpindle::VIBRATION_LIMIT)
     };
     let [front, rear] = start.sensors;
     let sensors = [sensor(front, 2 * start.seed + 1), sensor(rear, 2 * start.seed + 2)];
-    Ok(Machine::new(drivetrain, whirl, sensors, Units::new(words, scene::BASES), scene::VIBRATION_BASE))
+    Ok(Machine::new(
+        drivetrain,
+        whirl,
+        sensors,
+        Units::new(words, GrindingSpindle::BASES),
+        GrindingSpindle::VIBRATION_BASE,
+    ))
 }
 
 fn stage(
@@ -190,7 +198,7 @@ fn stage(
     Ok(Stage {
         name: if step == 0 { "as found".to_owned() } else { format!("step {step}") },
         unbalance: vec![Vector::of(unbalance)],
-        vibration: model.response(scene::RATED_SPEED, &[unbalance])?.into_iter().map(Vector::of).collect(),
+        vibration: model.response(GrindingSpindle::RATING.speed, &[unbalance])?.into_iter().map(Vector::of).collect(),
         read,
         measure,
         time: operator.machine.time(),

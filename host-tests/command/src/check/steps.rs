@@ -2,7 +2,7 @@
 
 use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
 use driveline_firmware::board::{BOARDS, Facts};
-use driveline_firmware::variants::VARIANTS;
+use driveline_firmware::scenes::VARIANTS;
 
 use super::comparison::Comparison;
 use super::{Count, Failed, Step, Voice, cargo};
@@ -78,8 +78,8 @@ fn firmware(voice: &Voice) -> Result<Count, Failed> {
     Ok(Count { passed: passed + 1, failed })
 }
 
-/// The self-test of every observer in every number gives the same bits on the host and in QEMU, at one rate; the budgets compare the others over
-/// the link.
+/// The self-test of every observer in every number gives the same bits on the host and in QEMU, at one rate; the
+/// budgets compare the others over the link.
 fn self_tests(voice: &Voice) -> Result<Count, Failed> {
     let run = each(|variant, board| {
         if !(variant.starts_with("hoist/") && variant.ends_with("/10000")) {
@@ -113,7 +113,8 @@ fn passed<T>(done: &[T]) -> Count {
     Count { passed: done.len() as u64, failed: 0 }
 }
 
-/// Does something for every variant on every board that it belongs on, a board beside the other, each up to its first failure.
+/// Does something for every variant on every board that it belongs on, a board beside the other, each up to its first
+/// failure.
 fn each<T: Send>(check: impl Fn(&str, Facts) -> Result<T, String> + Sync) -> Result<Vec<T>, Failed> {
     let on = |board: Facts| {
         let mut done = Vec::new();

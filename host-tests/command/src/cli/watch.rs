@@ -20,8 +20,8 @@ use driveline_report::format::significant;
 
 /// Watch a running drive: its telemetry from QEMU, a serial port, a file or standard input.
 ///
-/// Shows each channel's last value, least and most while frames come, and how many records the drive dropped. A serial port is set up beforehand,
-/// as by `stty -F /dev/ttyACM0 raw 921600`.
+/// Shows each channel's last value, least and most while frames come, and how many records the drive dropped. A serial
+/// port is set up beforehand, as by `stty -F /dev/ttyACM0 raw 921600`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline watch --qemu hoist/f32/reduced/10000 --records 20000
@@ -179,8 +179,8 @@ impl Watch {
 
     fn open(&self) -> Result<Box<dyn Read>, Failure> {
         if let Some(variant) = &self.qemu {
-            if !driveline_firmware::variants::VARIANTS.contains(&variant.as_str()) {
-                let names = driveline_firmware::variants::VARIANTS.join(", ");
+            if !driveline_firmware::scenes::VARIANTS.contains(&variant.as_str()) {
+                let names = driveline_firmware::scenes::VARIANTS.join(", ");
                 return Err(Failure::usage(format!("no variant is called `{variant}`; there are {names}")));
             }
             let board = board(&self.core).filter(|board| belongs(variant, board));

@@ -2,14 +2,14 @@
 
 use driveline_firmware::Words;
 use driveline_firmware::board::{BOARDS, Facts};
-use driveline_firmware::variants::VARIANTS;
+use driveline_firmware::scenes::VARIANTS;
 
 use driveline_qemu::image::belongs;
 
 /// A variant on a board.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate {
-    /// Its name in `firmware/src/variants.rs`: scene, number, observer, rate.
+    /// Its name in `firmware/src/scenes.rs`: scene, number, observer, rate.
     pub variant: &'static str,
     /// The board.
     pub board: Facts,

@@ -5,7 +5,7 @@ use std::io;
 
 use driveline::commissioning::TestConfig;
 use driveline_firmware::board::Facts;
-use driveline_firmware::scene::{Input, Output, Scene};
+use driveline_firmware::scene::{Input, Output, Scene, Variant};
 use driveline_firmware::scenes::commission::{Commission, panel};
 
 use super::course::{Course, run};
@@ -66,7 +66,7 @@ pub fn in_qemu(
     mut seen: impl FnMut(u64, u32),
 ) -> Result<(Course, Target), Box<dyn Error>> {
     let image = build(VARIANT, board, Program::ControlLoop, says)?;
-    let mut drive = Beside { link: Link::start(&image)?, host: Commission::new(), exact: true };
+    let mut drive = Beside { link: Link::start(&image)?, host: Commission::start(), exact: true };
     // Against the closed brake: which machine it is.
     drive.tick(&Input { asked: [panel::MACHINE, case.number], ..Input::default() })?;
     let course = run(case, seed, &mut drive, |tick, stage, _, _| seen(tick, stage))?;

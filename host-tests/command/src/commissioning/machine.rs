@@ -6,9 +6,12 @@
 use core::f64::consts::PI;
 
 use driveline::commissioning::TestSettings;
+use driveline::configure::Machine as _;
 use driveline::design::{Encoder, Rate};
+use driveline_firmware::scenes::blooming_mill::BloomingMill;
 use driveline_firmware::scenes::commission::{HELD, HOIST, MILL, SPINDLE};
-use driveline_firmware::scenes::{blooming_mill, hoist, spindle};
+use driveline_firmware::scenes::hoist::Hoist;
+use driveline_firmware::scenes::spindle::{self, Spindle};
 
 use super::truth::Truth;
 use crate::machine_file::MachineFile;
@@ -72,8 +75,8 @@ fn crane() -> Result<Case, PlantError> {
         settings: HOIST,
         counts: 8192,
         eccentricity: [1.5e-3, 0.7],
-        torque_noise: 0.01 * hoist::RATED_TORQUE,
-        rated_torque: hoist::RATED_TORQUE,
+        torque_noise: 0.01 * Hoist::<10_000>::RATING.torque,
+        rated_torque: Hoist::<10_000>::RATING.torque,
         shaft: 1,
         truth: Truth::of(&[0.62, 0.08, mass], &[shaft, rope], &[2.0, damping])
             .friction(0.5 * HELD * (1.0 / efficiency - efficiency), 0.0)
@@ -84,7 +87,7 @@ fn crane() -> Result<Case, PlantError> {
 
 /// The blooming mill without a bar.
 fn mill() -> Result<Case, PlantError> {
-    let friction = 0.05 * blooming_mill::RATED_TORQUE;
+    let friction = 0.05 * BloomingMill::RATING.torque;
     let chain = Chain::motor(1.1e5)
         .shaft(Shaft::elastic(1.2e9).damping(3.0e5), 1.0e4)
         .shaft(Shaft::elastic(2.2e8).damping(1.0e5).gap(0.010), 2.2e4)
@@ -99,8 +102,8 @@ fn mill() -> Result<Case, PlantError> {
         settings: MILL,
         counts: 32_768,
         eccentricity: [0.4e-3, -2.0],
-        torque_noise: 0.01 * blooming_mill::RATED_TORQUE,
-        rated_torque: blooming_mill::RATED_TORQUE,
+        torque_noise: 0.01 * BloomingMill::RATING.torque,
+        rated_torque: BloomingMill::RATING.torque,
         shaft: 1,
         truth: Truth::of(&[1.1e5, 1.0e4, 2.2e4], &[1.2e9, 2.2e8], &[3.0e5, 1.0e5])
             .friction(friction, 0.0)
@@ -134,8 +137,8 @@ fn tool() -> Result<Case, PlantError> {
         settings: SPINDLE,
         counts: spindle::COUNTS,
         eccentricity: [0.1e-3, 2.2],
-        torque_noise: 0.01 * spindle::RATED_TORQUE,
-        rated_torque: spindle::RATED_TORQUE,
+        torque_noise: 0.01 * Spindle::RATING.torque,
+        rated_torque: Spindle::RATING.torque,
         shaft: 0,
         truth: Truth::of(&[0.012, 0.004], &[stiffness], &[0.3]).friction(0.0, drag).eccentricity([0.1e-3, 2.2]),
     })

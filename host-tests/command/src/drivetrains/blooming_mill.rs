@@ -3,7 +3,8 @@
 //! Three inertias: motor, pinion stand, rolls; the gap in the spindles. Set up here once more from the same figures as
 //! the scene, since direct drive refers nothing.
 
-use driveline_firmware::scenes::blooming_mill as scene;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::blooming_mill::BloomingMill;
 
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
@@ -15,10 +16,10 @@ const LOAD: usize = 2;
 const SPINDLES: usize = 1;
 
 /// Friction of the roll bearings and the pinion stand [N m]: 5 % of rated torque.
-const FRICTION: f64 = 0.05 * scene::RATED_TORQUE;
+const FRICTION: f64 = 0.05 * BloomingMill::RATING.torque;
 
 /// Rolling torque of a middle pass [N m].
-pub const ROLLING: f64 = 0.55 * scene::RATED_TORQUE;
+pub const ROLLING: f64 = 0.55 * BloomingMill::RATING.torque;
 
 fn spindle_torque(plant: &Body) -> f64 {
     plant.shaft_torque(SPINDLES)
@@ -42,7 +43,7 @@ fn chain(program: LoadProgram) -> Result<Plant, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let slow = 0.5 * scene::RATED_SPEED;
+    let slow = 0.5 * BloomingMill::RATING.speed;
     let passes = Scenario {
         name: "two passes with a reversal between",
         plant: chain(LoadProgram::table(&[
@@ -69,20 +70,20 @@ pub fn machine() -> Result<Machine, PlantError> {
         law: None,
     };
     Ok(Machine {
-        name: "blooming-mill",
+        name: driveline_firmware::scenes::blooming_mill::SCENE,
         summary: "A reversing blooming mill with a gap in its spindles: two passes, and reversals as fast as the motor can.",
         facts: Vec::new(),
         notes: vec!["The shaft torque is that of the spindles."],
         chosen: ("slack", 10_000),
         scenarios: vec![passes],
         encoder: Encoder::new(32_768),
-        torque_noise: 0.01 * scene::RATED_TORQUE,
+        torque_noise: 0.01 * BloomingMill::RATING.torque,
         load: LOAD,
         shaft_torque: spindle_torque,
         load_torque: |plant| plant.load_torque(LOAD),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: scene::RATED_SPEED,
-        bases: scene::BASES,
+        rated_speed: BloomingMill::RATING.speed,
+        bases: BloomingMill::BASES,
     })
 }

@@ -3,7 +3,8 @@
 //! Three inertias at the motors: the four motors as one, their trains with the bull gear, the vessel. Referred to the
 //! motors by own arithmetic from the same figures as the scene [Huang 1987 ch. 1].
 
-use driveline_firmware::scenes::converter as scene;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::converter::Converter;
 
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
@@ -42,8 +43,8 @@ pub fn machine() -> Result<Machine, PlantError> {
         held: 0.0,
         actions: vec![
             (0.1, Action::Release),
-            (0.1, Action::Setpoint(scene::RATED_SPEED)),
-            (5.5, Action::Setpoint(-scene::RATED_SPEED)),
+            (0.1, Action::Setpoint(Converter::RATING.speed)),
+            (5.5, Action::Setpoint(-Converter::RATING.speed)),
             (9.0, Action::Setpoint(0.0)),
         ],
         duration: 11.0,
@@ -52,20 +53,20 @@ pub fn machine() -> Result<Machine, PlantError> {
         law: None,
     };
     Ok(Machine {
-        name: "converter",
+        name: driveline_firmware::scenes::converter::SCENE,
         summary: "A converter's tilting drive, four motors as one, with slack in its gear.",
         facts: Vec::new(),
         notes: vec!["The shaft torque is that of the trunnion, at the motors."],
         chosen: ("slack", 10_000),
         scenarios: vec![tilting],
         encoder: Encoder::new(8192),
-        torque_noise: 0.01 * scene::RATED_TORQUE,
+        torque_noise: 0.01 * Converter::RATING.torque,
         load: LOAD,
         shaft_torque: trunnion_torque,
         load_torque: |plant| plant.load_torque(LOAD),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: scene::RATED_SPEED,
-        bases: scene::BASES,
+        rated_speed: Converter::RATING.speed,
+        bases: Converter::BASES,
     })
 }

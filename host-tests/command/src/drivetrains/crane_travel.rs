@@ -1,6 +1,8 @@
-//! The crane's full plant: motors and bridge as one mass, the load on a spring of `m g/l`, travelling resistance and wind.
+//! The crane's full plant: motors and bridge as one mass, the load on a spring of `m g/l`, travelling resistance and
+//! wind.
 
-use driveline_firmware::scenes::crane_travel as scene;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::crane_travel::{self as scene, CraneTravel};
 
 use super::facts;
 use super::plant::Body;
@@ -38,7 +40,8 @@ fn unknown(plant: &Body) -> f64 {
     }
 }
 
-/// What passes from the motors' inertia and the bridge's to the outside: the push of the load's swing, and the resistance that is not known.
+/// What passes from the motors' inertia and the bridge's to the outside: the push of the load's swing, and the
+/// resistance that is not known.
 fn push(plant: &Body) -> f64 {
     PENDULUM * plant.twist(0) + unknown(plant)
 }
@@ -58,26 +61,26 @@ pub fn machine() -> Result<Machine, PlantError> {
         .shaft(Shaft::elastic(PENDULUM), LOAD * square)
         .program(LoadProgram::table(&[(16.0, 0.0), (18.0, WIND), (24.0, WIND), (26.0, 0.0)]))
         .build()?;
-    let torque_noise = 0.01 * scene::RATED_TORQUE;
+    let torque_noise = 0.01 * CraneTravel::RATING.torque;
     Ok(Machine {
-        name: "crane-travel",
+        name: scene::SCENE,
         summary: "A bridge crane of 16 t travels with its load swinging.",
-        facts: facts::of_design(&scene::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design(&CraneTravel::OBSERVER, scene::COUNTS, torque_noise),
         notes: vec![
             "The drive is told nine tenths of the travelling resistance, as commissioning finds it. The tenth that it does not know counts to \
              the shaft torque, which is else the push of the swinging load, and to the load torque, which is else the wind: from the motor's side \
              resistance in front of the swing and behind it look alike.",
             "The load is a mass on a spring of m g/l, as for small angles.",
         ],
-        chosen: ("semi-implicit", scene::RATE_HZ),
+        chosen: ("semi-implicit", CraneTravel::RATE_HZ),
         scenarios: vec![Scenario {
             name: "travel, a gust, slower",
             plant: plant.into(),
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
-                (0.1, Action::Setpoint(scene::RATED_SPEED)),
-                (28.0, Action::Setpoint(0.4 * scene::RATED_SPEED)),
+                (0.1, Action::Setpoint(CraneTravel::RATING.speed)),
+                (28.0, Action::Setpoint(0.4 * CraneTravel::RATING.speed)),
             ],
             duration: 40.0,
             counted: true,
@@ -91,7 +94,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: resistance,
         told_brake: None,
         told_friction: TOLD,
-        rated_speed: scene::RATED_SPEED,
-        bases: scene::BASES,
+        rated_speed: CraneTravel::RATING.speed,
+        bases: CraneTravel::BASES,
     })
 }

@@ -2,17 +2,14 @@
 
 use std::error::Error;
 
-use driveline_firmware::Visitor;
 use driveline_firmware::board::Facts;
-use driveline_firmware::scene::{Output, Scene};
-use driveline_firmware::variants::visit;
+use driveline_firmware::scenes::find;
 
 use super::figures::{deviations, peaks};
 use super::lockstep;
 use super::lockstep::Trace;
 use super::scenario::Machine;
 use crate::closed_loop::candidates::Candidate;
-use crate::closed_loop::ticks::{OnHost, Ticks};
 use crate::closed_loop::units::Units;
 use driveline_qemu::image::{Contents, Program, build, cycles};
 use driveline_qemu::link::Link;
@@ -76,7 +73,7 @@ pub fn run(
         let mut link = Link::start(&image)?;
         let trace = lockstep::run(machine, &scenario, &units, candidate.rate_hz(), &mut link, |_| {})?;
         stack = stack.max(link.finish()?.stack);
-        bit_exact &= visit(candidate.variant, Replay(&trace)).unwrap_or(false);
+        bit_exact &= find(candidate.variant).is_some_and(|row| row.gives(&trace.words));
         if !options.quick {
             says(&format!("{name}: proving the solver's run"));
             trace.recording.prove().map_err(|error| format!("{name}, {}: {error}", scenario.name))?;
@@ -109,21 +106,6 @@ pub fn run(
         ticks: moments().count() as u64,
     };
     Ok(Ran { variant, traces, tick_code: contents.tick_code })
-}
-
-/// Runs the variant's scene on the host over a trace's inputs; whether every output has the same bits.
-struct Replay<'t>(&'t Trace);
-
-impl Visitor for Replay<'_> {
-    type Outcome = bool;
-
-    fn visit<S: Scene>(self) -> bool {
-        let mut host = OnHost(S::new());
-        self.0.words.iter().all(|(input, output)| {
-            let target = Output { instructions: 0, ..*output };
-            host.tick(input).is_ok_and(|output| output == target)
-        })
-    }
 }
 
 /// Traces as the page draws them.

@@ -1,8 +1,9 @@
 //! What the report says in words and single figures.
 
+use driveline::configure::Machine as _;
 use driveline::design::TwoMassDesign;
 use driveline::machine::{Chain, Match};
-use driveline_firmware::scenes::hoist;
+use driveline_firmware::scenes::hoist::{CutAtRope, Hoist};
 
 use super::figures::{deviations, peaks};
 use super::lockstep::Trace;
@@ -11,10 +12,10 @@ use driveline_report::{Fact, Variant};
 
 /// The machine and its reduction.
 pub fn of_hoist(torque_noise: f64) -> Vec<Fact> {
-    let (two, cut) = (hoist::REDUCED, hoist::CUT);
-    let modal = Chain::reduce(&hoist::CHAIN, Match::ModalTruncation);
+    let (two, cut) = (Hoist::<10_000>::TWO_MASS, CutAtRope::<10_000>::TWO_MASS);
+    let modal = Chain::reduce(&Hoist::<10_000>::CHAIN, Match::ModalTruncation);
     let hertz = |rate: f64| rate / core::f64::consts::TAU;
-    let design = hoist::observer(&two, 10_000);
+    let design = Hoist::<10_000>::OBSERVER;
     let reduction = |name: &str, two: &driveline::machine::TwoMass| {
         fact(
             name,

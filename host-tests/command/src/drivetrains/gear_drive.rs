@@ -3,7 +3,8 @@
 
 use core::f64::consts::PI;
 
-use driveline_firmware::scenes::gear_drive as scene;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::gear_drive::{self as scene, GearDrive};
 
 use super::facts;
 use super::plant::Body;
@@ -20,12 +21,13 @@ const PINION: usize = 6;
 const RATIO: f64 = 50.0 / 21.0;
 
 /// Rated torque at the driven machine [N m].
-const RATED: f64 = scene::RATED_TORQUE * RATIO;
+const RATED: f64 = GearDrive::RATING.torque * RATIO;
 
 /// What the driven machine takes of rated torque at rated speed, growing with the square of the speed.
 const ROTARY: f64 = 0.4;
 
-/// Error of every second tooth [m]: the pitch deviation of grade 5 of ISO 1328-1, `0.3 (m + 0.4 sqrt(d)) + 4` in um, m and d in mm.
+/// Error of every second tooth [m]: the pitch deviation of grade 5 of ISO 1328-1, `0.3 (m + 0.4 sqrt(d)) + 4` in um, m
+/// and d in mm.
 pub const TOOTH_ERROR: f64 = 6.3e-6;
 
 /// Load that comes and goes [s, N m].
@@ -79,7 +81,7 @@ fn pair(error: f64) -> GearPair {
 pub fn train(error: f64) -> Train {
     let mut program = Vec::new();
     load(&mut program, 2.0, 2.5, 0.5 * RATED);
-    let speed = scene::RATED_SPEED / RATIO;
+    let speed = GearDrive::RATING.speed / RATIO;
     pair(error)
         .train()
         .source(LOAD, Source::Program(LoadProgram::table(&program)))
@@ -97,21 +99,21 @@ pub fn body(motion: Motion) -> Body {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * scene::RATED_TORQUE;
+    let torque_noise = 0.01 * GearDrive::RATING.torque;
     Ok(Machine {
-        name: "gear-drive",
+        name: scene::SCENE,
         summary: "A single-stage gear drive of 37 kW whose teeth excite it: run-up, a load that comes and goes.",
-        facts: facts::of_design(&scene::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design(&GearDrive::OBSERVER, scene::COUNTS, torque_noise),
         notes: vec![
             "The shaft torque is that between wheel and driven machine, at the motor.",
             "The full plant turns, moves and tilts in fourteen coordinates, with the pairs of teeth in contact and an error of 6.3 um on every second tooth.",
         ],
-        chosen: ("exact", scene::RATE_HZ),
+        chosen: ("exact", GearDrive::RATE_HZ),
         scenarios: vec![Scenario {
             name: "run-up, a load that comes and goes",
             plant: body(train(TOOTH_ERROR).build()?),
             held: 0.0,
-            actions: vec![(0.05, Action::Release), (0.05, Action::Setpoint(scene::RATED_SPEED))],
+            actions: vec![(0.05, Action::Release), (0.05, Action::Setpoint(GearDrive::RATING.speed))],
             duration: 3.0,
             counted: true,
             marks: vec![(0.05, "run-up"), (2.0, "load"), (2.5, "off")],
@@ -124,7 +126,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(LOAD),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: scene::RATED_SPEED,
-        bases: scene::BASES,
+        rated_speed: GearDrive::RATING.speed,
+        bases: GearDrive::BASES,
     })
 }

@@ -3,7 +3,8 @@
 //! Referred to the motor here once more, from the same figures as the scene but by own arithmetic
 //! [Huang 1987 ch. 1, Wang 1989 §1-3], so that an error of the library's reduction would show.
 
-use driveline_firmware::scenes::hoist;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::hoist::Hoist;
 
 use super::facts;
 use super::plant::Body;
@@ -54,8 +55,9 @@ fn rope_torque(plant: &Body) -> f64 {
 
 /// The hoist and its runs.
 ///
-/// Half a load more is picked up within a second, as slings let it be; that it came at once is shown beside, and not counted: the load would gain
-/// 10 % of rated speed before a motor on a 3 Hz rope had moved by one count of its encoder, whatever the observer.
+/// Half a load more is picked up within a second, as slings let it be; that it came at once is shown beside, and not
+/// counted: the load would gain 10 % of rated speed before a motor on a 3 Hz rope had moved by one count of its
+/// encoder, whatever the observer.
 ///
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
@@ -72,12 +74,12 @@ pub fn machine() -> Result<Machine, PlantError> {
             .build()
     };
     let release = [(0.0, Action::Brake(DRUM, 2_000.0)), (0.2, Action::Release), (0.2, Action::Brake(DRUM, 0.0))];
-    let hoisting = (0.2, Action::Setpoint(hoist::RATED_SPEED));
+    let hoisting = (0.2, Action::Setpoint(Hoist::<10_000>::RATING.speed));
     let pretensioned = Scenario {
         name: "pretensioned start, half a load more, lowering",
         plant: hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]))?.into(),
         held: WEIGHT,
-        actions: [&release[..], &[hoisting, (6.0, Action::Setpoint(-hoist::RATED_SPEED))]].concat(),
+        actions: [&release[..], &[hoisting, (6.0, Action::Setpoint(-Hoist::<10_000>::RATING.speed))]].concat(),
         duration: 12.0,
         counted: true,
         marks: vec![(0.2, "brake opens"), (4.0, "half a load more"), (6.0, "reversal")],
@@ -91,7 +93,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         actions: vec![
             (0.0, Action::Setpoint(CREEP)),
             (0.1, Action::Release),
-            (4.0, Action::Setpoint(hoist::RATED_SPEED)),
+            (4.0, Action::Setpoint(Hoist::<10_000>::RATING.speed)),
         ],
         duration: 8.0,
         counted: true,
@@ -108,9 +110,9 @@ pub fn machine() -> Result<Machine, PlantError> {
         marks: vec![(0.2, "brake opens"), (4.0, "half a load more")],
         law: None,
     };
-    let torque_noise = 0.01 * hoist::RATED_TORQUE;
+    let torque_noise = 0.01 * Hoist::<10_000>::RATING.torque;
     Ok(Machine {
-        name: "hoist",
+        name: driveline_firmware::scenes::hoist::SCENE,
         summary: "A 12 t crane hoist, observed and governed from the motor's angle and torque alone: the firmware \
                   of every variant runs in QEMU, tick by tick against a full solver of the whole machine.",
         facts: facts::of_hoist(torque_noise),
@@ -129,7 +131,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(LOAD),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: hoist::RATED_SPEED,
-        bases: hoist::BASES,
+        rated_speed: Hoist::<10_000>::RATING.speed,
+        bases: Hoist::<10_000>::BASES,
     })
 }

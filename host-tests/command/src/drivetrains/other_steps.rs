@@ -1,10 +1,11 @@
 //! The errors of observers with other steps on a run that was recorded.
 
-use driveline::design::TwoMassDesign;
+use driveline::configure::Machine as _;
+use driveline::design::{Rate, TwoMassDesign};
 use driveline::settings::{Error, Gear};
 use driveline_firmware::Words;
 use driveline_firmware::scene::Input;
-use driveline_firmware::scenes::hoist;
+use driveline_firmware::scenes::hoist::Hoist;
 use driveline_report::{Comparison, Deviation};
 
 use super::approximate::{ApproximateObserver, StepOf};
@@ -26,8 +27,8 @@ pub struct Recorded {
     pub truth: [f64; 3],
 }
 
-/// The errors of an observer with this step on a recorded run, torques of their peaks in the run, the speed of the rated one [rad/s]. An
-/// estimate that is no longer finite makes them infinite.
+/// The errors of an observer with this step on a recorded run, torques of their peaks in the run, the speed of the
+/// rated one [rad/s]. An estimate that is no longer finite makes them infinite.
 ///
 /// # Errors
 /// For a gear out of its range.
@@ -100,5 +101,7 @@ pub fn of_hoist(machine: &Machine, rate_hz: u32, ran: &Ran) -> Result<Vec<Compar
     let units = Units::new(Words::Single, machine.bases);
     let counted = ran.traces.iter().zip(&machine.scenarios).filter(|(_, scenario)| scenario.counted);
     let run: Vec<Recorded> = counted.flat_map(|(trace, _)| recorded(trace, &units)).collect();
-    comparisons(&hoist::observer(&hoist::REDUCED, rate_hz), &hoist::GEAR, &run, machine.rated_speed)
+    type Constants = Hoist<10_000>;
+    let design = Constants::TWO_MASS.observer(Rate::hz(rate_hz), Constants::ENCODER, Constants::DISTURBANCE);
+    comparisons(&design, &Constants::GEAR, &run, machine.rated_speed)
 }

@@ -1,8 +1,11 @@
-//! The punch press's full plant: motor with flywheel, eccentric shaft, crank with its slider, and strokes that blank plate.
+//! The punch press's full plant: motor with flywheel, eccentric shaft, crank with its slider, and strokes that blank
+//! plate.
 
 use std::f64::consts::{PI, TAU};
 
-use driveline_firmware::scenes::punch_press as scene;
+use driveline::configure::HasCrank as _;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::punch_press::{self as scene, PunchPress};
 
 use super::facts::fact;
 use super::plant::Body;
@@ -20,17 +23,20 @@ const SHAFT: usize = 0;
 const STIFFNESS: f64 = 1.6e7 / (RATIO * RATIO);
 const DAMPING: f64 = 2_100.0 / (RATIO * RATIO);
 /// Friction of bearings and gibs at the crank [N m s/rad]: 20 N m at the motor at rated speed, a tenth of rated torque.
-const FRICTION: f64 = 20.0 * RATIO * RATIO / scene::RATED_SPEED;
-/// Torque of the punch at the crank [N m], and the angles before the bottom between which it acts [rad]: 800 kN at the middle of them.
+const FRICTION: f64 = 20.0 * RATIO * RATIO / PunchPress::RATING.speed;
+/// Torque of the punch at the crank [N m], and the angles before the bottom between which it acts [rad]: 800 kN at the
+/// middle of them.
 const PUNCH: f64 = 25_800.0;
 const FROM: f64 = 44.0 / 360.0 * TAU;
 const OVER: f64 = 40.0 / 360.0 * TAU;
-/// The strokes that there is plate for, counted from 0 at the start: at rated speed from the fourth on, then none again.
+/// The strokes that there is plate for, counted from 0 at the start: at rated speed from the fourth on, then none
+/// again.
 const PLATE: std::ops::Range<f64> = 3.0..7.0;
 /// About when that is [s].
 const SECONDS: [f64; 2] = [4.0, 7.6];
 
-/// Torque of the punch on the crank [N m] at an angle of it [rad]: a die with shear takes it up and lets it go smoothly.
+/// Torque of the punch on the crank [N m] at an angle of it [rad]: a die with shear takes it up and lets it go
+/// smoothly.
 fn punch(angle: f64) -> f64 {
     let way = (angle + FROM).rem_euclid(TAU) / OVER;
     if way < 1.0 { PUNCH * (PI * way).sin().powi(2) } else { 0.0 }
@@ -82,11 +88,11 @@ pub fn press(added: f64) -> Result<Body, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * scene::RATED_TORQUE;
-    let [least, most] = scene::MACHINE.extremes();
-    let sd = scene::OBSERVER.rigid.standard_deviation;
+    let torque_noise = 0.01 * PunchPress::RATING.torque;
+    let [least, most] = PunchPress::CRANKED.extremes();
+    let sd = PunchPress::CRANK_OBSERVER.rigid.standard_deviation;
     Ok(Machine {
-        name: "punch-press",
+        name: scene::SCENE,
         summary: "An eccentric punch press with a flywheel: run-up, continuous strokes, and on without plate.",
         facts: vec![
             fact("inertia at the motor", format!("{least:.3} to {most:.3} kg m² over a turn of the crank")),
@@ -99,12 +105,12 @@ pub fn machine() -> Result<Machine, PlantError> {
             "The shaft torque is the eccentric shaft's at the motor: what passes from the flywheel to the crank.",
             "Both variants have the same observer. `plain` governs the speed as it is; `mean` the speed without what repeats every stroke.",
         ],
-        chosen: ("mean", scene::RATE_HZ),
+        chosen: ("mean", PunchPress::RATE_HZ),
         scenarios: vec![Scenario {
             name: "run-up, strokes, idling",
             plant: press(0.0)?,
             held: 0.0,
-            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(scene::RATED_SPEED))],
+            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(PunchPress::RATING.speed))],
             duration: 8.5,
             counted: true,
             marks: vec![(0.1, "run-up"), (SECONDS[0], "plate"), (SECONDS[1], "no plate")],
@@ -117,7 +123,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: load,
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: scene::RATED_SPEED,
-        bases: scene::BASES,
+        rated_speed: PunchPress::RATING.speed,
+        bases: PunchPress::BASES,
     })
 }

@@ -1,6 +1,8 @@
-//! The skip winch's full plant: motor and disc, drum, skip on a rope that can go slack, and the brake that closes while it turns.
+//! The skip winch's full plant: motor and disc, drum, skip on a rope that can go slack, and the brake that closes while
+//! it turns.
 
-use driveline_firmware::scenes::skip_winch as scene;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::skip_winch::{self as scene, SkipWinch};
 
 use super::facts;
 use super::plant::Body;
@@ -24,8 +26,8 @@ const ROPE_DAMPING: f64 = 1.3e3 * TRAVEL * TRAVEL;
 const EMERGENCY: f64 = 9.0;
 const CLOSING: f64 = 0.3;
 
-/// When the brake opens, when a stop is called for while hoisting, and how much later than that the brake is called for once the drive has stopped the
-/// winch \[s\].
+/// When the brake opens, when a stop is called for while hoisting, and how much later than that the brake is called for
+/// once the drive has stopped the winch \[s\].
 const RELEASE: f64 = 0.2;
 const STOPPING: f64 = 6.0;
 const STOPPED: f64 = 1.8;
@@ -43,7 +45,8 @@ fn emergency_stop(name: &'static str, plant: Body, later: f64) -> Scenario {
         vec![(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
     // The setpoint comes up within four seconds.
     actions.extend(
-        (1..=80).map(|j| (RELEASE + 0.05 * f64::from(j), Action::Setpoint(scene::RATED_SPEED * f64::from(j) / 80.0))),
+        (1..=80)
+            .map(|j| (RELEASE + 0.05 * f64::from(j), Action::Setpoint(SkipWinch::RATING.speed * f64::from(j) / 80.0))),
     );
     actions.push((STOPPING, Action::Setpoint(0.0)));
     actions.extend(closing(STOPPING + later));
@@ -84,20 +87,20 @@ pub fn machine() -> Result<Machine, PlantError> {
     };
     let release = [(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
     // The inverter goes off, and the brake closes.
-    let lower = (RELEASE, Action::Setpoint(-0.9 * scene::RATED_SPEED));
+    let lower = (RELEASE, Action::Setpoint(-0.9 * SkipWinch::RATING.speed));
     let emergency = release.into_iter().chain([lower, (EMERGENCY, Action::Trip)]).chain(closing(EMERGENCY)).collect();
     let hoist = vec![
         release[0],
         release[1],
         release[2],
-        (RELEASE, Action::Setpoint(scene::RATED_SPEED)),
-        (8.0, Action::Setpoint(0.3 * scene::RATED_SPEED)),
+        (RELEASE, Action::Setpoint(SkipWinch::RATING.speed)),
+        (8.0, Action::Setpoint(0.3 * SkipWinch::RATING.speed)),
     ];
-    let torque_noise = 0.01 * scene::RATED_TORQUE;
+    let torque_noise = 0.01 * SkipWinch::RATING.torque;
     Ok(Machine {
-        name: "skip-winch",
+        name: scene::SCENE,
         summary: "A mine's skip winch: hoisting, and emergencies: the brake alone while it lowers; drive and brake while it hoists.",
-        facts: facts::of_design(&scene::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design(&SkipWinch::OBSERVER, scene::COUNTS, torque_noise),
         notes: vec![
             "The shaft torque is the rope's pull at the motor, behind the gear's loss.",
             "The drive is told the brake's torque as it is; a brake that grips harder than it is said to shows as shaft torque. \
@@ -105,7 +108,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             "In an emergency while hoisting the rope goes slack. The peaks of `slack` and `plain` are to be compared there; the errors are not counted, since the \
              observers of two masses and of one take the rope for one that pushes, and since a closed brake hides the rope from the drive.",
         ],
-        chosen: ("semi-implicit", scene::RATE_HZ),
+        chosen: ("semi-implicit", SkipWinch::RATE_HZ),
         scenarios: vec![
             Scenario {
                 name: "hoisting",
@@ -137,8 +140,8 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(2),
         told_brake: Some(0),
         told_friction: 0.0,
-        rated_speed: scene::RATED_SPEED,
-        bases: scene::BASES,
+        rated_speed: SkipWinch::RATING.speed,
+        bases: SkipWinch::BASES,
     })
 }
 

@@ -2,7 +2,8 @@
 
 use core::f64::consts::PI;
 
-use driveline_firmware::scenes::spindle;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::spindle::{self, Spindle};
 
 use super::facts;
 use super::plant::Body;
@@ -43,8 +44,9 @@ pub fn machine() -> Result<Machine, PlantError> {
     let spindle_with = |program: LoadProgram| {
         Chain::motor(0.012).shaft(Shaft::elastic(stiffness()).damping(0.3), 0.004).program(program).build()
     };
-    let run_up = vec![(0.01, Action::Release), (0.01, Action::Setpoint(spindle::RATED_SPEED))];
-    // The tool hits a shoulder within three milliseconds, cuts less as the feed takes it through a corner, and leaves as fast.
+    let run_up = vec![(0.01, Action::Release), (0.01, Action::Setpoint(Spindle::RATING.speed))];
+    // The tool hits a shoulder within three milliseconds, cuts less as the feed takes it through a corner, and leaves
+    // as fast.
     let face = [(0.8, 0.0), (0.803, CUT), (1.2, CUT), (1.3, 0.6 * CUT), (1.5, 0.6 * CUT), (1.503, 0.0)];
     // Four teeth at 50 turns a second: a ripple of a fifth of the cut at 200 Hz.
     let teeth = (0..400).map(|j| {
@@ -53,17 +55,17 @@ pub fn machine() -> Result<Machine, PlantError> {
     });
     let milling: Vec<(f64, f64)> =
         [(0.8, 0.0), (0.82, CUT), (0.89, CUT)].into_iter().chain(teeth).chain([(1.92, 0.0)]).collect();
-    let torque_noise = 0.01 * spindle::RATED_TORQUE;
+    let torque_noise = 0.01 * Spindle::RATING.torque;
     Ok(Machine {
-        name: "spindle",
+        name: spindle::SCENE,
         summary: "A machine tool's spindle with a shaft of 800 Hz: run-up and cuts.",
-        facts: facts::of_design(&spindle::OBSERVER, spindle::COUNTS, torque_noise),
+        facts: facts::of_design(&Spindle::OBSERVER, spindle::COUNTS, torque_noise),
         notes: vec![
             "A rigid observer does as well here: with white noise of 1 % in the torque little of a swing of 800 Hz can be seen from the motor, and the \
              swing is small beside the jump of the cut itself, which any observer sees a millisecond late.",
             "The run with four teeth is not counted: a ripple of 200 Hz is above what an observer can follow that is quiet enough for the rest.",
         ],
-        chosen: ("exact", spindle::RATE_HZ),
+        chosen: ("exact", Spindle::RATE_HZ),
         scenarios: vec![
             Scenario {
                 name: "run-up and a face cut",
@@ -93,7 +95,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(1),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: spindle::RATED_SPEED,
-        bases: spindle::BASES,
+        rated_speed: Spindle::RATING.speed,
+        bases: Spindle::BASES,
     })
 }

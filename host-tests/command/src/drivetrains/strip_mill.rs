@@ -1,6 +1,7 @@
 //! The strip mill's full plant: four masses on three shafts, and strips that bite and leave.
 
-use driveline_firmware::scenes::strip_mill;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::strip_mill::{self, StripMill};
 
 use super::facts;
 use super::plant::Body;
@@ -11,7 +12,8 @@ use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 /// Rolling torque [N m].
 const ROLLING: f64 = 1.2e5;
 
-/// Time in which the strip fills the gap between the rolls [s]: 50 mm of contact and a wedge of a head of 50 mm, at 2 m/s.
+/// Time in which the strip fills the gap between the rolls [s]: 50 mm of contact and a wedge of a head of 50 mm, at 2
+/// m/s.
 const BITE: f64 = 0.05;
 
 /// The rolls' node and the spindles' shaft.
@@ -36,13 +38,13 @@ pub fn machine() -> Result<Machine, PlantError> {
             .program(program)
             .build()
     };
-    let torque_noise = 0.01 * strip_mill::RATED_TORQUE;
+    let torque_noise = 0.01 * StripMill::RATING.torque;
     Ok(Machine {
-        name: "strip-mill",
+        name: strip_mill::SCENE,
         summary: "A strip mill's stand of 2.4 MW: strips bite and leave.",
-        facts: facts::of_design(&strip_mill::OBSERVER, strip_mill::COUNTS, torque_noise),
+        facts: facts::of_design(&StripMill::OBSERVER, strip_mill::COUNTS, torque_noise),
         notes: vec!["The shaft torque is the spindles', between pinion stand and rolls."],
-        chosen: ("semi-implicit", strip_mill::RATE_HZ),
+        chosen: ("semi-implicit", StripMill::RATE_HZ),
         scenarios: vec![Scenario {
             name: "two strips",
             plant: stand(LoadProgram::table(&[
@@ -55,7 +57,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             ]))?
             .into(),
             held: 0.0,
-            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(strip_mill::RATED_SPEED))],
+            actions: vec![(0.1, Action::Release), (0.1, Action::Setpoint(StripMill::RATING.speed))],
             duration: 9.0,
             counted: true,
             marks: vec![(0.1, "run-up"), (4.0, "bite"), (6.0, "out"), (7.0, "thinner strip")],
@@ -68,7 +70,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(ROLLS),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: strip_mill::RATED_SPEED,
-        bases: strip_mill::BASES,
+        rated_speed: StripMill::RATING.speed,
+        bases: StripMill::BASES,
     })
 }

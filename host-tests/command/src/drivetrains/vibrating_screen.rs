@@ -1,8 +1,10 @@
-//! The vibrating screen's full plant: motor, cardan shaft, exciter; box and frame on springs; unbalances that couple them.
+//! The vibrating screen's full plant: motor, cardan shaft, exciter; box and frame on springs; unbalances that couple
+//! them.
 
 use core::f64::consts::PI;
 
-use driveline_firmware::scenes::vibrating_screen as scene;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::vibrating_screen::{self as scene, VibratingScreen};
 
 use super::facts;
 use super::plant::Body;
@@ -59,24 +61,24 @@ pub fn train() -> Train {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let torque_noise = 0.01 * scene::RATED_TORQUE;
+    let torque_noise = 0.01 * VibratingScreen::RATING.torque;
     Ok(Machine {
-        name: "vibrating-screen",
+        name: scene::SCENE,
         summary: "A dual-mass vibrating screen of 30 kW: up through its resonances, more charge, and down again.",
-        facts: facts::of_design(&scene::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design(&VibratingScreen::OBSERVER, scene::COUNTS, torque_noise),
         notes: vec![
             "The shaft torque is the cardan shaft's. The load torque is all that the unbalances feel of gravity and of the box, and friction.",
             "The two masses in the name are box and frame, which move along a line; those that turn are motor and exciter.",
         ],
-        chosen: ("exact", scene::RATE_HZ),
+        chosen: ("exact", VibratingScreen::RATE_HZ),
         scenarios: vec![Scenario {
             name: "up through resonance, more charge, down",
             plant: Body::train(train().build()?, &[]),
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
-                (0.1, Action::Setpoint(scene::RATED_SPEED)),
-                (10.0, Action::Setpoint(0.05 * scene::RATED_SPEED)),
+                (0.1, Action::Setpoint(VibratingScreen::RATING.speed)),
+                (10.0, Action::Setpoint(0.05 * VibratingScreen::RATING.speed)),
             ],
             duration: 15.0,
             counted: true,
@@ -90,7 +92,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(EXCITER),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: scene::RATED_SPEED,
-        bases: scene::BASES,
+        rated_speed: VibratingScreen::RATING.speed,
+        bases: VibratingScreen::BASES,
     })
 }

@@ -3,10 +3,9 @@
 use std::error::Error;
 
 use driveline::design::Margins;
-use driveline_firmware::Visitor;
-use driveline_firmware::scene::{Input, Output, Scene};
+use driveline_firmware::scene::{Input, Output};
+use driveline_firmware::scenes::find;
 use driveline_firmware::scenes::generator::{DIESEL, DIESEL_DESIGNS, RATED_SPEED, TURBINE, TURBINE_DESIGNS};
-use driveline_firmware::variants::visit;
 use serde::Serialize;
 
 use super::faults::{FAULTS, Outcome, PASSING, WIRES, outcome};
@@ -15,7 +14,7 @@ use super::set::Kind;
 use super::standard::{Figures, figures};
 use super::trips::{CAUSES, Latched, latched};
 use crate::closed_loop::candidates::{Candidate, candidates};
-use crate::closed_loop::ticks::{OnHost, Ticks};
+use crate::closed_loop::ticks::Ticks;
 use driveline_qemu::image::{Image, Program as Binary, build};
 use driveline_qemu::link::Link;
 use driveline_qemu::measure::Spread;
@@ -125,20 +124,6 @@ impl<T: Ticks> Ticks for Kept<T> {
     }
 }
 
-struct Replay<'w>(&'w [(Input, Output)]);
-
-impl Visitor for Replay<'_> {
-    type Outcome = bool;
-
-    fn visit<S: Scene>(self) -> bool {
-        let mut host = OnHost(S::new());
-        self.0.iter().all(|(input, output)| {
-            let target = Output { instructions: 0, ..*output };
-            host.tick(input).is_ok_and(|output| output == target)
-        })
-    }
-}
-
 /// The kind of set that a variant's name says.
 fn kind_of(candidate: &Candidate) -> Kind {
     if candidate.part(2) == Kind::Turbine.name() { Kind::Turbine } else { Kind::Diesel }
@@ -180,7 +165,7 @@ fn verdict(kind: Kind, candidate: &Candidate, way: Way, moments: Vec<Moment>, wo
         tripped,
         torque: [commands().fold(f64::INFINITY, f64::min), commands().fold(f64::NEG_INFINITY, f64::max)],
         instructions: Spread::of(moments.iter().map(|moment| moment.instructions).collect()),
-        bit_exact: visit(candidate.variant, Replay(words)).unwrap_or(false),
+        bit_exact: find(candidate.variant).is_some_and(|row| row.gives(words)),
         margins: [margins.gain_up, margins.phase.to_degrees(), margins.modulus],
         moments,
     }

@@ -2,18 +2,17 @@
 //!
 //! The run is done again on the host with exact sensors: an encoder of 2^31 counts and a torque that is known. What the
 //! error loses by that was *noise*. What is left is split tick by tick: *gap* while a gap is open or a rope slack, and
-//! for a period of the resonance after; of the rest, the *mode left out* is what swings faster than the geometric mean of
-//! the resonance and the lowest mode that the reduction left out, and *lag* what is slower: what came, and was not yet
-//! believed. An observer of one mass leaves the whole shaft out, which then cannot be told from lag.
+//! for a period of the resonance after; of the rest, the *mode left out* is what swings faster than the geometric mean
+//! of the resonance and the lowest mode that the reduction left out, and *lag* what is slower: what came, and was not
+//! yet believed. An observer of one mass leaves the whole shaft out, which then cannot be told from lag.
 //!
 //! Beside the measured shares stands what the design said at compile time: the predicted standard deviation, the mode
 //! that was left out and the reduction's bound.
 
 use core::f64::consts::TAU;
 
-use driveline_firmware::scene::Scene;
 use driveline_firmware::scene::expected::Expected;
-use driveline_firmware::{Visitor, Words};
+use driveline_firmware::scenes::find;
 use serde::Serialize;
 
 use super::Aim;
@@ -24,7 +23,7 @@ use crate::closed_loop::units::Units;
 use crate::drivetrains::figures::peaks;
 use crate::drivetrains::lockstep;
 use crate::drivetrains::lockstep::{Moment, Trace};
-use crate::drivetrains::scenario::{Machine, Scenario};
+use crate::drivetrains::scenario::Machine;
 use driveline_report::Variant;
 use driveline_report::format::{percent, significant};
 
@@ -115,15 +114,14 @@ pub fn reasons(
     }
     let quiet = Machine { torque_noise: 0.0, encoder: Encoder::new(1 << 31), ..machine_with(machine) };
     let counted = || machine.scenarios.iter().filter(|scenario| scenario.counted);
+    let row = find(candidate.variant).ok_or_else(|| format!("there is no variant `{}`", candidate.variant))?;
+    let units = Units::new(row.words(), machine.bases);
     let mut traces = Vec::new();
-    let mut expected = None;
     for scenario in counted() {
-        let (trace, says) = driveline_firmware::variants::visit(candidate.variant, Quiet { machine: &quiet, scenario })
-            .ok_or_else(|| format!("there is no variant `{}`", candidate.variant))?
-            .map_err(|error| error.to_string())?;
-        traces.push(trace);
-        expected = says;
+        let trace = lockstep::run(&quiet, scenario, &units, row.rate_hz, &mut OnHost(row.start()), |_| {});
+        traces.push(trace.map_err(|error| error.to_string())?);
     }
+    let expected = row.expected();
     let peak = peaks(real.iter().zip(&machine.scenarios).filter(|(_, scenario)| scenario.counted).map(|(t, _)| t))[0];
     let seen = Seen { quiet: &traces, expected, references: [peak, machine.rated_speed] };
     Ok(missed.into_iter().map(|(quantity, error, aim)| seen.reason(quantity, error, aim)).collect())
@@ -147,22 +145,6 @@ fn machine_with(machine: &Machine) -> Machine {
         told_friction: machine.told_friction,
         rated_speed: machine.rated_speed,
         bases: machine.bases,
-    }
-}
-
-/// A run on the host, and what the design says.
-struct Quiet<'m> {
-    machine: &'m Machine,
-    scenario: &'m Scenario,
-}
-
-impl Visitor for Quiet<'_> {
-    type Outcome = std::io::Result<(Trace, Option<Expected>)>;
-
-    fn visit<S: Scene>(self) -> Self::Outcome {
-        let units = Units::new(Words::of::<S>(), self.machine.bases);
-        let trace = lockstep::run(self.machine, self.scenario, &units, S::RATE_HZ, &mut OnHost(S::new()), |_| {})?;
-        Ok((trace, S::expected()))
     }
 }
 

@@ -1,6 +1,7 @@
-//! The pages on files: every complete file parses, and every key has the unit, range and default that the reader gives it.
+//! The pages on files: every complete file parses, and every key has the reader's unit, range and default.
 //!
-//! The reader itself is the reference: an unknown key makes it list the known ones, an empty list makes it name the range.
+//! The reader itself is the reference: an unknown key makes it list the known ones, an empty list makes it name the
+//! range.
 
 use std::collections::BTreeSet;
 
@@ -184,8 +185,8 @@ fn number(cell: &str) -> Option<f64> {
     cell.strip_prefix('`')?.strip_suffix('`')?.parse().ok()
 }
 
-/// What a file came to, where that can be compared: an unknown key is of another form of the table, and a fault kept for later
-/// has lines that an edit moves.
+/// What a file came to, where that can be compared: an unknown key is of another form of the table, and a fault that
+/// is kept for later has lines that an edit moves.
 fn told(read: &Result<String, Diagnostic>) -> Option<&str> {
     match read {
         Ok(text) => Some(text).filter(|text| !text.contains("Diagnostic(")).map(String::as_str),

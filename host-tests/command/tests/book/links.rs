@@ -69,7 +69,8 @@ fn every_type_that_a_page_names_is_there() {
         sources(&root().join(folder), &mut words);
     }
     let mut unknown = Vec::new();
-    for page in all() {
+    // the glossary has the names that were given up
+    for page in all().into_iter().filter(|page| !page.path.ends_with("glossary.md")) {
         for code in &page.code {
             let name =
                 code.split(['<', '(', '{', '[']).next().unwrap_or_default().split("::").last().unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use driveline_firmware::variants::VARIANTS;
+use driveline_firmware::scenes::VARIANTS;
 
 use super::pages::Page;
 

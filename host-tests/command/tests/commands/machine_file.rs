@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use cargo_driveline::machine_file::{Diagnostic, Element, MachineFile, parse, read};
+use driveline::configure::Machine as _;
 use driveline::design::Disturbance;
-use driveline_firmware::scenes::hoist as scene;
+use driveline_firmware::scenes::hoist::Hoist;
 use proptest::prelude::*;
 
 const HOIST: &str = include_str!("../../machines/hoist.toml");
@@ -38,9 +39,12 @@ fn the_machines_of_the_repository_are_read() {
 #[test]
 fn the_file_and_the_scene_are_one_hoist() {
     let hoist = parse("hoist.toml", HOIST).unwrap();
-    assert_eq!(hoist.chain, scene::CHAIN);
-    assert_eq!((hoist.limits.torque, hoist.limits.speed), (scene::TORQUE_LIMIT, scene::RATED_SPEED));
-    let Disturbance { torque_accuracy, load_torque_step, within } = scene::DISTURBANCE;
+    assert_eq!(hoist.chain, Hoist::<10_000>::CHAIN);
+    assert_eq!(
+        (hoist.limits.torque, hoist.limits.speed),
+        (Hoist::<10_000>::RATING.torque_limit, Hoist::<10_000>::RATING.speed)
+    );
+    let Disturbance { torque_accuracy, load_torque_step, within } = Hoist::<10_000>::DISTURBANCE;
     assert_eq!(
         hoist.disturbance,
         cargo_driveline::machine_file::Disturbance { torque_accuracy, load_torque_step, within }

@@ -12,8 +12,9 @@ use object::{Object, ObjectSection, ObjectSymbol};
 /// A bench takes well under a second of QEMU.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// Words of a governed rigid drive: speed, load torque, accelerating torque, residual and angle of the observer; setpoint,
-/// ramp and integral of the governor; the last command, the count of missed angles, and the pointer to the constants.
+/// Words of a governed rigid drive: speed, load torque, accelerating torque, residual and angle of the observer;
+/// setpoint, ramp and integral of the governor; the last command, the count of missed angles, and the pointer to the
+/// constants.
 const RIGID_STATE: u64 = 4 * (5 + 3 + 3);
 
 #[test]
@@ -45,7 +46,7 @@ fn a_self_test_of_no_variant_is_an_error_that_names_it() {
     assert_eq!(error, "no variant is called `hoist`");
     // and the firmware's own build says which there are
     let error = build("hoist", BOARDS[0], Program::SelfTest, |_| {}).unwrap_err().to_string();
-    assert!(error.contains("DRIVELINE_VARIANT is `hoist`; firmware/src/variants.rs has `empty/"), "{error}");
+    assert!(error.contains("DRIVELINE_VARIANT is `hoist`; firmware/src/scenes.rs has `empty/"), "{error}");
 }
 
 #[test]
@@ -62,7 +63,8 @@ fn each_variant_keeps_an_image_of_its_own() {
     let own = single.symbol("driveline_tick").unwrap().size;
     assert!(single.tick_code > own + 500, "{} bytes in all, {own} its own", single.tick_code);
     assert_eq!(empty.tick_code, empty.symbol("driveline_tick").unwrap().size);
-    // what the scene adds to the image is its tick and its start, constants, and little else; alignment makes up the rest
+    // what the scene adds to the image is its tick and its start, constants, and little else; alignment makes up the
+    // rest
     let added = single.sizes.flash() - empty.sizes.flash();
     assert!(added >= single.tick_code - empty.tick_code, "{added} bytes more in the image");
     assert_eq!(single.sizes.ram() - empty.sizes.ram(), RIGID_STATE);
@@ -77,8 +79,9 @@ fn a_cost_is_the_images_and_the_runs() {
     assert!(cost.stack >= 8 && cost.sizes.ram() >= RIGID_STATE && cost.tick_code > 0, "{cost:?}");
 }
 
-/// What a linker may decide is where a function and a table lie; the tick's code is else the same, halfword for halfword, on the board with a motor and in
-/// QEMU on the same core, and so are the tables that it reads and the drive's constants.
+/// What a linker may decide is where a function and a table lie; the tick's code is else the same, halfword for
+/// halfword, on the board with a motor and in QEMU on the same core, and so are the tables that it reads and the
+/// drive's constants.
 #[test]
 fn the_tick_on_the_board_with_a_motor_is_the_tick_in_qemu() {
     let in_qemu = build(ON_NUCLEO, board("m4f").unwrap(), Program::ControlLoop, |_| {}).unwrap();

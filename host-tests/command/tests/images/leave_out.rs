@@ -1,16 +1,15 @@
 //! A part that is left out of a drive contributes no symbol and no byte.
 //!
-//! Every part is inlined into the tick, so its absence has to show in three ways: no function of it stands in the image (of a part that is
-//! not inlined there would be one), the sections are smaller, and its table of constants is gone to the byte.
+//! Every part is inlined into the tick, so its absence has to show in three ways: no function of it stands in the image
+//! (of a part that is not inlined there would be one), the sections are smaller, and its table of constants is gone to
+//! the byte.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use driveline_firmware::Visitor;
 use driveline_firmware::board::Facts;
-use driveline_firmware::scene::Scene;
+use driveline_firmware::scenes::find;
 use driveline_firmware::self_test::fingerprint;
-use driveline_firmware::variants::visit;
 use driveline_qemu::image::{Contents, Program, board, build};
 
 const CORES: [(&str, &str); 2] = [("f32", "m4f"), ("fixed", "m3")];
@@ -64,9 +63,10 @@ fn a_measurement_of_the_fluctuation_that_is_left_out_is_not_there() {
         let board = board(core).unwrap();
         let without = read(number, "two-mass-observer", board);
         assert!(!has(&without, "fluctuation"), "{core}");
-        // Extremes: peaks of four words, two of each speed with its last value, and four for each of two finished cycles; five ends of four words;
-        // ten for where it stands: 18 + 32 + 20 + 10 words. Waveform: 64 bins, each three words and a sum of torques, in fixed point of eight
-        // bytes and on an address of eight; five ends of four words, ten for where it stands.
+        // Extremes: peaks of four words, two of each speed with its last value, and four for each of two finished
+        // cycles; five ends of four words; ten for where it stands: 18 + 32 + 20 + 10 words. Waveform: 64 bins, each
+        // three words and a sum of torques, in fixed point of eight bytes and on an address of eight; five ends of four
+        // words, ten for where it stands.
         let bin = if number == "f32" { 16 } else { 24 };
         for (part, state) in [("extremes", 80 * 4), ("waveform", 64 * bin + 30 * 4)] {
             let with = read(number, &format!("two-mass-{part}"), board);
@@ -118,9 +118,9 @@ fn an_observer_brings_nothing_of_another() {
     }
 }
 
-/// A drive of nothing but an observer is an observer that is called by hand with the same screening: the same RAM and constants to the byte.
-/// The code is the same but for how often the compiler repeats what is done with a bad angle: 20 bytes of 648 more on M4F, 90 of 816 on
-/// M3. An eighth is what that may be; a part that is not left out takes more.
+/// A drive of nothing but an observer is an observer that is called by hand with the same screening: the same RAM and
+/// constants to the byte. The code is the same but for how often the compiler repeats what is done with a bad angle: 20
+/// bytes of 648 more on M4F, 90 of 816 on M3. An eighth is what that may be; a part that is not left out takes more.
 #[test]
 fn a_drive_of_an_observer_alone_is_that_observer() {
     for (number, core) in CORES {
@@ -155,21 +155,13 @@ fn the_table_of_compositions_is_over_the_empty_image() {
     }
 }
 
-/// The fingerprint of a scene's run.
-struct Run;
-
-impl Visitor for Run {
-    type Outcome = u64;
-
-    fn visit<S: Scene>(self) -> u64 {
-        fingerprint::of_run::<S>()
-    }
-}
-
 #[test]
 fn a_drive_of_an_observer_alone_has_the_bits_of_the_calls_by_hand() {
     for number in ["f32", "fixed"] {
-        let run = |parts: &str| visit(&format!("composition/{number}/{parts}/10000"), Run).unwrap();
+        let run = |parts: &str| {
+            let row = find(&format!("composition/{number}/{parts}/10000")).unwrap();
+            fingerprint::of_run(&mut row.start(), row.words())
+        };
         assert_eq!(run("two-mass-observer"), run("two-mass-by-hand"), "{number}");
         // What the comparison can see: another observer's bits are others.
         assert_ne!(run("two-mass-observer"), run("semi-implicit-observer"), "{number}");

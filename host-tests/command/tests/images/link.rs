@@ -8,38 +8,20 @@ use std::time::{Duration, Instant};
 
 use driveline_firmware::board::{BOARDS, Facts};
 use driveline_firmware::scene::{Input, Output, Scene};
+use driveline_firmware::scenes::{VARIANTS, find};
 use driveline_firmware::self_test::inputs::Program as Inputs;
-use driveline_firmware::variants::{VARIANTS, visit};
-use driveline_firmware::{Visitor, Words};
 use driveline_qemu::image::{Program, board, build};
 use driveline_qemu::link::{Link, Summary};
 
-/// Runs a scene on the host.
-struct OnHost(u32, usize);
-
-impl Visitor for OnHost {
-    type Outcome = Vec<(Input, Output)>;
-
-    fn visit<S: Scene>(self) -> Self::Outcome {
-        let mut scene = S::new();
-        let mut inputs = Inputs::new(self.0, Words::of::<S>());
-        let tick = |_| {
-            let input = inputs.next_input();
-            (input, scene.tick(&input))
-        };
-        (0..self.1).map(tick).collect()
-    }
-}
-
-/// The name that a scene gives itself.
-struct Named;
-
-impl Visitor for Named {
-    type Outcome = &'static str;
-
-    fn visit<S: Scene>(self) -> &'static str {
-        S::NAME
-    }
+/// Runs a variant on the host, over so many inputs from a seed.
+fn on_host(variant: &str, seed: u32, ticks: usize) -> Vec<(Input, Output)> {
+    let row = find(variant).unwrap();
+    let (mut scene, mut inputs) = (row.start(), Inputs::new(seed, row.words()));
+    let tick = |_| {
+        let input = inputs.next_input();
+        (input, scene.tick(&input))
+    };
+    (0..ticks).map(tick).collect()
 }
 
 fn run(variant: &str, board: Facts, inputs: &[(Input, Output)]) -> (Vec<Output>, Summary) {
@@ -49,10 +31,14 @@ fn run(variant: &str, board: Facts, inputs: &[(Input, Output)]) -> (Vec<Output>,
     (outputs, link.finish().unwrap())
 }
 
+/// The names follow from the scenes' files; they are those of images, budgets and reports.
 #[test]
-fn every_variant_is_listed_under_the_name_of_its_scene() {
+fn every_variant_is_listed_once_by_scene_number_observer_and_rate() {
     for &name in VARIANTS {
-        assert_eq!(visit(name, Named), Some(name));
+        let parts: Vec<&str> = name.split('/').collect();
+        let row = find(name).unwrap();
+        assert_eq!((row.name, VARIANTS.iter().filter(|one| **one == name).count(), parts.len()), (name, 1, 4));
+        assert!(["f32", "fixed"].contains(&parts[1]) && parts[3] == row.rate_hz.to_string(), "{name}");
     }
 }
 
@@ -60,7 +46,7 @@ fn every_variant_is_listed_under_the_name_of_its_scene() {
 fn outputs_are_those_of_the_host_bit_for_bit() {
     // The others' bits are compared with their budgets.
     for variant in ["empty/f32/none/10000", "hoist/f32/exact/10000", "hoist/fixed/exact/10000"] {
-        let expected = visit(variant, OnHost(1, 3000)).unwrap();
+        let expected = on_host(variant, 1, 3000);
         for &board in BOARDS {
             let (outputs, summary) = run(variant, board, &expected);
             for (tick, (output, (input, expected))) in outputs.iter().zip(&expected).enumerate() {
@@ -75,7 +61,7 @@ fn outputs_are_those_of_the_host_bit_for_bit() {
 
 #[test]
 fn two_runs_take_the_same_instructions() {
-    let inputs = visit("hoist/f32/rigid/10000", OnHost(7, 2000)).unwrap();
+    let inputs = on_host("hoist/f32/rigid/10000", 7, 2000);
     let m3 = board("m3").unwrap();
     let first = run("hoist/f32/rigid/10000", m3, &inputs);
     assert_eq!(first, run("hoist/f32/rigid/10000", m3, &inputs));
@@ -86,7 +72,7 @@ fn two_runs_take_the_same_instructions() {
 
 #[test]
 fn a_scene_that_does_nothing_uses_one_frame_and_writes_eight_words() {
-    let inputs = visit("empty/f32/none/10000", OnHost(1, 50)).unwrap();
+    let inputs = on_host("empty/f32/none/10000", 1, 50);
     for &board in BOARDS {
         let (outputs, summary) = run("empty/f32/none/10000", board, &inputs);
         // the frame pointer and the return address: nothing of the loop itself reaches below the measured call
@@ -98,7 +84,7 @@ fn a_scene_that_does_nothing_uses_one_frame_and_writes_eight_words() {
 
 #[test]
 fn two_links_run_at_once() {
-    let inputs = visit("hoist/fixed/rigid/10000", OnHost(3, 2000)).unwrap();
+    let inputs = on_host("hoist/fixed/rigid/10000", 3, 2000);
     let alone = run("hoist/fixed/rigid/10000", BOARDS[0], &inputs);
     thread::scope(|scope| {
         let both = [0, 1].map(|_| scope.spawn(|| run("hoist/fixed/rigid/10000", BOARDS[0], &inputs)));
@@ -135,7 +121,7 @@ fn a_qemu_that_dies_is_an_error_that_names_image_and_tick() {
 #[test]
 fn rate_of_round_trips() {
     const TICKS: usize = 50_000;
-    let inputs = visit("hoist/f32/rigid/10000", OnHost(5, TICKS)).unwrap();
+    let inputs = on_host("hoist/f32/rigid/10000", 5, TICKS);
     let image = build("hoist/f32/rigid/10000", BOARDS[0], Program::ControlLoop, |_| {}).unwrap();
     let mut link = Link::start(&image).unwrap();
     link.exchange(&inputs[0].0).unwrap();

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use driveline_firmware::board::BOARDS;
-use driveline_firmware::variants::VARIANTS;
+use driveline_firmware::scenes::VARIANTS;
 use serde::Deserialize;
 use toml::Spanned;
 

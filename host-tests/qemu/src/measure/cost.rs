@@ -3,12 +3,11 @@
 use std::error::Error;
 use std::time::Duration;
 
-use driveline_firmware::Words;
 use driveline_firmware::board::Facts;
-use driveline_firmware::scene::{Input, Output, Scene};
+use driveline_firmware::scene::Output;
+use driveline_firmware::scenes::find;
 use driveline_firmware::self_test::fingerprint::SEED;
 use driveline_firmware::self_test::inputs::Program as Inputs;
-use driveline_firmware::variants::visit;
 use serde::Serialize;
 
 use crate::image::{Contents, Image, Program, Sizes, build};
@@ -62,9 +61,8 @@ impl Cost {
 
     /// Runs the image of a control loop in open loop, and compares every output with the host's.
     pub fn of(image: &Image) -> Result<Self, Box<dyn Error>> {
-        let words =
-            visit(&image.variant, WordsOf).ok_or_else(|| format!("no variant is called `{}`", image.variant))?;
-        let mut inputs = Inputs::new(SEED, words);
+        let variant = find(&image.variant).ok_or_else(|| format!("no variant is called `{}`", image.variant))?;
+        let mut inputs = Inputs::new(SEED, variant.words());
         let mut link = Link::start(image)?;
         let mut instructions = Vec::with_capacity(Cost::TICKS);
         let mut exchanged = Vec::with_capacity(Cost::TICKS);
@@ -74,7 +72,7 @@ impl Cost {
             instructions.push(output.instructions);
             exchanged.push((input, Output { instructions: 0, ..output }));
         }
-        if visit(&image.variant, Replay(&exchanged)) != Some(true) {
+        if !variant.gives(&exchanged) {
             return Err(format!("{} on {} and on the host give other bits", image.variant, image.board.name).into());
         }
         let summary = link.finish()?;
@@ -139,25 +137,3 @@ impl Cost {
 
 /// A bench takes a second; this is for a QEMU that hangs.
 const BENCH_LIMIT: Duration = Duration::from_secs(60);
-
-/// Whether the host gives these outputs for these inputs.
-struct Replay<'e>(&'e [(Input, Output)]);
-
-impl driveline_firmware::Visitor for Replay<'_> {
-    type Outcome = bool;
-
-    fn visit<S: Scene>(self) -> bool {
-        let mut scene = S::new();
-        self.0.iter().all(|(input, output)| scene.exchange(input) == *output)
-    }
-}
-
-struct WordsOf;
-
-impl driveline_firmware::Visitor for WordsOf {
-    type Outcome = Words;
-
-    fn visit<S: Scene>(self) -> Words {
-        Words::of::<S>()
-    }
-}

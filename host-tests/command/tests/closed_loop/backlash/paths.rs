@@ -1,19 +1,21 @@
 //! The bench's inputs take every path of the observer's step.
 
+use driveline::configure::Machine as _;
 use driveline::number::Fixed;
 use driveline::observer::{BacklashObserver, Gap, Observer};
-use driveline_firmware::scene::governed::Variant;
-use driveline_firmware::scenes::blooming_mill::{BASES, BloomingMill, with};
-use driveline_firmware::self_test::backlash_inputs::{RATE_HZ, Rattle};
+use driveline_firmware::scene::Of;
+use driveline_firmware::scene::composed::GovernedVariant;
+use driveline_firmware::scenes::blooming_mill::{Backlash, BloomingMill};
+use driveline_firmware::self_test::backlash_inputs::Rattle;
 
-type Mill<N> = BloomingMill<N, with::Backlash, { RATE_HZ }>;
+type Mill<N> = Of<BloomingMill, Backlash<N>>;
 
 /// How often the gap was open or closed before a tick (first) and by its prediction after it (second), over what the
 /// bench runs.
 fn paths<N, V>(number: impl Fn(f32) -> N) -> [[u32; 2]; 2]
 where
     N: Gap,
-    V: Variant<Number = N, Observer = BacklashObserver<N>>,
+    V: GovernedVariant<Number = N, Observer = BacklashObserver<N>>,
 {
     let config = &V::CONFIG.observer;
     let mut observer: BacklashObserver<N> = BacklashObserver::at_rest(config, 0, N::ZERO);
@@ -33,7 +35,7 @@ where
 #[test]
 fn the_bench_takes_every_path() {
     let single = paths::<f32, Mill<f32>>(|torque| torque);
-    let fixed = paths::<Fixed, Mill<Fixed>>(|torque| Fixed::from_f64(f64::from(torque) / BASES.torque));
+    let fixed = paths::<Fixed, Mill<Fixed>>(|torque| Fixed::from_f64(f64::from(torque) / BloomingMill::BASES.torque));
     for counts in [single, fixed] {
         // In contact, leaving, meeting, in the gap.
         assert!(counts.iter().flatten().all(|&count| count > 0), "{single:?} {fixed:?}");

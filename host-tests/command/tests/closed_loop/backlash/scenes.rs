@@ -7,28 +7,19 @@ use cargo_driveline::drivetrains::figures::{deviations, peaks};
 use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::scenario::Machine;
 use cargo_driveline::drivetrains::{blooming_mill as mill, converter};
+use driveline::configure::HasBacklash as _;
+use driveline::configure::Machine as _;
 use driveline::design::{BacklashTakeUpTuning, Error, Rate};
 use driveline::governor::{BacklashTakeUpConfig, SymmetricLimitConfig};
 use driveline::number::Fixed;
 use driveline::settings::Bases;
-use driveline_firmware::scene::Scene;
-use driveline_firmware::scenes::blooming_mill;
-use driveline_firmware::variants::visit;
-use driveline_firmware::{Visitor, Words};
-
-struct Ran<'m>(&'m Machine);
-
-impl Visitor for Ran<'_> {
-    type Outcome = Trace;
-
-    fn visit<S: Scene>(self) -> Trace {
-        let units = Units::new(Words::of::<S>(), self.0.bases);
-        run(self.0, &self.0.scenarios[0], &units, S::RATE_HZ, &mut OnHost(S::new()), |_| {}).unwrap()
-    }
-}
+use driveline_firmware::scenes::blooming_mill::BloomingMill;
+use driveline_firmware::scenes::find;
 
 fn ran(machine: &Machine, variant: &str) -> Trace {
-    let trace = visit(variant, Ran(machine)).unwrap();
+    let row = find(variant).unwrap();
+    let units = Units::new(row.words(), machine.bases);
+    let trace = run(machine, &machine.scenarios[0], &units, row.rate_hz, &mut OnHost(row.start()), |_| {}).unwrap();
     let faults = trace.moments.iter().fold(0, |all, moment| all | moment.faults);
     assert_eq!(faults, 0, "{variant}: {faults:x}");
     trace
@@ -91,8 +82,8 @@ fn the_gentle_loop_reaches_its_speed() {
 
 #[test]
 fn a_taking_up_that_cannot_be_is_refused() {
-    let machine = blooming_mill::MACHINE;
-    let tuning = blooming_mill::TAKING_UP;
+    let machine = BloomingMill::TWO_MASS;
+    let tuning = BloomingMill::TAKING_UP;
     for wrong in [
         BacklashTakeUpTuning { impact: 0.0, ..tuning },
         BacklashTakeUpTuning { torque: -1.0, ..tuning },
@@ -107,7 +98,7 @@ fn a_taking_up_that_cannot_be_is_refused() {
     let wave = (machine.stiffness * 120_000.0 * 22_000.0 / 142_000.0).sqrt();
     assert!((design.approach_speed * wave / tuning.impact - 1.0).abs() < 1e-12);
     assert_eq!(design.braking, design.torque / design.approach_speed);
-    let small = Bases { torque: 1e5, ..blooming_mill::BASES };
+    let small = Bases { torque: 1e5, ..BloomingMill::BASES };
     let limit = SymmetricLimitConfig { torque: Fixed::ONE };
     assert!(BacklashTakeUpConfig::<Fixed, _>::try_new(&design, limit, small).is_err());
 }

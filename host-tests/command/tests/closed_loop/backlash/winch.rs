@@ -1,4 +1,5 @@
-//! The skip winch's emergencies while hoisting, on the host: what the rope feels with the drive that takes up its slack, against a plain speed loop.
+//! The skip winch's emergencies while hoisting, on the host: what the rope feels with the drive that takes up its
+//! slack, against a plain speed loop.
 
 use cargo_driveline::closed_loop::ticks::OnHost;
 use cargo_driveline::closed_loop::units::Units;
@@ -6,21 +7,7 @@ use cargo_driveline::drivetrains::SCENES;
 use cargo_driveline::drivetrains::figures::{deviations, peaks};
 use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::scenario::Machine;
-use driveline_firmware::scene::Scene;
-use driveline_firmware::variants::visit;
-use driveline_firmware::{Visitor, Words};
-
-struct Runs<'m>(&'m Machine, &'static str);
-
-impl Visitor for Runs<'_> {
-    type Outcome = Trace;
-
-    fn visit<S: Scene>(self) -> Trace {
-        let units = Units::new(Words::of::<S>(), self.0.bases);
-        let scenario = self.0.scenarios.iter().find(|scenario| scenario.name == self.1).unwrap();
-        run(self.0, scenario, &units, S::RATE_HZ, &mut OnHost(S::new()), |_| {}).unwrap()
-    }
-}
+use driveline_firmware::scenes::find;
 
 fn machine() -> Machine {
     SCENES.iter().find(|(name, _)| *name == "skip-winch").unwrap().1().unwrap()
@@ -28,7 +15,10 @@ fn machine() -> Machine {
 
 /// The run, the rope's peak, and the rms error of its torque over that.
 fn ran(machine: &Machine, scenario: &'static str, variant: &str) -> (Trace, f64, f64) {
-    let trace = visit(variant, Runs(machine, scenario)).unwrap();
+    let row = find(variant).unwrap();
+    let units = Units::new(row.words(), machine.bases);
+    let course = machine.scenarios.iter().find(|one| one.name == scenario).unwrap();
+    let trace = run(machine, course, &units, row.rate_hz, &mut OnHost(row.start()), |_| {}).unwrap();
     let [torque, _, load] = peaks([&trace].into_iter());
     let errors = deviations([&trace].into_iter(), [torque, machine.rated_speed, load]);
     let faults = trace.moments.iter().fold(0, |all, moment| all | moment.faults);

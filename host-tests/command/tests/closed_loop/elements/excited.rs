@@ -1,4 +1,5 @@
-//! The scenes whose machines excite themselves, by unbalance and by teeth: what their full plants do, and that their runs are proven.
+//! The scenes whose machines excite themselves, by unbalance and by teeth: what their full plants do, and that their
+//! runs are proven.
 
 use cargo_driveline::closed_loop::ticks::OnHost;
 use cargo_driveline::closed_loop::units::Units;
@@ -6,12 +7,14 @@ use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::plant::Body;
 use cargo_driveline::drivetrains::scenario::Machine;
 use cargo_driveline::drivetrains::{gear_drive as gears, vibrating_screen as screen};
+use driveline::configure::{HasBarredSpeeds as _, Machine as _};
 use driveline::design::{ObserverChoice, USUAL_MARGIN};
+use driveline::drive::ConfigOf;
 use driveline_firmware::Words;
-use driveline_firmware::scene::Scene;
-use driveline_firmware::scene::assembled::Assembled;
-use driveline_firmware::scenes::gear_drive;
-use driveline_firmware::scenes::vibrating_screen::{self, VibratingScreen, with};
+use driveline_firmware::scene::{FromConfig, Scene};
+use driveline_firmware::scenes::find;
+use driveline_firmware::scenes::gear_drive::{self, GearDrive};
+use driveline_firmware::scenes::vibrating_screen::{self, Plain, VibratingScreen};
 use driveline_solver::plant::train::{GearPair, Signal};
 
 /// `found` is `expected` within a relative tolerance.
@@ -20,60 +23,63 @@ fn close(found: f64, expected: f64, tolerance: f64) {
     assert!((found / expected - 1.0).abs() <= tolerance, "{found}, not {expected}");
 }
 
-fn ran<S: Scene>(machine: &Machine, duration: f64) -> Trace {
+fn ran(machine: &Machine, scene: impl Scene, duration: f64) -> Trace {
     let mut scenario = machine.scenarios[0].clone();
     scenario.duration = duration;
-    let units = Units::new(Words::of::<S>(), machine.bases);
-    run(machine, &scenario, &units, S::RATE_HZ, &mut OnHost(S::new()), |_| {}).unwrap()
+    let units = Units::new(Words::Single, machine.bases);
+    run(machine, &scenario, &units, VibratingScreen::RATE_HZ, &mut OnHost(scene), |_| {}).unwrap()
 }
 
 /// Two of the plant's modes are those of box and frame on their springs, which the governor bars.
 #[test]
 fn the_critical_speeds_of_the_screen_are_those_of_its_springs() {
     let omega = screen::train().modes().unwrap().omega;
-    for (critical, range) in vibrating_screen::CRITICAL.iter().zip(vibrating_screen::BARRED.ranges()) {
+    for (critical, range) in vibrating_screen::CRITICAL.iter().zip(VibratingScreen::BARRED.ranges()) {
         // both are the roots of the same equation, one by a closed form and one by an eigenvalue solver
         assert!(omega.iter().any(|w| (w / critical - 1.0).abs() < 1e-9), "{critical} of {omega:?}");
         close(range[0], (1.0 - USUAL_MARGIN) * critical, 1e-12);
         close(range[1], (1.0 + USUAL_MARGIN) * critical, 1e-12);
     }
     // The torsional one, motor against exciter, lies above twice the speed, where the box's push is.
-    assert!(omega.last().unwrap() > &(2.0 * 1.2 * vibrating_screen::RATED_SPEED), "{omega:?}");
+    assert!(omega.last().unwrap() > &(2.0 * 1.2 * VibratingScreen::RATING.speed), "{omega:?}");
 }
 
-/// Peak travel of the box against the frame below the speed that a run reaches, and how long it dwelt in the upper barred range.
-fn passed<S: Scene>() -> (f64, f64) {
+/// Peak travel of the box against the frame below the speed that a run reaches, and how long it dwelt in the upper
+/// barred range.
+fn passed(name: &str, scene: impl Scene) -> (f64, f64) {
     let mut machine = screen::machine().unwrap();
     let mut motion = screen::train().build().unwrap();
     motion.watch(Signal::Elongation(screen::SPRINGS));
     machine.scenarios[0].plant = Body::train(motion, &[]);
-    let trace = ran::<S>(&machine, 3.0);
+    let trace = ran(&machine, scene, 3.0);
     let travel = trace.recording.motion().unwrap().extremes(Signal::Elongation(screen::SPRINGS)).unwrap();
-    let [low, high] = vibrating_screen::BARRED.ranges()[1];
+    let [low, high] = VibratingScreen::BARRED.ranges()[1];
     let inside = trace.moments.iter().filter(|moment| (low..=high).contains(&moment.truth[1])).count();
     assert!(trace.moments.last().unwrap().truth[1] > high);
     let torque = trace.moments.iter().map(|moment| moment.truth[0].abs()).fold(0.0, f64::max);
     let most = travel.peak.max(-travel.least);
-    let dwelt = inside as f64 / f64::from(S::RATE_HZ);
-    println!("{}: {:.1} mm of travel, {dwelt:.3} s in the range, shaft torque {torque:.0} N m", S::NAME, 1e3 * most);
+    let dwelt = inside as f64 / f64::from(VibratingScreen::RATE_HZ);
+    println!("{}: {:.1} mm of travel, {dwelt:.3} s in the range, shaft torque {torque:.0} N m", name, 1e3 * most);
     (most, dwelt)
 }
 
 /// The quick ramp halves the time in the range, and the box swings less.
 #[test]
 fn the_screen_passes_its_resonance_quickly() {
-    let quick = passed::<Assembled<VibratingScreen<f32, with::Quick>>>();
-    let plain = passed::<Assembled<VibratingScreen<f32, with::Plain>>>();
+    static PLAIN: ConfigOf<<Plain<f32> as FromConfig>::Drive> =
+        <<Plain<f32> as FromConfig>::Drive>::configure::<VibratingScreen>();
+    let quick = passed("quick", find("vibrating-screen/f32/exact/4000").unwrap().start());
+    let plain = passed("plain", Plain::<f32>::from_config(&PLAIN));
     assert!(quick.1 < 0.6 * plain.1 && quick.0 < plain.0, "{quick:?} against {plain:?}");
 }
 
-/// A run-up by a steady torque passes the wheels' resonance and the fractions of the mesh's: the teeth carry more than the
-/// torque asks for, with an error on every second tooth more than without, and do not part.
+/// A run-up by a steady torque passes the wheels' resonance and the fractions of the mesh's: the teeth carry more than
+/// the torque asks for, with an error on every second tooth more than without, and do not part.
 #[test]
 fn the_teeth_excite_the_gear_drive() {
-    let torque = 1.2 * gear_drive::RATED_TORQUE;
+    let torque = 1.2 * GearDrive::RATING.torque;
     // what is left for the mesh when the motor's own inertia has been brought up
-    let machine = gear_drive::REDUCED;
+    let machine = GearDrive::TWO_MASS;
     let through = torque * (1.0 - 0.4 / (machine.motor_inertia + machine.load_inertia));
     let mut factors = Vec::new();
     for error in [gears::TOOTH_ERROR, 0.0] {
@@ -88,7 +94,7 @@ fn the_teeth_excite_the_gear_drive() {
         println!("error {error}: mesh force {:.0} to {:.0} N, dynamic factor {factor:.2}", force.least, force.peak);
         // they meet, and without an error bounce once, as the torque steps up; from then on they keep contact
         assert!(motion.events().iter().all(|event| event.time < 0.01), "{:?}", motion.events());
-        assert!(force.least > 0.0 && motion.speed(0) > gear_drive::RATED_SPEED, "{force:?}");
+        assert!(force.least > 0.0 && motion.speed(0) > GearDrive::RATING.speed, "{force:?}");
         factors.push(factor);
     }
     assert!(factors[1] > 1.1 && factors[0] > factors[1], "{factors:?}");
@@ -103,14 +109,12 @@ fn both_need_two_masses() {
     }
 }
 
-/// The solver's runs agree with another integrator within 1e-8 of the peaks: their beginnings here, all of them in `cargo driveline run`.
+/// The solver's runs agree with another integrator within 1e-8 of the peaks: their beginnings here, all of them in
+/// `cargo driveline run`.
 #[test]
 fn their_runs_are_proven() {
     let machine = screen::machine().unwrap();
-    ran::<Assembled<VibratingScreen<f32, with::Quick>>>(&machine, 2.5).recording.prove().unwrap();
+    ran(&machine, find("vibrating-screen/f32/exact/4000").unwrap().start(), 2.5).recording.prove().unwrap();
     let machine = gears::machine().unwrap();
-    type Drive = driveline_firmware::scene::governed::Governed<
-        gear_drive::GearDrive<f32, driveline::observer::TwoMassObserver<f32>>,
-    >;
-    ran::<Drive>(&machine, 0.3).recording.prove().unwrap();
+    ran(&machine, find("gear-drive/f32/exact/4000").unwrap().start(), 0.3).recording.prove().unwrap();
 }

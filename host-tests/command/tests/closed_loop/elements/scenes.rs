@@ -6,32 +6,26 @@ use cargo_driveline::drivetrains::SCENES;
 use cargo_driveline::drivetrains::figures::{deviations, peaks};
 use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::scenario::Machine;
-use driveline_firmware::scene::Scene;
-use driveline_firmware::variants::{VARIANTS, visit};
-use driveline_firmware::{Visitor, Words};
+use driveline_firmware::scenes::{VARIANTS, find};
 
 /// Runs every counted scenario of a machine with one variant.
-struct Runs<'m>(&'m Machine);
-
-impl Visitor for Runs<'_> {
-    type Outcome = Vec<Trace>;
-
-    fn visit<S: Scene>(self) -> Vec<Trace> {
-        let units = Units::new(Words::of::<S>(), self.0.bases);
-        let counted = self.0.scenarios.iter().filter(|scenario| scenario.counted);
-        counted
-            .map(|scenario| run(self.0, scenario, &units, S::RATE_HZ, &mut OnHost(S::new()), |_| {}).unwrap())
-            .collect()
-    }
+fn runs(machine: &Machine, variant: &str) -> Vec<Trace> {
+    let row = find(variant).unwrap();
+    let units = Units::new(row.words(), machine.bases);
+    let counted = machine.scenarios.iter().filter(|scenario| scenario.counted);
+    counted
+        .map(|scenario| run(machine, scenario, &units, row.rate_hz, &mut OnHost(row.start()), |_| {}).unwrap())
+        .collect()
 }
 
-/// Shaft torque over its peak, load speed over rated speed, rms, of each variant of a scene; the first number's runs are proven.
+/// Shaft torque over its peak, load speed over rated speed, rms, of each variant of a scene; the first number's runs
+/// are proven.
 fn figures(scene: &str) -> Vec<(&'static str, [f64; 2])> {
     let (_, machine) = SCENES.iter().find(|(name, _)| *name == scene).unwrap();
     let machine = machine().unwrap();
     let mut figures = Vec::new();
     for &variant in VARIANTS.iter().filter(|variant| variant.split('/').next() == Some(scene)) {
-        let traces = visit(variant, Runs(&machine)).unwrap();
+        let traces = runs(&machine, variant);
         let [torque, _, load] = peaks(traces.iter());
         let found = deviations(traces.iter(), [torque, machine.rated_speed, load]);
         let faults = traces.iter().flat_map(|trace| &trace.moments).fold(0, |all, moment| all | moment.faults);
@@ -49,7 +43,8 @@ fn figures(scene: &str) -> Vec<(&'static str, [f64; 2])> {
     figures
 }
 
-/// The aims of a tight shaft, 2 % rms of peak in shaft torque and 0.3 % of rated in load speed, are met by the scene's observer.
+/// The aims of a tight shaft, 2 % rms of peak in shaft torque and 0.3 % of rated in load speed, are met by the scene's
+/// observer.
 fn meets_the_aims(scene: &str, observer: &str) {
     let mut met = 0;
     for (variant, [torque, speed]) in figures(scene) {
@@ -122,14 +117,15 @@ fn punch_press() {
     }
 }
 
-/// The solver's runs agree with another integrator within 1e-8 of the peaks: the shortest of each scene here, all of them in `cargo driveline run`.
+/// The solver's runs agree with another integrator within 1e-8 of the peaks: the shortest of each scene here, all of
+/// them in `cargo driveline run`.
 #[test]
 fn runs_are_proven() {
     for scene in ["spindle", "fan"] {
         let (_, machine) = SCENES.iter().find(|(name, _)| *name == scene).unwrap();
         let machine = machine().unwrap();
         let variant = VARIANTS.iter().find(|variant| variant.starts_with(scene)).unwrap();
-        let traces = visit(variant, Runs(&machine)).unwrap();
+        let traces = runs(&machine, variant);
         traces[0].recording.prove().unwrap();
     }
 }

@@ -1,4 +1,5 @@
-//! The punch press with its drive: the flywheel rides through the stroke, and the flywheel that is advised does what is said of it.
+//! The punch press with its drive: the flywheel rides through the stroke, and the flywheel that is advised does what is
+//! said of it.
 
 use std::f64::consts::TAU;
 use std::io;
@@ -7,11 +8,11 @@ use cargo_driveline::closed_loop::ticks::{OnHost, Ticks};
 use cargo_driveline::closed_loop::units::Units;
 use cargo_driveline::drivetrains::lockstep::{Moment, Trace, run};
 use cargo_driveline::drivetrains::punch_press::{CRANK, machine, press, stamping};
-use cargo_driveline::drivetrains::scenario::{Law, Machine, Scenario};
+use cargo_driveline::drivetrains::scenario::{Law, Scenario};
+use driveline::configure::Machine as _;
 use driveline_firmware::scene::{Input, Output, Scene};
-use driveline_firmware::scenes::punch_press::{OVER_STROKE, RATE_HZ, RATED_SPEED, REDUCED, TORQUE_LIMIT, panel};
-use driveline_firmware::variants::visit;
-use driveline_firmware::{Visitor, Words};
+use driveline_firmware::scenes::find;
+use driveline_firmware::scenes::punch_press::{OVER_STROKE, PunchPress, panel};
 
 /// Asks the panel for an advice in the last ticks, and keeps the answers.
 struct Asking<S> {
@@ -36,33 +37,19 @@ impl<S: Scene> Ticks for Asking<S> {
     }
 }
 
-/// Runs strokes without an end: the trace, and what the panel says for a permissible delta at last.
-struct Strokes<'m> {
-    machine: &'m Machine,
-    scenario: &'m Scenario,
-    permissible: f64,
-}
-
-impl Visitor for Strokes<'_> {
-    type Outcome = (Trace, Vec<u32>);
-
-    fn visit<S: Scene>(self) -> Self::Outcome {
-        let units = Units::new(Words::of::<S>(), self.machine.bases);
-        let from = (self.scenario.duration * f64::from(RATE_HZ)) as u32 - 10;
-        let permissible = self.permissible as f32;
-        let mut drive = Asking { drive: OnHost(S::new()), tick: 0, from, permissible, answers: Vec::new() };
-        let trace = run(self.machine, self.scenario, &units, S::RATE_HZ, &mut drive, |_| {}).unwrap();
-        (trace, drive.answers)
-    }
-}
-
 /// The press with so much more on its flywheel, in continuous strokes.
 fn strokes(variant: &str, added: f64, permissible: f64, duration: f64) -> (Trace, Vec<f64>) {
     let machine = machine().unwrap();
     let plant = press(added).unwrap();
     let law = Some(Law { node: CRANK, torque: stamping });
     let scenario = Scenario { plant, duration, law, ..machine.scenarios[0].clone() };
-    let (trace, answers) = visit(variant, Strokes { machine: &machine, scenario: &scenario, permissible }).unwrap();
+    let row = find(variant).unwrap();
+    let from = (scenario.duration * f64::from(row.rate_hz)) as u32 - 10;
+    let mut drive =
+        Asking { drive: OnHost(row.start()), tick: 0, from, permissible: permissible as f32, answers: Vec::new() };
+    let units = Units::new(row.words(), machine.bases);
+    let trace = run(&machine, &scenario, &units, row.rate_hz, &mut drive, |_| {}).unwrap();
+    let answers = drive.answers;
     let faults = trace.moments.iter().fold(0, |all, moment| all | moment.faults);
     assert_eq!(faults, 0, "{variant}");
     let told = answers.get(1..).unwrap_or_default().iter().map(|&word| f64::from(f32::from_bits(word))).collect();
@@ -74,7 +61,7 @@ fn strokes(variant: &str, added: f64, permissible: f64, duration: f64) -> (Trace
 
 /// The ticks of the strokes from `from` to `to`, counted from 0 at the start, by the motor's angle.
 fn between(trace: &Trace, from: f64, to: f64) -> &[Moment] {
-    let per_stroke = 14.0 * TAU * f64::from(RATE_HZ);
+    let per_stroke = 14.0 * TAU * f64::from(PunchPress::RATE_HZ);
     let mut turned = 0.0;
     let mut tick = |strokes: f64, at: usize| {
         let rest = trace.moments[at..].iter().position(|moment| {
@@ -109,8 +96,9 @@ fn torque(moments: &[Moment]) -> [f64; 3] {
     [mean, swing, moments.iter().map(|moment| moment.torque.abs()).fold(0.0, f64::max)]
 }
 
-/// The flywheel rides through the stroke and the governor does not fight the ripple: its torque is the mean load's within a few percent, where a plain
-/// loop goes to its limit. Delta is within 1 % of the full solver's, and with the flywheel that is advised within 2 % of what is permitted.
+/// The flywheel rides through the stroke and the governor does not fight the ripple: its torque is the mean load's
+/// within a few percent, where a plain loop goes to its limit. Delta is within 1 % of the full solver's, and with the
+/// flywheel that is advised within 2 % of what is permitted.
 fn rides_and_advises(number: &str, permissible: f64) {
     let variant = format!("punch-press/{number}/mean/10000");
     let (fights, _) = strokes(&format!("punch-press/{number}/plain/10000"), 0.0, permissible, 9.5);
@@ -125,11 +113,11 @@ fn rides_and_advises(number: &str, permissible: f64) {
         torque(riding),
         delta(riding).0
     );
-    assert!(high > 0.99 * TORQUE_LIMIT && rough > 0.5 * mean, "{number}: {rough} {high}");
+    assert!(high > 0.99 * PunchPress::RATING.torque_limit && rough > 0.5 * mean, "{number}: {rough} {high}");
     // A twentieth: what the last of the settling leaves, the segments' steps and the observer's noise.
     assert!(smooth < 0.05 * mean && low < 1.1 * mean, "{number}: {mean} {smooth} {low}");
     // It governs nevertheless: nine strokes after the first one with plate the mean speed is the setpoint within 1 %.
-    assert!((speed(riding) / RATED_SPEED - 1.0).abs() < 0.01, "{number}: {}", speed(riding));
+    assert!((speed(riding) / PunchPress::RATING.speed - 1.0).abs() < 0.01, "{number}: {}", speed(riding));
 
     let (true_delta, middle) = delta(riding);
     let [mean, measured, swing, missing] = told[..] else { panic!("{told:?}") };
@@ -141,7 +129,7 @@ fn rides_and_advises(number: &str, permissible: f64) {
         100.0 * (measured / true_delta - 1.0),
         speed(riding),
         100.0 * (remaining / permissible - 1.0),
-        swing / (middle * middle * permissible) - REDUCED.total_inertia(),
+        swing / (middle * middle * permissible) - PunchPress::TWO_MASS.total_inertia(),
     );
     assert!((measured / true_delta - 1.0).abs() < 0.01, "{number}: {measured} {true_delta}");
     // The same strokes: a tick at either end of four.
@@ -160,13 +148,14 @@ fn the_same_in_fixed_point() {
     rides_and_advises("fixed", 0.12);
 }
 
-/// The loop over the stroke, cut at the torque: `k_p + k_i/s` times `1/(J s)` times what the speed without its ripple makes of the speed, as old as a
-/// segment of 64 and a tick at most. Its distance from -1 is above a half from the longest stroke to that at rated speed.
+/// The loop over the stroke, cut at the torque: `k_p + k_i/s` times `1/(J s)` times what the speed without its ripple
+/// makes of the speed, as old as a segment of 64 and a tick at most. Its distance from -1 is above a half from the
+/// longest stroke to that at rated speed.
 #[test]
 fn the_loop_over_the_stroke_has_margins() {
-    let inertia = REDUCED.total_inertia();
+    let inertia = PunchPress::TWO_MASS.total_inertia();
     for share in [0.8, 1.0] {
-        let stroke = 14.0 * TAU / (share * RATED_SPEED);
+        let stroke = 14.0 * TAU / (share * PunchPress::RATING.speed);
         let mut nearest = f64::INFINITY;
         let mut w = 0.01;
         while w < 200.0 {

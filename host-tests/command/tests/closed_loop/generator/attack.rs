@@ -20,7 +20,8 @@ use driveline::sample::{Estimate, Sample};
 use driveline::settings::{Bases, Screening, SequencerSettings};
 use driveline_firmware::Words;
 use driveline_firmware::scene::{Input, Scene};
-use driveline_firmware::scenes::generator::{Generator, Of, RATED_SPEED, panel, with};
+use driveline_firmware::scenes::find;
+use driveline_firmware::scenes::generator::{RATED_SPEED, panel};
 use proptest::prelude::*;
 
 const MACHINE: Machine = Machine::new(Inertia(4.4), Inertia(8.0), Stiffness(5.0e4), Damping(66.0));
@@ -254,10 +255,11 @@ fn attack<N: Wired>(acts: &[Act]) -> Result<(), TestCaseError> {
 }
 
 /// Runs a generator set's scene through words: torque between nothing and the curve, modes as they must be.
-fn besiege<S: Scene>(kind: Kind, words: Words, acts: &[Act]) -> Result<(), TestCaseError> {
+fn besiege(kind: Kind, words: Words, acts: &[Act]) -> Result<(), TestCaseError> {
     let units = Units::new(words, kind.constants().bases());
     let rated = kind.constants().rated_torque;
-    let mut scene = S::new();
+    let number = if words == Words::Single { "f32" } else { "fixed" };
+    let mut scene = find(&format!("generator/{number}/{}/2400", kind.name())).unwrap().start();
     let mut input = Input { setpoint: units.speed_word(RATED_SPEED), flags: Input::RELEASED, ..Input::default() };
     for act in acts {
         let (ticks, turn) = match *act {
@@ -365,9 +367,9 @@ fn steady<N: Wired>(changes: &[(Change, u8)]) -> Result<(), TestCaseError> {
             let error = (governor.ramped_setpoint().to_real() * speed_unit - 150.0).abs() + 10.0;
             let (torque, seen) = run(&mut governor, chosen, setpoint);
             now = seen;
-            // A tick's ramp, 0.02 rad/s, at k_p, and the integral's tick on the error, whose ten more are the droop's: what the set
-            // point may move by. Twice, for a change of constants makes one of each; and what f32 loses of the mean's sum of
-            // 150 rad/s in 32 additions, at k_p.
+            // A tick's ramp, 0.02 rad/s, at k_p, and the integral's tick on the error, whose ten more are the droop's:
+            // what the set point may move by. Twice, for a change of constants makes one of each; and what f32 loses of
+            // the mean's sum of 150 rad/s in 32 additions, at k_p.
             let bound = 2.0 * (FED.proportional * (RAMP * PERIOD + 3e-4) + FED.integral * PERIOD * error);
             prop_assert!((torque - last).abs() < bound, "{change:?}: {last} to {torque}, {bound}");
             last = torque;
@@ -385,10 +387,10 @@ proptest! {
 
     #[test]
     fn no_words_and_no_switches_break_a_generator_set(acts in prop::collection::vec(act(), 1..60)) {
-        besiege::<Generator<Of<f32, with::Diesel>>>(Kind::Diesel, Words::Single, &acts)?;
-        besiege::<Generator<Of<Fixed, with::Diesel>>>(Kind::Diesel, Words::Fixed, &acts)?;
-        besiege::<Generator<Of<f32, with::Turbine>>>(Kind::Turbine, Words::Single, &acts)?;
-        besiege::<Generator<Of<Fixed, with::Turbine>>>(Kind::Turbine, Words::Fixed, &acts)?;
+        besiege(Kind::Diesel, Words::Single, &acts)?;
+        besiege(Kind::Diesel, Words::Fixed, &acts)?;
+        besiege(Kind::Turbine, Words::Single, &acts)?;
+        besiege(Kind::Turbine, Words::Fixed, &acts)?;
     }
 
     #[test]

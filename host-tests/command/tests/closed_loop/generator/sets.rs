@@ -8,21 +8,18 @@ use cargo_driveline::generator::standard::{CLASSES, Figures, figures};
 use cargo_driveline::generator::trips::{CAUSES, latched};
 use cargo_driveline::generator::verdict::{WAYS, Way, loads, program};
 use driveline::governor::Trip;
-use driveline::number::Fixed;
 use driveline_firmware::Words;
 use driveline_firmware::scene::Scene;
-use driveline_firmware::scenes::generator::{CHEST_LAG, Generator, Of, RATED_SPEED, VALVE_LAG, with};
+use driveline_firmware::scenes::find;
+use driveline_firmware::scenes::generator::{CHEST_LAG, RATED_SPEED, VALVE_LAG};
 
 fn moments(kind: Kind, words: Words, program: &Program) -> Vec<Moment> {
-    fn on<S: Scene>(kind: Kind, words: Words, program: &Program) -> Vec<Moment> {
-        run(kind, words, program, &mut OnHost(S::new()), |_, _| {}).unwrap()
-    }
-    match (kind, words) {
-        (Kind::Diesel, Words::Single) => on::<Generator<Of<f32, with::Diesel>>>(kind, words, program),
-        (Kind::Diesel, Words::Fixed) => on::<Generator<Of<Fixed, with::Diesel>>>(kind, words, program),
-        (Kind::Turbine, Words::Single) => on::<Generator<Of<f32, with::Turbine>>>(kind, words, program),
-        (Kind::Turbine, Words::Fixed) => on::<Generator<Of<Fixed, with::Turbine>>>(kind, words, program),
-    }
+    run(kind, words, program, &mut on_host(kind, words), |_, _| {}).unwrap()
+}
+
+fn on_host(kind: Kind, words: Words) -> OnHost<Box<dyn Scene>> {
+    let number = if words == Words::Single { "f32" } else { "fixed" };
+    OnHost(find(&format!("generator/{number}/{}/2400", kind.name())).unwrap().start())
 }
 
 fn judged(kind: Kind, words: Words, way: Way) -> (Figures, Vec<Moment>) {
@@ -81,10 +78,10 @@ fn every_fault_on_every_input_ends_as_documented() {
     for wire in WIRES {
         for fault in FAULTS {
             for lasting in [Some(PASSING), None] {
-                let mut drive = OnHost(Generator::<Of<f32, with::Diesel>>::new());
+                let mut drive = on_host(Kind::Diesel, Words::Single);
                 let single = outcome(Words::Single, &mut drive, wire, fault, lasting).unwrap();
                 assert!(single.as_documented, "{single:?}, {:?}", documented(wire, fault, lasting.is_none()));
-                let mut drive = OnHost(Generator::<Of<Fixed, with::Diesel>>::new());
+                let mut drive = on_host(Kind::Diesel, Words::Fixed);
                 let fixed = outcome(Words::Fixed, &mut drive, wire, fault, lasting).unwrap();
                 assert!(fixed.as_documented, "{fixed:?}, {:?}", documented(wire, fault, lasting.is_none()));
             }
@@ -100,9 +97,9 @@ fn every_trip_latches_with_its_reason() {
         assert!(CAUSES.iter().any(|cause| cause.trip == trip), "{name}");
     }
     for cause in &CAUSES {
-        let single = latched(Words::Single, &mut OnHost(Generator::<Of<f32, with::Diesel>>::new()), cause).unwrap();
+        let single = latched(Words::Single, &mut on_host(Kind::Diesel, Words::Single), cause).unwrap();
         assert!(single.as_documented, "{single:?}, {cause:?}");
-        let fixed = latched(Words::Fixed, &mut OnHost(Generator::<Of<Fixed, with::Diesel>>::new()), cause).unwrap();
+        let fixed = latched(Words::Fixed, &mut on_host(Kind::Diesel, Words::Fixed), cause).unwrap();
         assert!(fixed.as_documented, "{fixed:?}, {cause:?}");
     }
 }

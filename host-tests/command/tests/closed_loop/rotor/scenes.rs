@@ -1,9 +1,8 @@
 //! Scenes that are balanced: by their firmware on the host, and in QEMU.
 
-use cargo_driveline::balancing::{Course, Outcome, Scene, SpindleStart, spindle};
+use cargo_driveline::balancing::{Outcome, Scene, SpindleStart, spindle};
 use cargo_driveline::closed_loop::ticks::OnHost;
-use driveline_firmware::variants::visit;
-use driveline_firmware::{Visitor, Words, scene};
+use driveline_firmware::scenes::find;
 use driveline_qemu::image::{Contents, Program, board, build};
 
 fn balanced(scene: &str, variant: &str, seed: u64) -> Outcome {
@@ -28,8 +27,9 @@ fn a_flexible_rotor_is_quiet_at_both_speeds_after_one_correction() {
     balanced("flexible", "flexible/fixed/two-mass/4000", 2);
 }
 
-/// The controller loses its memory after every entry, the rotor still turning: it goes on from its flash to the same weights, and the rotor is balanced
-/// as well. Baseline, two trials, and twice weights and their run make seven entries; run-out, baseline, three trials, weights and their run as many.
+/// The controller loses its memory after every entry, the rotor still turning: it goes on from its flash to the same
+/// weights, and the rotor is balanced as well. Baseline, two trials, and twice weights and their run make seven
+/// entries; run-out, baseline, three trials, weights and their run as many.
 #[test]
 fn a_power_cut_after_every_entry_changes_nothing() {
     for (scene, variant) in [
@@ -61,23 +61,14 @@ fn what_the_firmware_reads_is_what_the_rotor_does() {
     }
 }
 
-struct From<'a>(&'a SpindleStart);
-
-impl Visitor for From<'_> {
-    type Outcome = Course;
-
-    fn visit<S: scene::Scene>(self) -> Course {
-        spindle(Words::of::<S>(), &mut OnHost(S::new()), self.0).unwrap().0
-    }
-}
-
 #[test]
 fn a_spindle_is_balanced_in_five_steps_from_nothing() {
     for number in 1..=12 {
         let variant =
             if number % 2 == 0 { "grinding-spindle/f32/two-mass/4000" } else { "grinding-spindle/fixed/two-mass/4000" };
         let start = SpindleStart::random(number);
-        let course = visit(variant, From(&start)).unwrap();
+        let row = find(variant).unwrap();
+        let course = spindle(row.words(), &mut OnHost(row.start()), &start).unwrap().0;
         assert!(course.left[5] <= 0.05 && course.worst <= 1.3, "{start:?} {course:?}");
     }
 }

@@ -4,17 +4,17 @@ use cargo_driveline::closed_loop::ticks::OnHost;
 use cargo_driveline::closed_loop::units::Units;
 use cargo_driveline::drivetrains::approximate::{ApproximateObserver, StepOf};
 use cargo_driveline::drivetrains::hoist;
-use cargo_driveline::drivetrains::lockstep::{Trace, run};
+use cargo_driveline::drivetrains::lockstep::run;
 use cargo_driveline::drivetrains::other_steps::{Recorded, comparison, comparisons, recorded};
+use driveline::configure::Machine as _;
 use driveline::design::{Disturbance, Encoder, Rate, TwoMassDesign};
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass as Machine};
 use driveline::observer::{GearedConfig, GearedObserver, TwoMassConfig, TwoMassObserver};
 use driveline::sample::Sample;
 use driveline::settings::{Bases, Gear, Screening};
-use driveline_firmware::scene::Scene;
-use driveline_firmware::scenes::hoist as scene;
-use driveline_firmware::{Visitor, Words, variants};
+use driveline_firmware::scenes::find;
+use driveline_firmware::scenes::hoist::Hoist;
 
 const GEAR: Gear = Gear { efficiency: 0.94, inertia: 0.7, deadband: 0.01 };
 
@@ -28,7 +28,8 @@ fn design(rate_hz: u32) -> TwoMassDesign {
     )
 }
 
-/// A run of the machine itself, by the exact step without corrections: a motor torque that changes, a load torque, an encoder.
+/// A run of the machine itself, by the exact step without corrections: a motor torque that changes, a load torque, an
+/// encoder.
 fn recording(design: &TwoMassDesign, ticks: usize) -> Vec<Recorded> {
     let (machine, step, period) = (&design.machine, &design.step, design.period);
     let (motor, load) = (machine.motor_inertia, machine.load_inertia);
@@ -63,7 +64,8 @@ fn recording(design: &TwoMassDesign, ticks: usize) -> Vec<Recorded> {
         .collect()
 }
 
-/// With the exact step it is the drive, as long as no sample is refused: to 1e-9 of the estimates, though in fact to the last bit.
+/// With the exact step it is the drive, as long as no sample is refused: to 1e-9 of the estimates, though in fact to
+/// the last bit.
 #[test]
 fn with_the_exact_step_it_is_the_drive() {
     type Observer = GearedObserver<TwoMassObserver<f64>>;
@@ -95,7 +97,8 @@ fn with_the_exact_step_it_is_the_drive() {
     }
 }
 
-/// Sampled slowly the exact step is the better one, and forward Euler is the worst: at 100 Hz omega T is a third of a radian.
+/// Sampled slowly the exact step is the better one, and forward Euler is the worst: at 100 Hz omega T is a third of a
+/// radian.
 #[test]
 fn the_exact_step_is_the_best() {
     let design = design(100);
@@ -108,29 +111,24 @@ fn the_exact_step_is_the_best() {
     assert!(tustin.shaft_torque.rms < euler.shaft_torque.rms);
 }
 
-/// The hoist's recorded runs: the observer in `f64` and the drive in `f32` see the same, and the other steps stand beside it.
+/// The hoist's recorded runs: the observer in `f64` and the drive in `f32` see the same, and the other steps stand
+/// beside it.
 #[test]
 fn the_hoists_recordings_are_understood() {
-    struct Record;
-    impl Visitor for Record {
-        type Outcome = Vec<(Trace, Units)>;
-        fn visit<S: Scene>(self) -> Self::Outcome {
-            let machine = hoist::machine().unwrap();
-            let units = Units::new(Words::of::<S>(), machine.bases);
-            let record = |scenario| run(&machine, scenario, &units, S::RATE_HZ, &mut OnHost(S::new()), |_| ()).unwrap();
-            machine.scenarios.iter().map(|scenario| (record(scenario), units)).collect()
-        }
-    }
-    let design = scene::observer(&scene::REDUCED, 1_000);
-    let runs = variants::visit("hoist/f32/exact/1000", Record).unwrap();
-    for (trace, units) in runs {
+    let machine = hoist::machine().unwrap();
+    let row = find("hoist/f32/exact/1000").unwrap();
+    let units = Units::new(row.words(), machine.bases);
+    let record = |scenario| run(&machine, scenario, &units, row.rate_hz, &mut OnHost(row.start()), |_| ()).unwrap();
+    let design = Hoist::<1_000>::OBSERVER;
+    for trace in machine.scenarios.iter().map(record) {
         let run = recorded(&trace, &units);
-        let compared = comparisons(&design, &scene::GEAR, &run, scene::RATED_SPEED).unwrap();
+        let compared = comparisons(&design, &Hoist::<10_000>::GEAR, &run, Hoist::<10_000>::RATING.speed).unwrap();
         let peak = trace.moments.iter().map(|moment| moment.truth[0].abs()).fold(0.0, f64::max);
         let squares = trace.moments.iter().map(|moment| ((moment.estimate[0] - moment.truth[0]) / peak).powi(2));
         let drive = (squares.sum::<f64>() / trace.moments.len() as f64).sqrt();
         println!("drive {drive} {:?}", compared.iter().map(|c| (&c.step, c.shaft_torque)).collect::<Vec<_>>());
-        // As long as the drive believes every sample they differ by the rounding of f32, far below what both are wrong by.
+        // As long as the drive believes every sample they differ by the rounding of f32, far below what both are wrong
+        // by.
         let unscreened = trace.moments.iter().all(|moment| moment.faults == 0);
         assert!(!unscreened || (compared[0].shaft_torque.rms - drive).abs() < 1e-4);
     }

@@ -4,12 +4,11 @@ use std::thread;
 
 use cargo_driveline::telemetry::{Decoder, Told};
 use driveline::telemetry::{Channel, Kind, Ring};
-use driveline_firmware::Words;
 use driveline_firmware::control_loop::telemetry::{VALUES, values};
 use driveline_firmware::scene::Scene;
+use driveline_firmware::scenes::find;
 use driveline_firmware::self_test::fingerprint::SEED;
 use driveline_firmware::self_test::inputs::Program as Inputs;
-use driveline_firmware::variants::visit;
 use driveline_qemu::image::{Program, board, build};
 use driveline_qemu::link::Telling;
 
@@ -175,22 +174,6 @@ fn the_tick_and_the_main_loop_may_run_at_the_same_time() {
     });
 }
 
-struct OnHost<'r>(&'r [Told]);
-
-impl driveline_firmware::Visitor for OnHost<'_> {
-    type Outcome = ();
-
-    fn visit<S: Scene>(self) {
-        let mut scene = S::new();
-        let mut inputs = Inputs::new(SEED, const { Words::of::<S>() });
-        for (tick, told) in (0..).zip(self.0) {
-            let input = inputs.next_input();
-            let words = values(&input, &scene.tick(&input)).to_vec();
-            assert_eq!(*told, Told { tick, dropped: 0, words }, "tick {tick}");
-        }
-    }
-}
-
 #[test]
 fn qemu_tells_what_the_host_calculates() {
     use std::io::Read;
@@ -207,7 +190,13 @@ fn qemu_tells_what_the_host_calculates() {
     }
     assert_eq!(decoder.damaged, 0);
     assert!(decoder.describes(VALUES));
-    visit(variant, OnHost(&records)).unwrap();
+    let row = find(variant).unwrap();
+    let (mut scene, mut inputs) = (row.start(), Inputs::new(SEED, row.words()));
+    for (tick, told) in (0..).zip(&records) {
+        let input = inputs.next_input();
+        let words = values(&input, &scene.tick(&input)).to_vec();
+        assert_eq!(*told, Told { tick, dropped: 0, words }, "tick {tick}");
+    }
 }
 
 #[test]

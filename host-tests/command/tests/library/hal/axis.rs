@@ -9,12 +9,12 @@ use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
 use driveline::hal::{Axis, Board, TRIPPING};
 use driveline::observer::{GearedObserver, SemiImplicitObserver};
-use driveline_firmware::scene::governed::Variant;
-use driveline_firmware::scenes::hoist::{Hoist, with};
+use driveline_firmware::scene::{Constants, Of};
+use driveline_firmware::scenes::hoist::{Hoist, Reduced};
 
 pub type Observer = GearedObserver<SemiImplicitObserver<f32>>;
 pub const CONFIG: &ConfigOf<Drive<f32, Observer, (), SpeedLoop<f32>>> =
-    <Hoist<f32, with::Reduced, 10_000> as Variant>::CONFIG;
+    <Of<Hoist<10_000>, Reduced<f32>> as Constants>::CONFIG;
 
 /// The speed at which the motor turns [rad/s], and what is wanted of it: more, so that there is torque.
 pub const SPEED: f64 = 30.0;
@@ -68,7 +68,8 @@ impl Board<f32> for Scripted {
 
 pub type Whole<P> = Axis<P, f32, Observer, (), SpeedLoop<f32>>;
 
-/// Ticks after which a drive that was switched on under a turning motor has caught it: the 150 that its limit counts, and the search.
+/// Ticks after which a drive that was switched on under a turning motor has caught it: the 150 that its limit counts,
+/// and the search.
 pub const CAUGHT: u64 = 400;
 
 /// An axis that has caught a turning motor and has been governing it for as many ticks again.
@@ -121,8 +122,8 @@ fn a_missing_angle_coasts_and_the_estimates_stand() {
         assert_eq!(command.faults, expected, "tick {tick}");
         torque = torque.max(f64::from(command.torque).abs());
         let speed = |axis: &Whole<Scripted>| f64::from(axis.drive().estimate(CONFIG).motor_speed);
-        // the machine here turns steadily whatever the torque: by prediction alone its speed runs off as that torque would change it, within 10 ms
-        // and at the 0.7 kg m2 before the rope
+        // the machine here turns steadily whatever the torque: by prediction alone its speed runs off as that torque
+        // would change it, within 10 ms and at the 0.7 kg m2 before the rope
         assert!((speed(&axis) - speed(&sound)).abs() < torque / 0.7 * 0.01, "tick {tick}");
     }
     assert!(axis.is_enabled());
@@ -142,7 +143,8 @@ fn an_angle_that_stays_away_trips_and_a_start_needs_it_again() {
         axis.tick(CONFIG, WANTED);
         ticks += 1;
     }
-    // 99 good ones, for `new` has taken one; the drive's limit of 149; the one that is beyond it; and the one that finds it so
+    // 99 good ones, for `new` has taken one; the drive's limit of 149; the one that is beyond it; and the one that
+    // finds it so
     assert_eq!(ticks, 99 + CONFIG.limits.max_coast + 2);
     assert_eq!(told.borrow()[told.borrow().len() - 2..], ["torque 0", "enabled false"]);
     assert_eq!(axis.start(CONFIG), Err(Faults::ANGLE_LOST));
@@ -154,7 +156,8 @@ fn an_angle_that_stays_away_trips_and_a_start_needs_it_again() {
     assert_eq!(axis.start(CONFIG), Ok(()));
     assert_eq!(axis.tick(CONFIG, WANTED).faults, Faults::NONE);
     let off = (f64::from(axis.drive().estimate(CONFIG).motor_speed) - SPEED).abs();
-    // the drive lets its estimates stand where two angles do not differ from them by more than its standstill limit, two counts of 8192 in a tick
+    // the drive lets its estimates stand where two angles do not differ from them by more than its standstill limit,
+    // two counts of 8192 in a tick
     assert!(off < 2.0 * TAU / 8192.0 * 1e4, "{off}");
 }
 

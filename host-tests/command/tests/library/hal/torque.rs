@@ -1,10 +1,11 @@
 //! Torque to duty, code and target.
 
+use driveline::configure::Machine as _;
 use driveline::fault::Faults;
 use driveline::hal::{Dac, FullScale, PhaseConfig, PwmTorque, SpiDac, ThreePhase, Tmc4671, TorqueOutput};
 use driveline::number::Fixed;
 use driveline::settings::Bases;
-use driveline_firmware::scenes::hoist::BASES;
+use driveline_firmware::scenes::hoist::Hoist;
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Duty};
 
 use super::bus::{Expected, FAILED};
@@ -28,7 +29,7 @@ fn a_torque_is_a_duty() {
 
 #[test]
 fn fixed_point_gives_the_same_duty() {
-    const BASES_OF_TEN: Bases = Bases { torque: 40.0, ..BASES };
+    const BASES_OF_TEN: Bases = Bases { torque: 40.0, ..Hoist::<10_000>::BASES };
     let full = FullScale::<Fixed>::new(10.0, BASES_OF_TEN);
     let expected: Vec<_> =
         DUTIES[..6].iter().flat_map(|&(_, duty)| [Duty::max_duty_cycle(1000), Duty::set_duty_cycle(duty)]).collect();
@@ -56,8 +57,8 @@ fn a_torque_that_is_no_number_is_a_fault_and_no_torque() {
     output.release().done();
 }
 
-/// Duties of 10000 for a quarter of the voltage, from the definition: a voltage a quarter turn before the field, and the three shifted by half of the
-/// largest and the least.
+/// Duties of 10000 for a quarter of the voltage, from the definition: a voltage a quarter turn before the field, and
+/// the three shifted by half of the largest and the least.
 fn duties(fraction: f64, electrical: f64) -> [f64; 3] {
     let third = std::f64::consts::TAU / 3.0;
     let phases = [0.0, third, 2.0 * third].map(|axis| -fraction * (electrical - axis).sin());

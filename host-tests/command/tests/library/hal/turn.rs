@@ -2,14 +2,14 @@
 
 use std::cell::RefCell;
 
+use driveline::configure::Machine as _;
 use driveline::fault::Faults;
 use driveline::hal::Board;
 use driveline_firmware::control_loop::main_loop_watch::{Attended, PATIENCE};
 use driveline_firmware::control_loop::step::{Asked, Turn};
 use driveline_firmware::panel::serial_request::{Asking, SPEED};
-use driveline_firmware::scene::on_axis::OnAxis;
-use driveline_firmware::scene::{Input, Scene};
-use driveline_firmware::scenes::test_rig::{RATE_HZ, TestRig};
+use driveline_firmware::scene::{Input, Of, Scene, Variant};
+use driveline_firmware::scenes::test_rig::{TestRig, TwoMass};
 use proptest::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,13 +123,13 @@ fn a_reading_that_is_missing_is_told_and_never_taken_for_new() {
 
 /// The test rig's own tick on the board.
 struct Rig {
-    scene: OnAxis<TestRig>,
+    scene: TwoMass<f32>,
     turn: Turn<Noting, f32>,
 }
 
 impl Rig {
     fn new() -> Self {
-        Rig { scene: Scene::new(), turn: Turn::new(Noting::default()) }
+        Rig { scene: Of::<TestRig, TwoMass<f32>>::start(), turn: Turn::new(Noting::default()) }
     }
 
     fn ticks(&mut self, ticks: u32, asked: Asked<f32>) -> Faults {
@@ -171,7 +171,7 @@ fn an_angle_that_stays_away_trips() {
     rig.ticks(10, RELEASED);
     rig.turn.board().refuses = Faults::ANGLE_MISSING;
     // the screening's limit, 15 ms, is the last tick that is borne
-    let limit = RATE_HZ / 67;
+    let limit = TestRig::RATE_HZ / 67;
     assert_eq!(rig.ticks(limit, RELEASED), Faults::ANGLE_MISSING);
     assert!(rig.is_on());
     assert!(rig.ticks(2, RELEASED).contains(Faults::ANGLE_LOST.with(Faults::TRIPPED)));

@@ -1,16 +1,17 @@
 //! Nothing depends on the absolute angle: a shift of all angles gives the same bits, whatever wraps on the way.
 
+use super::rig::RATED_SPEED;
 use driveline::drive::Drive;
-use driveline_firmware::scene::governed::Variant;
-use driveline_firmware::scenes::hoist::RATED_SPEED;
+use driveline_firmware::scene::composed::GovernedVariant;
 
 use super::rig::{DriveOf, Rig, Scaled, Seen, for_every_variant};
 
-/// A run from rest, recorded, is played to drives that were switched on at other angles. One of the bases is where a year at rated
-/// speed ends: 155 rad/s for 31,557,600 s are 778 million turns and a fraction, and the fraction is all that the drive can know.
+/// A run from rest, recorded, is played to drives that were switched on at other angles. One of the bases is where a
+/// year at rated speed ends: 155 rad/s for 31,557,600 s are 778 million turns and a fraction, and the fraction is all
+/// that the drive can know.
 #[test]
 fn a_shift_of_all_angles_gives_the_same_bits() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy + PartialEq>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy + PartialEq>>() {
         let year = (RATED_SPEED * 31_557_600.0 / core::f64::consts::TAU).fract() * 4_294_967_296.0;
         for base in [1, 1 << 31, u32::MAX, 0x7fff_ffff, year as u32] {
             let mut rig = Rig::<V>::at_rest();
@@ -39,10 +40,11 @@ fn a_shift_of_all_angles_gives_the_same_bits() {
     for_every_variant!(10000, test);
 }
 
-/// A base that jumps between two ticks, the drive's own angle with it, changes nothing either: so the state holds no other angle.
+/// A base that jumps between two ticks, the drive's own angle with it, changes nothing either: so the state holds no
+/// other angle.
 #[test]
 fn a_jump_of_the_base_under_a_running_drive_gives_the_same_bits() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
         let mut rig = Rig::<V>::lifting(RATED_SPEED);
         let held = V::Number::of_torque(700.0);
         let (mut here, mut there) = (rig.drive, rig.drive);
@@ -64,7 +66,7 @@ fn a_jump_of_the_base_under_a_running_drive_gives_the_same_bits() {
 /// A thousand turns at rated speed, then a thousand back: the residual has not grown, the angle is the encoder's.
 #[test]
 fn many_turns_leave_no_residual() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
         let mut drive: DriveOf<V> = Drive::new(V::CONFIG, 0);
         let step = RATED_SPEED / f64::from(V::RATE_HZ) / core::f64::consts::TAU * 4_294_967_296.0;
         let ticks = 1000 * (4_294_967_296.0 / step) as u64;

@@ -2,6 +2,7 @@
 
 use core::hint::black_box;
 
+use driveline::configure::Machine as _;
 use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopTuning};
 use driveline::drive::{Config, Limits};
 use driveline::governor::SpeedLoopConfig;
@@ -10,9 +11,10 @@ use driveline::machine::{
 };
 use driveline::number::Fixed;
 use driveline::observer::{GearedConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
+use driveline::settings::Screening;
 use driveline::settings::{Bases, Gear, SpeedLoopSettings};
-use driveline_firmware::scene::governed::Variant;
-use driveline_firmware::scenes::hoist::{self, BASES, Hoist, with};
+use driveline_firmware::scene::FromConfig;
+use driveline_firmware::scenes::hoist::{CutAtRope, Exact, Hoist, Reduced, Rigid};
 
 /// The hoist's chain, built where no compiler sees its figures.
 fn chain() -> Chain {
@@ -42,7 +44,7 @@ fn same(compiled: &impl core::fmt::Debug, run: &impl core::fmt::Debug) {
 fn test<const R: u32>() {
     let rate = black_box(R);
     let reduced: TwoMass = chain().reduce(Match::ResonanceAntiresonance);
-    same(&hoist::REDUCED, &reduced);
+    same(&Hoist::<R>::TWO_MASS, &reduced);
     let encoder = Encoder::lines(black_box(2048));
     let design = reduced.observer(Rate::hz(rate), encoder, disturbance());
     let cut = chain().reduce(Match::TextbookShaft(black_box(1))).observer(Rate::hz(rate), encoder, disturbance());
@@ -55,28 +57,32 @@ fn test<const R: u32>() {
         inertia: reduced.motor_inertia,
         deadband: 8.0 * core::f64::consts::TAU / black_box(8192.0),
     };
-    let bases = black_box(BASES);
+    let bases = black_box(Hoist::<R>::BASES);
+
+    let rating = black_box(Hoist::<R>::RATING);
+    let screening = Screening { max_coast: rate / 67, ..rating.screening(encoder, Rate::hz(rate)) };
 
     macro_rules! config {
-        ($number:ident, $with:ident, $observer:expr, $bases:expr) => {{
+        ($number:ident, $machine:ident, $with:ident, $observer:expr, $bases:expr) => {{
             let run = Config {
-                limits: Limits::<$number>::new(&hoist::screening(rate), $bases),
+                limits: Limits::<$number>::new(&screening, $bases),
                 observer: GearedConfig::<$number, _>::new($observer, &gear, period, $bases),
                 fluctuation: (),
                 governor: SpeedLoopConfig::<$number>::new(&speed_loop, settings(), $bases),
                 balancer: (),
             };
-            same(<Hoist<$number, with::$with, R> as Variant>::CONFIG, &run);
+            let compiled = const { <<$with<$number> as FromConfig>::Drive>::configure::<$machine<R>>() };
+            same(&compiled, &run);
         }};
     }
-    config!(f32, Rigid, RigidConfig::<f32>::new(&rigid, share, Bases::SI), Bases::SI);
-    config!(f32, Cut, TwoMassConfig::<f32>::new(&cut, Bases::SI), Bases::SI);
-    config!(f32, Exact, TwoMassConfig::<f32>::new(&design, Bases::SI), Bases::SI);
-    config!(f32, Reduced, SemiImplicitConfig::<f32>::new(&design, Bases::SI), Bases::SI);
-    config!(Fixed, Rigid, RigidConfig::<Fixed>::new(&rigid, share, bases), bases);
-    config!(Fixed, Cut, TwoMassConfig::<Fixed>::new(&cut, bases), bases);
-    config!(Fixed, Exact, TwoMassConfig::<Fixed>::new(&design, bases), bases);
-    config!(Fixed, Reduced, SemiImplicitConfig::<Fixed>::new(&design, bases), bases);
+    config!(f32, Hoist, Rigid, RigidConfig::<f32>::new(&rigid, share, Bases::SI), Bases::SI);
+    config!(f32, CutAtRope, Exact, TwoMassConfig::<f32>::new(&cut, Bases::SI), Bases::SI);
+    config!(f32, Hoist, Exact, TwoMassConfig::<f32>::new(&design, Bases::SI), Bases::SI);
+    config!(f32, Hoist, Reduced, SemiImplicitConfig::<f32>::new(&design, Bases::SI), Bases::SI);
+    config!(Fixed, Hoist, Rigid, RigidConfig::<Fixed>::new(&rigid, share, bases), bases);
+    config!(Fixed, CutAtRope, Exact, TwoMassConfig::<Fixed>::new(&cut, bases), bases);
+    config!(Fixed, Hoist, Exact, TwoMassConfig::<Fixed>::new(&design, bases), bases);
+    config!(Fixed, Hoist, Reduced, SemiImplicitConfig::<Fixed>::new(&design, bases), bases);
 }
 
 #[test]

@@ -1,15 +1,19 @@
-//! Each fault in turn, at rated speed under load: exactly the flag that `driveline::drive` documents, nothing poisoned, and the estimates
-//! back within a stated time.
+//! Each fault in turn, at rated speed under load: exactly the flag that `driveline::drive` documents, nothing poisoned,
+//! and the estimates back within a stated time.
 //!
 //! The time is two tenths of a second. The slowest pole of the hoist's observers has a time constant below 40 ms
-//! (`the_recovery_time_is_ten_time_constants` says so from the design), so five of them leave 0.7 % of whatever error the fault
-//! left; the estimates must then be as good as before the fault, with half as much again for the other stretch of encoder counts.
+//! (`the_recovery_time_is_ten_time_constants` says so from the design), so five of them leave 0.7 % of whatever error
+//! the fault left; the estimates must then be as good as before the fault, with half as much again for the other
+//! stretch of encoder counts.
 
+use driveline::configure::Machine as _;
 use driveline::fault::Faults;
 use driveline::number::Fixed;
 use driveline::sample::Sample;
-use driveline_firmware::scene::governed::Variant;
-use driveline_firmware::scenes::hoist::{self, CUT, RATED_SPEED, REDUCED};
+use driveline_firmware::scene::composed::GovernedVariant;
+use driveline_firmware::scenes::hoist::{CutAtRope, Hoist};
+
+use super::rig::{RATED_SPEED, REDUCED, TORQUE_LIMIT};
 
 use super::rig::{Rig, Scaled, for_every_variant};
 
@@ -37,9 +41,9 @@ impl Bad for Fixed {
 fn the_recovery_time_is_ten_time_constants() {
     let rate = 10_000;
     let radii = [
-        hoist::observer(&REDUCED, rate).spectral_radius,
-        hoist::observer(&CUT, rate).spectral_radius,
-        hoist::rigid(rate).spectral_radius,
+        Hoist::<10_000>::OBSERVER.spectral_radius,
+        CutAtRope::<10_000>::OBSERVER.spectral_radius,
+        Hoist::<10_000>::RIGID_OBSERVER.spectral_radius,
     ];
     for radius in radii {
         let time_constant = -1.0 / (radius.ln() * f64::from(rate));
@@ -56,7 +60,7 @@ fn spoil<V>(
     flags: impl Fn(u32) -> Faults,
     mut how: impl FnMut(u32, &mut Sample<V::Number>),
 ) where
-    V: Variant<Number: Scaled, Observer: Copy>,
+    V: GovernedVariant<Number: Scaled, Observer: Copy>,
 {
     let mut rig = rig.clone();
     // Half a second, so that both stretches hold the beat of speed and encoder counts.
@@ -74,7 +78,7 @@ fn spoil<V>(
 
 #[test]
 fn a_torque_that_cannot_be_is_replaced_by_the_last_command() {
-    fn test<V: Variant<Number: Bad, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Bad, Observer: Copy>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         for bad in V::Number::bad() {
             for ticks in [1, 1000] {
@@ -92,9 +96,9 @@ fn a_torque_that_cannot_be_is_replaced_by_the_last_command() {
 
 #[test]
 fn a_torque_at_its_limit_is_believed_and_one_beyond_is_not() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
-        let limit = 1.67 * hoist::TORQUE_LIMIT;
+        let limit = 1.67 * TORQUE_LIMIT;
         // To a part in a million, which f32 and fixed point both resolve.
         for (factor, flag) in [(0.999_999, Faults::NONE), (1.000_001, Faults::TORQUE)] {
             for sign in [1.0, -1.0] {
@@ -108,7 +112,7 @@ fn a_torque_at_its_limit_is_believed_and_one_beyond_is_not() {
 
 #[test]
 fn a_set_point_that_cannot_be_leaves_the_last_one_standing() {
-    fn test<V: Variant<Number: Bad, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Bad, Observer: Copy>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         for bad in V::Number::bad() {
             spoil(&rig, &format!("setpoint {bad:?}"), 1000, |_| Faults::SETPOINT, |_, s| s.setpoint = bad);
@@ -123,7 +127,7 @@ fn a_set_point_that_cannot_be_leaves_the_last_one_standing() {
 
 #[test]
 fn both_at_once_are_told_apart() {
-    fn test<V: Variant<Number: Bad, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Bad, Observer: Copy>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         let bad = V::Number::bad()[0];
         let all = Faults::TORQUE | Faults::SETPOINT | Faults::ANGLE_JUMP;
@@ -142,7 +146,7 @@ fn both_at_once_are_told_apart() {
 
 #[test]
 fn an_angle_that_jumps_is_left_out_and_believed_again_when_it_is_back() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         for quarter in [1 << 30, 3 << 30, 2 << 30] {
             for ticks in [1, 5, 140] {
@@ -163,7 +167,7 @@ fn an_angle_that_jumps_is_left_out_and_believed_again_when_it_is_back() {
 
 #[test]
 fn an_angle_that_has_moved_for_ever_is_lost_after_twenty_milliseconds_and_then_taken_as_it_comes() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
         let missed = V::RATE_HZ / 67;
         for quarter in [1 << 30, 3 << 30, 2 << 30] {
             let mut rig = Rig::<V>::lifting(RATED_SPEED);
@@ -199,7 +203,7 @@ fn an_angle_that_has_moved_for_ever_is_lost_after_twenty_milliseconds_and_then_t
 
 #[test]
 fn an_encoder_that_freezes_at_rated_speed_is_not_taken_for_a_standing_machine() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         // Frozen at the count that was last believed.
         let frozen = rig.drive.angle();
@@ -211,7 +215,8 @@ fn an_encoder_that_freezes_at_rated_speed_is_not_taken_for_a_standing_machine() 
             let lost = if tick <= missed { Faults::NONE } else { Faults::ANGLE_LOST };
             let command = rig.tick(|sample| sample.angle = frozen);
             assert_eq!(command.faults, Faults::ANGLE_FROZEN | lost, "{} in tick {tick}", V::NAME);
-            // Coasting by the exact model of a steady run: rated speed, to the healthy run's own error grown over half a second.
+            // Coasting by the exact model of a steady run: rated speed, to the healthy run's own error grown over half
+            // a second.
             let speed = command.estimate.motor_speed.speed();
             assert!((speed - RATED_SPEED).abs() < 0.1 * RATED_SPEED, "{} in tick {tick}: {speed}", V::NAME);
         }
@@ -223,11 +228,11 @@ fn an_encoder_that_freezes_at_rated_speed_is_not_taken_for_a_standing_machine() 
     for_every_variant!(10000, test);
 }
 
-/// Two counts a tick are 15.3 rad/s at 10 kHz: below that a frozen encoder is what a held machine looks like, and the estimate of the
-/// load torque shows what it would take to hold it.
+/// Two counts a tick are 15.3 rad/s at 10 kHz: below that a frozen encoder is what a held machine looks like, and the
+/// estimate of the load torque shows what it would take to hold it.
 #[test]
 fn an_encoder_that_freezes_at_creep_speed_looks_like_a_machine_that_is_held() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
         let mut rig = Rig::<V>::lifting(5.0);
         let frozen = rig.drive.angle();
         // A quarter of a second, five swings of the observer's poles.
@@ -235,12 +240,13 @@ fn an_encoder_that_freezes_at_creep_speed_looks_like_a_machine_that_is_held() {
         let mut command = rig.tick(|sample| sample.angle = frozen);
         for _ in 0..V::RATE_HZ / 4 {
             command = rig.tick(|sample| sample.angle = frozen);
-            // A machine that stops within a tick is hit by more torque than fixed point has a base for, and that may be said.
+            // A machine that stops within a tick is hit by more torque than fixed point has a base for, and that may be
+            // said.
             assert!(Faults::RANGE.contains(command.faults), "{}: {}", V::NAME, command.faults);
         }
         assert!(command.estimate.motor_speed.speed().abs() < 0.5, "{}: {:?}", V::NAME, command.estimate);
-        // A loop that sees 5 rad/s too little gives k_p + k_i t more; the estimates that it damps the shaft by still swing about that,
-        // and half of it is enough to be seen.
+        // A loop that sees 5 rad/s too little gives k_p + k_i t more; the estimates that it damps the shaft by still
+        // swing about that, and half of it is enough to be seen.
         let design =
             REDUCED.speed_loop(driveline::design::Rate::hz(V::RATE_HZ), driveline::design::SpeedLoopTuning::USUAL);
         let more = 5.0 * (design.proportional + 0.25 * design.integral);
@@ -262,7 +268,7 @@ fn an_encoder_that_freezes_at_creep_speed_looks_like_a_machine_that_is_held() {
 /// Noise of +-8 counts is not a fault: it is within the innovation limit of 64 counts.
 #[test]
 fn a_noisy_angle_raises_no_flag_and_leaves_no_trace() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
         let rig = Rig::<V>::lifting(RATED_SPEED);
         let mut random = 1_u32;
         spoil(

@@ -1,5 +1,5 @@
-//! Arbitrary bits in every word of the sample, for thousands of ticks: no panic (these tests run with overflow checks), no NaN, no
-//! infinity, no torque beyond the limit; and when the garbage stops, the estimates are right again.
+//! Arbitrary bits in every word of the sample, for thousands of ticks: no panic (these tests run with overflow checks),
+//! no NaN, no infinity, no torque beyond the limit; and when the garbage stops, the estimates are right again.
 
 use driveline::drive::{Config, Drive, Limits};
 use driveline::fault::Faults;
@@ -7,14 +7,17 @@ use driveline::governor::{SpeedLoop, SpeedLoopConfig};
 use driveline::number::Fixed;
 use driveline::observer::{GearedObserver, Observer, Stiction};
 use driveline::sample::Sample;
-use driveline_firmware::scene::governed::Variant;
-use driveline_firmware::scenes::hoist::{Hoist, RATED_SPEED, with};
+use driveline_firmware::scene::Of;
+use driveline_firmware::scene::composed::GovernedVariant;
+use driveline_firmware::scenes::hoist::{CutAtRope, Exact, Hoist, Reduced, Rigid};
+
+use super::rig::RATED_SPEED;
 use proptest::prelude::*;
 
 use super::rig::{Scaled, Seen, check};
 
-/// Time in which the estimates are right again [s]: the angle is lost after 20 ms and caught by two angles that differ; what the restart
-/// leaves fades with a time constant below 40 ms, of which ten fit.
+/// Time in which the estimates are right again [s]: the angle is lost after 20 ms and caught by two angles that differ;
+/// what the restart leaves fades with a time constant below 40 ms, of which ten fit.
 const RECOVERY: f64 = 0.5;
 
 /// How each sample is made from random words.
@@ -114,7 +117,7 @@ fn plays<N: Scaled, O: Observer<N>>(
 /// With the gear and without.
 fn both<V, O>(garbage: &[(Kind, u32, u64)])
 where
-    V: Variant<Number: Scaled + Stiction, Observer = GearedObserver<O>>,
+    V: GovernedVariant<Number: Scaled + Stiction, Observer = GearedObserver<O>>,
     O: Observer<V::Number, Config: Copy>,
 {
     let Config { limits, observer, governor, .. } = V::CONFIG;
@@ -135,26 +138,26 @@ proptest! {
 
     #[test]
     fn nothing_poisons_a_single(garbage in kinds()) {
-        both::<Hoist<f32, with::Rigid, 10000>, _>(&garbage);
-        both::<Hoist<f32, with::Cut, 10000>, _>(&garbage);
-        both::<Hoist<f32, with::Exact, 10000>, _>(&garbage);
-        both::<Hoist<f32, with::Reduced, 10000>, _>(&garbage);
+        both::<Of<Hoist<10000>, Rigid<f32>>, _>(&garbage);
+        both::<Of<CutAtRope<10000>, Exact<f32>>, _>(&garbage);
+        both::<Of<Hoist<10000>, Exact<f32>>, _>(&garbage);
+        both::<Of<Hoist<10000>, Reduced<f32>>, _>(&garbage);
     }
 
     #[test]
     fn nothing_poisons_a_fixed(garbage in kinds()) {
-        both::<Hoist<Fixed, with::Rigid, 10000>, _>(&garbage);
-        both::<Hoist<Fixed, with::Cut, 10000>, _>(&garbage);
-        both::<Hoist<Fixed, with::Exact, 10000>, _>(&garbage);
-        both::<Hoist<Fixed, with::Reduced, 10000>, _>(&garbage);
+        both::<Of<Hoist<10000>, Rigid<Fixed>>, _>(&garbage);
+        both::<Of<CutAtRope<10000>, Exact<Fixed>>, _>(&garbage);
+        both::<Of<Hoist<10000>, Exact<Fixed>>, _>(&garbage);
+        both::<Of<Hoist<10000>, Reduced<Fixed>>, _>(&garbage);
     }
 
     #[test]
     fn nothing_poisons_a_slow_drive(garbage in kinds()) {
-        both::<Hoist<f32, with::Rigid, 1000>, _>(&garbage);
-        both::<Hoist<f32, with::Exact, 1000>, _>(&garbage);
-        both::<Hoist<Fixed, with::Rigid, 1000>, _>(&garbage);
-        both::<Hoist<Fixed, with::Reduced, 1000>, _>(&garbage);
+        both::<Of<Hoist<1000>, Rigid<f32>>, _>(&garbage);
+        both::<Of<Hoist<1000>, Exact<f32>>, _>(&garbage);
+        both::<Of<Hoist<1000>, Rigid<Fixed>>, _>(&garbage);
+        both::<Of<Hoist<1000>, Reduced<Fixed>>, _>(&garbage);
     }
 }
 

@@ -1,20 +1,25 @@
-//! Coasting keeps momentum: without corrections the mean speed changes by T (tau_m - tau_L)/J a tick and by nothing else, however the
-//! shaft swings.
+//! Coasting keeps momentum: without corrections the mean speed changes by T (tau_m - tau_L)/J a tick and by nothing
+//! else, however the shaft swings.
 
+use driveline::configure::Machine as _;
 use driveline::design::Rate;
 use driveline::number::{Fixed, Number};
 use driveline::observer::{Observer, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver};
 use driveline::settings::Bases;
-use driveline_firmware::scenes::hoist::{self, BASES, REDUCED};
+use driveline_firmware::scenes::hoist::Hoist;
+
+use super::rig::{BASES, REDUCED};
 
 use super::rig::Scaled;
 
-/// Torque of each tick [N m]: as much above the load's as below it, so that the shaft swings and no speed meets the rails of fixed point.
+/// Torque of each tick [N m]: as much above the load's as below it, so that the shaft swings and no speed meets the
+/// rails of fixed point.
 fn torque(tick: u32) -> f64 {
     if (tick / 700).is_multiple_of(2) { 1_200.0 } else { -400.0 }
 }
 
-/// Coasts from a held torque and compares the mean speed with its closed form; `resolution` is a number's error in a tick [rad/s].
+/// Coasts from a held torque and compares the mean speed with its closed form; `resolution` is a number's error in a
+/// tick [rad/s].
 fn coasts<N: Scaled, O: Observer<N>>(config: &O::Config, resolution: impl Fn(f64) -> f64) {
     let held = 400.0;
     let (jm, jl) = (REDUCED.motor_inertia, REDUCED.load_inertia);
@@ -44,21 +49,22 @@ fn single(mean: f64) -> f64 {
     2.0 * f64::from(f32::EPSILON) * (mean.abs() + 0.2)
 }
 
-/// A unit in the last place of the base, and the coefficient's own half unit of 2^-32 of an accelerating torque of the base.
+/// A unit in the last place of the base, and the coefficient's own half unit of 2^-32 of an accelerating torque of the
+/// base.
 fn fixed(_: f64) -> f64 {
     BASES.speed * (1.5 / 268_435_456.0)
 }
 
 #[test]
 fn the_exact_step_keeps_momentum() {
-    let design = hoist::observer(&REDUCED, 10_000);
+    let design = Hoist::<10_000>::OBSERVER;
     coasts::<f32, TwoMassObserver<f32>>(&TwoMassConfig::<f32>::new(&design, Bases::SI), single);
     coasts::<Fixed, TwoMassObserver<Fixed>>(&TwoMassConfig::<Fixed>::new(&design, BASES), fixed);
 }
 
 #[test]
 fn the_semi_implicit_step_keeps_momentum() {
-    let design = hoist::observer(&REDUCED, 10_000);
+    let design = Hoist::<10_000>::OBSERVER;
     coasts::<f32, SemiImplicitObserver<f32>>(&SemiImplicitConfig::<f32>::new(&design, Bases::SI), single);
     coasts::<Fixed, SemiImplicitObserver<Fixed>>(&SemiImplicitConfig::<Fixed>::new(&design, BASES), fixed);
 }
@@ -74,7 +80,7 @@ fn a_balanced_machine_stays() {
         }
         assert_eq!(observer, start);
     }
-    let design = hoist::observer(&REDUCED, 10_000);
+    let design = Hoist::<10_000>::OBSERVER;
     stays::<f32, TwoMassObserver<f32>>(&TwoMassConfig::<f32>::new(&design, Bases::SI));
     stays::<Fixed, TwoMassObserver<Fixed>>(&TwoMassConfig::<Fixed>::new(&design, BASES));
     stays::<f32, SemiImplicitObserver<f32>>(&SemiImplicitConfig::<f32>::new(&design, Bases::SI));

@@ -2,14 +2,23 @@
 
 use core::f64::consts::TAU;
 
+use driveline::configure::Machine as _;
 use driveline::drive::Drive;
 use driveline::fault::Faults;
 use driveline::governor::SpeedLoop;
+use driveline::machine::TwoMass;
 use driveline::number::{Fixed, Number};
 use driveline::sample::{Command, Estimate, Sample};
-use driveline_firmware::scene::governed::Variant;
-use driveline_firmware::scenes::hoist::{BASES, RATED_SPEED, REDUCED};
+use driveline::settings::Bases;
+use driveline_firmware::scene::composed::GovernedVariant;
+use driveline_firmware::scenes::hoist::Hoist;
 use driveline_solver::plant::{Chain, Plant, Shaft};
+
+/// The hoist's rated speed [rad/s] and largest torque [N m], its two masses, and its bases of fixed point.
+pub const RATED_SPEED: f64 = Hoist::<10_000>::RATING.speed;
+pub const TORQUE_LIMIT: f64 = Hoist::<10_000>::RATING.torque_limit;
+pub const REDUCED: TwoMass = Hoist::<10_000>::TWO_MASS;
+pub const BASES: Bases = Hoist::<10_000>::BASES;
 
 /// Weight of the load at the motor [N m]: 12 t under 9.80665 m/s2 on a drum of 0.8 m, two falls and a gear of 31.5.
 pub const WEIGHT: f64 = 12_000.0 * 9.806_65 * 0.8 / (2.0 * 2.0 * 31.5);
@@ -76,20 +85,29 @@ macro_rules! for_every_variant {
     ($rate:literal, $test:ident) => {
         for_every_variant!($rate, $test, f32, driveline::number::Fixed);
     };
-    ($rate:literal, $test:ident, $($number:ty),+) => {$(
-        $test::<driveline_firmware::scenes::hoist::Hoist<$number, driveline_firmware::scenes::hoist::with::Rigid, $rate>>();
-        $test::<driveline_firmware::scenes::hoist::Hoist<$number, driveline_firmware::scenes::hoist::with::Cut, $rate>>();
-        $test::<driveline_firmware::scenes::hoist::Hoist<$number, driveline_firmware::scenes::hoist::with::Exact, $rate>>();
-        $test::<driveline_firmware::scenes::hoist::Hoist<$number, driveline_firmware::scenes::hoist::with::Reduced, $rate>>();
-    )+};
+    ($rate:literal, $test:ident, $($number:ty),+) => {{
+        use driveline_firmware::scene::Of;
+        use driveline_firmware::scenes::hoist::{self, CutAtRope, Hoist};
+        $(
+        $test::<Of<Hoist<$rate>, hoist::Rigid<$number>>>();
+        $test::<Of<CutAtRope<$rate>, hoist::Exact<$number>>>();
+        $test::<Of<Hoist<$rate>, hoist::Exact<$number>>>();
+        $test::<Of<Hoist<$rate>, hoist::Reduced<$number>>>();
+        )+
+    }};
 }
 pub(crate) use for_every_variant;
 
 /// The drive of a variant.
-pub type DriveOf<V> = Drive<<V as Variant>::Number, <V as Variant>::Observer, (), SpeedLoop<<V as Variant>::Number>>;
+pub type DriveOf<V> = Drive<
+    <V as GovernedVariant>::Number,
+    <V as GovernedVariant>::Observer,
+    (),
+    SpeedLoop<<V as GovernedVariant>::Number>,
+>;
 
 /// A drive in closed loop with its machine.
-pub struct Rig<V: Variant> {
+pub struct Rig<V: GovernedVariant> {
     /// The machine.
     pub plant: Plant,
     /// The drive.
@@ -100,7 +118,7 @@ pub struct Rig<V: Variant> {
     pub setpoint: f64,
 }
 
-impl<V: Variant> Clone for Rig<V>
+impl<V: GovernedVariant> Clone for Rig<V>
 where
     V::Observer: Copy,
 {
@@ -109,7 +127,7 @@ where
     }
 }
 
-impl<V: Variant> Rig<V>
+impl<V: GovernedVariant> Rig<V>
 where
     V::Number: Scaled,
 {

@@ -1,5 +1,6 @@
 //! The speed loop: its limits, its anti-windup, and that it takes over without a jolt.
 
+use super::rig::{BASES, RATED_SPEED, REDUCED, TORQUE_LIMIT};
 use driveline::design::{Rate, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::fault::Faults;
 use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
@@ -7,8 +8,7 @@ use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline::number::{Fixed, Number};
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, Error, SpeedLoopSettings};
-use driveline_firmware::scene::governed::Variant;
-use driveline_firmware::scenes::hoist::{BASES, RATED_SPEED, REDUCED, TORQUE_LIMIT};
+use driveline_firmware::scene::composed::GovernedVariant;
 use proptest::prelude::*;
 
 use super::rig::{DriveOf, Rig, Scaled, WEIGHT, for_every_variant};
@@ -22,8 +22,8 @@ fn settings(ramp: f64) -> SpeedLoopSettings {
 }
 
 proptest! {
-    /// Any estimate within twice the bases, any setpoint: the torque is within its limit, and away from the limits it is the closed form
-    /// in `f64`, to what `f32` and fixed point resolve.
+    /// Any estimate within twice the bases, any setpoint: the torque is within its limit, and away from the limits it
+    /// is the closed form in `f64`, to what `f32` and fixed point resolve.
     #[test]
     fn the_torque_is_the_laws(errors in prop::collection::vec((-8.0..8.0_f64, -4.0..4.0_f64, -40.0..40.0_f64), 1..200)) {
         let (mut exact, exact_config) = (SpeedLoop::default(), SpeedLoopConfig::<f64>::new(&design(), settings(1e9), Bases::SI));
@@ -43,15 +43,16 @@ proptest! {
             let now = Estimate { motor_speed: of(motor), load_speed: of(load), ..Estimate::default() };
             fixed.set_setpoint(of(setpoint));
             let by_fixed = fixed.command(&fixed_config, &now).torque();
-            // Gains of ten and a few roundings of 1000 N m in f32; of a base of 2700 N m over 2^28, times the gains' 32, in fixed point.
+            // Gains of ten and a few roundings of 1000 N m in f32; of a base of 2700 N m over 2^28, times the gains'
+            // 32, in fixed point.
             prop_assert!((by_single - wanted).abs() < 0.01, "{by_single} {wanted}");
             prop_assert!((by_fixed - wanted).abs() < 0.01, "{by_fixed} {wanted}");
             prop_assert!(by_single.abs() <= TORQUE_LIMIT && by_fixed.abs() <= TORQUE_LIMIT && wanted.abs() <= TORQUE_LIMIT);
         }
     }
 
-    /// In fixed point no estimate and no setpoint, whatever their bits, turn the torque's sign by overflow: far off the setpoint and
-    /// without slip the torque is at its limit, on the side of the error.
+    /// In fixed point no estimate and no setpoint, whatever their bits, turn the torque's sign by overflow: far off the
+    /// setpoint and without slip the torque is at its limit, on the side of the error.
     #[test]
     fn an_error_that_saturates_keeps_its_sign(motor in -(1 << 29)..1 << 29_i32, setpoint in -(1 << 29)..1 << 29_i32, ticks in 1..200) {
         let config = SpeedLoopConfig::<Fixed>::new(&design(), settings(1.9 * BASES.speed * 1e4), BASES);
@@ -72,7 +73,8 @@ proptest! {
     }
 }
 
-/// Gains that fit one by one, but whose sum of proportional part, slip and integral could pass eight bases, are refused.
+/// Gains that fit one by one, but whose sum of proportional part, slip and integral could pass eight bases, are
+/// refused.
 #[test]
 fn gains_whose_sum_could_wrap_are_refused() {
     let machine = TwoMass::new(Inertia(1.0), Inertia(1.0), Stiffness(4.0e4), Damping(1.0));
@@ -92,9 +94,10 @@ fn gains_whose_sum_could_wrap_are_refused() {
 
 /// A rotor alone (J omega' = tau), wanted at rated speed at once with 100 N m to do it: 1.8 s at the limit.
 ///
-/// The integral follows the limited torque with its own time constant, so it is never beyond the limit. At the peak the torque
-/// k_p e + I is zero, so the overshoot is I/k_p at most: 100 N m/(10.5 N m s/rad), 6 % of rated speed. An integral that is not
-/// unwound has grown to k_i times the area under the error, forty times the limit, and overshoots by several times that.
+/// The integral follows the limited torque with its own time constant, so it is never beyond the limit. At the peak the
+/// torque k_p e + I is zero, so the overshoot is I/k_p at most: 100 N m/(10.5 N m s/rad), 6 % of rated speed. An
+/// integral that is not unwound has grown to k_i times the area under the error, forty times the limit, and overshoots
+/// by several times that.
 #[test]
 fn the_integral_does_not_wind_up() {
     let inertia = REDUCED.motor_inertia + REDUCED.load_inertia;
@@ -128,7 +131,7 @@ fn the_integral_does_not_wind_up() {
 /// From the brake to the governor: the first torque is the held one, but for what the first step of the ramp asks for.
 #[test]
 fn from_hold_to_tick_there_is_no_jolt() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
         for held in [WEIGHT, -300.0, 0.0] {
             let mut drive = DriveOf::<V>::new(V::CONFIG, 0);
             for _ in 0..100 {
@@ -162,18 +165,20 @@ fn from_hold_to_tick_there_is_no_jolt() {
     for_every_variant!(1000, test);
 }
 
-/// In closed loop with the machine: on a ramp within its torque the speed follows without overshoot beyond what a weight that drops onto
-/// the hook at the end leaves, and the torque never passes its limit (which every tick of the rig checks).
+/// In closed loop with the machine: on a ramp within its torque the speed follows without overshoot beyond what a
+/// weight that drops onto the hook at the end leaves, and the torque never passes its limit (which every tick of the
+/// rig checks).
 #[test]
 fn a_run_up_ends_at_the_set_point() {
-    fn test<V: Variant<Number: Scaled, Observer: Copy>>() {
+    fn test<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
         let mut rig = Rig::<V>::at_rest();
         let mut top = 0.0_f64;
         for _ in 0..4 * V::RATE_HZ {
             rig.tick(|_| {});
             top = top.max(rig.plant.speed(0));
         }
-        // Critically damped, with a zero: a ramp's end overshoots by the ramp times the loop's own time, 1/w1 = 0.16 s at 77.5 rad/s2.
+        // Critically damped, with a zero: a ramp's end overshoots by the ramp times the loop's own time, 1/w1 = 0.16 s
+        // at 77.5 rad/s2.
         let late = 77.5 / REDUCED.speed_loop(Rate::hz(V::RATE_HZ), SpeedLoopTuning::USUAL).bandwidth;
         assert!(top - RATED_SPEED < late, "{}: {top}", V::NAME);
         assert!((rig.plant.speed(0) - RATED_SPEED).abs() < 0.01 * RATED_SPEED, "{}", V::NAME);

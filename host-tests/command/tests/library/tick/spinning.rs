@@ -1,16 +1,18 @@
-//! A drive that is switched on to a machine that spins, or whose machine has changed its speed unseen, catches it at every rate.
+//! A drive that is switched on to a machine that spins, or whose machine has changed its speed unseen, catches it at
+//! every rate.
 
+use super::rig::RATED_SPEED;
 use driveline::fault::Faults;
 use driveline::number::Number;
 use driveline::sample::Sample;
-use driveline_firmware::scene::governed::Variant;
-use driveline_firmware::scenes::hoist::RATED_SPEED;
+use driveline_firmware::scene::composed::GovernedVariant;
 
 use super::rig::{DriveOf, Scaled, Seen, check, for_every_variant};
 
-/// A machine that turns steadily and without torque, and a drive that believes it at rest. At 1 kHz it turns by 0.155 rad a tick, three
-/// times the innovation limit: no correction that needs an innovation within the limit would ever catch it.
-fn caught<V: Variant<Number: Scaled, Observer: Copy>>() {
+/// A machine that turns steadily and without torque, and a drive that believes it at rest. At 1 kHz it turns by 0.155
+/// rad a tick, three times the innovation limit: no correction that needs an innovation within the limit would ever
+/// catch it.
+fn caught<V: GovernedVariant<Number: Scaled, Observer: Copy>>() {
     for speed in [RATED_SPEED, -RATED_SPEED, 30.0] {
         let mut drive = DriveOf::<V>::new(V::CONFIG, 0);
         let turn = speed / f64::from(V::RATE_HZ) / core::f64::consts::TAU * 4_294_967_296.0;
@@ -31,8 +33,8 @@ fn caught<V: Variant<Number: Scaled, Observer: Copy>>() {
                 assert!(error.abs() < 1e-3 * RATED_SPEED, "{} at {speed}: off by {error}", V::NAME);
             }
         }
-        // The observer follows its poles, a swing of 0.1 s at the longest, and on the way may leave the innovation limit once: 20 ms later
-        // the angle is lost, and caught by the next two.
+        // The observer follows its poles, a swing of 0.1 s at the longest, and on the way may leave the innovation
+        // limit once: 20 ms later the angle is lost, and caught by the next two.
         assert!(last <= V::RATE_HZ / 10 + missed + 2, "{} at {speed}: flagged until tick {last}", V::NAME);
     }
 }

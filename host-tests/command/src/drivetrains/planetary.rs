@@ -2,7 +2,8 @@
 
 use core::f64::consts::PI;
 
-use driveline_firmware::scenes::planetary_drive as scene;
+use driveline::configure::Machine as _;
+use driveline_firmware::scenes::planetary::{self as scene, PlanetaryDrive};
 
 use super::facts;
 use super::plant::Body;
@@ -42,25 +43,25 @@ pub fn machine() -> Result<Machine, PlantError> {
         .coulomb(BELT)
         .program(LoadProgram::table(&[(6.0, 0.0), (7.0, 0.5 * BELT)]))
         .build()?;
-    let torque_noise = 0.01 * scene::RATED_TORQUE;
+    let torque_noise = 0.01 * PlanetaryDrive::RATING.torque;
     Ok(Machine {
-        name: "planetary",
+        name: scene::SCENE,
         summary: "A conveyor's drum behind a planetary set: a start under load, more load, a stop.",
-        facts: facts::of_design(&scene::OBSERVER, scene::COUNTS, torque_noise),
+        facts: facts::of_design(&PlanetaryDrive::OBSERVER, scene::COUNTS, torque_noise),
         notes: vec![
             "The shaft torque is that behind the set's loss, at the motor.",
             "By the swings that a rigid observer would miss it would do here; it has to be tuned so lively, lest the speed loop excite the shaft, that its \
              noise costs more.",
         ],
-        chosen: ("exact", scene::RATE_HZ),
+        chosen: ("exact", PlanetaryDrive::RATE_HZ),
         scenarios: vec![Scenario {
             name: "start under load, more load, slower",
             plant: plant.into(),
             held: 0.0,
             actions: vec![
                 (0.1, Action::Release),
-                (0.1, Action::Setpoint(scene::RATED_SPEED)),
-                (9.0, Action::Setpoint(0.3 * scene::RATED_SPEED)),
+                (0.1, Action::Setpoint(PlanetaryDrive::RATING.speed)),
+                (9.0, Action::Setpoint(0.3 * PlanetaryDrive::RATING.speed)),
             ],
             duration: 13.0,
             counted: true,
@@ -74,7 +75,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         load_torque: |plant| plant.load_torque(1),
         told_brake: None,
         told_friction: 0.0,
-        rated_speed: scene::RATED_SPEED,
-        bases: scene::BASES,
+        rated_speed: PlanetaryDrive::RATING.speed,
+        bases: PlanetaryDrive::BASES,
     })
 }

@@ -1,0 +1,164 @@
+//! A composed scene: the words of the link on one side, a drive of any parts on the other.
+
+use driveline::balancing::Balancer;
+use driveline::drive::{Composition, ConfigOf, Drive};
+use driveline::fluctuation::Fluctuation;
+use driveline::governor::{Governor, SpeedLoop};
+use driveline::number::Number;
+use driveline::observer::Observer;
+use driveline::sample::{Command, Estimate, Sample};
+
+use super::{Constants, FromConfig, Input, Of, Output, Scene, Variant};
+
+/// A drive over words, whatever its parts.
+pub trait OverWords: Composition {
+    /// A drive at rest. An incremental encoder counts from where it was switched on.
+    fn at_rest(config: &ConfigOf<Self>) -> Self;
+    /// One tick: at work where it is released, else held, with the setpoint's word as the torque.
+    fn advance(&mut self, config: &ConfigOf<Self>, input: &Input) -> Output;
+}
+
+impl<N, O, F, G, B> OverWords for Drive<N, O, F, G, B>
+where
+    N: Number,
+    O: Observer<N>,
+    F: Fluctuation<N>,
+    G: Governor<N>,
+    B: Balancer<N>,
+{
+    fn at_rest(config: &ConfigOf<Self>) -> Self {
+        Drive::new(config, 0)
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, config: &ConfigOf<Self>, input: &Input) -> Output {
+        let setpoint = N::from_word(input.setpoint);
+        let command = if input.flags & Input::RELEASED != 0 {
+            self.tick(config, &Sample { angle: input.angle, torque: N::from_word(input.torque), setpoint })
+        } else {
+            self.hold(config, input.angle, setpoint)
+        };
+        output(&command, &self.estimate(config))
+    }
+}
+
+/// What stands beside a drive: a panel between the ticks, or what comes before and after a tick. `()` for nothing.
+pub trait Beside<D: OverWords>: Sized {
+    /// The constants at the start: of a drive whose panel chooses between several, the first of them.
+    fn constants(config: &'static ConfigOf<D>) -> &'static ConfigOf<D> {
+        config
+    }
+
+    /// At the start, with the drive at rest.
+    fn start(drive: &mut D, config: &ConfigOf<D>) -> Self;
+
+    /// One tick.
+    #[inline(always)]
+    fn tick(&mut self, drive: &mut D, config: &ConfigOf<D>, input: &Input) -> Output {
+        drive.advance(config, input)
+    }
+
+    /// What a panel or a terminal does between two ticks, as [`Scene::panel`]; it may choose other constants.
+    fn panel(&mut self, _drive: &mut D, _config: &mut &'static ConfigOf<D>, _asked: [u32; 2]) -> u32 {
+        0
+    }
+}
+
+impl<D: OverWords> Beside<D> for () {
+    fn start(_: &mut D, _: &ConfigOf<D>) -> Self {}
+}
+
+/// A drive with its constants, and what stands beside it.
+///
+/// While the governor is not released, [`Input::reference`] is the torque that the drive holds.
+pub struct Composed<D: Composition<Config: 'static>, B = ()> {
+    // By reference: folded into the code, the constants cost more instructions than loaded from a table.
+    config: &'static ConfigOf<D>,
+    drive: D,
+    beside: B,
+}
+
+/// A drive with an observer and a speed loop.
+pub type Governed<N, O> = Composed<Drive<N, O, (), SpeedLoop<N>>>;
+
+/// A drive with an observer and any governor.
+pub type GovernedBy<N, O, G> = Composed<Drive<N, O, (), G>>;
+
+impl<D: Composition<Config: 'static>, B> Composed<D, B> {
+    /// The drive, to look at.
+    pub fn drive(&self) -> &D {
+        &self.drive
+    }
+}
+
+impl<D: OverWords + Composition<Config: 'static>, B: Beside<D>> FromConfig for Composed<D, B> {
+    type Drive = D;
+
+    fn from_config(config: &'static ConfigOf<D>) -> Self {
+        let config = B::constants(config);
+        let mut drive = D::at_rest(config);
+        let beside = B::start(&mut drive, config);
+        Composed { config, drive, beside }
+    }
+}
+
+impl<D: OverWords + Composition<Config: 'static>, B: Beside<D>> Scene for Composed<D, B> {
+    #[inline(always)]
+    fn tick(&mut self, input: &Input) -> Output {
+        self.beside.tick(&mut self.drive, self.config, input)
+    }
+
+    fn panel(&mut self, asked: [u32; 2]) -> u32 {
+        self.beside.panel(&mut self.drive, &mut self.config, asked)
+    }
+}
+
+/// A variant whose drive is an observer and a speed loop, for whom it is enough to know its parts.
+pub trait GovernedVariant: 'static {
+    /// What it calculates with.
+    type Number: Number + 'static;
+    /// What it estimates with.
+    type Observer: Observer<Self::Number>;
+    /// As [`Variant::NAME`].
+    const NAME: &'static str;
+    /// As [`Variant::RATE_HZ`].
+    const RATE_HZ: u32;
+    /// The drive's constants.
+    const CONFIG: &'static ConfigOf<Drive<Self::Number, Self::Observer, (), SpeedLoop<Self::Number>>>;
+}
+
+impl<M, N, O> GovernedVariant for Of<M, Governed<N, O>>
+where
+    M: 'static,
+    N: Number + 'static,
+    O: Observer<N, Config: 'static> + 'static,
+    Governed<N, O>: FromConfig<Drive = Drive<N, O, (), SpeedLoop<N>>>,
+    Of<M, Governed<N, O>>: Constants<Scene = Governed<N, O>>,
+{
+    type Number = N;
+    type Observer = O;
+    const NAME: &'static str = <Self as Variant>::NAME;
+    const RATE_HZ: u32 = <Self as Variant>::RATE_HZ;
+    const CONFIG: &'static ConfigOf<Drive<N, O, (), SpeedLoop<N>>> = <Self as Constants>::CONFIG;
+}
+
+/// Angle, torque and setpoint from words.
+#[inline(always)]
+pub(crate) fn sample<N: Number>(input: &Input) -> Sample<N> {
+    Sample { angle: input.angle, torque: N::from_word(input.torque), setpoint: N::from_word(input.setpoint) }
+}
+
+/// A command and the estimates behind it as words.
+#[inline(always)]
+pub(crate) fn output<N: Number>(command: &Command<N>, estimate: &Estimate<N>) -> Output {
+    Output {
+        torque: command.torque.to_word(),
+        motor_speed: estimate.motor_speed.to_word(),
+        shaft_torque: estimate.shaft_torque.to_word(),
+        load_speed: estimate.load_speed.to_word(),
+        load_torque: estimate.load_torque.to_word(),
+        faults: command.faults.bits(),
+        instructions: 0,
+        answer: 0,
+    }
+}
