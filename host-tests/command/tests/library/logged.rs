@@ -35,7 +35,7 @@ fn unlogged(folder: &Path, names: &mut Vec<String>) -> usize {
 #[test]
 fn every_public_type_derives_format_or_says_why_not() {
     let mut names = Vec::new();
-    let types = unlogged(&driveline_qemu::image::workspace().join("src"), &mut names);
+    let types = unlogged(&driveline_qemu::clone::workspace().unwrap().join("src"), &mut names);
     assert!(types > 200, "{types}");
     assert!(names.is_empty(), "{names:#?}");
 }
