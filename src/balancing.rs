@@ -79,10 +79,10 @@ pub use holes::{CorrectionMethod, Fitted, Holes};
 pub use in_run::{AbortReason, Action, InRun, InRunConfig};
 #[cfg(feature = "balancing")]
 pub use influence::Influence;
-pub use phasor::{Phasors, PhasorsConfig};
+pub use phasor::Phasors;
 #[cfg(feature = "balancing")]
 pub use procedure::{CORRECTIONS, Plan, Procedure, ProcedureStep, Run};
-pub use reading::{Phasor, Reading, ReadingFault, Steadiness};
+pub use reading::{Phasor, PhasorsConfig, Reading, ReadingFault, Steadiness};
 #[cfg(all(feature = "balancing", feature = "parameters"))]
 pub use record::Record;
 #[cfg(feature = "balancing")]

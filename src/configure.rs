@@ -82,6 +82,7 @@
 //! Generic code asks for `D: Composition + Configure<M, D::Number, Config = ConfigOf<D>>` and takes `D::CONFIG`.
 
 mod fluctuation;
+mod gain_source;
 mod governor;
 mod limits;
 mod machine;
@@ -89,7 +90,8 @@ mod observer;
 mod units;
 mod vibration;
 
-pub use governor::{GainSource, HasBacklash, HasBarredSpeeds, HasDroop, HasSequencer, HasSlew, HasTorqueCurve};
+pub use gain_source::GainSource;
+pub use governor::{HasBacklash, HasBarredSpeeds, HasDroop, HasSequencer, HasSlew, HasTorqueCurve};
 pub use machine::{Machine, Rating};
 pub use observer::HasCrank;
 pub use units::Units;

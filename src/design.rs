@@ -19,6 +19,7 @@ mod backlash;
 mod backlash_takeup;
 mod barred;
 mod closed_loop;
+mod complex;
 mod cranked;
 mod error;
 mod exponential;

@@ -58,6 +58,7 @@
 //! turns is the half order of the engine. *Delta*: coefficient of speed fluctuation (omega_max - omega_min)/omega_m
 //! [Notes ch. 5]. *Ripple*: part of the speed that is periodic in the cycle; *trend*: the rest.
 
+mod bin;
 mod cycle_mean;
 mod extremes;
 mod flywheel;
@@ -68,6 +69,7 @@ mod toothed_wheel;
 mod waveform;
 mod window;
 
+pub use bin::{Bin, Summed, WaveformConfig};
 pub use cycle_mean::{CycleMean, CycleMeanConfig};
 pub use extremes::{Extreme, Extremes, Fluctuations, Ranked, Reading};
 pub use flywheel::{Balance, Flywheel, MachineClass, Remedy};
@@ -76,7 +78,7 @@ pub use position::{CycleConfig, Edge};
 pub use series::{Order, Series};
 pub use toothed_wheel::{ToothErrors, ToothWindow, ToothedWheel, ToothedWheelConfig};
 pub(crate) use waveform::PLACES;
-pub use waveform::{Bin, Summed, Waveform, WaveformConfig};
+pub use waveform::Waveform;
 pub use window::{MAX_ORDER, Ripple, Window};
 
 use crate::number::Number;

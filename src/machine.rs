@@ -40,6 +40,7 @@ mod planetary;
 mod prime_mover;
 mod quantity;
 mod reduce;
+mod reduction_error;
 mod refer;
 mod rigid;
 mod section;
@@ -63,7 +64,8 @@ pub use quantity::{
     Damping, Density, Diameter, Efficiency, Falls, Gap, Inertia, Length, LinearDamping, Mass, Ratio, ShearModulus,
     Speed, Stiffness, Torque,
 };
-pub use reduce::{Match, ReductionError};
+pub use reduce::Match;
+pub use reduction_error::ReductionError;
 pub use refer::{Flow, Side, refer_gap, refer_inertia, refer_stiffness, refer_torque, series};
 pub use rigid::Rigid;
 pub use section::{Section, stepped, try_stepped};

@@ -19,7 +19,9 @@
 //! The number of the tick counts dropped records, too: a gap in it is as long as it was.
 
 mod frame;
+mod record;
 mod ring;
 
 pub use frame::{Channel, Kind};
-pub use ring::{Record, Ring};
+pub use record::Record;
+pub use ring::Ring;

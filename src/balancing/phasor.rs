@@ -8,26 +8,11 @@
 //!
 //! The sums run on; at the end of each block of turns they are noted down. Divisions are left to [`Phasors::reading`].
 
-use super::reading::{Edge, Reading, Steadiness};
-use super::{Balancer, ReadingFault};
+use super::reading::{Edge, Reading};
+use super::{Balancer, PhasorsConfig, ReadingFault};
 use crate::angle::Passed;
-use crate::angle::{RotorAngle, RotorAngleConfig, Synchronous};
+use crate::angle::{RotorAngle, Synchronous};
 use crate::fault::Faults;
-use crate::number::Number;
-
-/// The constants of a measurement of `CHANNELS` channels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PhasorsConfig<N: Number, const CHANNELS: usize> {
-    /// From the motor to the rotor, times the order.
-    pub(crate) turning: RotorAngleConfig,
-    /// Whole turns, times the order, of a block.
-    pub(crate) block: u32,
-    /// The largest sample of each channel that is not clipped.
-    pub(crate) limits: [N; CHANNELS],
-    /// Limits of a reading's unsteadiness.
-    pub(crate) steadiness: Steadiness,
-}
 
 /// A measurement of `CHANNELS` channels that ends after `EDGES - 1` blocks, and the reading until the next one is
 /// begun.

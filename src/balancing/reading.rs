@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::PhasorsConfig;
-use crate::angle::Synchronous;
+use crate::angle::{RotorAngleConfig, Synchronous};
+use crate::number::Number;
 
 /// Where a block of turns ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -203,6 +203,20 @@ impl fmt::Display for ReadingFault {
 }
 
 impl core::error::Error for ReadingFault {}
+
+/// The constants of a measurement of `CHANNELS` channels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PhasorsConfig<N: Number, const CHANNELS: usize> {
+    /// From the motor to the rotor, times the order.
+    pub(crate) turning: RotorAngleConfig,
+    /// Whole turns, times the order, of a block.
+    pub(crate) block: u32,
+    /// The largest sample of each channel that is not clipped.
+    pub(crate) limits: [N; CHANNELS],
+    /// Limits of a reading's unsteadiness.
+    pub(crate) steadiness: Steadiness,
+}
 
 /// Fewest ticks on a turn: the image of the rotor's own order is then the seventh.
 const FEWEST_TICKS: f32 = 8.0;

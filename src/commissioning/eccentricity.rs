@@ -1,8 +1,8 @@
 //! Eccentricity of the encoder: an angle of once a turn that no torque explains.
 
 use super::complex::Complex;
+use super::figure::Figure;
 use super::harmonic::Harmonic;
-use super::result::Figure;
 use crate::math::{atan2, sqrt};
 
 /// First-order eccentricity of the encoder: it reads the angle plus `amplitude cos(angle - phase)`.

@@ -7,8 +7,8 @@
 use core::f64::consts::TAU;
 
 use super::complex::Complex;
+use super::figure::Figure;
 use super::response::Response;
-use super::result::Figure;
 use crate::design::Matrix;
 use crate::math::{exp, ln, sqrt};
 

@@ -1,7 +1,7 @@
 //! Friction and total inertia from the mean torques of eight segments: two speeds and the ramps between, both ways.
 
 use super::Error;
-use super::result::Figure;
+use super::figure::Figure;
 use crate::design::Matrix;
 use crate::math::sqrt;
 

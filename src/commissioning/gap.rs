@@ -1,6 +1,6 @@
 //! The gap: how far the motor creeps from one flank to the other while friction holds the load.
 
-use super::result::Figure;
+use super::figure::Figure;
 use super::{Error, TestConfig};
 use crate::math::sqrt;
 

@@ -3,12 +3,13 @@
 use core::f64::consts::TAU;
 
 use super::excitation::{about, lines, over_band, peak, set, time};
+use super::figure::Figure;
 use super::fit::{Derived, Fit, fit};
 use super::friction::{SEGMENTS, Segment};
 use super::gap::{PUSH, PUSHES, Push, gap};
 use super::harmonic::Harmonic;
 use super::multisine::{Line, Window};
-use super::result::{CommissioningResult, Figure};
+use super::result::CommissioningResult;
 use super::servo::Servo;
 use super::{Eccentricity, Error, Friction, Response, Stage, TestConfig};
 use crate::math::sqrt;

@@ -8,28 +8,8 @@ use super::multisine::{Line, Window};
 use super::reference::Reference;
 use super::result::CommissioningResult;
 use super::servo::{Deviation, Servo};
-use super::{Error, TestConfig};
+use super::{Error, Stage, TestConfig};
 use crate::angle::Synchronous;
-
-/// Where the test is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Stage {
-    /// The motor stands, the load settles.
-    Holding,
-    /// Two speeds and the ramps between, both ways.
-    Friction,
-    /// Turns at the test's speed.
-    Encoder,
-    /// To and fro against a load that friction holds.
-    Backlash,
-    /// Turning under a multisine.
-    Resonance,
-    /// The motor stands, there is an answer.
-    Done,
-    /// The motor stands or is without torque, there is a reason.
-    Refused,
-}
 
 /// Share of the push at which the servo has found a flank.
 const TOUCH: f32 = 0.3;

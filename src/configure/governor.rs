@@ -1,9 +1,7 @@
 //! Governors and their parts for a machine.
 
-use super::{Configure, Machine};
-use crate::design::{
-    BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, GovernorDesign, SpeedLoopDesign, TorqueCurve,
-};
+use super::{Configure, GainSource, Machine};
+use crate::design::{BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, TorqueCurve};
 use crate::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
     BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CycleAverage, Droop, DroopConfig,
@@ -14,27 +12,6 @@ use crate::governor::{
 };
 use crate::number::{Fixed, Number};
 use crate::settings::{Bases, SequencerSettings, SpeedLoopSettings};
-
-/// Source of the gains of [`SpeedGovernor`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum GainSource {
-    /// The speed loop of a torque-controlled drive.
-    SpeedLoop(SpeedLoopDesign),
-    /// The governor of a slow actuator, with its feed-forward.
-    Governor(GovernorDesign),
-}
-
-impl GainSource {
-    const fn governor(&self) -> &GovernorDesign {
-        match self {
-            GainSource::Governor(design) => design,
-            GainSource::SpeedLoop(_) => panic!(
-                "feed-forward and acceleration feedback need a governor's design: let GAINS be GainSource::Governor"
-            ),
-        }
-    }
-}
 
 /// A machine with backlash take-up, or with a slack rope.
 pub trait HasBacklash: Machine {

@@ -2,7 +2,7 @@
 //! a lag.
 
 use super::ExactStep;
-use super::margins::{Complex, over, times};
+use super::complex::{Complex, over, times};
 use crate::machine::TwoMass;
 use crate::math::{atan2, exp, ln, sin_cos};
 

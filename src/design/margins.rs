@@ -1,19 +1,9 @@
 //! Stability margins of a sampled loop, from its frequency response.
 
+use super::complex::{Complex, over};
 use super::late_loop::LateLoop;
 use super::polynomial::Polynomial;
 use crate::math::{atan2, exp, hypot, ln, sin_cos};
-
-/// A complex number: real and imaginary part.
-pub(super) type Complex = (f64, f64);
-
-pub(super) const fn times(a: Complex, b: Complex) -> Complex {
-    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
-}
-pub(super) const fn over(a: Complex, b: Complex) -> Complex {
-    let square = b.0 * b.0 + b.1 * b.1;
-    ((a.0 * b.0 + a.1 * b.1) / square, (a.1 * b.0 - a.0 * b.1) / square)
-}
 
 /// How far a loop is from instability.
 #[derive(Clone, Copy, Debug, PartialEq)]

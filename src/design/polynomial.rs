@@ -5,7 +5,7 @@
 //! takes the stable disc to the left half plane, and Routh's array decides there: some hundred multiplications for a
 //! loop of eleven poles, no eigenvalue.
 
-use super::margins::Complex;
+use super::complex::Complex;
 
 /// Coefficients that a polynomial may have: a chain of sixteen masses, an observer of five states, a governor, an
 /// actuator.

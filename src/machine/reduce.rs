@@ -1,7 +1,7 @@
 //! Reduction of a chain to two masses, equivalent at the motor, and its errors.
 
 use super::refer::series;
-use super::{Chain, Error, Mode, TwoMass};
+use super::{Chain, Error, Mode, ReductionError, TwoMass};
 
 /// How two masses stand in for a chain. Every choice keeps the total inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,40 +17,6 @@ pub enum Match {
     /// Inertias lumped left and right of this shaft (0 at the motor), joined by this shaft alone, the others taken as
     /// rigid.
     TextbookShaft(usize),
-}
-
-/// Errors of two masses against their chain.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ReductionError {
-    /// Lowest natural frequency left out \[rad/s\]; infinite where none is.
-    pub next_mode: f64,
-    /// Its share at the motor: residue times total inertia. At 1 it moves the motor as much as the rigid turning does.
-    pub next_share: f64,
-    /// Relative error of the first resonance, signed.
-    pub resonance: f64,
-    /// Relative error of the first antiresonance, signed.
-    pub antiresonance: f64,
-    /// Relative error of the static compliance at the motor (its twist against the mean angle under a steady torque),
-    /// signed.
-    pub compliance: f64,
-    /// Worst case: bound of the error of the motor's speed after a blow to the motor, at any time, over its first jump.
-    ///
-    /// The undamped answer to an impulse is `1/J + sum r_i cos(w_i t)`; the bound adds the residues that differ or are
-    /// missing.
-    pub worst: f64,
-}
-
-impl ReductionError {
-    /// Nothing left out.
-    pub const NONE: Self = Self {
-        next_mode: f64::INFINITY,
-        next_share: 0.0,
-        resonance: 0.0,
-        antiresonance: 0.0,
-        compliance: 0.0,
-        worst: 0.0,
-    };
 }
 
 impl Chain {

@@ -1,6 +1,7 @@
 //! Constants of the watch on an actuator.
 
-use super::convert::{constants, get};
+use super::constants::constants;
+use super::convert::get;
 use super::governor_parts::{all_finite, ticks};
 use super::to::Values;
 use super::{Error, Format};

@@ -1,6 +1,7 @@
 //! Constants of the observer of backlash.
 
-use super::convert::{constants, get, positive};
+use super::constants::constants;
+use super::convert::{get, positive};
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
 use crate::design::BacklashDesign;

@@ -1,6 +1,7 @@
 //! Constants of backlash take-up.
 
-use super::convert::{constants, get};
+use super::constants::constants;
+use super::convert::get;
 use super::{Bases, Error, Format};
 use crate::design::BacklashTakeUpDesign;
 use crate::governor::BacklashTakeUpConfig;

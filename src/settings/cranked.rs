@@ -1,7 +1,8 @@
 //! Constants of the observer of a cranked machine.
 
 use super::Error;
-use super::convert::{constants, get};
+use super::constants::constants;
+use super::convert::get;
 use crate::angle::RotorAngleConfig;
 use crate::design::CrankedDesign;
 use crate::observer::{CrankConfig, RigidConfig, TABLE_POINTS, TablePoint};

@@ -1,6 +1,7 @@
 //! Constants of the composed governor's parts.
 
-use super::convert::{constants, fixed, get, or_stop};
+use super::constants::constants;
+use super::convert::{fixed, get, or_stop};
 use super::to::Values;
 use super::{Bases, Error, Format};
 use crate::design::{GovernorDesign, SpeedLoopDesign};

@@ -1,7 +1,8 @@
 //! Constants of the composed governor's parts that are shapes: barred ranges, torque curves, and the slew round another
 //! limit.
 
-use super::convert::{constants, get};
+use super::constants::constants;
+use super::convert::get;
 use super::governor_parts::{LIMIT, RAMP, all_finite, between, least_step};
 use super::to::Values;
 use super::{Bases, Error, Format};

@@ -1,7 +1,8 @@
 //! Plausibility limits of a sample.
 
 use super::Error;
-use super::convert::{constants, get, positive};
+use super::constants::constants;
+use super::convert::{get, positive};
 use super::format::ANGLE_PER_RADIAN;
 use crate::drive::Limits;
 

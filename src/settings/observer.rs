@@ -1,6 +1,7 @@
 //! Constants of the observers.
 
-use super::convert::{constants, get};
+use super::constants::constants;
+use super::convert::get;
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
 use crate::design::{RigidDesign, TwoMassDesign};

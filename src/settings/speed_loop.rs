@@ -1,6 +1,7 @@
 //! Constants of the speed loop.
 
-use super::convert::{constants, get};
+use super::constants::constants;
+use super::convert::get;
 use super::{Bases, Error, Format};
 use crate::design::SpeedLoopDesign;
 use crate::governor::SpeedLoopConfig;

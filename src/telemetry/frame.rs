@@ -2,8 +2,6 @@
 
 use super::Record;
 
-/// Most values of a record.
-pub(super) const MOST_VALUES: usize = 16;
 /// Longest packet without its check: below 254 bytes, so that a block of the stuffing never ends within.
 const LONGEST: usize = 96;
 

@@ -3,18 +3,7 @@
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use super::frame;
-
-/// Record of a tick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Record<const VALUES: usize> {
-    /// Number of the tick, from 0; wraps.
-    pub tick: u32,
-    /// Records dropped before it; wraps.
-    pub dropped: u32,
-    /// The values, as bits of the drive's number.
-    pub values: [u32; VALUES],
-}
+use super::record::{MOST_VALUES, Record};
 
 /// A ring of records for one that records (the tick) and one that takes (the main loop); a static serves both. Two that
 /// record, or two that take, garble records.
@@ -39,7 +28,7 @@ struct Slot<const VALUES: usize> {
 impl<const VALUES: usize, const RECORDS: usize> Ring<VALUES, RECORDS> {
     const MASK: u32 = {
         assert!(RECORDS.is_power_of_two() && RECORDS >= 2, "a ring must have a power of two of records, two at least");
-        assert!(VALUES >= 1 && VALUES <= frame::MOST_VALUES, "a record must have between 1 and 16 values");
+        assert!(VALUES >= 1 && VALUES <= MOST_VALUES, "a record must have between 1 and 16 values");
         RECORDS as u32 - 1
     };
 

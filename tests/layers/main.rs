@@ -18,8 +18,9 @@ use graph::{circles, folders};
 use imports::imports;
 use tree::Tree;
 
-/// Every crate of the workspace, by the file that it begins with.
-const CRATES: [&str; 4] = [
+/// The library and the host's crates, by the file that each begins with.
+const CRATES: [&str; 5] = [
+    "src/lib.rs",
     "host-tests/solver/src/lib.rs",
     "host-tests/report/src/lib.rs",
     "host-tests/qemu/src/lib.rs",

@@ -138,8 +138,11 @@ impl Tree {
                     at += 3 * (path.len() - 1);
                     let here = self.modules.get_mut(module).unwrap();
                     here.names.insert(path[0].clone());
-                    if outside && DEFINES.contains(&word.as_str()) {
-                        here.defined.extend(tokens.get(at + 1).map(ToString::to_string));
+                    if DEFINES.contains(&word.as_str()) && matches!(tokens.get(at + 1), Some(TokenTree::Ident(_))) {
+                        at += 1;
+                        if outside {
+                            here.defined.insert(tokens[at].to_string());
+                        }
                     }
                     if path.len() > 1 {
                         here.paths.insert(path);

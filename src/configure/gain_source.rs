@@ -1,0 +1,24 @@
+//! Source of a governor's gains.
+
+use crate::design::{GovernorDesign, SpeedLoopDesign};
+
+/// Source of the gains of [`SpeedGovernor`](crate::governor::SpeedGovernor).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum GainSource {
+    /// The speed loop of a torque-controlled drive.
+    SpeedLoop(SpeedLoopDesign),
+    /// The governor of a slow actuator, with its feed-forward.
+    Governor(GovernorDesign),
+}
+
+impl GainSource {
+    pub(super) const fn governor(&self) -> &GovernorDesign {
+        match self {
+            GainSource::Governor(design) => design,
+            GainSource::SpeedLoop(_) => panic!(
+                "feed-forward and acceleration feedback need a governor's design: let GAINS be GainSource::Governor"
+            ),
+        }
+    }
+}

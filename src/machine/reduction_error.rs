@@ -1,0 +1,35 @@
+//! Errors of a reduction.
+
+/// Errors of two masses against their chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ReductionError {
+    /// Lowest natural frequency left out \[rad/s\]; infinite where none is.
+    pub next_mode: f64,
+    /// Its share at the motor: residue times total inertia. At 1 it moves the motor as much as the rigid turning does.
+    pub next_share: f64,
+    /// Relative error of the first resonance, signed.
+    pub resonance: f64,
+    /// Relative error of the first antiresonance, signed.
+    pub antiresonance: f64,
+    /// Relative error of the static compliance at the motor (its twist against the mean angle under a steady torque),
+    /// signed.
+    pub compliance: f64,
+    /// Worst case: bound of the error of the motor's speed after a blow to the motor, at any time, over its first jump.
+    ///
+    /// The undamped answer to an impulse is `1/J + sum r_i cos(w_i t)`; the bound adds the residues that differ or are
+    /// missing.
+    pub worst: f64,
+}
+
+impl ReductionError {
+    /// Nothing left out.
+    pub const NONE: Self = Self {
+        next_mode: f64::INFINITY,
+        next_share: 0.0,
+        resonance: 0.0,
+        antiresonance: 0.0,
+        compliance: 0.0,
+        worst: 0.0,
+    };
+}

@@ -1,0 +1,16 @@
+//! A record of a tick.
+
+/// Most values of a record.
+pub(super) const MOST_VALUES: usize = 16;
+
+/// Record of a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Record<const VALUES: usize> {
+    /// Number of the tick, from 0; wraps.
+    pub tick: u32,
+    /// Records dropped before it; wraps.
+    pub dropped: u32,
+    /// The values, as bits of the drive's number.
+    pub values: [u32; VALUES],
+}
