@@ -38,6 +38,7 @@ mod riccati;
 mod rigid;
 mod speed_loop;
 mod step;
+mod tolerance;
 mod torque_curve;
 mod tuning;
 
@@ -62,5 +63,6 @@ pub use riccati::{Doubling, doubling};
 pub use rigid::RigidDesign;
 pub use speed_loop::{SpeedLoopDesign, SpeedLoopTuning};
 pub use step::ExactStep;
+pub use tolerance::{LoopObserver, Robustness, Spread, Tolerance};
 pub use torque_curve::TorqueCurve;
 pub use tuning::{Disturbance, Encoder, Rate};

@@ -130,11 +130,10 @@ pub trait Machine {
         deadband: 8.0 * count(Self::ENCODER),
     };
 
-    /// How brisk the speed loop is: 0.4 of the antiresonance, damping ratios 1 and 0.4.
+    /// How brisk the speed loop is: [`SpeedLoopTuning::of`] the two masses, 0.4 of the antiresonance.
     ///
-    /// Kept by 3 of 18. A machine that has more than one resonance within reach, or a motor much heavier than its load,
-    /// takes a bandwidth of 0.1 and a damping ratio of the shaft of 0.1.
-    const TUNING: SpeedLoopTuning = SpeedLoopTuning::USUAL;
+    /// A machine that has more than one resonance within reach takes a bandwidth of 0.1.
+    const TUNING: SpeedLoopTuning = SpeedLoopTuning::of(&Self::TWO_MASS);
     /// The speed loop, from the two masses, rate and tuning.
     const SPEED_LOOP: SpeedLoopDesign = Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING);
     /// Acceleration of the setpoint \[rad/s2\]: [`Rating::ramp`] with the inertia of the whole chain.

@@ -17,7 +17,7 @@ use super::plant::{Plant, Twist};
 use super::polynomial::Polynomial;
 use super::{Actuator, Error, ExactStep, RigidDesign, SpeedLoopDesign, TwoMassDesign};
 use crate::machine::TwoMass;
-use crate::math::{exp_m1, sqrt};
+use crate::math::{exp_m1, sin_cos, sqrt};
 
 /// Whole ticks of dead time that a speed loop may have.
 const LATEST: f64 = 12.0;
@@ -192,6 +192,14 @@ impl ClosedLoop {
     pub const fn is_stable(&self, plant: &Plant, gain: f64) -> bool {
         let (numerator, denominator) = self.open(plant);
         denominator.plus(gain, &numerator).is_stable()
+    }
+
+    /// Whether the loop is stable with its response turned by an angle \[rad\] either way: `|D + e^(j phi) N|^2` has real coefficients.
+    pub(super) const fn is_stable_turned(&self, plant: &Plant, angle: f64) -> bool {
+        let (numerator, denominator) = self.open(plant);
+        let (_, cosine) = sin_cos(angle);
+        let both = denominator.plus(2.0 * cosine, &numerator).times(&denominator);
+        both.plus(1.0, &numerator.times(&numerator)).is_stable()
     }
 
     /// Margins of the loop round a machine.

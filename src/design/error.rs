@@ -38,8 +38,26 @@ sentences! {
     BarredCount => "there are more barred ranges of speed than the governor has room for: raise K",
     TorqueCurve => "a torque curve needs points of rising speed from zero on, each with a torque of zero or above, all \
         finite",
-    LoopUnstable => "the speed loop is unstable with its observer in it: lower the damping ratio of its shaft, or tell \
-        the observer of a livelier load",
+    Tolerance => "a tolerance must be from a factor above 0 and at most 1 to one of 1 or above, a gain margin 1 or above, \
+        a phase margin zero or above",
+    LoopUnstable => "the speed loop is unstable with its observer in it: lower shaft_damping, or tell the observer of a \
+        livelier load",
+    LoopGain => "the speed loop with its observer has less gain margin than its robustness requires (6 dB unless named): \
+        lower shaft_damping or bandwidth, or ask for less",
+    LoopPhase => "the speed loop with its observer has less phase margin than its robustness requires (30 degrees unless \
+        named): lower shaft_damping or bandwidth, or ask for less",
+    LoopMotorInertia => "the speed loop with its observer is unstable at the tolerance of the motor inertia: lower \
+        shaft_damping or bandwidth, or narrow the tolerance",
+    LoopLoadInertia => "the speed loop with its observer is unstable at the tolerance of the load inertia: lower \
+        shaft_damping or bandwidth, or narrow the tolerance",
+    LoopStiffness => "the speed loop with its observer is unstable at the tolerance of the stiffness: lower \
+        shaft_damping or bandwidth, or narrow the tolerance",
+    LoopTorque => "the speed loop with its observer is unstable at the tolerance of the torque: lower \
+        shaft_damping or bandwidth, or narrow the tolerance",
+    LoopLate => "the speed loop with its observer is unstable at a torque as late as its tolerance: lower \
+        shaft_damping or bandwidth, or narrow the tolerance",
+    LoopCorner => "the speed loop with its observer is unstable at its tolerances together: lower \
+        shaft_damping or bandwidth, or narrow the tolerance",
     SpeedLoopUnstable => "the speed loop is unstable at this sample rate: lower its bandwidth or raise the rate",
 }
 

@@ -6,7 +6,7 @@
 //! motor (frame size 315, 0.6 kg m2) and a two-stage gearbox. They are not those of one machine.
 
 use driveline::configure::{Machine, Rating};
-use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, StepChoice};
+use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning, StepChoice};
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Match, Ratio, Stiffness, TwoMass,
 };
@@ -39,6 +39,7 @@ impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
     /// noise through; here the sum of both is least over the scene's runs.
     const DISTURBANCE: Disturbance =
         Disturbance { load_torque_step: 300.0, within: 50.0, ..Self::RATING.disturbance() };
+    const TUNING: SpeedLoopTuning = SpeedLoopTuning::USUAL;
     const RAMP: f64 = Self::RATING.speed / 2.0;
     const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
     /// In 15 ms the motor turns by less than half a turn.

@@ -22,7 +22,7 @@
 use driveline::configure::{HasBacklash, Machine, Rating};
 use driveline::design::{
     BacklashTakeUpDesign, BacklashTakeUpTuning, BacklashTuning, Disturbance, Encoder, LoadCycle, ObserverChoice,
-    ObserverSelection, Requirement, RigidDesign, SpeedLoopDesign,
+    ObserverSelection, Requirement, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
 };
 use driveline::governor::{SpeedGovernor, SymmetricLimit};
 use driveline::machine::{
@@ -53,6 +53,7 @@ impl Machine for SkipWinch {
     /// The observer that takes the rope for rigid has to follow the rope's vibration as if it were the load's doing.
     const RIGID_OBSERVER: RigidDesign =
         Self::CHAIN.rigid().observer(Self::RATE, Self::ENCODER, Disturbance { within: 1.0, ..Self::DISTURBANCE });
+    const TUNING: SpeedLoopTuning = SpeedLoopTuning { shaft_damping: 0.4, ..SpeedLoopTuning::USUAL };
     const RAMP: f64 = Self::RATING.speed / 4.0;
     const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
     /// In 40 ms the motor turns by less than half a turn.

@@ -182,7 +182,7 @@ impl Plan {
         match two_masses(machine) {
             Some(two) => {
                 let observer = two.try_observer(rate, encoder, disturbance)?;
-                let governor = two.try_speed_loop(rate, SpeedLoopTuning::USUAL)?;
+                let governor = two.try_speed_loop(rate, SpeedLoopTuning::of(&two))?;
                 let closed = ClosedLoop::of(&observer, &governor, Actuator::DIRECT)?;
                 let margins = Margins::of(machine, &two, &closed);
                 Ok(Self::two_mass(machine, &two, &observer, &governor, margins))

@@ -75,7 +75,7 @@ pub const {name}_OBSERVER: {observer} = {name}_MODEL.observer(
             text,
             "
 /// The speed loop.
-pub const {name}_SPEED_LOOP: SpeedLoopDesign = {name}_MODEL.speed_loop({name}_RATE, SpeedLoopTuning::USUAL);
+pub const {name}_SPEED_LOOP: SpeedLoopDesign = {name}_MODEL.speed_loop({name}_RATE, SpeedLoopTuning::of(&{name}_MODEL));
 "
         );
     }

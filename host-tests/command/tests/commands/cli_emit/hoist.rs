@@ -26,7 +26,7 @@ pub const HOIST_OBSERVER: TwoMassDesign = HOIST_MODEL.observer(
 );
 
 /// The speed loop.
-pub const HOIST_SPEED_LOOP: SpeedLoopDesign = HOIST_MODEL.speed_loop(HOIST_RATE, SpeedLoopTuning::USUAL);
+pub const HOIST_SPEED_LOOP: SpeedLoopDesign = HOIST_MODEL.speed_loop(HOIST_RATE, SpeedLoopTuning::of(&HOIST_MODEL));
 
 /// Largest motor torque [N m].
 pub const HOIST_TORQUE: f64 = 1350.0;
