@@ -194,7 +194,8 @@ impl ClosedLoop {
         denominator.plus(gain, &numerator).is_stable()
     }
 
-    /// Whether the loop is stable with its response turned by an angle \[rad\] either way: `|D + e^(j phi) N|^2` has real coefficients.
+    /// Whether the loop is stable with its response turned by an angle \[rad\] either way: `|D + e^(j phi) N|^2` has
+    /// real coefficients.
     pub(super) const fn is_stable_turned(&self, plant: &Plant, angle: f64) -> bool {
         let (numerator, denominator) = self.open(plant);
         let (_, cosine) = sin_cos(angle);

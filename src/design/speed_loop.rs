@@ -29,13 +29,16 @@ pub struct SpeedLoopTuning {
 }
 
 impl SpeedLoopTuning {
-    /// Brisk: 0.4 of the antiresonance, damping ratios 1 and 0.2. For a load of about the motor's inertia; others take [`of`](Self::of).
+    /// Brisk: 0.4 of the antiresonance, damping ratios 1 and 0.2. For a load of about the motor's inertia; others take
+    /// [`of`](Self::of).
     pub const USUAL: Self = Self { bandwidth: 0.4, damping: 1.0, shaft_damping: 0.2 };
 
-    /// Robust for a machine: as [`USUAL`](Self::USUAL), with the damping ratio of the shaft at which the gain on the slip is a tenth of the
+    /// Robust for a machine: as [`USUAL`](Self::USUAL), with the damping ratio of the shaft at which the gain on the
+    /// slip is a tenth of the
     /// proportional one.
     ///
-    /// A large gain on the slip, either way, costs the margins: the observer has to find the slip. The proportional gain alone damps the shaft of a
+    /// A large gain on the slip, either way, costs the margins: the observer has to find the slip. The proportional
+    /// gain alone damps the shaft of a
     /// heavy load well and that of a light load little.
     #[must_use]
     pub const fn of(machine: &TwoMass) -> Self {

@@ -59,7 +59,8 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// A machine by its drawings and a motor by its data sheet: motor side 10 %, load side and stiffness 20 %, torque constant 5 %, a torque that may come
+    /// A machine by its drawings and a motor by its data sheet: motor side 10 %, load side and stiffness 20 %, torque
+    /// constant 5 %, a torque that may come
     /// a tick late and through a current control of 500 Hz.
     pub const USUAL: Self = Self {
         motor_inertia: Spread::within(0.1),
@@ -101,7 +102,8 @@ pub struct Robustness {
 }
 
 impl Robustness {
-    /// 6 dB and 30 degrees, the least that books on control take for sound [Åström and Murray, Feedback Systems, §10.3].
+    /// 6 dB and 30 degrees, the least that books on control take for sound [Åström and Murray, Feedback Systems,
+    /// §10.3].
     pub const USUAL: Self = Self { gain: 2.0, phase: core::f64::consts::FRAC_PI_6 };
 
     /// A stable loop, no more.
@@ -109,7 +111,8 @@ impl Robustness {
 }
 
 /// The observer whose estimates a speed loop takes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum LoopObserver<'a> {
     /// Two masses.
     TwoMass(&'a TwoMassDesign),
@@ -144,13 +147,17 @@ impl TwoMass {
         }
     }
 
-    /// Whether a speed loop on this machine, with its observer in it, has the margins that are asked for, and is stable at every corner of the tolerances.
+    /// Whether a speed loop on this machine, with its observer in it, has the margins that are asked for, and is stable
+    /// at every corner of the tolerances.
     ///
-    /// Nothing but stability is tested: at the nominal machine with the gain at both ends of its margin and the phase at its margin, and at all 32 corners.
+    /// Nothing but stability is tested: at the nominal machine with the gain at both ends of its margin and the phase
+    /// at its margin, and at all 32 corners.
     ///
     /// # Errors
-    /// [`Error::LoopUnstable`], [`Error::LoopGain`], [`Error::LoopPhase`]; or the tolerance that alone is too wide: [`Error::LoopMotorInertia`],
-    /// [`Error::LoopLoadInertia`], [`Error::LoopStiffness`], [`Error::LoopTorque`], [`Error::LoopLate`]; [`Error::LoopCorner`] where only several together are.
+    /// [`Error::LoopUnstable`], [`Error::LoopGain`], [`Error::LoopPhase`]; or the tolerance that alone is too wide:
+    /// [`Error::LoopMotorInertia`],
+    /// [`Error::LoopLoadInertia`], [`Error::LoopStiffness`], [`Error::LoopTorque`], [`Error::LoopLate`];
+    /// [`Error::LoopCorner`] where only several together are.
     pub const fn try_robust(
         &self,
         observer: LoopObserver<'_>,
