@@ -51,14 +51,31 @@ impl Tree {
     /// The crate that begins with this file.
     pub fn on_disk(first: &Path) -> Self {
         let folder = first.parent().unwrap();
-        Self::read(&|module| {
+        let find = |module: &[String]| {
             let base = module.iter().fold(folder.to_owned(), |path, name| path.join(name));
             let candidates = match module {
                 [] => [first.to_owned(), first.to_owned()],
                 _ => [base.with_extension("rs"), base.join("mod.rs")],
             };
             candidates.into_iter().find_map(|path| Some((path.clone(), fs::read_to_string(path).ok()?)))
-        })
+        };
+        let mut tree = Self::read(&find);
+        // A macro may write the `mod` line of a file in its module's folder.
+        let mut at = 0;
+        while let Some((module, _)) = tree.files.get(at).cloned() {
+            at += 1;
+            let folder = module.iter().fold(folder.to_owned(), |path, name| path.join(name));
+            for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+                let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                let is_source = path.extension().is_some_and(|kind| kind == "rs");
+                let child: Names = module.iter().cloned().chain([name.clone()]).collect();
+                let apart = ["main", "lib", "mod"].contains(&name.as_str());
+                if is_source && !apart && !tree.modules.contains_key(&child) {
+                    tree.file(&find, child);
+                }
+            }
+        }
+        tree
     }
 
     /// A crate of planted sources, by the paths of their modules: `a::b`, the crate's own is empty.
