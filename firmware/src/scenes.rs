@@ -27,6 +27,7 @@ macro_rules! drivetrains {
             converter
             vibrating_screen
             gear_drive
+            belt_conveyor
         }
     };
 }
