@@ -36,17 +36,9 @@ macro_rules! sentences {
     };
 }
 
-/// `Display` and `Error` of a type with a `message()`, and the compile error with that sentence.
+/// `Display` and `Error` of a type with a `message()`.
 macro_rules! messages {
     ($error:ident) => {
-        impl $error {
-            /// Stops with the sentence: a compile error in a constant.
-            #[allow(dead_code, reason = "not every kind has a const builder")]
-            pub(crate) const fn stop(self) -> ! {
-                panic!("{}", self.message())
-            }
-        }
-
         impl core::fmt::Display for $error {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 f.write_str(self.message())

@@ -61,6 +61,13 @@ sentences! {
     SpeedLoopUnstable => "the speed loop is unstable at this sample rate: lower its bandwidth or raise the rate",
 }
 
+impl Error {
+    /// Stops with the sentence: a compile error in a constant.
+    pub(crate) const fn stop(self) -> ! {
+        panic!("{}", self.message())
+    }
+}
+
 impl From<crate::machine::Error> for Error {
     fn from(error: crate::machine::Error) -> Self {
         Self::Machine(error)

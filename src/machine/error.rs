@@ -58,6 +58,13 @@ sentences! {
     StartingTime => "starting time must be positive and finite, the starting torque finite (s, N m)",
 }
 
+impl Error {
+    /// Stops with the sentence: a compile error in a constant.
+    pub(crate) const fn stop(self) -> ! {
+        panic!("{}", self.message())
+    }
+}
+
 /// `value` is a number above zero.
 pub(crate) const fn positive(value: f64) -> bool {
     value > 0.0 && value.is_finite()

@@ -18,6 +18,11 @@ impl Error {
             Error::Coefficient(sentence) | Error::Value(sentence) => sentence,
         }
     }
+
+    /// Stops with the sentence: a compile error in a constant.
+    pub(crate) const fn stop(self) -> ! {
+        panic!("{}", self.message())
+    }
 }
 
 messages!(Error);
