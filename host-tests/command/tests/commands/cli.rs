@@ -326,8 +326,9 @@ fn a_number_below_zero_is_a_wrong_value_and_no_unknown_option() {
 
 #[test]
 fn what_cannot_be_printed_is_shown_by_a_mark() {
-    for arguments in [["modes", "no\u{1b}[2J.toml"], ["no\u{7}", "x"], ["report", "--html=no\u{1b}[2J/page"]] {
-        let output = driveline(&arguments);
+    let page = "--html=/no\u{1b}[2J/page";
+    for arguments in [&["modes", "no\u{1b}[2J.toml"][..], &["no\u{7}", "x"], &["modes", HOIST, page]] {
+        let output = driveline(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         let said = err(&output);
         // of a word that it does not know the parser prints what can be printed
