@@ -81,7 +81,7 @@ impl Command {
             Self::Backlash(command) => command.json,
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
-            Self::Example(_) => false,
+            Self::Example(command) => command.json,
             Self::Rotor(command) => command.json,
             Self::Balancing(command) => command.json,
             Self::Genset(command) => command.json,

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{Failure, say};
+use super::{Failure, say, say_json};
 
 /// Print a file to begin with: a machine, a train with its run, a rotor, readings of a rotor to be balanced.
 ///
@@ -15,6 +15,18 @@ use super::{Failure, say};
 pub struct Example {
     /// Its name
     name: Option<String>,
+    /// Print [{name, commands}], with a name {name, commands, text}
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// An example as `--json` prints it.
+#[derive(serde::Serialize)]
+struct Entry {
+    name: &'static str,
+    commands: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    text: Option<&'static str>,
 }
 
 /// Name, for which commands, and text of each.
@@ -37,13 +49,19 @@ impl Example {
     /// No such example.
     pub fn execute(&self) -> Result<(), Failure> {
         let Some(name) = &self.name else {
+            if self.json {
+                return say_json(&EXAMPLES.map(|(name, commands, _)| Entry { name, commands, text: None }));
+            }
             EXAMPLES.iter().for_each(|(name, commands, _)| say(format_args!("{name:<12} {commands}")));
             return Ok(());
         };
-        let Some((_, _, text)) = EXAMPLES.iter().find(|(known, ..)| known == name) else {
+        let Some(&(name, commands, text)) = EXAMPLES.iter().find(|(known, ..)| known == name) else {
             let names = EXAMPLES.map(|(name, ..)| format!("`{name}`")).join(", ");
             return Err(Failure::usage(format!("there is no example `{name}`; there are {names}")));
         };
+        if self.json {
+            return say_json(&Entry { name, commands, text: Some(text) });
+        }
         say(text.trim_end());
         Ok(())
     }
