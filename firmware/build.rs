@@ -1,4 +1,4 @@
-//! Tells the compiler for which board an image is, and the linker where that board's memory is.
+//! Selects the board of an image for the compiler, and its memory layout for the linker.
 //!
 //! `DRIVELINE_BOARD`: a name from `src/board.rs`; where it is not set, the board that goes with the compiler's target.
 //! `DRIVELINE_VARIANT` is read by the binaries alone (`selected!`).
@@ -32,7 +32,8 @@ fn default_board(target: &str) -> &'static str {
     if target.ends_with("eabihf") { "mps2-an386" } else { "mps2-an385" }
 }
 
-/// Puts the board's memory map where the linker finds it as `board.x`, which the `memory.x` at the root of the workspace includes.
+/// Puts the board's memory map where the linker finds it as `board.x`, which the `memory.x` at the root of the
+/// workspace includes.
 fn memory_map(board: &str) {
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
     let boards = package.join("src/board");

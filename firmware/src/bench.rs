@@ -24,7 +24,7 @@ use crate::self_test::inputs::Program;
 
 /// Calls of each function; odd, so that the median is one of them.
 const CALLS: usize = 1001;
-/// Calls of what takes long; odd too.
+/// Calls of a long function; odd too.
 const LONG_CALLS: usize = 15;
 
 /// Measures functions one by one.
@@ -76,7 +76,7 @@ impl<'b, B: Board> Bench<'b, B> {
         self.print(name, &counts);
     }
 
-    /// Calls what takes long a few times, with inputs of the given number, and prints its stack too.
+    /// Calls a long function a few times, with inputs of the given number, and prints its stack too.
     pub fn measure_long<I, O: Default>(
         &mut self,
         name: &str,
@@ -95,7 +95,7 @@ impl<'b, B: Board> Bench<'b, B> {
         self.board.print(self.line(name, &counts).number("stack", used).finish());
     }
 
-    /// Prints something else than instructions: what it is, of what, its unit and the number.
+    /// Prints another quantity than instructions: its name, object, unit and value.
     pub fn print_number(&self, what: &str, of: &str, unit: &str, number: u32) {
         let mut line = Line::new().text(what, of).text("board", B::FACTS.name).number(unit, number);
         self.board.print(line.finish());

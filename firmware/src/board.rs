@@ -1,8 +1,8 @@
-//! The boards: what the binaries need of one, and what the host needs to know to run it.
+//! Boards: the interface of the binaries to a board, and the host's data to build for it and run it.
 //!
-//! A new board of QEMU's is one file beside [`mps2_an386`] with its [`Facts`] and its [`Board`], a line in [`BOARDS`] and one in
-//! the choice below, and, where its memory is not that of `mps2.x`, a `.x` file of the same name. A board with a motor ([`nucleo_g474re`]) implements
-//! [`driveline::hal::Board`] instead; `doc/boards.md` says how.
+//! A new board of QEMU's is one file beside [`mps2_an386`] with its [`Facts`] and its [`Board`], a line in [`BOARDS`]
+//! and one in the choice below, and, where its memory is not that of `mps2.x`, a `.x` file of the same name. A board
+//! with a motor ([`nucleo_g474re`]) implements [`driveline::hal::Board`] instead; `doc/boards.md` says how.
 
 pub mod json_line;
 pub mod mps2_an385;
@@ -33,7 +33,7 @@ pub use mps2_an505::Mps2An505 as ThisBoard;
 
 use crate::scene::{Input, Output};
 
-/// What the host needs to build for a board and to run it.
+/// The host's data to build for a board and to run it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Facts {
     /// The board's name, and that of QEMU's machine: `mps2-an386`.
@@ -47,16 +47,17 @@ pub struct Facts {
 /// The boards whose cores have budgets.
 pub const BOARDS: &[Facts] = &[mps2_an386::FACTS, mps2_an385::FACTS];
 
-/// Further cores, on which the self-test gives the same bits. The M0+ is code for it on the M3, which runs it: QEMU has no board of that core.
+/// Further cores, on which the self-test gives the same bits. The M0+ is code for it on the M3, which runs it: QEMU has
+/// no board of that core.
 pub const FURTHER: &[Facts] = &[
     mps2_an500::FACTS,
     mps2_an505::FACTS,
     Facts { core: "m0plus", target: "thumbv6m-none-eabi", ..mps2_an385::FACTS },
 ];
 
-/// What the binaries need of a board.
+/// Interface of the binaries to a board.
 pub trait Board {
-    /// What the host knows of it.
+    /// The host's data on it.
     const FACTS: Facts;
     /// The way in and out of a control loop.
     type Link: Link;

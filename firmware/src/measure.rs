@@ -1,4 +1,4 @@
-//! What a call costs, measured by the image itself: instructions ([`count`]) and stack ([`stack`]).
+//! Cost of a call, measured by the image itself: instructions ([`count`]) and stack ([`stack`]).
 
 pub mod count;
 pub mod stack;

@@ -1,4 +1,4 @@
-//! The panels: what a terminal asks between two ticks, and what answers it.
+//! Operator panels: requests of a terminal between two ticks, and their answers.
 
 pub mod balancing_head;
 pub mod flash_model;

@@ -1,4 +1,4 @@
-//! What the loop, the bench and the self-test need to know of a scene, in words of 32 bits.
+//! Interface of loop, bench and self-test to a scene, in words of 32 bits.
 //!
 //! A scene is a drive composed from parts, with its constants; a variant has a name in the table of scenes. Every word
 //! is the bit pattern of the scene's own number type (`f32` in SI units, or fixed point per unit of the scene's
@@ -17,7 +17,7 @@ use driveline::drive::{Composition, ConfigOf};
 
 use expected::Expected;
 
-/// What a tick is given: eight words, as they travel over the link.
+/// Input of a tick: eight words, as on the link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Input {
@@ -31,7 +31,7 @@ pub struct Input {
     pub flags: u32,
     /// Vibration samples, as bits of the scene's number.
     pub vibration: [u32; 2],
-    /// What the panel asks for, a key and a value; the scene says what they mean, zeros ask for nothing.
+    /// Request of the panel: a key and a value, defined by the scene; zeros are no request.
     pub asked: [u32; 2],
 }
 
@@ -41,7 +41,7 @@ impl Input {
     pub const RELEASED: u32 = 1;
 }
 
-/// What a tick gives back: eight words, as they travel over the link.
+/// Output of a tick: eight words, as on the link.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Output {
@@ -59,7 +59,7 @@ pub struct Output {
     pub faults: u32,
     /// Instructions that the tick took; filled in by the board, zero on the host.
     pub instructions: u32,
-    /// The answer to what the panel asked; zero from the tick itself.
+    /// The answer to the panel's request; zero from the tick itself.
     pub answer: u32,
 }
 
@@ -68,7 +68,7 @@ pub trait Scene {
     /// One tick. Pure: no clock, no allocation, no panic.
     fn tick(&mut self, input: &Input) -> Output;
 
-    /// What a panel or a terminal does between two ticks: gives a value, asks for one. It may take longer than a tick,
+    /// Panel or terminal between two ticks: sets a value, requests one. It may take longer than a tick,
     /// and a scene without a panel has nothing of it.
     fn panel(&mut self, _asked: [u32; 2]) -> u32 {
         0

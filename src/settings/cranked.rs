@@ -44,7 +44,7 @@ impl CrankedDesign {
 }
 
 constants! {
-    /// [`Error::Coefficient`] or [`Error::Value`] for what fixed point cannot hold, or a gear that cannot be followed.
+    /// [`Error::Coefficient`] or [`Error::Value`] for a value beyond fixed point, or a gear ratio out of range.
     impl[] CrankConfig[], new, try_new(design: &CrankedDesign), |format| {
         let rigid = get!(RigidConfig::<Number>::try_new(&design.rigid, design.load_share(), format.bases));
         let exact = design.points(format.bases.torque, format.bases.speed);

@@ -1,5 +1,6 @@
-//! What else is off the tick, each once as a panel calls it: in-run balancing, holes, amplitudes alone, the procedure from
-//! its beginning to its record and back, sensors and grades. That this image links says that none of it can panic.
+//! Further functions off the tick, each once as a panel calls it: in-run balancing, holes, amplitudes alone, the
+//! procedure from its beginning to its record and back, sensors and grades. Linking of this image shows that none of it
+//! can panic.
 
 use driveline::balancing::{
     Action, Aim, Complex, CorrectionMethod, Entry, Error, Holes, InRun, InRunConfig, Influence, Motion, Objective,

@@ -1,4 +1,4 @@
-//! What is off the tick: a full solve of three planes and six readings in `f32`, trial runs included.
+//! Off the tick: a full solution of three planes and six readings in `f32`, trial runs included.
 
 use driveline::balancing::{Aim, Complex, Entry, Influence, Objective};
 

@@ -1,4 +1,5 @@
-//! The measurement of the speed's fluctuation, on a motor that turns at 1425 r/min, a little faster and slower by turns.
+//! The measurement of the speed's fluctuation, on a motor that turns at 1425 r/min, a little faster and slower by
+//! turns.
 
 use driveline::fluctuation::{
     CycleConfig, CycleMean, CycleMeanConfig, Extremes, Fluctuation, Ranked, Summed, Waveform, WaveformConfig,

@@ -1,4 +1,4 @@
-//! The governor alone, and what each of its parts adds, on the diesel set's constants.
+//! The governor alone, and the cost of each of its parts, on the diesel genset's constants.
 
 use driveline::governor::{
     ActiveDamping, Barred, Curve, Droop, FeedForward, Governor, MovingAverage, RunRequest, Sequencer, Slew,

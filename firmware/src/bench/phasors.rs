@@ -9,8 +9,8 @@ use super::Bench;
 use crate::board::Board;
 use crate::self_test::inputs::Program;
 
-/// A rotor behind a gear, a block every second turn so that both occur among the calls: the end of a block, and a turn's
-/// end within one, which is the longest tick of a single channel.
+/// A rotor behind a gear, a block every second turn so that both occur among the calls: the end of a block, and a
+/// turn's end within one, which is the longest tick of a single channel.
 const GEARED: PhasorSettings = PhasorSettings { rotor_turns: 31, motor_turns: 47, turns: 2, ..PhasorSettings::DIRECT };
 
 static SINGLE: (PhasorsConfig<f32, 1>, PhasorsConfig<f32, 2>) =

@@ -1,4 +1,4 @@
-//! What the bench measures: a line a function, with its state, its inputs and the function.
+//! Table of the bench: a line a function, with its state, its inputs and the function.
 
 use driveline::configure::Machine;
 use driveline::fluctuation::CycleMeanConfig;

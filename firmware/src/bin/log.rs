@@ -1,6 +1,6 @@
 #![no_std]
 #![no_main]
-//! What the selected scene logs over the built-in inputs: its name, and every change of its fault flags.
+//! Log of the selected scene over the built-in inputs: its name, and every change of its fault flags.
 
 use cortex_m_rt::entry;
 use driveline_firmware::Words;

@@ -3,8 +3,8 @@
 //! The test rig on a NUCLEO-G474RE: the control loop in the timer's interrupt, balancing and telemetry in the main
 //! loop.
 //!
-//! The blue button stops the drive when it is touched, and starts it when it was pressed and let go. `cargo driveline
-//! watch` shows the telemetry; what is asked for comes as frames of [`Asking`]. See `doc/boards.md`.
+//! The blue button stops the drive when it is touched, and starts it when it was pressed and let go.
+//! `cargo driveline watch` shows the telemetry; requests come as frames of [`Asking`]. See `doc/boards.md`.
 
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
@@ -30,7 +30,7 @@ use stm32_metapac::{Interrupt, interrupt};
 
 driveline_firmware::selected!("test-rig/f32/two-mass/10000");
 
-/// What the interrupt owns.
+/// State owned by the interrupt.
 struct Control {
     scene: <Selected as Variant>::Scene,
     turn: Turn<Nucleo<PwmTorque<Channel<0>, f32>>, f32>,
@@ -108,7 +108,7 @@ fn main() -> ! {
     start_tick(Selected::RATE_HZ);
     // it is in the memory before the interrupt may come: the registers are volatile, it is not
     compiler_fence(Ordering::Release);
-    // SAFETY: what the interrupt uses is there.
+    // SAFETY: the interrupt's state is initialised.
     unsafe { NVIC::unmask(Interrupt::TIM6_DAC) };
 
     let mut desk = Desk { serial, asking: Asking::default(), adviser: Adviser::new() };
@@ -127,8 +127,8 @@ fn main() -> ! {
     }
 }
 
-/// The blue button. Its level at reset counts as that of rest: whichever way it is wired, and even if it is held then,
-/// the drive does not start by a release alone.
+/// The blue button. Its level at reset counts as released: whatever its wiring, and even if pressed at reset, the drive
+/// does not start by a release alone.
 struct Starter {
     button: Pin,
     resting: bool,
@@ -163,7 +163,7 @@ impl Starter {
     }
 }
 
-/// What the main loop serves: the terminal, and the balancing.
+/// Tasks of the main loop: the terminal and the balancing.
 struct Desk {
     serial: Serial,
     asking: Asking,
@@ -171,7 +171,7 @@ struct Desk {
 }
 
 impl Desk {
-    /// Answers what has been asked.
+    /// Answers a request.
     fn serve(&mut self) {
         while let Some(byte) = self.serial.receive() {
             if let Some(asked) = self.asking.take(byte) {
@@ -196,7 +196,7 @@ impl Desk {
                 DONE
             }
             (_, Some(key)) => {
-                // a tick may wait for the copy, but not for what is made of it
+                // a tick may wait for the copy, but not for its processing
                 let measurement = between_ticks(|scene| *scene.measurement());
                 self.advise(key, value, &measurement)
             }

@@ -1,6 +1,6 @@
 #![no_std]
 #![no_main]
-//! An image in which a panic can be reached, by an index that only the run knows: it must not link.
+//! An image in which a panic can be reached, by an index known only at run time: it must not link.
 
 use core::hint::black_box;
 

@@ -1,7 +1,6 @@
 #![no_std]
 #![no_main]
-//! The selected scene over the built-in inputs, told as frames of telemetry to the host's pipe `told` until nobody
-//! listens.
+//! Telemetry of the selected scene over the built-in inputs, as frames to the host's pipe `told` until it is closed.
 
 use cortex_m_rt::entry;
 use driveline::telemetry::Channel;
@@ -14,7 +13,7 @@ use driveline_firmware::self_test::inputs::Program;
 
 driveline_firmware::selected!();
 
-/// Ticks told: a minute of the drive's time.
+/// Ticks reported: a minute of the drive's time.
 const TICKS: u32 = 60 * Selected::RATE_HZ;
 /// Ticks between two turns of the main loop, and between two descriptions of the channels.
 const TURN: u32 = 16;

@@ -1,8 +1,9 @@
 //! The CMSDK timer of the MPS2 boards as a counter of instructions, exact in QEMU.
 //!
 //! Under `-icount shift=10` an instruction takes 2^10 ns of virtual time. The timer runs at 25 MHz, 40 ns a
-//! count (20 MHz and 50 ns with an SSE-200), so an instruction is 25.6 counts: n = (40 counts + 512) / 1024. The two reads round by less than a count
-//! each, the quotient by less than an instruction. 32 bits last for 167 million instructions.
+//! count (20 MHz and 50 ns with an SSE-200), so an instruction is 25.6 counts: n = (40 counts + 512) / 1024. The two
+//! reads round by less than a count each, the quotient by less than an instruction. 32 bits last for 167 million
+//! instructions.
 //!
 //! Registers: Arm DDI 0479C, Cortex-M System Design Kit, section 4.3.
 
@@ -48,7 +49,7 @@ impl<const BASE: usize, const COUNT: u64> Timer<BASE, COUNT> {
 /// TIMER0 of the MPS2 boards with a Cortex-M3, M4 or M7, at 25 MHz (Arm DAI 0385D, table 4-1).
 pub type Timer0 = Timer<0x4000_0000, 40>;
 
-/// TIMER0 of the MPS2 boards with an SSE-200, as the secure side sees it, at 20 MHz (Arm DAI 0505C, tables 3-1 and 3-4).
+/// TIMER0 of the MPS2 boards with an SSE-200, at its secure address, at 20 MHz (Arm DAI 0505C, tables 3-1 and 3-4).
 pub type SecureTimer0 = Timer<0x5000_0000, 50>;
 
 /// Implements `Board` for a type that wraps a [`Timer`], over semihosting.

@@ -1,6 +1,6 @@
 //! Lines of JSON without the formatting machinery, which could panic.
 
-/// A line of JSON under construction: one object, at most [`Line::LONGEST`] bytes; what goes beyond is cut off.
+/// A line of JSON under construction: one object, at most [`Line::LONGEST`] bytes, then cut off.
 pub struct Line {
     bytes: [u8; Line::LONGEST],
     length: usize,

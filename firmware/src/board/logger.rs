@@ -1,4 +1,4 @@
-//! The way out for what is logged through `defmt`: the host's file `log`, through semihosting.
+//! Output of `defmt` logs: the host's file `log`, through semihosting.
 //!
 //! No interrupt is enabled in these images, so that a frame is never begun within another: no critical section, and no
 //! panic that could be reached.
@@ -31,7 +31,7 @@ fn with(action: impl FnOnce(&mut defmt::Encoder, &mut dyn FnMut(&[u8]))) {
     }
     action(encoder, &mut |bytes| {
         if let Some(sink) = sink {
-            // what the host does not take is lost
+            // bytes that the host does not take are lost
             let _ = sink.write(bytes);
         }
     });

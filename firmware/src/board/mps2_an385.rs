@@ -2,7 +2,7 @@
 
 use super::Facts;
 
-/// What the host knows of it.
+/// The host's data on it.
 pub const FACTS: Facts = Facts { name: "mps2-an385", core: "m3", target: "thumbv7m-none-eabi" };
 
 /// The board, as QEMU models it.

@@ -2,7 +2,7 @@
 
 use super::Facts;
 
-/// What the host knows of it.
+/// The host's data on it.
 pub const FACTS: Facts = Facts { name: "mps2-an386", core: "m4f", target: "thumbv7em-none-eabihf" };
 
 /// The board, as QEMU models it.

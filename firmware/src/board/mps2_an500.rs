@@ -2,7 +2,7 @@
 
 use super::Facts;
 
-/// What the host knows of it.
+/// The host's data on it.
 pub const FACTS: Facts = Facts { name: "mps2-an500", core: "m7", target: "thumbv7em-none-eabihf" };
 
 /// The board, as QEMU models it.

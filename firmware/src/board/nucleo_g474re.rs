@@ -1,14 +1,15 @@
 //! NUCLEO-G474RE: a Cortex-M4F at 170 MHz with a timer for motors, and a motor behind a drive or a bridge.
 //!
-//! `nucleo_g474re/nucleo.rs` is the board: what [`driveline::hal::Board`] asks for, out of the library's adapters. The files beside it are its registers, one
-//! peripheral each, through `stm32-metapac`, the crate of registers that `embassy-stm32` stands on: the image may hold no reachable panic, and a hardware
-//! layer that checks its arguments at run time has some. `doc/boards.md` has the wiring. **It has not run on hardware.**
+//! `nucleo_g474re/nucleo.rs` is the board: [`driveline::hal::Board`] from the library's adapters. The files beside it
+//! are its registers, one peripheral each, through `stm32-metapac`, the crate of registers that `embassy-stm32` stands
+//! on: the image may hold no reachable panic, and a hardware layer that checks its arguments at run time has some.
+//! `doc/boards.md` has the wiring. **It has not run on hardware.**
 //!
 //! Registers: ST RM0440. Pins: ST DS12288. Names in capitals are theirs.
 
 use super::Facts;
 
-/// What the host knows of it; QEMU has no such machine.
+/// The host's data on it; QEMU has no such machine.
 pub const FACTS: Facts = Facts { name: "nucleo-g474re", core: "g474", target: "thumbv7em-none-eabihf" };
 
 #[cfg(all(feature = "nucleo-g474re", target_os = "none"))]

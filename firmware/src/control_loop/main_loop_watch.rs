@@ -1,10 +1,11 @@
-//! Whether the main loop still turns. It alone looks at the stop button and hears the terminal, so that without it a drive cannot be stopped.
+//! Whether the main loop still turns. It alone looks at the stop button and hears the terminal, so that without it a
+//! drive cannot be stopped.
 
-/// Ticks without a turn of the main loop after which it counts as hung: half a second at 10 kHz. What it does at most in one turn, advice to a balancer
-/// among it, takes milliseconds.
+/// Ticks without a turn of the main loop after which it counts as hung: half a second at 10 kHz. Its longest turn, a
+/// step of in-run balancing included, takes milliseconds.
 pub const PATIENCE: u32 = 5_000;
 
-/// What the tick has seen of the main loop.
+/// The tick's record of the main loop.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Attended {
     turns: u32,

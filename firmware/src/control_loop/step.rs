@@ -1,7 +1,8 @@
 //! One turn of the control loop on a board with a motor: read, tick, do. It is the body of the timer's interrupt.
 //!
-//! Between reading and doing stands a tick over words ([`OnAxis`](crate::scene::on_axis::OnAxis)). Torque goes on after the enable chain and off before it. What
-//! the board refuses is taken back in the same turn, and told to the next tick, which trips.
+//! Between reading and doing stands a tick over words ([`OnAxis`](crate::scene::on_axis::OnAxis)). Torque goes on after
+//! the enable chain and off before it. An output that the board rejects is withdrawn in the same turn and reported to
+//! the next tick, which trips.
 
 use driveline::fault::Faults;
 use driveline::hal::Board;
@@ -9,7 +10,7 @@ use driveline::number::Number;
 
 use crate::scene::{Input, Output};
 
-/// What the loop is asked to do.
+/// Requests to the loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Asked<N> {
     /// Whether the power stage may be on.
@@ -18,7 +19,7 @@ pub struct Asked<N> {
     pub speed: N,
 }
 
-/// A board in the loop, and what was done with it last.
+/// A board in the loop, and its last outputs.
 #[derive(Debug)]
 pub struct Turn<B, N> {
     board: B,
@@ -41,7 +42,8 @@ impl<B: Board<N>, N: Number> Turn<B, N> {
         &mut self.board
     }
 
-    /// Reads, calls `tick`, does what it says. The watchdog is fed at the end ([`Board::alive`]), hence only where the tick has run.
+    /// Reads the inputs, calls `tick`, writes its outputs. The watchdog is fed at the end ([`Board::alive`]), hence
+    /// only where the tick has run.
     #[inline(always)]
     pub fn run(
         &mut self,
@@ -78,7 +80,7 @@ impl<B: Board<N>, N: Number> Turn<B, N> {
         (input, output)
     }
 
-    /// Does what an output says.
+    /// Writes an output.
     #[inline(always)]
     fn act(&mut self, output: &Output) {
         if Faults::from_bits(output.faults).intersects(Faults::TRIPPED) {

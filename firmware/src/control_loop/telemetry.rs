@@ -1,4 +1,4 @@
-//! What a scene tells of each tick: eight values as they stand in the words of the link.
+//! Telemetry of a scene per tick: eight values as in the words of the link.
 
 use driveline::telemetry::{Channel, Kind, Ring};
 
@@ -26,7 +26,7 @@ pub fn values(input: &Input, output: &Output) -> [u32; VALUES] {
     ]
 }
 
-/// The channels of variant `V`; fixed point is told per unit of the scene's bases.
+/// The channels of variant `V`; fixed point is sent per unit of the scene's bases.
 pub const fn channels<V: Variant>() -> [Channel<'static>; VALUES] {
     let (kind, torque, speed) = match const { Words::of::<V>() } {
         Words::Single => (Kind::Single, "N m", "rad/s"),

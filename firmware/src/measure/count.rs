@@ -24,20 +24,20 @@ impl<'b, B: Board> Counter<'b, B> {
         Counter { board, overhead }
     }
 
-    /// Calls `function` and gives its instructions; what the empty function has too (its frame, its return) is
-    /// not counted, nor is passing the three pointers.
+    /// Calls `function` and gives its instructions; the cost of an empty function (frame, return) and of passing the
+    /// three pointers is deducted.
     #[inline(always)]
     pub fn call<S, I, O>(&self, function: Measured<S, I, O>, state: &mut S, input: &I, output: &mut O) -> u32 {
-        // SAFETY: the same function but for the types behind its pointers, which are thin: the ABI is the same, and
-        // it is called with pointers to what it expects, valid during the call.
+        // SAFETY: the same function but for the types behind its pointers, which are thin: the ABI is the same, and its
+        // pointers are of the expected types, valid during the call.
         let function = unsafe { core::mem::transmute::<Measured<S, I, O>, Erased>(function) };
         let (state, input, output) = ((&raw mut *state).cast(), (&raw const *input).cast(), (&raw mut *output).cast());
         let counts = timed(self.board, black_box(function), state, input, output);
         B::instructions(counts).wrapping_sub(self.overhead)
     }
 
-    /// Instructions of a function that takes constants, a state, an angle and a number in registers, as an observer's step does; what an
-    /// empty function of that kind has too is not counted.
+    /// Instructions of a function that takes constants, a state, an angle and a number in registers, as an observer's
+    /// step does; the cost of an empty function of that kind is deducted.
     #[inline(always)]
     pub fn step<C, S, N: Copy>(
         &self,

@@ -1,4 +1,4 @@
-//! Stack that measured calls use: the memory below is painted before, and searched for what is no longer paint after.
+//! Stack that measured calls use: the memory below is painted before and searched for overwritten paint after.
 //!
 //! Only what is below the stack pointer at the call counts ([`mark`]), so the loop's own frame does not. A slot that a
 //! function reserves at its lowest address and never writes is not seen.

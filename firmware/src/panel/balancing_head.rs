@@ -9,11 +9,11 @@ use crate::scene::panel_keys::{DONE, Key, refused};
 
 /// The balancing head of a scene.
 pub trait Head {
-    /// What it can do, and how boldly it is moved.
+    /// Its limits, and its cautiousness.
     const CONFIG: InRunConfig<f32, 1>;
 }
 
-/// What is known of the rotor, and where its head is.
+/// The rotor's identified influence, and the position of the head.
 pub struct HeadPanel<H> {
     head: PhantomData<H>,
     in_run: Option<InRun<f32, CHANNELS, 1>>,

@@ -1,7 +1,7 @@
 //! Flash for a panel's record, as memory: the boards here model none.
 //!
 //! Two pages of 1 KiB, erased as a whole and written by words, in which bits only go from one to zero. A real board has
-//! its flash's driver here. What a power cut leaves of it is what the host takes out and puts into the next start.
+//! its flash's driver here. The host keeps its content over a power cut and puts it into the next start.
 
 use core::convert::Infallible;
 

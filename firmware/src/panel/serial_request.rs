@@ -1,4 +1,4 @@
-//! What a terminal asks of a board in seven bytes: a key and a value.
+//! A request of a terminal to a board in seven bytes: a key and a value.
 //!
 //! | byte | |
 //! |---|---|
@@ -15,7 +15,7 @@ pub const SPEED: u32 = 33;
 const BEGIN: u8 = 0x5a;
 const LENGTH: usize = 7;
 
-/// Finds what is asked in bytes that may begin anywhere and be damaged anywhere.
+/// Finds requests in bytes that may begin anywhere and be damaged anywhere.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Asking {
     /// The last bytes, the newest at the end.

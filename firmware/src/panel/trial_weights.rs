@@ -12,7 +12,7 @@ use super::flash_model::{self, Pages};
 use crate::scene::balanced::{Adviser, CHANNELS, Measured};
 use crate::scene::panel_keys::{DONE, Key, next, refused};
 
-/// What is good enough.
+/// Tolerance of the residual.
 pub trait Goal {
     /// The largest residual \[unit of the sensors\].
     const GOOD: f32;
@@ -41,7 +41,7 @@ const RANGE: core::ops::Range<u32> = 0..4 * flash_model::WORDS as u32;
 
 const ZERO: Complex<f32> = Complex { re: 0.0, im: 0.0 };
 
-/// Answers: the procedure refused, there is none, there is no reading, the key is another panel's.
+/// Answers: rejected by the procedure, no procedure, no reading, key of another panel.
 const BY_PROCEDURE: u32 = refused(0);
 const NO_PROCEDURE: u32 = refused(1);
 const NO_READING: u32 = refused(2);
@@ -62,7 +62,7 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> TrialWeights<G, ROWS, PLAN
         }
     }
 
-    /// Keeps what was entered.
+    /// Keeps the entries.
     fn save(&mut self) -> u32 {
         const { assert!(Procedure::<f32, ROWS, PLANES>::words(ROWS, PLANES) + RUN_OUT <= WORDS) };
         let Some(procedure) = &self.procedure else { return NO_PROCEDURE };
@@ -77,7 +77,7 @@ impl<G: Goal, const ROWS: usize, const PLANES: usize> TrialWeights<G, ROWS, PLAN
         }
     }
 
-    /// Goes on from what was kept.
+    /// Resumes from the kept record.
     fn resume(&mut self) -> u32 {
         let loaded = Store::new(&mut self.flash, RANGE).and_then(|mut store| store.load(&mut [0; BYTES]));
         let Some(record) = loaded.ok().and_then(|loaded| loaded.parameters) else { return NOTHING_KEPT };

@@ -56,7 +56,7 @@ pub struct Measured {
     pub speed: f32,
 }
 
-/// What makes weights of readings.
+/// From readings to weights.
 pub trait Adviser {
     /// Nothing known yet.
     fn new() -> Self;
@@ -113,7 +113,7 @@ where
     }
 }
 
-/// What a measurement has read.
+/// Readings of a measurement.
 ///
 /// # Errors
 /// Why it is no reading, or not yet.

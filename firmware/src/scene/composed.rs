@@ -115,9 +115,9 @@ impl<D: OverWords + Composition<Config: 'static>, B: Beside<D>> Scene for Compos
 
 /// A variant whose drive is an observer and a speed loop, for whom it is enough to know its parts.
 pub trait GovernedVariant: 'static {
-    /// What it calculates with.
+    /// Its number type.
     type Number: Number + 'static;
-    /// What it estimates with.
+    /// Its observer.
     type Observer: Observer<Self::Number>;
     /// As [`Variant::NAME`].
     const NAME: &'static str;

@@ -1,6 +1,6 @@
-//! What a scene's design says, at compile time, of the errors that its observer will have.
+//! A scene's predicted observer errors, at compile time.
 //!
-//! For the host, which puts it beside what was measured. No image has anything of it: the tick does not ask.
+//! For the host, which compares it with the measured errors. No image contains it: the tick does not use it.
 
 use driveline::configure::Machine;
 use driveline::design::TwoMassDesign;
@@ -11,14 +11,14 @@ use driveline::observer::{
     BacklashObserver, CrankObserver, GearedObserver, RigidObserver, SemiImplicitObserver, TwoMassObserver,
 };
 
-/// What a design says of its observer.
+/// A design's prediction for its observer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
     /// Standard deviation of the shaft torque's estimate \[N m\]; none where the design does not follow the shaft.
     pub shaft_torque: Option<f64>,
     /// Standard deviation of the load speed's estimate [rad/s].
     pub load_speed: f64,
-    /// The machine as the observer has it, with what its reduction left out; none where it is one mass.
+    /// The observer's model of the machine, with its reduction error; none for one mass.
     pub machine: Option<machine::TwoMass>,
 }
 

@@ -1,11 +1,11 @@
-//! An axis as a scene: the drive and what becomes of a board's faults, over an image of what the board reads and does.
+//! An axis as a scene: the drive and its reaction to a board's faults, over an image of the board's inputs and outputs.
 //!
-//! What was read goes in, what is to be done comes out, and nothing in between touches a register. So the tick is the
+//! Inputs and outputs are passed as values; no register is accessed in between. So the tick is the
 //! same machine code on a board with a motor, where [`Turn`](crate::control_loop::step::Turn) reads and does, and in
 //! QEMU, where the host does.
 //!
 //! Into [`Input::flags`] go [`Input::RELEASED`] and the board's faults as bits of [`Faults`]: of this reading (angle,
-//! torque, vibration) and of what was to be done after the last tick (torque output, enable). [`Output::faults`] has
+//! torque, vibration) and of the outputs after the last tick (torque output, enable). [`Output::faults`] has
 //! [`Faults::TRIPPED`] while the power stage is to be off.
 
 use core::marker::PhantomData;
@@ -23,14 +23,14 @@ use crate::scene::composed::output;
 use crate::scene::panel_keys::{DONE, Key, refused};
 use crate::scene::{FromConfig, Input, Output, Scene};
 
-/// The faults that a board tells in the flags of an input.
+/// Faults of a board in the flags of an input.
 const OF_THE_BOARD: Faults = Faults::ANGLE_MISSING
     .with(Faults::VIBRATION_MISSING)
     .with(Faults::TORQUE_OUTPUT)
     .with(Faults::ENABLE)
     .with(Faults::TORQUE);
 
-/// What a board has read, in place of the board.
+/// Readings of a board, in place of the board.
 struct Image<N> {
     angle: u32,
     torque: N,
@@ -110,7 +110,7 @@ impl<M: HasVibration, N: SensorUnit, O: Observer<N, Config: 'static>> Scene for 
         if released != self.released {
             self.released = released;
             if released {
-                // what keeps it off is said by the tick, and it stays off until the next release
+                // the tick reports the cause, and it stays off until the next release
                 let _ = self.axis.start(config);
             } else {
                 self.axis.trip();

@@ -1,13 +1,13 @@
-//! What the panel of a scene that is balanced is asked, as words of [`Input::asked`](crate::scene::Input::asked).
+//! Requests to the panel of a balancing scene, as words of [`Input::asked`](crate::scene::Input::asked).
 //!
 //! A key and a value go in after a tick, a word comes back. Weights, vibrations and their like travel as the bits of
-//! `f32`, real and imaginary part one after the other; planes, rows and channels are counted from 0. What cannot be
-//! done answers with [`refused`], and changes nothing.
+//! `f32`, real and imaginary part one after the other; planes, rows and channels are counted from 0. An impossible
+//! request is answered with [`refused`] and changes nothing.
 
 /// Defines the keys from their numbers.
 macro_rules! keys {
     ($($(#[$text:meta])* $key:ident = $word:literal,)+) => {
-        /// What is asked. Zero asks for nothing.
+        /// Keys of the requests. Zero is none.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(u32)]
         pub enum Key {
@@ -35,7 +35,7 @@ keys! {
     RunOut = 3,
     /// Keep the reading of both channels as two rows of the run, from row `value` on.
     Row = 4,
-    /// What is to be done next: one of [`next`].
+    /// The next step: one of [`next`].
     Next = 5,
     /// The run is the baseline.
     Baseline = 6,

@@ -9,7 +9,7 @@
 //!
 //! | variant | estimates | governs |
 //! |---|---|---|
-//! | `slack` | with the observer of backlash | takes up slack gently and damps the spindles |
+//! | `slack` | with the observer of backlash | backlash take-up and active damping of the spindles |
 //! | `backlash` | with the observer of backlash | by a plain speed loop |
 //! | `exact` | with the two-mass observer, which takes the gap for closed | by a plain speed loop |
 
@@ -80,7 +80,7 @@ impl HasBacklash for BloomingMill {
 pub type Backlash<N> = Governed<N, observer::BacklashObserver<N>>;
 /// Two masses, the gap taken for closed.
 pub type Exact<N> = Governed<N, observer::TwoMassObserver<N>>;
-/// Two masses and the gap, slack taken up.
+/// Two masses and the gap, with backlash take-up.
 pub type Slack<N> = GovernedBy<
     N,
     observer::BacklashObserver<N>,

@@ -3,10 +3,10 @@
 //! | machine | state in which it is commissioned |
 //! |---|---|
 //! | hoist | a quarter of a load (3 t) on the hook, 4 m over the ground: 12 t would take more than half of rated torque at rest |
-//! | mill | rolls apart, nothing between them: what holds them is the friction of their bearings |
+//! | mill | rolls apart, nothing between them: held by the friction of their bearings |
 //! | spindle | with its tool, in the air |
 //!
-//! What the test may know of a machine is on its name plates: rates, torques, speeds, the motor's inertia, and where
+//! The test's data on a machine are on its name plates: rates, torques, speeds, the motor's inertia, and where
 //! about the resonance is looked for.
 
 use driveline::commissioning::{Commissioning, CommissioningResult, Error, Figure, Stage, TestConfig, TestSettings};
@@ -30,7 +30,7 @@ pub const RATE_HZ: u32 = 10_000;
 /// 31.5, as the crane's driver reckons it.
 pub const HELD: f64 = 3_000.0 * 9.80665 * 0.8 / (2.0 * 2.0 * 31.5);
 
-/// What is known of the hoist.
+/// Data on the hoist.
 pub const HOIST: TestSettings = TestSettings {
     rate: Rate::hz(RATE_HZ),
     encoder: Hoist::<RATE_HZ>::ENCODER,
@@ -46,7 +46,7 @@ pub const HOIST: TestSettings = TestSettings {
     delay: 0.0,
 };
 
-/// What is known of the mill.
+/// Data on the mill.
 pub const MILL: TestSettings = TestSettings {
     rate: Rate::hz(RATE_HZ),
     encoder: BloomingMill::ENCODER,
@@ -61,7 +61,7 @@ pub const MILL: TestSettings = TestSettings {
     delay: 0.0,
 };
 
-/// What is known of the spindle.
+/// Data on the spindle.
 pub const SPINDLE: TestSettings = TestSettings {
     rate: Rate::hz(RATE_HZ),
     encoder: Spindle::ENCODER,
@@ -89,13 +89,13 @@ pub const MACHINES: [(&str, TestSettings); 3] = [("hoist", HOIST), ("mill", MILL
 
 static CONFIGS: [TestConfig; 3] = [config(&HOIST), config(&MILL), config(&SPINDLE)];
 
-/// What the panel is asked, with a value.
+/// Requests to the panel, with a value.
 pub mod panel {
     /// The machine is that of this number, before it is released.
     pub const MACHINE: u32 = 6;
     /// The stage, by its place in [`STAGES`](super::STAGES).
     pub const STAGE: u32 = 1;
-    /// A figure of the answer, by its place in [`figures`](super::figures), as the bits of an `f32`; all ones where
+    /// A figure of the result, by its place in [`figures`](super::figures), as the bits of an `f32`; all ones where
     /// there is none.
     pub const FIGURE: u32 = 2;
     /// Its standard deviation.
@@ -106,7 +106,7 @@ pub mod panel {
     /// Of the lines' last responses, one part: line times 8, upwards or downwards times 4, and frequency, real part,
     /// imaginary part or deviation.
     pub const RESPONSE: u32 = 5;
-    /// A gain of what was designed for the machine that was found, by its place in [`design`](super::design).
+    /// A gain of the design for the identified machine, by its place in [`design`](super::design).
     pub const GAIN: u32 = 7;
     /// No answer.
     pub const NONE: u32 = u32::MAX;
@@ -142,9 +142,9 @@ pub fn figures(identified: &CommissioningResult) -> [Figure; 14] {
     ]
 }
 
-/// The observer's five gains (per radian: rad, rad/s, rad, rad/s, N m) and the speed loop's three (proportional \[N m
-/// s/rad\], integral \[N m/rad\], slip \[N m s/rad\]) for a machine, by the functions that the compiler uses for the
-/// other scenes; `None` where it cannot be controlled.
+/// The observer's five gains (per radian: rad, rad/s, rad, rad/s, N m) and the speed loop's three (proportional
+/// \[N m s/rad\], integral \[N m/rad\], active damping \[N m s/rad\]) for a machine, by the functions that the compiler
+/// uses for the other scenes; `None` where it cannot be controlled.
 pub fn design(machine: &TwoMass, settings: &TestSettings) -> Option<[f64; 8]> {
     let disturbance = Disturbance {
         torque_accuracy: settings.torque_accuracy,
@@ -157,9 +157,9 @@ pub fn design(machine: &TwoMass, settings: &TestSettings) -> Option<[f64; 8]> {
     Some([a, b, c, d, e, speed_loop.proportional, speed_loop.integral, speed_loop.damping])
 }
 
-/// A commissioning under way, as a scene: the tick gives the torque, the panel's turn solves what a stage has measured.
+/// A commissioning under way, as a scene: the tick gives the torque, the panel's turn solves a stage's data.
 ///
-/// One image serves all three machines: the panel says which before the drive is released.
+/// One image serves all three machines: the panel selects one before the drive is released.
 pub struct Commission {
     config: &'static TestConfig,
     test: Commissioning<LINES>,

@@ -1,5 +1,5 @@
-//! The hoist's drive with parts left out, to measure what each costs: an observer alone, with a governor, with a
-//! measurement of the fluctuation, and an observer that is called by hand, without a drive.
+//! The hoist's drive with parts left out, to measure the cost of each: an observer alone, with a governor, with a
+//! measurement of the fluctuation, and an observer called directly, without a drive.
 
 use driveline::balancing::Balancer;
 use driveline::drive::{ConfigOf, Drive};
@@ -86,8 +86,8 @@ variants! {
 const NONE_YET: i32 = i32::MIN;
 const ONE: i32 = NONE_YET + 1;
 
-/// An observer called by hand with the screening of [`driveline::drive`], without a drive: what a drive of nothing but
-/// an observer is measured against. It follows `Drive::observe` and `Drive::search` line by line.
+/// An observer called directly with the screening of [`driveline::drive`]: the reference for a drive with an observer
+/// alone. It follows `Drive::observe` and `Drive::search` line by line.
 pub struct ByHand<N: Number + 'static, O: Observer<N, Config: 'static> + 'static> {
     config: &'static ConfigOf<Drive<N, O>>,
     observer: O,

@@ -1,16 +1,16 @@
-//! The tilting drive of a 300 t oxygen converter: four motors on one bull gear, slack in the gear.
+//! The tilting drive of a 300 t oxygen converter: four motors on one bull gear, with backlash.
 //!
 //! Four motors of 110 kW at 600 r/min turn four pinion trains of 690 on one bull gear. They are alike, and so are their
-//! trains, so one equivalent motor of four times the inertia and torque stands for them; what they might do against
-//! each other is not in this scene. Vessel, steel and lining of 850 t turn at a radius of gyration of 3.8 m (1.2e7 kg
-//! m2); trunnion and torque bar give 3.5 GN m/rad; the gap is what four worn trains leave, 0.43 mrad at the trunnion,
-//! 0.3 rad at the motors. A steel bath of this size needs some third of rated torque on either side of its dead centre.
-//! Figures are of the size that makers give for such drives, not those of one machine. Losses are taken for dry
-//! friction of the load.
+//! trains, so one equivalent motor of four times the inertia and torque stands for them; their motion against each
+//! other is not in this scene. Vessel, steel and lining of 850 t turn at a radius of gyration of 3.8 m (1.2e7 kg m2);
+//! trunnion and torque bar give 3.5 GN m/rad; the gap is that of four worn trains, 0.43 mrad at the trunnion, 0.3 rad
+//! at the motors. A steel bath of this size needs some third of rated torque on either side of its dead centre. Figures
+//! are of the size that makers give for such drives, not those of one machine. Losses are taken for dry friction of the
+//! load.
 //!
 //! | variant | governs |
 //! |---|---|
-//! | `slack` | takes up slack gently and damps the shaft |
+//! | `slack` | backlash take-up and active damping of the shaft |
 //! | `plain` | by a plain speed loop |
 
 use driveline::configure::{HasBacklash, Machine, Rating};
@@ -75,7 +75,7 @@ impl HasBacklash for Converter {
 
 /// A plain speed loop.
 pub type Plain<N> = GovernedBy<N, BacklashObserver<N>, SpeedGovernor<N, (), (), SymmetricLimit>>;
-/// Slack taken up.
+/// With backlash take-up.
 pub type Slack<N> = GovernedBy<
     N,
     BacklashObserver<N>,

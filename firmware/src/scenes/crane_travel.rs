@@ -2,11 +2,11 @@
 //!
 //! 25 t of bridge and trolley and 15 t of load on 10 m of rope travel at 1.25 m/s on wheels of 0.5 m behind gears of
 //! 30; two motors of 11 kW count as one of 147 N m at 150 rad/s. Masses, speed and power are of the size that makers
-//! give for a crane of 16 t and 25 m of span. The load swings at 0.16 Hz, and what the motor feels of it is the shaft
-//! of this drive: a spring of `m g/l`, for angles up to 15 degrees within 0.4 % of the frequency.
+//! give for a crane of 16 t and 25 m of span. The load swings at 0.16 Hz, and acts on the motor as the shaft of this
+//! drive: a spring of `m g/l`, for angles up to 15 degrees within 0.4 % of the frequency.
 //!
 //! The travelling resistance, 6 per mille of the weight with the gears' loss in it, lies in front of the swinging load.
-//! Of the torque that the drive is told it is taken off as far as it is known. To the observer the rest is a part of
+//! Its known part is deducted from the drive's reported torque. To the observer the rest is a part of
 //! the shaft torque and of the load torque alike, which changes nothing else while it is constant.
 
 use driveline::configure::{Machine, Rating};
@@ -33,8 +33,8 @@ impl Machine for CraneTravel {
     const RATING: Rating = Rating { torque: 147.0, speed: 150.0, torque_limit: 290.0 };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 1_000;
-    /// The torque is known to 3 %, as much for what is not known of the travelling resistance as for noise. What
-    /// wanders is the wind, by a twentieth of rated torque in 100 s: noise and lag are least together so.
+    /// The torque is known to 3 %, half for the uncertain travelling resistance and half for noise. The wind varies by
+    /// a twentieth of rated torque in 100 s: this minimises noise plus lag.
     const DISTURBANCE: Disturbance = Disturbance {
         torque_accuracy: 0.03 * Self::RATING.torque,
         load_torque_step: 0.05 * Self::RATING.torque,
@@ -52,7 +52,7 @@ impl Machine for CraneTravel {
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 4096;
 
-/// What it needs for a start within a second.
+/// Observer selection for a start within a second.
 pub const SELECTION: ObserverSelection = CraneTravel::TWO_MASS.select_observer(
     &LoadCycle {
         speed: CraneTravel::RATING.speed,

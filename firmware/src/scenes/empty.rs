@@ -1,4 +1,4 @@
-//! A scene that does nothing: what the loop itself costs, and what every other scene's image is compared with.
+//! An empty scene: the cost of the loop itself, and the reference for every other scene's image.
 
 use crate::scene::table::variants;
 use crate::scene::{Input, Output, Scene, Variant};

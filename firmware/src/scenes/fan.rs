@@ -1,4 +1,4 @@
-//! A fan: motor, coupling, impeller. The smallest drive: one mass, nothing that the controller could feel beside it.
+//! A fan: motor, coupling, impeller. The smallest drive: one mass.
 //!
 //! A 45 kW, four-pole motor at 1480 r/min (290 N m; makers' tables give 0.3 to 0.4 kg m2 for frame size 225) on a
 //! flexible coupling of 0.12 MN m/rad, as catalogues have it for that torque, and the impeller of a radial fan of 0.9
@@ -41,7 +41,7 @@ impl Machine for Fan {
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 4096;
 
-/// What it needs: torques that change within a tenth of a second do not shake the coupling.
+/// Observer selection: torque changes within a tenth of a second do not excite the coupling.
 pub const SELECTION: ObserverSelection = Fan::TWO_MASS.select_observer(
     &LoadCycle {
         speed: Fan::RATING.speed,

@@ -6,7 +6,7 @@
 //! Tang 1994 calculates with. The driven machine has 12 kg m2 on a shaft of 65 mm by 0.8 m. The figures are not those
 //! of one machine.
 //!
-//! What the teeth do is far above what an observer on the motor can follow: at speed they meet 516 times a second. It
+//! The tooth mesh is far above the bandwidth of an observer on the motor: at speed they meet 516 times a second. It
 //! is in the full plant, with an error on every second tooth, with backlash and with the wheels' bearings; here the
 //! mesh is a shaft of its mean stiffness, and the wheels are a mass that the reduction leaves out. On the way up the
 //! mesh passes their resonance.
@@ -66,7 +66,7 @@ impl Machine for GearDrive {
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 8_192;
 
-/// What it needs for a load that comes within 20 ms.
+/// Observer selection for a load step within 20 ms.
 pub const SELECTION: ObserverSelection = GearDrive::TWO_MASS.select_observer(
     &LoadCycle {
         speed: GearDrive::RATING.speed,

@@ -1,4 +1,4 @@
-//! Generator sets of 50 Hz: a diesel engine of 400 kW, and a geared steam turbine of 2 MW.
+//! Gensets of 50 Hz: a diesel engine of 400 kW, and a geared steam turbine of 2 MW.
 //!
 //! The diesel: six cylinders, four-stroke, turbocharged, 1500 r/min, a rubber coupling, a four-pole generator. Engine
 //! with flywheel 4.4 kg m2, generator 8 kg m2, coupling 50 kN m/rad at a relative damping of 1.1: of the size that
@@ -8,7 +8,7 @@
 //! The turbine, at the generator's shaft: 1500 r/min, acceleration time 8 s (twice the stored energy over the rated
 //! power: 4 s of inertia constant, as is usual for such sets), a stiff coupling; the valve has a lag of 0.1 s and the
 //! steam chest one of 0.25 s, the values that are usual for the model TGOV1 without reheat [IEEE PES-TR1 2013 §2.1].
-//! What the observer is told is the torque that the chest's pressure stands for.
+//! The observer's input is the torque of the chest's pressure.
 //!
 //! # The loss of the turbine's whole load
 //! By the time the valve can have closed the steam has gone on driving: rated torque for the sum of the lags, 0.35 s,
@@ -19,14 +19,14 @@
 //! estimated acceleration, as half the set's inertia more would ([`VirtualInertia`]), which raises the margins as well.
 //!
 //! # Inputs that fail
-//! An [`ActuatorMonitor`] compares rack or chest with what was commanded. What becomes of a fault on each input:
+//! An [`ActuatorMonitor`] compares rack or chest with the command. Reaction to a fault on each input:
 //!
 //! | input | for 5 ms | for good |
 //! |---|---|---|
 //! | angle: dropped, frozen, noisy, negated, no number | coasts | trips: sensor loss, after 15 ms |
 //! | rack: dropped, noisy, negated | the expected torque instead | trips: actuator, after 0.1 s and more |
 //! | rack: no number | the same | trips: sensor loss, after 0.1 s |
-//! | rack: frozen | believed | believed until the command moves by a fifth of the rated torque, then as dropped |
+//! | rack: frozen | believed | accepted until the command moves by a fifth of the rated torque, then as dropped |
 //! | setpoint: frozen, noisy, no number | the ramp hardly moves; the last good one | rides through |
 //! | setpoint: dropped, negated | the ramp hardly moves | is one: the set slows down, and trips by underspeed, or its coupling by overload |
 
@@ -65,7 +65,7 @@ pub const RATED_SPEED: f64 = 157.079_632_679_489_66;
 /// The encoder on the flywheel.
 pub const ENCODER: Encoder = Encoder::lines(2048);
 
-/// What a set is made of.
+/// Data of a genset.
 pub struct Set {
     /// Rated torque [N m].
     pub rated_torque: f64,
@@ -85,9 +85,9 @@ pub struct Set {
     pub share: f64,
     /// Share of the inertia that is given against the acceleration, without feed-forward.
     pub inertia: f64,
-    /// Lags of the actuator from the command to what the drive is told [s].
+    /// Lags of the actuator from the command to the reported torque [s].
     pub lags: [f64; 2],
-    /// How long the actuator may be elsewhere than it was told to be [s].
+    /// Timeout of the actuator monitor [s].
     pub timeout: f64,
     /// Largest torque against speed.
     pub curve: TorqueCurve<4>,
@@ -108,13 +108,13 @@ pub const DIESEL_TORQUE: f64 = 4.0e5 / RATED_SPEED;
 /// Lag of the rack [s].
 pub const RACK_LAG: f64 = 0.02;
 
-/// Mean time from an injection to its torque [s]: what the observer is told, since it follows the torque in the mean.
+/// Mean time from an injection to its torque [s], for the observer, which follows the mean torque.
 pub const TORQUE_DELAY: f64 = 0.0065;
 
 /// Dead time that the governor allows for [s], which has to bear with every phase of the firing.
 pub const FIRING_DELAY: f64 = Actuator::firing_delay(6, true, RATED_SPEED);
 
-/// By how much the governor's view is late [s]: half of what it is the mean of.
+/// Delay of the speed filter [s]: half of its interval.
 const VIEW_DELAY: f64 = 0.5 * FIRING as f64 * PERIOD;
 
 /// The diesel set. Its critical speed is that of the engine's order 1.5 on the coupling, 844 r/min; order 3, the
@@ -160,8 +160,8 @@ pub const TURBINE_CHAIN: Chain = Chain::motor(Inertia(0.4 * TURBINE_INERTIA))
 
 const TURBINE_MACHINE: TwoMassMachine = TURBINE_CHAIN.reduce(Match::ResonanceAntiresonance);
 
-/// The turbine set. Of its two lags the shorter counts as a dead time; no order excites its coupling, so what is barred
-/// lies below its turning gear.
+/// The turbine set. Of its two lags the shorter counts as a dead time; no order excites its coupling, so its barred
+/// range lies below its turning gear.
 pub const TURBINE: Set = Set {
     rated_torque: TURBINE_TORQUE,
     machine: TURBINE_MACHINE,
@@ -242,8 +242,7 @@ impl Set {
         }
     }
 
-    /// The watch on the actuator: a fifth of the rated torque beside what was commanded; nine sixteenths over it is
-    /// none.
+    /// The actuator monitor: tolerance of a fifth of the rated torque; nine sixteenths over rated is no torque.
     pub const fn watch(&self) -> ActuatorMonitorSettings {
         ActuatorMonitorSettings {
             tolerance: 0.2 * self.rated_torque,
@@ -271,10 +270,10 @@ impl Set {
 /// The ring of the rack [ticks].
 pub const RING: usize = 32;
 
-/// Ticks of the firing interval, over which the governor sees the mean.
+/// Ticks of the firing interval, the length of the moving average.
 pub const FIRING: usize = 32;
 
-/// The governor of a set: the diesel's, or with what else adds torque.
+/// The governor of a genset, with feed-forward or another compensation.
 pub type Governor<N, F = FeedForward> =
     SpeedGovernor<N, (Droop, Barred<1>), F, Curve<4>, Sequencer, MovingAverage<N, FIRING>>;
 /// The drive of a set.
@@ -362,7 +361,7 @@ impl<S: HasSet, const CONSTANTS: usize> HasSequencer for With<S, CONSTANTS> {
 
 /// The constants of a set in a number, beside those of its drive at the start.
 pub trait InNumber<N: Number + 'static>: HasSet {
-    /// What adds torque.
+    /// Its compensation.
     type Added: Compensation<N, Config: 'static>;
     /// The constants that the panel chooses from.
     const CONFIGS: &'static [ConfigOf<DriveOf<N, Self::Added>>; 3];
@@ -390,13 +389,13 @@ in_number!(DieselSet, Fixed, FeedForward, Self::SET.bases());
 in_number!(TurbineSet, f32, (FeedForward, AccelerationFeedback), Bases::SI);
 in_number!(TurbineSet, Fixed, (FeedForward, AccelerationFeedback), Self::SET.bases());
 
-/// The setpoints and switches of the panel, as keys of what it asks.
+/// Setpoints and switches of the panel, as keys of its requests.
 pub mod panel {
     /// Chooses the constants: 0 with feed-forward, 1 without, 2 with droop.
     pub const CONSTANTS: u32 = 1;
-    /// Asks for the mode; see [`super::mode_word`].
+    /// Requests the state; see [`super::mode_word`].
     pub const MODE: u32 = 2;
-    /// Trips the set, as an emergency stop does, and asks for the mode.
+    /// Trips the genset, as an emergency stop does, and requests the state.
     pub const TRIP: u32 = 3;
 }
 

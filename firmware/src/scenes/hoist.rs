@@ -66,7 +66,7 @@ impl<const RATE_HZ: u32> Machine for CutAtRope<RATE_HZ> {
 }
 
 /// The design chooses the cheap step from 4 kHz on; a change that makes it too coarse stops here. At 1 kHz `Reduced`
-/// overrules the design, to show what that costs.
+/// overrides the design, to show the cost.
 const _: () = {
     assert!(matches!(Hoist::<10_000>::OBSERVER.chosen, StepChoice::SemiImplicit));
     assert!(matches!(Hoist::<4_000>::OBSERVER.chosen, StepChoice::SemiImplicit));

@@ -59,8 +59,9 @@ impl Machine for PlanetaryDrive {
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 8_192;
 
-/// What it needs for a belt that breaks loose within 0.2 s: one mass. The scene overrules it, since a rigid observer
-/// has to be tuned so lively, lest the speed loop excite the shaft, that its noise costs more than the second mass.
+/// Observer selection for a belt that breaks loose within 0.2 s: one mass. The scene overrules it, since a rigid
+/// observer has to be tuned so lively, lest the speed loop excite the shaft, that its noise costs more than the second
+/// mass.
 pub const SELECTION: ObserverSelection = PlanetaryDrive::TWO_MASS.select_observer(
     &LoadCycle {
         speed: PlanetaryDrive::RATING.speed,

@@ -56,7 +56,7 @@ impl Machine for PunchPress {
     const RATE_HZ: u32 = 10_000;
     /// Referred to the motor.
     const TWO_MASS: TwoMass = Self::CHAIN.reduce(Match::TextbookCut(0));
-    /// The punch comes and goes within hundredths of a second: of what was tried, the least error in the shaft's
+    /// The punch comes and goes within hundredths of a second: of the values tried, the smallest error of the shaft
     /// torque. A quicker observer is noisy.
     const DISTURBANCE: Disturbance =
         Disturbance { load_torque_step: 1_000.0, within: 3.0, ..Self::RATING.disturbance() };
@@ -84,7 +84,7 @@ impl HasCrank for PunchPress {
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 2048 * 64;
 
-/// Where the crank is when the press is switched on: at its top, half a turn from the outer dead centre [2^-32 turn].
+/// Crank angle when the press is switched on: half a turn from the top dead centre [2^-32 turn].
 pub const TOP: u32 = 1 << 31;
 
 /// A stroke: a turn of the crank.
@@ -127,7 +127,7 @@ pub static INERTIA: [f64; 64] = {
 /// Keys of the panel.
 pub mod panel {
     /// Advise a flywheel for a permissible delta, as the bits of `f32`: answers [`DONE`], or [`NOT_YET`] where no
-    /// window of strokes is finished, or [`NONE`] where no flywheel does it. The other keys answer for this advice.
+    /// window of strokes is finished, or [`NONE`] where no flywheel does it. The other keys refer to this flywheel.
     pub const ADVISE: u32 = 1;
     /// Mean speed [rad/s], as the bits of `f32`.
     pub const MEAN: u32 = 2;
@@ -140,9 +140,9 @@ pub mod panel {
 
     /// Answer: done.
     pub const DONE: u32 = 1;
-    /// Answer: there is nothing to advise from.
+    /// Answer: no data for a flywheel.
     pub const NOT_YET: u32 = 2;
-    /// Answer: no flywheel does it.
+    /// Answer: no flywheel suffices.
     pub const NONE: u32 = 3;
 }
 
@@ -195,7 +195,7 @@ impl<N: Summed> Beside<MeanDrive<N>> for Notes<N> {
     }
 }
 
-/// What the panel of a press knows: the strokes that were finished last, and the last advice.
+/// State of a press's panel: the last finished strokes, and the last flywheel.
 pub struct Notes<N: Summed> {
     window: Option<Window<N, BINS>>,
     advice: Option<(Ripple, Flywheel)>,

@@ -5,16 +5,16 @@
 //! disc sits on the motor's shaft, and holds twice the weight: it stops the descending skip with 4.4 m/s2. The figures
 //! are of the size of a small shaft's winch, not those of one machine.
 //!
-//! When the supply fails the brake closes and the inverter is off; the drive is told the brake's torque with the
-//! motor's and goes on estimating, since that is when the rope's force matters most.
+//! When the supply fails the brake closes and the inverter is off; the drive's input is the brake's torque plus the
+//! motor's, and it goes on estimating: the rope's force matters most then.
 //!
 //! Otherwise the inverter stays on through an emergency (stop category 1 of IEC 60204-1). A winch that stops faster
-//! than its skip falls throws it into a slack rope, and the skip falls back into it. So the emergency is tried with two
-//! governors, on an observer that knows a slack rope:
+//! than its skip falls throws it into a slack rope, and the skip falls back into it. The emergency stop is run with two
+//! governors, on an observer with a slack rope:
 //!
 //! | variant | estimates | governs |
 //! |---|---|---|
-//! | `slack` | with the observer of backlash, whose gap is the slack rope | keeps the rope from going slack, takes it up gently, damps the swing |
+//! | `slack` | with the observer of backlash, whose gap is the slack rope | keeps the rope taut, takes it up at the approach speed, damps the oscillation |
 //! | `plain` | with the observer of backlash | by a plain speed loop |
 //! | `semi-implicit` | with two masses, a rope that pushes | by the speed loop with its damping |
 //! | `rigid` | with one mass | by the speed loop with its damping |
@@ -67,7 +67,7 @@ pub const BRAKE_TORQUE: f64 = 6_540.0;
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 8192;
 
-/// What it needs when the brake closes within 0.3 s.
+/// Observer selection for a brake that closes within 0.3 s.
 pub const SELECTION: ObserverSelection = SkipWinch::TWO_MASS.select_observer(
     &LoadCycle {
         speed: SkipWinch::RATING.speed,
@@ -95,8 +95,8 @@ impl Machine for SkipOnRope {
     const TWO_MASS: TwoMass = SkipWinch::TWO_MASS.with_gap(Gap(15.0));
     const GEAR: Gear = SkipWinch::GEAR;
     const DISTURBANCE: Disturbance = SkipWinch::DISTURBANCE;
-    /// How the observer looks for the moment in which the rope tightens: a slack rope's length is known from the flight
-    /// of the skip, to 0.15 rad within a period of the swing.
+    /// Searching gains for the instant at which the rope tightens: the slack follows from the skip's flight, to 0.15
+    /// rad within a period of the oscillation.
     const BACKLASH_TUNING: BacklashTuning = BacklashTuning { wander: 0.01, hold: 0.6 };
     /// The design's proportional and integral gains, without its damping.
     const SPEED_LOOP: SpeedLoopDesign = SpeedLoopDesign { damping: 0.0, ..SkipWinch::SPEED_LOOP };
@@ -129,7 +129,7 @@ pub type Rigid<N> = Governed<N, GearedObserver<observer::RigidObserver<N>>>;
 pub type SemiImplicit<N> = Governed<N, GearedObserver<observer::SemiImplicitObserver<N>>>;
 /// A plain speed loop.
 pub type Plain<N> = GovernedBy<N, GearedObserver<BacklashObserver<N>>, SpeedGovernor<N, (), (), SymmetricLimit>>;
-/// A slack rope taken up.
+/// With take-up of the slack rope.
 pub type Slack<N> = GovernedBy<
     N,
     GearedObserver<BacklashObserver<N>>,

@@ -49,8 +49,8 @@ impl Machine for Spindle {
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 524_288;
 
-/// What it needs for a tool that hits the work within 3 ms, three times a second; twelve samples on a swing are too few
-/// for the semi-implicit step.
+/// Observer selection for a tool that hits the work within 3 ms, three times a second; twelve samples on a swing are
+/// too few for the semi-implicit step.
 pub const SELECTION: ObserverSelection = Spindle::TWO_MASS.select_observer(
     &LoadCycle {
         speed: Spindle::RATING.speed,

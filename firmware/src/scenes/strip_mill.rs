@@ -33,7 +33,7 @@ impl Machine for StripMill {
     /// 90 Hz that it does not know would excite one another.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.05 };
     const RAMP: f64 = Self::RATING.speed / 3.0;
-    /// They are far above what is reached, for the gains: a radian of innovation is much with such an encoder.
+    /// They are far above the operating range, for the gains: a radian of innovation is much with such an encoder.
     const BASES: Bases = Bases::new(&Self::TWO_MASS, 20.0 * Self::RATING.torque_limit, 4.0 * Self::RATING.speed);
     /// In 0.2 s the motor turns by less than half a turn.
     const SCREENING: Screening = Screening {
@@ -46,7 +46,7 @@ impl Machine for StripMill {
 /// Counts of the encoder on a turn: a sine encoder of 4096 lines, interpolated 256 times.
 pub const COUNTS: u32 = 1_048_576;
 
-/// What it needs for a strip that bites within 50 ms.
+/// Observer selection for a strip bite within 50 ms.
 pub const SELECTION: ObserverSelection = StripMill::TWO_MASS.select_observer(
     &LoadCycle {
         speed: StripMill::RATING.speed,

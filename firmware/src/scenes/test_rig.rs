@@ -29,7 +29,7 @@ impl Machine for TestRig {
     const RATING: Rating = Rating { torque: 0.64, speed: 314.0, torque_limit: 1.27 };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 10_000;
-    /// A drive of that size knows its torque to 2 % of rated in a tick.
+    /// The torque of a drive of that size is known to 2 % of rated in a tick.
     const DISTURBANCE: Disturbance = Disturbance {
         torque_accuracy: 0.02 * Self::RATING.torque,
         load_torque_step: 0.3 * Self::RATING.torque,
@@ -37,8 +37,8 @@ impl Machine for TestRig {
     };
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { shaft_damping: 0.4, ..SpeedLoopTuning::USUAL };
     const RAMP: f64 = Self::RATING.speed / 3.0;
-    /// Two thirds over the largest torque; 1/128 turn, which that torque does not move the motor before the observer
-    /// has followed; two counts; 15 ms without an angle.
+    /// Two thirds over the largest torque; 1/128 turn, more than that torque moves the motor before the observer has
+    /// followed; two counts; 15 ms without an angle.
     const SCREENING: Screening =
         Screening { max_coast: Self::RATE_HZ / 67, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
 }

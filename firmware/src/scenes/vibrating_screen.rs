@@ -1,8 +1,8 @@
 //! A dual-mass vibrating screen that runs up through its resonances.
 //!
 //! A screen box of 8 t with its charge, for a deck of 2.4 m by 6 m, stands on springs on a frame of 5 t, and that on
-//! springs on the ground, so that the ground feels little. Two unbalanced shafts that turn against each other shake the
-//! box along a line at 45 degrees: 40 kg m together give 5 mm to either side at 970 r/min, five times gravity, as
+//! springs on the ground, so that little reaches the ground. Two unbalanced shafts that turn against each other shake
+//! the box along a line at 45 degrees: 40 kg m together give 5 mm to either side at 970 r/min, five times gravity, as
 //! makers have it for such screens. A motor of 30 kW on the ground (295 N m, 1.2 kg m2) turns them through a cardan
 //! shaft of 60 mm by 1 m. The figures are not those of one machine.
 //!
@@ -48,8 +48,7 @@ impl Machine for VibratingScreen {
     const RATING: Rating = Rating { torque: 295.0, speed: 101.6, torque_limit: 2.0 * 295.0 };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 4_000;
-    /// Of the load torque, what the box gives and takes at 32 Hz has to be followed: a thousand newton metres within
-    /// milliseconds.
+    /// The observer must follow the box's load torque at 32 Hz: a thousand newton metres within milliseconds.
     const DISTURBANCE: Disturbance =
         Disturbance { load_torque_step: 4.0 * Self::RATING.torque, within: 0.05, ..Self::RATING.disturbance() };
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.03 };
@@ -87,7 +86,7 @@ pub const CRITICAL: [f64; 2] = {
     [sqrt(half - root), sqrt(half + root)]
 };
 
-/// What it needs for the box's push: at speed `S^2 w^2/2M` either way, twice a turn.
+/// Observer selection for the box's force: at speed `S^2 w^2/2M` either way, twice a turn.
 pub const SELECTION: ObserverSelection = VibratingScreen::TWO_MASS.select_observer(
     &LoadCycle {
         speed: VibratingScreen::RATING.speed,

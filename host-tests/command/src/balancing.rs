@@ -10,7 +10,7 @@
 //! |---|---|
 //! | run | from standstill to standstill, with the readings that were taken |
 //! | grade | balance quality grade G of what unbalance is left, `e Omega` in mm/s [ISO 21940-11] |
-//! | setting | a weight as it was set: off by a few percent and degrees from what was asked for |
+//! | setting | a weight as installed: off by a few percent and degrees from the requested one |
 
 mod error;
 mod fan;

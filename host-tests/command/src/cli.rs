@@ -6,8 +6,8 @@
 //! | 1 | done, and the answer is no: a check failed, a run could not finish |
 //! | 2 | not begun: a wrong argument or a machine file with a fault |
 //!
-//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the object
-//! `{"error": ...}`.
+//! Results go to standard output, progress and errors to standard error; an error is a sentence, with `--json` the
+//! object `{"error": ...}`.
 
 mod backlash;
 mod balance;

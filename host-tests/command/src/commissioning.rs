@@ -1,4 +1,5 @@
-//! Commissioning against full plants: the test of `driveline::commissioning` in closed loop with the solver, on the host or in QEMU.
+//! Commissioning against full plants: the test of `driveline::commissioning` in closed loop with the solver, on the
+//! host or in QEMU.
 
 mod course;
 mod engine;

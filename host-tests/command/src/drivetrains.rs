@@ -16,7 +16,7 @@ pub use plan::{Plan, Variants};
 use driveline_solver::plant::PlantError;
 use scenario::Machine;
 
-/// What makes a scene's machine with its plants.
+/// Builder of a scene's machine with its plants.
 pub type Build = fn() -> Result<Machine, PlantError>;
 
 /// A file here for each scene of the firmware's table.

@@ -1,8 +1,8 @@
-//! The generator sets' full plants, what the standards ask of them, and their drives in closed loop.
+//! Full plants of the gensets, the standards' requirements, and their drives in closed loop.
 //!
 //! | term | meaning |
 //! |---|---|
-//! | rack | what sets an engine's fuel; its position stands for a torque |
+//! | rack | actuator of an engine's fuel; its position corresponds to a torque |
 //! | steady band | width of the frequency's swing at constant load, of rated |
 //! | drop, rise | deepest and highest frequency after a load came or went, less that before, of rated |
 //! | recovery | from the load's change until the frequency stays within the band that is allowed |

@@ -1,5 +1,5 @@
-//! The subcommands of `cargo driveline`, machine files, and the runs behind them: scenes in closed loop, balancing, generator sets,
-//! commissioning, backlash, sweeps, the survey of all.
+//! The subcommands of `cargo driveline`, machine files, and the runs behind them: scenes in closed loop, balancing,
+//! generator sets, commissioning, backlash, sweeps, the survey of all.
 
 pub mod backlash;
 pub mod balancing;

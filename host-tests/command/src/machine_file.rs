@@ -120,20 +120,20 @@ pub struct MachineFile {
     pub encoder: Encoder,
     /// The controller.
     pub control: Control,
-    /// What the observer has to reckon with.
+    /// Disturbances for the observer.
     pub disturbance: Disturbance,
-    /// What the machine can do at most.
+    /// Limits of the machine.
     pub limits: Limits,
     /// The speeds it runs at, where the file says so.
     pub running: Option<Running>,
-    /// What excites it.
+    /// Its excitations.
     pub excitations: Vec<Excitation>,
     /// How the machine is shaken, if the file says.
     pub duty: Option<Duty>,
     /// The elements as the library's chain, referred to the motor.
     #[serde(skip)]
     pub chain: Chain,
-    /// What stands on masses of the chain, or of branches before it.
+    /// Branches on masses of the chain, or of branches before.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub branches: Vec<Branch>,
     /// Chain and branches as the library's train; none where there is no branch.
@@ -186,7 +186,7 @@ pub struct Control {
     pub rate_hz: u32,
 }
 
-/// What the observer has to reckon with.
+/// Disturbances for the observer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Disturbance {
     /// Root mean square of the error of the motor's torque in one tick \[N m\].
@@ -197,7 +197,7 @@ pub struct Disturbance {
     pub within: f64,
 }
 
-/// What the machine can do at most, at the motor.
+/// Limits of the machine, at the motor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Limits {
     /// Torque \[N m\].

@@ -1,8 +1,9 @@
 //! The two-mass steps over stiff and extreme machines: where each is right, where it is not, and why.
 //!
-//! Every step runs open loop, its correction gains zero, through the library's own tick. [`errors`] puts a machine through a load torque
-//! that begins at once and pseudo-random motor torques, and compares with an exact motion of own arithmetic. [`growths`] looks at
-//! the poles of the coefficients as they are stored, [`free_swings`] lets an undamped machine swing for 1e8 ticks.
+//! Every step runs open loop, its correction gains zero, through the library's own tick. [`errors`] puts a machine
+//! through a load torque that begins at once and pseudo-random motor torques, and compares with an exact motion of own
+//! arithmetic. [`growths`] looks at the poles of the coefficients as they are stored, [`free_swings`] lets an undamped
+//! machine swing for 1e8 ticks.
 //!
 //! | term | meaning | unit |
 //! |---|---|---|

@@ -1,16 +1,16 @@
-//! The host's end of telemetry: bytes in, records out, as `driveline::telemetry` documents the frames. Written from that description, not from its
-//! code.
+//! The host's end of telemetry: bytes in, records out, as `driveline::telemetry` documents the frames. Written from
+//! that description, not from its code.
 
 use std::collections::BTreeMap;
 
-/// What a channel says of itself.
+/// Description of a channel.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Described {
     /// Its name.
     pub name: String,
     /// Its unit.
     pub unit: String,
-    /// What an integer is multiplied by; `None` for `f32`.
+    /// Factor of an integer; `None` for `f32`.
     pub factor: Option<f32>,
 }
 
@@ -49,7 +49,7 @@ pub struct Decoder {
     pub bytes: u64,
 }
 
-/// What a packet is.
+/// Kind of packet.
 enum Packet {
     Record(Told),
     Channel(u8, Described),
@@ -77,7 +77,7 @@ impl Decoder {
                     self.channels.insert(index, described);
                 }
                 Some(Packet::Unknown) => self.unknown += 1,
-                // what precedes the first zero may be the end of a frame
+                // bytes before the first zero may be the end of a frame
                 None if self.begun && !frame.is_empty() => self.damaged += 1,
                 None => {}
             }

@@ -1,5 +1,5 @@
-//! Child processes and temporary folders that do not outlive this one: ended and removed with their owner, and by Ctrl-C or
-//! SIGTERM where the program has asked for that.
+//! Child processes and temporary folders that do not outlive this one: ended and removed with their owner, and by
+//! Ctrl-C or SIGTERM where the program has asked for that.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -41,7 +41,8 @@ impl Owned {
     }
 }
 
-/// From now on Ctrl-C and SIGTERM end the children with theirs and remove the temporary folders, before they end the program as ever.
+/// From now on Ctrl-C and SIGTERM end the children with theirs and remove the temporary folders, before they end the
+/// program as ever.
 ///
 /// # Errors
 /// What the system says.

@@ -1,6 +1,6 @@
-//! Numbers as people read them: in tables, on axes, in labels. What is not finite has a word, never `NaN`.
+//! Numbers as people read them: in tables, on axes, in labels. A value that is not finite has a word, never `NaN`.
 
-/// What stands for a number that is not finite.
+/// Text of a number that is not finite.
 pub const DIVERGED: &str = "diverged";
 
 /// A number to three significant digits: plain between 1e-3 and 1e6, with a power of ten elsewhere.
@@ -66,7 +66,7 @@ pub fn rate(hz: u32) -> String {
     if hz >= 1_000 { format!("{} kHz", f64::from(hz) / 1e3) } else { format!("{hz} Hz") }
 }
 
-/// A label of an axis: as few digits as tell neighbours `step` apart.
+/// A label of an axis: as few digits as separate neighbours `step` apart.
 pub fn tick(value: f64, step: f64) -> String {
     if value == 0.0 || value.abs() < step * 1e-6 {
         return "0".to_owned();

@@ -35,7 +35,7 @@ pub fn fill(template: &str, values: impl Serialize) -> String {
         environment.add_template(name, text).expect("a template of the report is not well-formed");
     }
     let template = environment.get_template(template).expect("the report's template is compiled in");
-    template.render(Serde(values)).expect("a template of the report asks for what it is not given")
+    template.render(Serde(values)).expect("a template of the report lacks an input")
 }
 
 impl Report {
@@ -44,7 +44,7 @@ impl Report {
         fill("page.html", view::view(self))
     }
 
-    /// What `run --json` prints: `{scene, variants}`.
+    /// Output of `run --json`: `{scene, variants}`.
     pub fn json(&self) -> serde_json::Value {
         serde_json::json!({ "scene": self.scene, "variants": self.variants })
     }

@@ -11,9 +11,9 @@ use crate::trajectory::Trajectory;
 pub struct Report {
     /// The scene's name: `hoist`.
     pub scene: String,
-    /// What was run, in a sentence or two.
+    /// The run, in a sentence or two.
     pub summary: String,
-    /// What the machine and the run are.
+    /// Machine and run.
     pub facts: Vec<Fact>,
     /// Every variant, in the order of the table.
     pub variants: Vec<Variant>,
@@ -27,12 +27,12 @@ pub struct Report {
     pub compositions: Vec<Composition>,
     /// Budgets and what was measured against them.
     pub budgets: Vec<Budget>,
-    /// What the reader should know, a sentence each.
+    /// Notes for the reader, a sentence each.
     pub notes: Vec<String>,
 }
 
-/// Root mean square and largest absolute value of an error, as a fraction: of the peak for a torque, of the rated speed for a
-/// speed. A value that is not finite stands for an estimate that diverged; JSON writes it as `null`.
+/// Root mean square and largest absolute value of an error, as a fraction: of the peak for a torque, of the rated speed
+/// for a speed. A value that is not finite stands for an estimate that diverged; JSON writes it as `null`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Deviation {
     /// Root mean square over the run.
@@ -119,7 +119,7 @@ pub struct Comparison {
 /// Flash and RAM of a drive composed in one way, by section of the image, over the image without a drive.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Composition {
-    /// What it is composed of: `rigid`, `two-mass`, `full`.
+    /// Its parts: `rigid`, `two-mass`, `full`.
     pub name: String,
     /// Number type.
     pub number: String,
@@ -150,11 +150,11 @@ impl Composition {
 /// A budget and what was measured against it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Budget {
-    /// What is bounded: `instructions, exact step, m4f f32`.
+    /// Bounded quantity: `instructions, exact step, m4f f32`.
     pub name: String,
     /// Unit of both numbers: `instructions`, `byte`, `%`; empty for a pure number.
     pub unit: String,
-    /// What was measured.
+    /// Measurement.
     #[serde(with = "diverged_as_null")]
     pub measured: f64,
     /// The most that is allowed.

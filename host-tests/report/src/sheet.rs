@@ -13,9 +13,9 @@ use super::table::Table;
 pub struct Sheet {
     /// Name of the thing.
     pub name: String,
-    /// What the page shows of it: two or three words.
+    /// Heading on the page: two or three words.
     pub kicker: String,
-    /// What it is, in a sentence.
+    /// Description, in a sentence.
     pub summary: String,
     /// Its quantities.
     pub facts: Vec<Fact>,
@@ -30,7 +30,7 @@ pub struct Sheet {
 pub struct Figure {
     /// Title.
     pub title: String,
-    /// What is to be seen, in a sentence or two.
+    /// Caption, in a sentence or two.
     pub text: String,
     /// What the curves or arrows are.
     pub legend: Vec<Key>,

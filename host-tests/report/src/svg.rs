@@ -67,7 +67,7 @@ impl Svg {
         self.element(&[x, y, width, height, r], text);
     }
 
-    /// A rectangle that tells a sentence when pointed at.
+    /// A rectangle with a tooltip.
     pub fn cell(&mut self, class: &str, x: f64, y: f64, width: f64, height: f64, title: &str) {
         let title = escape(title);
         let text = format_args!(
@@ -114,7 +114,7 @@ impl Svg {
         }
     }
 
-    /// A marker, one of [`MARKERS`], that tells a sentence when pointed at.
+    /// A marker, one of [`MARKERS`], with a tooltip.
     pub fn marker(&mut self, class: &str, shape: usize, x: f64, y: f64, title: &str) {
         let path = MARKERS[shape % MARKERS.len()];
         let title = escape(title);

@@ -7,9 +7,9 @@ use super::results::diverged_as_null;
 /// A step run over a grid of machines.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
-    /// What was swept: `exact impulse form, f32`.
+    /// Swept parameter: `exact impulse form, f32`.
     pub name: String,
-    /// What the error is measured against and how a point fails, in a sentence.
+    /// Reference of the error and criterion of failure, in a sentence.
     pub criterion: String,
     /// The points, in any order.
     pub points: Vec<SweepPoint>,
@@ -31,7 +31,7 @@ pub struct SweepPoint {
     pub passed: bool,
 }
 
-/// What a sweep came to at one damping.
+/// Result of a sweep at one damping.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slice<'a> {
     /// Damping as a share of the critical.

@@ -1,4 +1,4 @@
-//! What a run looked like over time: truth and estimate of the three quantities.
+//! Time series of a run: true and estimated values of the three quantities.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ pub struct Trajectory {
     pub load_speed: Signal,
     /// Load torque at the motor \[N m\].
     pub load_torque: Signal,
-    /// What happened when.
+    /// Events with their times.
     pub marks: Vec<Mark>,
 }
 
@@ -41,7 +41,7 @@ pub struct Signal {
 pub struct Mark {
     /// Time \[s\].
     pub time: f64,
-    /// What happened, in a word or three.
+    /// The event, in one to three words.
     pub label: String,
 }
 

@@ -1,7 +1,7 @@
 //! A full solver of drivetrains and rotors, and the proof of its runs against a second integrator.
 //!
-//! It shares no code with `driveline`, whose observers and controllers are judged by it: [`plant`] solves chains and trains of masses,
-//! shafts, gaps, gears and brakes, [`rotor`] whirling rotors, [`noise`] is that of their sensors.
+//! It shares no code with `driveline`, whose observers and controllers are judged by it: [`plant`] solves chains and
+//! trains of masses, shafts, gaps, gears and brakes, [`rotor`] whirling rotors, [`noise`] is that of their sensors.
 
 pub mod noise;
 pub mod plant;

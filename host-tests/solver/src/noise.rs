@@ -1,6 +1,7 @@
 //! Pseudo-random noise of sensors.
 
-/// Normal noise, the same on every machine: xorshift64* [Vigna 2016, ACM TOMS 42(4)] and the polar method [Marsaglia 1964].
+/// Normal noise, the same on every machine: xorshift64* [Vigna 2016, ACM TOMS 42(4)] and the polar method
+/// [Marsaglia 1964].
 #[derive(Clone, Debug)]
 pub struct Noise {
     state: u64,

@@ -7,7 +7,7 @@
 //! |---|---|---|
 //! | inertia | `J_j` of a node | kg m2 |
 //! | twist | angle of node `s` less that of node `s + 1`, the strain of shaft `s` | rad |
-//! | stiffness, damping | `k`, `d` of a shaft: torque per twist and per rate of twist | N m/rad, N m s/rad |
+//! | stiffness, damping | `k`, `d` of a shaft: torque per twist and per twist rate | N m/rad, N m s/rad |
 //! | backlash | total free play of a shaft, both flanks together | rad |
 //! | slack | how far a rope must be wound before it pulls | rad |
 //! | Coulomb torque | friction that holds a node at rest up to this torque | N m |

@@ -6,8 +6,9 @@
 //! | PA7, PB0, PB1 | their complements: CH1N, CH2N, CH3N |
 //! | PA6 | BKIN: low switches off, and so does a wire that has broken |
 //!
-//! Off is low on all six, driven. The core's lockup, a double error in the flash and a supply that fails break, too (SYSCFG), a crystal that fails (CSS: the
-//! input's filter needs a clock), and a debugger that stops the core. What has broken stays off until [`Outputs`] are switched on again.
+//! Off is low on all six, driven. The core's lockup, a double error in the flash and a supply that fails break, too
+//! (SYSCFG), a crystal that fails (CSS: the input's filter needs a clock), and a debugger that stops the core. A broken
+//! output stays off until [`Outputs`] are switched on again.
 
 use core::convert::Infallible;
 
@@ -93,7 +94,8 @@ const BDTR: u32 = 0x4001_2c44;
 /// MOE in it.
 const MOE: u32 = 1 << 15;
 
-/// The stack has run out of the memory, or worse: the outputs off, again and again; the watchdog, which nobody feeds any more, does the rest.
+/// The stack has run out of the memory, or worse: the outputs off, again and again; the watchdog, which nobody feeds
+/// any more, does the rest.
 ///
 /// It uses no stack, for there may be none.
 #[unsafe(naked)]

@@ -8,7 +8,7 @@ use stm32_metapac::{FLASH, PWR, RCC};
 /// Clock of the core, the buses and the timers [Hz]: 24 MHz / 6 x 85 / 2.
 pub const CLOCK_HZ: u32 = 170_000_000;
 
-/// Starts the clocks. Without a crystal it waits for ever, everything off.
+/// Starts the clocks. Without a crystal it waits indefinitely, all outputs off.
 pub fn start() {
     RCC.apb1enr1().modify(|r| r.set_pwren(true));
     // range 1 boost, four wait states: RM0440, 3.3.3 and 6.1.5

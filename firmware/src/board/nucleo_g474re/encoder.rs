@@ -1,7 +1,7 @@
 //! TIM2 as a counter of quadrature: A on PA15, B on PB3, index on PB10.
 //!
-//! It counts every edge, 32 bits. Where A and B change at once the timer knows that an edge was lost, and so does the drive. The index's rising edge
-//! captures the count (CH3).
+//! It counts every edge, 32 bits. Where A and B change at once the timer flags a lost edge to the drive. The index's
+//! rising edge captures the count (CH3).
 
 use driveline::hal::Counter;
 use stm32_metapac::TIM2;

@@ -24,7 +24,7 @@ pub struct Nucleo<T> {
     watchdog: Watchdog,
 }
 
-/// What is beside the motor.
+/// Parts beside the motor.
 pub struct Beside {
     /// Two velocity sensors.
     pub vibration: Vibration,
@@ -35,8 +35,8 @@ pub struct Beside {
 }
 
 impl Nucleo<PwmTorque<Channel<0>, f32>> {
-    /// A drive that controls its current. Its torque input is the difference of PA8 and PA7, each behind a low-pass: switched off both are low, and the
-    /// difference is no torque.
+    /// A drive that controls its current. Its torque input is the difference of PA8 and PA7, each behind a low-pass:
+    /// switched off both are low, and the difference is no torque.
     pub fn torque_input(counts_per_turn: u32, full_scale: FullScale<f32>) -> (Self, Beside) {
         Self::with(counts_per_turn, PwmTorque::new(Channel, full_scale))
     }

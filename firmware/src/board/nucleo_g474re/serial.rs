@@ -29,7 +29,7 @@ impl Serial {
         alternate('A', 2, 12, Pupdr::FLOATING);
         alternate('A', 3, 12, Pupdr::PULL_UP);
         LPUART1.brr().write(|r| r.set_brr(DIVIDER));
-        // what comes too fast is overwritten, not an error that stops the port
+        // bytes that arrive too fast are overwritten; no error stops the port
         LPUART1.cr3().modify(|r| r.set_ovrdis(true));
         LPUART1.cr1().modify(|r| {
             r.set_fifoen(true);

@@ -4,11 +4,13 @@ use stm32_metapac::{TIM4, TIM6};
 
 use super::clock::CLOCK_HZ;
 
-/// Count of TIM4 where TIM6 is at zero: the last of a tick's conversions is triggered 2.5 us before the next tick, 10 us of 12.5 after the start, and is
-/// in the memory 1.6 us before it. So an interrupt may be 11 us late and finds the same half of the ring.
+/// Count of TIM4 where TIM6 is at zero: the last of a tick's conversions is triggered 2.5 us before the next tick, 10
+/// us of 12.5 after the start, and is in the memory 1.6 us before it. So an interrupt may be 11 us late and finds the
+/// same half of the ring.
 const BEAT: u16 = (CLOCK_HZ / 400_000) as u16;
 
-/// Starts the timer, the beat of the conversions and the interrupt, so many ticks a second; the interrupt itself is unmasked by the caller.
+/// Starts the timer, the beat of the conversions and the interrupt, so many ticks a second; the interrupt itself is
+/// unmasked by the caller.
 pub fn start_tick(rate_hz: u32) {
     // 170 MHz by ten, so that 260 Hz to 17 MHz fit; a rate of zero is the slowest
     let counts = (CLOCK_HZ / 10).checked_div(rate_hz).unwrap_or(u32::MAX).clamp(2, 65_536);

@@ -31,7 +31,7 @@ const MOST: u16 = 4095;
 /// Half of the range is the largest velocity; a count is given in 1/256.
 const PER_COUNT: PerCount<f32> = PerCount::<f32>::new(TestRig::VIBRATION_LIMIT / 2048.0 / 256.0);
 
-/// What the DMA fills.
+/// Buffer of the DMA.
 struct Ring(UnsafeCell<[u16; 2 * SLICE]>);
 
 // SAFETY: written by the DMA alone, read by volatile reads of a half that it does not write at the time.

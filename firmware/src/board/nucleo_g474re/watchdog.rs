@@ -1,5 +1,5 @@
-//! IWDG: resets the board where no tick has come to its end for five milliseconds. At a reset every pin floats, and the pull-downs of the wiring hold the
-//! drive off.
+//! IWDG: resets the board where no tick has come to its end for five milliseconds. At a reset every pin floats, and the
+//! pull-downs of the wiring hold the drive off.
 
 use stm32_metapac::iwdg::vals::{Key, Pr};
 use stm32_metapac::{DBGMCU, IWDG};

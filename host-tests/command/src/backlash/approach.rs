@@ -29,7 +29,7 @@ pub enum Approach {
     Resynchronise,
     /// The gap's law in the prediction, the gains of contact throughout.
     Keep,
-    /// A Kalman filter with a live covariance, linear about the regime that it believes in.
+    /// A Kalman filter with a running covariance, linear about its most probable regime.
     Live,
     /// The same, with the mean of both regimes' laws over the twist's uncertainty.
     LiveMean,
@@ -59,7 +59,7 @@ impl Approach {
         Approach::LibraryFixed,
     ];
 
-    /// What it is called.
+    /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Approach::Ignore => "gap ignored",

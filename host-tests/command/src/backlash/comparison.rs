@@ -10,7 +10,7 @@ use driveline_report::Table;
 use driveline_report::format::percent;
 use driveline_solver::plant::PlantError;
 
-/// What an approach is worth over all courses.
+/// Score of an approach over all runs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// The approach.
@@ -34,7 +34,7 @@ pub struct Stretch {
     pub time: Vec<f64>,
     /// The true shaft torque [N m].
     pub truth: Vec<f64>,
-    /// What approaches take it for, by name.
+    /// The approaches' model of it, by name.
     pub estimates: Vec<(&'static str, Vec<f64>)>,
 }
 

@@ -11,7 +11,7 @@ const RIGHT: f64 = WIDTH - 20.0;
 const ROW: f64 = 32.0;
 const HEIGHT: f64 = 340.0;
 
-/// What the project allows.
+/// The project's limits.
 const LIMIT: f64 = 0.06;
 
 /// The page as HTML, one file.
@@ -24,7 +24,8 @@ pub fn backlash_page(comparison: &Comparison) -> String {
         name: "Through the gap".to_owned(),
         kicker: "observers through backlash".to_owned(),
         summary: format!(
-            "Six two-mass machines of 15 Hz with a gap of {} mrad, {} courses of {} s each, all through the full solver: 2048 lines, torque known to \
+            "Six two-mass machines of 15 Hz with a gap of {} mrad, {} runs of {} s each, all through the full solver: \
+                2048 lines, torque known to \
              1 % of rated in a tick, {} ticks a second.",
             1e3 * comparison.gap,
             comparison.courses.len(),
@@ -36,7 +37,8 @@ pub fn backlash_page(comparison: &Comparison) -> String {
             Figure {
                 title: "Approaches".to_owned(),
                 text: format!(
-                    "Error of the shaft torque, rms of its peak, over {} courses: a point a course, a bar for their mean. The line is the limit, 6 %.",
+                    "Error of the shaft torque, rms of its peak, over {} courses: a point a course, a bar for their \
+                        mean. The line is the limit, 6 %.",
                     comparison.courses.len()
                 ),
                 plots: vec![approaches(&comparison.rows)],
@@ -51,8 +53,8 @@ pub fn backlash_page(comparison: &Comparison) -> String {
             },
         ],
         tables: vec![
-            Section::new("Means", "Over all courses.", comparison.table()),
-            Section::new("Course by course", format!("Shaft torque. {}.", names.join("; ")), comparison.by_course()),
+            Section::new("Means", "Over all runs.", comparison.table()),
+            Section::new("Run by run", format!("Shaft torque. {}.", names.join("; ")), comparison.by_course()),
         ],
     }
     .page()

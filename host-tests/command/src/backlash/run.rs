@@ -25,7 +25,7 @@ impl Drawn {
     }
 }
 
-/// What is done to the machine.
+/// Actions on the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A speed loop reverses every half second or so, against a tenth of rated torque of dry friction.
@@ -119,7 +119,7 @@ impl Rig {
         &self.plant
     }
 
-    /// The angle now, 2^32 to the turn, and the torque of the tick that has ended as the drive knows it [N m].
+    /// The angle now, 2^32 to the turn, and the torque of the tick that has ended as reported to the drive [N m].
     pub fn sensed(&mut self) -> (u32, f64) {
         let torque = self.applied + 0.01 * self.rated * self.noise.normal();
         (self.encoder.read(self.plant.motor_angle()), torque)
@@ -182,9 +182,9 @@ impl Rig {
 /// A recorded run.
 #[derive(Clone, Debug)]
 pub struct Course {
-    /// What was done.
+    /// Actions.
     pub kind: Kind,
-    /// Angle and torque as the drive knows them.
+    /// Angle and torque as reported to the drive.
     pub sensed: Vec<(u32, f64)>,
     /// Shaft torque [N m], load speed [rad/s] and twist \[rad\].
     pub truth: Vec<[f64; 3]>,

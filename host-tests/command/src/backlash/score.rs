@@ -1,4 +1,4 @@
-//! What estimates are worth.
+//! Score of the estimates.
 
 use driveline::design::BacklashDesign;
 use driveline::number::Fixed;

@@ -18,15 +18,15 @@ pub enum BalancingError {
     /// The panel refused.
     #[error("the panel refused {key:?} with {answer}")]
     Refused {
-        /// What it was asked.
+        /// The request.
         key: driveline_firmware::scene::panel_keys::Key,
-        /// What it answered.
+        /// The answer.
         answer: u32,
     },
     /// The speed was not reached.
     #[error("the drive did not come to {speed} rad/s within {time} s: it turns at {reached} rad/s")]
     NotReached {
-        /// The speed asked for.
+        /// The requested speed.
         speed: f64,
         /// How long it was waited for.
         time: f64,
@@ -38,7 +38,7 @@ pub enum BalancingError {
     NoReading {
         /// The speed.
         speed: f64,
-        /// What the panel said of each.
+        /// The panel's answer to each.
         doubts: String,
     },
 }

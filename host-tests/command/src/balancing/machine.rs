@@ -24,7 +24,7 @@ pub struct Drivetrain {
     pub ripple: Vec<(f64, f64)>,
     /// The rated speed [rad/s].
     pub rated: f64,
-    /// Standard deviation of the torque that the drive believes to have given [N m].
+    /// Standard deviation of the drive's reported torque [N m].
     pub torque_noise: f64,
 }
 
@@ -35,7 +35,7 @@ pub struct Machine {
     sensors: [Faulty; 2],
     encoder: Encoder,
     units: Units,
-    /// What a vibration word of one is.
+    /// Vibration of a word of one.
     unit: f64,
     noise: Noise,
     applied: f64,
@@ -116,7 +116,7 @@ impl Machine {
         (self.instructions.0, self.instructions.1 as f64 / self.ticks.max(1) as f64)
     }
 
-    /// One tick of the drive and of everything it drives; the panel is asked `asked`.
+    /// One tick of the drive and its machine, with the request `asked` to the panel.
     ///
     /// # Errors
     /// What the drive's link says.

@@ -1,4 +1,5 @@
-//! Who operates the machine: starts it, waits, presses keys on its panel, stops it; and the hand that sets a weight, never quite as much and never quite there.
+//! Who operates the machine: starts it, waits, presses keys on its panel, stops it; and the hand that sets a weight,
+//! never quite as much and never quite there.
 
 use driveline_firmware::scene::balanced::DOUBTS;
 use driveline_firmware::scene::panel_keys::{DONE, Key, MEASURING, REFUSED};
@@ -21,7 +22,7 @@ pub struct Operator<'a> {
     /// The machine.
     pub machine: Machine,
     drive: &'a mut dyn Ticks,
-    /// Readings that the panel did not believe, by reason.
+    /// Readings rejected by the panel, by reason.
     pub doubts: Vec<&'static str>,
 }
 
@@ -31,7 +32,7 @@ impl<'a> Operator<'a> {
         Operator { machine, drive, doubts: Vec::new() }
     }
 
-    /// Asks the panel.
+    /// Sends a request to the panel.
     ///
     /// # Errors
     /// What the link says.
@@ -39,7 +40,7 @@ impl<'a> Operator<'a> {
         Ok(self.machine.tick(self.drive, [key as u32, value])?.answer)
     }
 
-    /// Asks the panel to do something.
+    /// Requests an action of the panel.
     ///
     /// # Errors
     /// What the link says; what the panel refuses.
@@ -59,7 +60,7 @@ impl<'a> Operator<'a> {
         Ok(Complex::new(part(self.ask(keys[0], value)?), part(self.ask(keys[1], value)?)))
     }
 
-    /// Tells the panel a weight [kg m].
+    /// Sends a weight to the panel [kg m].
     ///
     /// # Errors
     /// What the link says; what the panel refuses.
@@ -98,7 +99,7 @@ impl<'a> Operator<'a> {
         self.wait(settle)
     }
 
-    /// Takes readings until the panel believes one.
+    /// Takes readings until the panel accepts one.
     ///
     /// # Errors
     /// What the link says; no good reading.

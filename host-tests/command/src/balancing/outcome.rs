@@ -1,4 +1,4 @@
-//! What came of balancing a scene.
+//! Results of balancing a scene.
 
 use serde::Serialize;
 
@@ -31,25 +31,25 @@ pub struct Stage {
     pub vibration: Vec<Vector>,
     /// The same as the firmware read it, in the sensors' unit, where it did.
     pub read: Vec<Vector>,
-    /// What the scene is judged by: a grade, or a share of the vibration as found.
+    /// Criterion of the scene: a grade, or a share of the initial vibration.
     pub measure: f64,
     /// Time since the start [s].
     pub time: f64,
 }
 
-/// What a scene has to show, and what it showed.
+/// Criteria of a scene, and its results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Claim {
-    /// What is measured.
+    /// Measured quantity.
     pub name: String,
-    /// What was measured.
+    /// Measurement.
     pub measured: f64,
-    /// What it may be at most.
+    /// Its limit.
     pub limit: f64,
 }
 
 impl Claim {
-    /// Whether it holds. What is not a number does not.
+    /// Whether it holds. A value that is not a number fails.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.measured <= self.limit
@@ -61,15 +61,15 @@ impl Claim {
 pub struct Outcome {
     /// The scene.
     pub scene: String,
-    /// What [`Stage::measure`] is.
+    /// Meaning of [`Stage::measure`].
     pub measure: String,
     /// Names of the rows.
     pub rows: Vec<String>,
     /// The stages, as found first.
     pub stages: Vec<Stage>,
-    /// What it had to show.
+    /// Its criteria.
     pub claims: Vec<Claim>,
-    /// Readings that the panel did not believe, by reason.
+    /// Readings rejected by the panel, by reason.
     pub doubts: Vec<String>,
     /// A number that two runs share if every word of their outputs is the same.
     pub fingerprint: u64,

@@ -1,4 +1,4 @@
-//! What came of balancing a scene, as tables and as a page.
+//! Results of balancing a scene, as tables and as a page.
 
 use super::outcome::{Outcome, Stage, Vector};
 use super::scene::{Ran, Scene};
@@ -19,7 +19,7 @@ pub fn tables(ran: &[Ran]) -> Vec<Section> {
         }
     }
     let text = "By the full solver, from the weights as they were set.";
-    let mut all = vec![Section::new("What it had to show", text, claims)];
+    let mut all = vec![Section::new("Criterion", text, claims)];
     let mut costs = Table::new([
         "variant",
         "instructions mean",
@@ -45,9 +45,10 @@ pub fn tables(ran: &[Ran]) -> Vec<Section> {
             if ran.same_on_host { "yes" } else { "no" }.to_owned(),
         ]);
     }
-    let text = "A tick of drive, measurement and link words in QEMU; the panel works between ticks and is not counted. Stack and sizes \
+    let text = "A tick of drive, measurement and link words in QEMU; the panel works between ticks and is not counted. \
+        Stack and sizes \
                 hold drive, measurement and panel.";
-    all.push(Section::new("What it took", text, costs));
+    all.push(Section::new("Cost", text, costs));
     if let Some(first) = ran.first() {
         all.push(stages(&first.outcome));
     }
@@ -107,7 +108,7 @@ pub fn page(scene: &Scene, ran: &[Ran]) -> String {
     });
     sheet.figures.push(Figure {
         title: "Unbalance, stage by stage".to_owned(),
-        text: "What is left in each plane.".to_owned(),
+        text: "Residual in each plane.".to_owned(),
         legend: legend.clone(),
         plots: unbalance.collect(),
         arrangement: Arrangement::Beside,

@@ -1,4 +1,5 @@
-//! Power cuts while a rotor is balanced: after every entry the controller loses its memory, and a new one goes on from the flash.
+//! Power cuts while a rotor is balanced: after every entry the controller loses its memory, and a new one goes on from
+//! the flash.
 
 use std::io;
 
@@ -8,7 +9,7 @@ use driveline_firmware::scene::{Input, Output};
 
 use crate::closed_loop::ticks::Ticks;
 
-/// What is kept in the flash once it is done.
+/// Content of the flash once it is done.
 const ENTRIES: [Key; 5] = [Key::RunOut, Key::Baseline, Key::Trial, Key::Placed, Key::Verified];
 /// Most planes of a scene.
 const PLANES: u32 = 3;
@@ -16,8 +17,8 @@ const PLANES: u32 = 3;
 /// Switches a controller on.
 pub type Start<'d> = Box<dyn FnMut() -> io::Result<Box<dyn Ticks + 'd>> + 'd>;
 
-/// A drive that is cut off after every entry. What its flash holds is put into the next one, which is asked to go on; the machine meanwhile turns as
-/// it will.
+/// A drive that is cut off after every entry. Its flash content is put into the next one, which resumes; the machine
+/// coasts meanwhile.
 pub struct PowerCuts<'d> {
     drive: Box<dyn Ticks + 'd>,
     start: Start<'d>,

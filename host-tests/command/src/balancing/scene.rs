@@ -25,12 +25,12 @@ const POINTS: usize = 400;
 pub struct Scene {
     /// Its name.
     pub name: &'static str,
-    /// What it is, in a sentence.
+    /// Description, in a sentence.
     pub summary: &'static str,
     pub(super) balance: fn(Words, &mut dyn Ticks, u64) -> Result<Outcome, BalancingError>,
 }
 
-/// What a variant takes of a controller.
+/// Cost of a variant on a controller.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Cost {
     /// Instructions of a tick at most, and on the mean.
@@ -48,9 +48,9 @@ pub struct Cost {
 pub struct Ran {
     /// Number, core, observer and rate.
     pub variant: String,
-    /// What came of it.
+    /// Result.
     pub outcome: Outcome,
-    /// What it took.
+    /// Its cost.
     pub cost: Cost,
     /// Whether every word of the ticks was the same on the host, given the same inputs.
     pub same_on_host: bool,

@@ -9,20 +9,23 @@ pub const fn scenes() -> [Scene; 3] {
     [
         Scene {
             name: "balanced-fan",
-            summary: "A fan of 180 kg at 1480 r/min, found in grade G 16, balanced in two planes with trial weights. Its sensors are off by \
-                      5 % and 10 degrees, its noise is 20 dB below the vibration, weights are set to 3 % and 2 degrees.",
+            summary: "A fan of 180 kg at 1480 r/min, found in grade G 16, balanced in two planes with trial weights. \
+                Its sensors are off by \
+                      5 % and 10 degrees, its noise is 20 dB below the vibration, weights are set to 3 % and 2 \
+                      degrees.",
             balance: fan::run,
         },
         Scene {
             name: "flexible",
-            summary: "A flexible rotor of three discs, balanced in three planes at two speeds, below and above its first critical. Its sensors see \
+            summary: "A flexible rotor of three discs, balanced in three planes at two speeds, below and above its \
+                first critical. Its sensors see \
                       the shaft's run-out, are off by 5 % and 10 degrees and have 5 % of noise.",
             balance: flexible::run,
         },
         Scene {
             name: "grinding-spindle",
-            summary: "A grinding spindle with a balancing head that moves two masses while it turns at 3000 r/min: balanced in-run, from \
-                      nothing known.",
+            summary: "A grinding spindle with a balancing head that moves two masses while it turns at 3000 r/min: \
+                balanced in-run, without prior data.",
             balance: spindle::run,
         },
     ]

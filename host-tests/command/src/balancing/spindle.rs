@@ -27,7 +27,7 @@ const SETTLE: [f64; 2] = [1.5, 0.2];
 /// Where the head and the wheel are, from the centre of gravity [m].
 const WHEEL: f64 = 0.2;
 
-/// What is left to chance: the spindle, its unbalance, its sensors.
+/// Random: the spindle, its unbalance, its sensors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SpindleStart {
     /// Unbalance of the wheel [kg m], and its angle [degrees].

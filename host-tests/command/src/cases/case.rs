@@ -5,20 +5,20 @@ use serde::Serialize;
 /// A case and what came of it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Case {
-    /// What kind of case it is.
+    /// Kind of case.
     pub group: &'static str,
     /// The case.
     pub name: String,
-    /// What is compared.
+    /// Compared quantity.
     pub compared: &'static str,
     /// Largest error, relative.
     pub found: f64,
-    /// What it may be.
+    /// Its limit.
     pub allowed: f64,
 }
 
 impl Case {
-    /// Whether it is within its tolerance. What is not a number is not.
+    /// Whether it is within its tolerance. A value that is not a number fails.
     pub fn holds(&self) -> bool {
         self.found <= self.allowed
     }

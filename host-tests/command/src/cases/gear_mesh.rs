@@ -109,8 +109,7 @@ impl Pair {
         Ok([(m[1][1] * zero[0] - m[0][1] * zero[1]) / det, (m[0][0] * zero[1] - m[1][0] * zero[0]) / det])
     }
 
-    /// What the solver makes of a point beside what the file says: found, expected, and what their difference is
-    /// relative to.
+    /// The solver's result at a point against the file: found, expected, and the reference of their difference.
     ///
     /// # Errors
     /// As [`drive`](Self::drive); a watched signal without extremes.

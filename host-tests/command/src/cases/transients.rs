@@ -1,5 +1,5 @@
-//! Starts, reversal and loss of load of a two-mass drive with a gap, against runs made with 40-digit matrix exponentials
-//! (`backlash_transients.json`; its header has the equations).
+//! Starts, reversal and loss of load of a two-mass drive with a gap, against runs made with 40-digit matrix
+//! exponentials (`backlash_transients.json`; its header has the equations).
 
 use serde::Deserialize;
 
@@ -138,7 +138,7 @@ pub fn all() -> Result<Vec<Case>, String> {
             });
         };
         let course = transient.deviations()?.into_iter().fold(0.0, larger);
-        add("course, of peak", course, transient.rel_tol_peak);
+        add("trajectory, of peak", course, transient.rel_tol_peak);
         let found = match transient.proof()? {
             Ok(proof) => proof.integrator.largest.max(proof.tightened.largest),
             Err(NotProven::Deviates { found, .. }) => found,

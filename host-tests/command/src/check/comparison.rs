@@ -11,7 +11,7 @@ use driveline_qemu::measure::budgets::{Budget, Budgets};
 pub struct Figure {
     /// Its name, as in `budgets.toml`.
     pub name: &'static str,
-    /// What was measured.
+    /// Measurement.
     pub measured: u64,
     /// The most that it may be.
     pub budget: Option<u64>,
@@ -50,7 +50,7 @@ impl Comparison {
         Comparison { rows: costs.iter().map(row).collect() }
     }
 
-    /// What is over its budget, by name, or has none.
+    /// Values over their budget or without one, by name.
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         for Row { variant, core, has_budget, figures } in &self.rows {

@@ -15,7 +15,7 @@ pub use steps::STEPS;
 use clock::{Clock, Took};
 use step::{Failed, Voice};
 
-/// What to check and how to say it.
+/// Options of a check.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// One JSON object a step on standard output, all else on standard error.
@@ -29,16 +29,16 @@ pub struct Options {
 pub struct Done {
     /// Its name.
     pub step: &'static str,
-    /// What it found.
+    /// Its findings.
     #[serde(flatten)]
     pub count: Count,
     /// How long it took.
     #[serde(flatten)]
     pub took: Took,
-    /// What went wrong.
+    /// The error.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
-    /// What to type to run it again.
+    /// Command to run it again.
     pub repeat: String,
 }
 
@@ -50,9 +50,9 @@ pub enum CheckError {
     Step {
         /// Its name.
         step: &'static str,
-        /// What it said.
+        /// Its output.
         message: String,
-        /// What to type.
+        /// Command to type.
         repeat: String,
     },
     /// No step has that name.
@@ -60,7 +60,8 @@ pub enum CheckError {
     NoSuchStep(String),
 }
 
-/// Runs the steps up to the first failure. Says each with its time, and at the end the closing line `N passed, N failed`.
+/// Runs the steps up to the first failure. Says each with its time, and at the end the closing line
+/// `N passed, N failed`.
 pub fn run(options: &Options) -> Result<Vec<Done>, CheckError> {
     let voice = Voice { json: options.json };
     let chosen = |step: &&Step| options.only.as_ref().is_none_or(|only| only == step.name);

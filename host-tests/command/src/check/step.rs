@@ -4,7 +4,7 @@ use std::io::Write;
 
 use serde::Serialize;
 
-/// What a step found.
+/// Result of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Count {
     /// Checks that passed: tests, images, figures, or one for the whole step.
@@ -17,7 +17,7 @@ pub struct Count {
 pub struct Step {
     /// Its name.
     pub name: &'static str,
-    /// What to type.
+    /// Command to type.
     pub repeat: &'static str,
     pub(super) run: fn(&Voice) -> Result<Count, Failed>,
 }

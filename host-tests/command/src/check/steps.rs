@@ -12,7 +12,7 @@ use driveline_qemu::measure::budgets::Budgets;
 use driveline_qemu::measure::{Cost, self_test};
 use driveline_qemu::setup;
 
-/// All steps; the firmware, which is built board beside board, before the tests that ask for its images one by one.
+/// All steps; the firmware, which is built board beside board, before the tests that use its images one by one.
 pub const STEPS: [Step; 7] = [
     Step { name: "setup", repeat: "cargo driveline check --only setup", run: setup_step },
     Step { name: "format", repeat: "cargo fmt --check", run: format },

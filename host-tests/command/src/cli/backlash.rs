@@ -1,4 +1,4 @@
-//! `cargo driveline backlash`: ways to carry an observer through a gap, compared.
+//! `cargo driveline backlash`: comparison of approaches to an observer with a gap.
 
 use std::path::PathBuf;
 
@@ -9,20 +9,20 @@ use super::{Failure, Progress, say, say_json};
 use crate::backlash::Comparison;
 use crate::backlash::backlash_page;
 
-/// Compares ways to carry an observer through backlash, over random reversals of six machines with the full solver.
+/// Compares approaches to an observer with backlash, over random reversals of six machines with the full solver.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline backlash
   cargo driveline backlash --seconds 20 --seed 7
   cargo driveline backlash --json")]
 pub struct Backlash {
-    /// Seconds of each of the 24 courses, 1 to 1000
+    /// Seconds of each of the 24 runs, 1 to 1000
     #[arg(long, default_value_t = 6)]
     seconds: u32,
-    /// Which random numbers the courses are drawn with
+    /// Seed of the random runs
     #[arg(long, default_value_t = 31)]
     seed: u64,
-    /// Where the page goes [default: report/backlash.html]
+    /// File of the page [default: report/backlash.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Print JSON, and write a page only with --html

@@ -24,9 +24,10 @@ use grade::{Grade, grade};
 pub use weight::Polar;
 use weight::{Hole, arrow, arrows_of, fill, told};
 
-/// Weights from the readings of a rotor's runs, what they will leave, and the grade; the page has polar plots.
+/// Correction weights from the readings of a rotor's runs, the predicted residual, and the grade; the page has polar
+/// plots.
 ///
-/// The file says the planes, the sensors, a baseline and a trial run for each plane, with phases in degrees.
+/// The file has the planes, the sensors, a baseline and a trial run for each plane, with phases in degrees.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline example fan-balance > fan-balance.toml
@@ -36,7 +37,7 @@ use weight::{Hole, arrow, arrows_of, fill, told};
 pub struct Balance {
     /// The readings: a TOML file
     file: PathBuf,
-    /// Where the page goes [default: report/NAME-balancing.html]
+    /// File of the page [default: report/NAME-balancing.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Print JSON, and write a page only with --html
@@ -180,7 +181,7 @@ fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
         });
     }
     let with_holes = (!file.holes.is_empty()).then(|| influence.predict(last, &placed)).transpose()?;
-    // what rounding leaves of the largest reading is none
+    // rounding of the largest reading counts as zero
     let most = last.iter().map(|value| value.norm()).fold(0.0, f64::max);
     let left =
         |value: Complex<f64>| Polar::of(if value.norm() < 1e-12 * most { Complex::new(0.0, 0.0) } else { value });
@@ -203,7 +204,7 @@ fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
         condition: correction.condition,
         rows,
         planes,
-        // What the rotor's unbalance is, limits and objective aside.
+        // The rotor's unbalance, limits and objective aside.
         grade: grade(file, &influence.correct(last, &Aim::default())?.weights, &placed)?,
     })
 }
@@ -245,7 +246,7 @@ fn tables(outcome: &Outcome) -> Vec<Section> {
     vec![
         Section::new(
             "Weights",
-            "To be added to what is on the rotor now, angles as those of the trial weights.",
+            "To be added to the weights now on the rotor; angles as those of the trial weights.",
             weights,
         ),
         Section::new(format!("Vibration{unit}"), "As predicted from the influence of the trial weights.", rows),
@@ -270,7 +271,7 @@ fn page(outcome: &Outcome) -> Sheet {
         figures: vec![
             Figure {
                 title: "Weights".to_owned(),
-                text: "What is to be added in each plane, and what goes into which hole.".to_owned(),
+                text: "Weight to add in each plane, and its split between holes.".to_owned(),
                 legend: vec![Key::arrow("weight", "s0"), Key::arrow("in a hole", "s3")],
                 plots: outcome.planes.iter().map(weight).collect(),
                 arrangement: Arrangement::Beside,

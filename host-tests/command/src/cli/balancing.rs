@@ -12,7 +12,7 @@ use crate::closed_loop::candidates::Candidate;
 use crate::drivetrains::Variants;
 use driveline_qemu::setup::Need;
 
-/// What is left to chance is the same in every run.
+/// The seed is the same in every run.
 const SEED: u64 = 1;
 
 /// How a scene is run.
@@ -20,7 +20,7 @@ const SEED: u64 = 1;
 pub struct Wanted<'a> {
     /// Which variants.
     pub variants: Variants<'a>,
-    /// Where the page goes.
+    /// File of the page.
     pub html: Option<&'a Path>,
     /// JSON instead of tables.
     pub json: bool,

@@ -8,7 +8,7 @@ use driveline_qemu::clone::workspace;
 
 /// Check everything: formatting, clippy, tests, firmware builds, the QEMU self-test, the budgets.
 ///
-/// Stops at the first step that fails and says what to type to repeat it.
+/// Stops at the first step that fails, with the command to repeat it.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  cargo driveline check\n  cargo driveline check --only budgets --json")]
 pub struct Check {

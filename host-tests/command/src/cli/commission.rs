@@ -1,4 +1,4 @@
-//! `cargo driveline commissioning`: the test that finds the machine, against its full plant.
+//! `cargo driveline commissioning`: the identification test, against its full plant.
 
 use std::path::{Path, PathBuf};
 
@@ -13,8 +13,8 @@ use crate::commissioning::{Case, Trial, Verdict, in_qemu, named, of_file, on_hos
 use crate::machine_file::{Diagnostic, MachineFile, Source, read, text};
 use driveline_qemu::setup::Need;
 
-/// Commission a machine: run the test that finds its inertias, resonance, damping, friction, gap and encoder's
-/// eccentricity against its full plant, and put what it found beside what is true.
+/// Commission a machine: run the test that identifies its inertias, resonance, damping, friction, gap and encoder
+/// eccentricity against its full plant, and compare the result with the true values.
 ///
 /// The machine is `hoist`, `mill` or `spindle` as in the scene `commission`, or a file of elements as for `design`. The
 /// motor's torque is off by the file's torque accuracy in every tick, as white noise; the scenes' by 1 % of rated.
@@ -30,7 +30,7 @@ pub struct Commission {
     /// Run the firmware in QEMU on the M4F, with the host beside it (not for a file)
     #[arg(long)]
     qemu: bool,
-    /// Which random numbers the noise is drawn with
+    /// Seed of the noise
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// For a file: speed of the test, of the largest speed [default: 0.2]
@@ -45,7 +45,7 @@ pub struct Commission {
     /// For a file: rated torque, of the largest torque [default: 0.5]
     #[arg(long, value_name = "SHARE")]
     rated: Option<f64>,
-    /// Where the page goes [default: report/NAME-commissioning.html]
+    /// File of the page [default: report/NAME-commissioning.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Print JSON, and write a page only with --html
@@ -161,5 +161,5 @@ fn read_chain(path: &Path) -> Result<MachineFile, Failure> {
     let source = Source { name: &name, text: &text };
     let place = text.find("[[branch]]").map_or(0..0, |at| at..at + "[[branch]]".len());
     let found = format!("a branch at \"{}\"", branch.at);
-    Err(Diagnostic::at(source, place, "branch[0]", found, "a chain alone: the test knows no branches").into())
+    Err(Diagnostic::at(source, place, "branch[0]", found, "a chain alone: the test has no branches").into())
 }

@@ -1,4 +1,4 @@
-//! What `design` finds for a machine: the step, the observer, the governor.
+//! Result of `design` for a machine: step, observer, governor.
 
 use driveline::design::{
     Actuator, ClosedLoop, Disturbance, Encoder, Error, ObserverChoice, Penalty, Plant, Rate, Requirement, RigidDesign,
@@ -32,18 +32,18 @@ pub struct Plan {
     pub innovation: f64,
     /// The speed loop, for two masses.
     pub speed_loop: Option<SpeedLoop>,
-    /// Which observer it needs, for two masses whose file says how they are shaken.
+    /// The selected observer, for two masses whose file has a `[duty]`.
     pub need: Option<Needed>,
 }
 
-/// Which observer a machine needs.
+/// Selection of an observer.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Needed {
     /// `rigid`, `semi-implicit`, `exact` or `backlash`.
     pub observer: &'static str,
-    /// What leaving out the shaft costs: rms errors of shaft torque and load's speed, over the limits.
+    /// Error without the shaft: rms of shaft torque and load speed, over the limits.
     pub without_shaft: [f64; 2],
-    /// What leaving out the gap costs.
+    /// Error without the gap.
     pub without_gap: [f64; 2],
 }
 
@@ -73,7 +73,8 @@ pub struct Shaft {
 }
 
 impl Shaft {
-    /// The reduction error above which `design` warns: a third of what the motor does after a blow is then not in the model.
+    /// The reduction error above which `design` warns: a third of what the motor does after a blow is then not in the
+    /// model.
     pub const LARGE_REDUCTION_ERROR: f64 = 1.0 / 3.0;
 }
 

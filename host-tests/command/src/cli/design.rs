@@ -23,7 +23,7 @@ use driveline_report::format::{percent, rate, significant};
 pub struct Design {
     /// The machine: a TOML file of elements from the motor to the load
     file: PathBuf,
-    /// Print what can be pasted into a firmware, instead of the tables
+    /// Print constants to paste into a firmware, instead of the tables
     #[arg(long, value_name = "LANGUAGE")]
     emit: Option<Language>,
     /// Print JSON; with --emit, {"rust": "..."}
@@ -31,7 +31,7 @@ pub struct Design {
     pub json: bool,
 }
 
-/// What can be pasted.
+/// Kinds of output to paste.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Language {
     /// Constants in the words of the library
@@ -88,7 +88,8 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
     if let Some(shaft) = &plan.shaft {
         if shaft.reduction_error > super::controller::Shaft::LARGE_REDUCTION_ERROR {
             text.push_str(&format!(
-                "warning: two masses are a poor image of this machine: what they leave out may be {} of a jump of the motor's speed; \
+                "warning: two masses are a poor model of this machine: the neglected modes may be {} of a step of the \
+                    motor's speed; \
                  see the modes with `cargo driveline modes`\n\n",
                 percent(shaft.reduction_error)
             ));
@@ -143,7 +144,7 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
     text.push_str(&format!("poles: {} (largest size {:.6})\n", poles.join(", "), plan.spectral_radius));
     if let Some(governor) = &plan.speed_loop {
         text.push_str(&format!(
-            "\nspeed loop: proportional {} N m s/rad, integral {} N m/rad, slip {} N m s/rad; {} Hz wide\n{}",
+            "\nspeed loop: proportional {} N m s/rad, integral {} N m/rad, damping {} N m s/rad; {} Hz wide\n{}",
             significant(governor.proportional),
             significant(governor.integral),
             significant(governor.damping),

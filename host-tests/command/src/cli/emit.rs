@@ -51,7 +51,7 @@ use driveline::machine::{{{words}}};
 /// The machine, from the motor to the load.
 pub const {name}: {kind} = {chain};
 
-/// What the observer takes it for.
+/// The observer's model.
 pub const {name}_MODEL: {model} = {make};
 
 /// Ticks a second.

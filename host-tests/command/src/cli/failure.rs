@@ -1,4 +1,4 @@
-//! How a command ends badly, and how that is told.
+//! Failures of a command, and their output.
 
 use std::process::ExitCode;
 
@@ -26,7 +26,7 @@ impl Failure {
         Self::Usage(sentence.into())
     }
 
-    /// What did not succeed, as a sentence.
+    /// The failure, as a sentence.
     pub fn failed(sentence: impl Into<String>) -> Self {
         Self::Failed(sentence.into())
     }
@@ -39,7 +39,7 @@ impl Failure {
         }
     }
 
-    /// Tells it on standard error, as a sentence or as JSON, and gives the exit code.
+    /// Prints it on standard error, as a sentence or as JSON, and returns the exit code.
     pub fn report(&self, as_json: bool) -> ExitCode {
         match self {
             _ if as_json => {
@@ -50,7 +50,7 @@ impl Failure {
                 eprintln!("{value}");
             }
             Self::Machine(diagnostic) => eprintln!("error: {}", visible(&diagnostic.explained())),
-            Self::Usage(sentence) => eprintln!("error: {}; `--help` shows what there is", visible(sentence)),
+            Self::Usage(sentence) => eprintln!("error: {}; see `--help`", visible(sentence)),
             Self::Failed(sentence) => eprintln!("error: {}", visible(sentence)),
         }
         ExitCode::from(self.code())

@@ -1,4 +1,4 @@
-//! `cargo driveline genset`: the generator sets in QEMU, against the standards.
+//! `cargo driveline genset`: the gensets in QEMU, against the standards.
 
 use std::path::PathBuf;
 
@@ -10,10 +10,11 @@ use super::{Failure, Progress, say, say_json};
 use crate::generator::{page, verdict};
 use driveline_qemu::setup::Need;
 
-/// Run the generator sets' firmware in QEMU against their full plants, and give a verdict by ISO 8528-5 and NEMA SM 23.
+/// Run the gensets' firmware in QEMU against their full plants, and give a verdict by ISO 8528-5 and NEMA SM 23.
 ///
 /// Installs what is missing (as `setup` does), builds the firmware of every variant, runs its load steps with the
-/// estimated load fed forward and without, then a fault on every input and every trip; prints tables and writes a page with plots.
+/// estimated load fed forward and without, then a fault on every input and every trip; prints tables and writes a page
+/// with plots.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline genset
@@ -23,7 +24,7 @@ pub struct Generator {
     /// Print {verdicts: [...], faults: [...], trips: [...]} and no table
     #[arg(long)]
     pub json: bool,
-    /// Where the page goes
+    /// File of the page
     #[arg(long, value_name = "PATH", default_value = "report/genset.html")]
     html: PathBuf,
     /// Only variants whose number/core/set/rate contains this text, as `fixed/m3` or `turbine`

@@ -22,12 +22,11 @@ use super::{Failure, say, say_json};
 use crate::machine_file::{is_train, read, read_train};
 use driveline_report::Section;
 
-/// Natural frequencies and shapes of a machine, the two masses that can stand for it, the parts not worth keeping.
+/// Natural frequencies and shapes of a machine, its two-mass reductions, and the sensitivity to each part.
 ///
-/// A chain of elements, with its branches, is referred to the motor's shaft; a train of coordinates and links stays as it is. With
-/// `[running]` and
-/// `[[excitation]]` in the file, critical speeds are listed and drawn, and those within 10 % of the running range
-/// flagged. The page with the plots opens in any browser.
+/// A chain of elements, with its branches, is referred to the motor's shaft; a train of coordinates and links stays as
+/// it is. With `[running]` and `[[excitation]]` in the file, critical speeds are listed and drawn, and those within 10
+/// % of the running range flagged. The page with the plots opens in any browser.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline example hoist > hoist.toml
@@ -37,7 +36,7 @@ use driveline_report::Section;
 pub struct Modes {
     /// The machine: a TOML file of elements from the motor to the load
     file: PathBuf,
-    /// Where the page goes [default: report/NAME-modes.html]
+    /// File of the page [default: report/NAME-modes.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Print JSON, and write a page only with --html

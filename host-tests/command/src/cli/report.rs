@@ -16,9 +16,9 @@ use driveline_qemu::setup::Need;
 
 /// Run every scene in all its variants, and every stiff or extreme case, and put it all on one page.
 ///
-/// Installs what is missing (as `setup` does), builds the firmware that is not built yet, runs the closed loops side by side on
-/// the cores, and writes a page: errors beside the aims and why an aim is missed, error against instructions, flash and RAM, dynamic
-/// factors, verdicts on every case. What fails is reported in its place and loses nothing else.
+/// Installs what is missing (as `setup` does), builds the firmware that is not built yet, runs the closed loops side by
+/// side on the cores, and writes a page: errors beside the aims and why an aim is missed, error against instructions,
+/// flash and RAM, dynamic factors, verdicts on every case. A failure is reported in its place and affects nothing else.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline report
@@ -33,7 +33,7 @@ pub struct Report {
     /// Print everything that was measured as JSON, and no table
     #[arg(long)]
     pub json: bool,
-    /// Where the page goes
+    /// File of the page
     #[arg(long, value_name = "FILE", default_value = "report/report.html")]
     html: PathBuf,
     /// Where the tables go as Markdown, for the book

@@ -1,7 +1,7 @@
 //! Files that results go to: never a source, never one file twice, and whole or not at all.
 //!
-//! A command checks its files before it begins, prints what it found, and only then writes them. A file is written beside
-//! its place and renamed, so that what stood there is kept until the new one is complete.
+//! A command checks its files before it begins, prints what it found, and only then writes them. A file is written
+//! beside its place and renamed, so that what stood there is kept until the new one is complete.
 
 use std::fs::{self, Metadata, OpenOptions};
 use std::io::{self, Write};
@@ -133,14 +133,14 @@ pub fn check<'d>(sources: &[&Path], files: impl IntoIterator<Item = &'d Destinat
     let mut taken: Vec<(Option<Identity>, &str)> = sources.iter().map(source).collect();
     let output = Identity::of(Path::new("/dev/stdout"));
     if taken.iter().any(|(source, _)| source.is_some() && *source == output) {
-        return Err(Failure::usage("standard output would be written over what the result is made from"));
+        return Err(Failure::usage("standard output would overwrite the input of the result"));
     }
     taken.push((output, "also printed to"));
     for file in files {
         let identity = Identity::of(&file.path);
         if let Some((_, how)) = taken.iter().find(|(other, _)| identity.is_some() && *other == identity) {
             let sentence = match *how {
-                "made from" => format!("{} would be written over what it is made from", file.name()),
+                "made from" => format!("{} would overwrite its own input", file.name()),
                 "also printed to" => format!("{} is where standard output goes; name another file", file.name()),
                 what => format!("{} would hold both the {what} and the {}; name another file", file.name(), file.what),
             };
@@ -221,7 +221,7 @@ mod tests {
         for name in ["source", "symbolic", "hard", "sub/../source", "./source"] {
             let page = Destination::chosen("page", &at(name));
             let sentence = refused(&[&source], &[page]);
-            assert!(sentence.ends_with("would be written over what it is made from"), "{sentence}");
+            assert!(sentence.ends_with("would overwrite its own input"), "{sentence}");
         }
         check(&[&source], &[Destination::chosen("page", &at("other"))]).unwrap();
         assert_eq!(fs::read_to_string(source).unwrap(), "kept");

@@ -26,7 +26,7 @@ use driveline_solver::rotor::{Critical, Modal, Natural, Polar, RotorError, Whirl
 pub struct Rotor {
     /// The rotor: a TOML file of shaft, discs, bearings, unbalance and sensors
     file: PathBuf,
-    /// Where the page goes [default: report/NAME-rotor.html]
+    /// File of the page [default: report/NAME-rotor.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Print JSON, and write a page only with --html
@@ -43,7 +43,7 @@ const WHIRLS: usize = 8;
 /// Vibrations that the diagram is made of: what lies above the 32nd moves the lowest eight by less than a line's width.
 const KEPT: usize = 32;
 
-/// What the command finds.
+/// Result of the command.
 #[derive(Debug, Serialize)]
 struct Found {
     name: String,
@@ -219,7 +219,8 @@ fn page(rotor: &RotorFile, found: &Found, response: &Response) -> String {
     }
     let mut figures = vec![Figure {
         title: "Campbell diagram".to_owned(),
-        text: "Natural frequencies over the speed of rotation. Where the straight line, once a turn, meets a forward whirl, \
+        text: "Natural frequencies over the speed of rotation. Where the straight line, once a turn, meets a forward \
+            whirl, \
                unbalance meets it too."
             .to_owned(),
         legend: [("forward", "s0"), ("backward", "s1"), ("mixed", "s5"), ("once a turn", "truth")]

@@ -13,11 +13,11 @@ use crate::drivetrains::{Plan, SCENES, Variants};
 use driveline_qemu::setup::Need;
 use driveline_report::variants_table;
 
-/// Run a scene's variants in QEMU, in closed loop with the full solver, and report what they get wrong and cost.
+/// Run a scene's variants in QEMU, in closed loop with the full solver, and report their errors and cost.
 ///
-/// Installs what is missing (as `setup` does), builds the firmware of the variants, runs it, prints a table and writes a
-/// page with plots that opens in any browser. Without --all or --variants these are the design's choice in `f32` and in
-/// fixed point.
+/// Installs what is missing (as `setup` does), builds the firmware of the variants, runs it, prints a table and writes
+/// a page with plots that opens in any browser. Without --all or --variants these are the design's choice in `f32` and
+/// in fixed point.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline run
@@ -35,7 +35,7 @@ pub struct Run {
     /// Print {scene, variants: [...]} and no table
     #[arg(long)]
     pub json: bool,
-    /// Where the page goes [default: report/SCENE.html]
+    /// File of the page [default: report/SCENE.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Only variants whose number/core/observer/rate contains this text, as `fixed/m3` or `reduced/10000`
@@ -44,7 +44,7 @@ pub struct Run {
     /// All variants, not only the design's choice of observer and rate in the number that each core is for
     #[arg(long, conflicts_with = "variants")]
     all: bool,
-    /// On the page, too: stiff and extreme machines, and flash and RAM of what a drive is composed of
+    /// On the page, too: stiff and extreme machines, and flash and RAM of a drive's parts
     #[arg(long)]
     sweep: bool,
     /// A short run of each variant: for trying out, not for figures to quote

@@ -33,7 +33,7 @@ const DRAWN: usize = 6;
 pub struct Simulate {
     /// The train and its run: a TOML file
     file: PathBuf,
-    /// Where the page goes [default: report/NAME-simulation.html]
+    /// File of the page [default: report/NAME-simulation.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Write the run as a table, a line for every step

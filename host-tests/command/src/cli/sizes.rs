@@ -10,8 +10,8 @@ use driveline_qemu::setup::Need;
 
 /// Builds an image for each board and shows what it takes of flash and RAM, by section.
 ///
-/// The hoist for QEMU's boards, start-up, link and measuring included, and the test rig for the board with a motor, balancing, telemetry and
-/// registers included. The stack is not in it.
+/// The hoist for QEMU's boards, start-up, link and measuring included, and the test rig for the board with a motor,
+/// balancing, telemetry and registers included. The stack is not in it.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  cargo driveline sizes\n  cargo driveline sizes --json")]
 pub struct Sizes {

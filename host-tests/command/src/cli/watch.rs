@@ -107,7 +107,7 @@ impl Seen {
         let Seen { records, dropped, damaged, unknown, .. } = self;
         let mut foot = format!("{records} records, {dropped} dropped by the drive, {damaged} frames damaged");
         if *unknown > 0 {
-            foot.push_str(&format!(", {unknown} of a kind that is not known: a later firmware's"));
+            foot.push_str(&format!(", {unknown} of an unknown kind, from a later firmware"));
         }
         [head].into_iter().chain(self.channels.iter().map(row)).chain([foot]).collect()
     }
@@ -214,7 +214,7 @@ fn nothing(name: &str, decoder: &Decoder) -> String {
         (0, _) => "it gave not a byte".into(),
         _ if decoder.describes(1) => "its channels described themselves, and none was recorded".into(),
         (_, 0) => format!("{bytes} bytes came, and {damaged} damaged frames: no telemetry, or the wrong baud rate"),
-        _ => format!("{unknown} frames came of a kind that is not known: the firmware is later than this program"),
+        _ => format!("{unknown} frames of an unknown kind: the firmware is newer than this program"),
     };
     format!("{name}: no record; {why}")
 }
@@ -223,7 +223,7 @@ fn nothing(name: &str, decoder: &Decoder) -> String {
 struct Csv<'a> {
     path: &'a Path,
     file: BufWriter<File>,
-    /// What comes before the channels have described themselves waits for its column's names.
+    /// Records before the channels' descriptions wait for their column names.
     waiting: Vec<Told>,
     /// Values of a line, once there is one.
     columns: Option<usize>,
@@ -249,7 +249,7 @@ impl<'a> Csv<'a> {
                 if self.columns.is_none() && self.file.get_ref().metadata()?.is_file() {
                     self.file.get_ref().set_len(0)?;
                 }
-                // a drive that tells something else from now on gets a head of its own
+                // a drive whose telemetry changes gets a head of its own
                 if self.columns != Some(told.words.len()) {
                     self.columns = Some(told.words.len());
                     writeln!(self.file, "{}", header(decoder, &told))?;
@@ -261,7 +261,7 @@ impl<'a> Csv<'a> {
     }
 }
 
-/// The first line of the CSV: `tick,dropped,torque [N m],...`. What a drive says of itself may hold anything.
+/// The first line of the CSV: `tick,dropped,torque [N m],...`. A drive's descriptions may contain anything.
 fn header(decoder: &Decoder, told: &Told) -> String {
     let mut text = String::from("tick,dropped");
     for index in 0..told.words.len() {

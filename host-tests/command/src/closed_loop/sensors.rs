@@ -1,4 +1,4 @@
-//! What the drive's sensors make of the truth: an incremental encoder.
+//! The drive's sensors: an incremental encoder.
 
 use core::f64::consts::TAU;
 

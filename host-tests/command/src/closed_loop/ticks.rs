@@ -1,4 +1,4 @@
-//! What ticks: a scene on the host, or an image in QEMU.
+//! A ticking scene: on the host, or an image in QEMU.
 
 use std::io;
 

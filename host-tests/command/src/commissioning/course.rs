@@ -116,7 +116,7 @@ pub fn run(
         plant.clear_events();
         course.ticks += 1;
     }
-    // The answer, asked for word by word while the motor stands.
+    // The result, requested word by word while the motor stands.
     let mut ask = |key: u32, value: u32| -> io::Result<u32> {
         let input = Input { angle: read(&plant), asked: [key, value], flags: Input::RELEASED, ..Input::default() };
         Ok(drive.tick(&input)?.answer)

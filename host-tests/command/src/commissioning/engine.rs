@@ -17,7 +17,7 @@ use driveline_qemu::link::Link;
 /// The variant whose image is run.
 pub const VARIANT: &str = Commission::NAME;
 
-/// What QEMU showed of an image.
+/// Measurements of an image in QEMU.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Target {
     /// Instructions of a tick: least, mean, most.

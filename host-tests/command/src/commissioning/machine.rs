@@ -24,13 +24,13 @@ pub struct Case {
     pub name: String,
     /// Its number among the scene's machines.
     pub number: u32,
-    /// What it is, in a sentence.
+    /// Description, in a sentence.
     pub summary: String,
     /// Whether its test is so short that QEMU takes less than a minute for it.
     pub brief: bool,
     /// The plant at the start.
     pub plant: Plant,
-    /// What the test knows.
+    /// Data of the test.
     pub settings: TestSettings,
     /// Counts of the encoder on a turn.
     pub counts: u32,
@@ -42,7 +42,7 @@ pub struct Case {
     pub rated_torque: f64,
     /// Which shaft's torque must stay below half of rated.
     pub shaft: usize,
-    /// What is to be found.
+    /// Values to identify.
     pub truth: Truth,
 }
 
@@ -168,7 +168,7 @@ pub struct Trial {
     pub rated: f64,
 }
 
-/// A machine from a file: its plant by its chain, without the losses of its gears. The test is told the motor's own
+/// A machine from a file: its plant by its chain, without the losses of its gears. The test's data are the motor's own
 /// inertia, the weight, and a band from two fifths of the antiresonance to two and a half times the resonance.
 ///
 /// # Errors

@@ -1,8 +1,8 @@
-//! What a commissioning has to find.
+//! Values that commissioning has to identify.
 
 use driveline_solver::plant::modes::{System, SystemError};
 
-/// What is to be found.
+/// Values to identify.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
     /// In the order of `driveline_firmware::scenes::commission::figures`; NaN where there is nothing to compare with.
@@ -19,7 +19,7 @@ impl Truth {
         };
         let shafts = || stiffness.iter().zip(damping).enumerate();
         let free = shafts().fold(System::new(inertia), |system, (s, (k, d))| system.shaft(s, s + 1, *k, *d));
-        // The motor held: its shaft goes to the ground.
+        // The motor locked: its shaft goes to the ground.
         let held = shafts().fold(System::new(&inertia[1..]), |system, (s, (k, d))| match s {
             0 => system.ground(0, *k, *d),
             _ => system.shaft(s - 1, s, *k, *d),

@@ -1,4 +1,4 @@
-//! What was found beside what is true, as a table and as a page.
+//! Identified and true values, as a table and as a page.
 
 use core::f64::consts::TAU;
 
@@ -47,13 +47,13 @@ pub struct Verdict {
     pub peak: f64,
     /// Errors of the commissioning test.
     pub refused: Option<&'static str>,
-    /// Why no gap was told.
+    /// Why no gap was identified.
     pub gap_refused: Option<&'static str>,
     /// The figures.
     pub figures: Vec<Row>,
     /// Gains designed for what was found, and error against those designed for the true machine.
     pub gains: Vec<Row>,
-    /// What QEMU showed.
+    /// Measurements in QEMU.
     pub target: Option<Target>,
     /// Responses upwards and downwards: frequency \[rad/s\], acceleration per torque (real, imaginary), standard
     /// deviation [1/(kg m2)].
@@ -89,11 +89,12 @@ const GAINS: [&str; 8] = [
     "observer: load torque, N m/rad",
     "speed loop: proportional, N m s/rad",
     "speed loop: integral, N m/rad",
-    "speed loop: slip, N m s/rad",
+    "speed loop: damping, N m s/rad",
 ];
 
-/// What is said of a course that was ended by its time.
-const OVER: &str = "no answer within an hour at the machine: more torque, more friction where there is a gap, or a finer encoder is expected";
+/// Text for a run that reached its time limit.
+const OVER: &str = "no answer within an hour at the machine: more torque, more friction where there is a gap, or a \
+    finer encoder is expected";
 
 /// Puts a course beside the truth.
 pub fn verdict(case: &Case, course: &Course, target: Option<Target>) -> Verdict {
@@ -177,7 +178,7 @@ impl Verdict {
         table
     }
 
-    /// What is said beside the table.
+    /// Text beside the table.
     pub fn sentences(&self) -> Vec<String> {
         let mut said = vec![format!("{:.0} s at the machine", self.seconds)];
         said.extend(self.refused.map(|reason| format!("refused: {reason}")));
@@ -185,7 +186,10 @@ impl Verdict {
         if let Some(target) = &self.target {
             let [least, mean, most] = target.instructions;
             let [flash, ram, stack] = target.bytes;
-            said.push(format!("in QEMU: {least} to {most} instructions a tick, {mean} in the mean; {flash} bytes of flash, {ram} of static memory, {stack} of stack, the solving included"));
+            said.push(format!(
+                "in QEMU: {least} to {most} instructions a tick, {mean} in the mean; {flash} bytes of \
+                flash, {ram} of static memory, {stack} of stack, the solving included"
+            ));
             said.push(format!("the host's bits: {}", if target.bit_exact { "yes, every tick" } else { "NO" }));
         }
         said
@@ -204,7 +208,8 @@ impl Verdict {
             facts: self.sentences().into_iter().map(fact).collect(),
             tables: vec![Section::new(
                 "Found and true",
-                "The true values are those of the full plant, referred to the motor: the two masses that have its first resonance, its first antiresonance and its total inertia.",
+                "The true values are those of the full plant, referred to the motor: the two masses that have its \
+                    first resonance, its first antiresonance and its total inertia.",
                 self.table(),
             )],
             figures: self.plots.clone(),
@@ -248,7 +253,8 @@ fn plots(case: &Case, course: &Course) -> Vec<Figure> {
             logarithmic: true,
             places,
         };
-        let text = "Acceleration of the motor per torque: the lines of the last records upwards and downwards as points, the two masses that were \
+        let text = "Acceleration of the motor per torque: the lines of the last records upwards and downwards as \
+            points, the two masses that were \
                     found, and those that have the plant's resonance, antiresonance and inertia.";
         plots.push(Figure {
             title: "Response".to_owned(),

@@ -1,8 +1,8 @@
 //! The exact observer with another step, on the host: what the exact step is worth.
 //!
-//! It is the library's observer behind its gear, in `f64`, with the six coefficients of twist and slip exchanged; gains, gear,
-//! mean motion and wrapped angle stay what they are, so that only the step differs. No sample is screened: a step that diverges
-//! is seen to diverge.
+//! It is the library's observer behind its gear, in `f64`, with the six coefficients of twist and slip exchanged;
+//! gains, gear, mean motion and wrapped angle stay what they are, so that only the step differs. No sample is screened:
+//! a step that diverges is seen to diverge.
 
 use driveline::design::{ApproximateStep, TwoMassDesign};
 use driveline::observer::{GearedConfig, GearedObserver, Observer, TwoMassConfig, TwoMassObserver};
@@ -23,7 +23,7 @@ impl StepOf {
     /// All of them.
     pub const ALL: [StepOf; 3] = [StepOf::Exact, StepOf::Tustin, StepOf::ForwardEuler];
 
-    /// What the report calls it.
+    /// Name in the report.
     pub const fn name(self) -> &'static str {
         match self {
             StepOf::Exact => "exact",
@@ -66,8 +66,8 @@ impl ApproximateObserver {
         self.estimate()
     }
 
-    /// A tick with the angle at its end [2^-32 turn] and the motor's torque during it [N m]: shaft torque, load speed and load torque
-    /// [N m, rad/s, N m].
+    /// A tick with the angle at its end [2^-32 turn] and the motor's torque during it [N m]: shaft torque, load speed
+    /// and load torque [N m, rad/s, N m].
     pub fn tick(&mut self, angle: u32, torque: f64) -> [f64; 3] {
         self.observer.step(&self.config, angle, torque);
         self.estimate()

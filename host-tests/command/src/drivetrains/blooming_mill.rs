@@ -71,7 +71,8 @@ pub fn machine() -> Result<Machine, PlantError> {
     };
     Ok(Machine {
         name: driveline_firmware::scenes::blooming_mill::SCENE,
-        summary: "A reversing blooming mill with a gap in its spindles: two passes, and reversals as fast as the motor can.",
+        summary: "A reversing blooming mill with a gap in its spindles: two passes, and reversals as fast as the motor \
+            can.",
         facts: Vec::new(),
         notes: vec!["The shaft torque is that of the spindles."],
         chosen: ("slack", 10_000),

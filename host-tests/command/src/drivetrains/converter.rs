@@ -38,7 +38,7 @@ pub fn machine() -> Result<Machine, PlantError> {
         .start(Start::Slack)
         .build()?;
     let tilting = Scenario {
-        name: "tilting out of the slack, over the dead centre and back",
+        name: "tilting through the backlash, over the dead centre and back",
         plant: plant.into(),
         held: 0.0,
         actions: vec![
@@ -54,7 +54,7 @@ pub fn machine() -> Result<Machine, PlantError> {
     };
     Ok(Machine {
         name: driveline_firmware::scenes::converter::SCENE,
-        summary: "A converter's tilting drive, four motors as one, with slack in its gear.",
+        summary: "A converter's tilting drive, four motors as one, with backlash in its gear.",
         facts: Vec::new(),
         notes: vec!["The shaft torque is that of the trunnion, at the motors."],
         chosen: ("slack", 10_000),

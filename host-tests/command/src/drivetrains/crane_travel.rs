@@ -19,29 +19,29 @@ const TRAVEL: f64 = 0.5 / (2.0 * 30.0);
 const LOAD: f64 = 15_000.0;
 const BRIDGE: f64 = 25_000.0;
 
-/// What the load's swing pushes with, at the motors [N m/rad].
+/// Stiffness of the load's swing, at the motors [N m/rad].
 const PENDULUM: f64 = LOAD * GRAVITY / 10.0 * TRAVEL * TRAVEL;
 
 /// Travelling resistance at the motors [N m], 6 per mille of the weight.
 const RESISTANCE: f64 = 0.006 * (LOAD + BRIDGE) * GRAVITY * TRAVEL;
 
-/// What of it the drive knows: commissioning has found it to within a tenth.
+/// Its known part: commissioning identified it to within a tenth.
 const TOLD: f64 = 0.9 * RESISTANCE;
 
 /// Wind on the load at the motors [N m]: 300 N.
 const WIND: f64 = 300.0 * TRAVEL;
 
-/// What of the travelling resistance the drive does not know [N m].
+/// Unknown part of the travelling resistance [N m].
 fn unknown(plant: &Body) -> f64 {
     match plant.motor_speed() {
-        // At rest it is told to take what the motor gives.
+        // At rest its reported torque is the motor's.
         0.0 => plant.load_torque(0) - plant.load_torque(0).clamp(-TOLD, TOLD),
         speed => plant.load_torque(0) - TOLD * speed.signum(),
     }
 }
 
-/// What passes from the motors' inertia and the bridge's to the outside: the push of the load's swing, and the
-/// resistance that is not known.
+/// Torque from the inertias of motors and bridge to the outside: the force of the load's swing, and the unknown
+/// resistance.
 fn push(plant: &Body) -> f64 {
     PENDULUM * plant.twist(0) + unknown(plant)
 }
@@ -67,9 +67,9 @@ pub fn machine() -> Result<Machine, PlantError> {
         summary: "A bridge crane of 16 t travels with its load swinging.",
         facts: facts::of_design(&CraneTravel::OBSERVER, scene::COUNTS, torque_noise),
         notes: vec![
-            "The drive is told nine tenths of the travelling resistance, as commissioning finds it. The tenth that it does not know counts to \
-             the shaft torque, which is else the push of the swinging load, and to the load torque, which is else the wind: from the motor's side \
-             resistance in front of the swing and behind it look alike.",
+            "The drive has nine tenths of the travelling resistance, as identified in commissioning. The unknown tenth \
+                adds to the shaft torque, otherwise the force of the swinging load, and to the load torque, otherwise \
+                the wind: from the motor's side, resistance before and behind the swing cannot be distinguished.",
             "The load is a mass on a spring of m g/l, as for small angles.",
         ],
         chosen: ("semi-implicit", CraneTravel::RATE_HZ),

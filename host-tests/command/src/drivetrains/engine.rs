@@ -18,7 +18,7 @@ use driveline_report::{Instructions, Mark, Signal, Trajectory, Variant};
 
 /// A variant that has run.
 pub struct Ran {
-    /// What it is called and what it costs.
+    /// Its name and cost.
     pub variant: Variant,
     /// One trace a scenario.
     pub traces: Vec<Trace>,
@@ -26,7 +26,7 @@ pub struct Ran {
     pub tick_code: u64,
 }
 
-/// What a run is for.
+/// Purpose of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
     /// The first scenario's first seconds only, and no proof.

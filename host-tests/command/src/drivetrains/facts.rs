@@ -1,4 +1,4 @@
-//! What the report says in words and single figures.
+//! The report's facts and single figures.
 
 use driveline::configure::Machine as _;
 use driveline::design::TwoMassDesign;
@@ -130,15 +130,18 @@ pub fn of_sudden(machine: &Machine, variant: &Variant, traces: &[Trace]) -> Vec<
         .collect()
 }
 
-/// What is measured and what is not.
+/// Measured and unmeasured costs.
 pub fn notes(machine: &Machine, quick: bool) -> Vec<String> {
     let general = [
-        "Measured in QEMU 7.2 or later: instructions, to the instruction; stack, by painting it; bits, against the host. No real board has run this.",
-        "Cycles are an estimate: instructions times the mean of the cores' manuals over the tick's instruction mix, without wait states.",
+        "Measured in QEMU 7.2 or later: instructions, to the instruction; stack, by painting it; bits, against the \
+            host. No real board has run this.",
+        "Cycles are an estimate: instructions times the mean of the cores' manuals over the tick's instruction mix, \
+            without wait states.",
         "Flash and RAM are those of the image with the drive less those of the image without one.",
         "Errors are estimate less truth over the counted runs: of the peak for torques, of rated speed for speeds.",
     ];
-    let proven = "Every run of the solver was integrated again by another integrator (DOP853) and with tenfold tighter events, and agreed within 1e-8.";
+    let proven = "Every run of the solver was integrated again by another integrator (DOP853) and with tenfold tighter \
+        events, and agreed within 1e-8.";
     let brief = "A quick run: two seconds of the first situation, not proven. Not for figures to quote.";
     let (first, last) = if quick { (Some(&brief), None) } else { (None, Some(&proven)) };
     let notes = first.into_iter().chain(&general).chain(last).chain(&machine.notes);

@@ -23,7 +23,7 @@ const RATIO: f64 = 50.0 / 21.0;
 /// Rated torque at the driven machine [N m].
 const RATED: f64 = GearDrive::RATING.torque * RATIO;
 
-/// What the driven machine takes of rated torque at rated speed, growing with the square of the speed.
+/// Load of the driven machine at rated speed, of rated torque, growing with the square of the speed.
 const ROTARY: f64 = 0.4;
 
 /// Error of every second tooth [m]: the pitch deviation of grade 5 of ISO 1328-1, `0.3 (m + 0.4 sqrt(d)) + 4` in um, m
@@ -106,7 +106,8 @@ pub fn machine() -> Result<Machine, PlantError> {
         facts: facts::of_design(&GearDrive::OBSERVER, scene::COUNTS, torque_noise),
         notes: vec![
             "The shaft torque is that between wheel and driven machine, at the motor.",
-            "The full plant turns, moves and tilts in fourteen coordinates, with the pairs of teeth in contact and an error of 6.3 um on every second tooth.",
+            "The full plant turns, moves and tilts in fourteen coordinates, with the pairs of teeth in contact and an \
+                error of 6.3 um on every second tooth.",
         ],
         chosen: ("exact", GearDrive::RATE_HZ),
         scenarios: vec![Scenario {

@@ -118,9 +118,9 @@ pub fn machine() -> Result<Machine, PlantError> {
         facts: facts::of_hoist(torque_noise),
         notes: vec![
             "The shaft torque is the rope's pull at the motor, behind the gear's loss.",
-            "The textbook cut, the modal truncation and the match of resonance and antiresonance estimate this hoist alike \
-             within the noise: its motor shaft is stiff and its rope soft. Machines with shafts of like stiffness differ; \
-             `cargo driveline modes` says by how much.",
+            "The textbook cut, the modal truncation and the match of resonance and antiresonance give equal estimates \
+                of this hoist within the noise: its motor shaft is stiff and its rope soft. With shafts of similar \
+                stiffness they differ; `cargo driveline modes` shows by how much.",
         ],
         chosen: ("reduced", 10_000),
         scenarios: vec![pretensioned, slack, sudden],

@@ -10,7 +10,7 @@ use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
 use driveline_solver::noise::Noise;
 
-/// What was true, what was estimated, and what was exchanged, at one tick.
+/// True values, estimates and exchanged words of one tick.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Moment {
     /// Time [s].
@@ -40,11 +40,11 @@ impl Moment {
     }
 }
 
-/// What a run left behind.
+/// Results of a run.
 pub struct Trace {
     /// Every tick.
     pub moments: Vec<Moment>,
-    /// What was sent and what came back.
+    /// Inputs and outputs.
     pub words: Vec<(Input, Output)>,
     /// The plant with everything that was done to it, ready to be proven.
     pub recording: Body,
@@ -94,8 +94,8 @@ pub fn run(
             recording.set_load_torque(law.node, torque);
         }
         let plant = &recording;
-        // What the drive is told of a brake and of friction in the tick that has ended. At rest friction takes what the motor gives; of what a
-        // closed brake then takes nobody knows.
+        // Reported torque of brake and friction in the tick that has ended. At rest friction balances the motor; the
+        // torque of a closed brake is then unknown.
         let (friction, brake) = if released { (machine.told_friction, brake) } else { (0.0, 0.0) };
         let slipping = match plant.motor_speed() {
             0.0 => -applied.clamp(-friction, friction),

@@ -19,7 +19,7 @@ use crate::closed_loop::units::Units;
 pub struct Recorded {
     /// Motor angle as the drive read it [2^-32 turn].
     pub angle: u32,
-    /// Torque that the drive was told of, or that it held against the brake [N m].
+    /// Torque reported to the drive, or held against the brake [N m].
     pub torque: f64,
     /// The governor was released.
     pub released: bool,
@@ -77,7 +77,7 @@ pub fn comparisons(
     StepOf::ALL.into_iter().map(|step| comparison(design, step, gear, run, rated_speed)).collect()
 }
 
-/// What a drive was given in a run, and what was true.
+/// Inputs of a drive in a run, and true values.
 pub fn recorded(trace: &Trace, units: &Units) -> Vec<Recorded> {
     let ticks = trace.words.iter().zip(&trace.moments);
     ticks

@@ -102,7 +102,7 @@ impl Plan {
         }
         self.budgets(&mut report)?;
         if self.sweep {
-            says("flash and RAM of what a drive is composed of");
+            says("flash and RAM of a drive's parts");
             report.compositions = compositions(|text| says(text))?;
             step();
             says("stiff and extreme machines");
@@ -134,7 +134,7 @@ impl Plan {
         Ok(())
     }
 
-    /// What `budgets.toml` allows beside what was measured in closed loop.
+    /// Budgets against the measurements in closed loop.
     fn budgets(&self, report: &mut Report) -> Result<(), Box<dyn Error>> {
         let budgets = Budgets::read(&workspace()?.join("budgets.toml"))?;
         for (candidate, variant) in self.candidates.iter().zip(&report.variants) {

@@ -50,7 +50,8 @@ pub fn machine() -> Result<Machine, PlantError> {
         facts: facts::of_design(&PlanetaryDrive::OBSERVER, scene::COUNTS, torque_noise),
         notes: vec![
             "The shaft torque is that behind the set's loss, at the motor.",
-            "By the swings that a rigid observer would miss it would do here; it has to be tuned so lively, lest the speed loop excite the shaft, that its \
+            "By the swings that a rigid observer would miss it would do here; it has to be tuned so lively, lest the \
+                speed loop excite the shaft, that its \
              noise costs more.",
         ],
         chosen: ("exact", PlanetaryDrive::RATE_HZ),

@@ -1,5 +1,5 @@
-//! A scene's full plant as the closed loop drives it: a chain, or a train of any shape, with the record of what was done
-//! to it.
+//! A scene's full plant as the closed loop drives it: a chain, or a train of any shape, with the record of what was
+//! done to it.
 
 use driveline_solver::plant::Plant;
 use driveline_solver::plant::converge;
@@ -138,7 +138,7 @@ impl Body {
     pub fn set_brake(&mut self, node: usize, torque: f64) {
         match self {
             Body::Chain(chain) => chain.set_brake(node, torque),
-            Body::Train(_) => panic!("a train has no brake at node {node}: give it a friction"),
+            Body::Train(_) => panic!("a train has no brake at node {node}: add a friction"),
         }
     }
 

@@ -102,8 +102,9 @@ pub fn machine() -> Result<Machine, PlantError> {
             fact("encoder", format!("{} counts a turn: 2048 sine periods, interpolated", scene::COUNTS)),
         ],
         notes: vec![
-            "The shaft torque is the eccentric shaft's at the motor: what passes from the flywheel to the crank.",
-            "Both variants have the same observer. `plain` governs the speed as it is; `mean` the speed without what repeats every stroke.",
+            "The shaft torque is the eccentric shaft's, referred to the motor: from flywheel to crank.",
+            "Both variants have the same observer. `plain` governs the unfiltered speed; `mean` the speed without the \
+                ripple of the strokes.",
         ],
         chosen: ("mean", PunchPress::RATE_HZ),
         scenarios: vec![Scenario {

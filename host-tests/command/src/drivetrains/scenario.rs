@@ -33,19 +33,20 @@ pub struct Law {
 /// One run of a scene's machine.
 #[derive(Clone)]
 pub struct Scenario {
-    /// What it shows.
+    /// Its purpose.
     pub name: &'static str,
     /// The machine at the start.
     pub plant: Body,
-    /// What happens, in the order of time [s].
+    /// Actions, in the order of time [s].
     pub actions: Vec<(f64, Action)>,
     /// Torque that the drive holds until it is released [N m].
     pub held: f64,
     /// Duration [s].
     pub duration: f64,
-    /// Whether its errors count among the variant's figures; what lies outside what the observer is made for is shown, not counted.
+    /// Whether its errors count among the variant's figures; what lies outside what the observer is made for is shown,
+    /// not counted.
     pub counted: bool,
-    /// What the plot says happened when [s].
+    /// Events marked in the plot [s].
     pub marks: Vec<(f64, &'static str)>,
     /// A load torque that follows the speed, as a fan's does, or the angle, as a press's; held over each tick.
     pub law: Option<Law>,
@@ -55,11 +56,11 @@ pub struct Scenario {
 pub struct Machine {
     /// The scene's name.
     pub name: &'static str,
-    /// What the report says of it first.
+    /// Its summary in the report.
     pub summary: &'static str,
     /// The machine in single figures.
     pub facts: Vec<Fact>,
-    /// What the report has to say of this machine's figures.
+    /// The report's notes on this machine's figures.
     pub notes: Vec<&'static str>,
     /// The observer that the design chooses, and the rate whose courses are drawn, as the variants' names have them.
     pub chosen: (&'static str, u32),
@@ -67,7 +68,7 @@ pub struct Machine {
     pub scenarios: Vec<Scenario>,
     /// Its encoder.
     pub encoder: Encoder,
-    /// Standard deviation of the torque that the drive believes to have given [N m].
+    /// Standard deviation of the drive's reported torque [N m].
     pub torque_noise: f64,
     /// The node of the load.
     pub load: usize,
@@ -75,10 +76,11 @@ pub struct Machine {
     pub shaft_torque: fn(&Body) -> f64,
     /// The torque that the drive calls the load's [N m].
     pub load_torque: fn(&Body) -> f64,
-    /// A brake on the motor's side whose torque the drive is told with the motor's while it slips, as [`Action::Brake`] sets it.
+    /// A brake on the motor's side; while it slips its torque is reported to the drive with the motor's, as
+    /// [`Action::Brake`] sets it.
     pub told_brake: Option<usize>,
-    /// Dry friction on the motor's side that the drive is told with the motor's torque while it turns, as it was found when the machine was
-    /// commissioned [N m].
+    /// Dry friction on the motor's side, reported to the drive with the motor's torque while it turns, as identified in
+    /// commissioning [N m].
     pub told_friction: f64,
     /// Rated speed of the motor [rad/s].
     pub rated_speed: f64,

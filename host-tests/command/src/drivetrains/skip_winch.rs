@@ -99,14 +99,16 @@ pub fn machine() -> Result<Machine, PlantError> {
     let torque_noise = 0.01 * SkipWinch::RATING.torque;
     Ok(Machine {
         name: scene::SCENE,
-        summary: "A mine's skip winch: hoisting, and emergencies: the brake alone while it lowers; drive and brake while it hoists.",
+        summary: "A mine's skip hoist: hoisting, and emergencies: the brake alone while it lowers; drive and brake \
+            while it hoists.",
         facts: facts::of_design(&SkipWinch::OBSERVER, scene::COUNTS, torque_noise),
         notes: vec![
             "The shaft torque is the rope's pull at the motor, behind the gear's loss.",
-            "The drive is told the brake's torque as it is; a brake that grips harder than it is said to shows as shaft torque. \
-             The run with the inverter off ends shortly before the winch stands.",
-            "In an emergency while hoisting the rope goes slack. The peaks of `slack` and `plain` are to be compared there; the errors are not counted, since the \
-             observers of two masses and of one take the rope for one that pushes, and since a closed brake hides the rope from the drive.",
+            "The brake's torque is reported to the drive exactly; excess brake torque would appear as shaft torque. \
+                The run with the inverter off ends shortly before standstill.",
+            "In an emergency while hoisting the rope goes slack. Compare the peaks of `slack` and `plain` there. The \
+                errors do not count: the observers of two masses and of one model a rope that can push, and with a \
+                closed brake the rope is unobservable.",
         ],
         chosen: ("semi-implicit", SkipWinch::RATE_HZ),
         scenarios: vec![

@@ -61,9 +61,11 @@ pub fn machine() -> Result<Machine, PlantError> {
         summary: "A machine tool's spindle with a shaft of 800 Hz: run-up and cuts.",
         facts: facts::of_design(&Spindle::OBSERVER, spindle::COUNTS, torque_noise),
         notes: vec![
-            "A rigid observer does as well here: with white noise of 1 % in the torque little of a swing of 800 Hz can be seen from the motor, and the \
-             swing is small beside the jump of the cut itself, which any observer sees a millisecond late.",
-            "The run with four teeth is not counted: a ripple of 200 Hz is above what an observer can follow that is quiet enough for the rest.",
+            "A rigid observer is as good here: with white noise of 1 % in the torque an oscillation of 800 Hz is \
+                hardly observable at the motor, and it is small beside the step of the cut, which any observer \
+                follows a millisecond late.",
+            "The run with four teeth does not count: a ripple of 200 Hz is above the bandwidth of an observer with \
+                acceptable noise.",
         ],
         chosen: ("exact", Spindle::RATE_HZ),
         scenarios: vec![

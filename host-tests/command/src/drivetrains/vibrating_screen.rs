@@ -31,7 +31,7 @@ const GRAVITY: f64 = 9.80665 * core::f64::consts::FRAC_1_SQRT_2;
 /// Stiffness of the cardan shaft, 60 mm by 1 m of steel [N m/rad].
 const STIFFNESS: f64 = 79.3e9 * PI * 0.060 * 0.060 * 0.060 * 0.060 / 32.0;
 
-/// What moves at the start, in proportion to the stiffness: 3 % of critical damping at the upper resonance.
+/// Damping in proportion to the stiffness: 3 % of critical at the upper resonance.
 const SPRING_DAMPING: f64 = 1.6e-3;
 
 /// Friction of the charge on the deck [N s/m], and of bearings and oil at the exciter [N m s/rad].
@@ -67,8 +67,10 @@ pub fn machine() -> Result<Machine, PlantError> {
         summary: "A dual-mass vibrating screen of 30 kW: up through its resonances, more charge, and down again.",
         facts: facts::of_design(&VibratingScreen::OBSERVER, scene::COUNTS, torque_noise),
         notes: vec![
-            "The shaft torque is the cardan shaft's. The load torque is all that the unbalances feel of gravity and of the box, and friction.",
-            "The two masses in the name are box and frame, which move along a line; those that turn are motor and exciter.",
+            "The shaft torque is the cardan shaft's. The load torque is the torque of gravity and box on the \
+                unbalances, plus friction.",
+            "The two masses in the name are box and frame, which move along a line; those that turn are motor and \
+                exciter.",
         ],
         chosen: ("exact", VibratingScreen::RATE_HZ),
         scenarios: vec![Scenario {

@@ -23,9 +23,9 @@ const LAMBDA: f64 = 0.32;
 /// Combustion begins 5 degrees before the dead centre and takes 60.
 const IGNITION: f64 = -5.0 / 360.0 * TAU;
 const BURNING: f64 = 60.0 / 360.0 * TAU;
-/// What the cylinders differ by in fuel: they add to nothing.
+/// Fuel deviations of the cylinders, of zero sum.
 const UNEVEN: [f64; CYLINDERS] = [0.02, -0.01, 0.015, -0.02, 0.01, -0.015];
-/// What a torque of the rack gives in truth: the rack's calibration is 3 % off.
+/// True torque of a rack position: the rack's calibration is 3 % off.
 const CALIBRATION: f64 = 0.97;
 /// Share of the rated torque that burns without charge pressure, what full charge adds, and the charger's lag [s].
 const NATURAL: f64 = 0.75;

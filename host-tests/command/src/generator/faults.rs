@@ -24,13 +24,13 @@ pub enum Wire {
     Setpoint,
 }
 
-/// What is wrong with it.
+/// Its fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fault {
     /// Zero.
     Dropped,
-    /// What it was.
+    /// Its value before.
     Frozen,
     /// With noise: a degree of the angle, half the rated torque, 5 % of rated speed (standard deviations).
     Noisy,
@@ -45,7 +45,7 @@ pub const WIRES: [Wire; 3] = [Wire::Angle, Wire::Torque, Wire::Setpoint];
 /// Every fault.
 pub const FAULTS: [Fault; 5] = [Fault::Dropped, Fault::Frozen, Fault::Noisy, Fault::Negated, Fault::NotANumber];
 
-/// What became of a fault.
+/// Result of a fault.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outcome {
     /// Where.
@@ -66,7 +66,7 @@ pub struct Outcome {
     pub as_documented: bool,
 }
 
-/// What a drive is documented to do about a fault, by `firmware/src/scenes/generator.rs`.
+/// Documented reaction of a drive to a fault, in `firmware/src/scenes/generator.rs`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Documented {
     /// It rides through, and the frequency stays within these of rated.
@@ -75,14 +75,14 @@ pub enum Documented {
     Trips(&'static [Trip], f64),
 }
 
-/// What is documented of a fault that lasts, or passes.
+/// Documented reaction to a lasting or a passing fault.
 pub const fn documented(wire: Wire, fault: Fault, lasts: bool) -> Documented {
     match (wire, fault) {
         // 5 ms of coasting, or of another torque than the true one: within 1 %.
         _ if !lasts => Documented::RidesThrough([0.99, 1.01]),
-        // Without an angle nothing is known: 15 ms, and those of the noise that are believed come between.
+        // The angle is lost after 15 ms; with noise, plausible angles come between.
         (Wire::Angle, _) => Documented::Trips(&[Trip::SensorLoss], 0.1),
-        // What is read is what is still expected.
+        // The reading is still as expected.
         (Wire::Torque, Fault::Frozen) => Documented::RidesThrough([0.99, 1.01]),
         // 0.1 s.
         (Wire::Torque, Fault::NotANumber) => Documented::Trips(&[Trip::SensorLoss], 0.11),

@@ -14,7 +14,7 @@ fn yes(is: bool) -> &'static str {
     if is { "yes" } else { "NO" }
 }
 
-/// What the standards allow, as the first rows of the table.
+/// The standards' limits, as the first rows of the table.
 fn allowed(table: &mut Table, turbine: bool) {
     if turbine {
         let [regulation, variation, rise] = CLASS_D;
@@ -203,10 +203,10 @@ fn plot(one: &Verdict) -> Figure {
         Panel { name: "load torque, %", series: vec![("estimate", &estimate), ("truth", &load)], levels: vec![] },
     ];
     let title = format!("{}, {}, {}", one.set, one.variant, one.way.name());
-    let swing =
-        if one.set == "diesel" { ": the swing is the firing's, of which the governor sees the mean" } else { "" };
+    let swing = if one.set == "diesel" { ": the ripple is the firing's, which the speed filter averages" } else { "" };
     let text = format!(
-        "Frequency by the electrical period; lines at 100 % and at the trip. Below, the load as it is (wide) and as it is estimated tick by \
+        "Frequency by the electrical period; lines at 100 % and at the trip. Below, the load as it is (wide) and as it \
+            is estimated tick by \
             tick (fine){swing}."
     );
     let plots = vec![panels(&time, &drawn, 500, &title)];
@@ -225,13 +225,14 @@ pub fn page(verdicts: &Verdicts) -> String {
         ));
     }
     let with_trips = (!verdicts.trips.is_empty()).then(|| {
-        let text = "On the diesel. The cause goes a second after the time that the trip may take; the run switch goes off half a second later, which \
+        let text = "On the diesel. The cause goes a second after the time that the trip may take; the run switch goes \
+            off half a second later, which \
             resets it. Torques are of rated.";
         Section::new("Every trip, brought about", text, trips(verdicts))
     });
     let with_faults = (!verdicts.faults.is_empty()).then(|| {
-        let text = "At half load, on the diesel. What cannot be true is left out; where an input is lost for longer than it can be missed, the \
-            drive trips and commands no torque. Torques are of rated.";
+        let text = "At half load, on the diesel. Implausible inputs are replaced; where an input is lost for longer \
+            than its timeout, the drive trips and commands no torque. Torques are of rated.";
         Section::new("A fault on every input", text, faults(verdicts))
     });
     let ran = |set: &str| verdicts.verdicts.iter().any(|one| one.set == set);
@@ -247,7 +248,8 @@ pub fn page(verdicts: &Verdicts) -> String {
     Sheet {
         kicker: "generator sets".to_owned(),
         name: "Generator sets".to_owned(),
-        summary: "A diesel set of 400 kW and a turbine set of 2 MW, governed from the flywheel's angle and the actuator's position: the \
+        summary: "A diesel set of 400 kW and a turbine set of 2 MW, governed from the flywheel's angle and the \
+            actuator's position: the \
             firmware runs in QEMU, tick by tick against the full plant."
             .to_owned(),
         facts,

@@ -13,7 +13,7 @@ use crate::closed_loop::units::Units;
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::PlantError;
 
-/// What is done to a set and when [s].
+/// Actions on a genset and their times [s].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
     /// Speed at which it is found turning [rad/s].
@@ -43,7 +43,7 @@ pub struct Moment {
     pub command: f64,
     /// The load's torque, and as the drive estimates it, of rated.
     pub load: [f64; 2],
-    /// Mode, as the panel tells it.
+    /// State, as reported by the panel.
     pub mode: u32,
     /// Fault flags.
     pub faults: u32,

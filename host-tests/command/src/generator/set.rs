@@ -21,7 +21,7 @@ const FRICTION: f64 = 0.08;
 /// Friction and windage of turbine and gear, of rated torque.
 const TURBINE_FRICTION: f64 = 0.02;
 
-/// What turns a set.
+/// Prime mover of a genset.
 #[derive(Clone, Debug)]
 enum Mover {
     Diesel(Box<Diesel>),
@@ -133,7 +133,7 @@ impl Set {
         self.plant.speed(self.flywheel + 1)
     }
 
-    /// The torque that the drive is told [N m]: the rack's position, or the chest's pressure.
+    /// Torque reported to the drive [N m]: the rack's position, or the chest's pressure.
     pub fn told(&self) -> f64 {
         match &self.mover {
             Mover::Diesel(diesel) => diesel.rack(),

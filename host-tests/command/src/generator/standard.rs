@@ -1,8 +1,8 @@
-//! What the standards allow, and how a run is measured against them.
+//! Limits of the standards, and measurement of a run against them.
 //!
 //! ISO 8528-5:2013 table 4, performance classes of reciprocating sets: width of the steady-state frequency band, drop
 //! on a sudden increase of power, rise on its sudden decrease from 100 %, recovery time to the tolerance band.
-//! "Precise" is no class of the standard, but what is asked for where class G4 is agreed: +-0.10 % at constant load,
+//! "Precise" is no class of the standard, but a usual requirement where class G4 is agreed: +-0.10 % at constant load,
 //! and back within that in 1.5 s.
 //!
 //! NEMA SM 23, class D, of steam turbines' governors: regulation 0.5 %, variation 0.25 %, rise 7 % on the loss of the
@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use super::run::Moment;
 
-/// What a class allows, as fractions of the rated frequency.
+/// Limits of a class, as fractions of the rated frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Class {
     /// Its name.
@@ -61,7 +61,7 @@ pub struct Step {
     pub precise: f64,
 }
 
-/// What a run shows at constant load.
+/// Measurement of a run at constant load.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Steady {
     /// Load, of rated.

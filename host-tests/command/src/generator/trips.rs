@@ -1,5 +1,5 @@
-//! Every trip of the diesel, brought about: that it comes, commands no torque, keeps its reason when the cause has gone,
-//! and is left by a reset.
+//! Every trip of the diesel, brought about: that it comes, commands no torque, keeps its reason when the cause has
+//! gone, and is left by a reset.
 //!
 //! The cause goes a second after the trip. For another half second the run switch stays on; then it goes off, which
 //! resets the trip; but a rack that is still stuck trips again at once.
@@ -18,7 +18,7 @@ use crate::closed_loop::units::Units;
 /// A cause, and the trip that it is to bring about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cause {
-    /// What is done.
+    /// Action.
     pub what: &'static str,
     /// The trip.
     pub trip: Trip,
@@ -40,11 +40,11 @@ enum Act {
     Angle(u32),
     /// The rack seizes, and the load goes after 0.2 s.
     Seizes,
-    /// The rack's sensor tells for ever what it told, and the load goes after 0.2 s.
+    /// The rack's sensor freezes, and the load goes after 0.2 s.
     Frozen,
-    /// The rack's sensor tells nothing that is a torque.
+    /// The rack's sensor reports no torque.
     Absent,
-    /// The panel asks for it.
+    /// A request of the panel.
     Panel,
 }
 
@@ -79,10 +79,10 @@ pub const CAUSES: [Cause; 10] = [
     },
 ];
 
-/// What became of a cause.
+/// Result of a cause.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Latched {
-    /// What was done.
+    /// Actions.
     pub what: &'static str,
     /// The trip that came and how long after the cause [s].
     pub trip: Option<(String, f64)>,
@@ -155,7 +155,7 @@ fn judge(moments: &[Moment], cause: &Cause, off: f64) -> Latched {
     });
     let commands = || before.iter().map(|moment| moment.command);
     let torque = [commands().fold(0.0, f64::min), commands().fold(0.0, f64::max)];
-    // What the panel asks for comes after the tick.
+    // A request of the panel follows the tick.
     let skipped = usize::from(cause.act == Act::Panel);
     let largest = after.iter().skip(skipped).map(|moment| moment.command.abs()).fold(0.0, f64::max);
     let stands = after.iter().filter(|moment| moment.time < off).all(|moment| moment.mode == cause.trip as u32 + 16);

@@ -42,7 +42,7 @@ impl Way {
     }
 }
 
-/// What one variant did in one way.
+/// Result of one variant in one way.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {
     /// Diesel or turbine.
@@ -51,7 +51,7 @@ pub struct Verdict {
     pub variant: String,
     /// How it was governed.
     pub way: Way,
-    /// What was measured.
+    /// Measurement.
     pub figures: Figures,
     /// The class of ISO 8528-5, for the diesel.
     pub class: Option<&'static str>,
@@ -134,7 +134,7 @@ pub fn variants(filter: Option<&str>) -> Vec<Candidate> {
     candidates("generator", filter).into_iter().filter(Candidate::is_native).collect()
 }
 
-/// What a filter is compared with, for each variant: for a message.
+/// Text that a filter matches, for each variant: for a message.
 pub fn names() -> Vec<String> {
     variants(None).iter().map(Candidate::key).collect()
 }

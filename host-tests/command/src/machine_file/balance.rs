@@ -33,8 +33,8 @@
 //! | `span`, `centre`, `planes_at` of `[rotor]` | along the rotor from bearing A \[m\]: bearing B, the centre of mass, each plane; the grade is then split between the bearings |
 //! | `[amplitudes]` | of one plane, instead of `[baseline]`, without phases: `baseline`, `weight`, `runs` of an angle and an amplitude |
 //!
-//! A plane may have several `[[trial]]`: all of them count, by least squares. Where trial weights stay, `weight` is what each run has more than
-//! the one before it.
+//! A plane may have several `[[trial]]`: all of them count, by least squares. Where trial weights stay, `weight` is
+//! what each run has more than the one before it.
 
 use std::path::Path;
 
@@ -69,7 +69,7 @@ pub struct BalanceFile {
     pub planes: Vec<String>,
     /// Names of the readings.
     pub sensors: Vec<String>,
-    /// What was measured.
+    /// Measurement.
     pub measured: Measured,
     /// Holes of the planes that have some.
     pub holes: Vec<PlaneHoles>,
@@ -77,7 +77,7 @@ pub struct BalanceFile {
     pub rotor: Option<Rotor>,
 }
 
-/// What was measured.
+/// Measurement.
 #[derive(Clone, Debug)]
 pub enum Measured {
     /// Amplitudes and phases.
@@ -150,7 +150,7 @@ pub struct PlaneHoles {
     pub weights: Vec<f64>,
     /// Whether weight is added or removed.
     pub mode: CorrectionMethod,
-    /// What to say where they cannot take the weight.
+    /// Message where they cannot take the weight.
     pub too_heavy: Diagnostic,
 }
 
@@ -180,7 +180,7 @@ pub struct Along {
     pub planes: Vec<f64>,
 }
 
-/// What a limit or a weight for a hole may be.
+/// Range of a limit or of a weight for a hole.
 const ABOVE_ZERO: Quantity = Quantity { zero: false, ..Quantity::WEIGHT };
 const PAIR: &str = "a list of two numbers, [amplitude, phase in degrees]";
 const NAMES: &str = "a list of names";
@@ -252,7 +252,7 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
     }
     if root.has("amplitudes") {
         if file.planes.len() > 1 {
-            return Err(root.wrong("planes", "one plane: amplitudes without phases tell no second one apart"));
+            return Err(root.wrong("planes", "one plane: amplitudes without phases cannot separate two"));
         }
         let mut table = root.table("amplitudes")?;
         let expected = "a list of two numbers, [angle in degrees, amplitude]";
@@ -274,7 +274,7 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
             Error::PhasesInRadians => table.wrong("runs", format!("angles in degrees: {refusal}")),
             Error::ReadingMissing { .. } => table.wrong("runs", "three runs at different angles, or two"),
             Error::NoEffect { .. } => table.wrong("runs", format!("other amplitudes than the baseline's ({refusal})")),
-            _ => table.wrong("runs", "runs at different angles, with amplitudes that one influence can give"),
+            _ => table.wrong("runs", "runs at different angles, with amplitudes consistent with one influence"),
         })?;
         file.measured = Measured::Amplitudes { baseline, found };
         table.finish()?;
@@ -348,7 +348,7 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         let [weight] = weights(&mut table, "weight", &mut angles)?;
         angles.check().map_err(|refusal| table.wrong("weight", format!("an angle in degrees: {refusal}")))?;
         let (run, readings, _) = self::run(&mut table, rows, &mut entry)?;
-        // several of a plane are all believed: replacing one would lose what was entered
+        // several of a plane all count: replacing one would lose an entry
         procedure.extra_trial(plane, weight, &run).map_err(|refusal| refused(&table, refusal))?;
         if leave_trials {
             last = readings;
@@ -380,10 +380,10 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         let key = if root.has("trial") { "trial" } else { "planes" };
         return Err(root.wrong(key, expected));
     }
-    // what no weights follow from is a fault of the file
+    // readings without a solution are a fault of the file
     procedure.correction().map_err(|refusal| {
         let key = ["limits", "aim", "baseline"].into_iter().find(|key| root.has(key)).unwrap_or("planes");
-        root.wrong(key, format!("what weights follow from: {}", said(refusal, planes)))
+        root.wrong(key, format!("readings with a solution: {}", said(refusal, planes)))
     })?;
     Ok(Measured::Phasors { procedure: Box::new(procedure), baseline, last, rpm, corrections })
 }

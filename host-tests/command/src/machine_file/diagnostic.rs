@@ -1,4 +1,4 @@
-//! What is wrong with a machine file: where, which key, what was found, what was expected.
+//! Faults of a machine file: place, key, value found, value expected.
 
 use std::fmt;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use super::source::Source;
 #[serde(transparent)]
 pub struct Diagnostic(Box<Fault>);
 
-/// What is wrong, and where.
+/// The fault and its place.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Fault {
     /// The file as the user named it.
@@ -25,9 +25,9 @@ pub struct Fault {
     pub column: usize,
     /// The key as a path, as `element[2].inertia`; empty where the fault is the file itself.
     pub key: String,
-    /// What stands there.
+    /// Value found.
     pub found: String,
-    /// What should stand there.
+    /// Value expected.
     pub expected: String,
     /// The source line with a caret below the place; empty where there is no text to show.
     #[serde(skip)]

@@ -11,7 +11,8 @@ use super::quantity::Quantity;
 use super::table::Table;
 
 /// The kinds of elements, as a message lists them.
-pub const KINDS: &str = "\"motor\", \"shaft\", \"section\", \"rotor\", \"crank\", \"gear\", \"worm\", \"planetary\", \"belt\", \"drum\", \"screw\", \
+pub const KINDS: &str = "\"motor\", \"shaft\", \"section\", \"rotor\", \"crank\", \"gear\", \"worm\", \"planetary\", \
+    \"belt\", \"drum\", \"screw\", \
                          \"rope\", \"lifted\", \"driven\", \"swinging\", \"slack\" or \"backlash\"";
 
 /// One element of a machine, in SI units, each on its own shaft or along the travel of the load.
@@ -380,11 +381,15 @@ impl Element {
                 format!(".gear(Ratio({ratio:?}), Efficiency({efficiency:?}))")
             }
             Self::Section { length, diameter, end, bore, modulus, damping } => format!(
-                ".shaft(Section::tapered(Length({length:?}), Diameter({diameter:?}), Diameter({end:?})).bored(Diameter({bore:?})).stiffness(ShearModulus({modulus:?})), Damping({damping:?}))"
+                ".shaft(Section::tapered(Length({length:?}), Diameter({diameter:?}), \
+                    Diameter({end:?})).bored(Diameter({bore:?})).stiffness(ShearModulus({modulus:?})), \
+                    Damping({damping:?}))"
             ),
             Self::Crank { inertia, radius, rod, rod_mass, rod_centre, rod_inertia, slider } => format!(
-                ".rotor(CrankSlider {{ radius: Length({radius:?}), rod: Length({rod:?}), crank: Inertia({inertia:?}), rod_mass: Mass({rod_mass:?}), \
-                 rod_centre: Length({rod_centre:?}), rod_inertia: Inertia({rod_inertia:?}), slider: Mass({slider:?}) }}.mean_inertia())"
+                ".rotor(CrankSlider {{ radius: Length({radius:?}), rod: Length({rod:?}), crank: Inertia({inertia:?}), \
+                    rod_mass: Mass({rod_mass:?}), \
+                 rod_centre: Length({rod_centre:?}), rod_inertia: Inertia({rod_inertia:?}), slider: Mass({slider:?}) \
+                 }}.mean_inertia())"
             ),
             Self::Worm { ratio, efficiency, back_efficiency } => {
                 format!(".worm(Ratio({ratio:?}), Efficiency({efficiency:?}), Efficiency({back_efficiency:?}))")
@@ -404,19 +409,23 @@ impl Element {
                 efficiency,
             } => {
                 let set = format!(
-                    "Planetary {{ sun_teeth: {sun_teeth}, ring_teeth: {ring_teeth}, module: {module:?}, planets: {planets}, \
-                     sun: Inertia({sun:?}), planet: Inertia({planet:?}), planet_mass: Mass({planet_mass:?}), carrier: Inertia({carrier:?}), \
+                    "Planetary {{ sun_teeth: {sun_teeth}, ring_teeth: {ring_teeth}, module: {module:?}, planets: \
+                        {planets}, \
+                     sun: Inertia({sun:?}), planet: Inertia({planet:?}), planet_mass: Mass({planet_mass:?}), carrier: \
+                     Inertia({carrier:?}), \
                      efficiency: Efficiency({efficiency:?}) }}"
                 );
                 match (driven, held) {
                     (Member::Sun, Member::Ring) => format!(".planetary({set})"),
                     _ => format!(
-                        ".planetary_gear(PlanetaryGear {{ set: {set}, ring: Inertia({ring:?}), input: Member::{driven:?}, held: Member::{held:?} }})"
+                        ".planetary_gear(PlanetaryGear {{ set: {set}, ring: Inertia({ring:?}), input: \
+                            Member::{driven:?}, held: Member::{held:?} }})"
                     ),
                 }
             }
             Self::Belt { driving, driven, stiffness, damping, efficiency } => format!(
-                ".belt(Belt {{ driving: Diameter({driving:?}), driven: Diameter({driven:?}), strand: Stiffness({stiffness:?}), \
+                ".belt(Belt {{ driving: Diameter({driving:?}), driven: Diameter({driven:?}), strand: \
+                    Stiffness({stiffness:?}), \
                  damping: LinearDamping({damping:?}), efficiency: Efficiency({efficiency:?}) }})"
             ),
             Self::Screw { lead } => format!(".screw(Length({lead:?}))"),

@@ -1,4 +1,4 @@
-//! What excites a machine, and at which speeds it runs.
+//! Excitations and speed range of a machine.
 
 use serde::Serialize;
 

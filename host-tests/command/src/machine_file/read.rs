@@ -20,7 +20,7 @@ use super::{Branch, Control, Disturbance, Duty, Element, Encoder, Limits, Machin
 /// Largest machine file in bytes: a thousand times what the longest chain needs.
 pub const LARGEST: u64 = 1 << 20;
 
-/// What a name may be.
+/// Range of a name.
 const NAME: &str = "a name of 1 to 40 letters, digits, spaces, `-` and `_`, with a letter or digit among them";
 
 /// Reads a machine from a file.
@@ -41,7 +41,8 @@ pub(super) fn load<T>(
     parse(&name, &text)
 }
 
-/// Reads a file as text: its name as messages call it, and what stands in it. `what` is the kind of file that was expected.
+/// Reads a file as text: its name as messages call it, and what stands in it. `what` is the kind of file that was
+/// expected.
 ///
 /// # Errors
 /// A file that cannot be read, is too long, or is not text.
@@ -157,7 +158,8 @@ pub(super) fn section<T>(
     Ok(settings)
 }
 
-/// Reads the elements and puts them together, so that what cannot follow is reported at its own place. The labels of `before` are taken.
+/// Reads the elements and puts them together, so that what cannot follow is reported at its own place. The labels of
+/// `before` are taken.
 fn elements(
     source: Source<'_>,
     table: &mut Table<'_>,
@@ -218,7 +220,7 @@ fn branches(
     main: &[Part],
 ) -> Result<(Vec<Branch>, Option<Train>), Diagnostic> {
     let mut branches: Vec<Branch> = Vec::new();
-    // what a branch can stand on: label, mass, and the motor's speed over that of the mass
+    // masses that can carry a branch: label, mass, and the motor's speed over that of the mass
     let mut masses: Vec<(String, usize, f64)> = Vec::new();
     let turning = |part: &Part, station: &Station| {
         let turns = matches!(

@@ -170,7 +170,7 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
     for node in 0..=last {
         rotor = rotor.station(node);
     }
-    // What each table was checked for the whole may still not have: stiffness against every motion.
+    // Each table was checked; the whole must still have stiffness against every motion.
     let whole = |error: driveline_solver::rotor::RotorError| {
         Diagnostic::at(
             source,

@@ -74,7 +74,8 @@ impl<'a> Source<'a> {
     }
 }
 
-/// A text fit for a terminal: each control character as one `?`-like mark, cut with an ellipsis at `longest` characters.
+/// A text fit for a terminal: each control character as one `?`-like mark, cut with an ellipsis at `longest`
+/// characters.
 pub fn printable(text: &str, longest: usize) -> String {
     let visible = |c: char| match c {
         '\t' => ' ',

@@ -16,7 +16,7 @@ pub(crate) struct Station {
     pub chain: Chain,
 }
 
-/// What a branch begins with where its first element is no rotor: an inertia that adds nothing to the mass that it stands on.
+/// First element of a branch that does not begin with a rotor: an inertia of zero.
 pub(crate) const NOTHING: Inertia = Inertia(f64::MIN_POSITIVE);
 
 /// The chain of a machine with its first element, or of a branch with its first.
@@ -100,7 +100,7 @@ impl MachineFile {
     /// Two masses for the machine.
     ///
     /// # Errors
-    /// The library's sentence for a machine without a shaft that the motor feels, or a cut that it has not.
+    /// The library's sentence for a machine without an observable shaft, or an impossible cut.
     pub fn reduce(&self, by: Match) -> Result<TwoMass, Error> {
         self.train.as_ref().map_or_else(|| self.chain.try_reduce(by), |train| train.try_reduce(by))
     }

@@ -12,7 +12,7 @@ use super::source::{Source, printable};
 /// Longest value that a message repeats, in characters.
 const REPEATED: usize = 40;
 
-/// A table being read: which keys were asked for, and where it stands.
+/// A table being read: the keys requested so far, and its place.
 pub struct Table<'a> {
     source: Source<'a>,
     table: &'a DeTable<'a>,
@@ -176,7 +176,7 @@ impl<'a> Table<'a> {
         list.iter().enumerate().map(read).collect()
     }
 
-    /// Whether a key is there; it counts as asked for.
+    /// Whether a key is there; it counts as requested.
     pub fn has(&mut self, key: &'static str) -> bool {
         self.get(key).is_some()
     }
@@ -325,7 +325,7 @@ impl<'a> Table<'a> {
         self.items(key, &expected)?.into_iter().map(table).collect()
     }
 
-    /// Ends the reading: a key that nobody asked for is a fault.
+    /// Ends the reading: an unknown key is a fault.
     ///
     /// # Errors
     /// The first unknown key in the order of the text.
@@ -335,7 +335,7 @@ impl<'a> Table<'a> {
             return Ok(());
         };
         let key = printable(first.get_ref(), REPEATED);
-        // a key may have been asked for more than once
+        // a key may have been requested more than once
         let mut known: Vec<String> = Vec::new();
         for key in self.asked.iter().map(|key| format!("`{key}`")) {
             if !known.contains(&key) {

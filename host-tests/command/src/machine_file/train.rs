@@ -72,8 +72,8 @@ use driveline_solver::plant::{LoadProgram, Place, PlantError};
 /// Most lines that a run may have.
 const LINES: f64 = 1e6;
 
-/// Product of the fastest rate of a train and the length of its run, at most: a minute's work for the second integrator,
-/// whose roundings gather beyond it.
+/// Product of the fastest rate of a train and the length of its run, at most: a minute's work for the second
+/// integrator, whose roundings gather beyond it.
 const STIFFEST: f64 = 1e6;
 
 /// A train as its file describes it, ready to run.
@@ -93,7 +93,7 @@ pub struct TrainFile {
     pub motion: Motion,
     /// The speeds of the first coordinate that it runs at, where the file says so.
     pub running: Option<Running>,
-    /// What excites it.
+    /// Its excitations.
     pub excitations: Vec<Excitation>,
     /// s.
     pub time: f64,

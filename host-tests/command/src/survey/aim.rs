@@ -1,4 +1,4 @@
-//! What is aimed at.
+//! The requirement.
 
 use serde::Serialize;
 
@@ -43,7 +43,7 @@ impl Aim {
         self.load_speed.map(|aim| variant.load_speed.rms - aim)
     }
 
-    /// Whether a variant keeps both. What is not a number keeps nothing.
+    /// Whether a variant keeps both. A value that is not a number fails.
     pub fn kept(&self, variant: &Variant) -> bool {
         self.torque_missed(variant) <= 0.0 && self.speed_missed(variant).is_none_or(|missed| missed <= 0.0)
     }

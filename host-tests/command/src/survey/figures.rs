@@ -13,11 +13,11 @@ use driveline_report::{Sweep, Variant};
 /// A variant of a drivetrain.
 #[derive(Clone, Debug, Serialize)]
 pub struct Run {
-    /// What it got wrong and what it costs.
+    /// Its errors and cost.
     pub variant: Variant,
     /// Whether it is the design's choice, which is what the aims are for.
     pub chosen: bool,
-    /// What the shaft carried, run by run.
+    /// Shaft torque, run by run.
     pub factors: Vec<Factor>,
     /// Bytes of code that a tick reaches.
     pub tick_code: u64,
@@ -32,14 +32,14 @@ impl Run {
     }
 }
 
-/// A gentle governor's peak beside a plain speed loop's.
+/// Peak of a governor with backlash take-up against a plain speed loop's.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Gentle {
     /// The run.
     pub scenario: String,
     /// The variant with the plain loop.
     pub plain: String,
-    /// The gentle one's peak over the plain one's.
+    /// Peak with backlash take-up over the plain one's.
     pub share: f64,
 }
 
@@ -48,9 +48,9 @@ pub struct Gentle {
 pub struct SceneFigures {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub summary: String,
-    /// What is aimed at.
+    /// The requirement.
     pub aim: Aim,
     /// The variants that ran.
     pub runs: Vec<Run>,
@@ -72,11 +72,11 @@ impl SceneFigures {
         self.runs.iter().filter(least).collect()
     }
 
-    /// Peaks of the shaft torque over those of the plain speed loop with the same number, core and rate, of a variant that takes
-    /// up slack; of each run in which the plain loop lets a gap open or a rope go slack.
+    /// Peaks of the shaft torque over those of the plain speed loop with the same number, core and rate, of a variant
+    /// that takes up slack; of each run in which the plain loop lets a gap open or a rope go slack.
     ///
-    /// Variants that take up slack are called so. The plain loop is the variant `plain`; where there is none, every other
-    /// is governed by it.
+    /// Variants that take up slack are called so. The plain loop is the variant `plain`; where there is none, every
+    /// other is governed by it.
     pub fn gentle(&self, run: &Run) -> Vec<Gentle> {
         let of = &run.variant;
         if of.observer != SLACK {
@@ -101,17 +101,17 @@ impl SceneFigures {
     }
 }
 
-/// The name of variants that take up slack gently and damp the shaft.
+/// Name of the variants with backlash take-up and active damping.
 const SLACK: &str = "slack";
 /// The name of variants with the same observer and a plain speed loop.
 const PLAIN: &str = "plain";
 
-/// What kept a job from being done.
+/// Error of a job.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Failure {
     /// The scene, or the part of the survey.
     pub place: String,
-    /// What was being done.
+    /// The step.
     pub job: String,
     /// Why it was not.
     pub reason: String,
@@ -122,7 +122,7 @@ pub struct Failure {
 pub struct Survey {
     /// The drivetrains.
     pub scenes: Vec<SceneFigures>,
-    /// The generator sets, where they were asked for.
+    /// The gensets, where requested.
     pub generator: Option<Verdicts>,
     /// The machines that were commissioned, each beside its true figures.
     pub commissioned: Vec<Verdict>,
@@ -134,13 +134,13 @@ pub struct Survey {
     pub backlash: Option<Comparison>,
     /// The steps over stiff and extreme machines.
     pub sweeps: Vec<Sweep>,
-    /// What could not be done.
+    /// Failed jobs.
     pub failures: Vec<Failure>,
     /// How long it all took [s].
     pub seconds: f64,
     /// Whether it was only tried out: two seconds of each drivetrain, unproven, and a coarse sweep.
     pub quick: bool,
-    /// Whether only some scenes were asked for.
+    /// Whether only some scenes were requested.
     pub part: bool,
 }
 

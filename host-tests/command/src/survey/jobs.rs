@@ -21,7 +21,7 @@ use crate::generator::verdict::{self, Verdicts};
 use crate::sweep;
 use driveline_report::Sweep;
 
-/// What is done by one thread at a time.
+/// A job of one thread.
 pub struct Job {
     /// The scene or the part that it belongs to.
     pub place: String,
@@ -31,14 +31,14 @@ pub struct Job {
     pub core: &'static str,
     /// How long it takes beside others, about, in thousands of ticks of a closed loop.
     pub weight: u64,
-    /// Does it; what it is given is told what is under way.
+    /// Does it, with reports of the present step.
     pub work: Work,
 }
 
 /// The work of a job.
 pub type Work = Box<dyn FnOnce(&dyn Fn(&str)) -> Result<Piece, String> + Send>;
 
-/// What a job gives.
+/// Result of a job.
 pub enum Piece {
     /// A variant of the scene of that name, and what is aimed at there.
     Run(String, Aim, Box<Run>),
@@ -56,7 +56,7 @@ pub enum Piece {
     Sweeps(Vec<Sweep>),
 }
 
-/// What is left to chance in balancing is the same in every run.
+/// The seed of balancing is the same in every run.
 const SEED: u64 = 1;
 /// Random numbers and seconds of each course through backlash, as the command `backlash` has them.
 const BACKLASH: (u64, f64) = (31, 6.0);
@@ -68,8 +68,8 @@ pub const REVERSALS: &str = "random reversals";
 /// The sweeps.
 pub const SWEEP: &str = "sweep";
 
-/// The jobs for what is wanted, the longest of those that take one core for long first; and the survey that their pieces
-/// belong in, with the scenes in their order. A scene whose plant cannot be made is among its failures.
+/// The jobs for what is wanted, the longest of those that take one core for long first; and the survey that their
+/// pieces belong in, with the scenes in their order. A scene whose plant cannot be made is among its failures.
 ///
 /// With `quick` a scene runs for two seconds, unproven, and the sweep is coarse.
 pub fn jobs(wanted: &Wanted, quick: bool) -> (Vec<Job>, Survey) {
@@ -116,8 +116,8 @@ pub fn jobs(wanted: &Wanted, quick: bool) -> (Vec<Job>, Survey) {
     (in_turn(jobs), survey)
 }
 
-/// The jobs in turn for one core and for another, in their order else: images of one core are built one after another, those of two
-/// side by side.
+/// The jobs in turn for one core and for another, in their order else: images of one core are built one after another,
+/// those of two side by side.
 fn in_turn(jobs: Vec<Job>) -> Vec<Job> {
     let mut queues: Vec<(&str, VecDeque<Job>)> = Vec::new();
     for job in jobs {
@@ -126,7 +126,7 @@ fn in_turn(jobs: Vec<Job>) -> Vec<Job> {
             None => queues.push((job.core, VecDeque::from([job]))),
         }
     }
-    // What needs no image comes first, all of it.
+    // Jobs without an image come first.
     let mut ordered = Vec::new();
     queues.iter_mut().filter(|(core, _)| core.is_empty()).for_each(|(_, queue)| ordered.extend(queue.drain(..)));
     while queues.iter().any(|(_, queue)| !queue.is_empty()) {

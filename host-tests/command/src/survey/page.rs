@@ -31,11 +31,13 @@ struct View {
     last: Vec<Section>,
 }
 
-/// What the page shows, and what it does not.
+/// Content and limits of the page.
 fn summary(survey: &Survey) -> String {
-    let whole = "Every scene in all its variants in QEMU, tick by tick against the full solver of its machine; and every stiff or extreme case \
+    let whole = "Every scene in all its variants in QEMU, tick by tick against the full solver of its machine; and \
+        every stiff or extreme case \
                  beside its reference.";
-    let part = "The scenes that were asked for in all their variants in QEMU, tick by tick against the full solver of the machine.";
+    let part = "The selected scenes in all their variants in QEMU, tick by tick against the full solver of the \
+        machine.";
     let quick = " A quick run: two seconds of each drivetrain, unproven. Not for figures to quote.";
     format!("{}{}", if survey.part { part } else { whole }, if survey.quick { quick } else { "" })
 }

@@ -8,7 +8,7 @@ use std::thread;
 use super::{Failure, Job, Piece};
 
 /// Does the jobs on so many threads, in their order; gives what came of each, in their order too. A job that panics has
-/// failed. `says` is told what is under way, `done` each job's weight at its end.
+/// failed. `says` receives the present step, `done` each job's weight at its end.
 pub fn work(
     jobs: Vec<Job>,
     threads: usize,
@@ -42,7 +42,7 @@ pub fn work(
     results.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().flatten().collect()
 }
 
-/// What a panic says.
+/// Message of a panic.
 fn sentence(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "it panicked".to_owned())

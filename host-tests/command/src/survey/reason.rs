@@ -1,10 +1,10 @@
 //! Why an observer misses an aim: what its squared error is made of.
 //!
-//! The run is done again on the host with exact sensors: an encoder of 2^31 counts and a torque that is known. What the
-//! error loses by that was *noise*. What is left is split tick by tick: *gap* while a gap is open or a rope slack, and
+//! The run is done again on the host with exact sensors: an encoder of 2^31 counts and a torque that is known. The
+//! reduction of the error is *noise*. The rest is split tick by tick: *gap* while a gap is open or a rope slack, and
 //! for a period of the resonance after; of the rest, the *mode left out* is what swings faster than the geometric mean
-//! of the resonance and the lowest mode that the reduction left out, and *lag* what is slower: what came, and was not
-//! yet believed. An observer of one mass leaves the whole shaft out, which then cannot be told from lag.
+//! of the resonance and the lowest mode that the reduction left out, and *lag* is the slower part, not yet followed. An
+//! observer of one mass leaves the whole shaft out, which then cannot be separated from lag.
 //!
 //! Beside the measured shares stands what the design said at compile time: the predicted standard deviation, the mode
 //! that was left out and the reduction's bound.
@@ -27,7 +27,7 @@ use crate::drivetrains::scenario::Machine;
 use driveline_report::Variant;
 use driveline_report::format::{percent, significant};
 
-/// What an aim is for.
+/// Quantity of a requirement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quantity {
@@ -50,24 +50,24 @@ impl Quantity {
 /// A part of a squared error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Share {
-    /// What makes it: noise, gap, mode left out, lag.
+    /// Cause: noise, gap, mode left out, lag.
     pub name: String,
     /// How much of the whole.
     pub share: f64,
-    /// What measurement and design say of it.
+    /// Its measurement and its prediction.
     pub detail: String,
 }
 
 /// Why an aim is missed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reason {
-    /// What misses.
+    /// Missed requirements.
     pub quantity: Quantity,
     /// The rms error.
     pub error: f64,
     /// The aim.
     pub aim: f64,
-    /// What the squared error is made of, the largest share first.
+    /// Shares of the squared error, the largest first.
     pub shares: Vec<Share>,
 }
 
@@ -185,21 +185,22 @@ impl Seen<'_> {
             let detail = if gap_of > 0.0 {
                 format!("{} mrad at the motor, open or just closed", significant(1e3 * gap_of))
             } else {
-                "slack, or just taken up".to_owned()
+                "gap open, or just closed".to_owned()
             };
             shares.push(share("gap", gap, detail));
         }
         match machine {
             Some(machine) if machine.error.next_mode.is_finite() => {
                 let left_out = format!(
-                    "above {} Hz; the reduction leaves out {} Hz, which moves the motor by {} of the rigid motion, and bounds its error by {}",
+                    "above {} Hz; the reduction leaves out {} Hz, which moves the motor by {} of the rigid motion, and \
+                        bounds its error by {}",
                     significant(edge.unwrap_or(0.0) / TAU),
                     significant(machine.error.next_mode / TAU),
                     percent(machine.error.next_share),
                     percent(machine.error.worst)
                 );
                 shares.push(share("mode left out", fast, left_out));
-                shares.push(share("lag", slow, "slower: what has come and is not yet believed".to_owned()));
+                shares.push(share("lag", slow, "slower: not yet followed".to_owned()));
             }
             Some(_) => shares.push(share("lag", fast + slow, "no mode is left out".to_owned())),
             None => shares.push(share("shaft left out, and lag", fast + slow, "one mass has no shaft".to_owned())),

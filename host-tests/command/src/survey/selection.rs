@@ -1,4 +1,4 @@
-//! What of the survey is wanted.
+//! Selection from the survey.
 
 use crate::balancing;
 use crate::drivetrains::SCENES;
@@ -9,7 +9,7 @@ pub const GENERATOR: &str = "generator";
 /// The commissionings' name among the scenes.
 pub const COMMISSIONING: &str = "commissioning";
 
-/// What is to be run.
+/// Selected runs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
     names: Vec<String>,

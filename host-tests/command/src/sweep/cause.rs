@@ -7,8 +7,8 @@ pub enum Cause {
     Refused,
     /// The cheap step is too coarse or unstable there, and the design does not choose it.
     NotChosen,
-    /// The number's resolution: what moves in a tick is so little that roundings repeat instead of averaging out, or a unit in the
-    /// last place is too coarse for what moves.
+    /// The number's resolution: what moves in a tick is so little that roundings repeat instead of averaging out, or a
+    /// unit in the last place is too coarse for what moves.
     Resolution,
     /// The cheap step takes the twist rate as the difference of two speeds that are large against it.
     Cancellation,
@@ -26,7 +26,7 @@ impl Cause {
         match self {
             Cause::Refused => "the format holds no such coefficient (a compile error in a firmware)",
             Cause::NotChosen => "the design does not choose this step there",
-            Cause::Resolution => "the number's resolution (what moves in a tick is too few units in the last place)",
+            Cause::Resolution => "the number's resolution (too few units in the last place move in a tick)",
             Cause::Cancellation => "the twist rate drowns in the speeds that it is the difference of",
             Cause::Coefficients => "rounded coefficients put a pole outside the unit circle",
             Cause::Rounding => "roundings of the states pump a swing that nothing damps",

@@ -28,7 +28,7 @@ pub const STEPS: [(&str, &str); 6] = [
 pub struct Outcome {
     /// Largest error of the run, relative; infinite where it did not run.
     pub error: f64,
-    /// What it may be.
+    /// Its limit.
     pub bound: f64,
     /// Why it is more.
     pub cause: Option<Cause>,
@@ -40,12 +40,13 @@ pub const USABLE: f64 = 0.01;
 /// Roundings per tick below which they cannot be taken as independent of each other.
 pub const FINEST: f64 = 2048.0;
 
-/// What errors of rounding may come to.
+/// Bound of rounding errors.
 ///
-/// Every tick rounds each state a few times, and independent roundings grow with the square root of the ticks: 16 roundings' worth a
-/// tick. A coefficient's rounding shifts the frequency, so its error grows in proportion to the ticks: relative to what moves in a tick for floats; absolute,
-/// half of 2^-30 for each of two coefficients, in fixed point, where all of it counts in units of the bases. The reference
-/// itself is rounded in the same way as `f64`, with the angle turned and the decay as factors.
+/// Every tick rounds each state a few times, and independent roundings grow with the square root of the ticks: 16
+/// roundings' worth a tick. A coefficient's rounding shifts the frequency, so its error grows in proportion to the
+/// ticks: relative to what moves in a tick for floats; absolute, half of 2^-30 for each of two coefficients, in fixed
+/// point, where all of it counts in units of the bases. The reference itself is rounded in the same way as `f64`, with
+/// the angle turned and the decay as factors.
 fn rounding<N: Swept>(place: &Place, ticks: u64, coarseness: f64) -> f64 {
     let n = ticks as f64;
     let reference = 0.5 * f64::EPSILON * n * place.omega_t * (1.0 + 2.0 * place.damping);
@@ -105,7 +106,8 @@ pub fn errors(place: &Place, longest: u64) -> [Outcome; 6] {
     let machine = place.machine();
     let design = open_loop(&machine, PERIOD);
     let course = Course::new(place, longest);
-    // The slip's base is the twist's swing or the damper's torque, and must not be cut by the speed's: the forcing counts in it.
+    // The slip's base is the twist's swing or the damper's torque, and must not be cut by the speed's: the forcing
+    // counts in it.
     let swing = (machine.resonance() / machine.stiffness).min(1.0 / machine.damping);
     let bases = course.bases(&machine, machine.total_inertia(), 0.95 * swing * course.torque_base());
     let mut exact = (

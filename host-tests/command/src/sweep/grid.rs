@@ -18,8 +18,8 @@ pub struct Place {
 }
 
 impl Place {
-    /// A machine whose shaft is twisted by some hundredths of a radian by torques of some N m, and whose motor turns by no more than
-    /// some radians in a tick, whatever omega T: fixed point scales the angle by the turn, not by a base.
+    /// A machine whose shaft is twisted by some hundredths of a radian by torques of some N m, and whose motor turns by
+    /// no more than some radians in a tick, whatever omega T: fixed point scales the angle by the turn, not by a base.
     pub fn machine(&self) -> TwoMass {
         let omega = self.omega();
         let stiffness = 200.0 * (self.omega_t * self.omega_t).max(1.0);
@@ -37,7 +37,7 @@ impl Place {
         self.omega_t / PERIOD
     }
 
-    /// What the slower of the pair's motions does in a tick: the angle turned [rad], or the share that decays where the
+    /// Motion of the slower of the pair in a tick: the angle turned [rad], or the share that decays where the
     /// shaft is overdamped.
     pub fn slowest(&self) -> f64 {
         let zeta = self.damping;
@@ -52,7 +52,8 @@ impl Place {
 
 /// The steps of a machine over a tick, without correction: the run is the model alone.
 ///
-/// By hand, because the design refuses what it cannot observe (a resonance above half the rate), and the step must hold there too.
+/// By hand, because the design refuses what it cannot observe (a resonance above half the rate), and the step must hold
+/// there too.
 pub fn open_loop(machine: &TwoMass, period: f64) -> TwoMassDesign {
     let semi_implicit = SemiImplicitStep::new(machine, period);
     TwoMassDesign {
@@ -79,7 +80,8 @@ pub fn open_loop(machine: &TwoMass, period: f64) -> TwoMassDesign {
     }
 }
 
-/// The places of a sweep: omega T from 1e-6 to 1e3, inertia ratio from 1e-6 to 1e6, damping from none to 100 times the critical.
+/// The places of a sweep: omega T from 1e-6 to 1e3, inertia ratio from 1e-6 to 1e6, damping from none to 100 times the
+/// critical.
 pub fn places(quick: bool) -> Vec<Place> {
     let decades = |from: i32, count: i32, per_decade: i32| {
         (0..count).map(move |index| 10f64.powf(f64::from(from) + f64::from(index) / f64::from(per_decade)))

@@ -15,7 +15,8 @@ use super::step::Step;
 /// Ticks over which nothing may grow.
 pub const TICKS: u64 = 100_000_000;
 
-/// Growth that counts as none: 1e8 ticks of some roundings of 1e-16, which the coefficients of `f64` have as well, are 1e-7.
+/// Growth that counts as none: 1e8 ticks of some roundings of 1e-16, which the coefficients of `f64` have as well, are
+/// 1e-7.
 pub const TOLERANCE: f64 = 1e-6;
 
 /// Growth of a free swing by one step at a place.

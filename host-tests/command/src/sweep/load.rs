@@ -1,10 +1,11 @@
-//! What a machine of the sweep is put through: a load torque that begins at once, and a motor torque about it.
+//! Load program of the sweep: a load step, and a motor torque about it.
 
 /// Load torque [N m].
 pub const LOAD_TORQUE: f64 = 0.25;
 
-/// Motor torques: the load's, more by a level for `hold` ticks and less by it for as many, then another level. The first level is
-/// the largest; the others are pseudo-random. The mean speed is therefore bounded, and back at zero after every pair.
+/// Motor torques: the load's, more by a level for `hold` ticks and less by it for as many, then another level. The
+/// first level is the largest; the others are pseudo-random. The mean speed is therefore bounded, and back at zero
+/// after every pair.
 ///
 /// Every torque is a multiple of 2^-10 N m, which all numbers hold exactly.
 #[derive(Clone, Debug)]

@@ -7,7 +7,7 @@ pub const KICK: u32 = 1 << 25;
 
 /// A number that a sweep runs in.
 pub trait Swept: Number {
-    /// What the report calls it.
+    /// Name in the report.
     const NAME: &'static str;
     /// Largest relative error of a rounding; in fixed point half a unit in the last place of the base.
     const ROUNDING: f64;

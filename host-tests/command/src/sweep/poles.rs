@@ -4,8 +4,8 @@ use super::step::Increments;
 
 /// Natural logarithm of the size of the larger pole of `1 + N`.
 ///
-/// From the trace t and the determinant D of the increments the poles are 1 + m with m^2 - t m + D = 0, and the square of the size of
-/// a complex pair is 1 + t + D: what is far below 1 keeps its digits.
+/// From the trace t and the determinant D of the increments the poles are 1 + m with m^2 - t m + D = 0, and the square
+/// of the size of a complex pair is 1 + t + D: what is far below 1 keeps its digits.
 pub fn log_radius([[n11, n12], [n21, n22]]: Increments) -> f64 {
     let trace = n11 + n22;
     let determinant = n11 * n22 - n12 * n21;

@@ -45,8 +45,8 @@ impl Course {
         course
     }
 
-    /// Bases that the run fits in, a power of two for the torque so that every torque is held exactly, and no smaller a speed than
-    /// the torque would reach in two ticks with this inertia: fixed point holds no coefficient above 1/2.
+    /// Bases that the run fits in, a power of two for the torque so that every torque is held exactly, and no smaller a
+    /// speed than the torque would reach in two ticks with this inertia: fixed point holds no coefficient above 1/2.
     ///
     /// `slip` [rad/s] is a lower bound of the speed's base.
     pub fn bases(&self, machine: &Machine, inertia: f64, slip: f64) -> Bases {
@@ -66,8 +66,8 @@ impl Course {
         (bases.torque / self.shaft_torque).max(speed)
     }
 
-    /// The error of a state, motor speed, shaft torque and load speed: of the speeds in the energy norm, of the run's largest energy, or of
-    /// the shaft torque, of its peak, whichever is larger.
+    /// The error of a state, motor speed, shaft torque and load speed: of the speeds in the energy norm, of the run's
+    /// largest energy, or of the shaft torque, of its peak, whichever is larger.
     pub fn error(&self, machine: &Machine, truth: &Truth, [motor_speed, shaft_torque, load_speed]: [f64; 3]) -> f64 {
         let (motor, load) = (motor_speed - truth.motor_speed, load_speed - truth.load_speed);
         let speeds = (machine.motor_inertia * motor * motor + machine.load_inertia * load * load).sqrt() / self.size;

@@ -1,8 +1,8 @@
-//! What is true: the exact motion of two masses under torques that are held over a tick, by own arithmetic.
+//! Reference: the exact motion of two masses under torques held over a tick, by independent arithmetic.
 //!
 //! In the twist times omega, the slip and the time times omega the pair is `x1' = x2`, `x2' = u - x1 - 2 zeta x2` with
-//! `u = (tau_m/J_m + tau_L/J_l)/omega`. Its step is the exponential of the joined matrix of states and input, as a Taylor
-//! series of a small part of the tick and repeated squaring of `e^M - 1`.
+//! `u = (tau_m/J_m + tau_L/J_l)/omega`. Its step is the exponential of the joined matrix of states and input, as a
+//! Taylor series of a small part of the tick and repeated squaring of `e^M - 1`.
 
 use super::grid::{PERIOD, Place};
 

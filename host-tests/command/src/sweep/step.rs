@@ -10,7 +10,7 @@ use super::number::{KICK, Swept};
 /// The increments of two states per tick, from those states: `x += N x`.
 pub type Increments = [[f64; 2]; 2];
 
-/// What is set from outside before a run begins.
+/// Initial state of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
     /// A load torque [N m], from the next tick on.
@@ -21,7 +21,7 @@ pub enum Start {
 
 /// An observer of two masses that a sweep can run.
 pub trait Step<N: Swept>: Observer<N> + Copy {
-    /// What the report calls it.
+    /// Name in the report.
     const NAME: &'static str;
 
     /// The constants of a design.

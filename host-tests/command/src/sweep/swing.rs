@@ -13,22 +13,23 @@ use super::number::Swept;
 use super::poles;
 use super::step::{OpenLoop, Start, Step};
 
-/// Where free motion is run: undamped, equal masses; slow, fast, at a radian, next to half the sample rate, far above it.
+/// Where free motion is run: undamped, equal masses; slow, fast, at a radian, next to half the sample rate, far above
+/// it.
 pub const DECISIVE: [f64; 5] = [1e-3, 0.1, 1.0, 3.1, 100.0];
 
 /// Ticks in which the largest swing is looked for: more than a period of the slowest.
 const WINDOW: u64 = 10_000;
 
-/// What a free swing of one step at a place grew by.
+/// Growth of a free oscillation of one step at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swing {
     /// Where.
     pub place: Place,
     /// Last over first swing, less one; negative where it died down.
     pub change: f64,
-    /// What roundings may come to.
+    /// Bound of roundings.
     pub bound: f64,
-    /// What the poles of the stored coefficients make of it: the factor over the run, less one.
+    /// Growth by the poles of the stored coefficients: the factor over the run, less one.
     pub predicted: f64,
 }
 

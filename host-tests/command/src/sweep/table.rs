@@ -17,7 +17,8 @@ const fn swinging(quick: bool) -> u64 {
     if quick { TICKS / 100 } else { TICKS }
 }
 
-/// Everything: state errors, growth by the coefficients, growth of swings. `progress` is told what is done and what there is.
+/// Everything: state errors, growth by the coefficients, growth of swings. `progress` receives the number done and the
+/// total.
 pub fn run(quick: bool, mut progress: impl FnMut(usize, usize)) -> Vec<Sweep> {
     let places = places(quick);
     // A swing takes as long as a hundred places.
@@ -42,9 +43,9 @@ fn state_errors(places: &[Place], outcomes: &[[Outcome; 6]]) -> Vec<Sweep> {
     table(places, |index| {
         let (_, step) = STEPS[index];
         let bound = if step == "exact" {
-            "what independent roundings of states and coefficients add up to, and 1 %"
+            "sum of independent roundings of states and coefficients, and 1 %"
         } else {
-            "the 1 % by which the design chooses this step, and what roundings add up to"
+            "the 1 % by which the design chooses this step, and the sum of roundings"
         };
         let ticks = if step == "exact" {
             "over four periods, but 2000 to 1e6 ticks"
@@ -54,7 +55,8 @@ fn state_errors(places: &[Place], outcomes: &[[Outcome; 6]]) -> Vec<Sweep> {
         Table {
             suffix: "state error",
             criterion: format!(
-                "Speeds (in the energy norm) and shaft torque against the exact motion in f64, relative to the largest of the run, {ticks}. Allowed: {bound}."
+                "Speeds (in the energy norm) and shaft torque against the exact motion in f64, relative to the largest \
+                    of the run, {ticks}. Allowed: {bound}."
             ),
             rows: outcomes.iter().map(|all| (all[index].error, all[index].cause)).collect(),
         }
@@ -64,13 +66,13 @@ fn state_errors(places: &[Place], outcomes: &[[Outcome; 6]]) -> Vec<Sweep> {
 /// Growth over 1e8 ticks, from the poles of the coefficients as they are stored.
 pub fn growth(places: &[Place]) -> Vec<Sweep> {
     let all: Vec<[Growth; 6]> = places.iter().map(growths).collect();
-    table(places, |index| {
-        Table {
+    table(places, |index| Table {
         suffix: "growth over 1e8 ticks, from the stored coefficients",
-        criterion: "Factor of a free swing over 1e8 ticks less one, by the larger pole of the coefficients as rounded. Allowed: 1e-6."
-            .to_owned(),
+        criterion:
+            "Factor of a free swing over 1e8 ticks less one, by the larger pole of the coefficients as rounded. \
+            Allowed: 1e-6."
+                .to_owned(),
         rows: all.iter().map(|growths| (growths[index].factor_less_one, growths[index].cause)).collect(),
-    }
     })
 }
 
@@ -83,7 +85,8 @@ pub fn swings(ticks: u64, progress: impl FnMut()) -> Vec<Sweep> {
         let table = Table {
             suffix: "growth, run",
             criterion: format!(
-                "Last over first swing of an undamped machine less one, after {ticks:e} ticks without correction. Allowed: 16 roundings a tick, as if independent."
+                "Last over first swing of an undamped machine less one, after {ticks:e} ticks without correction. \
+                    Allowed: 16 roundings a tick, as if independent."
             ),
             rows: swings.iter().map(|swing| (swing.change.max(0.0), swing.cause())).collect(),
         };

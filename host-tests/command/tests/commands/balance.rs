@@ -36,7 +36,8 @@ fn near(value: &Value, expected: f64, tolerance: f64) {
     assert!((value.as_f64().unwrap() - expected).abs() < tolerance, "{value} {expected}");
 }
 
-/// Weights of the published case, to the nine digits that balancing.json has it in; the phase of the first is 50.18891873739672 degrees.
+/// Weights of the published case, to the nine digits that balancing.json has it in; the phase of the first is
+/// 50.18891873739672 degrees.
 #[test]
 fn the_published_fan() {
     let outcome = json(FAN);
@@ -46,8 +47,8 @@ fn the_published_fan() {
     near(&planes[1]["weight"]["amplitude"], 2.8441376945975025, 3e-9);
     near(&planes[1]["weight"]["degrees"], 278.1159343862014, 1e-7);
     near(&outcome["condition"], 2.635601240525888, 1e-9);
-    // the holes' residual by hand: what the fitted weights are off by, through the influence coefficients, is below that of half a weight
-    // of 0.5 g in each hole
+    // the holes' residual by hand: what the fitted weights are off by, through the influence coefficients, is below
+    // that of half a weight of 0.5 g in each hole
     for row in outcome["rows"].as_array().unwrap() {
         near(&row["predicted"]["amplitude"], 0.0, 1e-12);
         assert!(row["predicted_with_holes"]["amplitude"].as_f64().unwrap() < 2.0 * 4.41 * 0.25 * 2.0_f64.sqrt());
@@ -247,8 +248,8 @@ impl Exact {
     }
 }
 
-/// A plane that is tried twice, with its weight off or on in between: both runs count, and the weights are the right ones. The trial weights
-/// that stay are part of what is on the rotor.
+/// A plane that is tried twice, with its weight off or on in between: both runs count, and the weights are the right
+/// ones. The trial weights that stay are part of what is on the rotor.
 #[test]
 fn a_plane_may_be_tried_twice() {
     for stays in [false, true] {
@@ -257,7 +258,8 @@ fn a_plane_may_be_tried_twice() {
             exact.trial(plane, weight, stays);
         }
         let outcome = json(&exact.text);
-        // what was found is 3 at 2 rad and 2 at 1 rad: all of it goes, and what the trials have added; the readings have 15 digits
+        // what was found is 3 at 2 rad and 2 at 1 rad: all of it goes, and what the trials have added; the readings
+        // have 15 digits
         for (plane, found) in [Complex::from_polar(3.0, 2.0), Complex::from_polar(2.0, 1.0)].into_iter().enumerate() {
             let wanted = -(found + exact.on[plane]);
             let weight = &outcome["planes"][plane]["weight"];
@@ -312,8 +314,8 @@ fn a_plane_without_effect_is_left_out_in_words() {
     assert_eq!(outcome["planes"][1]["left_out"], "not used: a weight here changes no reading that counts");
 }
 
-/// The tolerance at the bearings, by hand: the fan's 12 kg at 154.985 rad/s in G 2.5 may have 193.5 g mm; with the centre of mass at 0.3 m of
-/// 0.8 m bearing A carries five eighths.
+/// The tolerance at the bearings, by hand: the fan's 12 kg at 154.985 rad/s in G 2.5 may have 193.5 g mm; with the
+/// centre of mass at 0.3 m of 0.8 m bearing A carries five eighths.
 #[test]
 fn the_grade_is_split_between_the_bearings() {
     let split = "radius = 0.25\nspan = 0.8\ncentre = 0.3\nplanes_at = [0.2, 0.6]";
@@ -322,8 +324,8 @@ fn the_grade_is_split_between_the_bearings() {
     let grade = &outcome["grade"];
     near(&grade["bearings"][0]["permissible_g_mm"], whole * 0.625, 1e-9);
     near(&grade["bearings"][1]["permissible_g_mm"], whole * 0.375, 1e-9);
-    // 2.9514 g at 50.189 degrees, a quarter of the way to B, and 2.8441 g at 278.116 degrees, three quarters, each at 250 mm; the weights are those
-    // of the published case
+    // 2.9514 g at 50.189 degrees, a quarter of the way to B, and 2.8441 g at 278.116 degrees, three quarters, each at
+    // 250 mm; the weights are those of the published case
     let unbalance = |grams: f64, degrees: f64| Complex::from_polar(grams * 250.0, degrees.to_radians());
     let (p, q) = (unbalance(2.9513806082910325, 50.18891873739672), unbalance(2.8441376945975025, 278.1159343862014));
     near(&grade["bearings"][0]["now_g_mm"], (p * 0.75 + q * 0.25).norm(), 1e-5);
@@ -337,7 +339,8 @@ fn grinder(rest: &str, runs: &[f64]) -> String {
     let run = |alpha: &f64| format!("[{alpha}, {}]", (41.0 + 40.0 * (60.0 + alpha).to_radians().cos()).sqrt());
     let runs: Vec<String> = runs.iter().map(run).collect();
     format!(
-        "name = \"grinder\"\nunit = \"mm/s\"\nplanes = [\"wheel\"]\n[amplitudes]\nbaseline = 5.0\nweight = 10.0\nruns = [{}]\n{rest}",
+        "name = \"grinder\"\nunit = \"mm/s\"\nplanes = [\"wheel\"]\n[amplitudes]\nbaseline = 5.0\nweight = 10.0\nruns \
+            = [{}]\n{rest}",
         runs.join(", ")
     )
 }

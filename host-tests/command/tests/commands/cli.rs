@@ -55,7 +55,7 @@ fn modes_prints_frequencies_and_writes_a_page() {
     let output = driveline(&["modes", HOIST, "--html", &page]);
     assert!(output.status.success(), "{}", err(&output));
     assert!(err(&output).is_empty());
-    for word in ["Frequencies and shapes", "brake drum", "worth keeping", "same resonance and antiresonance"] {
+    for word in ["Frequencies and shapes", "brake drum", "can be left out", "same resonance and antiresonance"] {
         assert!(out(&output).contains(word), "{word}");
     }
     let html = std::fs::read_to_string(page).unwrap();
@@ -73,7 +73,7 @@ fn modes_as_json_are_those_of_the_closed_form() {
     std::fs::write(&file, format!("{elements}{settings}")).unwrap();
     let output = driveline(&["modes", file.to_str().unwrap(), "--json"]);
     let modes = json(&out(&output));
-    // omega^2 = k (J1 + J2)/(J1 J2) = 500 and, with the motor held, k/J2 = 200 [Huang 1987 part 2].
+    // omega^2 = k (J1 + J2)/(J1 J2) = 500 and, with the motor locked, k/J2 = 200 [Huang 1987 part 2].
     let frequency = modes["resonances"][0]["frequency"].as_f64().unwrap();
     assert!((frequency / 500f64.sqrt() - 1.0).abs() < 1e-14);
     assert!((modes["antiresonances"][0].as_f64().unwrap() / 200f64.sqrt() - 1.0).abs() < 1e-14);
@@ -272,7 +272,7 @@ fn a_result_is_not_written_over_what_it_is_made_from() {
             let arguments = [command, source.to_str().unwrap(), option, result.to_str().unwrap()];
             let output = driveline(&arguments);
             assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-            assert!(err(&output).contains("would be written over what it is made from"), "{}", err(&output));
+            assert!(err(&output).contains("would overwrite its own input"), "{}", err(&output));
             assert_eq!(std::fs::read_to_string(at("source.toml")).unwrap(), text, "{arguments:?}");
         }
     }

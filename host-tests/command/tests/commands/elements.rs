@@ -36,9 +36,11 @@ fn rotary_elements() {
         MOTOR,
         "kind = \"section\"\nlength = 0.3\ndiameter = 0.06\ndamping = 2.0",
         "kind = \"section\"\nlength = 0.1\ndiameter = 0.06\nend = 0.08\nbore = 0.02\nmodulus = 8.0e10\ndamping = 2.0",
-        "kind = \"planetary\"\nsun_teeth = 20\nring_teeth = 90\nmodule = 0.004\nplanets = 3\nsun = 0.013\nplanet = 0.0027\nplanet_mass = 3.7\ncarrier = 0.067\nefficiency = 0.97",
+        "kind = \"planetary\"\nsun_teeth = 20\nring_teeth = 90\nmodule = 0.004\nplanets = 3\nsun = 0.013\nplanet = \
+            0.0027\nplanet_mass = 3.7\ncarrier = 0.067\nefficiency = 0.97",
         "kind = \"belt\"\ndriving = 0.2\ndriven = 0.3\nstiffness = 4.0e5\ndamping = 60.0\nefficiency = 0.96",
-        "kind = \"crank\"\ninertia = 0.4\nradius = 0.1\nrod = 0.32\nrod_mass = 6.0\nrod_centre = 0.16\nrod_inertia = 0.05\nslider = 25.0",
+        "kind = \"crank\"\ninertia = 0.4\nradius = 0.1\nrod = 0.32\nrod_mass = 6.0\nrod_centre = 0.16\nrod_inertia = \
+            0.05\nslider = 25.0",
         "kind = \"worm\"\nratio = 30.0\nefficiency = 0.75\nback_efficiency = 0.6",
         "kind = \"rotor\"\ninertia = 3.0",
     ]);
@@ -111,7 +113,8 @@ fn elements_that_travel() {
 #[test]
 fn the_observer_that_is_needed() {
     let with = |duty: &str| {
-        let shaft = "[[element]]\nkind = \"shaft\"\nstiffness = 850.0\ndamping = 0.3\n[[element]]\nkind = \"rotor\"\ninertia = 0.35\n";
+        let shaft = "[[element]]\nkind = \"shaft\"\nstiffness = 850.0\ndamping = 0.3\n[[element]]\nkind = \
+            \"rotor\"\ninertia = 0.35\n";
         let text = format!("name = \"x\"\n[[element]]\nkind = \"motor\"\ninertia = 1.2\n{shaft}{SETTINGS}{duty}");
         parse("x.toml", &text)
     };
@@ -144,7 +147,8 @@ fn faults_are_told_with_their_place() {
 fn a_planetary_set_with_another_member_held() {
     let keys = |more: &str| {
         format!(
-            "kind = \"planetary\"\nsun_teeth = 20\nring_teeth = 90\nmodule = 0.004\nplanets = 3\nsun = 0.013\nplanet = 0.0027\nplanet_mass = 3.7\n\
+            "kind = \"planetary\"\nsun_teeth = 20\nring_teeth = 90\nmodule = 0.004\nplanets = 3\nsun = 0.013\nplanet = \
+                0.0027\nplanet_mass = 3.7\n\
              carrier = 0.067\n{more}"
         )
     };
@@ -198,7 +202,8 @@ fn a_ship_with_two_screws() {
     assert_eq!(plan.inertias, [two.motor_inertia, two.load_inertia]);
 }
 
-/// A branch that begins with its shaft adds nothing to the mass that it stands on, and may stand on a branch, whose speed it has.
+/// A branch that begins with its shaft adds nothing to the mass that it stands on, and may stand on a branch, whose
+/// speed it has.
 #[test]
 fn branches_on_branches_and_behind_gears() {
     let branch = |at: &str, elements: &[&str]| {
@@ -206,8 +211,10 @@ fn branches_on_branches_and_behind_gears() {
         format!("[[branch]]\nat = \"{at}\"\n{tables}")
     };
     let text = format!(
-        "name = \"x\"\n[[element]]\n{MOTOR}\n[[element]]\nkind = \"gear\"\nratio = 2.0\n[[element]]\nkind = \"rotor\"\nlabel = \"wheel\"\n\
-         inertia = 0.3\n[[element]]\nkind = \"shaft\"\nstiffness = 1e4\n[[element]]\nkind = \"rotor\"\ninertia = 1.0\n{}{}{SETTINGS}",
+        "name = \"x\"\n[[element]]\n{MOTOR}\n[[element]]\nkind = \"gear\"\nratio = 2.0\n[[element]]\nkind = \
+            \"rotor\"\nlabel = \"wheel\"\n\
+         inertia = 0.3\n[[element]]\nkind = \"shaft\"\nstiffness = 1e4\n[[element]]\nkind = \"rotor\"\ninertia = \
+         1.0\n{}{}{SETTINGS}",
         branch(
             "wheel",
             &[

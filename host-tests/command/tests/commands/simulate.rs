@@ -139,7 +139,8 @@ fn every_fault_of_a_file_has_its_place() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A motor, a drum and a load; what is put in for `inertia`, `stiffness` and `damping` belongs to the drum and its shaft.
+/// A motor, a drum and a load; what is put in for `inertia`, `stiffness` and `damping` belongs to the drum and its
+/// shaft.
 fn drum(inertia: &str, stiffness: &str, damping: &str) -> String {
     format!(
         "name = \"drum\"\n\

@@ -1,7 +1,9 @@
-//! The observer of a cranked machine against a motion of own arithmetic: a press whose inertia at the motor swings by a third.
+//! The observer of a cranked machine against a motion of own arithmetic: a press whose inertia at the motor swings by a
+//! third.
 //!
-//! The inertia of the truth is the full solver's, the motion a Runge-Kutta integration of `J w' = tau_m - tau_L - J' w^2/2` with twenty
-//! steps a tick, whose own error (fifth order, 5e-6 s) is far below a count of the encoder.
+//! The inertia of the truth is the full solver's, the motion a Runge-Kutta integration of
+//! `J w' = tau_m - tau_L - J' w^2/2` with twenty steps a tick, whose own error (fifth order, 5e-6 s) is far below a
+//! count of the encoder.
 
 use std::f64::consts::TAU;
 
@@ -68,8 +70,9 @@ impl Press {
     }
 }
 
-/// Root mean square errors of load torque and shaft torque [N m] and of speed [rad/s] over a second in which the motor holds 100 rad/s against
-/// an arc of load on each turn of the crank; the first half, in which the estimate settles, is left out.
+/// Root mean square errors of load torque and shaft torque [N m] and of speed [rad/s] over a second in which the motor
+/// holds 100 rad/s against an arc of load on each turn of the crank; the first half, in which the estimate settles, is
+/// left out.
 fn errors<N: Number, O: Observer<N>>(config: &O::Config, torque_base: f64, speed_base: f64) -> [f64; 3] {
     let mut press = Press::new(100.0);
     let number = |value: f64| {
@@ -146,8 +149,8 @@ fn a_free_crank_drive_has_no_load() {
         worst = worst.max(observer.estimate(&config).load_torque.abs());
     }
     assert!(fast / slow > 1.1, "{slow} {fast}");
-    // Five of the standard deviations that the encoder's counts leave, and half a percent of the crank's own torque, as the table is straight
-    // between its 64 places.
+    // Five of the standard deviations that the encoder's counts leave, and half a percent of the crank's own torque, as
+    // the table is straight between its 64 places.
     let bound = 5.0 * DESIGN.rigid.standard_deviation[2] + 0.005 * peak;
     assert!(worst < bound && bound < peak / 3.0, "{worst} of {peak}, {bound}");
 }

@@ -1,5 +1,5 @@
-//! The tick of the hoist's drives: bad samples, garbage, angles that wrap, momentum, the speed loop, and the same bits however the
-//! constants were made.
+//! The tick of the hoist's drives: bad samples, garbage, angles that wrap, momentum, the speed loop, and the same bits
+//! however the constants were made.
 
 mod angle;
 mod constants;

@@ -1,8 +1,8 @@
 //! Building an image with cargo.
 //!
-//! In target directories of its own, `target/firmware/<the compiler's target>`, so that a test or a command that is itself run by
-//! cargo does not wait for cargo's lock, and images for two cores can be built at once. For one of them it is one image at a time: they
-//! share its directory, and each is copied out before the next variant overwrites it.
+//! In target directories of its own, `target/firmware/<the compiler's target>`, so that a test or a command that is
+//! itself run by cargo does not wait for cargo's lock, and images for two cores can be built at once. For one of them
+//! it is one image at a time: they share its directory, and each is copied out before the next variant overwrites it.
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader};
@@ -24,9 +24,9 @@ pub enum BuildError {
     /// A file or cargo could not be reached.
     #[error("{place}: {error}")]
     Io {
-        /// What was being done.
+        /// The step.
         place: String,
-        /// What went wrong.
+        /// The error.
         error: io::Error,
     },
     /// Cargo refused.
@@ -34,13 +34,13 @@ pub enum BuildError {
     Cargo {
         /// The command to type.
         command: String,
-        /// What it printed.
+        /// Its output.
         output: String,
     },
 }
 
-/// Builds `program` holding `variant` for `board`, unless the image on disk is what would be built; `progress` is told each line that
-/// cargo prints.
+/// Builds `program` holding `variant` for `board`, unless the image on disk is what would be built; `progress` receives
+/// each line printed by cargo.
 pub fn build(
     variant: &str,
     board: Facts,
@@ -84,7 +84,7 @@ pub fn build(
         .arg(&firmware)
         .env("DRIVELINE_VARIANT", variant)
         .env("DRIVELINE_BOARD", board.name)
-        // what is logged below this level is not in the image at all
+        // logs below this level are not in the image
         .env("DEFMT_LOG", "info")
         // what the compiler leaves when it is stopped goes with the folder
         .env("TMPDIR", folder.path())

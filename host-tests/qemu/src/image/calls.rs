@@ -1,8 +1,8 @@
 //! Which functions a function calls, read from its Thumb code.
 //!
-//! Branches with a target in the instruction: `BL`, `B.W` and `B` (Arm DDI 0403E, A7.7.12 and A7.7.18). The mapping symbols `$t` and `$d`
-//! (Arm IHI 0044, 5.5.5) tell code from the constants among it. Calls through a pointer are not followed; a tick has
-//! none.
+//! Branches with a target in the instruction: `BL`, `B.W` and `B` (Arm DDI 0403E, A7.7.12 and A7.7.18). The mapping
+//! symbols `$t` and `$d` (Arm IHI 0044, 5.5.5) separate code from the constants in it. Calls through a pointer are not
+//! followed; a tick has none.
 
 use std::collections::BTreeSet;
 

@@ -1,11 +1,11 @@
-//! What each part of a drive takes: the same drive with parts left out, over the image without any.
+//! Cost of each part of a drive: the same drive with parts left out, over the image without any.
 
 use std::error::Error;
 
 use super::{Contents, Program, Sizes, board, build};
 use driveline_report::Composition;
 
-/// The compositions, by the part of their variants' names that tells them apart.
+/// The compositions, by the distinguishing part of their variants' names.
 const PARTS: [&str; 8] = [
     "rigid-observer",
     "rigid-governed",
@@ -17,7 +17,8 @@ const PARTS: [&str; 8] = [
     "two-mass-geared-governed",
 ];
 
-/// Builds every composition for the cores that the numbers are for, `f32` with an FPU and fixed point without; `progress` is told each.
+/// Builds every composition for the cores that the numbers are for, `f32` with an FPU and fixed point without;
+/// `progress` receives each.
 ///
 /// # Errors
 /// An image that was not built or could not be read.

@@ -1,8 +1,9 @@
-//! An estimate of a tick's cycles from its instruction mix. QEMU counts instructions, not cycles; this is arithmetic on tables.
+//! An estimate of a tick's cycles from its instruction mix. QEMU counts instructions, not cycles; this is arithmetic on
+//! tables.
 //!
-//! Cycles by kind of instruction are those of the cores' technical reference manuals (Arm DDI 0439 for the Cortex-M4, DDI 0337 for the
-//! Cortex-M3), without wait states: a load 2, several registers 1 and one each, a taken branch 2, VMLA 3, VDIV and VSQRT 14, a
-//! long multiplication 1 on the M4 and 4 to 5 on the M3, where it depends on the operands.
+//! Cycles by kind of instruction are those of the cores' technical reference manuals (Arm DDI 0439 for the Cortex-M4,
+//! DDI 0337 for the Cortex-M3), without wait states: a load 2, several registers 1 and one each, a taken branch 2, VMLA
+//! 3, VDIV and VSQRT 14, a long multiplication 1 on the M4 and 4 to 5 on the M3, where it depends on the operands.
 
 use std::error::Error;
 use std::fs;
@@ -102,7 +103,8 @@ fn long(first: u16, second: u16, slow_multiplier: bool) -> u32 {
 mod tests {
     use super::cost;
 
-    /// Encodings from the Arm architecture reference manual, as an assembler gives them; cycles from the cores' manuals.
+    /// Encodings from the Arm architecture reference manual, as an assembler gives them; cycles from the cores'
+    /// manuals.
     #[test]
     fn instructions_cost_what_the_manuals_say() {
         let cases = [

@@ -1,4 +1,4 @@
-//! What each board's image takes of flash and RAM, section by section.
+//! Flash and RAM of each board's image, section by section.
 
 use std::error::Error;
 
@@ -16,7 +16,7 @@ pub struct Footprint {
     pub board: &'static str,
     /// Its core, or its controller.
     pub core: &'static str,
-    /// What it holds.
+    /// Its content.
     pub variant: String,
     /// Sections, by address: name and bytes.
     pub sections: Vec<(String, u64)>,
@@ -28,8 +28,8 @@ pub struct Footprint {
     pub tick_code: u64,
 }
 
-/// Builds the hoist for each board of QEMU's, in `f32` where the core has a unit for it and in fixed point where not, and the test rig for the M4F and for
-/// the board that has a motor; `progress` is told each.
+/// Builds the hoist for each board of QEMU's, in `f32` where the core has a unit for it and in fixed point where not,
+/// and the test rig for the M4F and for the board that has a motor; `progress` receives each.
 ///
 /// # Errors
 /// An image that was not built or could not be read.

@@ -1,7 +1,7 @@
 //! Whether an image on disk is what would be built: by a fingerprint of everything that goes into it.
 //!
-//! A variant is chosen by an environment variable, so that cargo builds the firmware anew whenever another was asked for in between. The
-//! fingerprint of the sources, kept beside the image, saves that for images that are already there.
+//! A variant is chosen by an environment variable, so that cargo builds the firmware anew whenever another was built in
+//! between. The fingerprint of the sources, kept beside the image, saves that for images that are already there.
 
 use std::collections::hash_map::DefaultHasher;
 use std::fs;
@@ -10,7 +10,7 @@ use std::io;
 use std::path::Path;
 use std::process::Command;
 
-/// What goes into an image, from the workspace's root.
+/// Sources of an image, from the workspace's root.
 const SOURCES: [&str; 5] = ["Cargo.toml", "Cargo.lock", ".cargo/config.toml", "src", "firmware"];
 
 /// Fingerprint of the sources, the compiler and the command.

@@ -1,7 +1,8 @@
 //! The tick's machine code without what only the linker decides: where functions and tables lie.
 //!
-//! A branch to another function and an address in two halves (`MOVW`, `MOVT`) or in a literal pool are taken out of the code and kept as what they refer to,
-//! by name and, for a table, with all its bytes. Everything else is compared as it stands. Encodings: Arm DDI 0403E, A7.7.12, A7.7.76, A7.7.79.
+//! A branch to another function and an address in two halves (`MOVW`, `MOVT`) or in a literal pool are taken out of the
+//! code and kept as what they refer to, by name and, for a table, with all its bytes. Everything else is compared as it
+//! stands. Encodings: Arm DDI 0403E, A7.7.12, A7.7.76, A7.7.79.
 
 use std::fs;
 use std::path::Path;
@@ -21,11 +22,11 @@ pub struct Function {
     pub name: String,
     /// Its halfwords, those with an address without it.
     pub code: Vec<u16>,
-    /// What the addresses are of.
+    /// Object of the addresses.
     pub referents: Vec<Referent>,
 }
 
-/// What an address in a function is of.
+/// Object of an address in a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Referent {
     /// Bytes from the function's start to the instruction.
@@ -109,7 +110,7 @@ impl Reader<'_> {
         self.file.sections().any(|section| {
             let allocated =
                 matches!(section.flags(), SectionFlags::Elf { sh_flags, .. } if sh_flags & SHF_ALLOC == SHF_ALLOC);
-            // what is below is as likely a number
+            // a lower value may as well be a number
             allocated && word >= 0x400 && (section.address()..section.address() + section.size()).contains(&word)
         })
     }

@@ -30,9 +30,9 @@ pub enum Program {
     Bench,
     /// The fingerprint of a run.
     SelfTest,
-    /// What a run logs, through `defmt`.
+    /// Log of a run, through `defmt`.
     Log,
-    /// Tells each tick of a run as frames of telemetry.
+    /// Reports each tick of a run as frames of telemetry.
     Told,
     /// The test rig on the board of its own, which QEMU has not.
     Nucleo,
@@ -81,7 +81,8 @@ pub struct Image {
 /// The variant that the board with a motor holds.
 pub const ON_NUCLEO: &str = "test-rig/f32/two-mass/10000";
 
-/// Whether a variant belongs on a board: floats on cores that have a unit for them, fixed point and the empty variant on all.
+/// Whether a variant belongs on a board: floats on cores that have a unit for them, fixed point and the empty variant
+/// on all.
 pub fn belongs(variant: &str, board: &Facts) -> bool {
     variant.starts_with("empty/") || variant.split('/').nth(1) != Some("f32") || board.target.ends_with("hf")
 }

@@ -1,4 +1,4 @@
-//! What an ELF file takes of flash and RAM, by section and by symbol.
+//! Flash and RAM of an ELF file, by section and by symbol.
 
 use std::fs;
 use std::io;
@@ -19,7 +19,7 @@ pub enum ReadError {
     File {
         /// Its path.
         path: PathBuf,
-        /// What went wrong.
+        /// The error.
         error: io::Error,
     },
     /// Its format.
@@ -27,7 +27,7 @@ pub enum ReadError {
     Format {
         /// Its path.
         path: PathBuf,
-        /// What is wrong.
+        /// The error.
         error: object::Error,
     },
 }
@@ -57,7 +57,7 @@ impl Sizes {
     }
 }
 
-/// What was read from an image.
+/// Data read from an image.
 #[derive(Clone, Debug)]
 pub struct Contents {
     /// Bytes by what they are for.

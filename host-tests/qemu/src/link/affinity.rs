@@ -1,7 +1,8 @@
 //! One core for the host's thread and its QEMU.
 //!
 //! Without it the round trips wander by a factor of ten with the scheduler's mood. A child inherits the affinity of the
-//! thread that starts it, so pinning the thread is enough. Links at the same time take different cores while there are any.
+//! thread that starts it, so pinning the thread is enough. Links at the same time take different cores while there are
+//! any.
 
 #[cfg(target_os = "linux")]
 mod linux {

@@ -55,7 +55,8 @@ impl Emulator {
     }
 }
 
-/// The folders of libraries below `folder`, one for each architecture (`usr/lib/x86_64-linux-gnu`), before the caller's own.
+/// The folders of libraries below `folder`, one for each architecture (`usr/lib/x86_64-linux-gnu`), before the caller's
+/// own.
 fn library_path(folder: &Path) -> OsString {
     let mut path: Vec<PathBuf> = Vec::new();
     for libraries in [folder.join("usr/lib"), folder.join("lib")] {

@@ -2,9 +2,9 @@
 //!
 //! The image reads and writes two named pipes through semihosting; the calling thread and QEMU share one core, so that
 //! handing over is a switch of context and not a wake-up of another core. Under
-//! `-icount shift=10,align=off,sleep=off` the run is deterministic to the instruction. Nothing here waits for ever: a QEMU that
-//! hangs or dies is an error that says which image, at which tick, and what QEMU printed; dropping a [`Link`] ends its
-//! QEMU.
+//! `-icount shift=10,align=off,sleep=off` the run is deterministic to the instruction. Nothing here waits indefinitely:
+//! a QEMU that hangs or dies is an error that says which image, at which tick, and what QEMU printed; dropping a
+//! [`Link`] ends its QEMU.
 
 mod affinity;
 mod emulator;
@@ -42,7 +42,7 @@ pub struct Link {
     _pinned: Pinned,
 }
 
-/// What a control loop says of itself at its end.
+/// Report of a control loop at its end.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub struct Summary {
     /// The scene's name.
@@ -90,12 +90,12 @@ impl Link {
     }
 }
 
-/// What an image leaves that needs no link (the bench, the self-test, the log).
+/// Output of an image without a link (the bench, the self-test, the log).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Left {
     /// The lines of JSON that it printed.
     pub lines: Vec<Value>,
-    /// What it logged: frames of `defmt`, to be decoded with the image itself.
+    /// Its log: frames of `defmt`, to be decoded with the image itself.
     pub log: Vec<u8>,
 }
 

@@ -41,7 +41,7 @@ impl Qemu {
         let child = Running::start(&mut command).map_err(|error| match error.kind() {
             ErrorKind::NotFound => io::Error::new(
                 ErrorKind::NotFound,
-                format!("{PROGRAM} is not installed; `cargo driveline setup` installs it or says how"),
+                format!("{PROGRAM} is not installed; `cargo driveline setup` installs it or shows how"),
             ),
             _ => error,
         })?;
@@ -61,7 +61,7 @@ impl Qemu {
             return Err(self.describe(&io::Error::other(format!("ended with {status}")), "at its end"));
         }
         if self.directory.is_full() {
-            return Err(self.describe(&io::Error::other("what it printed may be cut off"), "at its end"));
+            return Err(self.describe(&io::Error::other("its output may be cut off"), "at its end"));
         }
         let console = fs::read_to_string(self.directory.path().join("console"))?;
         console

@@ -1,4 +1,4 @@
-//! An image that tells its ticks into the pipe `told`, as bytes to read.
+//! An image that reports its ticks into the pipe `told`, as bytes to read.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, ErrorKind, Read};
@@ -14,7 +14,7 @@ use crate::image::Image;
 /// How often a wait looks whether QEMU still runs.
 const LOOK: Timespec = Timespec { tv_sec: 0, tv_nsec: 50_000_000 };
 
-/// What an image tells; ends with the image, and the image with it.
+/// Telemetry of an image; ends with the image, and the image with it.
 pub struct Telling {
     qemu: Qemu,
     pipe: File,

@@ -52,7 +52,7 @@ pub enum BudgetError {
     File {
         /// Its path.
         path: String,
-        /// What went wrong.
+        /// The error.
         error: String,
     },
     /// A line that is not TOML, or a key that is no figure.
@@ -62,7 +62,7 @@ pub enum BudgetError {
         line: usize,
         /// The key there, or the line's text where it has none.
         key: String,
-        /// What was expected.
+        /// The expected value.
         message: String,
     },
 }

@@ -1,4 +1,4 @@
-//! What a variant costs on a board: instructions a tick, flash, RAM and stack.
+//! Cost of a variant on a board: instructions a tick, flash, RAM and stack.
 
 use std::error::Error;
 use std::time::Duration;
@@ -34,7 +34,7 @@ impl Spread {
     }
 }
 
-/// What a variant costs on a board.
+/// Cost of a variant on a board.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Cost {
     /// Instructions a tick.
@@ -73,7 +73,7 @@ impl Cost {
             exchanged.push((input, Output { instructions: 0, ..output }));
         }
         if !variant.gives(&exchanged) {
-            return Err(format!("{} on {} and on the host give other bits", image.variant, image.board.name).into());
+            return Err(format!("{} on {} and on the host have different bits", image.variant, image.board.name).into());
         }
         let summary = link.finish()?;
         let Contents { sizes, tick_code, .. } = Contents::read(&image.path)?;

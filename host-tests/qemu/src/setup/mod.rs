@@ -1,9 +1,9 @@
-//! What a machine needs beside Rust: found, and installed where that is permitted.
+//! Prerequisites beside Rust: found, and installed where permitted.
 //!
-//! Needed: the compiler's targets of the boards, `rustfmt` and `clippy`, and QEMU for Arm. Rust's own parts come through
-//! `rustup`, QEMU through the system's package manager as root or through `sudo` where it asks for no password. Nothing is
-//! ever removed: where `apt-get` would have to, or may not be used, QEMU is unpacked into the user's cache. What cannot be
-//! installed is an error with the command to type.
+//! Needed: the compiler's targets of the boards, `rustfmt` and `clippy`, and QEMU for Arm. Rust's own parts come
+//! through `rustup`, QEMU through the system's package manager as root or through `sudo` without a password. Nothing is
+//! ever removed: where `apt-get` would have to, or may not be used, QEMU is unpacked into the user's cache. A failed
+//! installation is an error with the command to type.
 
 mod packages;
 mod private_copy;
@@ -36,11 +36,11 @@ pub enum Need {
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what} is missing and could not be installed ({reason}); type: {command}")]
 pub struct SetupError {
-    /// What is missing.
+    /// Missing parts.
     pub what: String,
     /// Why it was not installed.
     pub reason: String,
-    /// What to type.
+    /// Command to type.
     pub command: String,
 }
 
@@ -52,13 +52,13 @@ impl Need {
         all
     }
 
-    /// What building for some boards needs.
+    /// Prerequisites of building for some boards.
     pub fn to_build<'b>(boards: impl IntoIterator<Item = &'b Facts>) -> Vec<Need> {
         let targets: BTreeSet<_> = boards.into_iter().map(|board| board.target).collect();
         targets.into_iter().map(Need::Target).collect()
     }
 
-    /// What building for some boards and running there in QEMU needs.
+    /// Prerequisites of building for some boards and running there in QEMU.
     pub fn to_run<'b>(boards: impl IntoIterator<Item = &'b Facts>) -> Vec<Need> {
         let mut needs = Self::to_build(boards);
         needs.push(Need::Qemu);
@@ -74,7 +74,7 @@ impl Need {
         }
     }
 
-    /// What it is called.
+    /// Its name.
     pub fn name(&self) -> String {
         match self {
             Need::Target(target) => format!("the Rust target {target}"),
@@ -84,7 +84,7 @@ impl Need {
     }
 }
 
-/// What of some needs is missing.
+/// Missing prerequisites.
 pub fn missing(needs: &[Need]) -> Vec<Need> {
     needs.iter().filter(|need| !need.is_met()).cloned().collect()
 }
@@ -144,7 +144,7 @@ fn qemu(runner: &mut Runner) -> Result<(), SetupError> {
 /// Installs QEMU for the whole system, if that needs no user and removes nothing; else a sentence.
 fn installed(manager: Manager, rights: Rights, runner: &mut Runner) -> Result<(), String> {
     if !rights.suffice(manager) {
-        return Err("installing takes root, and sudo asks for a password or is not there".to_owned());
+        return Err("installing needs root, and sudo is missing or needs a password".to_owned());
     }
     if let Some(update) = manager.update(rights)
         && let Err(error) = runner.run(&update)
@@ -168,7 +168,7 @@ pub fn cargo() -> std::ffi::OsString {
     std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
-/// Whether the compiler has a standard library for a target; asks the compiler, so that it works without rustup.
+/// Whether the compiler has a standard library for a target; queries the compiler, so that it works without rustup.
 fn has_target(target: &str) -> bool {
     let output = Command::new("rustc").args(["--print", "target-libdir", "--target", target]).output();
     output.is_ok_and(|output| {

@@ -23,7 +23,7 @@ pub enum Manager {
 pub enum Rights {
     /// This is root.
     Root,
-    /// Through `sudo`, which asks for no password.
+    /// Through `sudo` without a password.
     Sudo,
     /// Not without the user.
     None,
@@ -84,7 +84,7 @@ impl Rights {
     }
 }
 
-/// What `apt-get` would do, by its own words on a trial.
+/// Actions of `apt-get`, from its own dry run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trial {
     /// Packages that it would add.
@@ -110,7 +110,7 @@ impl Trial {
         }
     }
 
-    /// What is added, in a line.
+    /// Added packages, in a line.
     pub fn sentence(&self) -> String {
         let upgraded = match self.upgraded.as_slice() {
             [] => String::new(),

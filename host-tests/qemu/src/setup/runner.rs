@@ -4,7 +4,7 @@ use std::process::{Command, Stdio};
 
 use super::packages::Trial;
 
-/// What runs commands, and says which.
+/// Runner of commands, which reports them.
 pub struct Runner<'p>(pub &'p mut dyn FnMut(&str));
 
 impl Runner<'_> {
@@ -28,7 +28,7 @@ impl Runner<'_> {
         if output.status.success() { Ok(last) } else { Err(last) }
     }
 
-    /// What an `apt-get install` would do; asking takes no rights.
+    /// Actions of an `apt-get install`; the query needs no rights.
     pub fn trial(&mut self, words: &[String]) -> Result<Trial, String> {
         let name = words.join(" ");
         let output = command(words).arg("--simulate").env("LC_ALL", "C").output();
@@ -47,7 +47,7 @@ fn last_line(text: &[u8]) -> String {
     text.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("no reason given").trim_start_matches("E: ").to_owned()
 }
 
-/// A command of some words, that asks nothing.
+/// A command of some words, without input.
 fn command(words: &[String]) -> Command {
     let mut command = Command::new(words.first().map_or("", String::as_str));
     command.args(words.iter().skip(1)).env("DEBIAN_FRONTEND", "noninteractive").stdin(Stdio::null());

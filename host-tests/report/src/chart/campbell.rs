@@ -24,7 +24,7 @@ pub struct Crossing {
     pub frequency: f64,
     /// Whether it is flagged.
     pub flagged: bool,
-    /// What a pointer is told.
+    /// Tooltip.
     pub title: String,
 }
 

@@ -11,7 +11,7 @@ const HEIGHT: f64 = 380.0;
 /// Left, top, right, bottom of the plot.
 const FRAME: [f64; 4] = [62.0, 18.0, WIDTH - 14.0, HEIGHT - 48.0];
 
-/// What is paid.
+/// Cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
     /// Instructions of a tick, the median.
@@ -20,7 +20,7 @@ pub enum Cost {
     Second,
 }
 
-/// What is bought.
+/// Benefit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {
     /// Error of the shaft torque, rms of its peak.
@@ -70,7 +70,7 @@ pub fn error_against_cost(variants: &[Variant], look: &[(usize, usize)], cost: C
     let y = Scale::logarithmic(points.iter().map(|point| point.1), FRAME[3], FRAME[1]);
     let mut svg = Svg::new(WIDTH, HEIGHT);
     axes(&mut svg, x, y, cost.axis(), quality.axis());
-    // What diverged has no place on a logarithmic axis but stands at its upper edge.
+    // A diverged result is drawn at the upper edge of a logarithmic axis.
     let place = |(a, b): (f64, f64)| x.place(a).zip(y.place(if b.is_finite() { b } else { f64::MAX }));
     let front = front(&points);
     staircase(&mut svg, &front.iter().filter_map(|&index| place(points[index])).collect::<Vec<_>>());
@@ -135,7 +135,7 @@ fn axes(svg: &mut Svg, x: Scale, y: Scale, across: &str, up: &str) {
     svg.upright("axis", 14.0, (FRAME[1] + FRAME[3]) / 2.0, up);
 }
 
-/// The front as a staircase: for a cost between two of its points, the cheaper one is what can be had.
+/// The front as a staircase: for a cost between two of its points, the cheaper one applies.
 fn staircase(svg: &mut Svg, points: &[(f64, f64)]) {
     let Some((&first, &last)) = points.first().zip(points.last()) else {
         return;

@@ -19,7 +19,7 @@ pub struct Curve {
 /// Curves over a common axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lines {
-    /// What a screen reader says.
+    /// Text for a screen reader.
     pub label: String,
     /// Name and unit of the common axis.
     pub along: String,
@@ -31,7 +31,7 @@ pub struct Lines {
     pub curves: Vec<Curve>,
     /// Places that are marked, with a word.
     pub marks: Vec<(f64, String)>,
-    /// Single points: place, value, style class, and the sentence that a pointer is told.
+    /// Single points: place, value, style class, and the tooltip.
     pub points: Vec<(f64, f64, String, String)>,
     /// Whether the values are drawn by their logarithm.
     pub logarithmic: bool,

@@ -12,7 +12,7 @@ const RADIUS: f64 = 122.0;
 pub struct Arrow {
     /// Its class, a colour.
     pub class: &'static str,
-    /// What it is, told when its head is pointed at.
+    /// Its tooltip, at the head.
     pub name: String,
     /// Length.
     pub amplitude: f64,

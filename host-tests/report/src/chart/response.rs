@@ -1,4 +1,4 @@
-//! What the motor feels: motor speed per motor torque over frequency, the whole chain and what it was reduced to.
+//! Response at the motor: motor speed per motor torque over frequency, of the whole chain and its reductions.
 
 use crate::svg::{Anchor, Scale, Svg, trace};
 

@@ -1,4 +1,4 @@
-//! What the page's template is given: texts ready to read and plots ready to show.
+//! Input of the page's template: finished texts and plots.
 
 mod tables;
 mod tiles;

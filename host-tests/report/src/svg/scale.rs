@@ -31,7 +31,8 @@ impl Scale {
         Self { low, high, from, to, logarithmic: false }
     }
 
-    /// A logarithmic axis over the finite positive numbers given, with a tenth of its length as margin; without any, 1 to 10.
+    /// A logarithmic axis over the finite positive numbers given, with a tenth of its length as margin; without any, 1
+    /// to 10.
     pub fn logarithmic(values: impl IntoIterator<Item = f64>, from: f64, to: f64) -> Self {
         let (low, high) = bounds(values.into_iter().filter(|&value| value > 0.0)).unwrap_or((1.0, 10.0));
         let (low, high) = (low.log10(), high.log10());
@@ -40,7 +41,7 @@ impl Scale {
         Self { low: low - margin, high: high + margin, from, to, logarithmic: true }
     }
 
-    /// The place of a number; `None` where it has none. What lies past an end is put on the end.
+    /// The place of a number; `None` where it has none. A value past an end is put on the end.
     pub fn place(&self, value: f64) -> Option<f64> {
         let value = if self.logarithmic { value.log10() } else { value };
         if value.is_nan() || value.is_infinite() && self.logarithmic && value < 0.0 {

@@ -6,8 +6,8 @@ use super::Scale;
 
 /// A series as SVG path data in tenths of a unit, with relative moves.
 ///
-/// The series is cut into `stretches` equal parts; of each the first, smallest, largest and last points are drawn, in the order
-/// of the series. What is not finite breaks the line.
+/// The series is cut into `stretches` equal parts; of each the first, smallest, largest and last points are drawn, in
+/// the order of the series. A value that is not finite breaks the line.
 pub fn trace(time: &[f64], values: &[f64], x: Scale, y: Scale, stretches: usize) -> String {
     let count = time.len().min(values.len());
     let mut data = String::new();

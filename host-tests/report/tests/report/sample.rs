@@ -171,7 +171,9 @@ fn sweep(name: &str, holds: f64) -> Sweep {
     }
     Sweep {
         name: name.into(),
-        criterion: "State error against the f64 exact step after 10 000 ticks, relative to the largest state; no growth over 1e8 ticks.".into(),
+        criterion: "State error against the f64 exact step after 10 000 ticks, relative to the largest state; no \
+            growth over 1e8 ticks."
+            .into(),
         points,
     }
 }

@@ -1,4 +1,5 @@
-//! The description of a chain, from the motor outwards, and how its run begins: the start conditions of `[Huang 1987 part 2]`.
+//! The description of a chain, from the motor outwards, and how its run begins: the start conditions of
+//! `[Huang 1987 part 2]`.
 
 use super::error::{PlantError, finite, in_range, not_negative, positive};
 use super::event::Place;
@@ -82,7 +83,7 @@ impl Chain {
     }
 
     /// Efficiency, above 0 and up to 1, of a gear at the last node, between it and the shaft that follows. The node
-    /// feels `T/eta` while it drives and `eta T` while it is driven, and is held in between at rest `[Wang 1989 §1-3]`.
+    /// carries `T/eta` when motoring and `eta T` when overhauling, and sticks in between at rest `[Wang 1989 §1-3]`.
     /// Refused at the end of the chain, where no shaft follows.
     #[must_use]
     pub fn efficiency(self, efficiency: f64) -> Self {

@@ -78,7 +78,7 @@ fn deviation(run: &Recording, other: &[Vec<f64>]) -> Result<Deviation, NotProven
     for ((ours, theirs), &time) in run.samples.iter().zip(other).zip(&run.times) {
         for ((a, b), peak) in ours.iter().zip(theirs).zip(&peaks) {
             let share = (a - b).abs() / if *peak > 0.0 { *peak } else { 1.0 };
-            // what is not a number agrees with nothing
+            // a value that is not a number agrees with nothing
             let largest = if share.is_nan() { f64::INFINITY } else { share };
             if largest > worst.largest {
                 worst = Deviation { largest, time };

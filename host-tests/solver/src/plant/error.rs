@@ -1,4 +1,4 @@
-//! What a description can be refused for.
+//! Errors in a description.
 
 use super::event::Place;
 
@@ -12,15 +12,15 @@ pub enum PlantError {
         name: &'static str,
         /// The node or shaft it belongs to.
         place: Place,
-        /// What was given.
+        /// Given value.
         value: f64,
-        /// What would do.
+        /// Expected value.
         expected: &'static str,
     },
     /// A list that does not match the chain, or an index outside it.
     #[error("{name}: {found} given, expected {expected}")]
     Count {
-        /// What was counted.
+        /// Counted items.
         name: &'static str,
         /// How many were given.
         found: usize,

@@ -1,4 +1,4 @@
-//! What happened to a plant, when and where.
+//! Events of a plant, with time and place.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! What drives and loads a plant: laws of the motor, programs of the load.
+//! Excitations of a plant: laws of the motor, programs of the load.
 
 use super::error::{PlantError, finite, positive};
 use super::event::Place;

@@ -6,7 +6,7 @@ use super::layout::Layout;
 use super::mode::{FREE, Mode, TRAILING, elastic_torque};
 use super::regime::Regime;
 
-/// What a fallen guard calls for.
+/// Action of a fallen guard.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Action {
     /// The contact of the shaft becomes this.
@@ -31,7 +31,7 @@ pub(super) struct Guard {
     input: Vec<f64>,
 }
 
-/// What the guards need to know of a tick to pass it without a closer look.
+/// Bounds of a tick with which the guards pass it without a closer check.
 pub(super) struct Tick<'a> {
     pub before: &'a [f64],
     pub after: &'a [f64],

@@ -30,7 +30,7 @@ impl Mode {
         self.motion[node] == 0
     }
 
-    /// What the node in front of the shaft feels, as a multiple of the shaft's torque `[Wang 1989 §1-3]`.
+    /// Torque on the node before the shaft, as a multiple of the shaft's `[Wang 1989 §1-3]`.
     pub fn loss(&self, chain: &Chain, shaft: usize) -> f64 {
         let efficiency = chain.nodes[shaft].efficiency;
         match self.motion[shaft] * self.flow[shaft] {
@@ -41,7 +41,7 @@ impl Mode {
         }
     }
 
-    /// What of the mode shapes the matrices.
+    /// Part of the mode that determines the matrices.
     pub fn key(&self, chain: &Chain) -> Vec<i8> {
         let shafts = (0..chain.shafts.len()).map(|s| {
             let lossy = chain.nodes[s].efficiency < 1.0 && self.carries(chain, s);

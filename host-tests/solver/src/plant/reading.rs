@@ -1,4 +1,4 @@
-//! What can be read off a plant.
+//! Readings of a plant.
 
 use super::event::Event;
 use super::solver::Plant;
@@ -41,8 +41,8 @@ impl Plant {
     }
 
     /// Torque of a shaft, N m, referred to the motor, as felt by the node in front of it (a gear's loss included),
-    /// positive when the motor drives the load; NaN for a shaft that is not there. While a gear holds its node, what the gear
-    /// takes of the push on the node.
+    /// positive when the motor drives the load; NaN for a shaft that is not there. While a gear holds its node, what
+    /// the gear takes of the push on the node.
     #[must_use]
     pub fn shaft_torque(&self, shaft: usize) -> f64 {
         if shaft >= self.chain.shafts.len() {

@@ -71,7 +71,7 @@ impl Regime {
         Self { a, b, energy, growth, rate, balance, steps: Vec::new(), last_step: 0.0 }
     }
 
-    /// The exact step of this length, made when the same length is asked for a second time running.
+    /// The exact step of this length, made when the same length is used a second time running.
     pub fn step_of(&mut self, step: f64) -> Option<&Propagator> {
         let known = self.steps.iter().position(|kept| kept.step == step);
         let again = self.last_step == step;

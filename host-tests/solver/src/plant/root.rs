@@ -12,10 +12,10 @@ pub(super) fn derivative(poly: &[f64]) -> Vec<f64> {
 
 /// First `s` in `[0, 1]` where a quantity that must not be negative falls below zero.
 ///
-/// A start at zero within `rounding` is judged by the first derivative that stands out of its own rounding: rising, it is
-/// on the right side and is left alone until it comes back; falling, the answer is 0. A double root (a grazing touch) is found
-/// whenever the polynomial goes below zero in between. The answer lies on the far side of the root, within
-/// `tolerance`.
+/// A start at zero within `rounding` is judged by the first derivative that stands out of its own rounding: rising, it
+/// is on the right side and is left alone until it comes back; falling, the answer is 0. A double root (a grazing
+/// touch) is found whenever the polynomial goes below zero in between. The answer lies on the far side of the root,
+/// within `tolerance`.
 pub(super) fn first_fall(poly: &[f64], rounding: &[f64], tolerance: f64) -> Option<f64> {
     let mut poly = poly.to_vec();
     let mut from = 0.0;

@@ -12,7 +12,7 @@ use super::layout::Layout;
 use super::mode::{FREE, Hold, Mode, elastic_torque};
 use super::regime::Regime;
 
-/// Time within which an event is located unless told otherwise, s.
+/// Default time within which an event is located, s.
 pub(super) const EVENT_TOLERANCE: f64 = 1e-14;
 
 /// A running chain. Built by [`Chain::build`]; a clone runs on independently.

@@ -14,8 +14,8 @@ const MOST_EVENTS: usize = 1000;
 impl Plant {
     /// Runs on by `dt` seconds (above zero) with `motor_torque` (N m) held, beside the motor's own law if it has one.
     ///
-    /// Exact up to rounding between events; ticks of equal length share their matrices. A torque that is not finite or a
-    /// length that is not above zero changes nothing and counts as [`refused`](Self::refused).
+    /// Exact up to rounding between events; ticks of equal length share their matrices. A torque that is not finite or
+    /// a length that is not above zero changes nothing and counts as [`refused`](Self::refused).
     pub fn advance(&mut self, motor_torque: f64, dt: f64) {
         if !(motor_torque.is_finite() && dt.is_finite() && dt > 0.0) {
             self.refused += 1;

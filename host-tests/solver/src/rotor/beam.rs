@@ -29,7 +29,7 @@ pub(super) struct Beam {
     pub stiffness: Matrix4<f64>,
     /// Mass: that of its deflection and that of the turning of its sections.
     pub mass: Matrix4<f64>,
-    /// What the sections' spin couples a slope's rate of one plane with in the other, per rad/s.
+    /// Gyroscopic coupling of the slopes' rates of both planes, per rad/s.
     pub spin: Matrix4<f64>,
 }
 

@@ -52,7 +52,8 @@ impl Recording {
 pub enum NotProven {
     /// The second integrator came out otherwise.
     #[error(
-        "the run deviates by {found:.1e} of peak from the second integrator at tick {tick}: expected at most {BOUND:.0e}"
+        "the run deviates by {found:.1e} of peak from the second integrator at tick {tick}: expected at most \
+            {BOUND:.0e}"
     )]
     Deviates {
         /// The deviation over the peak.
@@ -65,7 +66,7 @@ pub enum NotProven {
     Integrator {
         /// Where.
         tick: usize,
-        /// What it said.
+        /// Its output.
         reason: String,
     },
     /// Nothing was recorded.
@@ -103,7 +104,7 @@ pub fn prove(run: &Recording) -> Result<f64, NotProven> {
         z.clone_from(method.y());
         for (ours, theirs) in state.iter().zip(&z) {
             let share = (ours / scale - theirs).abs();
-            // what is not a number agrees with nothing
+            // a value that is not a number agrees with nothing
             let share = if share.is_nan() { f64::INFINITY } else { share };
             if share > worst {
                 (worst, at) = (share, tick);

@@ -1,4 +1,4 @@
-//! What a rotor can be refused for.
+//! Errors in a rotor's description.
 
 /// Why a rotor or a question about it was refused: the parameter, where it stands, what it was and what was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -10,15 +10,15 @@ pub enum RotorError {
         name: &'static str,
         /// The element, disc, bearing, station or sensor that it belongs to.
         place: String,
-        /// What was given.
+        /// Given value.
         value: f64,
-        /// What would do.
+        /// Expected value.
         expected: &'static str,
     },
     /// An index of a node that the rotor does not have.
     #[error("{place} stands at node {node}: the nodes are 0 to {last}")]
     Node {
-        /// What stands there.
+        /// Value found.
         place: String,
         /// The node.
         node: usize,
@@ -28,7 +28,7 @@ pub enum RotorError {
     /// Unbalances that do not match the stations, or a rotor without elements.
     #[error("{name}: {found} given, expected {expected}")]
     Count {
-        /// What was counted.
+        /// Counted items.
         name: &'static str,
         /// How many were given.
         found: usize,

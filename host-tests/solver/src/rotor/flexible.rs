@@ -120,7 +120,7 @@ impl FlexibleRotor {
                         let at = (place(i), place(j));
                         model.stiffness[at] += beam.stiffness[(i, j)];
                         model.mass[at] += beam.mass[(i, j)];
-                        // the other plane's coordinate of the same kind: `x` feels `+y`, `y` feels `-x`
+                        // the other plane's coordinate of the same kind: `+y` acts on `x`, `-x` on `y`
                         let (other, sign) = if plane == 0 { (at.1 + 1, 1.0) } else { (at.1 - 1, -1.0) };
                         model.gyroscopic[(at.0, other)] += sign * beam.spin[(i, j)];
                     }

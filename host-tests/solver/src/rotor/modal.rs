@@ -16,7 +16,7 @@ pub struct Modal {
     pub(super) frequency: DVector<f64>,
     pub(super) damping: DMatrix<f64>,
     pub(super) gyroscopic: DMatrix<f64>,
-    /// What is not symmetric in the stiffness.
+    /// Asymmetric part of the stiffness.
     pub(super) circulatory: DMatrix<f64>,
     pub(super) stations: Vec<[RowDVector<f64>; 2]>,
     pub(super) sensors: Vec<RowDVector<f64>>,

@@ -35,7 +35,7 @@ pub struct Model {
     pub(super) stiffness: DMatrix<f64>,
     /// Deflection along `x` and along `y` of each station, as rows over the coordinates.
     pub(super) stations: Vec<[RowDVector<f64>; 2]>,
-    /// What each sensor sees of the coordinates.
+    /// Each sensor's share of the coordinates.
     pub(super) sensors: Vec<RowDVector<f64>>,
 }
 

@@ -24,7 +24,7 @@ impl Turn {
     #[must_use]
     pub fn at(&self, share: f64) -> (f64, f64, f64) {
         let (h, s) = (self.duration, share);
-        // what is left of the turn after its mean speed: Hermite's cubic
+        // the rest of the turn after its mean speed: Hermite's cubic
         let turned = self.end_angle - self.angle;
         let (a, b) = (self.speed * h - turned, turned - self.end_speed * h);
         let bend = s * (1.0 - s) * (a * (1.0 - s) + b * s);

@@ -1,9 +1,9 @@
-//! What a vibration sensor makes of the truth: its kind, its errors, its noise, and the shaft's run-out.
+//! Vibration sensors: kind, errors, noise, and the shaft's run-out.
 
 use super::whirl::Motion;
 use crate::noise::Noise;
 
-/// What a sensor measures.
+/// Quantity that a sensor measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transducer {
     /// Displacement [m].
@@ -72,7 +72,7 @@ impl Faulty {
         self
     }
 
-    /// What it reads of a motion while the shaft stands at `angle` [rad] and turns with `speed` [rad/s].
+    /// Its reading of a motion at the shaft's `angle` [rad] and `speed` [rad/s].
     ///
     /// The lag is that of what turns with the shaft: `x cos(lag) - x'/Omega sin(lag)` is `Re(X exp(i (phi - lag)))`
     /// for `x = Re(X exp(i phi))`.

@@ -121,7 +121,7 @@ impl Whirl {
         Ok(())
     }
 
-    /// What sensor `sensor` sees; `None` where there is none.
+    /// Signal of sensor `sensor`; `None` where there is none.
     #[must_use]
     pub fn motion(&self, sensor: usize) -> Option<Motion> {
         let modal = self.steps.modal();

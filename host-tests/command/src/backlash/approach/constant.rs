@@ -6,7 +6,7 @@ use super::model::{Model, State, Unwrapped};
 use crate::backlash::case::{Case, LINES};
 use crate::backlash::score::Estimator;
 
-/// What is done about the gap.
+/// Treatment of the gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gap {
     /// Nothing.

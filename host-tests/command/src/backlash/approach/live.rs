@@ -8,8 +8,7 @@ use crate::backlash::score::Estimator;
 #[derive(Clone, Copy, Debug)]
 pub struct Live {
     model: Model,
-    /// Over how many standard deviations of the twist the law is averaged; 0 for the law of the regime that is believed
-    /// in.
+    /// Over how many standard deviations of the twist the law is averaged; 0 for the law of the most probable regime.
     spread: f64,
     covariance: Square,
     angle: Unwrapped,

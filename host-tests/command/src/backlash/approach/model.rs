@@ -54,7 +54,7 @@ impl Model {
         }
     }
 
-    /// What the twist is beyond the gap.
+    /// Twist beyond the gap.
     pub fn stretch(&self, twist: f64) -> f64 {
         twist - twist.clamp(-self.half_gap, self.half_gap)
     }

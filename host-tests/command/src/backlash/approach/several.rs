@@ -6,7 +6,7 @@ use super::model::{Model, Square, State, Unwrapped};
 use crate::backlash::case::Case;
 use crate::backlash::score::Estimator;
 
-/// Least chance that a regime is believed with.
+/// Smallest probability of a regime.
 const LEAST: f64 = 1e-6;
 
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +48,7 @@ impl Estimator for Several {
         let chances = self.each.map(|hypothesis| self.regimes(&hypothesis));
         let before = self.each;
         for (regime, next) in self.each.iter_mut().enumerate() {
-            // What the hypotheses say of this regime, mixed.
+            // Mixture of the hypotheses in this regime.
             let parts = [0, 1, 2].map(|from| before[from].weight * (chances[from][regime] + LEAST));
             let prior: f64 = parts.iter().sum();
             let mean: State = (0..3).map(|from| before[from].state * (parts[from] / prior)).sum();

@@ -13,7 +13,7 @@ use driveline_report::chart::polar;
 use driveline_report::format::{percent, significant};
 use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table};
 
-/// What comes of it.
+/// Result.
 #[derive(Clone, Debug, Serialize)]
 pub struct Outcome {
     name: String,
@@ -24,11 +24,11 @@ pub struct Outcome {
     weights: Vec<Polar>,
     /// How well three or more runs agree.
     disagreement: f64,
-    /// What each of the weights will do, if it is the right one.
+    /// Prediction for each of the weights, if it is the right one.
     answers: Vec<Answer>,
 }
 
-/// What a weight will do.
+/// Prediction for a weight.
 #[derive(Clone, Debug, Serialize)]
 struct Answer {
     weight: Polar,
@@ -128,7 +128,7 @@ impl Outcome {
             facts: self.facts(),
             figures: vec![Figure {
                 title: "Weights".to_owned(),
-                text: "What is to be added, and what goes into which hole.".to_owned(),
+                text: "Weight to add, and its split between holes.".to_owned(),
                 legend: vec![Key::arrow("weight", "s0"), Key::arrow("in a hole", "s3")],
                 plots: self.answers.iter().enumerate().map(plot).collect(),
                 arrangement: Arrangement::Beside,

@@ -7,9 +7,9 @@ use crate::machine_file::Diagnostic;
 /// Why no weights follow.
 #[derive(Clone, Debug)]
 pub enum Fault {
-    /// What stands at a place of the file.
+    /// An entry of the file.
     Placed(Diagnostic),
-    /// What was calculated.
+    /// A calculation.
     Refused(Error),
 }
 

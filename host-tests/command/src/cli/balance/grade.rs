@@ -89,7 +89,7 @@ fn bearings(
 }
 
 impl Grade {
-    /// What there is to say of it.
+    /// Its text.
     pub fn facts(&self) -> Vec<Fact> {
         let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
         let unbalance = |g_mm: f64, grade: f64| format!("{} g mm, G {}", significant(g_mm), significant(grade));

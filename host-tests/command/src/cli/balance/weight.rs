@@ -30,14 +30,14 @@ impl Polar {
     }
 }
 
-/// What goes into a hole, or comes out of it.
+/// Weight in a hole, or removed from it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Hole {
     /// Its number, from 1.
     pub hole: usize,
     /// Its angle.
     pub degrees: f64,
-    /// What goes into it.
+    /// Its weight.
     pub weight: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What `modes` finds of a machine: vibrations, reductions, and the parts that are not worth keeping.
+//! Result of `modes` for a machine: vibrations, reductions, and sensitivity to each part.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::campbell::{Critical, critical_speeds};
 use crate::machine_file::MachineFile;
 
-/// Change below which a part is not worth keeping: 1 %, less than a stiffness is ever known to.
+/// Change below which a part can be left out: 1 %, less than the accuracy of any stiffness.
 pub const WORTH: f64 = 0.01;
 
 /// The vibrations of a machine, everything referred to the motor.
@@ -22,13 +22,13 @@ pub struct Vibration {
     pub shafts: Vec<Spring>,
     /// Natural vibrations of the free machine, lowest first.
     pub resonances: Vec<Resonance>,
-    /// Natural frequencies with the motor held \[rad/s\], lowest first.
+    /// Natural frequencies with the motor locked \[rad/s\], lowest first.
     pub antiresonances: Vec<f64>,
     /// The two masses that can stand for it.
     pub reductions: Vec<Reduction>,
     /// Speeds of the motor at which an excitation meets a natural frequency, the lowest first.
     pub critical: Vec<Critical>,
-    /// What leaving out each part of a chain would change, the least first.
+    /// Changes without each part of a chain, the smallest first.
     pub worth: Vec<Leaving>,
 }
 
@@ -86,17 +86,17 @@ pub struct Reduction {
     pub resonance_error: f64,
     /// Relative error of the first antiresonance, signed.
     pub antiresonance_error: f64,
-    /// Relative error of the static give at the motor, signed.
+    /// Relative error of the static compliance at the motor, signed.
     pub compliance_error: f64,
     /// Lowest frequency left out \[rad/s\]; `null` where none is.
     pub next_mode: Option<f64>,
     /// Its share at the motor.
     pub next_share: f64,
-    /// Bound of the error of the motor's speed after a blow, over its first jump.
+    /// Bound of the error of the motor's speed after an impact, over its first step.
     pub worst: f64,
 }
 
-/// What leaving out a part would change, relative and signed; `null` where no vibration would be left.
+/// Changes without a part, relative and signed; `null` where no vibration would be left.
 #[derive(Clone, Debug, Serialize)]
 pub struct Leaving {
     /// The part.
@@ -105,9 +105,9 @@ pub struct Leaving {
     pub resonance: Option<f64>,
     /// Change of the first antiresonance.
     pub antiresonance: Option<f64>,
-    /// Change of the static give at the motor.
+    /// Change of the static compliance at the motor.
     pub compliance: Option<f64>,
-    /// Whether it is worth keeping: some change of [`WORTH`] or more.
+    /// Whether to keep it: some change of [`WORTH`] or more.
     pub worth_keeping: bool,
 }
 

@@ -4,13 +4,15 @@ use driveline_report::chart::{Station, mode_shape};
 use driveline_report::format::significant;
 use driveline_report::{Arrangement, Figure};
 
-/// The shapes, each as its frequency \[Hz\] and the amplitudes of the stations in any scale; none where nothing vibrates.
+/// The shapes, each as its frequency \[Hz\] and the amplitudes of the stations in any scale; none where nothing
+/// vibrates.
 pub fn shapes<'m>(stations: &[Station], modes: impl Iterator<Item = (f64, &'m [f64])>) -> Option<Figure> {
     let drawn = |(index, (hz, shape)): (usize, (f64, &[f64]))| {
         mode_shape(stations, shape, &format!("{}. {} Hz", index + 1, significant(hz)))
     };
     let plots: Vec<String> = modes.enumerate().map(drawn).collect();
-    let text = "How far each mass turns, referred to the motor and scaled to one. The area of a disc is the mass's share of the inertia.";
+    let text = "How far each mass turns, referred to the motor and scaled to one. The area of a disc is the mass's \
+        share of the inertia.";
     (!plots.is_empty()).then(|| Figure {
         title: "Natural vibrations".to_owned(),
         text: text.to_owned(),
@@ -22,7 +24,8 @@ pub fn shapes<'m>(stations: &[Station], modes: impl Iterator<Item = (f64, &'m [f
 
 /// The Campbell diagram.
 pub fn campbell(diagram: String) -> Figure {
-    let text = "Natural frequencies (level), and what each order excites (rising) over the motor's speed. The band is the running range; a \
+    let text = "Natural frequencies (level), and excitation orders (rising) over the motor's speed. The band is the \
+        running range; a \
         crossing in it or within 10 % of it is marked in red.";
     Figure { title: "Campbell diagram".to_owned(), text: text.to_owned(), plots: vec![diagram], ..Figure::default() }
 }

@@ -1,4 +1,4 @@
-//! The page of `modes`: shapes, what the motor feels, the tables.
+//! The page of `modes`: shapes, response at the motor, tables.
 
 use std::f64::consts::TAU;
 
@@ -43,7 +43,8 @@ pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
     let responses = responses(machine, vibration, &frequency, total);
     let felt = (!responses.is_empty()).then(|| Figure {
         title: "What the motor feels".to_owned(),
-        text: "Motor speed per motor torque: the whole chain, and the two masses that stand for it. Peaks are resonances, \
+        text: "Motor speed per motor torque: the whole chain, and the two masses that stand for it. Peaks are \
+            resonances, \
                troughs antiresonances."
             .to_owned(),
         legend: responses.iter().map(|item| Key::curve(&*item.name, &*item.class)).collect(),

@@ -35,7 +35,7 @@ pub fn tables(vibration: &Vibration) -> Vec<Section> {
         let shape = mode.shape.iter().map(|value| format!("{value:+.3}"));
         modes.row([(index + 1).to_string()].into_iter().chain(numbers).chain(shape));
     }
-    let text = "Frequencies of the free machine, and with the motor held; amplitudes of the masses, the largest 1.";
+    let text = "Frequencies of the free machine, and with the motor locked; amplitudes of the masses, the largest 1.";
     all.push(Section::new("Frequencies and shapes", text, modes));
     all.extend(critical(&vibration.critical));
     all.push(reductions(&vibration.reductions));
@@ -54,7 +54,7 @@ fn reductions(reductions: &[Reduction]) -> Section {
         "damping N m s/rad",
         "resonance",
         "antiresonance",
-        "give",
+        "compliance",
         "next mode Hz",
         "its share",
         "worst",
@@ -66,14 +66,15 @@ fn reductions(reductions: &[Reduction]) -> Section {
         let rest = [next, significant(r.next_share), percent(r.worst)];
         table.row([r.by.clone()].into_iter().chain(sizes).chain(errors).chain(rest));
     }
-    let text = "Errors of the first resonance, the first antiresonance and the static give at the motor; the lowest mode \
-                left out and its share at the motor (1 moves it as much as the rigid turning does); a bound of the error of \
-                the motor's speed after a blow, over its first jump.";
+    let text = "Errors of the first resonance, the first antiresonance and the static compliance at the motor; the \
+        lowest mode \
+                left out and its share at the motor (1 equals the rigid-body mode); a bound of the error of the \
+                motor's speed after an impact, over its first step.";
     Section::new("Reduction to two masses", text, table)
 }
 
 fn worth(parts: &[Leaving]) -> Section {
-    let mut table = Table::new(["if it were simplified", "resonance", "antiresonance", "give", "worth keeping"]);
+    let mut table = Table::new(["simplification", "resonance", "antiresonance", "compliance", "keep"]);
     let change = |value: Option<f64>| value.map_or_else(|| "none left".to_owned(), signed);
     for part in parts {
         let changes = [part.resonance, part.antiresonance, part.compliance].map(change);
@@ -81,10 +82,10 @@ fn worth(parts: &[Leaving]) -> Section {
         table.row([part.part.clone()].into_iter().chain(changes).chain([verdict.to_owned()]));
     }
     let text = format!(
-        "Computed change at the motor when a part is left out; below {} in all three it is not worth keeping.",
+        "Computed change at the motor when a part is left out; below {} in all three it can be left out.",
         percent(WORTH)
     );
-    Section::new("Parts and what they are worth", text, table)
+    Section::new("Sensitivity to each part", text, table)
 }
 
 /// A relative change in percent with its sign; what rounding leaves is none.

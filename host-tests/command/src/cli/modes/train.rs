@@ -75,7 +75,8 @@ impl TrainVibration {
             table.row([(index + 1).to_string()].into_iter().chain(numbers).chain(shape));
         }
         let text = format!(
-            "Every link in contact at its mean stiffness; shares of the kinetic energy, signed as the parts move. Motions \
+            "Every link in contact at its mean stiffness; shares of the kinetic energy, signed as the parts move. \
+                Motions \
              without strain: {}.",
             self.rigid_motions
         );

@@ -1,4 +1,4 @@
-//! What `simulate` finds: a run line by line, its extremes, its events, and whether it is proven.
+//! Result of `simulate`: a run line by line, its extremes, its events, and whether it is proven.
 
 use serde::Serialize;
 
@@ -22,7 +22,7 @@ pub struct Simulation {
     pub coordinates: Vec<Moved>,
     /// Extremes of the forces.
     pub links: Vec<Carried>,
-    /// What happened.
+    /// The event.
     pub events: Vec<Happened>,
     /// Deviation of the second integrator, and of the solver with events located ten times closer, as shares of the
     /// peaks; none where the proof was left out or did not succeed.

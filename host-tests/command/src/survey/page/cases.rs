@@ -19,7 +19,8 @@ pub fn section(survey: &Survey) -> Section {
             kept(case.holds()).to_owned(),
         ]);
     }
-    let text = "Each against a reference that is not this project's code: 40-digit arithmetic or a published case. Errors are relative.";
+    let text = "Each against a reference that is not this project's code: 40-digit arithmetic or a published case. \
+        Errors are relative.";
     let section = Section::new("Stiff and extreme cases", text).failed(survey, CASES);
     if survey.cases.is_empty() { section } else { section.table("", "", &table) }
 }
@@ -44,19 +45,20 @@ pub fn reversals(survey: &Survey) -> Section {
     let numbers: Vec<String> =
         comparison.rows.iter().enumerate().map(|(index, row)| format!("{} {}", index + 1, row.approach)).collect();
     let text = format!(
-        "{} courses of {} s of six machines with a gap of {} mrad through the full solver: ways to carry an observer through the gap.",
+        "{} runs of {} s of six machines with a gap of {} mrad through the full solver: approaches to an observer with \
+            a gap.",
         comparison.courses.len(),
         comparison.seconds,
         1e3 * comparison.gap
     );
     Section { text, ..section }.table("", "", &verdict).table(
-        "Course by course",
+        "Run by run",
         &format!("Shaft torque, rms of peak. {}.", numbers.join("; ")),
         &comparison.by_course(),
     )
 }
 
-/// What kept the sweep from being done.
+/// Error of the sweep.
 pub fn sweep_failures(survey: &Survey) -> Section {
     Section::new("Stiff and extreme machines", "").failed(survey, SWEEP)
 }

@@ -30,7 +30,7 @@ fn said(verdict: &Verdict) -> String {
     let mut sentences = verdict.sentences();
     if verdict.target.is_none() {
         sentences.push(
-            "on the host, since QEMU would take longer than a minute or only a quick look was asked for: \
+            "on the host, since QEMU would take longer than a minute or only a quick run was requested: \
              `cargo driveline commissioning --qemu` has it there"
                 .to_owned(),
         );

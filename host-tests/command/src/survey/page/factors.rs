@@ -1,11 +1,11 @@
-//! Dynamic factors, and what the gentle governors take off the peak.
+//! Dynamic factors (gears: K_v; mills: torque amplification factor, TAF), and the peaks with backlash take-up.
 
 use super::{Section, kept};
 use crate::survey::Survey;
 use driveline_report::Table;
 use driveline_report::format::{percent, significant};
 
-/// What the peak may be of the plain speed loop's.
+/// Limit of the peak, of the plain speed loop's.
 const OVER_PLAIN: f64 = 0.7;
 
 /// Peaks and dynamic factors.
@@ -33,14 +33,16 @@ pub fn section(survey: &Survey) -> Section {
             }
         }
     }
-    let text = "K is the peak of the shaft torque over the largest torque that the same shaft would carry in a rigid machine under the same \
-                torques, gaining speed as the whole machine gains momentum: what vibration, impacts and slack add.";
+    let text = "K is the peak of the shaft torque over the largest torque that the same shaft would carry in a rigid \
+        machine under the same \
+                torques, accelerating with the whole machine: the increase by vibration, impacts and backlash. \
+                (Gears: dynamic factor K_v; mills: torque amplification factor, TAF.)";
     let section = Section::new("Dynamic factors", text);
     if survey.scenes.is_empty() {
         return section;
     }
     let section = section.table("", "", &factors);
-    let text = "The peak of the governor that takes up slack and damps the shaft, over that of a plain speed loop on the same run, where that lets a \
-                gap open or a rope go slack.";
-    if any { section.table("With and without a gentle governor", text, &gentle) } else { section }
+    let text = "The peak with backlash take-up and active damping over that of a plain speed loop on the same run, \
+        where a gap opens or a rope goes slack.";
+    if any { section.table("With and without backlash take-up", text, &gentle) } else { section }
 }

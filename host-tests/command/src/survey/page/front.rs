@@ -24,7 +24,7 @@ pub fn costs(survey: &Survey) -> Costs {
     Costs::named(&plain, &named(survey))
 }
 
-/// What is on the front.
+/// Members of the front.
 pub fn section(survey: &Survey) -> Section {
     let variants = named(survey);
     let mut section = Section::new("On the front", "The variants that no other of any scene beats in both.");

@@ -6,8 +6,8 @@ use crate::survey::{GENERATOR, Survey};
 
 /// The sets.
 pub fn section(survey: &Survey) -> Section {
-    let section = Section::new("Generator sets and their governor", "In QEMU against their full plants.")
-        .failed(survey, GENERATOR);
+    let section =
+        Section::new("Gensets and their governor", "In QEMU against their full plants.").failed(survey, GENERATOR);
     let Some(verdicts) = &survey.generator else { return section };
     let section = section
         .table("Diesel set against ISO 8528-5", "", &diesel(verdicts))

@@ -11,7 +11,7 @@ pub(super) fn page(summary: &str, facts: &[Fact], sections: &[Section]) -> Strin
     let mut text = format!("# Results\n\n{summary}\n\n");
     text.push_str(
         "`cargo driveline report --markdown doc/results.md` has written this page. The page `report/report.html` of \
-         the same run has the plots. [Limits](limits.md) says what the figures do not show.\n\n",
+         the same run has the plots. [Limits](limits.md) has the limits of the figures.\n\n",
     );
     let headings = ["fact".to_owned(), "value".to_owned()];
     rows(&mut text, &headings, facts.iter().map(|fact| vec![fact.name.clone(), fact.value.clone()]));
@@ -37,7 +37,7 @@ impl Section {
             rows(text, &cells(headings), all.iter().map(|row| cells(row)));
         }
         if !self.reasons.is_empty() {
-            paragraph(text, "### ", "Why it misses");
+            paragraph(text, "### ", "Causes of missed requirements");
             for reason in &self.reasons {
                 let _ = writeln!(text, "- {}", escaped(reason));
             }

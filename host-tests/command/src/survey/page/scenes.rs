@@ -5,7 +5,7 @@ use crate::survey::{Run, SceneFigures, Survey};
 use driveline_report::format::{grouped, percent, rate, significant};
 use driveline_report::{Fact, Table};
 
-/// What the survey was.
+/// Scope of the survey.
 pub fn facts(survey: &Survey) -> Vec<Fact> {
     let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     let chosen = || survey.scenes.iter().flat_map(|scene| scene.chosen().map(move |run| (scene, run)));
@@ -60,7 +60,7 @@ pub fn overview_table(survey: &Survey) -> Table {
             (false, ..) => "differ".to_owned(),
         };
         let mut row = vec![scene.name.clone()];
-        // What is no number is worse than any.
+        // A value that is not a number is worse than any.
         let worse = |a: f64, b: f64| if a.is_nan() || b <= a { a } else { b };
         let worst = |of: fn(&Run) -> f64| scene.chosen().map(of).reduce(worse).unwrap_or(f64::NAN);
         let (torque, speed) = (worst(|run| run.variant.shaft_torque.rms), worst(|run| run.variant.load_speed.rms));
@@ -95,8 +95,10 @@ pub fn overview_table(survey: &Survey) -> Table {
 
 /// All scenes beside their aims.
 pub fn overview(survey: &Survey) -> Section {
-    let text = "Of each scene the design's chosen observer, the worst of its numbers and cores. Aims: with a tight shaft the shaft torque within 2 % \
-                rms of its peak and the load's speed within 0.3 % of rated; through backlash the shaft torque within 6 %. K is the peak of the \
+    let text = "Of each scene the design's chosen observer, the worst of its numbers and cores. Aims: with a tight \
+        shaft the shaft torque within 2 % \
+                rms of its peak and the load's speed within 0.3 % of rated; through backlash the shaft torque within \
+                6 %. K is the peak of the \
                 shaft torque over what a rigid machine's shaft would carry.";
     let section = Section::new("Beside the aims", text);
     if survey.scenes.is_empty() { section } else { section.table("", "", &overview_table(survey)) }

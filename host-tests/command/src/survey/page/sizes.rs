@@ -70,7 +70,8 @@ pub fn section(survey: &Survey) -> Section {
             ]);
         }
     }
-    let text = "Bytes of the image with the drive less those of the image without one; a tick's code is that of every function that it reaches.";
+    let text = "Bytes of the image with the drive less those of the image without one; a tick's code is that of every \
+        function that it reaches.";
     let section = Section::new("Flash and RAM", text);
     if survey.scenes.is_empty() { section } else { section.table("", "", &table).table("The smallest", "", &of_all) }
 }

@@ -23,7 +23,8 @@ fn ran(machine: &Machine, scenario: &'static str, variant: &str) -> (Trace, f64,
     let errors = deviations([&trace].into_iter(), [torque, machine.rated_speed, load]);
     let faults = trace.moments.iter().fold(0, |all, moment| all | moment.faults);
     println!(
-        "{scenario}, {variant}: peak {torque:.0} N m, shaft torque {:.2} % rms, load speed {:.2} % rms, faults {faults:x}",
+        "{scenario}, {variant}: peak {torque:.0} N m, shaft torque {:.2} % rms, load speed {:.2} % rms, faults \
+            {faults:x}",
         100.0 * errors[0].rms,
         100.0 * errors[1].rms
     );

@@ -95,8 +95,8 @@ fn extreme_chains() {
     }
 }
 
-/// Ratios up to 1e15 in every order, up to the sixteen masses that a chain holds; and the full solver's own frequencies of
-/// the extreme chains.
+/// Ratios up to 1e15 in every order, up to the sixteen masses that a chain holds; and the full solver's own frequencies
+/// of the extreme chains.
 #[test]
 fn every_order_of_extreme_ratios() {
     let all = cargo_driveline::cases::chains::all().unwrap();

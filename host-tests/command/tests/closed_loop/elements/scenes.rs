@@ -30,7 +30,8 @@ fn figures(scene: &str) -> Vec<(&'static str, [f64; 2])> {
         let found = deviations(traces.iter(), [torque, machine.rated_speed, load]);
         let faults = traces.iter().flat_map(|trace| &trace.moments).fold(0, |all, moment| all | moment.faults);
         println!(
-            "{variant}: shaft torque {:.2} % rms ({:.1} %) of {torque:.4e} N m, load speed {:.3} % ({:.2} %), load torque {:.2} %, faults {faults:#x}",
+            "{variant}: shaft torque {:.2} % rms ({:.1} %) of {torque:.4e} N m, load speed {:.3} % ({:.2} %), load \
+                torque {:.2} %, faults {faults:#x}",
             100.0 * found[0].rms,
             100.0 * found[0].max,
             100.0 * found[1].rms,

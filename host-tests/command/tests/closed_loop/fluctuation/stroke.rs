@@ -124,7 +124,8 @@ fn rides_and_advises(number: &str, permissible: f64) {
     let (after, _) = strokes(&variant, missing, permissible, 18.0);
     let (remaining, _) = delta(between(&after, 13.0, 17.0));
     println!(
-        "{number}: delta {measured:.5} of {true_delta:.5} ({:+.2} %), mean {mean:.3} of {:.3} rad/s, swing {swing:.0} J, missing {missing:.3} kg m2: \
+        "{number}: delta {measured:.5} of {true_delta:.5} ({:+.2} %), mean {mean:.3} of {:.3} rad/s, swing {swing:.0} \
+            J, missing {missing:.3} kg m2: \
          {remaining:.5} for {permissible} ({:+.2} %); the formula for a constant inertia says {:.3}",
         100.0 * (measured / true_delta - 1.0),
         speed(riding),

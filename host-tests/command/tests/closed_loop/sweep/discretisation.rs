@@ -1,4 +1,5 @@
-//! Every case of `discretisation.json` through the coefficients that a tick loads, in every number, and through the design's exponential.
+//! Every case of `discretisation.json` through the coefficients that a tick loads, in every number, and through the
+//! design's exponential.
 
 use cargo_driveline::sweep::{Step, open_loop};
 use driveline::design::{Matrix, discretise};
@@ -37,8 +38,8 @@ fn matrix<const R: usize, const C: usize>(value: &Value) -> Matrix<R, C> {
     out
 }
 
-/// The pair of twist and slip in the file's matrix of motor speed, k twist and load speed: the file's motor speed and load speed move
-/// in inverse proportion to their inertias.
+/// The pair of twist and slip in the file's matrix of motor speed, k twist and load speed: the file's motor speed and
+/// load speed move in inverse proportion to their inertias.
 fn pair_of(case: &Value) -> [[f64; 2]; 2] {
     let ad = matrix::<3, 3>(&case["elastic"]["Ad"]).0;
     let (jm, jl, k) = (number(case, "J_motor_kg_m2"), number(case, "J_load_kg_m2"), number(case, "k_Nm_rad"));
@@ -62,8 +63,9 @@ fn difference(stored: [[f64; 2]; 2], expected: [[f64; 2]; 2], omega: f64) -> f64
     worst
 }
 
-/// Without friction the pair is closed, and what the tick loads is the file's matrix: `f64` to the file's 1e-14, `f32` to its 1e-7,
-/// fixed point to two of its coefficients' units, 2^-30: the nearest is off by half of one, its neighbour by one and a half.
+/// Without friction the pair is closed, and what the tick loads is the file's matrix: `f64` to the file's 1e-14, `f32`
+/// to its 1e-7, fixed point to two of its coefficients' units, 2^-30: the nearest is off by half of one, its neighbour
+/// by one and a half.
 #[test]
 fn stored_coefficients_meet_the_file() {
     let mut met = 0;

@@ -12,8 +12,9 @@ fn every_failure_is_explained() {
     }
 }
 
-/// The exact step in `f64` is within rounding of the truth everywhere; in `f32` nothing of it is off by more than a thousandth; in fixed point
-/// the same holds where a tick moves at least 1e-4 of a swing and the inertias are within a factor of a thousand.
+/// The exact step in `f64` is within rounding of the truth everywhere; in `f32` nothing of it is off by more than a
+/// thousandth; in fixed point the same holds where a tick moves at least 1e-4 of a swing and the inertias are within a
+/// factor of a thousand.
 #[test]
 fn the_exact_step_holds_everywhere() {
     for place in places(true) {
@@ -27,7 +28,8 @@ fn the_exact_step_holds_everywhere() {
     }
 }
 
-/// Where the design chooses the semi-implicit step, its error is within the 1 % that it is chosen by, `f64` and `f32` alike.
+/// Where the design chooses the semi-implicit step, its error is within the 1 % that it is chosen by, `f64` and `f32`
+/// alike.
 #[test]
 fn the_semi_implicit_step_keeps_its_word() {
     for place in places(true) {
@@ -51,8 +53,8 @@ fn stored_coefficients_do_not_grow() {
     }
 }
 
-/// A million ticks of free motion without damping change the swing by no more than roundings and the poles of the stored coefficients
-/// account for.
+/// A million ticks of free motion without damping change the swing by no more than roundings and the poles of the
+/// stored coefficients account for.
 #[test]
 fn a_million_ticks_do_not_grow() {
     for (swings, step) in free_swings(1_000_000, || ()).iter().zip(STEPS) {

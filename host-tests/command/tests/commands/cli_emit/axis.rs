@@ -14,7 +14,7 @@ pub const FEED_AXIS: Chain = Chain::motor(Inertia(0.0045))
     .screw(Length(0.016))
     .driven(Mass(600.0));
 
-/// What the observer takes it for.
+/// The observer's model.
 pub const FEED_AXIS_MODEL: TwoMass = FEED_AXIS.reduce(Match::ResonanceAntiresonance);
 
 /// Ticks a second.

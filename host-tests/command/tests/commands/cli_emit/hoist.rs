@@ -12,7 +12,7 @@ pub const HOIST: Chain = Chain::motor(Inertia(0.62))
     .damped_rope(Falls(2), Stiffness(2900000.0), LinearDamping(3600.0))
     .lifted(Mass(12000.0));
 
-/// What the observer takes it for.
+/// The observer's model.
 pub const HOIST_MODEL: TwoMass = HOIST.reduce(Match::ResonanceAntiresonance);
 
 /// Ticks a second.

@@ -13,7 +13,7 @@ pub const ROLLING_MILL: Chain = Chain::motor(Inertia(1450.0))
     .shaft(Stiffness(3400000.0), Damping(2000.0))
     .rotor(Inertia(270.0));
 
-/// What the observer takes it for.
+/// The observer's model.
 pub const ROLLING_MILL_MODEL: TwoMass = ROLLING_MILL.reduce(Match::ResonanceAntiresonance);
 
 /// Ticks a second.

@@ -28,7 +28,7 @@ pub const TWIN_SCREW_SHIP: Train = Train::of(
         .rotor(Inertia(450.0)),
 );
 
-/// What the observer takes it for.
+/// The observer's model.
 pub const TWIN_SCREW_SHIP_MODEL: TwoMass = TWIN_SCREW_SHIP.reduce(Match::ResonanceAntiresonance);
 
 /// Ticks a second.

@@ -4,7 +4,8 @@ use driveline::balancing::{AbortReason, Action, Complex, Error, InRun, InRunConf
 
 use super::noise::Noise;
 
-/// Readings are off by 0.5 %, and the influence drifts by 1 % in each part from move to move, which looks the same: 1.5 % of noise.
+/// Readings are off by 0.5 %, and the influence drifts by 1 % in each part from move to move, which looks the same: 1.5
+/// % of noise.
 const CONFIG: InRunConfig<f64, 1> =
     InRunConfig { probe: 0.01, limits: [1.0], step: 2.0, bound: 1.3, target: 0.04, forgetting: 0.8, noise: 0.015 };
 
@@ -19,8 +20,9 @@ struct Outcome {
     left: f64,
 }
 
-/// A spindle with a head of capacity 1: an unbalance of 5 to 95 % of it, an influence of any phase over three decades, readings off by 0.5 %
-/// of the start in each part, the head off by 1 % of a move, and the influence drifting by 1 % a move.
+/// A spindle with a head of capacity 1: an unbalance of 5 to 95 % of it, an influence of any phase over three decades,
+/// readings off by 0.5 % of the start in each part, the head off by 1 % of a move, and the influence drifting by 1 % a
+/// move.
 fn spindle(noise: &mut Noise, mut run: InRun<f64, 2, 1>) -> Outcome {
     let size = 10_f64.powf(-6.0 + 3.0 * noise.even());
     let mut influence = [turned(size, noise), turned(size * (0.3 + 0.7 * noise.even()), noise)];

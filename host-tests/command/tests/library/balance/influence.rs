@@ -1,4 +1,5 @@
-//! Weights from influence coefficients against published cases with answers of 50 digits, and against what must hold of any answer.
+//! Weights from influence coefficients against published cases with answers of 50 digits, and against what must hold of
+//! any answer.
 
 use driveline::balancing::{Aim, Complex, Error, Influence, Objective, Scalar};
 use nalgebra::{convert, try_convert};
@@ -227,7 +228,8 @@ fn a_plane_that_is_a_combination_of_three_others() {
     }
 }
 
-/// Two planes whose effects differ by 1 in 2e7: refused with the reason by a rule for field readings, solved where asked to.
+/// Two planes whose effects differ by 1 in 2e7: refused with the reason by a rule for field readings, solved where
+/// asked to.
 #[test]
 fn nearly_parallel_planes() {
     let mut noise = Noise::new(8);

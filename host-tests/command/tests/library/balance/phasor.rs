@@ -103,8 +103,8 @@ fn amplitude_and_phase_under_ripple_and_noise() {
         for (reading, base) in [(a, 1.0), (b, 16.0)] {
             let (by, turned) = error(reading.phasor, amplitude / base, phase);
             (worst, most) = (worst.max(by.abs()), most.max(turned.abs()));
-            // What the blocks' scatter says the error is: 0.13 to 0.2 % by the number of samples; from twelve degrees of freedom within
-            // 0.4 to 1.7 of that (chi square, one in a thousand).
+            // What the blocks' scatter says the error is: 0.13 to 0.2 % by the number of samples; from twelve degrees
+            // of freedom within 0.4 to 1.7 of that (chi square, one in a thousand).
             let said = f64::from(reading.variance).sqrt() / (amplitude / base);
             assert!((0.0005..0.0034).contains(&said), "{said}");
         }
@@ -113,7 +113,8 @@ fn amplitude_and_phase_under_ripple_and_noise() {
     assert!(worst < 0.005 && most < 0.5);
 }
 
-/// Without noise what is left is the table's 1.5e-4, the samples' 1/(6 n^2) of the edges, and for few ticks the slope's change at an edge.
+/// Without noise what is left is the table's 1.5e-4, the samples' 1/(6 n^2) of the edges, and for few ticks the slope's
+/// change at an edge.
 #[test]
 fn a_clean_vibration_is_read_to_the_table() {
     for (ticks, tolerance) in [(200.3, 2e-4), (50.7, 3e-4), (17.3, 2e-3), (9.1, 8e-3)] {
@@ -141,8 +142,9 @@ fn orders_are_told_apart() {
     assert_eq!(reading.turns, 128);
 }
 
-/// The position behind a gear of 31 to 47 is exact: it is where it was after 47 turns of the motor, however often; a year of 50 turns a
-/// second is 1.6e9 turns, of which this does 47e5 in steps of a third and checks that none is lost by half a unit of 2^-26.
+/// The position behind a gear of 31 to 47 is exact: it is where it was after 47 turns of the motor, however often; a
+/// year of 50 turns a second is 1.6e9 turns, of which this does 47e5 in steps of a third and checks that none is lost
+/// by half a unit of 2^-26.
 #[test]
 fn a_ratio_loses_nothing() {
     let measured = PhasorSettings { rotor_turns: 31, motor_turns: 47, turns: 300, ..CALM };
@@ -264,8 +266,8 @@ fn run_out_and_sensor_are_taken_off() {
     let (by, turned) = error(fast.phasor.less(slow.phasor), 2.0, -1.0);
     assert!(by.abs() < 3e-4 && turned.abs() < 0.03, "{by} {turned}");
 
-    // x = 1e-4 m at 100 rad/s: the acceleration is 1 m/s2 against it, and a pick-up with its corner at 100 rad/s gives 1/sqrt 2 of the
-    // speed, 45 degrees early; 20 V s/m
+    // x = 1e-4 m at 100 rad/s: the acceleration is 1 m/s2 against it, and a pick-up with its corner at 100 rad/s gives
+    // 1/sqrt 2 of the speed, 45 degrees early; 20 V s/m
     let pick_up = Sensor { sensitivity: 20.0, high_pass: 100.0, ..Sensor::ideal(Motion::Velocity) };
     let speed = 1e-4 * 100.0;
     let early = std::f32::consts::FRAC_PI_4 + std::f32::consts::FRAC_PI_2;

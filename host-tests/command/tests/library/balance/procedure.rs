@@ -37,7 +37,8 @@ fn plan(leave_trials: bool) -> Plan<f64, 4, 2> {
     Plan { leave_trials, ..Plan::usual(2, 2, 1e-9) }
 }
 
-/// Does what the procedure asks for until it is done, putting on weights that are off by a hundredth; after each step it is cut off.
+/// Does what the procedure asks for until it is done, putting on weights that are off by a hundredth; after each step
+/// it is cut off.
 fn field(leave_trials: bool) -> (Fan, Field, Vec<ProcedureStep>) {
     let mut fan = Fan::new();
     let mut field = Field::new(plan(leave_trials)).unwrap();
@@ -124,7 +125,8 @@ fn steps_are_taken_back_and_given_again() {
     assert_eq!(again.influence().unwrap().get(1, 1), whole.influence().unwrap().get(1, 1));
 }
 
-/// A plane tried again: given again it is replaced, given further it counts with the others, and where weights stay a later run forbids the first.
+/// A plane tried again: given again it is replaced, given further it counts with the others, and where weights stay a
+/// later run forbids the first.
 #[test]
 fn a_plane_is_tried_again_or_further() {
     type Roomy = Procedure<f64, 4, 2, 5>;

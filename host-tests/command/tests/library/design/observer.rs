@@ -69,7 +69,8 @@ fn observers_meet_seventy_digits() {
             .max(apart(found.innovation, at("innovation_std")));
         let radius = apart(found.spectral_radius, at("spectral_radius"));
         println!(
-            "{}: F {transition:.1e} B {input:.1e} K {gain:.1e} deviations {deviation:.1e} radius {radius:.1e} chosen {:?} {:.2e}",
+            "{}: F {transition:.1e} B {input:.1e} K {gain:.1e} deviations {deviation:.1e} radius {radius:.1e} chosen \
+                {:?} {:.2e}",
             case["id"], found.chosen, found.semi_implicit.fidelity.error_bound
         );
         // Ten roundings of 1.1e-16 for the transition; sines of up to two radians add as much.

@@ -10,8 +10,8 @@ fn rig(damping: f64) -> TwoMass {
     TwoMass::new(Inertia(0.005), Inertia(0.005), Stiffness(700.0), Damping(damping))
 }
 
-/// Characteristic polynomial of the undamped machine in continuous time, with the designed gains, against the product of
-/// the two quadratics that were asked for.
+/// Characteristic polynomial of the undamped machine in continuous time, with the designed gains, against the product
+/// of the two quadratics that were asked for.
 #[test]
 fn gains_place_the_poles() {
     for (load, tuning) in [
@@ -35,8 +35,8 @@ fn gains_place_the_poles() {
     }
 }
 
-/// Spectral radius of the closed loop of `[w_m, twist, w_l, integral, torque]`, built from the general exponential, the torque
-/// one tick late.
+/// Spectral radius of the closed loop of `[w_m, twist, w_l, integral, torque]`, built from the general exponential, the
+/// torque one tick late.
 fn radius(machine: &TwoMass, design: &SpeedLoopDesign) -> f64 {
     let (jm, jl, k, d) = (machine.motor_inertia, machine.load_inertia, machine.stiffness, machine.damping);
     let a = Matrix([[-d / jm, -k / jm, d / jm], [1.0, 0.0, -1.0], [d / jl, k / jl, -d / jl]]);

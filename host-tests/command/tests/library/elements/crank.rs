@@ -45,7 +45,8 @@ fn travel_and_its_derivatives() {
     close(travel, 0.5e-12 * RADIUS * (1.0 + RADIUS / ROD), 1e-11);
 }
 
-/// The energy at 1 rad/s of the crank, the slider and a thousand pieces of the stick, whose velocities are differences of positions.
+/// The energy at 1 rad/s of the crank, the slider and a thousand pieces of the stick, whose velocities are differences
+/// of positions.
 #[test]
 fn inertia_is_twice_the_energy() {
     let h = 1e-4;
@@ -84,8 +85,8 @@ fn mean_inertia_over_a_turn() {
 
 #[test]
 fn forces_of_the_masses_that_go_to_and_fro() {
-    // Notes ch. 5: m r omega^2 (cos phi + lambda cos 2 phi). What is left out begins with lambda^3/4 (cos 2 phi - cos 4 phi), at most half of
-    // lambda^3; the next power is lambda^2 smaller, a tenth.
+    // Notes ch. 5: m r omega^2 (cos phi + lambda cos 2 phi). What is left out begins with lambda^3/4 (cos 2 phi - cos 4
+    // phi), at most half of lambda^3; the next power is lambda^2 smaller, a tenth.
     let light = CrankSlider { rod_mass: Mass(0.0), ..PRESS };
     let [first, second] = light.force_orders(30.0);
     close(first, 25.0 * 0.1 * 900.0, 1e-15);

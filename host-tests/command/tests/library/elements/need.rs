@@ -14,7 +14,8 @@ fn machine(damping: f64) -> TwoMass {
     TwoMass::new(Inertia(1.2), Inertia(0.35), Stiffness(850.0), Damping(damping))
 }
 
-/// What a rigid observer does not show after a change of load: shaft torque less its steady part, load's speed less the mean speed, rms.
+/// What a rigid observer does not show after a change of load: shaft torque less its steady part, load's speed less the
+/// mean speed, rms.
 fn solved(duty: &LoadCycle, damping: f64) -> [f64; 2] {
     let ramp = if duty.rise == 0.0 {
         LoadProgram::steps(&[(0.0, duty.change)])
@@ -39,8 +40,8 @@ fn solved(duty: &LoadCycle, damping: f64) -> [f64; 2] {
     squares.map(|square| f64::sqrt(square / count))
 }
 
-/// A step and a ramp of half a period, after which the bound `2/(w r)` is reached. The formula has whole swings, 2 %, and takes the ramp as undamped: during
-/// it a swing loses `zeta w r` at the most, half of that on the mean.
+/// A step and a ramp of half a period, after which the bound `2/(w r)` is reached. The formula has whole swings, 2 %,
+/// and takes the ramp as undamped: during it a swing loses `zeta w r` at the most, half of that on the mean.
 #[test]
 fn the_shaft_left_out() {
     for damping in [0.0, 0.3, 1.2] {

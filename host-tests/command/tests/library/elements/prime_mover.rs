@@ -64,7 +64,8 @@ fn induction_motor_with_breakdown() {
     close(motor.torque(Speed(none + 5.0)).0, -motor.torque(Speed(none - 5.0)).0, 1e-12);
 }
 
-/// The rotor's whole resistance over its own stretches the slip: the torque at a slip is that of the motor alone at the slip over the factor.
+/// The rotor's whole resistance over its own stretches the slip: the torque at a slip is that of the motor alone at the
+/// slip over the factor.
 #[test]
 fn rotor_resistance_moves_the_breakdown() {
     let motor = Induction::new(Speed(100.0), Torque(900.0), Speed(104.72), 2.8);
@@ -85,8 +86,8 @@ fn rotor_resistance_moves_the_breakdown() {
     assert_eq!(wrong(95.0, 1.0), Err(Error::Overload));
 }
 
-/// Jazar, Vehicle Dynamics ch. 4: power at rated speed is rated power; the power's derivative there, a + 2 b - 3 c, is zero with spark ignition, and positive of a
-/// diesel, whose governor ends the curve.
+/// Jazar, Vehicle Dynamics ch. 4: power at rated speed is rated power; the power's derivative there, a + 2 b - 3 c, is
+/// zero with spark ignition, and positive of a diesel, whose governor ends the curve.
 #[test]
 fn combustion_engines() {
     for (mixture, overload) in [

@@ -24,7 +24,8 @@ fn simpson(length: f64, ends: [f64; 2], bore: f64) -> f64 {
     (0..=pieces).map(at).sum::<f64>() * length / (3.0 * pieces as f64)
 }
 
-/// The shafts of Friswell et al., Dynamics of Rotating Machines, example 9.6.3, whose stiffness follows from length and diameter.
+/// The shafts of Friswell et al., Dynamics of Rotating Machines, example 9.6.3, whose stiffness follows from length and
+/// diameter.
 #[test]
 fn solid_shafts_of_the_twin_screw_ship() {
     let ship = case("torsional_modes.json", "A10_friswell_963_twin_screw_ship");
@@ -48,8 +49,8 @@ fn sections_of_a_stepped_shaft_are_in_series() {
     close(Section::solid(long, Diameter(0.12)).stiffness(G).0, a, ROUNDING);
 }
 
-/// In closed form where it is solid, by quadrature where it is bored; both against Simpson's rule, whose error is h^4/180 of the fourth derivative: below 1e-10
-/// here.
+/// In closed form where it is solid, by quadrature where it is bored; both against Simpson's rule, whose error is
+/// h^4/180 of the fourth derivative: below 1e-10 here.
 #[test]
 fn tapers_are_the_integral_over_their_length() {
     for (ends, bore) in [([0.05, 0.1], 0.0), ([0.1, 0.05], 0.0), ([0.1, 0.1 + 1e-9], 0.0), ([0.08, 0.1], 0.04)] {
@@ -57,7 +58,8 @@ fn tapers_are_the_integral_over_their_length() {
             Section::tapered(Length(0.4), Diameter(ends[0]), Diameter(ends[1])).bored(Diameter(bore)).stiffness(G);
         close(section.0, G.0 * PI / (32.0 * simpson(0.4, ends, bore)), 1e-10);
     }
-    // A hardly tapered bored shaft is a cylinder, and a bore of next to nothing is none: quadrature against closed forms.
+    // A hardly tapered bored shaft is a cylinder, and a bore of next to nothing is none: quadrature against closed
+    // forms.
     let cone = |from: f64, to: f64| Section::tapered(Length(0.4), Diameter(from), Diameter(to));
     let bored = cone(0.1, 0.1 * (1.0 + 1e-14)).bored(Diameter(0.09)).stiffness(G).0;
     close(bored, Section::solid(Length(0.4), Diameter(0.1)).bored(Diameter(0.09)).stiffness(G).0, 1e-12);

@@ -50,7 +50,8 @@ fn twin_screw_ship() {
     meets(two.error.next_mode, &case["expected_omega_rad_s"][3], tolerance);
 }
 
-/// A chain as a train is the same chain, and so is its reduction: to a few roundings, since roots are taken in another order.
+/// A chain as a train is the same chain, and so is its reduction: to a few roundings, since roots are taken in another
+/// order.
 #[test]
 fn a_train_of_one_chain() {
     let chain = chain(&[0.4, 0.05, 0.2, 0.7], &[2.0e4, 9.0e3, 4.0e4]);
@@ -72,7 +73,8 @@ fn a_train_of_one_chain() {
     }
 }
 
-/// A chain with extreme ratios, with the motor in its middle: the frequencies stay those of the chain, to the same digits.
+/// A chain with extreme ratios, with the motor in its middle: the frequencies stay those of the chain, to the same
+/// digits.
 #[test]
 fn extreme_chains_from_their_middle() {
     for case in data("torsional_modes_extreme.json")["cases"].as_array().unwrap() {
@@ -103,7 +105,8 @@ fn extreme_chains_from_their_middle() {
     }
 }
 
-/// Natural frequencies of a train by a dense symmetric eigensolution of the scaled stiffness, free or with the motor held.
+/// Natural frequencies of a train by a dense symmetric eigensolution of the scaled stiffness, free or with the motor
+/// locked.
 fn dense(train: &Train, held: bool) -> Vec<f64> {
     let n = train.masses().len();
     let mut k = DMatrix::<f64>::zeros(n, n);
@@ -169,7 +172,8 @@ fn a_shaft_beside_another_adds_its_stiffness() {
     close(two.resonance(), thicker.resonance(), 1e-14);
 }
 
-/// Two equal branches swing against one another unfelt, at the lowest frequency of all; the motor's vibration is the other.
+/// Two equal branches swing against one another unfelt, at the lowest frequency of all; the motor's vibration is the
+/// other.
 #[test]
 fn equal_branches_hide_a_vibration() {
     let wheel = chain(&[0.01, 0.5], &[2.0e4]);
@@ -231,8 +235,8 @@ fn wrong_trains_are_refused() {
     assert_eq!(wide.masses().len(), driveline::machine::CAPACITY);
 }
 
-/// A branch on the motor itself: with the motor held, what stands on it comes apart, and two of the three columns that the frequencies are
-/// found from are orthogonal from the start.
+/// A branch on the motor itself: with the motor locked, what stands on it comes apart, and two of the three columns
+/// that the frequencies are found from are orthogonal from the start.
 #[test]
 fn a_branch_on_the_motor() {
     let (k, j) = ([4.3e6, 2.9e6, 2.9e6], [3512.5, 712.5, 176.0, 176.0]);

@@ -88,8 +88,9 @@ fn a_planetary_set_at_its_carrier() {
     meets(set.inertia_at_carrier(), &case["expected_J_at_carrier"], 1e-12);
 }
 
-/// Any member driven and any other held, against the speeds at the pitch points and the kinetic energy: with radii of sun and planet, `v` the speed of a
-/// planet's pin, the sun's rim moves at `v - w r_planet`, the ring's at `v + w r_planet`.
+/// Any member driven and any other held, against the speeds at the pitch points and the kinetic energy: with radii of
+/// sun and planet, `v` the speed of a planet's pin, the sun's rim moves at `v - w r_planet`, the ring's at
+/// `v + w r_planet`.
 #[test]
 fn a_planetary_set_with_any_member_held() {
     let case = case("textbook_examples.json", "S07_planetary_1");

@@ -1,4 +1,5 @@
-//! Attempts to break it: estimates that are no numbers, angles that jump, machines that turn back, wheels with other teeth than was said.
+//! Attempts to break it: estimates that are no numbers, angles that jump, machines that turn back, wheels with other
+//! teeth than was said.
 
 use core::f64::consts::TAU;
 
@@ -24,7 +25,8 @@ fn number() -> impl Strategy<Value = f32> {
 }
 
 proptest! {
-    /// Stretches of any speed with any estimates, disturbances and jumps between them: what is read is finite and within its cycle.
+    /// Stretches of any speed with any estimates, disturbances and jumps between them: what is read is finite and
+    /// within its cycle.
     #[test]
     fn whatever_is_read_is_a_number(
         stretches in prop::collection::vec(
@@ -100,7 +102,8 @@ proptest! {
         prop_assert!(turned_back <= extremes.cycles());
     }
 
-    /// Whatever wheel turns at a steady speed, a window of a 60-2 wheel is only had from a 60-2 wheel; with false teeth, what is had is a number.
+    /// Whatever wheel turns at a steady speed, a window of a 60-2 wheel is only had from a 60-2 wheel; with false
+    /// teeth, what is had is a number.
     #[test]
     fn a_wheel_of_other_teeth_gives_no_window(
         places in 5..90_u32,

@@ -102,8 +102,9 @@ fn deviation<N: Built>(speed: f64, ramp: f64, parts: &[Part], ticks: u32) -> (f6
     (worst, seen)
 }
 
-/// The ends of the window are a tick's 10 mrad from a stroke apart at most, which shows a ripple of a tenth in the 88 rad of a stroke, and half of what the
-/// ripple's slope of 0.026 per rad makes of them in the change; two counts of the encoder as well.
+/// The ends of the window are a tick's 10 mrad from a stroke apart at most, which shows a ripple of a tenth in the 88
+/// rad of a stroke, and half of what the ripple's slope of 0.026 per rad makes of them in the change; two counts of the
+/// encoder as well.
 #[test]
 fn what_repeats_every_cycle_is_not_seen() {
     let bound = (0.1 * 0.01 + 2.0 * 0.77e-3) / (TURNS * TAU) + 0.5 * 0.026 * 0.01;
@@ -120,8 +121,9 @@ fn what_repeats_every_cycle_is_not_seen() {
     }
 }
 
-/// Under a steady acceleration of a tenth of the speed in a second it is late by no more than a segment, in which the speed changes by 1.4 in a thousand;
-/// a plain mean over the stroke is late by half of it, 44 in a thousand. With a ripple, half of what the speed gains in a stroke ripples with it.
+/// Under a steady acceleration of a tenth of the speed in a second it is late by no more than a segment, in which the
+/// speed changes by 1.4 in a thousand; a plain mean over the stroke is late by half of it, 44 in a thousand. With a
+/// ripple, half of what the speed gains in a stroke ripples with it.
 #[test]
 fn what_does_not_repeat_is_not_late() {
     let ramp = 0.1 * SPEED;

@@ -40,7 +40,8 @@ fn follow<N: Ranked>(
     extremes.reading(&config).unwrap()
 }
 
-/// Delta of the load by the closed form, from a fine grid: at a steady speed its ripple is that of the motor plus the jerk's.
+/// Delta of the load by the closed form, from a fine grid: at a steady speed its ripple is that of the motor plus the
+/// jerk's.
 fn load_swing(motion: &Motion) -> f64 {
     let at = |k: i32| {
         let moved = Motion { phi: f64::from(k) * 1e-4 * TAU * motion.turns, ..motion.clone() };
@@ -50,7 +51,8 @@ fn load_swing(motion: &Motion) -> f64 {
     speeds.iter().fold(f64::MIN, |a, &b| a.max(b)) - speeds.iter().fold(f64::MAX, |a, &b| a.min(b))
 }
 
-/// At 100 samples to the faster order's period (0.4 ms of 40 ms) the parabola misses 4e-5 of the amplitude at most. In `f32` speeds of 157 rad/s are known to 8e-6 rad/s, which the place of an extreme sees by its root.
+/// At 100 samples to the faster order's period (0.4 ms of 40 ms) the parabola misses 4e-5 of the amplitude at most. In
+/// `f32` speeds of 157 rad/s are known to 8e-6 rad/s, which the place of an extreme sees by its root.
 #[test]
 fn extremes_of_a_closed_form() {
     let single = |speed: f64| speed as f32;
@@ -88,7 +90,8 @@ fn extremes_of_a_closed_form() {
     }
 }
 
-/// Mean by time of a motion over its cycle: the cycle's angle over the integral of dphi/omega, by the rule of rectangles, which is exact for a series.
+/// Mean by time of a motion over its cycle: the cycle's angle over the integral of dphi/omega, by the rule of
+/// rectangles, which is exact for a series.
 fn harmonic_mean(motion: &Motion) -> f64 {
     let points = 1024;
     let sum: f64 = (0..points)
@@ -112,8 +115,9 @@ fn case() -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// The punch press of the reference cases: its speed falls by a third at a corner and rises at another. Between samples that are four ticks apart a corner is
-/// known to what the speed changes in two: 280 N m on 1.8 kg m2 in 0.2 ms is 0.031 rad/s of 3.4, one per cent, which the parabola halves.
+/// The punch press of the reference cases: its speed falls by a third at a corner and rises at another. Between samples
+/// that are four ticks apart a corner is known to what the speed changes in two: 280 N m on 1.8 kg m2 in 0.2 ms is
+/// 0.031 rad/s of 3.4, one per cent, which the parabola halves.
 #[test]
 fn the_punch_press_of_the_reference_cases() {
     let document = case();
@@ -149,22 +153,24 @@ fn the_punch_press_of_the_reference_cases() {
     assert!((reading.mean / number("w_mean_time_rad_s") - 1.0).abs() < 1e-4, "{reading:?}");
     assert!((reading.duration / number("cycle_time_s") - 1.0).abs() < 1e-4, "{reading:?}");
     for fluctuations in [reading.motor, reading.load] {
-        // A parabola over a level that breaks off into a fall of 0.062 rad/s in four ticks stands above it by an eighth of that at most; a corner
-        // that points downwards is missed by a quarter of it either way.
+        // A parabola over a level that breaks off into a fall of 0.062 rad/s in four ticks stands above it by an eighth
+        // of that at most; a corner that points downwards is missed by a quarter of it either way.
         assert!((fluctuations.max.speed - number("w_max_rad_s")).abs() < 0.008, "{reading:?}");
         assert!((fluctuations.min.speed - number("w_min_rad_s")).abs() < 0.016, "{reading:?}");
         assert!((fluctuations.arithmetic_mean / number("w_mean_arithmetic_rad_s") - 1.0).abs() < 5e-4);
         // Both together are 0.7 % of the swing.
         assert!((fluctuations.delta / number("delta_time_mean") - 1.0).abs() < 7e-3, "{reading:?}");
         assert!((fluctuations.delta_arithmetic / number("delta_arithmetic_mean") - 1.0).abs() < 7e-3, "{reading:?}");
-        // The level's last sample is up to four ticks before the corner, and the vertex up to half of that before it: 7 mrad.
+        // The level's last sample is up to four ticks before the corner, and the vertex up to half of that before it: 7
+        // mrad.
         assert!((fluctuations.max.angle - number("phi_at_w_max_rad")).abs() < 7e-3, "{reading:?}");
         assert!((fluctuations.min.angle - number("phi_at_w_min_rad")).abs() < 4e-3, "{reading:?}");
     }
 }
 
-/// Through the drive the speeds are the observer's. One that follows 3000 N m of load within a tenth of a second shows a ripple of 12.5 and 25 Hz, which takes
-/// as much, within 5 % of delta at the motor; of the load's, a third. The waveform has neither error.
+/// Through the drive the speeds are the observer's. One that follows 3000 N m of load within a tenth of a second shows
+/// a ripple of 12.5 and 25 Hz, which takes as much, within 5 % of delta at the motor; of the load's, a third. The
+/// waveform has neither error.
 #[test]
 fn through_the_drive() {
     let config = f32::constants(Cycle::FOUR_STROKE, 16);

@@ -11,7 +11,8 @@ use super::motion::{Motion, Part};
 use super::press::Machine;
 use super::rig::{Built, LOAD, MOTOR, RATED, STIFFNESS, TORQUE, run};
 
-/// A press on a stiff motor, the same on a soft one, and one whose crank and slider make a quarter of its inertia come and go.
+/// A press on a stiff motor, the same on a soft one, and one whose crank and slider make a quarter of its inertia come
+/// and go.
 const STIFF: Machine = Machine { inertia: [1.8, 0.0], motor: [900.0, 80.0], load: [5.0, 280.0] };
 const SOFT: Machine = Machine { inertia: [1.8, 0.0], motor: [75.0, 2.0], load: [5.0, 280.0] };
 const CRANK: Machine = Machine { inertia: [6.0, 1.5], motor: [250.0, 5.0], load: [20.0, 280.0] };
@@ -21,8 +22,8 @@ fn balance(machine: &Machine) -> Balance {
     Balance { inertia: Series::from_samples(&table), slope: machine.motor[1] }
 }
 
-/// Delta with the flywheel is the permitted one within 2 %; that without is what the machine's speed says, within 1 %: the hill's corners have some orders above the
-/// sixteenth.
+/// Delta with the flywheel is the permitted one within 2 %; that without is what the machine's speed says, within 1 %:
+/// the hill's corners have some orders above the sixteenth.
 #[test]
 fn a_flywheel_brings_delta_to_what_is_permitted() {
     for (name, machine, guess, settle) in
@@ -52,7 +53,8 @@ fn a_varying_inertia_is_not_a_constant_one() {
     let advice = ripple.flywheel(&cycle, &balance(&light), 1.0 / 40.0).unwrap();
     let (_, _, then) = light.with(advice.missing).measured(ripple.mean, 80.0, 8);
     assert!((then * 40.0 - 1.0).abs() < 0.02, "{delta} {then} {advice:?}");
-    // Without work from outside the kinetic energy hardly swings, and a formula that goes by its swing asks for hardly a flywheel.
+    // Without work from outside the kinetic energy hardly swings, and a formula that goes by its swing asks for hardly
+    // a flywheel.
     let formula = flywheel_inertia(advice.energy_swing, ripple.mean, 1.0 / 40.0) - 6.0;
     assert!(advice.missing > 2.0 * formula.max(0.0) && advice.missing > 10.0, "{advice:?} {formula}");
 }
@@ -116,8 +118,8 @@ fn window(
 
 const MACHINE: Drivetrain = Drivetrain { motor_inertia: MOTOR, load_inertia: LOAD, stiffness: STIFFNESS, damping: 0.0 };
 
-/// The load by the machine's law: its speed's orders within 1 %, its delta within 1 % and its energy swing within 2 % of the closed form, where the observer's estimate
-/// of the same load is a third off.
+/// The load by the machine's law: its speed's orders within 1 %, its delta within 1 % and its energy swing within 2 %
+/// of the closed form, where the observer's estimate of the same load is a third off.
 #[test]
 fn the_load_is_known_by_the_machines_law() {
     let parts = [Part { n: 1.0, amplitude: 0.03, phase: 0.7 }, Part { n: 2.0, amplitude: 0.025, phase: -1.1 }];

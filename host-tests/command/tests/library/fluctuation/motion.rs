@@ -1,4 +1,5 @@
-//! Motions in closed form: the motor's speed over its angle is prescribed, and what shaft and load do follows from the machine's law.
+//! Motions in closed form: the motor's speed over its angle is prescribed, and what shaft and load do follows from the
+//! machine's law.
 //!
 //! ```text
 //! omega(phi, t) = W(t) (1 + sum a_n cos(n theta - p_n)),   W(t) = W0 + ramp t,   theta = phi over the cycle's angle, 2 pi to the cycle
@@ -58,8 +59,8 @@ impl Motion {
         (self.speed + self.ramp * time) * (1.0 + self.ripple(phi)[0])
     }
 
-    /// Goes on by `dt` [s]: Runge and Kutta's fourth order, in steps that turn by less than 2 mrad of the highest order; its error is below
-    /// 1e-13 rad a step.
+    /// Goes on by `dt` [s]: Runge and Kutta's fourth order, in steps that turn by less than 2 mrad of the highest
+    /// order; its error is below 1e-13 rad a step.
     pub fn advance(&mut self, dt: f64) {
         let highest = self.parts.iter().fold(1.0_f64, |most, part| most.max(part.n / self.turns));
         let steps = (dt * self.speed.abs() * highest / 0.004).ceil().max(1.0);
@@ -85,7 +86,8 @@ impl Motion {
         [speed, acceleration, jerk]
     }
 
-    /// Speed of the load behind a shaft of this stiffness with this inertia in front of it, under a constant torque of the motor.
+    /// Speed of the load behind a shaft of this stiffness with this inertia in front of it, under a constant torque of
+    /// the motor.
     pub fn load_speed(&self, inertia: f64, stiffness: f64) -> f64 {
         let [speed, _, jerk] = self.motor();
         speed + inertia * jerk / stiffness
@@ -96,7 +98,8 @@ impl Motion {
         ((self.phi / TAU * 8192.0).floor() as i64 as u32) << 19
     }
 
-    /// Largest less least ripple, and the cycle's angles of the extremes over 2 pi, from a fine grid of the closed form.
+    /// Largest less least ripple, and the cycle's angles of the extremes over 2 pi, from a fine grid of the closed
+    /// form.
     pub fn swing(&self) -> (f64, f64, f64) {
         let points = 100_000;
         let at = |k: i32| self.ripple(f64::from(k) / f64::from(points) * TAU * self.turns)[0];

@@ -15,8 +15,8 @@ fn at<N: Number>(speed: N) -> Estimate<N> {
 }
 
 proptest! {
-    /// Cycles are counted in whole numbers: after any run of steps forwards, whatever the ratio, there are as many as the turned angle has, exactly.
-    /// A segment takes 40 ticks or more: what a cycle's end brings takes 30.
+    /// Cycles are counted in whole numbers: after any run of steps forwards, whatever the ratio, there are as many as
+    /// the turned angle has, exactly. A segment takes 40 ticks or more: what a cycle's end brings takes 30.
     #[test]
     fn cycles_are_counted_exactly(turns in 1..200_u32, cycles in 1..200_u32, seed in 1..u32::MAX, share in 0.001..0.025_f64) {
         prop_assume!(turns <= 16 * cycles);
@@ -95,8 +95,8 @@ impl Turning {
     }
 }
 
-/// Mean and phase of one window before and one after so many ticks. The mean is what the step is, and the phase has not moved: what differs is the rounding of one
-/// window of 16 turns, 6,700 ticks.
+/// Mean and phase of one window before and one after so many ticks. The mean is what the step is, and the phase has not
+/// moved: what differs is the rounding of one window of 16 turns, 6,700 ticks.
 fn drift(ticks: u64) -> ([f64; 2], [f64; 2]) {
     let cycle = CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI);
     let config = (cycle, WaveformConfig::new::<BINS>(cycle, 16));

@@ -1,4 +1,5 @@
-//! Rigid machines whose torques follow the angle and whose inertia may, integrated step by step: what the flywheel's advice is tried on.
+//! Rigid machines whose torques follow the angle and whose inertia may, integrated step by step: what the flywheel's
+//! advice is tried on.
 
 use core::f64::consts::TAU;
 
@@ -50,8 +51,8 @@ impl Machine {
         Machine { inertia: [self.inertia[0] + flywheel, self.inertia[1]], ..*self }
     }
 
-    /// Runs until it is periodic from a guess of its speed, then over some cycles, measured by an encoder of 8192 counts. Gives what was measured, and delta by the
-    /// arithmetic mean as it was.
+    /// Runs until it is periodic from a guess of its speed, then over some cycles, measured by an encoder of 8192
+    /// counts. Gives what was measured, and delta by the arithmetic mean as it was.
     pub fn measured(&self, guess: f64, settle: f64, cycles: u32) -> (Ripple, CycleConfig, f64) {
         let (mut phi, mut speed) = (0.1, guess);
         // Coarsely, and the last two seconds as finely as what is measured.

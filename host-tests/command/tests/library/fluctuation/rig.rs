@@ -90,8 +90,8 @@ impl Built for Fixed {
     }
 }
 
-/// Runs a drive along a motion, at least until `done`, and gives it back; no tick may be faulty after the first 0.3 s, in which the observer
-/// is caught.
+/// Runs a drive along a motion, at least until `done`, and gives it back; no tick may be faulty after the first 0.3 s,
+/// in which the observer is caught.
 pub fn run<N: Built>(
     config: &Constants<N>,
     motion: &mut Motion,

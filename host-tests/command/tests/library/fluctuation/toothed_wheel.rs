@@ -1,4 +1,5 @@
-//! A 60-2 wheel whose teeth are up to 0.1 degree beside their places: its errors are learnt as it coasts, and delta is then right within 2 %.
+//! A 60-2 wheel whose teeth are up to 0.1 degree beside their places: its errors are learnt as it coasts, and delta is
+//! then right within 2 %.
 
 use core::f64::consts::TAU;
 
@@ -10,11 +11,12 @@ use super::motion::{Motion, Part};
 /// A clock of 4 MHz: a count is 39 urad at 157 rad/s.
 const CLOCK: f64 = 4e6;
 
-/// Turns that the errors are learnt over: fewer average less of the clock's rounding, more take so long at 60 rad/s that the coast is no longer a steady one.
+/// Turns that the errors are learnt over: fewer average less of the clock's rounding, more take so long at 60 rad/s
+/// that the coast is no longer a steady one.
 const LEARNT: u32 = 16;
 
-/// Orders that are looked at, which are all that there are: with twice as many the clock's rounding, which a steady speed repeats in every turn, makes 2.1 % of
-/// such a delta at 60 rad/s.
+/// Orders that are looked at, which are all that there are: with twice as many the clock's rounding, which a steady
+/// speed repeats in every turn, makes 2.1 % of such a delta at 60 rad/s.
 const ORDERS: usize = 4;
 
 /// A tenth of a degree.
@@ -61,7 +63,8 @@ fn window<const PLACES: usize>(
     }
 }
 
-/// Learns over a coast by 10 % of the speed a second, and measures over 32 turns, a second at rated speed: with what was learnt, and without.
+/// Learns over a coast by 10 % of the speed a second, and measures over 32 turns, a second at rated speed: with what
+/// was learnt, and without.
 fn measured<const PLACES: usize>(
     parts: &[Part],
     turns: u32,
@@ -75,8 +78,8 @@ fn measured<const PLACES: usize>(
     let few = ToothedWheelConfig { cycles: LEARNT / turns, ..config };
     let learnt = window::<PLACES>(&mut coasting, &few, &wheel).errors(&few);
     for (place, &error) in learnt.radians().iter().enumerate() {
-        // Less the error of the first tooth, where the cycle begins. A count of the clock is 39 urad at 157 rad/s, and a
-        // tooth and the first are each off by half of one at most.
+        // Less the error of the first tooth, where the cycle begins. A count of the clock is 39 urad at 157 rad/s, and
+        // a tooth and the first are each off by half of one at most.
         let tooth = place % 60;
         let own = if tooth < 58 { (wheel[tooth] - wheel[0]) * TENTH / f64::from(turns) } else { 0.0 };
         assert!((f64::from(error) - own).abs() < 4e-5, "{place}: {error} {own}");

@@ -1,5 +1,5 @@
-//! The waveform of the speed, by an encoder of 8192 counts through the real drive, against closed forms: steady and on a ramp, down to a delta
-//! of 1/543.
+//! The waveform of the speed, by an encoder of 8192 counts through the real drive, against closed forms: steady and on
+//! a ramp, down to a delta of 1/543.
 
 use core::f64::consts::TAU;
 
@@ -33,7 +33,8 @@ fn window<N: Built>(motion: &mut Motion, cycle: Cycle, cycles: u32, highest: usi
     (window, ripple)
 }
 
-/// By how far an order's phase is off, wrapped [degrees]; the cycle began `turn` turns of the motor later than the motion's.
+/// By how far an order's phase is off, wrapped [degrees]; the cycle began `turn` turns of the motor later than the
+/// motion's.
 fn off(ripple: &Ripple, motion: &Motion, part: &Part, turn: u32) -> f64 {
     let backwards = if motion.speed < 0.0 { 0.5 * TAU } else { 0.0 };
     let late = part.n * TAU * f64::from(turn) / motion.turns;
@@ -41,8 +42,9 @@ fn off(ripple: &Ripple, motion: &Motion, part: &Part, turn: u32) -> f64 {
     off.min(TAU - off).to_degrees()
 }
 
-/// Compares a ripple of eight orders with the motion: delta, orders, and what is not there. Amplitudes are relative to the mean over the angle, which
-/// is W itself. A cycle of several turns begins with any of them, since the drive has had to look for its angle; all orders must agree on it.
+/// Compares a ripple of eight orders with the motion: delta, orders, and what is not there. Amplitudes are relative to
+/// the mean over the angle, which is W itself. A cycle of several turns begins with any of them, since the drive has
+/// had to look for its angle; all orders must agree on it.
 #[track_caller]
 fn compare(ripple: &Ripple, motion: &Motion, [delta, amplitude, degrees, other]: [f64; 4]) {
     let (swing, most, least) = motion.swing();
@@ -86,8 +88,9 @@ const MOTIONS: [(f64, f64); 8] = [
     (178.3, -15.7),
 ];
 
-/// Delta of 1/500 over 128 turns, 5 s at rated speed: delta within 1 %, the amplitude within 0.5 %, the phase within 0.5 degree. Orders that are not there stay
-/// below what the counts' rounding leaves of them: 0.29 counts over some 30,000 samples, times the order, is 1 % of delta for the fourth.
+/// Delta of 1/500 over 128 turns, 5 s at rated speed: delta within 1 %, the amplitude within 0.5 %, the phase within
+/// 0.5 degree. Orders that are not there stay below what the counts' rounding leaves of them: 0.29 counts over some
+/// 30,000 samples, times the order, is 1 % of delta for the fourth.
 #[test]
 fn a_delta_of_a_500th_is_right_to_a_hundredth() {
     for (speed, ramp) in MOTIONS {
@@ -99,7 +102,8 @@ fn a_delta_of_a_500th_is_right_to_a_hundredth() {
     }
 }
 
-/// Two orders that share such a delta, each of some 0.7 counts or less at the motor: its rounding is then 1 % of each where it was 0.5 %.
+/// Two orders that share such a delta, each of some 0.7 counts or less at the motor: its rounding is then 1 % of each
+/// where it was 0.5 %.
 #[test]
 fn a_delta_of_two_orders_is_right_to_a_hundredth() {
     for (speed, ramp) in MOTIONS {
@@ -110,7 +114,8 @@ fn a_delta_of_two_orders_is_right_to_a_hundredth() {
     }
 }
 
-/// A large ripple is not a small one times fifty: speed and slowness are then inverse to one another and no longer merely opposite.
+/// A large ripple is not a small one times fifty: speed and slowness are then inverse to one another and no longer
+/// merely opposite.
 #[test]
 fn a_large_delta_is_right_as_well_at_any_speed_and_backwards() {
     for (speed, ramp) in [(157.0, 0.0), (80.0, 8.0), (20.0, 0.0), (-157.0, 0.0), (-80.0, -8.0)] {

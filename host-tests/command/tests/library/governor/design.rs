@@ -229,7 +229,8 @@ fn firing_delay_is_half_an_interval_and_a_quarter_turn() {
     assert!((Actuator::firing_delay(4, false, speed) - (0.01 / 2.0 + 0.01)).abs() < 1e-15);
 }
 
-/// Gains that are no numbers in the drive's own, and ramps that round to none, by which the reference would stand still.
+/// Gains that are no numbers in the drive's own, and ramps that round to none, by which the reference would stand
+/// still.
 #[test]
 fn constants_that_the_number_does_not_hold_are_refused() {
     let good = design(2.5, Actuator { delay: 0.01, lag: 0.02 });

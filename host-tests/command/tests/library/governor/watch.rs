@@ -31,8 +31,8 @@ fn what_is_expected_is_the_lags_response() {
     let (mut by_single, mut by_fixed) = (ActuatorMonitor::<f32, 2>::new(), ActuatorMonitor::<Fixed, 2>::new());
     for tick in 0..4800 {
         let wanted = step_response(tick);
-        // The second lag follows the end of the first one's tick and not its course: half a tick of 0.4 ms at the steepest,
-        // 2200 N m/s, and as much for what f32 loses of small differences.
+        // The second lag follows the end of the first one's tick and not its course: half a tick of 0.4 ms at the
+        // steepest, 2200 N m/s, and as much for what f32 loses of small differences.
         assert!((f64::from(by_single.expected()) - wanted).abs() < 1.0, "{tick}: {by_single:?} {wanted}");
         assert!((by_fixed.expected().to_f64() * BASES.torque - wanted).abs() < 1.0, "{tick}: {by_fixed:?} {wanted}");
         by_single.advance(&single, 1000.0);
@@ -40,7 +40,8 @@ fn what_is_expected_is_the_lags_response() {
     }
 }
 
-/// What differs by more than the tolerance is replaced and flagged, for the patience; then it is lost, and for what reason.
+/// What differs by more than the tolerance is replaced and flagged, for the patience; then it is lost, and for what
+/// reason.
 #[test]
 fn what_is_elsewhere_is_replaced_and_then_lost() {
     let config = single();

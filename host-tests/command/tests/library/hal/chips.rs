@@ -1,4 +1,5 @@
-//! Chips that answer, on a bus that fails or waits where it is told to: one of the kind that is blocked on, and one that is awaited.
+//! Chips that answer, on a bus that fails or waits where it is told to: one of the kind that is blocked on, and one
+//! that is awaited.
 
 use std::cell::RefCell;
 use std::rc::Rc;

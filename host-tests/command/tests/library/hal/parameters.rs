@@ -217,7 +217,8 @@ impl Parameters for Anything {
     const VERSION: u16 = Kept::VERSION;
 }
 
-/// The check says that a record is whole, not that its parameters are some: a count of four thousand million values, say.
+/// The check says that a record is whole, not that its parameters are some: a count of four thousand million values,
+/// say.
 #[test]
 fn a_sound_record_of_nonsense_is_refused_and_the_last_good_one_kept() {
     for count in [[0xff, 0xff, 0xff, 0xff, 0x0f], [0xff; 5], [0x7f; 5], [2, 0, 0, 0, 0]] {
@@ -531,8 +532,8 @@ impl Rotor {
     }
 }
 
-/// The record of a balancing through the store: the power is cut at every seventh byte of the save of every step. What is loaded is the procedure before
-/// the step or after it, and it ends at the same weights.
+/// The record of a balancing through the store: the power is cut at every seventh byte of the save of every step. What
+/// is loaded is the procedure before the step or after it, and it ends at the same weights.
 #[test]
 fn a_balancing_goes_on_after_a_power_cut_at_any_step() {
     let plan = Plan::usual(2, 2, 1e-9);

@@ -178,7 +178,8 @@ fn awaited_angle(table: &mut Table) {
     });
 }
 
-/// A wheel of 60-2 on the motor, its teeth at the times at which the motor passes them, those of `lost` left out and those of `more` added.
+/// A wheel of 60-2 on the motor, its teeth at the times at which the motor passes them, those of `lost` left out and
+/// those of `more` added.
 fn on_wheel(lost: impl Fn(u32) -> bool, more: Option<f64>) -> (Ran, Vec<Faults>) {
     // a tick is 100 counts
     let turn = std::f64::consts::TAU / super::axis::SPEED * 1e6;
@@ -238,7 +239,8 @@ fn wheel(table: &mut Table) {
     }
 }
 
-/// A run in which `output` takes the torque, from the tick of the fault on; what it had before is what the drive gave without it.
+/// A run in which `output` takes the torque, from the tick of the fault on; what it had before is what the drive gave
+/// without it.
 fn with_torque(mut output: impl TorqueOutput<f32> + 'static) -> Ran {
     let mut board = Scripted::sound();
     let tick = Rc::new(Cell::new(0));
@@ -275,8 +277,8 @@ fn torque_row(table: &mut Table, adapter: &str, fault: &str, ran: &Ran) {
     table.row([adapter, fault, &flags, torque_cell(ran.torque), &stays_cell(ran), &stays_cell(ran)]);
 }
 
-/// Full scale is far above any torque here, so that every duty is half, every code the middle and every target zero: one that fails, then those of the
-/// trip.
+/// Full scale is far above any torque here, so that every duty is half, every code the middle and every target zero:
+/// one that fails, then those of the trip.
 fn torque(table: &mut Table) {
     let duty = || Duty::set_duty_cycle(500);
     let most = || Duty::max_duty_cycle(1000);

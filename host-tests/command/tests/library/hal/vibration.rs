@@ -128,8 +128,8 @@ fn old_clipped_and_no_conversions_are_faults() {
     assert!(vibration.mean(&[2048], 5).is_ok());
 }
 
-/// Readings of two turns through an axis, whose angle comes from a board and whose samples from conversions: a sound one, then with a conversion
-/// at the end of the range, a transfer that stood still, and sound again.
+/// Readings of two turns through an axis, whose angle comes from a board and whose samples from conversions: a sound
+/// one, then with a conversion at the end of the range, a transfer that stood still, and sound again.
 #[test]
 fn a_reading_through_an_axis_says_what_its_samples_lacked() {
     let config = Config {

@@ -8,7 +8,8 @@ pub const CLOCK: f64 = 1e6;
 /// 60 places, two of them without a tooth; a tooth within 0.1 s.
 pub const WHEEL: Wheel = Wheel { places: 60, missing: 2, slowest: 100_000 };
 
-/// Times of the teeth of a wheel whose angle is `turns(t)` [turns], for places up to `end`, and the place of each; the gap is before place 0.
+/// Times of the teeth of a wheel whose angle is `turns(t)` [turns], for places up to `end`, and the place of each; the
+/// gap is before place 0.
 pub fn teeth(time_of: impl Fn(f64) -> f64, end: u32) -> Vec<(u32, u32)> {
     (0..end)
         .filter(|place| place % 60 < 58)
@@ -39,9 +40,10 @@ fn the_angle_runs_from_tooth_to_tooth_and_through_the_gap() {
         let error = f64::from(angle) / 4_294_967_296.0 - exact;
         worst = worst.max((error - error.round()).abs());
     }
-    // The gap is the worst: three teeth long, run through at the speed of the tooth before it. From the middle of the one to that of the other there are
-    // two teeth, in which the speed grows by 1/30 a turn at first, hence by 1/900. Two edges are half a count off, which the gap takes three times, and so
-    // is the edge that it starts from: 3.5 counts of 31,000 a turn at the end.
+    // The gap is the worst: three teeth long, run through at the speed of the tooth before it. From the middle of the
+    // one to that of the other there are two teeth, in which the speed grows by 1/30 a turn at first, hence by 1/900.
+    // Two edges are half a count off, which the gap takes three times, and so is the edge that it starts from: 3.5
+    // counts of 31,000 a turn at the end.
     assert!(worst < 3.0 / 60.0 / 900.0 + 3.5 / 31_000.0, "{worst}");
     assert!(known > 2_000, "{known}");
 }

@@ -1,4 +1,5 @@
-//! Fixed point against integers of 128 bits: every operation of the tick path, to the bit, and that the carry takes the bias away.
+//! Fixed point against integers of 128 bits: every operation of the tick path, to the bit, and that the carry takes the
+//! bias away.
 
 use driveline::number::{Coefficient, Fixed, GAIN_SHIFT, INNOVATION_SHIFT, Number, SPEED_SHIFT, TURN_SHIFT};
 use driveline::observer::Stiction;
@@ -95,9 +96,10 @@ proptest! {
     }
 }
 
-/// The error of a tick's sums against the same sums without truncation. A chain of `length` sums hands its remainder on; the remainder
-/// at the end is uniform over a unit, so the error of the chain's total has mean zero (the chain begins with half a unit) and a
-/// variance of 1/12. Cutting each sum off would lose half a unit a sum instead: thirty standard errors and more.
+/// The error of a tick's sums against the same sums without truncation. A chain of `length` sums hands its remainder
+/// on; the remainder at the end is uniform over a unit, so the error of the chain's total has mean zero (the chain
+/// begins with half a unit) and a variance of 1/12. Cutting each sum off would lose half a unit a sum instead: thirty
+/// standard errors and more.
 #[test]
 fn the_carry_takes_the_bias_away() {
     let mut random = 0x9e37_79b9_7f4a_7c15_u64;

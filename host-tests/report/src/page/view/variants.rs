@@ -35,9 +35,9 @@ pub fn index_of(names: &[String], name: &str) -> usize {
 pub struct Looks {
     /// Colour and marker, for each variant.
     pub each: Vec<(usize, usize)>,
-    /// What the colours stand for: number and core.
+    /// Legend of the colours: number and core.
     pub series: Vec<Named>,
-    /// What the markers stand for: the observer.
+    /// Legend of the markers: the observer.
     pub shapes: Vec<Named>,
 }
 

@@ -16,7 +16,7 @@ pub(in crate::plant) const REACH: f64 = 0.25;
 
 /// Equations with events, as an ordinary integrator needs them.
 pub(in crate::plant) trait Hybrid {
-    /// What a guard that falls below zero stands for.
+    /// Meaning of a guard that falls below zero.
     type Change: Copy;
 
     /// Rates of the state at a time.

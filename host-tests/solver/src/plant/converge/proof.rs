@@ -1,4 +1,4 @@
-//! What a proof says of a run.
+//! Result of a run's proof.
 
 /// Largest deviation that a reference run may show, as a share of the peak.
 pub const BOUND: f64 = 1e-8;
@@ -13,7 +13,7 @@ pub struct Deviation {
     pub time: f64,
 }
 
-/// What the two checks found.
+/// Results of the two checks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Proof {
     /// Against the second integrator.
@@ -40,7 +40,7 @@ pub enum NotProven {
     Integrator {
         /// Where, s.
         time: f64,
-        /// What it said.
+        /// Its output.
         reason: String,
     },
     /// Nothing was recorded.

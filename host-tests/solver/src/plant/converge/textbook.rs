@@ -13,7 +13,7 @@ pub(super) enum Motion {
     Held,
 }
 
-/// What a guard that falls below zero stands for.
+/// Meaning of a guard that falls below zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Change {
     Contact(usize, f64),
@@ -120,7 +120,7 @@ impl<'a> Machine<'a> {
         sum
     }
 
-    /// What the shaft behind takes of a node.
+    /// Torque of the following shaft on a node.
     pub fn reaction(&self, t: f64, y: &[f64], node: usize) -> f64 {
         if node + 1 == self.n() {
             return 0.0;
@@ -143,7 +143,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// What the gear of a held node can balance.
+    /// Torque that the gear of a sticking node can balance.
     fn band(&self, y: &[f64], node: usize) -> (f64, f64) {
         if node + 1 == self.n() {
             return (0.0, 0.0);

@@ -16,8 +16,8 @@ pub struct Modes {
 }
 
 impl System {
-    /// Undamped modes from the eigenvalues of the mass-normalised stiffness. Relative error about 1e-16 times the ratio of the
-    /// largest to the smallest non-zero eigenvalue; beyond 1e6 take [`frequencies`](Self::frequencies).
+    /// Undamped modes from the eigenvalues of the mass-normalised stiffness. Relative error about 1e-16 times the ratio
+    /// of the largest to the smallest non-zero eigenvalue; beyond 1e6 take [`frequencies`](Self::frequencies).
     ///
     /// # Errors
     /// [`SystemError`] names the first thing that is out of range.
@@ -41,9 +41,9 @@ impl System {
         Ok(Modes { omega: omega.collect(), shapes: shapes.collect(), free_nodes: reduced.free.clone() })
     }
 
-    /// Eigenvalues of the damped system, 1/s, two for every free coordinate, from the pair of equations for scaled link torques
-    /// and scaled speeds, whose matrix is of the size of the frequencies and not of their squares. Sorted by size, then
-    /// by imaginary part. The angle of a rigid motion brings an exact zero.
+    /// Eigenvalues of the damped system, 1/s, two for every free coordinate, from the pair of equations for scaled link
+    /// torques and scaled speeds, whose matrix is of the size of the frequencies and not of their squares. Sorted by
+    /// size, then by imaginary part. The angle of a rigid motion brings an exact zero.
     ///
     /// # Errors
     /// [`SystemError`] names the first thing that is out of range.

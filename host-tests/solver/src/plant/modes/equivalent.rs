@@ -12,8 +12,8 @@ pub struct EquivalentChain {
 }
 
 impl System {
-    /// The chain that keeps kinetic and strain energy, referred to `drive_node` at one end: inertias and stiffnesses times
-    /// the square of their ratio of speeds `[Pfützner 1980 (1.10)]`.
+    /// The chain that keeps kinetic and strain energy, referred to `drive_node` at one end: inertias and stiffnesses
+    /// times the square of their ratio of speeds `[Pfützner 1980 (1.10)]`.
     ///
     /// # Errors
     /// [`SystemError::NotAChain`] if shafts branch, close a loop, leave a disc out or lead to the ground; other

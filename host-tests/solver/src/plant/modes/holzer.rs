@@ -1,7 +1,8 @@
 //! Holzer's residual torque of a free chain: a check that needs no matrix `[Pfützner 1980 ch. 1]`, `[Wang 1989 ch. 3]`.
 
-/// Torque, N m, that must act on the last disc for the chain to swing at `omega` (rad/s) with one radian at the first disc:
-/// zero at a natural frequency. Inertias in kg m2, `stiffness` (N m/rad) one shorter; surplus numbers are left out.
+/// Torque, N m, that must act on the last disc for the chain to swing at `omega` (rad/s) with one radian at the first
+/// disc: zero at a natural frequency. Inertias in kg m2, `stiffness` (N m/rad) one shorter; surplus numbers are left
+/// out.
 #[must_use]
 pub fn residual_torque(inertia: &[f64], stiffness: &[f64], omega: f64) -> f64 {
     let (mut angle, mut torque) = (1.0, 0.0);
@@ -15,8 +16,8 @@ pub fn residual_torque(inertia: &[f64], stiffness: &[f64], omega: f64) -> f64 {
     torque
 }
 
-/// The natural frequency between two (rad/s) at which the residual torque has opposite signs, by halving to the last digit;
-/// none if the signs agree.
+/// The natural frequency between two (rad/s) at which the residual torque has opposite signs, by halving to the last
+/// digit; none if the signs agree.
 #[must_use]
 pub fn frequency_between(inertia: &[f64], stiffness: &[f64], low: f64, high: f64) -> Option<f64> {
     let residual = |omega| residual_torque(inertia, stiffness, omega);

@@ -24,8 +24,8 @@ impl System {
     }
 }
 
-/// Singular values of the matrix with these columns, in falling order. Columns are made orthogonal two by two, the longer
-/// one first (de Rijk); no sum of squares of different columns is ever formed.
+/// Singular values of the matrix with these columns, in falling order. Columns are made orthogonal two by two, the
+/// longer one first (de Rijk); no sum of squares of different columns is ever formed.
 fn singular_values(mut columns: Vec<Vec<f64>>) -> Vec<f64> {
     let n = columns.len();
     for _ in 0..SWEEPS {

@@ -14,7 +14,7 @@ pub enum SystemError {
     NoSuchNode {
         /// Which element.
         element: &'static str,
-        /// The node asked for.
+        /// The requested node.
         node: usize,
         /// How many there are.
         nodes: usize,
@@ -123,7 +123,7 @@ impl System {
             disc_damping[coordinate] += ratio * ratio * damping;
         }
         for (&node, &inertia) in free.iter().zip(&inertia) {
-            positive("inertia with what gears tie to it", Place::Node(node), inertia)?;
+            positive("inertia with that of its gears", Place::Node(node), inertia)?;
         }
         let links = self.springs.iter().map(|spring| Link {
             from: ties[spring.from],

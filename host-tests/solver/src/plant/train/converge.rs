@@ -153,7 +153,8 @@ fn again(run: &Recording, mut done: impl FnMut(f64)) -> Result<Vec<Vec<f64>>, No
         match *step {
             Step::Torque(coordinate, torque) => double.held[coordinate] = torque,
             Step::Advance(dt) => {
-                // the clock of the run, which does not gather the rounding of its ticks: teeth that meet 1e-12 s late show
+                // the clock of the run, which does not gather the rounding of its ticks: teeth that meet 1e-12 s late
+                // show
                 let end = run.times[samples.len()];
                 if std::mem::take(&mut fresh) {
                     double.settle(now, &y);
@@ -206,7 +207,7 @@ fn deviation(run: &Recording, other: &[Vec<f64>]) -> Deviation {
                 continue;
             }
             let share = (a - b).abs() / if *peak > 0.0 { *peak } else { 1.0 };
-            // what is not a number agrees with nothing
+            // a value that is not a number agrees with nothing
             let largest = if share.is_nan() { f64::INFINITY } else { share };
             if largest > worst.largest {
                 worst = Deviation { largest, time };

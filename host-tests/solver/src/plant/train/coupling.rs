@@ -1,4 +1,5 @@
-//! The motion of coordinates that unbalances couple: their series over a stretch, and what they add to the fastest rate.
+//! The motion of coordinates that unbalances couple: their series over a stretch, and what they add to the fastest
+//! rate.
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 

@@ -29,7 +29,7 @@ impl Crank {
         Self { radius, rod, slider_mass, rod_mass: 0.0, rod_inertia: 0.0, rod_centre: 0.3 }
     }
 
-    /// What slider and rod add to the inertia at an angle (rad), kg m2, and its derivative, kg m2/rad.
+    /// Inertia of slider and connecting rod at an angle (rad), kg m2, and its derivative, kg m2/rad.
     #[must_use]
     pub fn inertia(&self, angle: f64) -> (f64, f64) {
         let mut fixed = ZERO;

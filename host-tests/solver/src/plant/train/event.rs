@@ -12,7 +12,7 @@ use crate::plant::root::first_fall;
 /// Events in one tick after which the rest of it is run without any.
 const MOST_EVENTS: usize = 1000;
 
-/// What a fallen guard calls for.
+/// Action of a fallen guard.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Action {
     /// The contact of the link becomes this.
@@ -33,7 +33,7 @@ impl Motion {
     /// From event to event until a time, s.
     pub(super) fn run_to(&mut self, end: f64) {
         let mut events = 0;
-        // What the clock has lost to rounding: stretches of one length would lose the same each time, and teeth would meet
+        // Rounding error of the clock: stretches of one length would lose the same each time, and teeth would meet
         // 1e-11 s late after seconds.
         let mut lost = 0.0;
         while self.now < end {
@@ -151,7 +151,7 @@ impl Motion {
         let mut sum = stretch.friction[s].guard(f64::from(side), breakaway);
         for &l in &self.train.frictions[s].losses {
             if self.mode.carries(&self.train, l) {
-                // a gear that would drive asks for 1/eta of the torque, one that is driven leaves eta of it
+                // motoring, a gear needs 1/eta of the torque; overhauling, it passes eta of it
                 let link = &self.train.links[l];
                 let driving = side * self.mode.flow[l] > 0;
                 let factor = if driving { 1.0 / link.efficiency } else { link.efficiency };

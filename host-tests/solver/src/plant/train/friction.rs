@@ -3,8 +3,8 @@
 use super::super::error::{PlantError, finite, in_range, not_negative};
 use super::super::event::Place;
 
-/// Dry friction on the speed `sum c_j v_j` of its terms, against a surface that may move itself. It sticks while it
-/// is asked for no more than its breakaway torque and slides with its kinetic torque.
+/// Dry friction on the speed `sum c_j v_j` of its terms, against a surface that may move itself. It sticks up to its
+/// breakaway torque and slides with its kinetic torque.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Friction {
     pub(super) terms: Vec<(usize, f64)>,

@@ -62,7 +62,7 @@ impl Leap {
     }
 
     /// The state after a step from a time, with no corner of a torque on the way. The matrices are made when the same
-    /// length is asked for a second time running; none until then.
+    /// length is used a second time running; none until then.
     pub fn step(&mut self, train: &Train, x: &[f64], held: &[f64], t: f64, length: f64) -> Option<Vec<f64>> {
         let again = self.last == length;
         self.last = length;

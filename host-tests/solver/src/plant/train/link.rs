@@ -87,8 +87,7 @@ impl Link {
     }
 
     /// The same with a gear's efficiency between its first coordinate and itself, above 0 and up to 1: the coordinate
-    /// feels
-    /// `F/eta` while it drives and `eta F` while it is driven `[Wang 1989 §1-3]`.
+    /// carries `F/eta` when motoring and `eta F` when overhauling `[Wang 1989 §1-3]`.
     #[must_use]
     pub fn efficiency(mut self, efficiency: f64) -> Self {
         self.efficiency = efficiency;

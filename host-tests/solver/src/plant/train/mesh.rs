@@ -76,7 +76,7 @@ impl Teeth {
 /// How the stiffness of a link goes with time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Variation {
-    /// Zones that follow each other for ever; the first begins at time zero.
+    /// Zones that repeat without end; the first begins at time zero.
     Zones(Vec<Zone>),
     /// Zones of a spur pair that the angle of a coordinate goes through pitch by pitch, forwards or backwards; the
     /// first pitch begins at the angle zero. The mesh frequency follows the speed.

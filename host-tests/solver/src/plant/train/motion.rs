@@ -14,7 +14,7 @@ use crate::plant::event::Event;
 
 /// Product of the fastest rate and a stretch: `1.5^24/24!` = 3e-20 is left out.
 const REACH: f64 = 1.5;
-/// Time within which an event is located unless told otherwise: at most this, s, and this share of the fastest rate.
+/// Default time within which an event is located: at most this, s, and this share of the fastest rate.
 const EVENT_TOLERANCE: (f64, f64) = (1e-14, 1e-13);
 
 /// A train in motion. Built by [`Train::build`]; a clone runs on independently.

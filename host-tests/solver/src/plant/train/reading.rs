@@ -1,4 +1,4 @@
-//! What can be read off a train in motion.
+//! Readings of a train in motion.
 
 use super::motion::Motion;
 use super::series::{Series, ZERO, value};

@@ -11,7 +11,7 @@ use super::series::{Series, Turn, ZERO, add_harmonic, product, quotient};
 /// A torque, N m, or a force, N, where the coordinate is a way.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Source {
-    /// The same for ever.
+    /// Constant.
     Constant(f64),
     /// Steps or straight lines against time.
     Program(LoadProgram),
@@ -130,7 +130,7 @@ pub(super) enum Work {
 }
 
 impl Source {
-    /// What depends on time alone, from `t` on over the length `h`.
+    /// The part that depends on time alone, from `t` on over the length `h`.
     pub(super) fn add_over(&self, into: &mut Series, t: f64, h: f64, on_arc: bool) {
         match self {
             Self::Constant(torque) => into[0] += torque,
@@ -253,7 +253,8 @@ mod tests {
 
     #[test]
     fn the_waveforms_converge_to_their_shapes() {
-        // away from the jumps the rest of a series is about its first term left out, 4 A/(pi n) with A = 2 for the square
+        // away from the jumps the rest of a series is about its first term left out, 4 A/(pi n) with A = 2 for the
+        // square
         let near = |wave: &Waveform, time: f64, expected: f64| {
             assert!((wave.at(time) - expected).abs() < 6.4e-4, "{time}: {} {expected}", wave.at(time));
         };

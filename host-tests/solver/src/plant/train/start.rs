@@ -31,7 +31,7 @@ impl Train {
         frictionless.unbalances.clear();
         let n = self.coordinates.len();
         if held >= n {
-            return Err(PlantError::Count { name: "coordinate that is held", found: held, expected: n });
+            return Err(PlantError::Count { name: "locked coordinate", found: held, expected: n });
         }
         self.validate()?;
         let bare = Motion::new(frictionless);
@@ -59,7 +59,7 @@ impl Train {
                 name: "torque that nothing holds",
                 place: Place::Node(held),
                 value: left,
-                expected: "every coordinate linked to the one that is held, or without torque",
+                expected: "every coordinate linked to the locked one, or without torque",
             });
         }
         let forces = &weighted * &angles;

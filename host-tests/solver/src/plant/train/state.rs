@@ -1,4 +1,4 @@
-//! What a train is at one moment: its continuous state, and the mode that says which smooth stretch is running.
+//! State of a train at one moment: its continuous state, and the mode of its smooth stretch.
 
 use nalgebra::DMatrix;
 
@@ -39,7 +39,7 @@ impl Mode {
         train.links[link].is_linear() || self.contact[link].abs() == 1
     }
 
-    /// What the first coordinate of a link feels, as a multiple of its force `[Wang 1989 §1-3]`.
+    /// Force on the first coordinate of a link, as a multiple of its own `[Wang 1989 §1-3]`.
     pub fn loss(&self, train: &Train, link: usize) -> f64 {
         let efficiency = train.links[link].efficiency;
         if efficiency == 1.0 {

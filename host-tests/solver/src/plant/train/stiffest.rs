@@ -1,4 +1,4 @@
-//! What makes a train stiff: the part whose own rate is the fastest, against which every stretch has to be short.
+//! Stiffest part of a train: the part whose own rate is the fastest, against which every stretch has to be short.
 
 use super::motion::Motion;
 use crate::plant::Place;
@@ -18,7 +18,7 @@ pub struct Stiffest {
     pub lightest: usize,
     /// The inertia or mass of that, kg m2 or kg.
     pub inertia: f64,
-    /// What is further from the others of its kind: the parameter, or that inertia.
+    /// The one further from the others of its kind: the parameter, or that inertia.
     pub odd: Place,
 }
 

@@ -7,7 +7,7 @@ use super::source::Work as SourceWork;
 use super::state::{Mode, State, TRAILING};
 use super::{coupling, crank, series};
 
-/// What may be left out, as a share of the largest coefficient.
+/// Negligible share of the largest coefficient.
 const LEFT_OUT: f64 = 1e-17;
 /// All quantities of a train over `length` seconds.
 pub(super) struct Stretch {
@@ -21,7 +21,7 @@ pub(super) struct Stretch {
     pub friction: Vec<Sized>,
 }
 
-/// What a link's stiffness and error do over a stretch.
+/// Course of a link's stiffness and error over a stretch.
 enum Law {
     Fixed(f64),
     Varying(Box<[Series; 2]>),
@@ -185,7 +185,7 @@ impl Stretch {
                 size[at] += share.abs() * force.abs();
             }
         }
-        // what sticks: the forces that leave its speed as it is
+        // sticking: the forces that keep its speed
         let wanted: Vec<(f64, f64)> = mode
             .stuck
             .iter()

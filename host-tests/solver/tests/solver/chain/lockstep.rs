@@ -1,5 +1,5 @@
-//! The solver in lock-step with a controller: nothing is stepped over, bad input is refused, the length of the tick does
-//! not matter, and it is fast.
+//! The solver in lock-step with a controller: nothing is stepped over, bad input is refused, the length of the tick
+//! does not matter, and it is fast.
 
 use std::time::Instant;
 

@@ -1,5 +1,5 @@
-//! Natural frequencies of published machines (`data/torsional_modes.json`), each by every way that applies. Those of chains
-//! with extreme ratios are held in `machine_modes.rs`.
+//! Natural frequencies of published machines (`data/torsional_modes.json`), each by every way that applies. Those of
+//! chains with extreme ratios are held in `machine_modes.rs`.
 
 use driveline_solver::plant::modes::{System, SystemError, holzer};
 use serde::Deserialize;
@@ -187,6 +187,6 @@ fn bad_systems_are_refused_by_name() {
     assert!(says(System::new(&[1.0, 1.0]).shaft(0, 2, 1.0, 0.0)).contains("node 2"));
     assert!(says(System::new(&[1.0, 1.0]).gear(0, 1, 1.0, 0.0)).contains("gear radius of node 1 is 0"));
     assert!(says(System::new(&[1.0, 1.0]).gear(0, 1, 1.0, 1.0).gear(1, 0, 1.0, 1.0)).contains("more than once"));
-    assert!(says(System::new(&[0.0, 1.0]).shaft(0, 1, 1.0, 0.0)).contains("inertia with what gears tie to it"));
+    assert!(says(System::new(&[0.0, 1.0]).shaft(0, 1, 1.0, 0.0)).contains("inertia with that of its gears"));
     assert!(says(System::new(&[1.0, 1.0]).disc_damping(&[1.0])).contains("disc damping: 1 given, expected 2"));
 }

@@ -129,6 +129,7 @@ fn an_unbalance_that_cannot_be_is_refused() {
     let rubbing = two().friction(driveline_solver::plant::train::Friction::ground(0, 1.0)).unbalance(good);
     assert_eq!(
         rubbing.build().unwrap_err().to_string(),
-        "unbalance with dry friction, a lossy gear or a crank of node 0 is 4: expected those on another coordinate, behind a shaft"
+        "unbalance with dry friction, a lossy gear or a crank of node 0 is 4: expected those on another coordinate, \
+            behind a shaft"
     );
 }

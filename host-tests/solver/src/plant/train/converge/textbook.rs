@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::super::{Source, Train, Variation};
 use crate::plant::converge::pass::Hybrid;
 
-/// What a guard that falls below zero stands for.
+/// Meaning of a guard that falls below zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Change {
     Side(usize, f64),
