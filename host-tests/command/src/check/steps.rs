@@ -33,7 +33,8 @@ fn setup_step(voice: &Voice) -> Result<Count, Failed> {
     Ok(Count { passed: 1, failed: 0 })
 }
 
-/// The folders of files whose `mod` lines a macro writes, where `cargo fmt` does not follow: their files are named to it.
+/// The folders of files whose `mod` lines a macro writes, where `cargo fmt` does not follow: their files are named to
+/// it.
 const BY_MACRO: [&str; 2] = ["firmware/src/scenes", "host-tests/command/src/drivetrains"];
 
 fn format(voice: &Voice) -> Result<Count, Failed> {
