@@ -232,7 +232,8 @@ where
         self.observer.angle()
     }
 
-    /// Screens a sample and advances the observer, which coasts where there is no angle; gives the faults and the torque that was used.
+    /// Screens a sample and advances the observer, which coasts where there is no angle; gives the faults and the
+    /// torque that was used.
     #[inline(always)]
     fn observe(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>, has_angle: bool) -> (Faults, N) {
         let limits = &config.limits;

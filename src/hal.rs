@@ -94,7 +94,10 @@
 //! # struct MyBoard(u32);
 //! # impl driveline::hal::Board<f32> for MyBoard {
 //! #     fn angle(&mut self) -> Result<u32, Faults> { Ok(0) }
-//! #     fn set_torque(&mut self, torque: f32, _: u32) -> Result<(), Faults> { self.0 += (torque > 0.0) as u32; Ok(()) }
+//! #     fn set_torque(&mut self, torque: f32, _: u32) -> Result<(), Faults> {
+//! #         self.0 += (torque > 0.0) as u32;
+//! #         Ok(())
+//! #     }
 //! #     fn set_enabled(&mut self, _: bool) -> Result<(), Faults> { Ok(()) }
 //! # }
 //! # impl MyBoard { fn wait_for_timer(&mut self) -> bool { self.0 < 3 } }
@@ -111,12 +114,16 @@
 //!     observer: observer::TwoMassConfig::<f32>::new(&TWO.observer(RATE, Encoder::lines(2048), LOAD), Bases::SI),
 //!     fluctuation: (),
 //!     governor: SpeedLoopConfig::<f32>::new(
-//!         &TWO.speed_loop(RATE, SpeedLoopTuning::USUAL), SpeedLoopSettings { torque_limit: 300.0, ramp: 75.0 }, Bases::SI),
+//!         &TWO.speed_loop(RATE, SpeedLoopTuning::USUAL),
+//!         SpeedLoopSettings { torque_limit: 300.0, ramp: 75.0 },
+//!         Bases::SI,
+//!     ),
 //!     balancer: (),
 //! };
 //!
 //! fn run(board: MyBoard) -> Result<(), Faults> {
-//!     let mut mill = Axis::<_, f32, observer::TwoMassObserver<f32>, (), SpeedLoop<f32>>::new(board, &CONFIG, TRIPPING);
+//!     type Mill<P> = Axis<P, f32, observer::TwoMassObserver<f32>, (), SpeedLoop<f32>>;
+//!     let mut mill = Mill::new(board, &CONFIG, TRIPPING);
 //!     mill.start(&CONFIG)?;
 //!     while mill.board().wait_for_timer() {
 //!         mill.tick(&CONFIG, 150.0);

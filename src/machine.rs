@@ -1,7 +1,8 @@
 //! Machine models: a chain of elements from the motor to the load, described once as a constant.
 //!
 //! ```
-//! use driveline::machine::{Chain, Damping, Diameter, Efficiency, Falls, Inertia, Mass, Match, Ratio, Stiffness, TwoMass};
+//! use driveline::machine::{Chain, Damping, Diameter, Efficiency, Falls, Inertia, Mass, Match, Ratio};
+//! use driveline::machine::{Stiffness, TwoMass};
 //!
 //! const HOIST: Chain = Chain::motor(Inertia(0.62))
 //!     .shaft(Stiffness(5.0e4), Damping(2.0))

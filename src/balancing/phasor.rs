@@ -157,7 +157,8 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
     /// The phasor of a channel and how far it is to be trusted.
     ///
     /// # Errors
-    /// [`ReadingFault`]: why this reading cannot be used. The measurement goes on or stands; [`Phasors::begin`] begins another.
+    /// [`ReadingFault`]: why this reading cannot be used. The measurement goes on or stands;
+    /// [`Phasors::begin`] begins another.
     pub fn reading(&self, config: &PhasorsConfig<N, CHANNELS>, channel: usize) -> Result<Reading, ReadingFault> {
         if self.back > 0 && !self.is_complete() {
             return Err(ReadingFault::Backwards { times: self.back });

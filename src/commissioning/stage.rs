@@ -10,7 +10,7 @@ pub enum Stage {
     Friction,
     /// Turns at the test's speed.
     Encoder,
-    /// To and fro against a load that friction holds.
+    /// In both directions against a load held by friction.
     Backlash,
     /// Turning under a multisine.
     Resonance,

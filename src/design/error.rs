@@ -38,14 +38,14 @@ sentences! {
     BarredCount => "there are more barred ranges of speed than the governor has room for: raise K",
     TorqueCurve => "a torque curve needs points of rising speed from zero on, each with a torque of zero or above, all \
         finite",
-    Tolerance => "a tolerance must be from a factor above 0 and at most 1 to one of 1 or above, a gain margin 1 or above, \
-        a phase margin zero or above",
-    LoopUnstable => "the speed loop is unstable with its observer in it: lower shaft_damping, or tell the observer of a \
-        livelier load",
-    LoopGain => "the speed loop with its observer has less gain margin than its robustness requires (6 dB unless named): \
-        lower shaft_damping or bandwidth, or ask for less",
-    LoopPhase => "the speed loop with its observer has less phase margin than its robustness requires (30 degrees unless \
-        named): lower shaft_damping or bandwidth, or ask for less",
+    Tolerance => "a tolerance must be from a factor above 0 and at most 1 to one of 1 or above, a gain margin 1 or \
+        above, a phase margin zero or above",
+    LoopUnstable => "the speed loop is unstable with its observer in it: lower shaft_damping, or raise the load \
+        disturbance of its observer",
+    LoopGain => "the speed loop with its observer has less gain margin than its robustness requires (6 dB unless \
+        named): lower shaft_damping or bandwidth, or its requirement",
+    LoopPhase => "the speed loop with its observer has less phase margin than its robustness requires (30 degrees \
+        unless named): lower shaft_damping or bandwidth, or its requirement",
     LoopMotorInertia => "the speed loop with its observer is unstable at the tolerance of the motor inertia: lower \
         shaft_damping or bandwidth, or narrow the tolerance",
     LoopLoadInertia => "the speed loop with its observer is unstable at the tolerance of the load inertia: lower \

@@ -2,7 +2,8 @@
 //! observer's lag.
 //!
 //! ```text
-//! T = tau_m - J_m d omega_m/dt,   k delta + d d delta/dt = T,   omega_l = omega_m - d delta/dt,   tau_L = T - J_l d omega_l/dt
+//! T = tau_m - J_m d omega_m/dt,   k delta + d d delta/dt = T,   omega_l = omega_m - d delta/dt,
+//! tau_L = T - J_l d omega_l/dt
 //! ```
 //!
 //! The law needs no knowledge of the load's torque, which an observer has to guess. It differentiates: the rounding of

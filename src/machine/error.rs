@@ -43,7 +43,8 @@ sentences! {
         (m)",
     CrankMass => "masses and inertias of the crank drive must be zero or positive and finite, the connecting rod's \
         centre of mass within it",
-    BranchNode => "the mass that a branch or a closing shaft stands on must be one of the train's masses, counted from 0 at the motor",
+    BranchNode => "the mass that a branch or a closing shaft stands on must be one of the train's masses, counted \
+        from 0 at the motor",
     TooManyShafts => "a train holds at most 30 shafts",
     TrainCut => "a train with branches has no textbook cut: match resonance and antiresonance, or keep the first mode",
     Unseen => "no mode of the train is observable at the motor: it is a rigid machine",

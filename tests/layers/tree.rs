@@ -132,7 +132,9 @@ impl Tree {
                 TokenTree::Ident(_) if word == "pub" => {
                     public = true;
                     // `pub(crate)`
-                    let within = |token: &TokenTree| matches!(token, TokenTree::Group(group) if group.delimiter() == Delimiter::Parenthesis);
+                    let parenthesis = Delimiter::Parenthesis;
+                    let within =
+                        |token: &TokenTree| matches!(token, TokenTree::Group(g) if g.delimiter() == parenthesis);
                     at += if tokens.get(at + 1).is_some_and(within) { 2 } else { 1 };
                     continue;
                 }

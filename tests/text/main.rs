@@ -149,8 +149,9 @@ fn retired_words_are_in_no_public_item_comment_message_or_page() {
 fn no_line_is_longer_than_the_formatter_allows() {
     let mut faults = Vec::new();
     for (path, text) in files(&["rs"]) {
-        // written by `cargo driveline design --emit rust`, as it stands
-        if !path.contains("/cli_emit/") {
+        // as written by `cargo driveline design --emit rust`, as quoted by the compiler, and with a page's text
+        let quoted = ["/cli_emit/", "/compile-fail/", "/hal/table.rs"];
+        if !quoted.iter().any(|part| path.contains(part)) {
             faults.extend(too_long(&text).iter().map(|line| format!("{path}:{line}")));
         }
     }

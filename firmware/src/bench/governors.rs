@@ -41,10 +41,12 @@ macro_rules! governors {
             type N = $number;
             const GAINS: driveline::governor::Gains<N> = parts::$run::GAINS;
             macro_rules! one {
-                ($name:literal, $set_point:ty, $prompt:ty, $limit:ty, $modes:ty, $s:expr, $f:expr, $l:expr, $m:expr) => {
+                ($name:literal, $shape:ty, $added:ty, $limit:ty, $modes:ty, $s:expr, $f:expr, $l:expr, $m:expr) => {
                     let config =
-                        SpeedGovernorConfig { gains: GAINS, shape: $s, compensation: $f, limit: $l, sequence: $m, filter: () };
-                    let governor = SpeedGovernor::<N, $set_point, $prompt, $limit, $modes>::default();
+                        SpeedGovernorConfig {
+                            gains: GAINS, shape: $s, compensation: $f, limit: $l, sequence: $m, filter: ()
+                        };
+                    let governor = SpeedGovernor::<N, $shape, $added, $limit, $modes>::default();
                     bench.measure($name, (&config, governor), input::<N>, command);
                 };
             }
@@ -60,8 +62,11 @@ macro_rules! governors {
             one!("governor/curve", (), (), Curve<4>, (), (), (), p::CURVE, ());
             one!("governor/slew", (), (), Slew<N, SymmetricLimit>, (), (), (), p::SLEW, ());
             let config =
-                SpeedGovernorConfig { gains: GAINS, shape: (), compensation: (), limit: p::SYMMETRIC, sequence: (), filter: p::MEAN };
-            let governor = SpeedGovernor::<N, (), (), SymmetricLimit, (), MovingAverage<N, { generator::FIRING }>>::default();
+                SpeedGovernorConfig {
+                    gains: GAINS, shape: (), compensation: (), limit: p::SYMMETRIC, sequence: (), filter: p::MEAN
+                };
+            type Average<N> = MovingAverage<N, { generator::FIRING }>;
+            let governor = SpeedGovernor::<N, (), (), SymmetricLimit, (), Average<N>>::default();
             bench.measure("governor/mean", (&config, governor), input::<N>, command);
             let mut modes = SpeedGovernor::<N, (), (), SymmetricLimit, Sequencer>::default();
             modes.sequence_mut().request(RunRequest::Start);

@@ -230,7 +230,8 @@ macro_rules! variants {
             }
 
             fn expected() -> Option<$crate::scene::expected::Expected> {
-                <<$drive<$number> as $crate::scene::FromConfig>::Drive as $crate::scene::expected::Expects<$machine>>::expected()
+                <<$drive<$number> as $crate::scene::FromConfig>::Drive as
+                    $crate::scene::expected::Expects<$machine>>::expected()
             }
         }
 

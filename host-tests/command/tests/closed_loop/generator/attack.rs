@@ -152,7 +152,9 @@ fn act() -> impl Strategy<Value = Act> {
         3 => (1..60_u8, word(), word(), word()).prop_map(|(ticks, a, t, r)| Act::Words(ticks, a, t, r)),
         1 => (1..60_u8, word(), word()).prop_map(|(ticks, t, r)| Act::Blind(ticks, t, r)),
         1 => word().prop_map(Act::Hold),
-        4 => prop::sample::select(vec![RunRequest::Start, RunRequest::Start, RunRequest::Stop, RunRequest::Reset, RunRequest::Trip])
+        4 => prop::sample::select(
+            vec![RunRequest::Start, RunRequest::Start, RunRequest::Stop, RunRequest::Reset, RunRequest::Trip]
+        )
             .prop_map(Act::Ask),
         2 => Just(Act::Switch),
         1 => Just(Act::Engage),
@@ -368,7 +370,7 @@ fn steady<N: Wired>(changes: &[(Change, u8)]) -> Result<(), TestCaseError> {
             let (torque, seen) = run(&mut governor, chosen, setpoint);
             now = seen;
             // A tick's ramp, 0.02 rad/s, at k_p, and the integral's tick on the error, whose ten more are the droop's:
-            // what the set point may move by. Twice, for a change of constants makes one of each; and what f32 loses of
+            // the ramp of the setpoint. Twice, for a change of constants makes one of each; and what f32 loses of
             // the mean's sum of 150 rad/s in 32 additions, at k_p.
             let bound = 2.0 * (FED.proportional * (RAMP * PERIOD + 3e-4) + FED.integral * PERIOD * error);
             prop_assert!((torque - last).abs() < bound, "{change:?}: {last} to {torque}, {bound}");

@@ -33,7 +33,7 @@ fn a_machine_without_a_gap_and_a_tuning_out_of_range_are_refused() {
 fn the_searching_gains_are_livelier_and_stable() {
     let design = design(&MACHINE.with_gap(Gap(0.01)), BacklashTuning::USUAL).unwrap();
     assert!(design.searching_radius < 1.0);
-    // A twist that wanders is believed less, and corrected more.
+    // A twist with a larger random walk has a lower weight and a larger correction.
     assert!(design.searching[2].abs() > 2.0 * design.contact.gains[2].abs());
     assert!(design.searching_twist > design.contact.standard_deviation.twist);
 }

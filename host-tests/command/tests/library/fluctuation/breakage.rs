@@ -30,7 +30,10 @@ proptest! {
     #[test]
     fn whatever_is_read_is_a_number(
         stretches in prop::collection::vec(
-            (-200_000_000..200_000_000_i32, 1..300_u32, number(), number(), any::<bool>(), prop::option::weighted(0.1, any::<u32>())),
+            (
+                -200_000_000..200_000_000_i32, 1..300_u32, number(), number(), any::<bool>(),
+                prop::option::weighted(0.1, any::<u32>()),
+            ),
             1..12,
         ),
         turns in 1..40_u32,
@@ -58,7 +61,8 @@ proptest! {
                 prop_assert!(reading.mean.is_finite() && reading.duration > 0.0, "{reading:?}");
                 for one in [reading.motor, reading.load] {
                     let within = |angle: f64| (0.0..=cycle.angle).contains(&angle);
-                    prop_assert!(one.delta.is_finite() && within(one.max.angle) && within(one.min.angle), "{reading:?}");
+                    let angles = within(one.max.angle) && within(one.min.angle);
+                    prop_assert!(one.delta.is_finite() && angles, "{reading:?}");
                 }
             }
         }

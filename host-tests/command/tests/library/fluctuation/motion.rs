@@ -2,7 +2,8 @@
 //! machine's law.
 //!
 //! ```text
-//! omega(phi, t) = W(t) (1 + sum a_n cos(n theta - p_n)),   W(t) = W0 + ramp t,   theta = phi over the cycle's angle, 2 pi to the cycle
+//! omega(phi, t) = W(t) (1 + sum a_n cos(n theta - p_n)),   W(t) = W0 + ramp t,
+//! theta = phi over the cycle's angle, 2 pi to the cycle
 //! T = tau - J_m d omega/dt,   twist = T/k,   omega_l = omega - d twist/dt
 //! ```
 

@@ -18,7 +18,9 @@ proptest! {
     /// Cycles are counted in whole numbers: after any run of steps forwards, whatever the ratio, there are as many as
     /// the turned angle has, exactly. A segment takes 40 ticks or more: what a cycle's end brings takes 30.
     #[test]
-    fn cycles_are_counted_exactly(turns in 1..200_u32, cycles in 1..200_u32, seed in 1..u32::MAX, share in 0.001..0.025_f64) {
+    fn cycles_are_counted_exactly(
+        turns in 1..200_u32, cycles in 1..200_u32, seed in 1..u32::MAX, share in 0.001..0.025_f64,
+    ) {
         prop_assume!(turns <= 16 * cycles);
         let cycle = CycleConfig::new(Cycle { turns, cycles }, PERIOD, Bases::SI);
         let mut extremes = Extremes::<f32>::default();

@@ -38,7 +38,8 @@ proptest! {
             prop_assert!(pair[0][1] < pair[1][0]);
         }
         for speed in (1..4000).map(|step| 0.11 * f64::from(step)) {
-            let critical = frequencies.iter().any(|f| orders.iter().any(|o| (speed * o / f - 1.0).abs() <= USUAL_MARGIN));
+            let near = |f: &f64, o: &f64| (speed * o / f - 1.0).abs() <= USUAL_MARGIN;
+            let critical = frequencies.iter().any(|f| orders.iter().any(|o| near(f, o)));
             let inside = barred.ranges().iter().any(|range| (range[0]..=range[1]).contains(&speed));
             // The edges themselves are a rounding either way.
             let at_an_edge = barred.ranges().iter().flatten().any(|edge| (edge / speed - 1.0).abs() < 1e-12);

@@ -80,7 +80,8 @@ proptest! {
     fn the_torque_is_the_laws(
         samples in prop::collection::vec((-20.0..180.0_f64, -2500.0..2500.0_f64, 0.0..160.0_f64), 1..200)
     ) {
-        let (mut law, mut by_single, mut by_fixed) = (Law::default(), Whole::<f32>::default(), Whole::<Fixed>::default());
+        let mut law = Law::default();
+        let (mut by_single, mut by_fixed) = (Whole::<f32>::default(), Whole::<Fixed>::default());
         let (single, fixed) = (single(), fixed());
         for (speed, load, setpoint) in samples {
             // In fixed point an operand of a gain ends at a quarter of the base.

@@ -174,7 +174,8 @@ proptest! {
         let mut governor = Supervised::default();
         for (ask, speed, shaft) in steps {
             let before = mode(&governor);
-            let request = [RunRequest::Start, RunRequest::Stop, RunRequest::Reset, RunRequest::Trip].get(usize::from(ask));
+            let all = [RunRequest::Start, RunRequest::Stop, RunRequest::Reset, RunRequest::Trip];
+            let request = all.get(usize::from(ask));
             if let Some(request) = request {
                 governor.sequence_mut().request(*request);
             }

@@ -1,4 +1,4 @@
-//! Constants change, modes change, the setpoint changes: without a jolt.
+//! Bumpless transfer: changes of constants, state and setpoint.
 
 use driveline::design::{Actuator, LoadFeedForward, Rate};
 use driveline::governor::{

@@ -209,7 +209,7 @@ fn modal_damping_survives_the_reduction() {
     }
 }
 
-/// Mode shapes are mass-normalised, and their residues add up to the static give computed from the torques.
+/// Mode shapes are mass-normalised, and their residues add up to the static compliance computed from the torques.
 #[test]
 fn residues_add_up_to_the_static_give() {
     let mut chain = Chain::motor(Inertia(0.4));

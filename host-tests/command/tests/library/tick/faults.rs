@@ -256,7 +256,7 @@ fn an_encoder_that_freezes_at_creep_speed_looks_like_a_machine_that_is_held() {
         // and what is left of the swing.
         let taken = command.estimate.load_torque.torque() / rig.applied;
         assert!(taken > 0.85 && taken < 1.15, "{}: {taken}", V::NAME);
-        // Moving again, it is believed again: lost and found in 20 ms, then settled.
+        // Moving again, it is accepted again: lost and found in 20 ms, then settled.
         for _ in 0..V::RATE_HZ / 67 + (RECOVERY * f64::from(V::RATE_HZ)) as u32 {
             rig.tick(|_| {});
         }

@@ -1,4 +1,4 @@
-//! The speed loop: its limits, its anti-windup, and that it takes over without a jolt.
+//! The speed loop: its limits, its anti-windup, and its bumpless transfer.
 
 use super::rig::{BASES, RATED_SPEED, REDUCED, TORQUE_LIMIT};
 use driveline::design::{Rate, SpeedLoopDesign, SpeedLoopTuning};
@@ -25,12 +25,17 @@ proptest! {
     /// Any estimate within twice the bases, any setpoint: the torque is within its limit, and away from the limits it
     /// is the closed form in `f64`, to what `f32` and fixed point resolve.
     #[test]
-    fn the_torque_is_the_laws(errors in prop::collection::vec((-8.0..8.0_f64, -4.0..4.0_f64, -40.0..40.0_f64), 1..200)) {
-        let (mut exact, exact_config) = (SpeedLoop::default(), SpeedLoopConfig::<f64>::new(&design(), settings(1e9), Bases::SI));
-        let (mut single, single_config) = (SpeedLoop::default(), SpeedLoopConfig::<f32>::new(&design(), settings(1e9), Bases::SI));
+    fn the_torque_is_the_laws(
+        errors in prop::collection::vec((-8.0..8.0_f64, -4.0..4.0_f64, -40.0..40.0_f64), 1..200),
+    ) {
+        let exact_config = SpeedLoopConfig::<f64>::new(&design(), settings(1e9), Bases::SI);
+        let mut exact = SpeedLoop::default();
+        let single_config = SpeedLoopConfig::<f32>::new(&design(), settings(1e9), Bases::SI);
+        let mut single = SpeedLoop::default();
         // In fixed point a ramp crosses no more than twice the base in a tick.
         let ramp = 1.9 * BASES.speed * 1e4;
-        let (mut fixed, fixed_config) = (SpeedLoop::default(), SpeedLoopConfig::<Fixed>::new(&design(), settings(ramp), BASES));
+        let fixed_config = SpeedLoopConfig::<Fixed>::new(&design(), settings(ramp), BASES);
+        let mut fixed = SpeedLoop::default();
         for (error, slip, speed) in errors {
             let (motor, load, setpoint) = (speed, speed - slip, speed + error);
             let now = Estimate { motor_speed: motor, load_speed: load, ..Estimate::default() };
@@ -47,16 +52,19 @@ proptest! {
             // 32, in fixed point.
             prop_assert!((by_single - wanted).abs() < 0.01, "{by_single} {wanted}");
             prop_assert!((by_fixed - wanted).abs() < 0.01, "{by_fixed} {wanted}");
-            prop_assert!(by_single.abs() <= TORQUE_LIMIT && by_fixed.abs() <= TORQUE_LIMIT && wanted.abs() <= TORQUE_LIMIT);
+            prop_assert!([by_single, by_fixed, wanted].iter().all(|torque| torque.abs() <= TORQUE_LIMIT));
         }
     }
 
     /// In fixed point no estimate and no setpoint, whatever their bits, turn the torque's sign by overflow: far off the
     /// setpoint and without slip the torque is at its limit, on the side of the error.
     #[test]
-    fn an_error_that_saturates_keeps_its_sign(motor in -(1 << 29)..1 << 29_i32, setpoint in -(1 << 29)..1 << 29_i32, ticks in 1..200) {
+    fn an_error_that_saturates_keeps_its_sign(
+        motor in -(1 << 29)..1 << 29_i32, setpoint in -(1 << 29)..1 << 29_i32, ticks in 1..200,
+    ) {
         let config = SpeedLoopConfig::<Fixed>::new(&design(), settings(1.9 * BASES.speed * 1e4), BASES);
-        let now = Estimate { motor_speed: Fixed::from_bits(motor), load_speed: Fixed::from_bits(motor), ..Estimate::default() };
+        let speed = Fixed::from_bits(motor);
+        let now = Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() };
         let mut governor = SpeedLoop::default();
         // The setpoint's ramp first.
         let mut torque = Fixed::ZERO;
