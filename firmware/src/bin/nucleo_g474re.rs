@@ -13,6 +13,7 @@ use core::sync::atomic::{AtomicBool, AtomicU32, Ordering, compiler_fence};
 use cortex_m::interrupt::free;
 use cortex_m::peripheral::NVIC;
 use cortex_m_rt::entry;
+use driveline::configure::Machine;
 use driveline::hal::{FullScale, PwmTorque};
 use driveline::telemetry::{Channel as Column, Kind, Ring};
 use driveline_firmware::board::nucleo_g474re::{

@@ -5,6 +5,7 @@
 use core::cell::UnsafeCell;
 use core::ptr;
 
+use driveline::configure::HasVibration;
 use driveline::fault::Faults;
 use driveline::hal::{AdcVibration, PerCount};
 use stm32_metapac::adc::Adc;

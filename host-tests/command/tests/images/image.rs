@@ -46,7 +46,7 @@ fn a_self_test_of_no_variant_is_an_error_that_names_it() {
     assert_eq!(error, "no variant is called `hoist`");
     // and the firmware's own build says which there are
     let error = build("hoist", BOARDS[0], Program::SelfTest, |_| {}).unwrap_err().to_string();
-    assert!(error.contains("DRIVELINE_VARIANT is `hoist`; firmware/src/scenes.rs has `empty/"), "{error}");
+    assert!(error.contains("DRIVELINE_VARIANT is `hoist`; firmware/src/scenes.rs has `hoist/"), "{error}");
 }
 
 #[test]

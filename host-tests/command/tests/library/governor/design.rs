@@ -186,7 +186,7 @@ fn what_cannot_work_is_refused_with_a_sentence() {
     assert_eq!(refused(late, 1.05, none), Error::GovernorUnstable);
     let soft = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(2.0e3), Damping(0.5));
     assert_eq!(soft.try_governor(rate, late, 2.0, none), Err(Error::GovernorUnstable));
-    assert!(Error::GovernorUnstable.message().contains("optimum_factor"));
+    assert!(Error::GovernorUnstable.message().contains("symmetrical-optimum factor"));
     assert_eq!(TorqueCurve::try_through([[0.0, 1.0], [0.0, 2.0]]), Err(Error::TorqueCurve));
     assert_eq!(TorqueCurve::try_through([[1.0, 1.0]]), Err(Error::TorqueCurve));
     assert_eq!(Actuator::try_firing_delay(0, true, 1.0), Err(Error::Actuator));

@@ -33,8 +33,9 @@ fn a_shift_of_all_angles_gives_the_same_bits() {
                 assert_eq!(there, command, "{} by {base} in tick {tick}", V::NAME);
                 wraps += u32::from(sample.angle < before.wrapping_add(base) && command.faults.is_none());
             }
-            // 77.5 rad/s2 for a second are 6.2 turns; one in each of the two faults does not count.
-            assert!(wraps >= 4, "{}: {wraps}", V::NAME);
+            // 77.5 rad/s2 for a second are 6.2 turns, of which the lag of the loop behind its ramp takes less than one;
+            // one in each of the two faults does not count.
+            assert!(wraps >= 3, "{}: {wraps}", V::NAME);
         }
     }
     for_every_variant!(10000, test);
