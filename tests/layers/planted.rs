@@ -78,6 +78,16 @@ fn folders_may_not_import_each_other_though_no_file_does() {
 }
 
 #[test]
+fn a_path_in_an_attribute_is_an_import() {
+    let sources = [
+        ("", "mod a; mod b;"),
+        ("a", "use crate::b::Top; pub struct Ground(Top); mod as_null {}"),
+        ("b", "pub struct Top { #[serde(with = \"super::a::as_null\")] x: f64 }"),
+    ];
+    assert!(found(&sources)[0].contains("b imports a"), "{:?}", found(&sources));
+}
+
+#[test]
 fn what_is_compiled_only_for_unit_tests_does_not_count() {
     let sources = [
         ("", "mod a; mod b;"),

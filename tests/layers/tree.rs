@@ -129,6 +129,14 @@ impl Tree {
                     continue;
                 }
                 TokenTree::Group(group) => self.walk(find, file, module, group.stream(), false),
+                // A path in an attribute: `with = "super::module"`.
+                TokenTree::Literal(_) if word.contains("::") => {
+                    let path: Names = word.trim_matches('"').split("::").map(str::to_owned).collect();
+                    if path.iter().all(|name| !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_'))
+                    {
+                        self.modules.get_mut(module).unwrap().paths.insert([path, vec!["*".to_owned()]].concat());
+                    }
+                }
                 TokenTree::Ident(_) if word == "pub" => {
                     public = true;
                     // `pub(crate)`

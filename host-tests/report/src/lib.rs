@@ -20,6 +20,7 @@
 pub mod chart;
 pub mod format;
 pub mod page;
+mod report;
 mod results;
 mod sheet;
 pub mod svg;
@@ -27,7 +28,8 @@ mod sweep;
 mod table;
 mod trajectory;
 
-pub use results::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Report, Variant};
+pub use report::Report;
+pub use results::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Variant};
 pub use sheet::{Arrangement, Figure, Key, Section, Sheet};
 pub use sweep::{Slice, Sweep, SweepPoint};
 pub use table::{Table, variants_table};

@@ -7,7 +7,7 @@ use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
 use serde::Serialize;
 
-use crate::results::Report;
+use crate::report::Report;
 
 /// The page's template and its parts, compiled into the program.
 const TEMPLATES: &[(&str, &str)] = &[

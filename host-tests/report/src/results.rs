@@ -2,35 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::sweep::Sweep;
-use crate::trajectory::Trajectory;
-
-/// Everything that a run has to say.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Report {
-    /// The scene's name: `hoist`.
-    pub scene: String,
-    /// The run, in a sentence or two.
-    pub summary: String,
-    /// Machine and run.
-    pub facts: Vec<Fact>,
-    /// Every variant, in the order of the table.
-    pub variants: Vec<Variant>,
-    /// Courses over time; the first variant and situation are shown first.
-    pub trajectories: Vec<Trajectory>,
-    /// The observer with other steps, computed on the host.
-    pub comparisons: Vec<Comparison>,
-    /// Sweeps over machines and rates.
-    pub sweeps: Vec<Sweep>,
-    /// Flash and RAM by composition.
-    pub compositions: Vec<Composition>,
-    /// Budgets and what was measured against them.
-    pub budgets: Vec<Budget>,
-    /// Notes for the reader, a sentence each.
-    pub notes: Vec<String>,
-}
-
 /// Root mean square and largest absolute value of an error, as a fraction: of the peak for a torque, of the rated speed
 /// for a speed. A value that is not finite stands for an estimate that diverged; JSON writes it as `null`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

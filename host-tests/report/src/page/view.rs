@@ -8,7 +8,8 @@ use serde::Serialize;
 
 use super::thinning::fineness;
 use crate::chart;
-use crate::results::{Fact, Report, Variant};
+use crate::report::Report;
+use crate::results::{Fact, Variant};
 use crate::svg::MARKERS;
 use crate::sweep::Sweep;
 use crate::trajectory::Trajectory;

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use crate::format::{grouped, percent};
-use crate::results::{Deviation, Report};
+use crate::report::Report;
+use crate::results::Deviation;
 
 /// A figure with its name.
 #[derive(Serialize)]

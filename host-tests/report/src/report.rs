@@ -1,0 +1,33 @@
+//! The report of a run, whole.
+
+use serde::{Deserialize, Serialize};
+
+use crate::results::{Budget, Comparison, Composition, Fact, Variant};
+use crate::sweep::Sweep;
+use crate::trajectory::Trajectory;
+
+/// Everything that a run has to say.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Report {
+    /// The scene's name: `hoist`.
+    pub scene: String,
+    /// What was run, in a sentence or two.
+    pub summary: String,
+    /// What the machine and the run are.
+    pub facts: Vec<Fact>,
+    /// Every variant, in the order of the table.
+    pub variants: Vec<Variant>,
+    /// Courses over time; the first variant and situation are shown first.
+    pub trajectories: Vec<Trajectory>,
+    /// The observer with other steps, computed on the host.
+    pub comparisons: Vec<Comparison>,
+    /// Sweeps over machines and rates.
+    pub sweeps: Vec<Sweep>,
+    /// Flash and RAM by composition.
+    pub compositions: Vec<Composition>,
+    /// Budgets and what was measured against them.
+    pub budgets: Vec<Budget>,
+    /// What the reader should know, a sentence each.
+    pub notes: Vec<String>,
+}
