@@ -379,7 +379,7 @@ fn amplitudes_alone_have_holes_a_grade_and_a_page() {
 fn amplitudes_alone_refuse_what_they_cannot_use() {
     let sound = grinder("", &[0.0, 120.0, 240.0]);
     let two = sound.replacen("[\"wheel\"]", "[\"wheel\", \"motor\"]", 1);
-    refused_at(&two, "[\"wheel\", ", &["`planes`", "tell no second one apart"]);
+    refused_at(&two, "[\"wheel\", ", &["`planes`", "cannot separate two"]);
     refused_at(&sound.replacen("weight = 10.0", "weight = 0", 1), "0\nruns", &["`amplitudes.weight`", "is zero"]);
     refused_at(&sound.replacen("baseline = 5.0", "baseline = 0", 1), "0\nweight", &["`amplitudes.baseline`"]);
     refused_at(&grinder("", &[0.0]), "[[0, ", &["`amplitudes.runs`", "three runs"]);

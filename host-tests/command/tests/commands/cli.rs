@@ -55,7 +55,7 @@ fn modes_prints_frequencies_and_writes_a_page() {
     let output = driveline(&["modes", HOIST, "--html", &page]);
     assert!(output.status.success(), "{}", err(&output));
     assert!(err(&output).is_empty());
-    for word in ["Frequencies and shapes", "brake drum", "can be left out", "same resonance and antiresonance"] {
+    for word in ["Frequencies and shapes", "brake drum", "Sensitivity to each part", "same resonance and antiresonance"] {
         assert!(out(&output).contains(word), "{word}");
     }
     let html = std::fs::read_to_string(page).unwrap();
@@ -206,7 +206,7 @@ fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
     let (motor, first, second) = (mass("motor", 0.1), mass("rotor", 1.0), mass("rotor", 1.0));
     let (stiff, soft) = (shaft(1e5), shaft(10.0));
     std::fs::write(&file, format!("name = \"three\"\n{motor}{stiff}{first}{soft}{second}{settings}")).unwrap();
-    assert!(out(&driveline(&["design", file.to_str().unwrap()])).contains("warning: two masses are a poor image"));
+    assert!(out(&driveline(&["design", file.to_str().unwrap()])).contains("warning: two masses are a poor model"));
     assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
 }
 

@@ -93,7 +93,7 @@ fn a_page_that_was_only_tried_out_says_so() {
     let tried = Survey { quick: true, part: true, ..whole.clone() };
     let [whole, tried] = [&whole, &tried].map(survey_page);
     assert!(whole.contains("Every scene in all its variants") && !whole.contains("Not for figures to quote"));
-    assert!(tried.contains("The scenes that were asked for") && tried.contains("Not for figures to quote"));
+    assert!(tried.contains("The selected scenes") && tried.contains("Not for figures to quote"));
     let (_, quick) = jobs(&Wanted::scenes(&["fan".to_owned()]).unwrap(), true);
     assert!(quick.quick && quick.part);
     let (_, full) = jobs(&Wanted::scenes(&[]).unwrap(), false);

@@ -85,7 +85,7 @@ fn the_page_has_tables_plots_and_nothing_that_is_no_number() {
     assert!(page.starts_with("<!doctype html>") && !page.contains("NaN") && !page.contains("http"));
     for text in [
         "ISO 8528-5",
-        "the swing is the firing",
+        "the ripple is the firing",
         "A fault on every input",
         "Every trip, brought about",
         "frequency, %",
