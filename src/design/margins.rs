@@ -38,6 +38,8 @@ impl Margins {
 
 /// An open loop, positive where the feedback opposes.
 #[derive(Clone, Copy)]
+// A value of a constant evaluation, made once and never stored.
+#[allow(clippy::large_enum_variant)]
 pub(super) enum OpenLoop {
     /// In closed form, with dead time.
     Late(LateLoop),

@@ -61,7 +61,6 @@ impl<N: Number> Observer<N> for SemiImplicitObserver<N> {
             shaft_torque: torque,
             load_torque: torque,
             angle: AngleTracker::new(angle),
-            ..SemiImplicitObserver::default()
         }
     }
 

@@ -83,7 +83,7 @@ fn prose(path: &str, text: &str) -> String {
             let pieces: Vec<&str> = line.trim_end_matches('\\').split('"').collect();
             let literals = pieces.iter().skip(usize::from(!open)).step_by(2);
             out.extend(literals.flat_map(|literal| [*literal, " "]));
-            open = line.ends_with('\\') && (pieces.len() % 2 == 0) != open;
+            open = line.ends_with('\\') && pieces.len().is_multiple_of(2) != open;
         }
         out.push(' ');
     }
