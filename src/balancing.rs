@@ -1,14 +1,15 @@
-//! Advise: the unbalance of the rotor from its vibration, and the weights that take it away.
+//! Rotor balancing: vibration phasors on the tick; influence coefficients, correction weights and the field procedure
+//! off it.
 //!
 //! # On the tick
-//! [`Phasors`] measures the vibration that turns with the rotor, as one complex number for each channel. Several
-//! orders, or rotors behind different gears, are a tuple of them. [`Reading`] is the result, with its spread, drift and
-//! variance; [`Sensor`] turns it into displacement, velocity or acceleration and takes the run-out off.
+//! [`Phasors`] measures the vibration at a multiple of the rotor's speed, as one complex number for each channel.
+//! Several orders, or rotors behind different gears, are a tuple of them. [`Reading`] is the result, with its spread,
+//! drift and variance; [`Sensor`] converts it to displacement, velocity or acceleration.
 //!
 //! # Off the tick
 //! With the feature `balancing`. [`Influence`] identifies the influence coefficients from trial runs and computes the
-//! [`Correction`]: by least squares, weighted, min-max or within limits, with planes that only repeat others found and
-//! left out.
+//! [`Correction`]: by least squares, weighted, min-max or within limits, without planes that
+//! depend on others.
 //!
 //! [`Holes`] splits a weight between holes and stock weights, [`Tolerance`] grades the residual unbalance (ISO
 //! 21940-11), [`from_amplitudes`] needs no phase. [`Procedure`] leads through the runs, rejects impossible entries, and

@@ -1,4 +1,4 @@
-//! How a machine will be controlled: from its description to the final coefficients.
+//! Design of observers and governors: from the machine to gains, margins and predicted errors.
 //!
 //! Every function is a `const fn` in `f64`. In a constant the compiler evaluates it, and the firmware holds nothing but
 //! the coefficients; at run time (a machine read from a file, or commissioned in the field) it gives the same bits. A

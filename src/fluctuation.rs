@@ -1,4 +1,4 @@
-//! Measure: how far the speed swings about its mean, cycle by cycle.
+//! Cyclic speed fluctuation: extremes, waveform, orders, flywheel.
 //!
 //! Everything is synchronous in angle. The cycle is a turn of the motor, two for a four-stroke engine, or any ratio of
 //! whole numbers; where in it the motor is follows from its wrapped angle in integers, so that nothing drifts however

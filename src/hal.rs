@@ -1,4 +1,4 @@
-//! Between a drive and a motor: adapters to `embedded-hal` 1.0, and the [`Axis`] that ties them to a
+//! Adapters to `embedded-hal` 1.0, and the [`Axis`] that ties them to a
 //! [`Drive`](crate::drive::Drive).
 //!
 //! | adapter | takes | for |

@@ -1,4 +1,4 @@
-//! The numbers that the tick path calculates with.
+//! Number types of the tick: `f32`, `f64` and fixed point.
 //!
 //! One algorithm serves three of them: [`f32`] on cores with a floating-point unit, [`f64`] as the host's
 //! yardstick, and [`Fixed`] on cores without. Floats are in SI units; [`Fixed`] is per unit of bases that the design

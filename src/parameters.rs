@@ -1,4 +1,4 @@
-//! Keep: the parameters of a drive in flash, through power cuts.
+//! Parameters: a versioned record in flash that survives power loss.
 //!
 //! A record is what [`Parameters`] serialises to, after a head with its identity and version, and before a CRC-32.
 //! [`Store`] keeps two records, each in pages of its own, and erases and writes the one that is not the newest good

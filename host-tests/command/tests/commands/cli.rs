@@ -55,8 +55,9 @@ fn modes_prints_frequencies_and_writes_a_page() {
     let output = driveline(&["modes", HOIST, "--html", &page]);
     assert!(output.status.success(), "{}", err(&output));
     assert!(err(&output).is_empty());
-    for word in ["Frequencies and shapes", "brake drum", "Sensitivity to each part", "same resonance and antiresonance"]
-    {
+    let words =
+        ["Frequencies and shapes", "brake drum", "Sensitivity to each part", "same resonance and antiresonance"];
+    for word in words {
         assert!(out(&output).contains(word), "{word}");
     }
     let html = std::fs::read_to_string(page).unwrap();
