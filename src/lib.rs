@@ -4,7 +4,7 @@
 #![doc = include_str!("../README.md")]
 //!
 //! # Errors
-//! A machine that cannot be, or cannot be controlled, is a compile error with a sentence. At run time, where the
+//! A machine that cannot be, or whose observer or speed loop is unstable, is a compile error with a sentence. Where the
 //! machine is read from a file, a chain carries its first error, and the `try_` form of what ends it returns the same
 //! sentence:
 //!

@@ -2,7 +2,7 @@
 //!
 //! A 45 kW, four-pole motor at 1480 r/min (290 N m; makers' tables give 0.3 to 0.4 kg m2 for frame size 225) on a
 //! flexible coupling of 0.12 MN m/rad, as catalogues have it for that torque, and the impeller of a radial fan of 0.9
-//! m. It takes 40 s to run up.
+//! m. Its setpoint takes 10 s to rated speed.
 
 use driveline::configure::{Machine, Rating};
 use driveline::design::{
