@@ -31,9 +31,9 @@ struct Entry {
 
 /// Name, for which commands, and text of each.
 const EXAMPLES: [(&str, &str, &str); 9] = [
-    ("hoist", "modes, design, commissioning", include_str!("../../machines/hoist.toml")),
+    ("hoist", "modes, design", include_str!("../../machines/hoist.toml")),
     ("axis", "modes, design, commissioning", include_str!("../../machines/axis.toml")),
-    ("mill", "modes, design, commissioning", include_str!("../../machines/mill.toml")),
+    ("mill", "modes, design", include_str!("../../machines/mill.toml")),
     ("ship", "modes, design", include_str!("../../machines/ship.toml")),
     ("gear-pair", "simulate, modes", include_str!("../../trains/gear-pair.toml")),
     ("hoist-start", "simulate, modes", include_str!("../../trains/hoist-start.toml")),
