@@ -12,7 +12,7 @@
 //! | a pair of any | both | both |
 //!
 //! [`ToothedWheel`] takes the times of teeth instead of the angles of ticks and gives the same [`Ripple`]. From a
-//! ripple and the machine's constants follow speed and torque of the load ([`Ripple::behind`]) and the required
+//! ripple and the machine's constants follow speed and torque of the load ([`Ripple::load_side`]) and the required
 //! flywheel ([`Ripple::flywheel`]).
 //!
 //! Lengthy calculations (divisions, sines, the waveform from its bins) are done by a `reading` between the ticks, in
