@@ -3,14 +3,14 @@
 use driveline_qemu::image::{Contents, Program, board, build};
 
 const PARTS: [&str; 11] = [
-    "7balance",
+    "9balancing",
     "phasor",
     "Phasor",
-    "rotation",
-    "turning",
+    "sincos",
+    "rotor_angle",
     "influence",
     "Influence",
-    "triangle",
+    "min_max",
     "procedure",
     "nalgebra",
     "in_run",
@@ -31,7 +31,7 @@ fn a_drive_without_balancing_has_nothing_of_it() {
         }
         // the bench measures it, so that these names are what it would be seen by
         let names = symbols(number, core, Program::Bench);
-        for part in ["phasor", "rotation"] {
+        for part in ["phasor", "sincos"] {
             assert!(names.iter().any(|name| name.contains(part)), "{part} on {core}");
         }
     }

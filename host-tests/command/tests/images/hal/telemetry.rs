@@ -315,7 +315,7 @@ fn frames_of_a_later_firmware_are_counted_and_not_called_damaged() {
     let (path, csv) = (folder.path().join("later.bin"), folder.path().join("later.csv"));
     std::fs::write(&path, &bytes).unwrap();
     let (code, _, err) = watch(path.as_os_str(), &[]);
-    assert!(code == Some(1) && err.contains("later than this program"), "{err}");
+    assert!(code == Some(1) && err.contains("newer than this program"), "{err}");
     // records beside them are shown; where they have another length, a head comes between
     bytes.extend(framed(&[1, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 0, 0]));
     bytes.extend(framed(&[1, 1, 0, 0, 0, 0, 0, 0, 0, 6, 0, 0, 0, 7, 0, 0, 0]));
