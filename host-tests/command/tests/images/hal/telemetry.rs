@@ -321,7 +321,7 @@ fn frames_of_a_later_firmware_are_counted_and_not_called_damaged() {
     bytes.extend(framed(&[1, 1, 0, 0, 0, 0, 0, 0, 0, 6, 0, 0, 0, 7, 0, 0, 0]));
     std::fs::write(&path, &bytes).unwrap();
     let (code, out, err) = watch(path.as_os_str(), &["--csv", csv.to_str().unwrap()]);
-    assert!(code == Some(0) && out.contains("5 of a kind that is not known"), "{out}{err}");
+    assert!(code == Some(0) && out.contains("5 of an unknown kind, from a later firmware"), "{out}{err}");
     let table = std::fs::read_to_string(csv).unwrap();
     assert_eq!(table, "tick,dropped,value 0\n0,0,5\ntick,dropped,value 0,value 1\n1,0,6,7\n");
 }
