@@ -81,6 +81,7 @@
 //!
 //! Generic code asks for `D: Composition + Configure<M, D::Number, Config = ConfigOf<D>>` and takes `D::CONFIG`.
 
+mod family;
 mod fluctuation;
 mod gain_source;
 mod governor;
@@ -90,6 +91,7 @@ mod observer;
 mod units;
 mod vibration;
 
+pub use family::{Family, Follows, ScheduleOf, Scheduled};
 pub use gain_source::GainSource;
 pub use governor::{HasBacklash, HasBarredSpeeds, HasDroop, HasSequencer, HasSlew, HasTorqueCurve};
 pub use machine::{Machine, Rating};

@@ -27,6 +27,7 @@
 //! motor's side. The estimated load torque is then the torque that would lock it.
 
 mod axis;
+mod switch;
 
 use crate::balancing::Balancer;
 use crate::fault::Faults;

@@ -12,4 +12,5 @@ mod logged;
 mod machine;
 #[path = "../references/mod.rs"]
 mod references;
+mod scheduling;
 mod tick;
