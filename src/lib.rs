@@ -22,7 +22,8 @@
 //! [`machine`] describes the machine and [`design`] its control (both `const fn` in `f64`); [`settings`] converts a
 //! design to a [`number`] type. [`observer`], [`fluctuation`], [`governor`] and [`balancing`] are the parts of a
 //! [`drive`], composed by type: a part that a machine does not need is `()` and costs nothing. [`scheduling`] follows a
-//! load and a rope that change, [`commissioning`] identifies the machine by a test. [`sample`] holds inputs and outputs of a tick, [`fault`] its flags.
+//! load and a rope that change, [`learning`] finds losses and errors while the machine works, [`commissioning`]
+//! identifies it by a test. [`sample`] holds inputs and outputs of a tick, [`fault`] its flags.
 //!
 //! # Glossary
 //! | term | meaning | unit |
@@ -55,6 +56,7 @@ pub mod fluctuation;
 pub mod governor;
 #[cfg(feature = "hal")]
 pub mod hal;
+pub mod learning;
 pub mod machine;
 pub mod math;
 pub mod number;

@@ -6,6 +6,7 @@ use crate::design::{Disturbance, PlacedObserver, SpeedLoopDesign};
 use crate::drive::Drive;
 use crate::fluctuation::Fluctuation;
 use crate::governor::{Governor, SpeedLoop, SpeedLoopConfig};
+use crate::learning::{Correction, EccentricityObserver};
 use crate::machine::TwoMass;
 use crate::number::{Fixed, Interpolate, Number};
 use crate::observer::{
@@ -138,6 +139,15 @@ macro_rules! cells {
         }
         cells
     }};
+}
+
+impl<M, N, O, const A: usize, const B: usize> Scheduled<M, N, A, B> for EccentricityObserver<N, O>
+where
+    M: Family<A, B>,
+    N: Correction,
+    O: Observer<N> + Configure<M, N, Config = <O as Observer<N>>::Config> + Scheduled<M, N, A, B>,
+{
+    const CELLS: [[Self::Config; B]; A] = O::CELLS;
 }
 
 macro_rules! scheduled {

@@ -32,11 +32,16 @@ impl Weight {
 pub trait Magnitude: Interpolate {
     /// Its size; in fixed point in units of its own.
     fn magnitude(&self) -> f32;
+    /// The factor nearest to a value; at the end of its range beyond it.
+    fn of(value: f32) -> Self;
 }
 
 impl Magnitude for f32 {
     fn magnitude(&self) -> f32 {
         self.abs()
+    }
+    fn of(value: f32) -> Self {
+        value
     }
 }
 
@@ -44,11 +49,18 @@ impl Magnitude for f64 {
     fn magnitude(&self) -> f32 {
         self.abs() as f32
     }
+    fn of(value: f32) -> Self {
+        value.into()
+    }
 }
 
 impl Magnitude for Coefficient {
     fn magnitude(&self) -> f32 {
         (self.to_bits() as f32).abs()
+    }
+    // The cast saturates.
+    fn of(value: f32) -> Self {
+        Coefficient::from_bits((value * 4_294_967_296.0) as i32)
     }
 }
 

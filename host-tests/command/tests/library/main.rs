@@ -8,6 +8,8 @@ mod elements;
 mod fluctuation;
 mod governor;
 mod hal;
+mod learning;
+mod lift;
 mod logged;
 mod machine;
 #[path = "../references/mod.rs"]

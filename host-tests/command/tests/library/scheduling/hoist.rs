@@ -1,8 +1,6 @@
 //! The hoist on its gain schedule, against the full solver.
 
-use std::f64::consts::TAU;
-
-use driveline::configure::{Family, Machine, ScheduleOf, Units};
+use driveline::configure::{Family, ScheduleOf, Units};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::number::Fixed;
@@ -11,51 +9,12 @@ use driveline::sample::Sample;
 use driveline::scheduling::{LoadMass, LoadMassConfig, RopeLength};
 use driveline_firmware::scenes::hoist::{Hoist, TRAVEL};
 use driveline_solver::noise::Noise;
-use driveline_solver::plant::{Chain, Plant, Shaft, Start};
 
-/// Gravity [m/s2], the standard value of ISO 80000-3.
-const GRAVITY: f64 = 9.80665;
+use crate::lift::Lift;
 
 /// Interval of the scheduling [s].
 const EVERY: f64 = 0.05;
 const MASS: LoadMassConfig = LoadMassConfig::new(TRAVEL, 0.2, EVERY, [500.0, 13_000.0]);
-
-/// A load on a rope: the hoist's figures once more, by own arithmetic.
-struct Lift {
-    plant: Plant,
-    weight: f64,
-    rope: [f64; 2],
-}
-
-impl Lift {
-    fn new(mass: f64, length: f64) -> Self {
-        let travel = 0.8 / (2.0 * 2.0 * 31.5);
-        let square = travel * travel;
-        let (weight, rope) = (mass * GRAVITY * travel, [2.9e6 * 12.0 / length * square, 3.6e3 * square]);
-        let plant = Chain::motor(0.62)
-            .shaft(Shaft::elastic(5.0e4).damping(2.0), 0.08)
-            .efficiency(0.94)
-            .shaft(Shaft::rope(rope[0]).damping(rope[1]), mass * square)
-            .load(weight)
-            .start(Start::Given { twists: vec![weight / 5.0e4, weight / rope[0]], speeds: vec![0.0; 3] })
-            .build()
-            .unwrap();
-        Lift { plant, weight, rope }
-    }
-
-    /// The rope's pull at the motor.
-    fn pull(&self) -> f64 {
-        let [stiffness, damping] = self.rope;
-        let rate = self.plant.speed(1) - self.plant.speed(2);
-        (stiffness * self.plant.twist(1) + damping * rate).max(0.0)
-    }
-
-    /// An incremental encoder of 2048 lines.
-    fn encoder(&self) -> u32 {
-        let turn = (self.plant.motor_angle() / TAU * 8192.0).floor() / 8192.0;
-        (turn.rem_euclid(1.0) * 4_294_967_296.0) as u64 as u32
-    }
-}
 
 /// How the constants follow.
 #[derive(Clone, Copy, PartialEq)]
@@ -92,7 +51,7 @@ macro_rules! lifts {
             lift.plant.set_brake(1, 2_000.0);
             for tick in 0..7 * $rate_hz {
                 let time = f64::from(tick) * period;
-                let angle = lift.encoder();
+                let angle = lift.encoder([0.0; 2], 0.0);
                 let command = if time < 0.2 {
                     drive.hold(&config, angle, <$number as Units>::from_torque::<M>(lift.weight as f32))
                 } else {
@@ -120,11 +79,7 @@ macro_rules! lifts {
                 torques = torques.rotate_left(5) ^ u64::from(command.torque_si::<M>().to_bits());
                 lift.plant.advance(applied, period);
             }
-            Outcome {
-                load_torque: (squares[0] / squares[1]).sqrt() / lift.weight,
-                swing: swing / lift.weight,
-                torques,
-            }
+            Outcome { load_torque: (squares[0] / squares[1]).sqrt() / lift.weight, swing: swing / lift.weight, torques }
         }
     };
 }
@@ -137,7 +92,8 @@ lifts!(exact, f32, TwoMassObserver, 1_000);
 /// the weight.
 #[test]
 fn the_load_torque_of_an_empty_hook_is_found() {
-    for (name, lift) in [("f32", reduced as fn(f64, f64, Gains) -> Outcome), ("fixed", reduced_fixed), ("exact", exact)] {
+    for (name, lift) in [("f32", reduced as fn(f64, f64, Gains) -> Outcome), ("fixed", reduced_fixed), ("exact", exact)]
+    {
         for length in [25.0, 12.0, 6.0] {
             let found = lift(500.0, length, Gains::Scheduled).load_torque;
             println!("{name}, {length} m: load torque {:.2} %", 100.0 * found);
@@ -148,8 +104,8 @@ fn the_load_torque_of_an_empty_hook_is_found() {
     }
 }
 
-/// At every point of the grid and between: a limit cycle would be a swing of tens of percent (17 % of 12 t was seen with
-/// too stiff a damping), and three seconds after the start the slowest swing, at 3 1/s, has decayed to 1e-4.
+/// At every point of the grid and between: a limit cycle would be a swing of tens of percent (17 % of 12 t was seen
+/// with too stiff a damping), and three seconds after the start the slowest swing, at 3 1/s, has decayed to 1e-4.
 #[test]
 fn the_hoist_is_stable_at_the_points_and_between() {
     type M = Hoist<10_000>;
@@ -157,7 +113,7 @@ fn the_hoist_is_stable_at_the_points_and_between() {
         let between = points.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
         points.iter().copied().chain(between).collect()
     };
-    let (loads, ropes) = (halves(&M::FIRST), halves(&M::SECOND));
+    let (loads, ropes) = (halves(&<M as Family<5, 4>>::FIRST), halves(&<M as Family<5, 4>>::SECOND));
     let worst = loads.iter().flat_map(|load| ropes.iter().map(move |rope| (1e3 / load, 1.0 / rope)));
     let worst = worst.map(|(mass, length)| {
         let swing = reduced(mass, length, Gains::Scheduled).swing;
