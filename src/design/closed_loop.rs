@@ -1,11 +1,10 @@
 //! The speed loop with everything that is in it: machine, observer, governor, actuator, all sampled.
 //!
-//! A loop whose estimates are taken as exact is told to bear ten times where it bears a quarter: the observer knows the
-//! machine that it was designed with and the torque that the drive reports, and finds what differs with a lag. Here the
-//! observer stands in the loop, and the machine may differ from the one that it knows.
+//! Margins with estimates taken as exact are too large by up to a factor of ten: the observer follows a machine that
+//! differs from its model with a lag. Here the observer is in the loop, and the machine may differ from its model.
 //!
-//! The loop is cut where the torque that the drive reports acts on the machine. A gain above 1 there is a torque
-//! constant that is larger than told, or as well inertias and stiffness that are all smaller.
+//! The loop is cut at the torque on the machine. A gain above 1 there is a torque constant that is larger than
+//! described, or inertias and stiffness that are all smaller.
 //!
 //! With `phi` and `omega` the mean angle and speed, `delta` and `v` twist and slip, all states of the observer follow
 //! from the torque `tau` of the ended tick and from the innovation `i` by the model's own step. Eliminating `i` from
@@ -194,6 +193,11 @@ impl ClosedLoop {
         denominator.plus(gain, &numerator).is_stable()
     }
 
+    /// The same for tests with many machines.
+    pub(super) const fn mapped(&self) -> Mapped {
+        Mapped::of(&self.numerator, &self.denominator)
+    }
+
     /// Whether the loop is stable with its response turned by an angle \[rad\] either way: `|D + e^(j phi) N|^2` has
     /// real coefficients.
     pub(super) const fn is_stable_turned(&self, plant: &Plant, angle: f64) -> bool {
@@ -208,7 +212,13 @@ impl ClosedLoop {
     /// # Errors
     /// [`Error::LoopUnstable`] where there are none.
     pub const fn margins(&self, plant: &Plant) -> Result<Margins, Error> {
+        self.margins_at(plant, 1.0)
+    }
+
+    /// Margins with the torque times a factor.
+    pub(super) const fn margins_at(&self, plant: &Plant, torque: f64) -> Result<Margins, Error> {
         let (numerator, denominator) = self.open(plant);
+        let numerator = numerator.scaled(torque);
         if !denominator.plus(1.0, &numerator).is_stable() {
             return Err(Error::LoopUnstable);
         }
@@ -244,6 +254,35 @@ impl ClosedLoop {
             k += 1;
         }
         Ranges { motor_inertia: range[0], load_inertia: range[1], stiffness: range[2] }
+    }
+}
+
+/// A ratio of polynomials in the variable w of the bilinear map, of a controller or of a machine. The map of a product
+/// is that of its factors, so each is mapped once for all loops that it is in.
+#[derive(Clone, Copy)]
+pub(super) struct Mapped {
+    numerator: Polynomial,
+    denominator: Polynomial,
+}
+
+impl Mapped {
+    const fn of(numerator: &Polynomial, denominator: &Polynomial) -> Self {
+        let (n, d) = (numerator.order(), denominator.order());
+        let degree = if n > d { n } else { d };
+        Self { numerator: numerator.mapped(degree), denominator: denominator.mapped(degree) }
+    }
+
+    /// A machine, sampled.
+    pub(super) const fn of_plant(plant: &Plant, period: f64) -> Self {
+        let (numerator, denominator) = plant.sampled(period);
+        Self::of(&numerator, &denominator)
+    }
+
+    /// Whether the loop of two such, closed, is stable with either gain.
+    pub(super) const fn is_stable(&self, other: &Self, gains: [f64; 2]) -> bool {
+        let numerator = self.numerator.times(&other.numerator);
+        let denominator = self.denominator.times(&other.denominator);
+        denominator.plus(gains[0], &numerator).is_hurwitz() && denominator.plus(gains[1], &numerator).is_hurwitz()
     }
 }
 

@@ -39,25 +39,27 @@ sentences! {
     TorqueCurve => "a torque curve needs points of rising speed from zero on, each with a torque of zero or above, all \
         finite",
     Tolerance => "a tolerance must be from a factor above 0 and at most 1 to one of 1 or above, a gain margin 1 or \
-        above, a phase margin zero or above",
-    LoopUnstable => "the speed loop is unstable with its observer in it: lower shaft_damping, or raise the load \
-        disturbance of its observer",
-    LoopGain => "the speed loop with its observer has less gain margin than its robustness requires (6 dB unless \
-        named): lower shaft_damping or bandwidth, or its requirement",
-    LoopPhase => "the speed loop with its observer has less phase margin than its robustness requires (30 degrees \
-        unless named): lower shaft_damping or bandwidth, or its requirement",
-    LoopMotorInertia => "the speed loop with its observer is unstable at the tolerance of the motor inertia: lower \
-        shaft_damping or bandwidth, or narrow the tolerance",
-    LoopLoadInertia => "the speed loop with its observer is unstable at the tolerance of the load inertia: lower \
-        shaft_damping or bandwidth, or narrow the tolerance",
-    LoopStiffness => "the speed loop with its observer is unstable at the tolerance of the stiffness: lower \
-        shaft_damping or bandwidth, or narrow the tolerance",
-    LoopTorque => "the speed loop with its observer is unstable at the tolerance of the torque: lower \
-        shaft_damping or bandwidth, or narrow the tolerance",
-    LoopLate => "the speed loop with its observer is unstable at a torque as late as its tolerance: lower \
-        shaft_damping or bandwidth, or narrow the tolerance",
-    LoopCorner => "the speed loop with its observer is unstable at its tolerances together: lower \
-        shaft_damping or bandwidth, or narrow the tolerance",
+        above, a phase margin zero or above, a lag zero or above and finite (s)",
+    LoopUnstable => "the speed loop with its observer is unstable: take SpeedLoopTuning::of, less bandwidth, less \
+        damping of a take-up, or a load disturbance of more for the observer",
+    LoopGain => "the speed loop with its observer has less gain margin than ROBUSTNESS requires (6 dB unless \
+        named): take SpeedLoopTuning::of, less bandwidth or less damping of a take-up, or name a ROBUSTNESS of \
+        less",
+    LoopPhase => "the speed loop with its observer has less phase margin than ROBUSTNESS requires (30 degrees \
+        unless named): take SpeedLoopTuning::of, less bandwidth or less damping of a take-up, or name a ROBUSTNESS \
+        of less",
+    LoopMotorInertia => "the speed loop with its observer is unstable at the tolerance of the motor inertia: take \
+        SpeedLoopTuning::of, less bandwidth or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopLoadInertia => "the speed loop with its observer is unstable at the tolerance of the load inertia: take \
+        SpeedLoopTuning::of, less bandwidth or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopStiffness => "the speed loop with its observer is unstable at the tolerance of the stiffness: take \
+        SpeedLoopTuning::of, less bandwidth or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopTorque => "the speed loop with its observer is unstable at the tolerance of the torque: take \
+        SpeedLoopTuning::of, less bandwidth or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopLate => "the speed loop with its observer is unstable with a torque as late as TOLERANCE allows: take \
+        SpeedLoopTuning::of, less bandwidth or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopCorner => "the speed loop with its observer is unstable at its tolerances together: take \
+        SpeedLoopTuning::of, less bandwidth or less damping of a take-up, or name a narrower TOLERANCE",
     SpeedLoopUnstable => "the speed loop is unstable at this sample rate: lower its bandwidth or raise the rate",
 }
 

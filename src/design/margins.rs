@@ -34,6 +34,18 @@ impl Margins {
         crossover: 0.0,
         modulus: f64::INFINITY,
     };
+
+    /// The smaller of each.
+    pub(super) const fn and(&self, other: &Self) -> Self {
+        Self {
+            gain_up: self.gain_up.min(other.gain_up),
+            gain_down: self.gain_down.max(other.gain_down),
+            phase: self.phase.min(other.phase),
+            delay: self.delay.min(other.delay),
+            crossover: self.crossover.max(other.crossover),
+            modulus: self.modulus.min(other.modulus),
+        }
+    }
 }
 
 /// An open loop, positive where the feedback opposes.

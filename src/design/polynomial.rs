@@ -93,18 +93,24 @@ impl Polynomial {
         value
     }
 
-    /// Whether every root lies within the unit circle of z, given a positive leading coefficient.
-    pub(super) const fn is_stable(&self) -> bool {
-        let mut n = self.degree;
-        if n >= CAPACITY {
-            return false;
-        }
+    /// The degree without leading zeros.
+    pub(super) const fn order(&self) -> usize {
+        let mut n = if self.degree < CAPACITY { self.degree } else { CAPACITY - 1 };
         while n > 0 && self.coefficient[n] == 0.0 {
             n -= 1;
         }
-        // `(1 - w)^n` times the value at `2 w/(1 - w)`, by Horner's scheme; the other array holds the powers of
-        // `1 - w`.
+        n
+    }
+
+    /// Whether every root lies within the unit circle of z, given a positive leading coefficient.
+    pub(super) const fn is_stable(&self) -> bool {
+        self.degree < CAPACITY && self.mapped(self.order()).is_hurwitz()
+    }
+
+    /// `(1 - w)^n` times the value at `2 w/(1 - w)`, by Horner's scheme: a polynomial in w. The degree is at most n.
+    pub(super) const fn mapped(&self, n: usize) -> Self {
         let mut mapped = [0.0; CAPACITY];
+        // The powers of `1 - w`.
         let mut power = [0.0; CAPACITY];
         mapped[0] = self.coefficient[n];
         power[0] = 1.0;
@@ -120,8 +126,14 @@ impl Polynomial {
             }
             mapped[0] = coefficient;
         }
-        // Routh's array in place, from the leading coefficient down.
-        let mut i = n;
+        Self { coefficient: mapped, degree: n }
+    }
+
+    /// Whether every root of a polynomial in w has a negative real part, given a positive leading coefficient: Routh's
+    /// array in place, from the leading coefficient down.
+    pub(super) const fn is_hurwitz(&self) -> bool {
+        let mut mapped = self.coefficient;
+        let mut i = self.degree;
         while i > 0 {
             if !(mapped[i] > 0.0 && mapped[i - 1] > 0.0 && mapped[i].is_finite()) {
                 return false;

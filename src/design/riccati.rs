@@ -1,8 +1,8 @@
 //! The discrete algebraic Riccati equation, by structure-preserving doubling.
 //!
-//! [Chu, Fan, Lin, Wang 2004, Int. J. Control 77(8)]: each iteration doubles the
-//! horizon of the solution, so some twenty suffice from a millisecond to a quarter of an hour. It converges
-//! quadratically and keeps the solution symmetric and positive.
+//! [Chu, Fan, Lin, Wang 2004, Int. J. Control 77(8)]: each iteration doubles the horizon of the solution, so some
+//! twenty suffice from a millisecond to a quarter of an hour. It converges quadratically and keeps the solution
+//! symmetric and positive.
 
 use super::Matrix;
 

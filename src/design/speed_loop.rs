@@ -34,12 +34,10 @@ impl SpeedLoopTuning {
     pub const USUAL: Self = Self { bandwidth: 0.4, damping: 1.0, shaft_damping: 0.2 };
 
     /// Robust for a machine: as [`USUAL`](Self::USUAL), with the damping ratio of the shaft at which the gain on the
-    /// slip is a tenth of the
-    /// proportional one.
+    /// twist rate is a tenth of the proportional one.
     ///
-    /// A large gain on the slip, either way, costs the margins: the observer has to find the slip. The proportional
-    /// gain alone damps the shaft of a
-    /// heavy load well and that of a light load little.
+    /// A large gain on the twist rate, either way, costs margin, since its estimate lags. The proportional gain alone
+    /// damps the shaft of a heavy load well and that of a light load little.
     #[must_use]
     pub const fn of(machine: &TwoMass) -> Self {
         let mut tuning = Self::USUAL;
@@ -136,7 +134,7 @@ impl TwoMass {
         })
     }
 
-    /// Proportional gain, integral gain, gain on the slip, natural frequency of the damped shaft.
+    /// Proportional gain, integral gain, gain on the twist rate, natural frequency of the damped shaft.
     pub(super) const fn speed_loop_gains(&self, tuning: &SpeedLoopTuning) -> [f64; 4] {
         let SpeedLoopTuning { bandwidth: b, damping: z1, shaft_damping: z2 } = *tuning;
         let (wa, wr) = (self.antiresonance(), self.resonance());

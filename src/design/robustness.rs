@@ -1,0 +1,201 @@
+//! Robustness of a speed loop: margins at the described machine, stability within its tolerances.
+//!
+//! The characteristic polynomial is linear in each of load inertia, stiffness and torque, not in all together, and the
+//! sampled machine is neither, so ends that are stable do not make a range stable. A wide range is dangerous: as the
+//! resonance moves through it, the loop's phase there may be bad in the middle alone. Hence a range is sampled at
+//! points of which each is at most twice the one before. The usual ranges have their two ends.
+
+use super::closed_loop::{ClosedLoop, Mapped};
+use super::margins::Margins;
+use super::plant::Plant;
+use super::{Actuator, Error, RigidDesign, SpeedLoopDesign, Tolerance, TwoMassDesign};
+use crate::machine::TwoMass;
+
+/// The least margins of a speed loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Robustness {
+    /// Factor by which the gain may grow or shrink, 1 or above.
+    pub gain: f64,
+    /// Phase margin \[rad\].
+    pub phase: f64,
+}
+
+impl Robustness {
+    /// 6 dB and 30 degrees, the least that books on control take for sound [Åström and Murray, Feedback Systems,
+    /// §10.3].
+    pub const USUAL: Self = Self { gain: 2.0, phase: core::f64::consts::FRAC_PI_6 };
+
+    /// A stable loop, no more.
+    pub const NONE: Self = Self { gain: 1.0, phase: 0.0 };
+}
+
+/// The observer whose estimates a speed loop takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum LoopObserver<'a> {
+    /// Two masses.
+    TwoMass(&'a TwoMassDesign),
+    /// One mass.
+    Rigid(&'a RigidDesign),
+}
+
+impl LoopObserver<'_> {
+    const fn close(&self, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<ClosedLoop, Error> {
+        match self {
+            Self::TwoMass(design) => ClosedLoop::of(design, speed_loop, actuator),
+            Self::Rigid(design) => ClosedLoop::of_rigid(design, speed_loop, actuator),
+        }
+    }
+
+    /// The loop with its torque as described, and as late as the tolerance allows.
+    const fn close_within(
+        &self,
+        speed_loop: &SpeedLoopDesign,
+        actuator: Actuator,
+        tolerance: &Tolerance,
+    ) -> Result<[ClosedLoop; 2], Error> {
+        let later = Actuator {
+            delay: actuator.delay + tolerance.late as f64 * speed_loop.period,
+            lag: actuator.lag + tolerance.lag,
+        };
+        match (self.close(speed_loop, actuator), self.close(speed_loop, later)) {
+            (Ok(prompt), Ok(delayed)) => Ok([prompt, delayed]),
+            (Err(error), _) | (_, Err(error)) => Err(error),
+        }
+    }
+}
+
+impl TwoMass {
+    /// Stops where a speed loop does not bear its tolerances.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_robust`](Self::try_robust) returns.
+    pub const fn robust(
+        &self,
+        observer: LoopObserver<'_>,
+        speed_loop: &SpeedLoopDesign,
+        actuator: Actuator,
+        tolerance: &Tolerance,
+        robustness: &Robustness,
+    ) {
+        if let Err(error) = self.try_robust(observer, speed_loop, actuator, tolerance, robustness) {
+            error.stop()
+        }
+    }
+
+    /// Whether a speed loop on this machine, with its observer in it, has the margins that are asked for, and is stable
+    /// within the tolerances.
+    ///
+    /// Nothing but stability is tested: at the nominal machine with the gain at both ends of its margin and the phase
+    /// at its margin, and at all points of the tolerances, 32 for the usual ones.
+    ///
+    /// # Errors
+    /// [`Error::Tolerance`] for one that is out of range; [`Error::LoopUnstable`], [`Error::LoopGain`],
+    /// [`Error::LoopPhase`]; or the tolerance that alone is too wide: [`Error::LoopMotorInertia`],
+    /// [`Error::LoopLoadInertia`], [`Error::LoopStiffness`], [`Error::LoopTorque`], [`Error::LoopLate`];
+    /// [`Error::LoopCorner`] where only several together are.
+    pub const fn try_robust(
+        &self,
+        observer: LoopObserver<'_>,
+        speed_loop: &SpeedLoopDesign,
+        actuator: Actuator,
+        tolerance: &Tolerance,
+        robustness: &Robustness,
+    ) -> Result<(), Error> {
+        if !(tolerance.is_sound() && robustness.gain >= 1.0 && robustness.phase >= 0.0) {
+            return Err(Error::Tolerance);
+        }
+        let [prompt, delayed] = match observer.close_within(speed_loop, actuator, tolerance) {
+            Ok(closed) => closed,
+            Err(error) => return Err(error),
+        };
+        let nominal = Plant::of(self);
+        if !prompt.is_stable(&nominal, 1.0) {
+            return Err(Error::LoopUnstable);
+        }
+        if !(prompt.is_stable(&nominal, robustness.gain) && prompt.is_stable(&nominal, 1.0 / robustness.gain)) {
+            return Err(Error::LoopGain);
+        }
+        if !prompt.is_stable_turned(&nominal, robustness.phase) {
+            return Err(Error::LoopPhase);
+        }
+        let loops = [prompt.mapped(), delayed.mapped()];
+        if self.is_stable_within(tolerance, &loops, speed_loop.period) {
+            Ok(())
+        } else {
+            Err(self.cause(tolerance, &loops, speed_loop.period))
+        }
+    }
+
+    /// Whether these loops are stable at all points of the tolerances but the torque's delay, which is the loop's own.
+    const fn is_stable_within(&self, tolerance: &Tolerance, loops: &[Mapped], period: f64) -> bool {
+        let torque = [tolerance.torque.min, tolerance.torque.max];
+        let mut index = 0;
+        while index < tolerance.machines() {
+            let machine = Mapped::of_plant(&Plant::of(&tolerance.machine(self, index)), period);
+            let mut rest = loops;
+            while let [first, others @ ..] = rest {
+                if !first.is_stable(&machine, torque) {
+                    return false;
+                }
+                rest = others;
+            }
+            index += 1;
+        }
+        true
+    }
+
+    /// The least of each margin of a speed loop on this machine, with its observer in it, over all points of the
+    /// tolerances. A sweep of the frequency response at each: for a host, not for a constant.
+    ///
+    /// # Errors
+    /// [`Error::Tolerance`] for one that is out of range; [`Error::LoopUnstable`] for a loop that is unstable at a
+    /// point.
+    pub const fn least_margins(
+        &self,
+        observer: LoopObserver<'_>,
+        speed_loop: &SpeedLoopDesign,
+        actuator: Actuator,
+        tolerance: &Tolerance,
+    ) -> Result<Margins, Error> {
+        if !tolerance.is_sound() {
+            return Err(Error::Tolerance);
+        }
+        let [prompt, delayed] = match observer.close_within(speed_loop, actuator, tolerance) {
+            Ok(closed) => closed,
+            Err(error) => return Err(error),
+        };
+        let mut least = Margins::NONE;
+        let mut index = 0;
+        while index < 4 * tolerance.machines() {
+            let closed = if index & 1 == 0 { &prompt } else { &delayed };
+            let torque = if index & 2 == 0 { tolerance.torque.min } else { tolerance.torque.max };
+            match closed.margins_at(&Plant::of(&tolerance.machine(self, index / 4)), torque) {
+                Ok(found) => least = least.and(&found),
+                Err(error) => return Err(error),
+            }
+            index += 1;
+        }
+        Ok(least)
+    }
+
+    /// The tolerance that alone makes the loop unstable.
+    const fn cause(&self, tolerance: &Tolerance, loops: &[Mapped; 2], period: f64) -> Error {
+        const EXACT: Tolerance = Tolerance::NONE;
+        let (prompt, delayed) = loops.split_at(1);
+        if !self.is_stable_within(&Tolerance { motor_inertia: tolerance.motor_inertia, ..EXACT }, prompt, period) {
+            Error::LoopMotorInertia
+        } else if !self.is_stable_within(&Tolerance { load_inertia: tolerance.load_inertia, ..EXACT }, prompt, period) {
+            Error::LoopLoadInertia
+        } else if !self.is_stable_within(&Tolerance { stiffness: tolerance.stiffness, ..EXACT }, prompt, period) {
+            Error::LoopStiffness
+        } else if !self.is_stable_within(&Tolerance { torque: tolerance.torque, ..EXACT }, prompt, period) {
+            Error::LoopTorque
+        } else if !self.is_stable_within(&EXACT, delayed, period) {
+            Error::LoopLate
+        } else {
+            Error::LoopCorner
+        }
+    }
+}
