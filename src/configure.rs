@@ -52,6 +52,35 @@
 //! A part of one's own implements [`Configure`] for itself and any machine; a part of the library that a machine uses
 //! with constants of its own is a newtype.
 //!
+//! # The speed loop that is refused
+//! A drive whose speed loop has less than 6 dB or 30 degrees with its observer in it, or is unstable within the
+//! machine's tolerances, is a compile error. It names the margin or the tolerance, and the remedy. To overrule it,
+//! name [`Machine::ROBUSTNESS`] or [`Machine::TOLERANCE`]:
+//!
+//! ```
+//! # use driveline::prelude::*;
+//! # use driveline::design::{Spread, Tolerance};
+//! # struct Lift;
+//! # impl Machine for Lift {
+//! #     const CHAIN: Chain = Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0), Damping(0.5)).rotor(Inertia(0.35));
+//! #     const RATING: Rating = Rating { torque: 200.0, speed: 150.0, torque_limit: 300.0 };
+//! #     const ENCODER: Encoder = Encoder::lines(2048);
+//! #     const RATE_HZ: u32 = 1_000;
+//!     // an empty hook to an overload, on rope of 5 to 30 m where the chain has 12 m
+//!     const TOLERANCE: Tolerance = Tolerance {
+//!         load_inertia: Spread::between(0.05, 1.1),
+//!         stiffness: Spread::between(0.4, 2.4),
+//!         ..Tolerance::USUAL
+//!     };
+//! # }
+//! # static CONFIG: ConfigOf<Drive<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>> =
+//! #     Drive::<f32, TwoMassObserver<f32>, (), SpeedLoop<f32>>::configure::<Lift>();
+//! ```
+//!
+//! Observers of two masses, of one mass and of backlash are tested, with [`SpeedLoop`](crate::governor::SpeedLoop) or
+//! with a [`SpeedGovernor`](crate::governor::SpeedGovernor) of [`GainSource::SpeedLoop`] that filters nothing: linear,
+//! with the gap closed. A part of one's own that acts on the loop names [`Configure::LOOP`].
+//!
 //! # One file for several drives
 //! A machine that is driven in several ways is one type with a parameter, or several types that share constants:
 //!
@@ -87,6 +116,7 @@ mod fluctuation;
 mod gain_source;
 mod governor;
 mod limits;
+mod loop_part;
 mod machine;
 mod observer;
 mod units;
@@ -95,6 +125,7 @@ mod vibration;
 pub use family::{Family, Follows, ScheduleOf, Scheduled};
 pub use gain_source::GainSource;
 pub use governor::{HasBacklash, HasBarredSpeeds, HasDroop, HasSequencer, HasSlew, HasTorqueCurve};
+pub use loop_part::LoopPart;
 pub use machine::{Machine, Rating};
 pub use observer::HasCrank;
 pub use units::Units;
@@ -117,6 +148,8 @@ pub trait Configure<M: Machine, N: Number> {
     type Config;
     /// The constants.
     const CONFIG: Self::Config;
+    /// This part in the speed loop, for the test of the loop's stability.
+    const LOOP: LoopPart = LoopPart::None;
 }
 
 /// Nothing: a part that is left out.
@@ -128,6 +161,7 @@ impl<M: Machine, N: Number> Configure<M, N> for () {
 impl<M: Machine, N: Number, A: Configure<M, N>, B: Configure<M, N>> Configure<M, N> for (A, B) {
     type Config = (A::Config, B::Config);
     const CONFIG: Self::Config = (A::CONFIG, B::CONFIG);
+    const LOOP: LoopPart = A::LOOP.and(&B::LOOP);
 }
 
 impl<M, N, A, B, C> Configure<M, N> for (A, B, C)
@@ -140,6 +174,7 @@ where
 {
     type Config = (A::Config, B::Config, C::Config);
     const CONFIG: Self::Config = (A::CONFIG, B::CONFIG, C::CONFIG);
+    const LOOP: LoopPart = A::LOOP.and(&B::LOOP).and(&C::LOOP);
 }
 
 impl<M, N, O, F, G, B> Configure<M, N> for Drive<N, O, F, G, B>
@@ -153,12 +188,16 @@ where
     B: Balancer<N> + Configure<M, N, Config = <B as Balancer<N>>::Config>,
 {
     type Config = ConfigOf<Self>;
-    const CONFIG: Self::Config = Config {
-        limits: <Limits<N> as Configure<M, N>>::CONFIG,
-        observer: O::CONFIG,
-        fluctuation: F::CONFIG,
-        governor: G::CONFIG,
-        balancer: B::CONFIG,
+    const CONFIG: Self::Config = {
+        let config = Config {
+            limits: <Limits<N> as Configure<M, N>>::CONFIG,
+            observer: O::CONFIG,
+            fluctuation: F::CONFIG,
+            governor: G::CONFIG,
+            balancer: B::CONFIG,
+        };
+        O::LOOP.test::<M>(&G::LOOP);
+        config
     };
 }
 

@@ -1,7 +1,7 @@
 //! Governors and their parts for a machine.
 
-use super::{Configure, GainSource, Machine};
-use crate::design::{BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, TorqueCurve};
+use super::{Configure, GainSource, LoopPart, Machine};
+use crate::design::{BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, SpeedLoopDesign, TorqueCurve};
 use crate::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
     BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CycleAverage, Droop, DroopConfig,
@@ -74,19 +74,28 @@ where
         sequence: U::CONFIG,
         filter: V::CONFIG,
     };
+    const LOOP: LoopPart = match &M::GAINS {
+        GainSource::SpeedLoop(design) => {
+            LoopPart::SpeedLoop(SpeedLoopDesign { damping: 0.0, ..*design }).and(&F::LOOP).and(&L::LOOP).and(&V::LOOP)
+        }
+        GainSource::Governor(_) => LoopPart::Unknown,
+    };
 }
 
 /// None: the average over a cycle comes from the measurement of the fluctuation.
 impl<M: Machine, N: Number> Configure<M, N> for CycleAverage<N> {
     type Config = ();
     const CONFIG: () = ();
+    const LOOP: LoopPart = LoopPart::Unknown;
 }
 
 macro_rules! parts {
-    ($number:ident, $bases:expr; $([$($k:ident)?] $machine:path, $part:ty => $config:ty, $new:expr;)+) => {$(
+    ($number:ident, $bases:expr;
+        $([$($k:ident)?] $machine:path, $part:ty => $config:ty, $new:expr $(, $loop:expr)?;)+) => {$(
         impl<M: $machine $(, const $k: usize)?> Configure<M, $number> for $part {
             type Config = $config;
             const CONFIG: Self::Config = $new;
+            $(const LOOP: LoopPart = $loop;)?
         }
     )+};
 }
@@ -96,7 +105,7 @@ macro_rules! governors {
         parts! { $number, $bases;
             [] Machine, SpeedLoop<$number> => SpeedLoopConfig<$number>, SpeedLoopConfig::<$number>::new(
                 &M::SPEED_LOOP, SpeedLoopSettings { torque_limit: M::RATING.torque_limit, ramp: M::RAMP }, $bases
-            );
+            ), LoopPart::SpeedLoop(M::SPEED_LOOP);
             [] Machine, Gains<$number> => Gains<$number>, match &M::GAINS {
                 GainSource::SpeedLoop(design) => Gains::<$number>::of_speed_loop(design, M::RAMP, $bases),
                 GainSource::Governor(design) => Gains::<$number>::new(design, M::RAMP, $bases),
@@ -110,7 +119,7 @@ macro_rules! governors {
             [] Machine, AccelerationFeedback => AccelerationFeedbackConfig<$number>,
                 AccelerationFeedbackConfig::<$number>::new(M::GAINS.governor(), $bases);
             [] Machine, ActiveDamping => ActiveDampingConfig<$number>,
-                ActiveDampingConfig::<$number>::new(&M::SPEED_LOOP, $bases);
+                ActiveDampingConfig::<$number>::new(&M::SPEED_LOOP, $bases), LoopPart::Damping(M::SPEED_LOOP.damping);
             [] Machine, SymmetricLimit => SymmetricLimitConfig<$number>,
                 SymmetricLimitConfig::<$number>::new(M::RATING.torque_limit, $bases);
             [] Machine, TorqueRange => TorqueRangeConfig<$number>,
@@ -120,7 +129,7 @@ macro_rules! governors {
             [] HasSequencer, Sequencer => SequencerConfig<$number>,
                 SequencerConfig::<$number>::new(&M::SEQUENCER, M::PERIOD, $bases);
             [K] Machine, MovingAverage<$number, K> => MovingAverageConfig<$number, K>,
-                MovingAverageConfig::<$number, K>::of_ticks();
+                MovingAverageConfig::<$number, K>::of_ticks(), LoopPart::Unknown;
         }
 
         impl<M: HasSlew, L> Configure<M, $number> for Slew<$number, L>
@@ -130,6 +139,7 @@ macro_rules! governors {
             type Config = SlewConfig<$number, <L as Limit<$number>>::Config>;
             const CONFIG: Self::Config =
                 SlewConfig::<$number, _>::new(M::SLEW, <L as Configure<M, $number>>::CONFIG, M::PERIOD, $bases);
+            const LOOP: LoopPart = <L as Configure<M, $number>>::LOOP;
         }
 
         impl<M: HasBacklash, L> Configure<M, $number> for BacklashTakeUp<$number, L>
@@ -139,6 +149,7 @@ macro_rules! governors {
             type Config = BacklashTakeUpConfig<$number, <L as Limit<$number>>::Config>;
             const CONFIG: Self::Config =
                 BacklashTakeUpConfig::<$number, _>::new(&M::TAKE_UP, <L as Configure<M, $number>>::CONFIG, $bases);
+            const LOOP: LoopPart = LoopPart::Damping(M::TAKE_UP.damping).and(&<L as Configure<M, $number>>::LOOP);
         }
     };
 }

@@ -2,8 +2,8 @@
 
 use super::GainSource;
 use crate::design::{
-    BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, SpeedLoopTuning,
-    TwoMassDesign,
+    Actuator, BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, RigidDesign, Robustness, SpeedLoopDesign,
+    SpeedLoopTuning, Tolerance, TwoMassDesign,
 };
 use crate::governor::SpeedLoopConfig;
 use crate::machine::{Chain, Match, TwoMass};
@@ -134,6 +134,14 @@ pub trait Machine {
     ///
     /// A machine that has more than one resonance within reach takes a bandwidth of 0.1.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning::of(&Self::TWO_MASS);
+    /// Delay and lag of the motor's torque: within the tick. The speed loop is tested with it.
+    const ACTUATOR: Actuator = Actuator::DIRECT;
+    /// How far machine and motor may differ from their description: [`Tolerance::USUAL`].
+    ///
+    /// A drive whose speed loop is unstable within them is a compile error that names the tolerance.
+    const TOLERANCE: Tolerance = Tolerance::USUAL;
+    /// Least margins of the speed loop with its observer: 6 dB and 30 degrees. A loop with less is a compile error.
+    const ROBUSTNESS: Robustness = Robustness::USUAL;
     /// The speed loop, from the two masses, rate and tuning.
     const SPEED_LOOP: SpeedLoopDesign = Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING);
     /// Acceleration of the setpoint \[rad/s2\]: [`Rating::ramp`] with the inertia of the whole chain.

@@ -1,6 +1,6 @@
 //! Observers for a machine.
 
-use super::{Configure, Machine};
+use super::{Configure, LoopPart, Machine};
 use crate::design::CrankedDesign;
 use crate::learning::{Correction, EccentricityObserver};
 use crate::number::Fixed;
@@ -26,6 +26,7 @@ where
 {
     type Config = <O as Observer<N>>::Config;
     const CONFIG: Self::Config = <O as Configure<M, N>>::CONFIG;
+    const LOOP: LoopPart = <O as Configure<M, N>>::LOOP;
 }
 
 macro_rules! observers {
@@ -33,21 +34,25 @@ macro_rules! observers {
         impl<M: Machine> Configure<M, $number> for TwoMassObserver<$number> {
             type Config = TwoMassConfig<$number>;
             const CONFIG: Self::Config = TwoMassConfig::<$number>::new(&M::OBSERVER, $bases);
+            const LOOP: LoopPart = LoopPart::TwoMass(M::OBSERVER);
         }
 
         impl<M: Machine> Configure<M, $number> for SemiImplicitObserver<$number> {
             type Config = SemiImplicitConfig<$number>;
             const CONFIG: Self::Config = SemiImplicitConfig::<$number>::new(&M::OBSERVER, $bases);
+            const LOOP: LoopPart = LoopPart::TwoMass(M::OBSERVER);
         }
 
         impl<M: Machine> Configure<M, $number> for RigidObserver<$number> {
             type Config = RigidConfig<$number>;
             const CONFIG: Self::Config = RigidConfig::<$number>::new(&M::RIGID_OBSERVER, M::LOAD_SHARE, $bases);
+            const LOOP: LoopPart = LoopPart::Rigid(M::RIGID_OBSERVER);
         }
 
         impl<M: Machine> Configure<M, $number> for BacklashObserver<$number> {
             type Config = BacklashConfig<$number>;
             const CONFIG: Self::Config = BacklashConfig::<$number>::new(&M::BACKLASH_OBSERVER, $bases);
+            const LOOP: LoopPart = LoopPart::TwoMass(M::BACKLASH_OBSERVER.contact);
         }
 
         impl<M: HasCrank> Configure<M, $number> for CrankObserver<$number> {
@@ -62,6 +67,7 @@ macro_rules! observers {
             type Config = GearedConfig<$number, <O as Observer<$number>>::Config>;
             const CONFIG: Self::Config =
                 GearedConfig::<$number, _>::new(<O as Configure<M, $number>>::CONFIG, &M::GEAR, M::PERIOD, $bases);
+            const LOOP: LoopPart = <O as Configure<M, $number>>::LOOP;
         }
     };
 }

@@ -4,13 +4,14 @@
 //! on.
 
 /// What each file beside this one must be told; the sentence of the error, and the file's name.
-const SENTENCES: [(&str, &str); 6] = [
+const SENTENCES: [(&str, &str); 7] = [
     ("negative_inertia", driveline::machine::Error::RotorInertia.message()),
     ("efficiency_out_of_range", driveline::machine::Error::GearEfficiency.message()),
     ("unobservable_pair", driveline::design::Error::Unobservable.message()),
     ("rate_below_the_shaft", driveline::design::Error::SampleRate.message()),
     ("encoder_without_lines", driveline::design::Error::EncoderLines.message()),
     ("first_drive_too_slow", driveline::design::Error::SampleRate.message()),
+    ("fragile_loop", driveline::design::Error::LoopGain.message()),
 ];
 
 /// What is refused where the type is used, and not in a constant: such a case has to be built, and one that compiles

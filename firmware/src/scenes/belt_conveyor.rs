@@ -9,7 +9,7 @@
 //! rated speed in 12 s, and the speed loop damps the swing.
 
 use driveline::configure::{Machine, Rating};
-use driveline::design::{Disturbance, Encoder};
+use driveline::design::{Disturbance, Encoder, RigidDesign};
 use driveline::machine::{Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Ratio, Stiffness};
 use driveline::observer::{RigidObserver, SemiImplicitObserver};
 
@@ -32,6 +32,10 @@ impl Machine for BeltConveyor {
     const RATE_HZ: u32 = 1_000;
     /// The resistance to motion hardly changes while the belt runs.
     const DISTURBANCE: Disturbance = Disturbance { within: 100.0, ..Self::RATING.disturbance() };
+    /// The observer that takes the belt for rigid has to follow the belt's swing as if it were the load's doing, or the
+    /// speed loop would excite it.
+    const RIGID_OBSERVER: RigidDesign =
+        Self::CHAIN.rigid().observer(Self::RATE, Self::ENCODER, Disturbance { within: 1.0, ..Self::DISTURBANCE });
     /// The soft start.
     const RAMP: f64 = Self::RATING.speed / 12.0;
 }

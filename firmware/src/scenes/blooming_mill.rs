@@ -48,7 +48,7 @@ impl Machine for BloomingMill {
         Disturbance { load_torque_step: Self::RATING.torque, within: 5.0, ..Self::RATING.disturbance() };
     /// The speed follows within a tenth of a second. The motor outweighs the rolls five times, so its torque can damp
     /// the spindles but little.
-    const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.12, damping: 1.0, shaft_damping: 0.1 };
+    const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.12, damping: 1.0, shaft_damping: 0.03 };
     /// The design's proportional and integral gains, without its damping.
     const SPEED_LOOP: SpeedLoopDesign =
         SpeedLoopDesign { damping: 0.0, ..Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING) };
@@ -72,7 +72,7 @@ impl HasBacklash for BloomingMill {
         torque: 0.5 * Self::RATING.torque,
         rise: 3.0 * Self::RATING.torque,
         max_torque: Self::RATING.torque_limit,
-        damping: 0.1,
+        damping: 0.02,
     };
 }
 

@@ -62,14 +62,15 @@ impl Machine for Converter {
     };
 }
 
-/// A tenth of rated torque in the gap, three tenths of it within a period of the shaft.
+/// A tenth of rated torque in the gap, a quarter of it within a period of the shaft, and as much damping as the
+/// observer's lag allows with 6 dB.
 impl HasBacklash for Converter {
     const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
         impact: 0.2 * Self::RATING.torque,
         torque: 0.1 * Self::RATING.torque,
-        rise: 0.3 * Self::RATING.torque,
+        rise: 0.25 * Self::RATING.torque,
         max_torque: Self::RATING.torque_limit,
-        damping: 0.2,
+        damping: 0.03,
     };
 }
 

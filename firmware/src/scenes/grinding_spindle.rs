@@ -28,7 +28,7 @@ impl Machine for GrindingSpindle {
     const DISTURBANCE: Disturbance =
         Disturbance { load_torque_step: 0.3 * Self::RATING.torque, within: 2.0, ..Self::RATING.disturbance() };
     /// Soft: a steady speed is what counts, and a stiff one would stir it with the encoder's counts.
-    const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.05, damping: 1.0, shaft_damping: 0.05 };
+    const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.05, damping: 1.0, shaft_damping: 0.15 };
     const RAMP: f64 = Self::RATING.speed;
     const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
     const SCREENING: Screening =

@@ -6,7 +6,7 @@
 //! motor (frame size 315, 0.6 kg m2) and a two-stage gearbox. They are not those of one machine.
 
 use driveline::configure::{Family, Machine, Rating};
-use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning, StepChoice};
+use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning, Spread, StepChoice, Tolerance};
 use driveline::machine::{
     Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Match, Ratio, Stiffness, TwoMass,
 };
@@ -84,6 +84,13 @@ impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
     const DISTURBANCE: Disturbance =
         Disturbance { load_torque_step: 300.0, within: 50.0, ..Self::RATING.disturbance() };
     const TUNING: SpeedLoopTuning = SpeedLoopTuning::USUAL;
+    /// An empty hook of 0.5 t to 13 t, on 30 m to 5 m of rope where the chain has 12 m.
+    const TOLERANCE: Tolerance = Tolerance {
+        load_inertia: Spread::between(0.5 / 12.0, 13.0 / 12.0),
+        stiffness: Spread::between(12.0 / 30.0, 12.0 / 5.0),
+        torque: Spread::within(0.03),
+        ..Tolerance::USUAL
+    };
     const RAMP: f64 = Self::RATING.speed / 2.0;
     const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
     /// In 15 ms the motor turns by less than half a turn.
@@ -104,6 +111,7 @@ impl<const RATE_HZ: u32> Machine for CutAtRope<RATE_HZ> {
     const GEAR: Gear = Hoist::<RATE_HZ>::GEAR;
     const DISTURBANCE: Disturbance = Hoist::<RATE_HZ>::DISTURBANCE;
     const SPEED_LOOP: SpeedLoopDesign = Hoist::<RATE_HZ>::SPEED_LOOP;
+    const TOLERANCE: Tolerance = Hoist::<RATE_HZ>::TOLERANCE;
     const RAMP: f64 = Hoist::<RATE_HZ>::RAMP;
     const BASES: Bases = Hoist::<RATE_HZ>::BASES;
     const SCREENING: Screening = Hoist::<RATE_HZ>::SCREENING;

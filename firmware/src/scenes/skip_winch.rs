@@ -53,7 +53,7 @@ impl Machine for SkipWinch {
     /// The observer that takes the rope for rigid has to follow the rope's vibration as if it were the load's doing.
     const RIGID_OBSERVER: RigidDesign =
         Self::CHAIN.rigid().observer(Self::RATE, Self::ENCODER, Disturbance { within: 1.0, ..Self::DISTURBANCE });
-    const TUNING: SpeedLoopTuning = SpeedLoopTuning { shaft_damping: 0.4, ..SpeedLoopTuning::USUAL };
+    const TUNING: SpeedLoopTuning = SpeedLoopTuning::USUAL;
     const RAMP: f64 = Self::RATING.speed / 4.0;
     const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
     /// In 40 ms the motor turns by less than half a turn.
@@ -94,7 +94,10 @@ impl Machine for SkipOnRope {
     const RATE_HZ: u32 = SkipWinch::RATE_HZ;
     const TWO_MASS: TwoMass = SkipWinch::TWO_MASS.with_gap(Gap(15.0));
     const GEAR: Gear = SkipWinch::GEAR;
-    const DISTURBANCE: Disturbance = SkipWinch::DISTURBANCE;
+    /// A brake's torque is known to 5 %. An observer that trusts it more lags behind the rope's swing, and the damping
+    /// by its twist rate has less than 6 dB.
+    const DISTURBANCE: Disturbance =
+        Disturbance { torque_accuracy: 0.05 * Self::RATING.torque, ..SkipWinch::DISTURBANCE };
     /// Searching gains for the instant at which the rope tightens: the slack follows from the skip's flight, to 0.15
     /// rad within a period of the oscillation.
     const BACKLASH_TUNING: BacklashTuning = BacklashTuning { wander: 0.01, hold: 0.6 };
@@ -110,15 +113,14 @@ impl Machine for SkipOnRope {
 }
 
 /// While the rope is slack, rated torque holds the drum to the skip's speed, also against the brake. A tight rope's
-/// torque rises by as much within a period of the swing, which is damped as far as motor and drum, as heavy as the
-/// skip, can.
+/// torque rises by as much within a period of the swing, which is damped as far as the observer's lag allows with 6 dB.
 impl HasBacklash for SkipOnRope {
     const TAKING_UP: BacklashTakeUpTuning = BacklashTakeUpTuning {
         impact: 0.2 * Self::RATING.torque,
         torque: Self::RATING.torque,
         rise: Self::RATING.torque,
         max_torque: Self::RATING.torque_limit,
-        damping: 0.7,
+        damping: 0.25,
     };
     const TAKE_UP: BacklashTakeUpDesign = SkipWinch::TWO_MASS.take_up(Self::RATE, Self::TAKING_UP);
 }

@@ -31,8 +31,9 @@ impl Machine for Spindle {
     const RATING: Rating = Rating { torque: 70.0, speed: 314.0, torque_limit: 110.0 };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 10_000;
-    /// A fortieth of the antiresonance, 17 Hz.
-    const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.025, damping: 1.0, shaft_damping: 0.03 };
+    /// A fiftieth of the antiresonance, 14 Hz, and next to nothing of the twist rate: a torque that is a tick late and
+    /// through a current control of 500 Hz is 130 degrees late at 800 Hz.
+    const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.02, damping: 1.0, shaft_damping: 0.006 };
     /// Rated speed in half a second.
     const RAMP: f64 = 2.0 * Self::RATING.speed;
     /// That of the torque is forty times the largest, for the gains: a radian of innovation is much with such an

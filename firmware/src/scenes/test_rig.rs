@@ -7,7 +7,7 @@
 //! disc has holes for weights in two planes. All can be bought or turned; it is no machine that exists.
 
 use driveline::configure::{HasVibration, Machine, Rating};
-use driveline::design::{Disturbance, Encoder, SpeedLoopTuning};
+use driveline::design::{Disturbance, Encoder, Tolerance};
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, stepped};
 use driveline::observer;
 use driveline::settings::{PhasorSettings, Screening};
@@ -35,7 +35,9 @@ impl Machine for TestRig {
         load_torque_step: 0.3 * Self::RATING.torque,
         within: 1.0,
     };
-    const TUNING: SpeedLoopTuning = SpeedLoopTuning { shaft_damping: 0.4, ..SpeedLoopTuning::USUAL };
+    /// Its drive controls the current with 1 kHz, as servo drives of that size do.
+    const TOLERANCE: Tolerance =
+        Tolerance { lag: 1.0 / (core::f64::consts::TAU * 1_000.0), ..Tolerance::USUAL };
     const RAMP: f64 = Self::RATING.speed / 3.0;
     /// Two thirds over the largest torque; 1/128 turn, more than that torque moves the motor before the observer has
     /// followed; two counts; 15 ms without an angle.

@@ -3,8 +3,10 @@
 mod approximate;
 mod closed_loop;
 mod defaults;
+mod draws;
 mod kalman;
 mod matrix;
+mod nodes;
 mod observer;
 mod speed_loop;
 mod step;
