@@ -1,8 +1,8 @@
 //! Result of `design` for a machine: step, observer, governor.
 
 use driveline::design::{
-    Actuator, ClosedLoop, Disturbance, Encoder, Error, ObserverChoice, Penalty, Plant, Rate, Requirement, RigidDesign,
-    SpeedLoopDesign, SpeedLoopTuning, StepChoice, TwoMassDesign,
+    Actuator, ClosedLoop, Disturbance, Encoder, Error, LoopObserver, ObserverChoice, Penalty, Plant, Rate, Requirement,
+    RigidDesign, Robustness, SpeedLoopDesign, SpeedLoopTuning, StepChoice, Tolerance, TwoMassDesign,
 };
 use driveline::machine::{Match, TwoMass};
 use serde::Serialize;
@@ -111,10 +111,50 @@ pub struct SpeedLoop {
     pub damping: f64,
     /// Natural frequency of the speed \[rad/s\].
     pub bandwidth: f64,
-    /// Margins with the observer and all the machine's vibrations in the loop; `null` where it is unstable so.
+    /// Margins with the observer and all the machine's vibrations in the loop; `null` where it is unstable.
     pub margins: Option<Margins>,
+    /// Why there are no margins.
+    pub no_margins: Option<&'static str>,
+    /// The least margins within the usual tolerances of two masses; `null` where the loop is unstable within them.
+    pub least_margins: Option<LeastMargins>,
+    /// What the loop has not within the usual tolerances: 6 dB, 30 degrees, stability. `null` where it has all.
+    pub not_robust: Option<&'static str>,
     /// Largest size of a pole of the closed loop.
     pub spectral_radius: f64,
+}
+
+/// Two masses are stable, the machine is not.
+const NEGLECTED: &str = "the speed loop with its observer is unstable by a vibration that the two masses leave out: \
+    give its shafts their damping, or take less bandwidth";
+
+impl SpeedLoop {
+    fn of(
+        machine: &MachineFile,
+        two: &TwoMass,
+        observer: &TwoMassDesign,
+        governor: &SpeedLoopDesign,
+    ) -> Result<Self, Error> {
+        const TOLERANCE: &Tolerance = &Tolerance::USUAL;
+        let closed = ClosedLoop::of(observer, governor, Actuator::DIRECT)?;
+        let margins = Margins::of(machine, two, &closed);
+        let observer = LoopObserver::TwoMass(observer);
+        let least = two.least_margins(observer, governor, Actuator::DIRECT, TOLERANCE);
+        let robust = two.try_robust(observer, governor, Actuator::DIRECT, TOLERANCE, &Robustness::USUAL);
+        Ok(Self {
+            proportional: governor.proportional,
+            integral: governor.integral,
+            damping: governor.damping,
+            bandwidth: governor.bandwidth,
+            no_margins: margins.as_ref().err().map(|error| match robust {
+                Ok(()) => NEGLECTED,
+                Err(_) => error.message(),
+            }),
+            margins: margins.ok(),
+            least_margins: least.ok().map(|least| LeastMargins::of(&least)),
+            not_robust: robust.err().map(Error::message),
+            spectral_radius: governor.spectral_radius,
+        })
+    }
 }
 
 /// How far the speed loop is from instability.
@@ -138,14 +178,44 @@ pub struct Margins {
     pub stiffness: [Option<f64>; 2],
 }
 
+/// The least of each margin over tolerances.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct LeastMargins {
+    /// As in [`Margins`].
+    pub gain_up: Option<f64>,
+    /// As in [`Margins`].
+    pub gain_down: f64,
+    /// As in [`Margins`].
+    pub phase: Option<f64>,
+    /// As in [`Margins`].
+    pub delay: Option<f64>,
+    /// As in [`Margins`].
+    pub modulus: f64,
+}
+
+impl LeastMargins {
+    fn of(margins: &driveline::design::Margins) -> Self {
+        Self {
+            gain_up: finite(margins.gain_up),
+            gain_down: margins.gain_down,
+            phase: finite(margins.phase),
+            delay: finite(margins.delay),
+            modulus: margins.modulus,
+        }
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
 impl Margins {
-    fn of(machine: &MachineFile, two: &TwoMass, closed: &ClosedLoop) -> Option<Self> {
+    fn of(machine: &MachineFile, two: &TwoMass, closed: &ClosedLoop) -> Result<Self, Error> {
         let plant = Plant::of_modes(two.total_inertia(), &machine.modes());
-        let margins = closed.margins(&plant).ok()?;
+        let margins = closed.margins(&plant)?;
         let ranges = closed.ranges(two);
-        let finite = |value: f64| value.is_finite().then_some(value);
         let range = |[down, up]: [f64; 2]| [(down > 0.0).then_some(down), finite(up)];
-        Some(Self {
+        Ok(Self {
             gain_up: finite(margins.gain_up),
             gain_down: margins.gain_down,
             phase: finite(margins.phase),
@@ -184,21 +254,13 @@ impl Plan {
             Some(two) => {
                 let observer = two.try_observer(rate, encoder, disturbance)?;
                 let governor = two.try_speed_loop(rate, SpeedLoopTuning::of(&two))?;
-                let closed = ClosedLoop::of(&observer, &governor, Actuator::DIRECT)?;
-                let margins = Margins::of(machine, &two, &closed);
-                Ok(Self::two_mass(machine, &two, &observer, &governor, margins))
+                Ok(Self::two_mass(machine, &two, &observer, &SpeedLoop::of(machine, &two, &observer, &governor)?))
             }
             None => Ok(Self::rigid(machine, &machine.rigid()?.try_observer(rate, encoder, disturbance)?)),
         }
     }
 
-    fn two_mass(
-        machine: &MachineFile,
-        two: &TwoMass,
-        observer: &TwoMassDesign,
-        governor: &SpeedLoopDesign,
-        margins: Option<Margins>,
-    ) -> Self {
+    fn two_mass(machine: &MachineFile, two: &TwoMass, observer: &TwoMassDesign, speed_loop: &SpeedLoop) -> Self {
         let deviation = &observer.standard_deviation;
         let of = [
             deviation.motor_angle,
@@ -214,7 +276,6 @@ impl Plan {
             ("load speed", "rad/s"),
             ("load torque", "N m"),
         ];
-        let finite = |value: f64| value.is_finite().then_some(value);
         Self {
             name: machine.name.clone(),
             need: machine.duty.map(|duty| needed(machine, two, duty)),
@@ -237,14 +298,7 @@ impl Plan {
             poles: poles(&observer.poles),
             spectral_radius: observer.spectral_radius,
             innovation: observer.innovation,
-            speed_loop: Some(SpeedLoop {
-                proportional: governor.proportional,
-                integral: governor.integral,
-                damping: governor.damping,
-                bandwidth: governor.bandwidth,
-                margins,
-                spectral_radius: governor.spectral_radius,
-            }),
+            speed_loop: Some(speed_loop.clone()),
         }
     }
 

@@ -116,6 +116,21 @@ fn a_design_is_printed_as_text_json_and_rust() {
     assert!(rust.contains("pub const HOIST: Chain = Chain::motor(Inertia(0.62))"), "{rust}");
 }
 
+/// Nothing damps the ship's upper vibration, which the two masses leave out: no margins, a reason, and no constants.
+#[test]
+fn an_unstable_loop_is_said_and_not_emitted() {
+    let ship = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/ship.toml");
+    let plan = json(&out(&driveline(&["design", ship, "--json"])));
+    assert!(plan["speed_loop"]["margins"].is_null());
+    assert!(plan["speed_loop"]["no_margins"].as_str().unwrap().contains("damping"), "{plan}");
+    assert!(out(&driveline(&["design", ship])).contains("margins: none: the speed loop"));
+    let emitted = driveline(&["design", ship, "--emit", "rust"]);
+    assert_eq!((emitted.status.code(), out(&emitted).as_str()), (Some(1), ""));
+    assert!(err(&emitted).contains("no constants are printed"), "{}", err(&emitted));
+    let hoist = out(&driveline(&["design", HOIST]));
+    assert!(hoist.contains("margins within tolerances") && !hoist.contains("none"), "{hoist}");
+}
+
 #[test]
 fn a_fault_in_a_file_ends_with_2_and_shows_the_line() {
     let folder = tempfile::tempdir().unwrap();
