@@ -6,6 +6,7 @@ mod constants;
 mod faults;
 mod fixed;
 mod garbage;
+mod missed;
 mod momentum;
 mod rig;
 mod speed_loop;
