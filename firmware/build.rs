@@ -32,19 +32,17 @@ fn default_board(target: &str) -> &'static str {
     if target.ends_with("eabihf") { "mps2-an386" } else { "mps2-an385" }
 }
 
-/// Puts the board's memory map where the linker finds it as `board.x`, which the `memory.x` at the root of the
-/// workspace includes.
+/// Puts the board's memory map where the linker finds it as `board.x`, which `memory.x` includes.
 fn memory_map(board: &str) {
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
     let boards = package.join("src/board");
     let own = boards.join(format!("{}.x", board.replace('-', "_")));
     let map = if own.exists() { own } else { boards.join("mps2.x") };
-    let root = package.join("..");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     copy(&map, &out.join("board.x"));
-    copy(&root.join("memory.x"), &out.join("memory.x"));
+    copy(&package.join("memory.x"), &out.join("memory.x"));
     println!("cargo::rerun-if-changed={}", map.display());
-    println!("cargo::rerun-if-changed={}", root.join("memory.x").display());
+    println!("cargo::rerun-if-changed={}", package.join("memory.x").display());
     println!("cargo::rustc-link-search={}", out.display());
 }
 

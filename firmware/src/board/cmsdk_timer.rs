@@ -55,8 +55,8 @@ pub type SecureTimer0 = Timer<0x5000_0000, 50>;
 /// Implements `Board` for a type that wraps a [`Timer`], over semihosting.
 macro_rules! qemu_mps2 {
     ($board:ident, $timer:ident) => {
-        impl super::Board for $board {
-            const FACTS: super::Facts = FACTS;
+        impl super::interface::Board for $board {
+            const FACTS: super::facts::Facts = FACTS;
             type Link = super::semihosting::Pipes;
 
             fn start() -> Self {

@@ -1,6 +1,6 @@
 //! Arm MPS2 with the AN385 image: a Cortex-M3 at 25 MHz.
 
-use super::Facts;
+use super::facts::Facts;
 
 /// The host's data on it.
 pub const FACTS: Facts = Facts { name: "mps2-an385", core: "m3", target: "thumbv7m-none-eabi" };

@@ -1,6 +1,6 @@
 //! Arm MPS2 with the AN386 image: a Cortex-M4F at 25 MHz.
 
-use super::Facts;
+use super::facts::Facts;
 
 /// The host's data on it.
 pub const FACTS: Facts = Facts { name: "mps2-an386", core: "m4f", target: "thumbv7em-none-eabihf" };

@@ -1,6 +1,6 @@
 //! Arm MPS2 with the AN500 image: a Cortex-M7 with an FPU of single precision, at 25 MHz.
 
-use super::Facts;
+use super::facts::Facts;
 
 /// The host's data on it.
 pub const FACTS: Facts = Facts { name: "mps2-an500", core: "m7", target: "thumbv7em-none-eabihf" };

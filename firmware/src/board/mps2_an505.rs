@@ -1,6 +1,6 @@
 //! Arm MPS2 with the AN505 image: a Cortex-M33 with an FPU of single precision, in its secure state, at 20 MHz.
 
-use super::Facts;
+use super::facts::Facts;
 
 /// The host's data on it.
 pub const FACTS: Facts = Facts { name: "mps2-an505", core: "m33", target: "thumbv8m.main-none-eabihf" };

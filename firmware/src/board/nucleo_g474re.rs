@@ -7,7 +7,7 @@
 //!
 //! Registers: ST RM0440. Pins: ST DS12288. Names in capitals are theirs.
 
-use super::Facts;
+use super::facts::Facts;
 
 /// The host's data on it; QEMU has no such machine.
 pub const FACTS: Facts = Facts { name: "nucleo-g474re", core: "g474", target: "thumbv7em-none-eabihf" };

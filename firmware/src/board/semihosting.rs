@@ -5,7 +5,7 @@
 use core::ffi::CStr;
 use cortex_m_semihosting::{nr, syscall, syscall1};
 
-use super::Link;
+use super::interface::Link;
 use crate::scene::{Input, Output};
 
 /// Ends the run; `nr::REPORT_EXCEPTION` in older documents.

@@ -1,61 +1,35 @@
-//! The table of variants: their names, the type behind each, and on a host what starts one by its name.
+//! A scene's variants: their names, the type behind each, and on a host its row of the table.
 
 use driveline::number::Fixed;
 
 use super::Variant;
-use crate::scenes::VARIANTS;
 
 #[cfg(not(target_os = "none"))]
-pub use host::{Row, find};
+pub use host::Row;
 
-/// The variant on line `LINE` of the table.
-pub trait Select<const LINE: usize> {
+/// The variant whose name has the [`key`] `KEY`.
+pub trait Select<const KEY: u64> {
     /// The variant.
     type Variant: Variant;
 }
 
-/// The table of variants, whose lines are chosen by [`Select`].
+/// The table of variants, one of which [`Select`] chooses.
 #[derive(Clone, Copy, Debug)]
 pub struct Table;
 
-/// The variant on a line of the table.
-pub type Line<const LINE: usize> = <Table as Select<LINE>>::Variant;
-
-/// The line of the variant called `name`.
-///
-/// # Panics
-/// When there is none, with the names that there are; at compile time, where the binaries call it.
-pub const fn line(name: &str) -> usize {
-    let mut line = 0;
-    while line < VARIANTS.len() {
-        if same(VARIANTS[line].as_bytes(), name.as_bytes()) {
-            return line;
-        }
-        line += 1;
-    }
-    let mut text = [0; 8192];
-    let mut length = append(&mut text, 0, &["DRIVELINE_VARIANT is `", name, "`; firmware/src/scenes.rs has"]);
-    let mut line = 0;
-    while line < VARIANTS.len() {
-        length = append(&mut text, length, &[" `", VARIANTS[line], "`"]);
-        line += 1;
-    }
-    match core::str::from_utf8(text.split_at(length).0) {
-        Ok(text) => panic!("{}", text),
-        Err(_) => panic!("DRIVELINE_VARIANT names no variant of firmware/src/scenes.rs"),
-    }
-}
-
-const fn same(one: &[u8], other: &[u8]) -> bool {
-    let mut at = 0;
-    while at < one.len() && at < other.len() && one[at] == other[at] {
+/// The number that a variant's name stands for in [`Select`]: FNV-1a, 64 bit. Of two names with one number, the second
+/// does not compile.
+pub const fn key(name: &str) -> u64 {
+    let (mut key, mut at) = (0xcbf2_9ce4_8422_2325_u64, 0);
+    while at < name.len() {
+        key = (key ^ name.as_bytes()[at] as u64).wrapping_mul(0x0000_0100_0000_01b3);
         at += 1;
     }
-    at == one.len() && at == other.len()
+    key
 }
 
 /// Writes parts one after another from `at` on, as far as they fit, and gives the end.
-const fn append(text: &mut [u8], mut at: usize, parts: &[&str]) -> usize {
+pub(crate) const fn append(text: &mut [u8], mut at: usize, parts: &[&str]) -> usize {
     let mut part = 0;
     while part < parts.len() {
         let bytes = parts[part].as_bytes();
@@ -124,67 +98,6 @@ pub const fn scene(names: &[&'static str]) -> &'static str {
         end += 1;
     }
     name.split_at(end).0
-}
-
-/// The names of several scenes in one list.
-pub const fn flat<const COUNT: usize>(scenes: &[&[&'static str]]) -> [&'static str; COUNT] {
-    let mut names = [""; COUNT];
-    let (mut scene, mut at) = (0, 0);
-    while scene < scenes.len() {
-        let mut variant = 0;
-        while variant < scenes[scene].len() {
-            names[at] = scenes[scene][variant];
-            at += 1;
-            variant += 1;
-        }
-        scene += 1;
-    }
-    names
-}
-
-/// The number of names in a list of scenes.
-pub const fn count(scenes: &[&[&str]]) -> usize {
-    let (mut scene, mut count) = (0, 0);
-    while scene < scenes.len() {
-        count += scenes[scene].len();
-        scene += 1;
-    }
-    count
-}
-
-/// Gives a binary `Selected`, the variant that `DRIVELINE_VARIANT` names, and `driveline_tick`, its tick as a function
-/// of its own, so that its code and instructions can be measured.
-///
-/// `selected!("name")` is for a binary with another default than the hoist's. Only the binary depends on the choice:
-/// the library with all scenes is compiled once for all variants.
-#[macro_export]
-macro_rules! selected {
-    () => {
-        $crate::selected!("hoist/f32/reduced/10000");
-    };
-    ($default:literal) => {
-        /// The variant that this image holds; the default where none is named.
-        type Selected = $crate::scene::table::Line<
-            {
-                $crate::scene::table::line(match option_env!("DRIVELINE_VARIANT") {
-                    Some(name) => name,
-                    None => $default,
-                })
-            },
-        >;
-
-        /// One tick of the scene that this image holds.
-        #[unsafe(no_mangle)]
-        #[unsafe(link_section = ".text.driveline_tick")]
-        #[inline(never)]
-        extern "Rust" fn driveline_tick(
-            scene: &mut <Selected as $crate::scene::Variant>::Scene,
-            input: &$crate::scene::Input,
-            output: &mut $crate::scene::Output,
-        ) {
-            *output = $crate::scene::Scene::tick(scene, input);
-        }
-    };
 }
 
 /// Lists a scene's variants: a name of the observer or of what else tells them apart, the drive, and the machines that
@@ -256,7 +169,7 @@ macro_rules! variants {
 
         $(
             impl $crate::scene::table::Select<
-                { $crate::scene::table::line(<$variant as $crate::scene::Variant>::NAME) }
+                { $crate::scene::table::key(<$variant as $crate::scene::Variant>::NAME) }
             > for $crate::scene::table::Table {
                 type Variant = $variant;
             }
@@ -303,7 +216,6 @@ mod host {
     use super::{Variant, Words};
     use crate::scene::expected::Expected;
     use crate::scene::{Input, Output, Scene};
-    use crate::scenes::ROWS;
 
     /// A variant, to be started by its name.
     #[derive(Clone, Copy, Debug)]
@@ -342,10 +254,5 @@ mod host {
         pub const fn words(&self) -> Words {
             Words::named(self.name)
         }
-    }
-
-    /// The variant called `name`; `None` where there is none.
-    pub fn find(name: &str) -> Option<&'static Row> {
-        ROWS.iter().flat_map(|scene| scene.iter()).find(|row| row.name == name)
     }
 }

@@ -15,10 +15,11 @@ use driveline_qemu::measure::{Cost, self_test};
 use driveline_qemu::setup;
 
 /// All steps; the firmware, which is built board beside board, before the tests that use its images one by one.
-pub const STEPS: [Step; 7] = [
+pub const STEPS: [Step; 8] = [
     Step { name: "setup", repeat: "cargo driveline check --only setup", run: setup_step },
     Step { name: "format", repeat: "cargo fmt --check", run: format },
     Step { name: "clippy", repeat: "cargo driveline check --only clippy", run: clippy },
+    Step { name: "packages", repeat: "cargo package --workspace --no-verify --allow-dirty --offline", run: packages },
     Step { name: "firmware", repeat: "cargo driveline check --only firmware", run: firmware },
     Step { name: "tests", repeat: "cargo test --workspace --no-fail-fast", run: tests },
     Step { name: "self-tests", repeat: "cargo driveline check --only self-tests", run: self_tests },
@@ -67,6 +68,11 @@ fn clippy(voice: &Voice) -> Result<Count, Failed> {
         count.passed += cargo::passes(&arguments, voice)?.passed;
     }
     Ok(count)
+}
+
+/// Every crate can be packaged for the registry; what they are packed from has been compiled by the step before.
+fn packages(voice: &Voice) -> Result<Count, Failed> {
+    cargo::passes(&["package", "--workspace", "--no-verify", "--allow-dirty", "--offline"], voice)
 }
 
 fn tests(voice: &Voice) -> Result<Count, Failed> {

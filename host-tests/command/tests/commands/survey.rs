@@ -259,7 +259,7 @@ fn the_scenes_are_those_that_can_be_run() {
 
 #[test]
 fn the_adapters_table_is_the_documents() {
-    let table = adapters();
+    let table = adapters().unwrap();
     assert_eq!(table.headings().len(), 6);
     let rows = table.filled();
     assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == 6));
