@@ -8,6 +8,7 @@ mod fixed;
 mod garbage;
 mod missed;
 mod momentum;
+mod refused;
 mod rig;
 mod speed_loop;
 mod spinning;
