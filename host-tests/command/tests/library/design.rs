@@ -1,6 +1,7 @@
 //! Designs against closed forms and high-precision arithmetic.
 
 mod approximate;
+mod encoder;
 mod kalman;
 mod matrix;
 mod observer;
