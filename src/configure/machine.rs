@@ -83,8 +83,8 @@ impl Rating {
 /// A machine with its motor, its encoder and its tick rate: four constants, and those that follow from them.
 ///
 /// Every default states its derivation. Name a constant to override it; constants derived from it follow. A constant
-/// that no part of the drive uses is never evaluated. The defaults have been compared with the 18 machines of the
-/// project's firmware, each tuned on a full simulation; "n of 18" says how many of them keep the default.
+/// that no part of the drive uses is never evaluated. The defaults have been compared with the 19 machines of the
+/// project's firmware, each tuned on a full simulation; "n of 19" says how many of them keep the default.
 pub trait Machine {
     /// The machine, from the motor to the load.
     const CHAIN: Chain;
@@ -109,7 +109,7 @@ pub trait Machine {
 
     /// How torque and load torque wander: [`Rating::disturbance`].
     ///
-    /// The torque's 1 % is kept by 15 of 18. The load's wandering is the tuning of the observer: loads that hardly
+    /// The torque's 1 % is kept by 16 of 19. The load's wandering is the tuning of the observer: loads that hardly
     /// change take 100 s instead of 10 s, loads that come at once take 1 s.
     const DISTURBANCE: Disturbance = Self::RATING.disturbance();
     /// The observer of two masses, from machine, rate, encoder and disturbance.
@@ -122,7 +122,7 @@ pub trait Machine {
     const BACKLASH_OBSERVER: BacklashDesign =
         Self::TWO_MASS.backlash_observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE, Self::BACKLASH_TUNING);
     /// The gear's losses as the observer has to know them: the chain's efficiency, the inertia on the motor side, and
-    /// eight counts of the encoder by which the motor can turn while friction holds the gear. All three machines with a
+    /// eight counts of the encoder by which the motor can turn while friction holds the gear. 3 of 3 machines with a
     /// lossy gear keep it.
     const GEAR: Gear = Gear {
         efficiency: Self::CHAIN.efficiency(),
@@ -145,12 +145,12 @@ pub trait Machine {
 
     /// Plausibility limits of a sample: [`Rating::screening`].
     ///
-    /// Torque and setpoint are kept by 14 of 18, the innovation by 15. With an encoder of more than 2^17 counts a
-    /// smaller one is found out sooner.
+    /// Torque and setpoint are kept by 15 of 19, the innovation by 16 of 19. With an encoder of more than 2^17 counts
+    /// a smaller one is found out sooner.
     const SCREENING: Screening = Self::RATING.screening(Self::ENCODER, Self::RATE);
     /// Bases of fixed point: [`Rating::bases`] with observer and speed loop.
     ///
-    /// Kept by 7 of 18; the others have a fine encoder or a soft governor, or leave more room for the speed. A machine
+    /// A machine with a fine encoder or a soft governor names larger ones, or leaves more room for the speed. A machine
     /// of one mass, or one whose shaft no observer can follow, names [`Bases::rigid`] or [`Bases::new`].
     const BASES: Bases = Self::RATING.bases(&Self::OBSERVER, &Self::SPEED_LOOP);
 

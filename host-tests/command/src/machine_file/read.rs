@@ -78,7 +78,7 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let document = document(source, "a machine: `name`, [[element]] tables and the settings")?;
     let mut root = Table::root(source, document.get_ref());
 
-    let machine_name = named(&mut root)?;
+    let machine_name = named(source, &mut root)?;
     let (elements, chain) = elements(source, &mut root, "", &[])?;
     let (branches, train) = branches(source, &mut root, chain, &elements)?;
     let encoder = section(&mut root, "encoder", |table| {
@@ -122,7 +122,7 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     };
     root.finish()?;
     Ok(MachineFile {
-        name: machine_name.to_owned(),
+        name: machine_name,
         elements,
         encoder,
         control,
@@ -145,10 +145,17 @@ pub(super) fn document<'a>(source: Source<'a>, expected: &str) -> Result<Spanned
     DeTable::parse(source.text).map_err(|error| not_toml(source, &error))
 }
 
-/// The name that the file gives.
-pub(super) fn named<'a>(root: &mut Table<'a>) -> Result<&'a str, Diagnostic> {
-    let name = root.text("name", NAME)?;
+/// The name that the file gives; where it gives none, that of the file itself without folder and extension, with `-`
+/// for each character that no name has.
+pub(super) fn named(source: Source, root: &mut Table) -> Result<String, Diagnostic> {
     let allowed = |c: char| c.is_ascii_alphanumeric() || " -_".contains(c);
+    let name = match root.text_if("name", NAME)? {
+        Some(name) => name.to_owned(),
+        None => {
+            let stem = Path::new(source.name).file_stem().unwrap_or_default().to_string_lossy();
+            stem.chars().take(40).map(|c| if allowed(c) { c } else { '-' }).collect()
+        }
+    };
     let good = name.len() <= 40 && name.chars().all(allowed) && name.contains(char::is_alphanumeric);
     if good { Ok(name) } else { Err(root.wrong("name", NAME)) }
 }

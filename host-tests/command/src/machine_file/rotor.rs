@@ -128,7 +128,7 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
     }
     let document = DeTable::parse(text).map_err(|error| not_toml(source, &error))?;
     let mut root = Table::root(source, document.get_ref());
-    let rotor_name = named(&mut root)?.to_owned();
+    let rotor_name = named(source, &mut root)?;
     let material = material(&mut root)?;
     let mut rotor = shaft(source, &mut root, material)?;
     let last = rotor.places().len() - 1;

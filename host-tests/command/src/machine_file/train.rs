@@ -138,7 +138,7 @@ pub fn parse_train(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
     let parsed = document(source, "a train: `name`, [[coordinate]], [[link]] and [[torque]] tables, and [run]")?;
     let table: &DeTable<'_> = parsed.get_ref();
     let mut root = Table::root(source, table);
-    let title = named(&mut root)?.to_owned();
+    let title = named(source, &mut root)?;
     let mut file = Reading { names: Vec::new(), links: Vec::new(), static_force: Vec::new() };
     let (mut coordinates, mut links) = (Vec::new(), Vec::new());
     let (mut places, mut link_places) = (Vec::new(), Vec::new());

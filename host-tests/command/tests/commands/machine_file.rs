@@ -112,6 +112,18 @@ fn missing_and_unknown_keys_are_named() {
     assert_eq!(fault("name = \"hoist\"", "name = \"hoist\"\nowner = \"me\"").key, "owner");
 }
 
+/// Without its folder and extension; a character that no name has becomes `-`.
+#[test]
+fn a_machine_without_a_name_has_that_of_its_file() {
+    let text = HOIST.replacen("name = \"hoist\"", "", 1);
+    for (file, name) in [("files/north hoist.toml", "north hoist"), ("hoist.v2.toml", "hoist-v2"), ("stdin", "stdin")] {
+        assert_eq!(parse(file, &text).unwrap().name, name);
+    }
+    assert_eq!(parse(&format!("{}.toml", "a".repeat(60)), &text).unwrap().name, "a".repeat(40));
+    let none = parse("µ.toml", &text).unwrap_err();
+    assert_eq!((none.key.as_str(), none.found.as_str()), ("name", "nothing"));
+}
+
 /// A key that the reader looks for more than once is named once.
 #[test]
 fn an_unknown_key_is_told_each_known_one_once() {

@@ -1,6 +1,8 @@
 //! Designs against closed forms and high-precision arithmetic.
 
 mod approximate;
+mod closed_loop;
+mod defaults;
 mod encoder;
 mod kalman;
 mod matrix;

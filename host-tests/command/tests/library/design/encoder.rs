@@ -2,6 +2,11 @@
 
 use std::io;
 
+use cargo_driveline::closed_loop::ticks::Ticks;
+use cargo_driveline::closed_loop::units::Units;
+use cargo_driveline::drivetrains::figures::{deviations, peaks};
+use cargo_driveline::drivetrains::lockstep::run;
+use cargo_driveline::drivetrains::spindle;
 use driveline::configure::{Machine, Rating};
 use driveline::design::{Encoder, Error, SpeedLoopTuning};
 use driveline::drive::Drive;
@@ -14,11 +19,6 @@ use driveline::settings::{Bases, Screening};
 use driveline_firmware::Words;
 use driveline_firmware::scene::{Input, Output};
 use driveline_firmware::scenes::spindle::{COUNTS, Spindle};
-use cargo_driveline::closed_loop::ticks::Ticks;
-use cargo_driveline::closed_loop::units::Units;
-use cargo_driveline::drivetrains::figures::{deviations, peaks};
-use cargo_driveline::drivetrains::lockstep::run;
-use cargo_driveline::drivetrains::spindle;
 use driveline_solver::noise::Noise;
 
 /// Signal periods of the spindle's encoder on a turn, as its scene describes it: 512 lines, interpolated 1024 times.

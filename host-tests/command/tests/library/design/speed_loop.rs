@@ -1,4 +1,4 @@
-//! The speed loop against its own specification: the poles asked for. Its margins are in `design_closed_loop.rs`.
+//! The speed loop against its own specification: the poles asked for. Its margins are in `closed_loop.rs`.
 
 use driveline::design::{
     Error, Matrix, Rate, SpeedLoopDesign, SpeedLoopTuning, discretise, eigenvalues, spectral_radius,
