@@ -12,6 +12,7 @@
 mod backlash;
 mod balance;
 mod balancing;
+mod campaign;
 mod check;
 mod commission;
 mod controller;
@@ -59,6 +60,7 @@ enum Command {
     Run(run::Run),
     Report(report::Report),
     Backlash(backlash::Backlash),
+    Campaign(campaign::Campaign),
     Modes(modes::Modes),
     Design(design::Design),
     Example(example::Example),
@@ -74,11 +76,12 @@ enum Command {
 }
 
 impl Command {
-    const fn json(&self) -> bool {
+    fn json(&self) -> bool {
         match self {
             Self::Run(command) => command.json,
             Self::Report(command) => command.json,
             Self::Backlash(command) => command.json,
+            Self::Campaign(command) => command.json(),
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
             Self::Example(command) => command.json,
@@ -99,6 +102,7 @@ impl Command {
             Self::Run(command) => command.execute(),
             Self::Report(command) => command.execute(),
             Self::Backlash(command) => command.execute(),
+            Self::Campaign(command) => command.execute(),
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
             Self::Example(command) => command.execute(),

@@ -2,6 +2,7 @@
 //! cost.
 
 pub mod approximate;
+pub mod departure;
 pub mod engine;
 mod facts;
 pub mod figures;

@@ -1,8 +1,9 @@
 //! The subcommands of `cargo driveline`, machine files, and the runs behind them: scenes in closed loop, balancing,
-//! generator sets, commissioning, backlash, sweeps, the survey of all.
+//! generator sets, commissioning, campaigns, backlash, sweeps, the survey of all.
 
 pub mod backlash;
 pub mod balancing;
+pub mod campaign;
 pub mod cases;
 pub mod check;
 pub mod cli;

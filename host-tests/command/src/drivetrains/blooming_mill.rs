@@ -6,6 +6,7 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::blooming_mill::BloomingMill;
 
+use super::departure::Departure;
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
 use crate::closed_loop::sensors::Encoder;
@@ -26,10 +27,10 @@ fn spindle_torque(plant: &Body) -> f64 {
 }
 
 /// The chain with a rolling torque over time.
-fn chain(program: LoadProgram) -> Result<Plant, PlantError> {
-    Chain::motor(1.1e5)
-        .shaft(Shaft::elastic(1.2e9).damping(3.0e5), 1.0e4)
-        .shaft(Shaft::elastic(2.2e8).damping(1.0e5).gap(0.010), 2.2e4)
+fn chain(program: LoadProgram, by: &Departure) -> Result<Plant, PlantError> {
+    Chain::motor(1.1e5 * by.motor_inertia)
+        .shaft(Shaft::elastic(1.2e9 * by.stiffness).damping(3.0e5), 1.0e4)
+        .shaft(Shaft::elastic(2.2e8 * by.stiffness).damping(1.0e5).gap(0.010 * by.gap), 2.2e4 * by.load_inertia)
         .coulomb(FRICTION)
         .program(program)
         .start(Start::Rest)
@@ -43,19 +44,30 @@ fn chain(program: LoadProgram) -> Result<Plant, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
+    departing(&Departure::NONE)
+}
+
+/// The mill as it is.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let slow = 0.5 * BloomingMill::RATING.speed;
     let passes = Scenario {
         name: "two passes with a reversal between",
-        plant: chain(LoadProgram::table(&[
-            (1.2, 0.0),
-            (1.26, ROLLING),
-            (2.2, ROLLING),
-            (2.26, 0.0),
-            (3.6, 0.0),
-            (3.66, -ROLLING),
-            (4.6, -ROLLING),
-            (4.66, 0.0),
-        ]))?
+        plant: chain(
+            LoadProgram::table(&[
+                (1.2, 0.0),
+                (1.26, ROLLING),
+                (2.2, ROLLING),
+                (2.26, 0.0),
+                (3.6, 0.0),
+                (3.66, -ROLLING),
+                (4.6, -ROLLING),
+                (4.66, 0.0),
+            ]),
+            by,
+        )?
         .into(),
         held: 0.0,
         actions: vec![

@@ -4,6 +4,7 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::crane_travel::{self as scene, CraneTravel};
 
+use super::departure::Departure;
 use super::facts;
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
@@ -43,7 +44,7 @@ fn unknown(plant: &Body) -> f64 {
 /// Torque from the inertias of motors and bridge to the outside: the force of the load's swing, and the unknown
 /// resistance.
 fn push(plant: &Body) -> f64 {
-    PENDULUM * plant.twist(0) + unknown(plant)
+    plant.shaft_torque(0) + unknown(plant)
 }
 
 fn resistance(plant: &Body) -> f64 {
@@ -55,10 +56,18 @@ fn resistance(plant: &Body) -> f64 {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
+    departing(&Departure::NONE)
+}
+
+/// The crane as it is.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let square = TRAVEL * TRAVEL;
-    let plant = Chain::motor(0.2 + BRIDGE * square)
+    let plant = Chain::motor((0.2 + BRIDGE * square) * by.motor_inertia)
         .coulomb(RESISTANCE)
-        .shaft(Shaft::elastic(PENDULUM), LOAD * square)
+        .shaft(Shaft::elastic(PENDULUM * by.load / by.rope), LOAD * square * by.load)
         .program(LoadProgram::table(&[(16.0, 0.0), (18.0, WIND), (24.0, WIND), (26.0, 0.0)]))
         .build()?;
     let torque_noise = 0.01 * CraneTravel::RATING.torque;

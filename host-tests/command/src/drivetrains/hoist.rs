@@ -6,11 +6,11 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::hoist::Hoist;
 
+use super::departure::Departure;
 use super::facts;
-use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
 use crate::closed_loop::sensors::Encoder;
-use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
+use driveline_solver::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
 
 /// Gravity [m/s2], the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665;
@@ -37,21 +37,32 @@ const DRUM: usize = 1;
 const ROPE_SHAFT: usize = 1;
 
 /// The chain up to the load, which hangs on a rope that comes taut at `slack` [rad of the motor].
-fn chain(slack: f64) -> Chain {
+fn chain(slack: f64, by: &Departure) -> Chain {
     let square = TRAVEL * TRAVEL;
-    Chain::motor(0.62)
-        .shaft(Shaft::elastic(MOTOR_SHAFT).damping(2.0), 0.08)
-        .efficiency(EFFICIENCY)
-        .shaft(Shaft::rope(ROPE * square).damping(ROPE_DAMPING * square).gap(slack), MASS * square)
+    let rope = Shaft::rope(ROPE * square * by.stiffness / by.rope).damping(ROPE_DAMPING * square / by.rope);
+    Chain::motor(0.62 * by.motor_inertia)
+        .shaft(Shaft::elastic(MOTOR_SHAFT * by.stiffness).damping(2.0), 0.08)
+        .efficiency(EFFICIENCY + by.efficiency)
+        .shaft(rope.gap(slack), MASS * square * by.load)
 }
 
-/// The rope's pull at the motor [N m], without the gear's loss.
-fn rope_torque(plant: &Body) -> f64 {
-    let square = TRAVEL * TRAVEL;
-    let twist = plant.twist(ROPE_SHAFT);
-    let rate = plant.speed(DRUM) - plant.speed(LOAD);
-    if twist > 0.0 { (square * (ROPE * twist + ROPE_DAMPING * rate)).max(0.0) } else { 0.0 }
+/// The load on its rope as the brake holds it: the rope carries the weight, and the drive is about to.
+fn hanging(program: LoadProgram, by: &Departure) -> Result<Plant, PlantError> {
+    let weight = WEIGHT * by.load;
+    let rope = ROPE * TRAVEL * TRAVEL * by.stiffness / by.rope;
+    chain(0.0, by)
+        .load(weight)
+        .program(program)
+        .start(Start::Given {
+            twists: vec![weight / (MOTOR_SHAFT * by.stiffness), weight / rope],
+            speeds: vec![0.0; 3],
+        })
+        .build()
 }
+
+/// The brake opens 0.2 s after the start.
+const RELEASE: [(f64, Action); 3] =
+    [(0.0, Action::Brake(DRUM, 2_000.0)), (0.2, Action::Release), (0.2, Action::Brake(DRUM, 0.0))];
 
 /// The hoist and its runs.
 ///
@@ -62,24 +73,13 @@ fn rope_torque(plant: &Body) -> f64 {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let hanging = |program: LoadProgram| {
-        chain(0.0)
-            .load(WEIGHT)
-            .program(program)
-            // As the brake holds it: the rope carries the weight, and the drive is about to.
-            .start(Start::Given {
-                twists: vec![WEIGHT / MOTOR_SHAFT, WEIGHT / (ROPE * TRAVEL * TRAVEL)],
-                speeds: vec![0.0; 3],
-            })
-            .build()
-    };
-    let release = [(0.0, Action::Brake(DRUM, 2_000.0)), (0.2, Action::Release), (0.2, Action::Brake(DRUM, 0.0))];
+    let by = &Departure::NONE;
     let hoisting = (0.2, Action::Setpoint(Hoist::<10_000>::RATING.speed));
     let pretensioned = Scenario {
         name: "pretensioned start, half a load more, lowering",
-        plant: hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]))?.into(),
+        plant: hanging(LoadProgram::table(&[(4.0, 0.0), (5.0, 0.5 * WEIGHT)]), by)?.into(),
         held: WEIGHT,
-        actions: [&release[..], &[hoisting, (6.0, Action::Setpoint(-Hoist::<10_000>::RATING.speed))]].concat(),
+        actions: [&RELEASE[..], &[hoisting, (6.0, Action::Setpoint(-Hoist::<10_000>::RATING.speed))]].concat(),
         duration: 12.0,
         counted: true,
         marks: vec![(0.2, "brake opens"), (4.0, "half a load more"), (6.0, "reversal")],
@@ -88,7 +88,7 @@ pub fn machine() -> Result<Machine, PlantError> {
     let slack = Scenario {
         name: "slack-rope start",
         // On the ground: what holds the load until the rope carries its weight, and is its weight once it is lifted.
-        plant: chain(0.0).coulomb(WEIGHT).start(Start::Rest).build()?.into(),
+        plant: chain(0.0, by).coulomb(WEIGHT).start(Start::Rest).build()?.into(),
         held: 0.0,
         actions: vec![
             (0.0, Action::Setpoint(CREEP)),
@@ -102,16 +102,40 @@ pub fn machine() -> Result<Machine, PlantError> {
     };
     let sudden = Scenario {
         name: "half a load more at once",
-        plant: hanging(LoadProgram::steps(&[(4.0, 0.5 * WEIGHT)]))?.into(),
+        plant: hanging(LoadProgram::steps(&[(4.0, 0.5 * WEIGHT)]), by)?.into(),
         held: WEIGHT,
-        actions: [&release[..], &[hoisting]].concat(),
+        actions: [&RELEASE[..], &[hoisting]].concat(),
         duration: 6.0,
         counted: false,
         marks: vec![(0.2, "brake opens"), (4.0, "half a load more")],
         law: None,
     };
+    Ok(with(vec![pretensioned, slack, sudden]))
+}
+
+/// The hoist as it is: one lift with the weight on the hook known, up at rated speed and down at half of it.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
+    let up = Hoist::<10_000>::RATING.speed;
+    let lift = Scenario {
+        name: "a lift",
+        plant: hanging(LoadProgram::steps(&[]), by)?.into(),
+        held: WEIGHT * by.load,
+        actions: [&RELEASE[..], &[(0.2, Action::Setpoint(up)), (3.0, Action::Setpoint(-0.5 * up))]].concat(),
+        duration: 8.0,
+        counted: true,
+        marks: vec![(0.2, "brake opens"), (3.0, "reversal")],
+        law: None,
+    };
+    Ok(with(vec![lift]))
+}
+
+/// The machine with these runs.
+fn with(scenarios: Vec<Scenario>) -> Machine {
     let torque_noise = 0.01 * Hoist::<10_000>::RATING.torque;
-    Ok(Machine {
+    Machine {
         name: driveline_firmware::scenes::hoist::SCENE,
         summary: "A 12 t crane hoist, observed and governed from the motor's angle and torque alone: the firmware \
                   of every variant runs in QEMU, tick by tick against a full solver of the whole machine.",
@@ -123,15 +147,15 @@ pub fn machine() -> Result<Machine, PlantError> {
                 stiffness they differ; `cargo driveline modes` shows by how much.",
         ],
         chosen: ("reduced", 10_000),
-        scenarios: vec![pretensioned, slack, sudden],
+        scenarios,
         encoder: Encoder::new(8192),
         torque_noise,
         load: LOAD,
-        shaft_torque: rope_torque,
+        shaft_torque: |plant| plant.torque_behind_gear(ROPE_SHAFT),
         load_torque: |plant| plant.load_torque(LOAD),
         told_brake: None,
         told_friction: 0.0,
         rated_speed: Hoist::<10_000>::RATING.speed,
         bases: Hoist::<10_000>::BASES,
-    })
+    }
 }

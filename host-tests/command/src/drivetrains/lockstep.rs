@@ -6,6 +6,8 @@ use driveline_firmware::scene::{Input, Output};
 
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
+use crate::closed_loop::actuator::{Actuator, ActuatorErrors};
+use crate::closed_loop::encoder_errors::EncoderErrors;
 use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
 use driveline_solver::noise::Noise;
@@ -50,7 +52,20 @@ pub struct Trace {
     pub recording: Body,
 }
 
-/// Runs a scenario to its end with a drive that ticks `rate_hz` times a second.
+/// Departures of sensors, actuator and timing from the ideal ones. The default has none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Imperfections {
+    /// Of the encoder and its sampling.
+    pub encoder: EncoderErrors,
+    /// Of the inverter and the motor.
+    pub actuator: ActuatorErrors,
+    /// Share of the ticks that do not run: the command before them stays.
+    pub missed_ticks: f64,
+    /// Added to the seeds of the noises.
+    pub seed: u64,
+}
+
+/// Runs a scenario to its end with a drive that ticks `rate_hz` times a second, and keeps everything.
 ///
 /// # Errors
 /// What the drive's link says.
@@ -62,16 +77,47 @@ pub fn run(
     drive: &mut impl Ticks,
     mut progress: impl FnMut(u64),
 ) -> io::Result<Trace> {
+    let mut recording = scenario.plant.clone();
+    let ticks = (scenario.duration * f64::from(rate_hz)).round() as usize;
+    let (mut moments, mut words) = (Vec::with_capacity(ticks), Vec::with_capacity(ticks));
+    let ideal = Imperfections::default();
+    follow(machine, scenario, units, rate_hz, &ideal, drive, &mut recording, |moment, exchanged| {
+        if moments.len() % 1024 == 0 {
+            progress(moments.len() as u64);
+        }
+        moments.push(*moment);
+        words.push(exchanged);
+    })?;
+    Ok(Trace { moments, words, recording })
+}
+
+/// Runs a scenario to its end on `plant`, and shows every tick that ran with the words that it exchanged.
+///
+/// # Errors
+/// What the drive's link says.
+#[expect(clippy::too_many_arguments, reason = "what a closed loop is made of")]
+pub fn follow(
+    machine: &Machine,
+    scenario: &Scenario,
+    units: &Units,
+    rate_hz: u32,
+    imperfections: &Imperfections,
+    drive: &mut impl Ticks,
+    plant: &mut Body,
+    mut seen: impl FnMut(&Moment, (Input, Output)),
+) -> io::Result<()> {
     let period = 1.0 / f64::from(rate_hz);
     let ticks = (scenario.duration * f64::from(rate_hz)).round() as usize;
     let node = machine.load;
-    let mut recording = scenario.plant.clone();
-    let mut noise = Noise::new(1);
+    let start = plant.motor_angle();
+    let mut noise = Noise::new(1_u64.wrapping_add(imperfections.seed));
+    // apart from the torque's noise, which is the same with all imperfections
+    let mut timing = Noise::new(!imperfections.seed);
+    let mut actuator = Actuator::new(imperfections.actuator, period);
     let mut actions = scenario.actions.iter().peekable();
-    let (mut setpoint, mut released, mut applied) = (0.0, false, 0.0_f64);
+    let (mut setpoint, mut released) = (0.0, false);
+    let (mut command, mut reported) = (0.0, 0.0_f64);
     let (mut tripped, mut brake) = (false, 0.0);
-    let mut moments = Vec::with_capacity(ticks);
-    let mut words = Vec::with_capacity(ticks);
     for tick in 0..ticks {
         let time = tick as f64 * period;
         // An action belongs to the tick that it falls on: half a period of slack against rounding.
@@ -79,9 +125,9 @@ pub fn run(
             match *action {
                 Action::Setpoint(speed) => setpoint = speed,
                 Action::Release => released = true,
-                Action::Load(node, torque) => recording.set_load_torque(node, torque),
+                Action::Load(node, torque) => plant.set_load_torque(node, torque),
                 Action::Brake(node, torque) => {
-                    recording.set_brake(node, torque);
+                    plant.set_brake(node, torque);
                     if machine.told_brake == Some(node) {
                         brake = torque;
                     }
@@ -90,46 +136,55 @@ pub fn run(
             }
         }
         if let Some(law) = scenario.law {
-            let torque = (law.torque)(&recording);
-            recording.set_load_torque(law.node, torque);
+            let torque = (law.torque)(plant);
+            plant.set_load_torque(law.node, torque);
         }
-        let plant = &recording;
-        // Reported torque of brake and friction in the tick that has ended. At rest friction balances the motor; the
-        // torque of a closed brake is then unknown.
-        let (friction, brake) = if released { (machine.told_friction, brake) } else { (0.0, 0.0) };
-        let slipping = match plant.motor_speed() {
-            0.0 => -applied.clamp(-friction, friction),
-            speed => -(friction + brake) * speed.signum(),
+        let torque_noise = machine.torque_noise * noise.normal();
+        let missed = imperfections.missed_ticks > 0.0 && 0.5 * (timing.uniform() + 1.0) < imperfections.missed_ticks;
+        let exchanged = if missed {
+            None
+        } else {
+            // Reported torque of brake and friction in the tick that has ended. At rest friction balances the motor;
+            // the torque of a closed brake is then unknown.
+            let (friction, brake) = if released { (machine.told_friction, brake) } else { (0.0, 0.0) };
+            let slipping = match plant.motor_speed() {
+                0.0 => -reported.clamp(-friction, friction),
+                speed => -(friction + brake) * speed.signum(),
+            };
+            let late = if imperfections.encoder.jitter > 0.0 { timing.normal() } else { 0.0 };
+            let angle = imperfections.encoder.seen(plant.motor_angle() - start, plant.motor_speed(), late);
+            let input = Input {
+                angle: machine.encoder.read(angle),
+                torque: units.torque_word(reported + slipping + torque_noise),
+                setpoint: if released { units.speed_word(setpoint) } else { units.torque_word(scenario.held) },
+                flags: if released { Input::RELEASED } else { 0 },
+                ..Input::default()
+            };
+            let output = drive.tick(&input)?;
+            command = units.torque(output.torque);
+            Some((input, output))
         };
-        let input = Input {
-            angle: machine.encoder.read(plant.motor_angle() - scenario.plant.motor_angle()),
-            torque: units.torque_word(applied + slipping + machine.torque_noise * noise.normal()),
-            setpoint: if released { units.speed_word(setpoint) } else { units.torque_word(scenario.held) },
-            flags: if released { Input::RELEASED } else { 0 },
-            ..Input::default()
-        };
-        let output = drive.tick(&input)?;
-        applied = if tripped { 0.0 } else { units.torque(output.torque) };
-        moments.push(Moment {
-            time,
-            torque: applied,
-            motor_speed: plant.motor_speed(),
-            truth: [(machine.shaft_torque)(plant), plant.speed(node), (machine.load_torque)(plant)],
-            estimate: [
-                units.torque(output.shaft_torque),
-                units.speed(output.load_speed),
-                units.torque(output.load_torque),
-            ],
-            momentum: plant.momentum(),
-            open: plant.is_open(),
-            faults: output.faults,
-            instructions: output.instructions,
-        });
-        words.push((input, output));
-        recording.advance(applied, period);
-        if tick % 1024 == 0 {
-            progress(tick as u64);
+        let applied;
+        (applied, reported) = if tripped { (0.0, 0.0) } else { actuator.torques(command, plant.motor_angle()) };
+        if let Some((input, output)) = exchanged {
+            let moment = Moment {
+                time,
+                torque: applied,
+                motor_speed: plant.motor_speed(),
+                truth: [(machine.shaft_torque)(plant), plant.speed(node), (machine.load_torque)(plant)],
+                estimate: [
+                    units.torque(output.shaft_torque),
+                    units.speed(output.load_speed),
+                    units.torque(output.load_torque),
+                ],
+                momentum: plant.momentum(),
+                open: plant.is_open(),
+                faults: output.faults,
+                instructions: output.instructions,
+            };
+            seen(&moment, (input, output));
         }
+        plant.advance(applied, period);
     }
-    Ok(Trace { moments, words, recording })
+    Ok(())
 }

@@ -14,6 +14,8 @@ use driveline_solver::plant::train::{Motion, Signal};
 pub enum Body {
     /// Referred to the motor as it is.
     Chain(Box<Recording>),
+    /// The same without a record of its run, for many runs that are not proven one by one.
+    Unrecorded(Box<Plant>),
     /// Each coordinate on its own shaft, referred here.
     Train(Box<Referred>),
 }
@@ -41,11 +43,29 @@ impl Body {
         Body::Train(Box::new(Referred { recording: train::converge::Recording::new(motion), ratios }))
     }
 
+    /// The same plant without a record of its run, where it is a chain.
+    #[must_use]
+    pub fn unrecorded(&self) -> Self {
+        match self {
+            Body::Chain(chain) => Body::Unrecorded(Box::new(chain.plant().clone())),
+            other => other.clone(),
+        }
+    }
+
+    /// The chain; none of a train.
+    fn chain(&self) -> Result<&Plant, &Referred> {
+        match self {
+            Body::Chain(chain) => Ok(chain.plant()),
+            Body::Unrecorded(plant) => Ok(plant),
+            Body::Train(train) => Err(train),
+        }
+    }
+
     /// Angle of the motor [rad].
     pub fn motor_angle(&self) -> f64 {
-        match self {
-            Body::Chain(chain) => chain.plant().motor_angle(),
-            Body::Train(train) => train.recording.motion().angle(0),
+        match self.chain() {
+            Ok(plant) => plant.motor_angle(),
+            Err(train) => train.recording.motion().angle(0),
         }
     }
 
@@ -56,25 +76,25 @@ impl Body {
 
     /// Speed of a node, referred to the motor [rad/s].
     pub fn speed(&self, node: usize) -> f64 {
-        match self {
-            Body::Chain(chain) => chain.plant().speed(node),
-            Body::Train(train) => train.recording.motion().speed(node) * train.ratios[node],
+        match self.chain() {
+            Ok(plant) => plant.speed(node),
+            Err(train) => train.recording.motion().speed(node) * train.ratios[node],
         }
     }
 
     /// How many nodes there are.
     pub fn nodes(&self) -> usize {
-        match self {
-            Body::Chain(chain) => chain.plant().nodes(),
-            Body::Train(train) => train.ratios.len(),
+        match self.chain() {
+            Ok(plant) => plant.nodes(),
+            Err(train) => train.ratios.len(),
         }
     }
 
     /// Inertia of a node, referred to the motor [kg m2]; NaN where a crank changes it.
     pub fn inertia(&self, node: usize) -> f64 {
-        match self {
-            Body::Chain(chain) => chain.plant().inertia(node),
-            Body::Train(train) => train.recording.motion().inertia(node) / train.ratios[node].powi(2),
+        match self.chain() {
+            Ok(plant) => plant.inertia(node),
+            Err(train) => train.recording.motion().inertia(node) / train.ratios[node].powi(2),
         }
     }
 
@@ -85,41 +105,49 @@ impl Body {
 
     /// Whether a gap is open or a rope slack now.
     pub fn is_open(&self) -> bool {
-        match self {
-            Body::Chain(chain) => chain.plant().is_open(),
-            Body::Train(train) => train.recording.motion().is_open(),
+        match self.chain() {
+            Ok(plant) => plant.is_open(),
+            Err(train) => train.recording.motion().is_open(),
         }
     }
 
     /// Whether it has backlash anywhere; a rope is none.
     pub fn has_backlash(&self) -> bool {
-        match self {
-            Body::Chain(chain) => chain.plant().has_backlash(),
-            Body::Train(train) => train.recording.motion().has_backlash(),
+        match self.chain() {
+            Ok(plant) => plant.has_backlash(),
+            Err(train) => train.recording.motion().has_backlash(),
         }
     }
 
     /// Twist of a shaft of a chain, referred to the motor, or elongation of a link of a train [rad or m].
     pub fn twist(&self, shaft: usize) -> f64 {
-        match self {
-            Body::Chain(chain) => chain.plant().twist(shaft),
-            Body::Train(train) => train.recording.motion().elongation(shaft),
+        match self.chain() {
+            Ok(plant) => plant.twist(shaft),
+            Err(train) => train.recording.motion().elongation(shaft),
         }
     }
 
     /// Torque of a shaft of a chain as [`Plant::shaft_torque`], or force of a link of a train [N m or N].
     pub fn shaft_torque(&self, shaft: usize) -> f64 {
-        match self {
-            Body::Chain(chain) => chain.plant().shaft_torque(shaft),
-            Body::Train(train) => train.recording.motion().force(shaft),
+        match self.chain() {
+            Ok(plant) => plant.shaft_torque(shaft),
+            Err(train) => train.recording.motion().force(shaft),
         }
     }
 
     /// Torque on a node from outside, against positive motion, referred to the motor [N m].
     pub fn load_torque(&self, node: usize) -> f64 {
-        match self {
-            Body::Chain(chain) => chain.plant().load_torque(node),
-            Body::Train(train) => -train.recording.motion().read(Signal::Outside(node)) / train.ratios[node],
+        match self.chain() {
+            Ok(plant) => plant.load_torque(node),
+            Err(train) => -train.recording.motion().read(Signal::Outside(node)) / train.ratios[node],
+        }
+    }
+
+    /// Torque of a shaft of a chain as [`Plant::torque_behind_gear`], or force of a link of a train [N m or N].
+    pub fn torque_behind_gear(&self, shaft: usize) -> f64 {
+        match self.chain() {
+            Ok(plant) => plant.torque_behind_gear(shaft),
+            Err(train) => train.recording.motion().force(shaft),
         }
     }
 
@@ -127,6 +155,7 @@ impl Body {
     pub fn set_load_torque(&mut self, node: usize, torque: f64) {
         match self {
             Body::Chain(chain) => chain.set_load_torque(node, torque),
+            Body::Unrecorded(plant) => plant.set_load_torque(node, torque),
             Body::Train(train) => train.recording.set_torque(node, -torque * train.ratios[node]),
         }
     }
@@ -138,6 +167,7 @@ impl Body {
     pub fn set_brake(&mut self, node: usize, torque: f64) {
         match self {
             Body::Chain(chain) => chain.set_brake(node, torque),
+            Body::Unrecorded(plant) => plant.set_brake(node, torque),
             Body::Train(_) => panic!("a train has no brake at node {node}: add a friction"),
         }
     }
@@ -146,6 +176,7 @@ impl Body {
     pub fn advance(&mut self, torque: f64, dt: f64) {
         match self {
             Body::Chain(chain) => chain.advance(torque, dt),
+            Body::Unrecorded(plant) => plant.advance(torque, dt),
             Body::Train(train) => {
                 train.recording.set_torque(0, torque);
                 train.recording.advance(dt);
@@ -156,10 +187,12 @@ impl Body {
     /// Proves the run so far.
     ///
     /// # Errors
-    /// [`NotProven`] if another integrator, or the solver with tighter events, comes out otherwise.
+    /// [`NotProven`] if it was not recorded, or if another integrator, or the solver with tighter events, comes out
+    /// otherwise.
     pub fn prove(&self) -> Result<Proof, NotProven> {
         match self {
             Body::Chain(chain) => converge::prove(chain),
+            Body::Unrecorded(_) => Err(NotProven::Empty),
             Body::Train(train) => train::converge::prove(&train.recording),
         }
     }
@@ -167,7 +200,7 @@ impl Body {
     /// The motion of a train; none of a chain.
     pub fn motion(&self) -> Option<&Motion> {
         match self {
-            Body::Chain(_) => None,
+            Body::Chain(_) | Body::Unrecorded(_) => None,
             Body::Train(train) => Some(train.recording.motion()),
         }
     }

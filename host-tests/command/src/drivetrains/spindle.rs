@@ -5,6 +5,7 @@ use core::f64::consts::PI;
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::spindle::{self, Spindle};
 
+use super::departure::Departure;
 use super::facts;
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
@@ -41,8 +42,17 @@ fn shaft(plant: &Body) -> f64 {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
+    departing(&Departure::NONE)
+}
+
+/// The spindle as it is.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let spindle_with = |program: LoadProgram| {
-        Chain::motor(0.012).shaft(Shaft::elastic(stiffness()).damping(0.3), 0.004).program(program).build()
+        let shaft = Shaft::elastic(stiffness() * by.stiffness).damping(0.3);
+        Chain::motor(0.012 * by.motor_inertia).shaft(shaft, 0.004 * by.load_inertia).program(program).build()
     };
     let run_up = vec![(0.01, Action::Release), (0.01, Action::Setpoint(Spindle::RATING.speed))];
     // The tool hits a shoulder within three milliseconds, cuts less as the feed takes it through a corner, and leaves

@@ -3,6 +3,7 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::strip_mill::{self, StripMill};
 
+use super::departure::Departure;
 use super::facts;
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
@@ -29,11 +30,19 @@ fn spindles(plant: &Body) -> f64 {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
+    departing(&Departure::NONE)
+}
+
+/// The stand as it is.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let stand = |program: LoadProgram| {
-        Chain::motor(3000.0)
-            .shaft(Shaft::elastic(6.0e7).damping(1.0e4), 300.0)
-            .shaft(Shaft::elastic(5.0e7).damping(1.0e4), 400.0)
-            .shaft(Shaft::elastic(6.0e6).damping(4.0e3), 2500.0)
+        Chain::motor(3000.0 * by.motor_inertia)
+            .shaft(Shaft::elastic(6.0e7 * by.stiffness).damping(1.0e4), 300.0)
+            .shaft(Shaft::elastic(5.0e7 * by.stiffness).damping(1.0e4), 400.0)
+            .shaft(Shaft::elastic(6.0e6 * by.stiffness).damping(4.0e3), 2500.0 * by.load_inertia)
             .coulomb(4.0e3)
             .program(program)
             .build()

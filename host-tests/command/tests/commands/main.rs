@@ -1,6 +1,7 @@
 //! The subcommands as a user meets them, the files that they read and the pages that they write.
 
 mod balance;
+mod campaign;
 mod cli;
 mod cli_emit;
 mod critical;

@@ -54,6 +54,19 @@ impl Plant {
         self.mode.loss(&self.chain, shaft) * self.elastic(shaft)
     }
 
+    /// Torque of a shaft as [`Self::shaft_torque`], without the loss of a gear in front of it: that of its twist.
+    #[must_use]
+    pub fn torque_behind_gear(&self, shaft: usize) -> f64 {
+        let Some(link) = self.chain.shafts.get(shaft) else {
+            return f64::NAN;
+        };
+        if !self.mode.carries(&self.chain, shaft) {
+            return 0.0;
+        }
+        let stretch = self.x[shaft] - link.origin(self.mode.contact[shaft]);
+        link.stiffness * stretch + link.damping * (self.speed(shaft) - self.speed(shaft + 1))
+    }
+
     /// Torque against the positive motion of a node from outside the chain, N m: load, load program, dry and viscous
     /// friction; NaN for a node that is not there. While the node is held, the friction that holds it.
     #[must_use]

@@ -1,0 +1,30 @@
+//! Campaigns: a scene's drive in closed loop with many machines drawn from its tolerances.
+//!
+//! | term | meaning |
+//! |---|---|
+//! | factor | a quantity in which machines of one design differ |
+//! | tolerance | the range of a factor; draws are uniform over it |
+//! | draw | one machine: a number, and the values of the factors that follow from it and the seed |
+//! | outcome | figures of the run of a draw |
+//! | shard | draws `K`, `K + N`, `K + 2 N`, ... of a campaign, run apart and merged |
+//!
+//! A draw depends on its number and the seed alone, so that neither threads nor shards change a result.
+
+mod draw;
+mod factor;
+mod figure;
+pub mod merge;
+mod page;
+pub mod record;
+pub mod run;
+pub mod scenes;
+mod statistics;
+mod summary;
+mod work;
+
+pub use draw::Draw;
+pub use factor::{Factor, Tolerance};
+pub use figure::{Figure, Outcome, decay};
+pub use statistics::{quantile, rank_correlation};
+pub use summary::Summary;
+pub use work::work;

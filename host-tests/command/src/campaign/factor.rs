@@ -1,0 +1,143 @@
+//! The factors in which machines of one design differ, and their tolerances.
+
+use core::fmt;
+
+/// Lists the factors with their names and units.
+macro_rules! factors {
+    ($($(#[$text:meta])* $factor:ident = $name:literal, $unit:literal, $nominal:literal;)+) => {
+        /// A quantity in which machines of one design differ.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Factor {
+            $($(#[$text])* $factor,)+
+        }
+
+        impl Factor {
+            /// All.
+            pub const ALL: &[Self] = &[$(Self::$factor),+];
+
+            /// Name on the command line.
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$factor => $name),+ }
+            }
+
+            /// Unit.
+            pub const fn unit(self) -> &'static str {
+                match self { $(Self::$factor => $unit),+ }
+            }
+
+            /// Value for the machine that the drive was designed for.
+            pub const fn nominal(self) -> f64 {
+                match self { $(Self::$factor => $nominal),+ }
+            }
+        }
+    };
+}
+
+factors! {
+    /// Stiffness of the shafts.
+    Stiffness = "stiffness", "of nominal", 1.0;
+    /// Inertia of the motor.
+    MotorInertia = "motor-inertia", "of nominal", 1.0;
+    /// Inertia of the load.
+    LoadInertia = "load-inertia", "of nominal", 1.0;
+    /// Efficiency of the gear, as a difference.
+    Efficiency = "efficiency", "added", 0.0;
+    /// Gap of the backlash.
+    Gap = "gap", "of nominal", 1.0;
+    /// Mass on the hook.
+    Load = "load", "of nominal", 1.0;
+    /// Length of the rope.
+    Rope = "rope", "of nominal", 1.0;
+    /// Torque constant of the motor.
+    TorqueConstant = "torque-constant", "of nominal", 1.0;
+    /// Torque at the shaft that the inverter does not report.
+    TorqueOffset = "torque-offset", "of rated torque", 0.0;
+    /// Amplitude of the cogging torque.
+    Cogging = "cogging", "of rated torque", 0.0;
+    /// Delay of the torque.
+    Delay = "delay", "ticks", 0.0;
+    /// Time constant of the current loop.
+    Lag = "lag", "s", 0.0;
+    /// Amplitude of the encoder's error once a turn.
+    Eccentricity = "eccentricity", "rad", 0.0;
+    /// Amplitude of the encoder's error once a line.
+    Interpolation = "interpolation", "of a line", 0.0;
+    /// Standard deviation of the instant at which the encoder is sampled.
+    Jitter = "jitter", "s", 0.0;
+    /// Share of the ticks that do not run.
+    MissedTicks = "missed-ticks", "of all", 0.0;
+}
+
+impl Factor {
+    /// The factor of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|factor| factor.name() == name)
+    }
+}
+
+/// The range of a factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// The factor.
+    pub factor: Factor,
+    /// Least value.
+    pub low: f64,
+    /// Greatest value.
+    pub high: f64,
+}
+
+impl fmt::Display for Tolerance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}..{}", self.factor.name(), self.low, self.high)
+    }
+}
+
+impl Tolerance {
+    /// A factor between two values.
+    pub const fn new(factor: Factor, low: f64, high: f64) -> Self {
+        Self { factor, low, high }
+    }
+
+    /// Reads `NAME=LOW..HIGH` or `NAME=VALUE`.
+    ///
+    /// # Errors
+    /// A sentence: no such factor, not two numbers in order, or a range that no machine has.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let form = "expected NAME=LOW..HIGH or NAME=VALUE, such as load=0.5..1";
+        let (name, range) = text.split_once('=').ok_or_else(|| format!("tolerance `{text}`: {form}"))?;
+        let factor = Factor::named(name.trim()).ok_or_else(|| {
+            let names: Vec<&str> = Factor::ALL.iter().map(|factor| factor.name()).collect();
+            format!("there is no factor `{name}`; there are {}", names.join(", "))
+        })?;
+        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|value| value.is_finite());
+        let (low, high) = range.split_once("..").unwrap_or((range, range));
+        let (Some(low), Some(high)) = (number(low), number(high)) else {
+            return Err(format!("tolerance `{text}`: {form}"));
+        };
+        if low > high {
+            return Err(format!("tolerance `{text}`: {low} is above {high}; write the lower value first"));
+        }
+        let (least, most) = factor.possible();
+        if low < least || high > most {
+            return Err(format!("tolerance `{text}`: `{name}` lies from {least} to {most}, {}", factor.unit()));
+        }
+        Ok(Self { factor, low, high })
+    }
+}
+
+impl Factor {
+    /// Values that a run is possible with.
+    const fn possible(self) -> (f64, f64) {
+        match self {
+            Self::Stiffness | Self::MotorInertia | Self::LoadInertia | Self::Load | Self::Rope => (0.01, 100.0),
+            Self::Gap => (0.0, 100.0),
+            Self::TorqueConstant => (0.1, 10.0),
+            Self::Efficiency => (-0.5, 0.05),
+            Self::TorqueOffset => (-1.0, 1.0),
+            Self::Cogging | Self::Interpolation | Self::MissedTicks => (0.0, 1.0),
+            Self::Delay => (0.0, crate::closed_loop::actuator::MAX_DELAY),
+            Self::Lag | Self::Jitter => (0.0, 0.1),
+            Self::Eccentricity => (0.0, 0.5),
+        }
+    }
+}

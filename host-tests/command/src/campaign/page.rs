@@ -1,0 +1,95 @@
+//! The page of a campaign.
+
+use super::factor::Factor;
+use super::figure::Figure;
+use super::statistics::quantile;
+use super::summary::Summary;
+use driveline_report::chart::{Curve, Lines};
+use driveline_report::format::significant;
+use driveline_report::{Fact, Figure as Drawing, Key, Sheet};
+
+/// The errors on the page.
+const ERRORS: [Figure; 3] = [Figure::ShaftTorque, Figure::LoadSpeed, Figure::LoadTorque];
+
+/// Points of a plot of draws; more would only lie on one another.
+const POINTS: usize = 1_000;
+
+impl Summary {
+    /// The page as HTML.
+    pub fn page(&self) -> String {
+        let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
+        let mut facts = vec![
+            fact("variant", self.variant.clone()),
+            fact("draws", self.draws.to_string()),
+            fact("seed", self.seed.to_string()),
+            fact("unstable draws", self.unstable.len().to_string()),
+        ];
+        for (name, (low, high)) in &self.tolerances {
+            let unit = Factor::named(name).map_or("", Factor::unit);
+            facts.push(fact(name, format!("{} to {} {unit}", significant(*low), significant(*high))));
+        }
+        Sheet {
+            name: self.variant.split('/').next().unwrap_or_default().to_owned(),
+            kicker: "machines within their tolerances".to_owned(),
+            summary: "The library's own code in closed loop with the full solver, over machines drawn from the \
+                      tolerances of one design. Encoder, inverter and timing have their errors too."
+                .to_owned(),
+            facts,
+            figures: std::iter::once(self.errors()).chain(ERRORS.iter().filter_map(|&f| self.strongest(f))).collect(),
+            tables: self.tables(),
+        }
+        .page()
+    }
+
+    /// The errors over the share of draws that are not worse.
+    fn errors(&self) -> Drawing {
+        let shares: Vec<f64> = (1..=99).map(f64::from).collect();
+        let curve = |(at, &figure): (usize, &Figure)| {
+            let mut values = self.drawn.figure(figure);
+            values.sort_by(f64::total_cmp);
+            let class = format!("s{at}");
+            Curve { class, values: shares.iter().map(|share| 100.0 * quantile(&values, share / 100.0)).collect() }
+        };
+        let lines = Lines {
+            label: "Errors over the share of draws".to_owned(),
+            along: "draws that are not worse, %".to_owned(),
+            across: "rms error, % of rated".to_owned(),
+            places: shares.clone(),
+            curves: ERRORS.iter().enumerate().map(curve).collect(),
+            marks: vec![(50.0, "median".to_owned()), (90.0, "90 %".to_owned())],
+            points: Vec::new(),
+            logarithmic: true,
+        };
+        Drawing {
+            title: "Errors of the estimates".to_owned(),
+            text: "Torques of rated torque, speeds of rated speed.".to_owned(),
+            legend: ERRORS.iter().enumerate().map(|(at, f)| Key::curve(f.name(), format!("s{at}"))).collect(),
+            plots: vec![lines.draw()],
+            ..Drawing::default()
+        }
+    }
+
+    /// An error over its strongest factor.
+    fn strongest(&self, figure: Figure) -> Option<Drawing> {
+        let influence = self.influences.iter().find(|influence| influence.figure == figure.name())?;
+        let factor = Factor::named(influence.factor)?;
+        let (low, high) = *self.tolerances.get(influence.factor)?;
+        let values = self.drawn.factor(factor).into_iter().zip(self.drawn.figure(figure));
+        let points = values.zip(&self.drawn.draws).take(POINTS);
+        let points = points.map(|((x, y), (draw, _))| (x, 100.0 * y, "s0".to_owned(), format!("draw {}", draw.number)));
+        let lines = Lines {
+            label: format!("{} over {}", figure.name(), factor.name()),
+            along: format!("{}, {}", factor.name(), factor.unit()),
+            across: "% of rated".to_owned(),
+            places: vec![low, high],
+            points: points.collect(),
+            ..Lines::default()
+        };
+        Some(Drawing {
+            title: format!("{} over {}", figure.name(), factor.name()),
+            text: "The factor that matters most to it. A point is a draw.".to_owned(),
+            plots: vec![lines.draw()],
+            ..Drawing::default()
+        })
+    }
+}

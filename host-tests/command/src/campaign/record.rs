@@ -1,0 +1,186 @@
+//! The file of a campaign: its settings, and a line for each draw that is done.
+//!
+//! A line is appended when its draw is done, so that a campaign that was killed goes on where it was. Numbers are
+//! written so that they are read back to the bit. A file of other settings is refused, and so is one of another version
+//! of the library or the plant: the nominal machine's outcome stands among the settings.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs::{File, OpenOptions};
+use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
+use std::path::{Path, PathBuf};
+
+use super::factor::Tolerance;
+use super::figure::{FIGURES, Figure, Outcome};
+
+/// What a campaign is of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The variant, as `hoist/f32/reduced/10000`.
+    pub variant: String,
+    /// Number of draws.
+    pub draws: u64,
+    /// Seed of the draws.
+    pub seed: u64,
+    /// The tolerances.
+    pub tolerances: Vec<Tolerance>,
+    /// The nominal machine's outcome.
+    pub nominal: Outcome,
+}
+
+/// First line of a file.
+const FIRST: &str = "# driveline campaign 1";
+
+impl Settings {
+    /// The scene.
+    pub fn scene(&self) -> &str {
+        self.variant.split('/').next().unwrap_or_default()
+    }
+
+    /// The lines that a file of this campaign begins with.
+    fn text(&self) -> String {
+        let mut text = format!("{FIRST}\n# variant {}\n# draws {}\n# seed {}\n", self.variant, self.draws, self.seed);
+        for tolerance in &self.tolerances {
+            // Writing to a `String` cannot fail.
+            let _ = writeln!(text, "# tolerance {tolerance}");
+        }
+        let _ = writeln!(text, "# nominal{}", numbers(&self.nominal));
+        let names: Vec<&str> = Figure::ALL.iter().map(|figure| figure.name()).collect();
+        let _ = writeln!(text, "# columns: draw; {}", names.join("; "));
+        text
+    }
+
+    fn parse(text: &str) -> Option<Self> {
+        let settings: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("# ")).collect();
+        let one = |key: &str| settings.iter().find_map(|line| line.strip_prefix(key));
+        let tolerances = settings.iter().filter_map(|line| line.strip_prefix("tolerance "));
+        let tolerances: Result<Vec<Tolerance>, String> = tolerances.map(Tolerance::parse).collect();
+        Some(Self {
+            variant: one("variant ")?.to_owned(),
+            draws: one("draws ")?.parse().ok()?,
+            seed: one("seed ")?.parse().ok()?,
+            tolerances: tolerances.ok()?,
+            nominal: outcome(one("nominal ")?)?,
+        })
+    }
+
+    /// The whole file of a campaign that is done: the draws by their numbers.
+    pub fn file(&self, outcomes: &BTreeMap<u64, Outcome>) -> String {
+        let lines = outcomes.iter().map(|(number, outcome)| line(*number, outcome));
+        std::iter::once(self.text()).chain(lines).collect()
+    }
+}
+
+fn numbers(outcome: &Outcome) -> String {
+    // the shortest text that is read back to the bit
+    outcome.0.iter().fold(String::new(), |text, number| text + " " + &number.to_string())
+}
+
+fn line(number: u64, outcome: &Outcome) -> String {
+    format!("{number}{}\n", numbers(outcome))
+}
+
+fn outcome(text: &str) -> Option<Outcome> {
+    let numbers: Option<Vec<f64>> = text.split_whitespace().map(|number| number.parse().ok()).collect();
+    let numbers: [f64; FIGURES] = numbers?.try_into().ok()?;
+    Some(Outcome(numbers))
+}
+
+/// The settings and the draws of a file's text, and how many bytes of it are whole lines.
+fn parse(path: &Path, text: &str) -> Result<(Settings, BTreeMap<u64, Outcome>, usize), String> {
+    let name = path.display();
+    let no_campaign = || format!("{name} is no file of a campaign by this version; name another with --results");
+    let settings = Settings::parse(text).ok_or_else(no_campaign)?;
+    let begin = settings.text();
+    // the settings are as this version writes them
+    let lines = text.strip_prefix(&begin).ok_or_else(no_campaign)?;
+    let whole = lines.rfind('\n').map_or(0, |at| at + 1);
+    let mut outcomes = BTreeMap::new();
+    for (at, line) in lines[..whole].lines().enumerate() {
+        let entry = line.split_once(' ').and_then(|(number, rest)| Some((number.parse().ok()?, outcome(rest)?)));
+        let line = begin.lines().count() + at + 1;
+        let Some((number, outcome)) = entry.filter(|(number, _)| *number < settings.draws) else {
+            return Err(format!(
+                "{name}, line {line}: expected a draw below {} and {FIGURES} numbers; delete the line to run its draw \
+                 again",
+                settings.draws
+            ));
+        };
+        if outcomes.insert(number, outcome).is_some_and(|other| !other.is_same(&outcome)) {
+            return Err(format!(
+                "{name}, line {line}: draw {number} stands there twice with other figures; delete both"
+            ));
+        }
+    }
+    Ok((settings, outcomes, begin.len() + whole))
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// A sentence: it cannot be read, or is none.
+pub fn read(path: &Path) -> Result<(Settings, BTreeMap<u64, Outcome>), String> {
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    parse(path, &text).map(|(settings, outcomes, _)| (settings, outcomes))
+}
+
+/// A file of a campaign at work: no other process has it open.
+#[derive(Debug)]
+pub struct Record {
+    path: PathBuf,
+    file: File,
+    /// The draws that are done.
+    pub outcomes: BTreeMap<u64, Outcome>,
+}
+
+impl Record {
+    /// Opens the file of a campaign, or begins it.
+    ///
+    /// # Errors
+    /// A sentence: a file of other settings, one that another process writes, or what the system says.
+    pub fn open(path: &Path, settings: &Settings) -> Result<Self, String> {
+        let name = path.display();
+        let system = |error: std::io::Error| format!("{name}: {error}");
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(system)?;
+        }
+        let mut file =
+            OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).map_err(system)?;
+        file.try_lock().map_err(|error| format!("{name} is in use by another campaign: {error}"))?;
+        let mut text = String::new();
+        file.read_to_string(&mut text).map_err(system)?;
+        let begin = settings.text();
+        let outcomes = if begin.starts_with(&text) {
+            // killed before the first draw, at the latest
+            file.set_len(0).map_err(system)?;
+            file.seek(SeekFrom::Start(0)).map_err(system)?;
+            file.write_all(begin.as_bytes()).map_err(system)?;
+            BTreeMap::new()
+        } else {
+            let (_, outcomes, whole) = parse(path, &text)?;
+            if let Some((ours, theirs)) = begin.lines().zip(text.lines()).find(|(ours, theirs)| ours != theirs) {
+                let differ = |line: &str| line.trim_start_matches("# ").to_owned();
+                return Err(format!(
+                    "{name} is of another campaign: it has `{}`, this one `{}`; name another file with --results",
+                    differ(theirs),
+                    differ(ours)
+                ));
+            }
+            file.set_len(whole as u64).map_err(system)?;
+            file.seek(SeekFrom::End(0)).map_err(system)?;
+            outcomes
+        };
+        Ok(Self { path: path.to_owned(), file, outcomes })
+    }
+
+    /// Adds a draw.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn add(&mut self, number: u64, outcome: Outcome) -> Result<(), String> {
+        let written = self.file.write_all(line(number, &outcome).as_bytes());
+        written.map_err(|error| format!("{}: {error}", self.path.display()))?;
+        self.outcomes.insert(number, outcome);
+        Ok(())
+    }
+}

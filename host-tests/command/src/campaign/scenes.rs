@@ -1,0 +1,148 @@
+//! The scenes that campaigns are run of, with their tolerances.
+//!
+//! The tolerances are those of a class of machine. Those of inertias, stiffness and torque are the ones that the design
+//! of a speed loop is to bear, [`driveline::design::Tolerance::USUAL`]; nothing is calibrated.
+
+use core::f64::consts::PI;
+
+use driveline::configure::Machine as _;
+use driveline::design::{Spread, Tolerance as Usual};
+use driveline_firmware::scenes::{blooming_mill, crane_travel, hoist, spindle, strip_mill};
+use driveline_solver::plant::PlantError;
+
+use super::factor::{Factor, Tolerance};
+use crate::drivetrains;
+use crate::drivetrains::departure::Departure;
+use crate::drivetrains::scenario::Machine;
+
+/// A scene that campaigns are run of.
+#[derive(Clone, Copy, Debug)]
+pub struct CampaignScene {
+    /// Its name.
+    pub name: &'static str,
+    /// Its machine with one run, departing from the scene's figures.
+    pub departing: fn(&Departure) -> Result<Machine, PlantError>,
+    /// The tolerances of its class, and its own; those of [`DRAWINGS`] come before them.
+    tolerances: [&'static [Tolerance]; 2],
+    /// Lines of its encoder.
+    pub lines: f64,
+    /// Rated torque [N m].
+    pub rated_torque: f64,
+    /// The ramp of the speed setpoint [rad/s2].
+    pub ramp: f64,
+    /// From when to when nothing excites the swing at the end of the run [s].
+    pub free: (f64, f64),
+}
+
+impl CampaignScene {
+    /// Its tolerances.
+    pub fn tolerances(&self) -> Vec<Tolerance> {
+        [DRAWINGS, self.tolerances[0], self.tolerances[1]].concat()
+    }
+}
+
+/// A minute of arc [rad].
+const ARCMINUTE: f64 = PI / 10_800.0;
+
+/// The range of a ratio that the design of a loop is to bear.
+const fn usual(factor: Factor, spread: Spread) -> Tolerance {
+    Tolerance::new(factor, spread.min, spread.max)
+}
+
+/// A machine by its drawings, a motor and an inverter by their data sheets.
+const DRAWINGS: &[Tolerance] = &[
+    usual(Factor::MotorInertia, Usual::USUAL.motor_inertia),
+    usual(Factor::TorqueConstant, Usual::USUAL.torque),
+    Tolerance::new(Factor::TorqueOffset, -0.01, 0.01),
+    Tolerance::new(Factor::Cogging, 0.0, 0.005),
+    Tolerance::new(Factor::Delay, 0.0, Usual::USUAL.late as f64),
+    Tolerance::new(Factor::Interpolation, 0.0, 0.01),
+];
+
+/// Cranes: the encoder's disc is centred to 3 arc minutes and read by software.
+const CRANE: &[Tolerance] = &[
+    Tolerance::new(Factor::Lag, 0.0, Usual::USUAL.lag),
+    Tolerance::new(Factor::Eccentricity, 0.0, 3.0 * ARCMINUTE),
+    Tolerance::new(Factor::Jitter, 0.0, 1e-6),
+];
+
+/// Mills: rolls are ground and changed, a timer latches the encoder, the torque follows with 200 Hz at least.
+const MILL: &[Tolerance] = &[
+    usual(Factor::Stiffness, Usual::USUAL.stiffness),
+    usual(Factor::LoadInertia, Usual::USUAL.load_inertia),
+    Tolerance::new(Factor::Lag, 0.0, 1.0 / (2.0 * PI * 200.0)),
+    Tolerance::new(Factor::Eccentricity, 0.0, ARCMINUTE),
+    Tolerance::new(Factor::Jitter, 0.0, 2e-7),
+];
+
+/// Machine tools: tools are changed, the encoder's disc is centred to 20 arc seconds and latched by a timer.
+const MACHINE_TOOL: &[Tolerance] = &[
+    usual(Factor::Stiffness, Usual::USUAL.stiffness),
+    usual(Factor::LoadInertia, Usual::USUAL.load_inertia),
+    Tolerance::new(Factor::Lag, 0.0, Usual::USUAL.lag),
+    Tolerance::new(Factor::Eccentricity, 0.0, ARCMINUTE / 3.0),
+    Tolerance::new(Factor::Jitter, 0.0, 2e-7),
+];
+
+/// The hoist's: 0.5 to 13 t on 5 to 30 m of rope, where the design has 12 t on 12 m; the oil is cold or warm.
+const LIFTS: &[Tolerance] = &[
+    usual(Factor::Stiffness, Usual::USUAL.stiffness),
+    Tolerance::new(Factor::Load, 0.5 / 12.0, 13.0 / 12.0),
+    Tolerance::new(Factor::Rope, 5.0 / 12.0, 30.0 / 12.0),
+    Tolerance::new(Factor::Efficiency, -0.03, 0.03),
+];
+
+/// The crane's: the load and the length of the pendulum, as far as the drive knows them.
+const SWINGS: &[Tolerance] = &[Tolerance::new(Factor::Load, 0.9, 1.1), Tolerance::new(Factor::Rope, 0.9, 1.1)];
+
+/// The spindles' gap, which wears.
+const GAP: &[Tolerance] = &[Tolerance::new(Factor::Gap, 0.7, 1.3)];
+
+/// The scenes.
+pub const SCENES: [CampaignScene; 5] = [
+    CampaignScene {
+        name: hoist::SCENE,
+        departing: drivetrains::hoist::departing,
+        tolerances: [CRANE, LIFTS],
+        lines: 2048.0,
+        rated_torque: hoist::Hoist::<10_000>::RATING.torque,
+        ramp: hoist::Hoist::<10_000>::RAMP,
+        free: (6.1, 8.0),
+    },
+    CampaignScene {
+        name: strip_mill::SCENE,
+        departing: drivetrains::strip_mill::departing,
+        tolerances: [MILL, &[]],
+        lines: 4096.0,
+        rated_torque: strip_mill::StripMill::RATING.torque,
+        ramp: strip_mill::StripMill::RAMP,
+        free: (7.1, 9.0),
+    },
+    CampaignScene {
+        name: spindle::SCENE,
+        departing: drivetrains::spindle::departing,
+        tolerances: [MACHINE_TOOL, &[]],
+        lines: 512.0,
+        rated_torque: spindle::Spindle::RATING.torque,
+        ramp: spindle::Spindle::RAMP,
+        free: (1.51, 1.8),
+    },
+    CampaignScene {
+        name: blooming_mill::SCENE,
+        departing: drivetrains::blooming_mill::departing,
+        tolerances: [MILL, GAP],
+        lines: 8192.0,
+        rated_torque: blooming_mill::BloomingMill::RATING.torque,
+        ramp: blooming_mill::BloomingMill::RAMP,
+        free: (5.3, 6.0),
+    },
+    CampaignScene {
+        name: crane_travel::SCENE,
+        departing: drivetrains::crane_travel::departing,
+        tolerances: [CRANE, SWINGS],
+        lines: 1024.0,
+        rated_torque: crane_travel::CraneTravel::RATING.torque,
+        ramp: crane_travel::CraneTravel::RAMP,
+        free: (32.0, 40.0),
+    },
+];

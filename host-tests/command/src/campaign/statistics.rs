@@ -1,0 +1,42 @@
+//! Order statistics and rank correlation.
+
+/// The value that a share of the values does not exceed: the one of rank `ceil(share n)` in a sorted list; NaN of an
+/// empty one. No value is made up between two.
+pub fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let rank = (share * sorted.len() as f64).ceil().max(1.0) as usize;
+    sorted.get(rank.min(sorted.len()).wrapping_sub(1)).copied().unwrap_or(f64::NAN)
+}
+
+/// The range that the median of the population lies in with a confidence of about 95 %, from order statistics: ranks
+/// `n/2 -+ 0.98 sqrt n` of the sorted values, by the normal approximation of the binomial distribution
+/// [Conover 1999, 3.2].
+pub fn median_range(sorted: &[f64]) -> (f64, f64) {
+    let count = sorted.len() as f64;
+    let half = 0.98 / count.sqrt();
+    (quantile(sorted, (0.5 - half).max(0.0)), quantile(sorted, (0.5 + half + 1.0 / count).min(1.0)))
+}
+
+/// Spearman's rank correlation, ties by their mean rank; 0 where one of the lists does not vary.
+pub fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
+    let (x, y) = (ranks(x), ranks(y));
+    let mean = (x.len() as f64 + 1.0) / 2.0;
+    let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - mean) * (b - mean)).sum::<f64>();
+    let size = (sum(&x, &x) * sum(&y, &y)).sqrt();
+    if size > 0.0 { sum(&x, &y) / size } else { 0.0 }
+}
+
+/// Ranks from 1; ties have their mean rank.
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let mut ranks = vec![0.0; values.len()];
+    let mut first = 0;
+    while first < order.len() {
+        let tied = order[first..].iter().take_while(|&&at| values[at].total_cmp(&values[order[first]]).is_eq()).count();
+        for &at in &order[first..first + tied] {
+            ranks[at] = first as f64 + (tied as f64 + 1.0) / 2.0;
+        }
+        first += tied;
+    }
+    ranks
+}

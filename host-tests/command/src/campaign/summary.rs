@@ -1,0 +1,232 @@
+//! A campaign's figures over its draws.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::draw::Draw;
+use super::factor::{Factor, Tolerance};
+use super::figure::{Figure, Outcome};
+use super::record::Settings;
+use super::statistics::{median_range, quantile, rank_correlation};
+use driveline_report::format::{percent, significant};
+use driveline_report::{Section, Table};
+
+/// A figure over the draws.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Distribution {
+    /// Name of the figure.
+    pub name: &'static str,
+    /// Unit; empty for a fraction.
+    pub unit: &'static str,
+    /// Of the machine that the drive was designed for.
+    pub nominal: f64,
+    /// Median over the draws.
+    pub median: f64,
+    /// Range of the median with 95 % confidence.
+    pub median_range: (f64, f64),
+    /// Nine draws of ten are not worse.
+    pub p90: f64,
+    /// The worst draw's.
+    pub worst: f64,
+    /// The worst draw.
+    pub worst_draw: u64,
+}
+
+/// What a factor does to a figure.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Influence {
+    /// Name of the figure.
+    pub figure: &'static str,
+    /// Name of the factor.
+    pub factor: &'static str,
+    /// Spearman's rank correlation of the figure with the factor.
+    pub with_value: f64,
+    /// The same with the size of the factor's departure from nominal.
+    pub with_departure: f64,
+}
+
+impl Influence {
+    /// The larger one.
+    fn size(&self) -> f64 {
+        f64::max(self.with_value.abs(), self.with_departure.abs())
+    }
+}
+
+/// A draw whose loop did not hold.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Unstable {
+    /// Its number.
+    pub draw: u64,
+    /// Decay of its swing \[1/s\].
+    pub decay: f64,
+    /// Swing left at the end of the run, rms of rated torque.
+    pub swing: f64,
+    /// Its factors.
+    pub values: BTreeMap<&'static str, f64>,
+}
+
+/// A campaign's figures.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The variant, as `hoist/f32/reduced/10000`.
+    pub variant: String,
+    /// Number of draws.
+    pub draws: u64,
+    /// Seed of the draws.
+    pub seed: u64,
+    /// The tolerances: least and greatest value.
+    pub tolerances: BTreeMap<&'static str, (f64, f64)>,
+    /// The figures.
+    pub figures: Vec<Distribution>,
+    /// Draws whose loop did not hold.
+    pub unstable: Vec<Unstable>,
+    /// The factors by figure, the strongest first.
+    pub influences: Vec<Influence>,
+    #[serde(skip)]
+    pub(super) drawn: Drawn,
+}
+
+/// The draws beside their outcomes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Drawn {
+    /// The tolerances.
+    pub tolerances: Vec<Tolerance>,
+    /// The draws in the order of their numbers.
+    pub draws: Vec<(Draw, Outcome)>,
+}
+
+impl Drawn {
+    /// A factor of all draws.
+    pub fn factor(&self, factor: Factor) -> Vec<f64> {
+        self.draws.iter().map(|(draw, _)| draw.value(factor)).collect()
+    }
+
+    /// A figure of all draws.
+    pub fn figure(&self, figure: Figure) -> Vec<f64> {
+        self.draws.iter().map(|(_, outcome)| outcome.of(figure)).collect()
+    }
+}
+
+/// The figures that the factors are ranked by.
+const RANKED: [Figure; 5] =
+    [Figure::ShaftTorque, Figure::LoadSpeed, Figure::LoadTorque, Figure::DynamicPeak, Figure::Decay];
+
+/// Factors of a figure in the table.
+const SHOWN: usize = 4;
+
+/// Unstable draws in the table.
+const LISTED: usize = 20;
+
+impl Summary {
+    /// Of a campaign that is done.
+    pub fn of(settings: &Settings, outcomes: &BTreeMap<u64, Outcome>) -> Self {
+        let Settings { variant, draws, seed, tolerances, nominal } = settings.clone();
+        let drawn = |(&number, &outcome): (&u64, &Outcome)| (Draw::new(&tolerances, seed, number), outcome);
+        let drawn = Drawn { tolerances: tolerances.clone(), draws: outcomes.iter().map(drawn).collect() };
+        let unstable = drawn.draws.iter().filter(|(_, outcome)| outcome.is_unstable());
+        let unstable = unstable
+            .map(|(draw, outcome)| Unstable {
+                draw: draw.number,
+                decay: outcome.of(Figure::Decay),
+                swing: outcome.of(Figure::Residual),
+                values: draw.values.iter().map(|&(factor, value)| (factor.name(), value)).collect(),
+            })
+            .collect();
+        Self {
+            variant,
+            draws,
+            seed,
+            tolerances: tolerances.iter().map(|t| (t.factor.name(), (t.low, t.high))).collect(),
+            figures: Figure::ALL.iter().map(|&figure| distribution(&drawn, figure, &nominal)).collect(),
+            unstable,
+            influences: RANKED.iter().flat_map(|&figure| influences(&drawn, figure)).collect(),
+            drawn,
+        }
+    }
+
+    /// The figures as tables.
+    pub fn tables(&self) -> Vec<Section> {
+        let mut figures =
+            Table::new(["figure", "nominal", "median", "its range, 95 %", "90 % not worse than", "worst", "draw"]);
+        for d in &self.figures {
+            let text = |value: f64| if d.unit.is_empty() { percent(value) } else { significant(value) };
+            let name = if d.unit.is_empty() { d.name.to_owned() } else { format!("{}, {}", d.name, d.unit) };
+            let (low, high) = d.median_range;
+            let range = format!("{} to {}", text(low), text(high));
+            let draw = d.worst_draw.to_string();
+            figures.row([name, text(d.nominal), text(d.median), range, text(d.p90), text(d.worst), draw]);
+        }
+        let mut ranks = Table::new(["figure", "factor", "rank correlation", "with its departure's size"]);
+        for figure in RANKED {
+            for influence in self.influences.iter().filter(|influence| influence.figure == figure.name()).take(SHOWN) {
+                let Influence { figure, factor, with_value, with_departure } = *influence;
+                ranks.row([figure, factor, &format!("{with_value:+.2}"), &format!("{with_departure:+.2}")]);
+            }
+        }
+        let mut unstable = Table::new(["draw", "decay, 1/s", "swing", "values"]);
+        for u in self.unstable.iter().take(LISTED) {
+            let values: Vec<String> = u.values.iter().map(|(name, v)| format!("{name} {}", significant(*v))).collect();
+            unstable.row([u.draw.to_string(), significant(u.decay), percent(u.swing), values.join(", ")]);
+        }
+        let errors = "Torques of rated torque, speeds of rated speed, over the whole run. The median of all machines \
+                      lies in its range with 95 % confidence. For the decay, lower is worse.";
+        let strongest = format!(
+            "The {SHOWN} strongest factors of each figure by Spearman's rank correlation: with the value itself, and \
+             with the size of its departure from nominal."
+        );
+        let count = self.unstable.len();
+        let listed = format!(
+            "{count} of {}: a swing of more than 5 % of rated torque that the loop sustains without noise and errors \
+             of the encoder. `campaign SCENE --draw NUMBER` runs one again.",
+            self.draws
+        );
+        let mut sections = vec![
+            Section::new("Figures over the draws", errors, figures),
+            Section::new("Factors that matter", strongest, ranks),
+        ];
+        if count > 0 {
+            sections.push(Section::new(format!("Unstable draws: {count}"), listed, unstable));
+        }
+        sections
+    }
+}
+
+fn distribution(drawn: &Drawn, figure: Figure, nominal: &Outcome) -> Distribution {
+    let values = drawn.figure(figure);
+    // from the best to the worst; not a number is worst
+    let badness = |value: f64| if value.is_nan() { f64::INFINITY } else { figure.badness(value) };
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| badness(values[a]).total_cmp(&badness(values[b])));
+    let sorted: Vec<f64> = order.iter().map(|&at| values[at]).collect();
+    let worst = order.last().copied();
+    Distribution {
+        name: figure.name(),
+        unit: figure.unit(),
+        nominal: nominal.of(figure),
+        median: quantile(&sorted, 0.5),
+        median_range: median_range(&sorted),
+        p90: quantile(&sorted, 0.9),
+        worst: worst.map_or(f64::NAN, |at| values[at]),
+        worst_draw: worst.map_or(0, |at| drawn.draws[at].0.number),
+    }
+}
+
+fn influences(drawn: &Drawn, figure: Figure) -> Vec<Influence> {
+    let values = drawn.figure(figure);
+    let varied = drawn.tolerances.iter().filter(|tolerance| tolerance.low < tolerance.high);
+    let mut all: Vec<Influence> = varied
+        .map(|&Tolerance { factor, .. }| {
+            let factors = drawn.factor(factor);
+            let departures: Vec<f64> = factors.iter().map(|value| (value - factor.nominal()).abs()).collect();
+            Influence {
+                figure: figure.name(),
+                factor: factor.name(),
+                with_value: rank_correlation(&factors, &values),
+                with_departure: rank_correlation(&departures, &values),
+            }
+        })
+        .collect();
+    all.sort_by(|a, b| b.size().total_cmp(&a.size()));
+    all
+}

@@ -1,0 +1,246 @@
+//! `cargo driveline campaign`: a scene's drive over machines drawn from its tolerances.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use clap::{Args, Subcommand};
+
+use super::results::{Destination, check};
+use super::{Failure, Progress, say, say_json};
+use crate::campaign::merge::{Shard, merge};
+use crate::campaign::record::{Record, Settings};
+use crate::campaign::scenes::{CampaignScene, SCENES};
+use crate::campaign::{Draw, Figure, Outcome, Summary, Tolerance, run, work};
+use crate::drivetrains::departure::Departure;
+use driveline_firmware::scenes::Row;
+use driveline_report::Table;
+use driveline_report::format::{percent, significant};
+
+/// Run a scene's drive in closed loop with many machines drawn from its tolerances.
+///
+/// Stiffness, inertias, efficiency, gap, load and rope, torque constant and offset, cogging, delay and lag of the
+/// torque, encoder and timing: each draw has other values. The library's own code runs on the host, with the bits of
+/// the firmware. Prints medians, the worst draws, unstable draws and the factors that matter, and writes a page.
+///
+/// Each draw is added to a file of results when it is done. A campaign that was stopped goes on from there.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true)]
+#[command(after_help = "Examples:
+  cargo driveline campaign hoist --draws 1000
+  cargo driveline campaign spindle --tolerance jitter=0 --drive f32/rigid/10000
+  cargo driveline campaign hoist --draws 10000 --shard 3/8 --results shard-3.draws
+  cargo driveline campaign merge shard-*.draws --html hoist.html
+  cargo driveline campaign hoist --draw 17 --json")]
+pub struct Campaign {
+    #[command(subcommand)]
+    merge: Option<Merging>,
+    /// The scene: hoist, strip-mill, spindle, blooming-mill or crane-travel
+    #[arg(required = true)]
+    scene: Option<String>,
+    /// Number of draws
+    #[arg(long, default_value_t = 200)]
+    draws: u64,
+    /// Seed of the draws
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Variant of the scene, as NUMBER/OBSERVER/RATE [default: the design's choice in f32]
+    #[arg(long, value_name = "VARIANT")]
+    drive: Option<String>,
+    /// Range of a factor, as NAME=LOW..HIGH or NAME=VALUE, in place of the scene's; may be repeated
+    #[arg(long, value_name = "RANGE")]
+    tolerance: Vec<String>,
+    /// Run one draw alone and print its values and figures
+    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["shard", "results", "threads", "html"])]
+    draw: Option<u64>,
+    /// Run part K of N alone, to be merged
+    #[arg(long, value_name = "K/N", conflicts_with = "html")]
+    shard: Option<String>,
+    /// File of results, which grows by a line with each draw [default: report/SCENE.draws]
+    #[arg(long, value_name = "PATH")]
+    results: Option<PathBuf>,
+    /// Number of threads [default: one a core]
+    #[arg(long, value_name = "COUNT")]
+    threads: Option<usize>,
+    /// File of the page [default: report/SCENE-campaign.html]
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+    /// Print JSON, and write a page only with --html
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Merging {
+    /// Put the results of all shards together
+    Merge(Merge),
+}
+
+/// Results of the shards of a campaign in one.
+#[derive(Debug, Args)]
+struct Merge {
+    /// The shards' files of results
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// File of all results
+    #[arg(long, value_name = "PATH")]
+    results: Option<PathBuf>,
+    /// File of the page [default: report/SCENE-campaign.html]
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+    /// Print JSON, and write a page only with --html
+    #[arg(long)]
+    json: bool,
+}
+
+impl Campaign {
+    /// Whether JSON is printed.
+    pub fn json(&self) -> bool {
+        self.json || matches!(&self.merge, Some(Merging::Merge(merge)) if merge.json)
+    }
+
+    /// Runs the draws that are not done and shows all, or merges shards.
+    ///
+    /// # Errors
+    /// A wrong argument; a file of another campaign; a result that cannot be written.
+    pub fn execute(&self) -> Result<(), Failure> {
+        match &self.merge {
+            Some(Merging::Merge(merge)) => merge.execute(),
+            None => self.run(),
+        }
+    }
+
+    fn run(&self) -> Result<(), Failure> {
+        let name = self.scene.as_deref().unwrap_or_default();
+        let scene = SCENES.iter().find(|scene| scene.name == name).ok_or_else(|| {
+            let names = SCENES.map(|scene| format!("`{}`", scene.name)).join(", ");
+            Failure::usage(format!("there is no campaign of a scene `{name}`; there are {names}"))
+        })?;
+        let variant = (scene.departing)(&Departure::NONE)
+            .map_err(|error| error.to_string())
+            .and_then(|machine| run::variant(&machine, self.drive.as_deref()))
+            .map_err(Failure::usage)?;
+        let tolerances = self.tolerances(scene).map_err(Failure::usage)?;
+        if let Some(number) = self.draw {
+            return self.one(scene, variant, &Draw::new(&tolerances, self.seed, number));
+        }
+        if self.draws == 0 || self.threads == Some(0) {
+            return Err(Failure::usage("--draws and --threads must be one or more"));
+        }
+        let shard = self.shard.as_deref().map(Shard::parse).transpose().map_err(Failure::usage)?;
+        let usual = match shard {
+            Some(Shard { which, of }) => format!("report/{name}-{which}-of-{of}.draws"),
+            None => format!("report/{name}.draws"),
+        };
+        let path = self.results.clone().unwrap_or_else(|| PathBuf::from(usual));
+        let page = Destination::page_unless(self.json || shard.is_some(), self.html.as_deref(), &page_name(name));
+        check(&[&path], &page)?;
+        let nominal = run::run(scene, variant, &Draw::nominal()).map_err(Failure::failed)?;
+        let settings =
+            Settings { variant: variant.name.to_owned(), draws: self.draws, seed: self.seed, tolerances, nominal };
+        let mut record = Record::open(&path, &settings).map_err(Failure::usage)?;
+        self.draw(scene, variant, &settings, shard, &mut record)?;
+        if let Some(Shard { which, of }) = shard {
+            if self.json {
+                return say_json(&serde_json::json!({ "shard": which, "of": of, "results": path }));
+            }
+            say(format_args!("shard {which} of {of}: {}", path.display()));
+            return Ok(());
+        }
+        Destination::chosen("results", &path).write(&settings.file(&record.outcomes))?;
+        show(&Summary::of(&settings, &record.outcomes), page.as_ref(), self.json)
+    }
+
+    /// The scene's tolerances with those of the command line in their place.
+    fn tolerances(&self, scene: &CampaignScene) -> Result<Vec<Tolerance>, String> {
+        let mut tolerances = scene.tolerances();
+        for text in &self.tolerance {
+            let tolerance = Tolerance::parse(text)?;
+            match tolerances.iter_mut().find(|known| known.factor == tolerance.factor) {
+                Some(known) => *known = tolerance,
+                None => tolerances.push(tolerance),
+            }
+        }
+        Ok(tolerances)
+    }
+
+    /// Runs the draws of the shard, or all, that are not in the record.
+    fn draw(
+        &self,
+        scene: &CampaignScene,
+        variant: &Row,
+        settings: &Settings,
+        shard: Option<Shard>,
+        record: &mut Record,
+    ) -> Result<(), Failure> {
+        let wanted = |draw: &u64| shard.is_none_or(|shard| shard.has(*draw)) && !record.outcomes.contains_key(draw);
+        let draws: Vec<u64> = (0..settings.draws).filter(wanted).collect();
+        let threads = self.threads.or_else(|| std::thread::available_parallelism().ok().map(Into::into)).unwrap_or(1);
+        let progress = Progress::of(draws.len() as u64);
+        let one = |number: u64| run::run(scene, variant, &Draw::new(&settings.tolerances, settings.seed, number));
+        let done = AtomicU64::new(0);
+        let count = || {
+            let done = 1 + done.fetch_add(1, Ordering::Relaxed);
+            progress.step();
+            progress.says(&format!("{}: {done} of {} draws", settings.variant, draws.len()));
+        };
+        work(&draws, threads, record, &one, &count).map_err(Failure::failed)
+    }
+
+    /// One draw beside the nominal machine.
+    fn one(&self, scene: &CampaignScene, variant: &Row, draw: &Draw) -> Result<(), Failure> {
+        let outcome = run::run(scene, variant, draw).map_err(Failure::failed)?;
+        let nominal = run::run(scene, variant, &Draw::nominal()).map_err(Failure::failed)?;
+        if self.json {
+            let values: BTreeMap<&str, f64> = draw.values.iter().map(|(f, v)| (f.name(), *v)).collect();
+            let figures = |outcome: &Outcome| -> BTreeMap<&str, f64> {
+                Figure::ALL.iter().map(|&figure| (figure.name(), outcome.of(figure))).collect()
+            };
+            return say_json(&serde_json::json!({
+                "variant": variant.name, "seed": self.seed, "draw": draw.number, "values": values,
+                "figures": figures(&outcome), "nominal": figures(&nominal),
+                "unstable": outcome.is_unstable(),
+            }));
+        }
+        let mut values = Table::new(["factor", "value", "unit", "nominal"]);
+        for &(factor, value) in &draw.values {
+            values.row([factor.name(), &significant(value), factor.unit(), &significant(factor.nominal())]);
+        }
+        let mut figures = Table::new(["figure", "value", "nominal"]);
+        for &figure in Figure::ALL {
+            let text = |value: f64| if figure.unit().is_empty() { percent(value) } else { significant(value) };
+            figures.row([figure.name().to_owned(), text(outcome.of(figure)), text(nominal.of(figure))]);
+        }
+        say(format_args!("{}, seed {}, draw {}\n{values}\n{figures}", variant.name, self.seed, draw.number));
+        if outcome.is_unstable() {
+            say("unstable");
+        }
+        Ok(())
+    }
+}
+
+impl Merge {
+    fn execute(&self) -> Result<(), Failure> {
+        let (settings, outcomes) = merge(&self.files).map_err(Failure::usage)?;
+        let results = self.results.as_deref().map(|path| Destination::chosen("results", path));
+        let page = Destination::page_unless(self.json, self.html.as_deref(), &page_name(settings.scene()));
+        let sources: Vec<&Path> = self.files.iter().map(PathBuf::as_path).collect();
+        check(&sources, results.iter().chain(&page))?;
+        results.map_or(Ok(()), |results| results.write(&settings.file(&outcomes)))?;
+        show(&Summary::of(&settings, &outcomes), page.as_ref(), self.json)
+    }
+}
+
+fn page_name(scene: &str) -> String {
+    format!("{scene}-campaign")
+}
+
+fn show(summary: &Summary, page: Option<&Destination>, json: bool) -> Result<(), Failure> {
+    if json {
+        say_json(summary)?;
+    } else {
+        say(format_args!("{}, {} draws, seed {}", summary.variant, summary.draws, summary.seed));
+        summary.tables().into_iter().for_each(say);
+    }
+    page.map_or(Ok(()), |page| page.write_and_say(&summary.page(), json))
+}

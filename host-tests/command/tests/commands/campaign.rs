@@ -1,0 +1,203 @@
+//! Campaigns: draws, faults of sensors and torque, statistics, and the command's files of results.
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use cargo_driveline::campaign::scenes::SCENES;
+use cargo_driveline::campaign::{Draw, Factor, Tolerance, decay, quantile, rank_correlation, run};
+use cargo_driveline::closed_loop::actuator::{Actuator, ActuatorErrors};
+use cargo_driveline::closed_loop::encoder_errors::EncoderErrors;
+use cargo_driveline::closed_loop::ticks::OnHost;
+use cargo_driveline::closed_loop::units::Units;
+use cargo_driveline::drivetrains::lockstep::follow;
+
+/// The spindle is the shortest run.
+fn campaign(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    command.arg("campaign").args(arguments).current_dir(folder).output().unwrap()
+}
+
+fn spindle(folder: &Path, draws: &str, file: &str, further: &[&str]) -> Output {
+    let arguments = [&["spindle", "--json", "--draws", draws, "--results", file][..], further].concat();
+    let output = campaign(folder, &arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    output
+}
+
+#[test]
+fn threads_and_shards_change_no_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let alone = spindle(folder.path(), "7", "alone", &["--threads", "1"]);
+    let beside = spindle(folder.path(), "7", "beside", &["--threads", "3"]);
+    assert_eq!(alone.stdout, beside.stdout);
+    let file = fs::read(at("alone")).unwrap();
+    assert_eq!(file, fs::read(at("beside")).unwrap());
+    for shard in ["1/3", "2/3", "3/3"] {
+        spindle(folder.path(), "7", &shard[..1], &["--shard", shard]);
+    }
+    let merged = campaign(folder.path(), &["merge", "2", "3", "1", "--json", "--results", "merged"]);
+    assert_eq!(merged.stdout, alone.stdout);
+    assert_eq!(file, fs::read(at("merged")).unwrap());
+    let partly = campaign(folder.path(), &["merge", "1", "3"]);
+    let error = String::from_utf8(partly.stderr).unwrap();
+    // 7 draws over three shards: the second has draws 1 and 4
+    assert!(partly.status.code() == Some(2) && error.contains("2 of 7 draws are missing, draw 1 first"), "{error}");
+}
+
+#[test]
+fn a_campaign_that_was_killed_goes_on_to_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = spindle(folder.path(), "12", "whole", &[]);
+    let path = folder.path().join("killed");
+    let lines = || fs::read_to_string(&path).unwrap_or_default().lines().filter(|line| !line.starts_with('#')).count();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"))
+        .args(["campaign", "spindle", "--json", "--draws", "12", "--results", "killed", "--threads", "1"])
+        .current_dir(folder.path())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    // a guard against a hang, not a measurement
+    let start = Instant::now();
+    while lines() < 2 && child.try_wait().unwrap().is_none() && start.elapsed() < Duration::from_secs(600) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(lines() >= 2);
+    // and as a power cut leaves it: the last line is not whole
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, &text[..text.len() - 9]).unwrap();
+    let resumed = spindle(folder.path(), "12", "killed", &[]);
+    assert_eq!(resumed.stdout, whole.stdout);
+    assert_eq!(fs::read(&path).unwrap(), fs::read(folder.path().join("whole")).unwrap());
+}
+
+#[test]
+fn a_file_of_other_settings_is_refused_and_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    spindle(folder.path(), "2", "file", &[]);
+    let before = fs::read(folder.path().join("file")).unwrap();
+    for (further, words) in [
+        (&["--seed", "2"][..], "it has `seed 1`, this one `seed 2`"),
+        (&["--tolerance", "jitter=0"], "it has `tolerance jitter=0..0.0000002`, this one `tolerance jitter=0..0`"),
+        (&["--drive", "f32/rigid/10000"], "it has `variant spindle/f32/exact/10000`"),
+        (&["--tolerance", "jiter=0"], "there is no factor `jiter`"),
+        (&["--tolerance", "delay=9"], "lies from 0 to 3, ticks"),
+        (&["--shard", "4/3"], "expected K/N with K from 1 to N"),
+    ] {
+        let arguments = [&["spindle", "--draws", "2", "--results", "file"][..], further].concat();
+        let output = campaign(folder.path(), &arguments);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && error.contains(words), "{error}");
+    }
+    assert_eq!(before, fs::read(folder.path().join("file")).unwrap());
+    let wrong = campaign(folder.path(), &["fan"]);
+    assert!(String::from_utf8_lossy(&wrong.stderr).contains("there are `hoist`, `strip-mill`"));
+}
+
+/// The plants of draws, of which no run is proven in a campaign, are those of runs that another integrator confirms.
+#[test]
+fn drawn_plants_are_proven_and_an_unrecorded_one_is_the_same_to_the_bit() {
+    for scene in &SCENES {
+        let draw = Draw::new(&scene.tolerances(), 1, 3);
+        let machine = (scene.departing)(&draw.departure()).unwrap();
+        let variant = run::variant(&machine, None).unwrap();
+        let units = Units::new(variant.words(), machine.bases);
+        let mut scenario = machine.scenarios[0].clone();
+        // the start and the first ramp: each has friction, gaps or brakes at work
+        scenario.duration = 0.6;
+        let imperfections = draw.imperfections(scene.lines, scene.rated_torque);
+        let runs = [scenario.plant.clone(), scenario.plant.unrecorded()].map(|mut plant| {
+            let mut drive = OnHost(variant.start());
+            let mut truth = Vec::new();
+            let rate = variant.rate_hz;
+            follow(&machine, &scenario, &units, rate, &imperfections, &mut drive, &mut plant, |moment, _| {
+                truth.extend(moment.truth.map(f64::to_bits));
+            })
+            .unwrap();
+            (plant, truth)
+        });
+        assert_eq!(runs[0].1, runs[1].1, "{}", scene.name);
+        assert!(runs[0].1.iter().any(|bits| f64::from_bits(*bits) != 0.0), "{}: nothing moves", scene.name);
+        let proof = runs[0].0.prove().unwrap_or_else(|error| panic!("{}: {error}", scene.name));
+        assert!(proof.integrator.largest <= 1e-8, "{}", scene.name);
+    }
+}
+
+#[test]
+fn a_draw_depends_on_its_number_alone() {
+    let all = SCENES[0].tolerances();
+    let draw = Draw::new(&all, 5, 17);
+    assert_eq!(draw, Draw::new(&all, 5, 17));
+    assert_ne!(draw.values, Draw::new(&all, 5, 18).values);
+    assert_ne!(draw.values, Draw::new(&all, 6, 17).values);
+    let one = [Tolerance::parse("load=0.5..1").unwrap()];
+    let loads: Vec<f64> = (0..1000).map(|number| Draw::new(&one, 5, number).value(Factor::Load)).collect();
+    let other = [Tolerance::new(Factor::Rope, 0.9, 1.1), one[0]];
+    assert_eq!(loads[17], Draw::new(&other, 5, 17).value(Factor::Load));
+    // uniform: the mean of n is within four standard deviations (high - low)/sqrt(12 n) of the middle
+    let mean = loads.iter().sum::<f64>() / 1000.0;
+    assert!((mean - 0.75).abs() < 4.0 * 0.5 / f64::sqrt(12_000.0), "{mean}");
+    assert!(loads.iter().all(|load| (0.5..1.0).contains(load)));
+    // what has no tolerance is nominal
+    assert_eq!(Draw::new(&one, 5, 1).value(Factor::TorqueConstant), 1.0);
+}
+
+#[test]
+fn the_faults_are_those_of_their_closed_forms() {
+    let ideal = EncoderErrors::default();
+    assert_eq!(ideal.seen(1.25, 100.0, 3.0), 1.25);
+    let real = EncoderErrors { eccentricity: 1e-3, eccentricity_phase: 0.5, jitter: 1e-6, ..ideal };
+    let angle = 2.0 + 100.0 * 1e-6 * 3.0;
+    // rounding of an angle of two radians
+    assert!((real.seen(2.0, 100.0, 3.0) - (angle + 1e-3 * f64::sin(angle + 0.5))).abs() < 1e-15);
+    let interpolated = EncoderErrors { interpolation: 1e-4, lines: 512.0, ..ideal };
+    let quarter = TAU / 512.0 / 4.0;
+    assert!((interpolated.seen(quarter, 0.0, 0.0) - quarter - 1e-4).abs() < 1e-15);
+
+    let step = |errors: ActuatorErrors| {
+        let mut actuator = Actuator::new(errors, 1e-4);
+        [0; 4].map(|_| actuator.torques(8.0, 0.0))
+    };
+    let none = ActuatorErrors::default();
+    assert_eq!(step(none), [(8.0, 8.0); 4]);
+    let late = step(ActuatorErrors { delay: 1.25, ..none }).map(|(shaft, _)| shaft);
+    assert_eq!(late, [0.0, 6.0, 8.0, 8.0]);
+    let weak = step(ActuatorErrors { gain: -0.25, offset: 1.0, ..none });
+    assert_eq!(weak[0], (7.0, 8.0));
+    // the mean of 1 - exp(-t/T) over a tick of a quarter of T, and over the next
+    let slow = step(ActuatorErrors { lag: 4e-4, ..none });
+    for (tick, (_, reported)) in slow.into_iter().enumerate() {
+        let from = 0.25 * tick as f64;
+        let mean = 1.0 - ((-from).exp() - (-from - 0.25).exp()) / 0.25;
+        assert!((reported - 8.0 * mean).abs() < 1e-14, "{reported}");
+    }
+}
+
+#[test]
+fn statistics_are_those_of_known_examples() {
+    // "Spearman's rank correlation coefficient", Wikipedia: IQ and hours of television, rho = -29/165
+    let iq = [106.0, 100.0, 86.0, 101.0, 99.0, 103.0, 97.0, 113.0, 112.0, 110.0];
+    let hours = [7.0, 27.0, 2.0, 50.0, 28.0, 29.0, 20.0, 12.0, 6.0, 17.0];
+    assert!((rank_correlation(&iq, &hours) + 29.0 / 165.0).abs() < 1e-15);
+    // ranks 1, 2.5, 2.5, 4 against 1 to 4: 4.5/sqrt(4.5 5)
+    let tied = rank_correlation(&[1.0, 2.0, 2.0, 3.0], &[1.0, 2.0, 3.0, 4.0]);
+    assert!((tied - 4.5 / f64::sqrt(22.5)).abs() < 1e-15);
+    assert_eq!(rank_correlation(&[1.0, 1.0], &[1.0, 2.0]), 0.0);
+    let ten: Vec<f64> = (1..=10).map(f64::from).collect();
+    assert_eq!([0.5, 0.9, 0.91, 1.0].map(|share| quantile(&ten, share)), [5.0, 9.0, 10.0, 10.0]);
+    assert!(quantile(&[], 0.5).is_nan());
+    // energy exp(-6 t) over two seconds: its centroid by the closed form, for decay and growth
+    for rate in [3.0, 0.5, -0.5, -3.0_f64] {
+        let x = 4.0 * rate;
+        let centroid = 2.0 * (1.0 / x - 1.0 / x.exp_m1());
+        // bisection of 1000/length to sixty bits; rounding of the closed form near one half
+        assert!((decay(centroid, 2.0) - rate).abs() < 1e-12, "{rate}");
+    }
+    assert!(decay(1.0, 2.0).abs() < 1e-12);
+}
