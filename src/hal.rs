@@ -86,8 +86,9 @@
 //! }
 //! ```
 //!
-//! The timer's interrupt then calls [`Axis::tick`]. A board whose interrupt may be held up for longer than a tick counts
-//! the ticks that did not run, with [`MissedTicks`] behind [`Board::missed`]; the axis makes them up by prediction.
+//! The timer's interrupt then calls [`Axis::tick`]. A board whose interrupt may be held up for longer than a tick
+//! counts the ticks that did not run, with [`MissedTicks`] behind [`Board::missed`]; the axis makes them up by
+//! prediction.
 //!
 //! # From a board to a governed motor
 //! With the feature `hal`, two dozen lines, on any board; the timer's wait here stands for its interrupt:

@@ -11,8 +11,8 @@ use crate::governor::{BarredConfig, CurveConfig, CurvePiece, SlewConfig, SpeedRa
 
 const SLEW: &str =
     "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
-const CURVE: &str = "the torque curve and its slopes must be finite; in fixed point it must lie within twice the bases, \
-    and its slopes within 2 bases of the torque per base of the speed";
+const CURVE: &str = "the torque curve and its slopes must be finite; in fixed point it must lie within twice the \
+    bases, and its slopes within 2 bases of the torque per base of the speed";
 const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
 
 const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {

@@ -4,9 +4,9 @@
 //! same machine code on a board with a motor, where [`Turn`](crate::control_loop::step::Turn) reads and does, and in
 //! QEMU, where the host does.
 //!
-//! Into [`Input::flags`] go [`Input::RELEASED`], the ticks that did not run ([`Input::MISSED`]) and the board's faults as
-//! bits of [`Faults`]: of this reading (angle, torque, vibration) and of the outputs after the last tick (torque output,
-//! enable). [`Output::faults`] has
+//! Into [`Input::flags`] go [`Input::RELEASED`], the ticks that did not run ([`Input::MISSED`]) and the board's faults
+//! as bits of [`Faults`]: of this reading (angle, torque, vibration) and of the outputs after the last tick (torque
+//! output, enable). [`Output::faults`] has
 //! [`Faults::TRIPPED`] while the power stage is to be off.
 
 use core::marker::PhantomData;

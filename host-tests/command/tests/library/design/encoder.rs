@@ -26,7 +26,7 @@ const PERIODS: u32 = 512;
 /// Interpolation error, as a fraction of a period, and jitter of a tick, as a fraction of it.
 const ONE_PERCENT: f64 = 0.01;
 
-/// The spindle by the counts of its encoder (0), with the interpolation error stated (1), or with the jitter stated (2).
+/// The spindle by the counts of its encoder (0), with the interpolation error stated (1), or with the jitter (2).
 struct Stated<const WHAT: u32>;
 
 impl<const WHAT: u32> Machine for Stated<WHAT> {
