@@ -55,7 +55,7 @@ impl<'b, B: Board> Bench<'b, B> {
         for count in &mut counts {
             *count = self.counter.call(function, &mut state, &input(&mut inputs), &mut output);
         }
-        self.print(name, &counts);
+        self.print(name, function as usize, &counts);
     }
 
     /// Calls an observer's step with one state and fresh angles and torques.
@@ -73,7 +73,7 @@ impl<'b, B: Board> Bench<'b, B> {
             let (angle, torque) = input(&mut inputs);
             *count = self.counter.step(step, constants, &mut state, angle, torque);
         }
-        self.print(name, &counts);
+        self.print(name, step as usize, &counts);
     }
 
     /// Calls a long function a few times, with inputs of the given number, and prints its stack too.
@@ -92,7 +92,7 @@ impl<'b, B: Board> Bench<'b, B> {
             *count = self.counter.call(function, &mut (), &input(&mut inputs), &mut output);
         }
         let used = stack::used();
-        self.board.print(self.line(name, &counts).number("stack", used).finish());
+        self.board.print(self.line(name, function as usize, &counts).number("stack", used).finish());
     }
 
     /// Prints another quantity than instructions: its name, object, unit and value.
@@ -101,11 +101,12 @@ impl<'b, B: Board> Bench<'b, B> {
         self.board.print(line.finish());
     }
 
-    fn print(&self, name: &str, counts: &[u32]) {
-        self.board.print(self.line(name, counts).finish());
+    fn print(&self, name: &str, function: usize, counts: &[u32]) {
+        self.board.print(self.line(name, function, counts).finish());
     }
 
-    fn line(&self, name: &str, counts: &[u32]) -> Line {
+    /// The line of a function at an address, where the host finds its machine code.
+    fn line(&self, name: &str, function: usize, counts: &[u32]) -> Line {
         let least = counts.iter().fold(u32::MAX, |least, &count| least.min(count));
         let most = counts.iter().fold(0, |most, &count| most.max(count));
         Line::new()
@@ -116,6 +117,7 @@ impl<'b, B: Board> Bench<'b, B> {
             .number("median", median(counts))
             .number("max", most)
             .number("calls", counts.len() as u32)
+            .number("function", function as u32)
     }
 }
 

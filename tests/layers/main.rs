@@ -19,9 +19,10 @@ use imports::imports;
 use tree::Tree;
 
 /// The library and the host's crates, by the file that each begins with.
-const CRATES: [&str; 6] = [
+const CRATES: [&str; 7] = [
     "src/lib.rs",
     "firmware/src/lib.rs",
+    "host-tests/longest-path/src/lib.rs",
     "host-tests/solver/src/lib.rs",
     "host-tests/report/src/lib.rs",
     "host-tests/qemu/src/lib.rs",

@@ -43,6 +43,13 @@ fn the_report_knows_no_machine_and_no_scene() {
 }
 
 #[test]
+fn the_longest_path_knows_machine_code_alone() {
+    let names = dependencies(&manifest("longest-path"));
+    assert!(names.iter().any(|name| name == "object"), "{names:?}");
+    assert!(!names.iter().any(|name| name.starts_with("driveline") || name == "cargo-driveline"), "{names:?}");
+}
+
+#[test]
 fn images_and_their_link_know_no_plant() {
     let names = dependencies(&manifest("qemu"));
     assert!(names.iter().any(|name| name == "driveline-firmware"), "{names:?}");

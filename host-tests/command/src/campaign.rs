@@ -10,11 +10,13 @@
 //!
 //! A draw depends on its number and the seed alone, so that neither threads nor shards change a result.
 
+pub mod compare;
 mod draw;
 mod factor;
 mod figure;
 pub mod merge;
 mod page;
+mod plain;
 pub mod record;
 pub mod run;
 pub mod scenes;
@@ -25,6 +27,7 @@ mod work;
 pub use draw::Draw;
 pub use factor::{Factor, Tolerance};
 pub use figure::{Figure, Outcome, decay};
+pub use plain::PlainLoop;
 pub use statistics::{quantile, rank_correlation};
 pub use summary::Summary;
 pub use work::work;

@@ -21,6 +21,7 @@ mod emit;
 mod example;
 mod failure;
 mod generator;
+mod longest_path;
 mod modes;
 mod output;
 mod progress;
@@ -67,6 +68,7 @@ enum Command {
     Rotor(rotor::Rotor),
     Balancing(balance::Balance),
     Genset(generator::Generator),
+    LongestPath(longest_path::LongestPath),
     Check(check::Check),
     Commissioning(commission::Commission),
     Setup(setup::Setup),
@@ -88,6 +90,7 @@ impl Command {
             Self::Rotor(command) => command.json,
             Self::Balancing(command) => command.json,
             Self::Genset(command) => command.json,
+            Self::LongestPath(command) => command.json,
             Self::Check(command) => command.json,
             Self::Commissioning(command) => command.json,
             Self::Setup(command) => command.json,
@@ -109,6 +112,7 @@ impl Command {
             Self::Rotor(command) => command.execute(),
             Self::Balancing(command) => command.execute(),
             Self::Genset(command) => command.execute(),
+            Self::LongestPath(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Commissioning(command) => command.execute(),
             Self::Setup(command) => command.execute(),

@@ -1,30 +1,83 @@
 //! The run of a draw: the library's own code on the host against the drawn machine.
 
+use driveline_firmware::Words;
 use driveline_firmware::scene::Input;
 use driveline_firmware::scenes::{Row, find};
 
 use super::draw::Draw;
 use super::figure::{Gathering, Outcome, Scale};
+use super::plain::PlainLoop;
 use super::scenes::CampaignScene;
 use crate::closed_loop::actuator::ActuatorErrors;
 use crate::closed_loop::encoder_errors::EncoderErrors;
-use crate::closed_loop::ticks::OnHost;
+use crate::closed_loop::ticks::{OnHost, Ticks};
 use crate::closed_loop::units::Units;
 use crate::drivetrains::lockstep::{Imperfections, follow};
 use crate::drivetrains::scenario::{Machine, Scenario};
 
-/// The variant of a scene that a campaign runs: the design's choice in `f32`, or the one with this number, observer
-/// and rate.
-///
-/// # Errors
-/// A sentence: no such variant.
-pub fn variant(machine: &Machine, name: Option<&str>) -> Result<&'static Row, String> {
-    let (observer, rate) = machine.chosen;
-    let usual = format!("f32/{observer}/{rate}");
-    let name = name.unwrap_or(&usual);
-    find(&format!("{}/{name}", machine.name)).ok_or_else(|| {
-        format!("`{}` has no variant `{name}`; expected NUMBER/OBSERVER/RATE, such as {usual}", machine.name)
-    })
+/// A drive that a campaign runs.
+#[derive(Clone, Copy, Debug)]
+pub enum Drive {
+    /// A variant of the scene.
+    Variant(&'static Row),
+    /// The [`PlainLoop`] with the scene's gains, at this many ticks a second.
+    Plain(u32),
+}
+
+/// Name of the plain loop.
+const PLAIN: &str = "plain";
+
+impl Drive {
+    /// The design's choice in `f32`, the variant with this number, observer and rate, or `plain`.
+    ///
+    /// # Errors
+    /// A sentence: no such variant.
+    pub fn named(machine: &Machine, name: Option<&str>) -> Result<Self, String> {
+        let (observer, rate) = machine.chosen;
+        let usual = format!("f32/{observer}/{rate}");
+        match name.unwrap_or(&usual) {
+            PLAIN => Ok(Self::Plain(rate)),
+            name => find(&format!("{}/{name}", machine.name)).map(Self::Variant).ok_or_else(|| {
+                format!(
+                    "`{}` has no drive `{name}`; expected NUMBER/OBSERVER/RATE, such as {usual}, or plain",
+                    machine.name
+                )
+            }),
+        }
+    }
+
+    /// Its name, after that of its scene.
+    pub fn name(&self, scene: &str) -> String {
+        match self {
+            Self::Variant(row) => row.name.to_owned(),
+            Self::Plain(_) => format!("{scene}/{PLAIN}"),
+        }
+    }
+
+    /// Ticks a second.
+    pub const fn rate_hz(&self) -> u32 {
+        match self {
+            Self::Variant(row) => row.rate_hz,
+            Self::Plain(rate) => *rate,
+        }
+    }
+
+    /// The units of its words.
+    pub fn units(&self, machine: &Machine) -> Units {
+        let words = match self {
+            Self::Variant(row) => row.words(),
+            Self::Plain(_) => Words::Single,
+        };
+        Units::new(words, machine.bases)
+    }
+
+    /// It at rest.
+    pub fn start(&self, scene: &CampaignScene, machine: &Machine) -> Box<dyn Ticks> {
+        match self {
+            Self::Variant(row) => Box::new(OnHost(row.start())),
+            Self::Plain(_) => Box::new(PlainLoop::new(scene.speed_loop, scene.torque_limit, scene.ramp, machine.bases)),
+        }
+    }
 }
 
 /// Runs a draw. One that swings at the end runs again without noise and errors of the encoder, to find out whether the
@@ -32,13 +85,14 @@ pub fn variant(machine: &Machine, name: Option<&str>) -> Result<&'static Row, St
 ///
 /// # Errors
 /// A sentence: values that no plant can have.
-pub fn run(scene: &CampaignScene, variant: &Row, draw: &Draw) -> Result<Outcome, String> {
+pub fn run(scene: &CampaignScene, drive: &Drive, draw: &Draw) -> Result<Outcome, String> {
     let wrong = |error: &dyn core::fmt::Display| format!("draw {} of `{}`: {error}", draw.number, scene.name);
     let machine = (scene.departing)(&draw.departure()).map_err(|error| wrong(&error))?;
-    let scenario = machine.scenarios.first().ok_or_else(|| wrong(&"the machine has no run"))?;
+    let mut scenario = machine.scenarios.first().ok_or_else(|| wrong(&"the machine has no run"))?.clone();
+    scenario.duration = scenario.duration.max(scene.free.1);
     let imperfections = draw.imperfections(scene.lines, scene.rated_torque);
     let follow = |machine: &Machine, imperfections: &Imperfections| {
-        follow_draw(scene, variant, machine, scenario, imperfections).map_err(|error| wrong(&error))
+        follow_draw(scene, drive, machine, &scenario, imperfections).map_err(|error| wrong(&error))
     };
     let outcome = follow(&machine, &imperfections)?;
     if !outcome.swings() {
@@ -53,12 +107,12 @@ pub fn run(scene: &CampaignScene, variant: &Row, draw: &Draw) -> Result<Outcome,
 
 fn follow_draw(
     scene: &CampaignScene,
-    variant: &Row,
+    drive: &Drive,
     machine: &Machine,
     scenario: &Scenario,
     imperfections: &Imperfections,
 ) -> std::io::Result<Outcome> {
-    let units = Units::new(variant.words(), machine.bases);
+    let units = drive.units(machine);
     let mut plant = scenario.plant.unrecorded();
     let mut gathering = Gathering::new(Scale {
         torque: scene.rated_torque,
@@ -66,15 +120,15 @@ fn follow_draw(
         load_inertia: (machine.load..plant.nodes()).map(|node| plant.inertia(node)).sum(),
         free: scene.free,
     });
-    let step = scene.ramp / f64::from(variant.rate_hz);
+    let step = scene.ramp / f64::from(drive.rate_hz());
     let mut ramped = 0.0_f64;
-    let mut drive = OnHost(variant.start());
+    let mut ticking = drive.start(scene, machine);
     let each = |moment: &_, (input, _): (Input, _)| {
         let target = if input.flags & Input::RELEASED == 0 { ramped } else { units.speed(input.setpoint) };
         let change = (target - ramped).clamp(-step, step);
         ramped += change;
         gathering.add(moment, change / step * scene.ramp);
     };
-    follow(machine, scenario, &units, variant.rate_hz, imperfections, &mut drive, &mut plant, each)?;
+    follow(machine, scenario, &units, drive.rate_hz(), imperfections, &mut ticking, &mut plant, each)?;
     Ok(gathering.outcome())
 }

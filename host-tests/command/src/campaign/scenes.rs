@@ -6,7 +6,7 @@
 use core::f64::consts::PI;
 
 use driveline::configure::Machine as _;
-use driveline::design::{Spread, Tolerance as Usual};
+use driveline::design::{SpeedLoopDesign, Spread, Tolerance as Usual};
 use driveline_firmware::scenes::{blooming_mill, crane_travel, hoist, spindle, strip_mill};
 use driveline_solver::plant::PlantError;
 
@@ -28,9 +28,13 @@ pub struct CampaignScene {
     pub lines: f64,
     /// Rated torque [N m].
     pub rated_torque: f64,
+    /// Largest torque [N m].
+    pub torque_limit: f64,
     /// The ramp of the speed setpoint [rad/s2].
     pub ramp: f64,
-    /// From when to when nothing excites the swing at the end of the run [s].
+    /// The gains of its speed loop.
+    pub speed_loop: SpeedLoopDesign,
+    /// From when to when nothing excites the swing at the end of the run [s]; the run goes on until then.
     pub free: (f64, f64),
 }
 
@@ -106,7 +110,9 @@ pub const SCENES: [CampaignScene; 5] = [
         tolerances: [CRANE, LIFTS],
         lines: 2048.0,
         rated_torque: hoist::Hoist::<10_000>::RATING.torque,
+        torque_limit: hoist::Hoist::<10_000>::RATING.torque_limit,
         ramp: hoist::Hoist::<10_000>::RAMP,
+        speed_loop: hoist::Hoist::<10_000>::SPEED_LOOP,
         free: (6.1, 8.0),
     },
     CampaignScene {
@@ -115,7 +121,9 @@ pub const SCENES: [CampaignScene; 5] = [
         tolerances: [MILL, &[]],
         lines: 4096.0,
         rated_torque: strip_mill::StripMill::RATING.torque,
+        torque_limit: strip_mill::StripMill::RATING.torque_limit,
         ramp: strip_mill::StripMill::RAMP,
+        speed_loop: strip_mill::StripMill::SPEED_LOOP,
         free: (7.1, 9.0),
     },
     CampaignScene {
@@ -124,8 +132,10 @@ pub const SCENES: [CampaignScene; 5] = [
         tolerances: [MACHINE_TOOL, &[]],
         lines: 512.0,
         rated_torque: spindle::Spindle::RATING.torque,
+        torque_limit: spindle::Spindle::RATING.torque_limit,
         ramp: spindle::Spindle::RAMP,
-        free: (1.51, 1.8),
+        speed_loop: spindle::Spindle::SPEED_LOOP,
+        free: (1.503, 1.56),
     },
     CampaignScene {
         name: blooming_mill::SCENE,
@@ -133,8 +143,10 @@ pub const SCENES: [CampaignScene; 5] = [
         tolerances: [MILL, GAP],
         lines: 8192.0,
         rated_torque: blooming_mill::BloomingMill::RATING.torque,
+        torque_limit: blooming_mill::BloomingMill::RATING.torque_limit,
         ramp: blooming_mill::BloomingMill::RAMP,
-        free: (5.3, 6.0),
+        speed_loop: blooming_mill::BloomingMill::SPEED_LOOP,
+        free: (5.8, 6.6),
     },
     CampaignScene {
         name: crane_travel::SCENE,
@@ -142,7 +154,9 @@ pub const SCENES: [CampaignScene; 5] = [
         tolerances: [CRANE, SWINGS],
         lines: 1024.0,
         rated_torque: crane_travel::CraneTravel::RATING.torque,
+        torque_limit: crane_travel::CraneTravel::RATING.torque_limit,
         ramp: crane_travel::CraneTravel::RAMP,
+        speed_loop: crane_travel::CraneTravel::SPEED_LOOP,
         free: (32.0, 40.0),
     },
 ];

@@ -3,24 +3,24 @@
 use std::fmt::{self, Display, Write};
 
 use super::Count;
-use driveline_qemu::measure::Cost;
 use driveline_qemu::measure::budgets::{Budget, Budgets};
+use driveline_qemu::measure::{Bound, Cost, Refusal};
 
 /// One figure and its budget.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figure {
     /// Its name, as in `budgets.toml`.
     pub name: &'static str,
-    /// Measurement.
-    pub measured: u64,
+    /// Measurement, or why there is none.
+    pub measured: Result<u64, String>,
     /// The most that it may be.
     pub budget: Option<u64>,
 }
 
 impl Figure {
-    /// Whether it is more than its budget.
+    /// Whether it is more than its budget, or has a budget and is not known.
     pub fn is_over(&self) -> bool {
-        self.budget.is_some_and(|budget| self.measured > budget)
+        self.budget.is_some_and(|budget| !self.measured.as_ref().is_ok_and(|measured| *measured <= budget))
     }
 }
 
@@ -30,7 +30,9 @@ struct Row {
     variant: String,
     core: &'static str,
     has_budget: bool,
-    figures: [Figure; 6],
+    /// Whether the file says that there is no bound.
+    unbounded: bool,
+    figures: [Figure; 8],
 }
 
 /// Costs beside budgets. Displayed as a table, `measured/budget` in every place.
@@ -44,8 +46,9 @@ impl Comparison {
     pub fn of(budgets: &Budgets, costs: &[(String, &'static str, Cost)]) -> Self {
         let row = |(variant, core, cost): &(String, &'static str, Cost)| {
             let budget = budgets.of(variant, core);
-            let figures = figures(cost, &budget.unwrap_or_default());
-            Row { variant: variant.clone(), core, has_budget: budget.is_some(), figures }
+            let (has_budget, budget) = (budget.is_some(), budget.unwrap_or_default());
+            let figures = figures(cost, &budget);
+            Row { variant: variant.clone(), core, has_budget, unbounded: budget.unbounded, figures }
         };
         Comparison { rows: costs.iter().map(row).collect() }
     }
@@ -53,7 +56,13 @@ impl Comparison {
     /// Values over their budget or without one, by name.
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
-        for Row { variant, core, has_budget, figures } in &self.rows {
+        for Row { variant, core, has_budget, unbounded, figures } in &self.rows {
+            let longest = figures.iter().find(|figure| figure.name == "longest");
+            if let Some(Ok(longest)) = longest.map(|figure| &figure.measured).filter(|_| *unbounded) {
+                faults.push(format!(
+                    "{variant} on {core}: longest is {longest}, and no more `unbounded`; give it a limit"
+                ));
+            }
             if !has_budget {
                 faults.push(format!(
                     "{variant} on {core} has no budget; for budgets.toml:\n{}",
@@ -62,7 +71,10 @@ impl Comparison {
             }
             for Figure { name, measured, budget } in figures.iter().filter(|figure| figure.is_over()) {
                 let budget = budget.unwrap_or_default();
-                faults.push(format!("{variant} on {core}: {name} is {measured}, budget {budget}"));
+                faults.push(match measured {
+                    Ok(measured) => format!("{variant} on {core}: {name} is {measured}, budget {budget}"),
+                    Err(reason) => format!("{variant} on {core}: {name} has a budget, but no bound: {reason}"),
+                });
             }
         }
         faults
@@ -78,24 +90,35 @@ impl Comparison {
     }
 }
 
-fn figures(cost: &Cost, budget: &Budget) -> [Figure; 6] {
-    let figure = |name, measured, budget| Figure { name, measured, budget };
+fn figures(cost: &Cost, budget: &Budget) -> [Figure; 8] {
+    let figure = |name, measured, budget| Figure { name, measured: Ok(measured), budget };
+    let bound = |name, of: fn(&Bound) -> u64, budget| {
+        let measured = cost.bound.as_ref().map(of).map_err(Refusal::to_string);
+        Figure { name, measured, budget }
+    };
     let spread = cost.instructions;
     [
         figure("least instructions", spread.min.into(), None),
         figure("median instructions", spread.median.into(), None),
         figure("instructions", spread.max.into(), budget.instructions),
+        bound("longest", |bound| bound.instructions, budget.longest),
         figure("flash", cost.sizes.flash(), budget.flash),
         figure("ram", cost.sizes.ram(), budget.ram),
         figure("stack", cost.stack.into(), budget.stack),
+        // one limit for both; a stack that is only painted has no other
+        bound("stack bound", |bound| bound.stack.into(), budget.stack.filter(|_| cost.bound.is_ok())),
     ]
 }
 
 /// The lines that would make today's figures the budget.
-fn proposal(variant: &str, core: &str, figures: &[Figure; 6]) -> String {
+fn proposal(variant: &str, core: &str, figures: &[Figure; 8]) -> String {
     let (scene, rest) = variant.split_once('/').unwrap_or((variant, ""));
-    let [_, _, limited @ ..] = figures;
-    let limits: Vec<String> = limited.iter().map(|figure| format!("{} = {}", figure.name, figure.measured)).collect();
+    let [_, _, limited @ .., bound] = figures;
+    let known = limited.iter().filter_map(|figure| Some((figure.name, *figure.measured.as_ref().ok()?)));
+    // the stack's limit holds its bound, too
+    let deeper = |name| if name == "stack" { bound.measured.clone().unwrap_or(0) } else { 0 };
+    let limits = known.map(|(name, measured)| format!("{name} = {}", measured.max(deeper(name))));
+    let limits: Vec<String> = limits.collect();
     format!("[{scene}]\n\"{rest}\".{core} = {{ {} }}\n", limits.join(", "))
 }
 
@@ -103,14 +126,17 @@ impl Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let width = self.rows.iter().map(|row| row.variant.len()).max().unwrap_or(0).max(7);
         write!(f, "{:width$}  core", "variant")?;
-        for name in ["min", "median", "max", "flash", "ram", "stack"] {
+        for name in ["min", "median", "max", "longest", "flash", "ram", "stack", "stack bound"] {
             write!(f, "  {name:>13}")?;
         }
         writeln!(f)?;
         for row in &self.rows {
             write!(f, "{:width$}  {:4}", row.variant, row.core)?;
             for figure in &row.figures {
-                let mut place = format!("{}/", figure.measured);
+                let mut place = match figure.measured {
+                    Ok(measured) => format!("{measured}/"),
+                    Err(_) => "none/".into(),
+                };
                 match figure.budget {
                     Some(budget) => write!(place, "{budget}")?,
                     None => place.push('-'),
@@ -129,14 +155,19 @@ mod tests {
     use super::Comparison;
     use driveline_qemu::image::Sizes;
     use driveline_qemu::measure::budgets::Budgets;
-    use driveline_qemu::measure::{Cost, Spread};
+    use driveline_qemu::measure::{Bound, Cost, Refusal, Spread};
 
     const VARIANT: &str = "empty/f32/none/10000";
     const KEY: &str = "[empty]\n\"f32/none/10000\".m3";
 
     fn comparison(budgets: &str) -> Comparison {
+        with(budgets, Ok(Bound { instructions: 9, stack: 24 }))
+    }
+
+    fn with(budgets: &str, bound: Result<Bound, Refusal>) -> Comparison {
         let cost = Cost {
             instructions: Spread { min: 5, median: 6, max: 7 },
+            bound,
             sizes: Sizes { text: 700, constants: 200, data: 4, zeroed: 8 },
             tick_code: 20,
             state: 8,
@@ -151,12 +182,26 @@ mod tests {
         assert_eq!(within.count().map(|count| count.passed), Ok(3));
         let over = comparison(&format!("{KEY} = {{ instructions = 6, flash = 904, stack = 15 }}\n"));
         let (count, message) = over.count().unwrap_err();
-        assert_eq!((count.passed, count.failed), (1, 2));
-        assert_eq!(
-            message,
-            format!("{VARIANT} on m3: instructions is 7, budget 6\n{VARIANT} on m3: stack is 16, budget 15")
-        );
+        assert_eq!((count.passed, count.failed), (1, 3));
+        let faults = ["instructions is 7, budget 6", "stack is 16, budget 15", "stack bound is 24, budget 15"];
+        assert_eq!(message, faults.map(|fault| format!("{VARIANT} on m3: {fault}")).join("\n"));
         assert!(over.to_string().contains("7/6!"), "{over}");
+    }
+
+    #[test]
+    fn a_bound_is_compared_and_a_refused_one_is_named_where_it_has_a_budget() {
+        let within = comparison(&format!("{KEY} = {{ longest = 9, stack = 24 }}\n"));
+        assert_eq!(within.count().map(|count| count.passed), Ok(3));
+        let over = comparison(&format!("{KEY} = {{ longest = 8, stack = 23 }}\n"));
+        let [longest, stack] = ["longest is 9, budget 8", "stack bound is 24, budget 23"];
+        assert_eq!(over.faults(), [longest, stack].map(|fault| format!("{VARIANT} on m3: {fault}")));
+        let found = comparison(&format!("{KEY} = {{ unbounded = true }}\n")).faults();
+        assert_eq!(found, [format!("{VARIANT} on m3: longest is 9, and no more `unbounded`; give it a limit")]);
+        let refused = |limits: &str| with(&format!("{KEY} = {{ {limits} }}\n"), Err(Refusal::NoFunction { at: 4 }));
+        assert_eq!(refused("instructions = 7, stack = 16").faults(), Vec::<String>::new());
+        assert_eq!(refused("unbounded = true").faults(), Vec::<String>::new());
+        let faults = refused("longest = 9").faults();
+        assert!(faults[0].starts_with(&format!("{VARIANT} on m3: longest has a budget, but no bound: ")), "{faults:?}");
     }
 
     #[test]

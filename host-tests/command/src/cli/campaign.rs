@@ -8,12 +8,13 @@ use clap::{Args, Subcommand};
 
 use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
+use crate::campaign::compare::compare;
 use crate::campaign::merge::{Shard, merge};
 use crate::campaign::record::{Record, Settings};
+use crate::campaign::run::{Drive, run};
 use crate::campaign::scenes::{CampaignScene, SCENES};
-use crate::campaign::{Draw, Figure, Outcome, Summary, Tolerance, run, work};
+use crate::campaign::{Draw, Figure, Outcome, Summary, Tolerance, work};
 use crate::drivetrains::departure::Departure;
-use driveline_firmware::scenes::Row;
 use driveline_report::Table;
 use driveline_report::format::{percent, significant};
 
@@ -31,10 +32,12 @@ use driveline_report::format::{percent, significant};
   cargo driveline campaign spindle --tolerance jitter=0 --drive f32/rigid/10000
   cargo driveline campaign hoist --draws 10000 --shard 3/8 --results shard-3.draws
   cargo driveline campaign merge shard-*.draws --html hoist.html
+  cargo driveline campaign hoist --drive plain --results plain.draws
+  cargo driveline campaign compare hoist.draws plain.draws
   cargo driveline campaign hoist --draw 17 --json")]
 pub struct Campaign {
     #[command(subcommand)]
-    merge: Option<Merging>,
+    further: Option<Further>,
     /// The scene: hoist, strip-mill, spindle, blooming-mill or crane-travel
     #[arg(required = true)]
     scene: Option<String>,
@@ -44,8 +47,9 @@ pub struct Campaign {
     /// Seed of the draws
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Variant of the scene, as NUMBER/OBSERVER/RATE [default: the design's choice in f32]
-    #[arg(long, value_name = "VARIANT")]
+    /// The drive: a variant of the scene, as NUMBER/OBSERVER/RATE, or `plain`, a loop without an observer [default: the
+    /// design's choice in f32]
+    #[arg(long, value_name = "DRIVE")]
     drive: Option<String>,
     /// Range of a factor, as NAME=LOW..HIGH or NAME=VALUE, in place of the scene's; may be repeated
     #[arg(long, value_name = "RANGE")]
@@ -71,9 +75,11 @@ pub struct Campaign {
 }
 
 #[derive(Debug, Subcommand)]
-enum Merging {
+enum Further {
     /// Put the results of all shards together
     Merge(Merge),
+    /// Set two drives beside each other, draw by draw
+    Compare(Compare),
 }
 
 /// Results of the shards of a campaign in one.
@@ -93,10 +99,26 @@ struct Merge {
     json: bool,
 }
 
+/// The figures of one drive over those of another, of the same draws.
+#[derive(Debug, Args)]
+struct Compare {
+    /// The first drive's file of results
+    first: PathBuf,
+    /// The second's
+    second: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
 impl Campaign {
     /// Whether JSON is printed.
     pub fn json(&self) -> bool {
-        self.json || matches!(&self.merge, Some(Merging::Merge(merge)) if merge.json)
+        match &self.further {
+            None => self.json,
+            Some(Further::Merge(merge)) => merge.json,
+            Some(Further::Compare(compare)) => compare.json,
+        }
     }
 
     /// Runs the draws that are not done and shows all, or merges shards.
@@ -104,8 +126,9 @@ impl Campaign {
     /// # Errors
     /// A wrong argument; a file of another campaign; a result that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
-        match &self.merge {
-            Some(Merging::Merge(merge)) => merge.execute(),
+        match &self.further {
+            Some(Further::Merge(merge)) => merge.execute(),
+            Some(Further::Compare(compare)) => compare.execute(),
             None => self.run(),
         }
     }
@@ -116,13 +139,13 @@ impl Campaign {
             let names = SCENES.map(|scene| format!("`{}`", scene.name)).join(", ");
             Failure::usage(format!("there is no campaign of a scene `{name}`; there are {names}"))
         })?;
-        let variant = (scene.departing)(&Departure::NONE)
+        let drive = (scene.departing)(&Departure::NONE)
             .map_err(|error| error.to_string())
-            .and_then(|machine| run::variant(&machine, self.drive.as_deref()))
+            .and_then(|machine| Drive::named(&machine, self.drive.as_deref()))
             .map_err(Failure::usage)?;
         let tolerances = self.tolerances(scene).map_err(Failure::usage)?;
         if let Some(number) = self.draw {
-            return self.one(scene, variant, &Draw::new(&tolerances, self.seed, number));
+            return self.one(scene, &drive, &Draw::new(&tolerances, self.seed, number));
         }
         if self.draws == 0 || self.threads == Some(0) {
             return Err(Failure::usage("--draws and --threads must be one or more"));
@@ -135,11 +158,11 @@ impl Campaign {
         let path = self.results.clone().unwrap_or_else(|| PathBuf::from(usual));
         let page = Destination::page_unless(self.json || shard.is_some(), self.html.as_deref(), &page_name(name));
         check(&[&path], &page)?;
-        let nominal = run::run(scene, variant, &Draw::nominal()).map_err(Failure::failed)?;
+        let nominal = run(scene, &drive, &Draw::nominal()).map_err(Failure::failed)?;
         let settings =
-            Settings { variant: variant.name.to_owned(), draws: self.draws, seed: self.seed, tolerances, nominal };
+            Settings { variant: drive.name(scene.name), draws: self.draws, seed: self.seed, tolerances, nominal };
         let mut record = Record::open(&path, &settings).map_err(Failure::usage)?;
-        self.draw(scene, variant, &settings, shard, &mut record)?;
+        self.draw(scene, &drive, &settings, shard, &mut record)?;
         if let Some(Shard { which, of }) = shard {
             if self.json {
                 return say_json(&serde_json::json!({ "shard": which, "of": of, "results": path }));
@@ -168,7 +191,7 @@ impl Campaign {
     fn draw(
         &self,
         scene: &CampaignScene,
-        variant: &Row,
+        drive: &Drive,
         settings: &Settings,
         shard: Option<Shard>,
         record: &mut Record,
@@ -177,7 +200,7 @@ impl Campaign {
         let draws: Vec<u64> = (0..settings.draws).filter(wanted).collect();
         let threads = self.threads.or_else(|| std::thread::available_parallelism().ok().map(Into::into)).unwrap_or(1);
         let progress = Progress::of(draws.len() as u64);
-        let one = |number: u64| run::run(scene, variant, &Draw::new(&settings.tolerances, settings.seed, number));
+        let one = |number: u64| run(scene, drive, &Draw::new(&settings.tolerances, settings.seed, number));
         let done = AtomicU64::new(0);
         let count = || {
             let done = 1 + done.fetch_add(1, Ordering::Relaxed);
@@ -188,16 +211,16 @@ impl Campaign {
     }
 
     /// One draw beside the nominal machine.
-    fn one(&self, scene: &CampaignScene, variant: &Row, draw: &Draw) -> Result<(), Failure> {
-        let outcome = run::run(scene, variant, draw).map_err(Failure::failed)?;
-        let nominal = run::run(scene, variant, &Draw::nominal()).map_err(Failure::failed)?;
+    fn one(&self, scene: &CampaignScene, drive: &Drive, draw: &Draw) -> Result<(), Failure> {
+        let outcome = run(scene, drive, draw).map_err(Failure::failed)?;
+        let nominal = run(scene, drive, &Draw::nominal()).map_err(Failure::failed)?;
         if self.json {
             let values: BTreeMap<&str, f64> = draw.values.iter().map(|(f, v)| (f.name(), *v)).collect();
             let figures = |outcome: &Outcome| -> BTreeMap<&str, f64> {
                 Figure::ALL.iter().map(|&figure| (figure.name(), outcome.of(figure))).collect()
             };
             return say_json(&serde_json::json!({
-                "variant": variant.name, "seed": self.seed, "draw": draw.number, "values": values,
+                "variant": drive.name(scene.name), "seed": self.seed, "draw": draw.number, "values": values,
                 "figures": figures(&outcome), "nominal": figures(&nominal),
                 "unstable": outcome.is_unstable(),
             }));
@@ -211,7 +234,7 @@ impl Campaign {
             let text = |value: f64| if figure.unit().is_empty() { percent(value) } else { significant(value) };
             figures.row([figure.name().to_owned(), text(outcome.of(figure)), text(nominal.of(figure))]);
         }
-        say(format_args!("{}, seed {}, draw {}\n{values}\n{figures}", variant.name, self.seed, draw.number));
+        say(format_args!("{}, seed {}, draw {}\n{values}\n{figures}", drive.name(scene.name), self.seed, draw.number));
         if outcome.is_unstable() {
             say("unstable");
         }
@@ -228,6 +251,19 @@ impl Merge {
         check(&sources, results.iter().chain(&page))?;
         results.map_or(Ok(()), |results| results.write(&settings.file(&outcomes)))?;
         show(&Summary::of(&settings, &outcomes), page.as_ref(), self.json)
+    }
+}
+
+impl Compare {
+    fn execute(&self) -> Result<(), Failure> {
+        // of one file: all its draws must be there
+        let [first, second] = [&self.first, &self.second].map(|path| merge(&[path]).map_err(Failure::usage));
+        let comparison = compare(&first?, &second?).map_err(Failure::usage)?;
+        if self.json {
+            return say_json(&comparison);
+        }
+        say(comparison.table());
+        Ok(())
     }
 }
 

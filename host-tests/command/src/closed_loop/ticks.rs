@@ -23,6 +23,12 @@ impl<S: Scene> Ticks for OnHost<S> {
     }
 }
 
+impl<T: Ticks + ?Sized> Ticks for Box<T> {
+    fn tick(&mut self, input: &Input) -> io::Result<Output> {
+        (**self).tick(input)
+    }
+}
+
 impl Ticks for Link {
     fn tick(&mut self, input: &Input) -> io::Result<Output> {
         self.exchange(input)

@@ -6,13 +6,14 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use cargo_driveline::campaign::run::Drive;
 use cargo_driveline::campaign::scenes::SCENES;
-use cargo_driveline::campaign::{Draw, Factor, Tolerance, decay, quantile, rank_correlation, run};
+use cargo_driveline::campaign::{Draw, Factor, PlainLoop, Tolerance, decay, quantile, rank_correlation};
 use cargo_driveline::closed_loop::actuator::{Actuator, ActuatorErrors};
 use cargo_driveline::closed_loop::encoder_errors::EncoderErrors;
-use cargo_driveline::closed_loop::ticks::OnHost;
-use cargo_driveline::closed_loop::units::Units;
+use cargo_driveline::closed_loop::ticks::Ticks;
 use cargo_driveline::drivetrains::lockstep::follow;
+use driveline_firmware::scene::Input;
 
 /// The spindle is the shortest run.
 fn campaign(folder: &Path, arguments: &[&str]) -> Output {
@@ -85,7 +86,10 @@ fn a_file_of_other_settings_is_refused_and_kept() {
     for (further, words) in [
         (&["--seed", "2"][..], "it has `seed 1`, this one `seed 2`"),
         (&["--tolerance", "jitter=0"], "it has `tolerance jitter=0..0.0000002`, this one `tolerance jitter=0..0`"),
-        (&["--drive", "f32/rigid/10000"], "it has `variant spindle/f32/exact/10000`"),
+        (
+            &["--drive", "f32/rigid/10000"],
+            "it has `variant spindle/f32/exact/10000`, this one `variant spindle/f32/rigid/10000`",
+        ),
         (&["--tolerance", "jiter=0"], "there is no factor `jiter`"),
         (&["--tolerance", "delay=9"], "lies from 0 to 3, ticks"),
         (&["--shard", "4/3"], "expected K/N with K from 1 to N"),
@@ -96,6 +100,9 @@ fn a_file_of_other_settings_is_refused_and_kept() {
         assert!(output.status.code() == Some(2) && error.contains(words), "{error}");
     }
     assert_eq!(before, fs::read(folder.path().join("file")).unwrap());
+    spindle(folder.path(), "2", "other", &["--seed", "2"]);
+    let compared = campaign(folder.path(), &["compare", "file", "other"]);
+    assert!(String::from_utf8_lossy(&compared.stderr).contains("the two files have other draws"));
     let wrong = campaign(folder.path(), &["fan"]);
     assert!(String::from_utf8_lossy(&wrong.stderr).contains("there are `hoist`, `strip-mill`"));
 }
@@ -106,17 +113,17 @@ fn drawn_plants_are_proven_and_an_unrecorded_one_is_the_same_to_the_bit() {
     for scene in &SCENES {
         let draw = Draw::new(&scene.tolerances(), 1, 3);
         let machine = (scene.departing)(&draw.departure()).unwrap();
-        let variant = run::variant(&machine, None).unwrap();
-        let units = Units::new(variant.words(), machine.bases);
+        let drive = Drive::named(&machine, None).unwrap();
+        let units = drive.units(&machine);
         let mut scenario = machine.scenarios[0].clone();
         // the start and the first ramp: each has friction, gaps or brakes at work
         scenario.duration = 0.6;
         let imperfections = draw.imperfections(scene.lines, scene.rated_torque);
         let runs = [scenario.plant.clone(), scenario.plant.unrecorded()].map(|mut plant| {
-            let mut drive = OnHost(variant.start());
+            let mut ticking = drive.start(scene, &machine);
             let mut truth = Vec::new();
-            let rate = variant.rate_hz;
-            follow(&machine, &scenario, &units, rate, &imperfections, &mut drive, &mut plant, |moment, _| {
+            let rate = drive.rate_hz();
+            follow(&machine, &scenario, &units, rate, &imperfections, &mut ticking, &mut plant, |moment, _| {
                 truth.extend(moment.truth.map(f64::to_bits));
             })
             .unwrap();
@@ -177,6 +184,51 @@ fn the_faults_are_those_of_their_closed_forms() {
         let mean = 1.0 - ((-from).exp() - (-from - 0.25).exp()) / 0.25;
         assert!((reported - 8.0 * mean).abs() < 1e-14, "{reported}");
     }
+}
+
+#[test]
+fn two_drives_are_compared_draw_by_draw() {
+    let folder = tempfile::tempdir().unwrap();
+    spindle(folder.path(), "5", "observed", &[]);
+    spindle(folder.path(), "5", "plain", &["--drive", "plain"]);
+    let compared = |second: &str| -> serde_json::Value {
+        let output = campaign(folder.path(), &["compare", "observed", second, "--json"]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let same = compared("observed");
+    for ratio in same["ratios"].as_array().unwrap() {
+        assert!(ratio["median"] == 1.0 && ratio["worst"] == 1.0 && ratio["not_worse"] == 1.0, "{ratio}");
+    }
+    let other = compared("plain");
+    assert_eq!(other["second"], "spindle/plain");
+    // the plain loop has no estimates: its errors are the quantities themselves
+    let error = &other["ratios"][0];
+    assert!(error["name"] == "shaft torque, rms error" && error["worst"].as_f64().unwrap() < 0.5, "{error}");
+}
+
+/// At rest under a setpoint the torque is `held + k_p r n + k_i T r n (n + 1)/2`, `r` the ramp's step; then the limit.
+#[test]
+fn the_plain_loop_is_its_law() {
+    let scene = &SCENES[0];
+    let machine = (scene.departing)(&Draw::nominal().departure()).unwrap();
+    let units = Drive::Plain(10_000).units(&machine);
+    let mut plain = PlainLoop::new(scene.speed_loop, scene.torque_limit, scene.ramp, machine.bases);
+    let mut tick = |flags: u32, setpoint: u32| {
+        units.torque(plain.tick(&Input { flags, setpoint, ..Input::default() }).unwrap().torque)
+    };
+    assert_eq!(tick(0, units.torque_word(64.0)), 64.0);
+    let loop_ = scene.speed_loop;
+    let step = scene.ramp * loop_.period;
+    for n in 1..=20 {
+        let n = f64::from(n);
+        let integral = loop_.integral * loop_.period * step * n * (n + 1.0) / 2.0;
+        let expected = 64.0 + loop_.proportional * step * n + integral;
+        // the words are floats
+        assert!((tick(Input::RELEASED, units.speed_word(50.0)) / expected - 1.0).abs() < 1e-6);
+    }
+    let last = (0..100_000).map(|_| tick(Input::RELEASED, units.speed_word(50.0))).last().unwrap();
+    assert_eq!(last, scene.torque_limit);
 }
 
 #[test]

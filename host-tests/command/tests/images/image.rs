@@ -1,12 +1,13 @@
 //! Images: what is read from them, and that the board counts instructions exactly.
 
+use std::process::Command;
 use std::time::Duration;
 
 use driveline_firmware::board::BOARDS;
 use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
 use driveline_qemu::image::{Contents, ON_NUCLEO, Program, board, build, tick_code};
 use driveline_qemu::link;
-use driveline_qemu::measure::{Cost, self_test};
+use driveline_qemu::measure::{Cost, Loops, MachineCode, self_test};
 use object::{Object, ObjectSection, ObjectSymbol};
 
 /// A bench takes well under a second of QEMU.
@@ -27,6 +28,10 @@ fn ten_and_a_thousand_nops_count_as_ten_and_a_thousand() {
             for figure in ["min", "median", "max"] {
                 assert_eq!(line[figure], expected, "{figure} of {name} on {}", board.name);
             }
+            // and no other path than the straight one is in the machine code
+            let code = MachineCode::read(&image.path, Loops::default()).unwrap();
+            let bound = code.bound(line["function"].as_u64().unwrap() as u32).unwrap();
+            assert_eq!(bound.instructions, expected, "longest path of {name} on {}", board.name);
         }
     }
 }
@@ -77,6 +82,34 @@ fn a_cost_is_the_images_and_the_runs() {
     assert!(0 < spread.min && spread.min <= spread.median && spread.median <= spread.max, "{spread:?}");
     assert_eq!(u64::from(cost.state), RIGID_STATE);
     assert!(cost.stack >= 8 && cost.sizes.ram() >= RIGID_STATE && cost.tick_code > 0, "{cost:?}");
+    let bound = cost.bound.unwrap();
+    assert!(u64::from(spread.max) <= bound.instructions && cost.stack <= bound.stack, "{spread:?}, {bound:?}");
+    // the code is straight but for bad samples: the bound is no multiple of what is counted
+    assert!(bound.instructions < u64::from(spread.max) * 5 / 4, "{spread:?}, {bound:?}");
+}
+
+#[test]
+fn the_longest_path_is_listed_and_adds_up_to_the_bound() {
+    let image = build("hoist/fixed/rigid/10000", BOARDS[0], Program::ControlLoop, |_| {}).unwrap();
+    let run = |arguments: &[&str]| {
+        let program = env!("CARGO_BIN_EXE_cargo-driveline");
+        Command::new(program).arg("longest-path").arg(&image.path).args(arguments).output().unwrap()
+    };
+    let output = run(&["--json"]);
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let pieces = found["path"].as_array().unwrap();
+    let figure = |piece: &serde_json::Value, key: &str| piece[key].as_u64().unwrap();
+    let sum: u64 = pieces.iter().map(|piece| figure(piece, "instructions") * figure(piece, "times")).sum();
+    // the empty function of the counter: its frame, the frame's pointer and the return
+    assert_eq!(sum - figure(&found, "instructions"), 3);
+    assert!(pieces.iter().any(|piece| piece["function"] == "driveline_tick"), "{found}");
+    // `main` waits for inputs without end, and calls the tick through a pointer
+    let refused = run(&["--function", "main"]);
+    assert_eq!(refused.status.code(), Some(1), "{refused:?}");
+    let missing = run(&["--function", "no_such_function"]);
+    let message = String::from_utf8_lossy(&missing.stderr).into_owned();
+    assert_eq!(missing.status.code(), Some(2), "{message}");
+    assert!(message.contains("has no function `no_such_function`"), "{message}");
 }
 
 /// What a linker may decide is where a function and a table lie; the tick's code is else the same, halfword for

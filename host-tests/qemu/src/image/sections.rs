@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use driveline_longest_path::NotReadable;
 use object::elf::{SHF_ALLOC, SHF_EXECINSTR, SHF_WRITE, SHT_NOBITS};
 use object::read::elf::ElfFile32;
 use object::{Endianness, Object, ObjectSection, ObjectSymbol, SectionFlags, SymbolKind};
@@ -29,6 +30,14 @@ pub enum ReadError {
         path: PathBuf,
         /// The error.
         error: object::Error,
+    },
+    /// Its code.
+    #[error("{path}: {error}", path = path.display())]
+    Code {
+        /// Its path.
+        path: PathBuf,
+        /// The error.
+        error: NotReadable,
     },
 }
 

@@ -15,13 +15,18 @@ use crate::measure::BENCHES;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Budget {
-    /// Instructions of a tick.
+    /// Instructions of a tick, counted.
     pub instructions: Option<u64>,
+    /// Instructions on the longest path of a tick.
+    pub longest: Option<u64>,
+    /// Whether the longest path is refused: there is no limit then, not even that of `default`.
+    #[serde(default)]
+    pub unbounded: bool,
     /// Flash of the control loop's image, bytes.
     pub flash: Option<u64>,
     /// RAM of the control loop's image, the drive's state included and the stack not, bytes.
     pub ram: Option<u64>,
-    /// Stack of a tick, bytes.
+    /// Stack of a tick, painted and bounded alike, bytes.
     pub stack: Option<u64>,
 }
 
@@ -30,6 +35,8 @@ impl Budget {
     fn or(self, default: Budget) -> Self {
         Budget {
             instructions: self.instructions.or(default.instructions),
+            longest: self.longest.or(default.longest.filter(|_| !self.unbounded)),
+            unbounded: self.unbounded,
             flash: self.flash.or(default.flash),
             ram: self.ram.or(default.ram),
             stack: self.stack.or(default.stack),
@@ -162,7 +169,7 @@ mod tests {
         let text = format!("[{SCENE}]\n\"{VARIANT}\".m4f = {{ instructions = 12, flash = 900 }}\n");
         let budgets = Budgets::parse(&text).unwrap();
         let budget = budgets.of("empty/f32/none/10000", "m4f").unwrap();
-        assert_eq!(budget, Budget { instructions: Some(12), flash: Some(900), ram: None, stack: None });
+        assert_eq!(budget, Budget { instructions: Some(12), flash: Some(900), ..Budget::default() });
         assert_eq!(budgets.of("empty/f32/none/10000", "m3"), None);
     }
 
@@ -176,6 +183,15 @@ mod tests {
         assert_eq!(budgets.of("empty/f32/none/10000", "m4f"), expected(900));
         assert_eq!(budgets.of("hoist/f32/reduced/10000", "m4f"), expected(6000));
         assert_eq!(budgets.of("hoist/fixed/reduced/10000", "m4f"), None);
+    }
+
+    #[test]
+    fn a_variant_without_a_bound_has_no_limit_of_the_longest_path() {
+        let text =
+            format!("[default]\nf32.m4f = {{ longest = 60 }}\n[{SCENE}]\n\"{VARIANT}\".m4f = {{ unbounded = true }}\n");
+        let budgets = Budgets::parse(&text).unwrap();
+        assert_eq!(budgets.of("empty/f32/none/10000", "m4f").unwrap().longest, None);
+        assert_eq!(budgets.of("hoist/f32/reduced/10000", "m4f").unwrap().longest, Some(60));
     }
 
     #[test]

@@ -1,17 +1,20 @@
-//! Cost of a variant on a board: instructions a tick, flash, RAM and stack.
+//! Cost of a variant on a board: instructions a tick and stack, counted and bounded; flash and RAM.
 
 use std::error::Error;
 use std::time::Duration;
 
 use driveline_firmware::board::Facts;
-use driveline_firmware::scene::Output;
-use driveline_firmware::scenes::find;
+use driveline_firmware::scene::{Input, Output};
+use driveline_firmware::scenes::{Row, find};
 use driveline_firmware::self_test::fingerprint::SEED;
 use driveline_firmware::self_test::inputs::Program as Inputs;
 use serde::Serialize;
 
 use crate::image::{Contents, Image, Program, Sizes, build};
-use crate::link::Link;
+use crate::link::{Link, Summary};
+
+use super::bound::MachineCode;
+use super::{Bound, Loops, Refusal};
 
 /// Least, middle and most of a set of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -35,10 +38,12 @@ impl Spread {
 }
 
 /// Cost of a variant on a board.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cost {
-    /// Instructions a tick.
+    /// Instructions a tick, counted.
     pub instructions: Spread,
+    /// Upper bounds of a tick's instructions and stack, or why there are none.
+    pub bound: Result<Bound, Refusal>,
     /// Bytes of the control loop's image, by section.
     pub sizes: Sizes,
     /// Bytes of code that a tick reaches.
@@ -61,25 +66,62 @@ impl Cost {
 
     /// Runs the image of a control loop in open loop, and compares every output with the host's.
     pub fn of(image: &Image) -> Result<Self, Box<dyn Error>> {
-        let variant = find(&image.variant).ok_or_else(|| format!("no variant is called `{}`", image.variant))?;
-        let mut inputs = Inputs::new(SEED, variant.words());
-        let mut link = Link::start(image)?;
-        let mut instructions = Vec::with_capacity(Cost::TICKS);
         let mut exchanged = Vec::with_capacity(Cost::TICKS);
-        for _ in 0..Cost::TICKS {
-            let input = inputs.next_input();
-            let output = link.exchange(&input)?;
-            instructions.push(output.instructions);
+        let (instructions, summary) = run(image, Cost::TICKS, |input, output| {
             exchanged.push((input, Output { instructions: 0, ..output }));
-        }
-        if !variant.gives(&exchanged) {
+        })?;
+        if !variant(image)?.gives(&exchanged) {
             return Err(format!("{} on {} and on the host have different bits", image.variant, image.board.name).into());
         }
-        let summary = link.finish()?;
         let Contents { sizes, tick_code, .. } = Contents::read(&image.path)?;
-        let instructions = Spread::of(instructions);
-        Ok(Cost { instructions, sizes, tick_code, state: summary.state, stack: summary.stack })
+        let code = MachineCode::read(&image.path, Loops::default())?;
+        let tick = code.find("driveline_tick").ok_or_else(|| format!("{} has no tick", image.path.display()))?;
+        let bound = code.bound(tick);
+        let cost = Cost { instructions, bound, sizes, tick_code, state: summary.state, stack: summary.stack };
+        cost.within_bound(&image.variant)
     }
+
+    /// The cost, unless a call took more than its bound: the analysis would be wrong then.
+    fn within_bound(self, name: &str) -> Result<Self, Box<dyn Error>> {
+        let (instructions, stack) = (u64::from(self.instructions.max), self.stack);
+        match &self.bound {
+            Ok(bound) if instructions > bound.instructions || stack > bound.stack => {
+                let Bound { instructions: longest, stack: deepest } = bound;
+                Err(format!(
+                    "{name} took {instructions} instructions and {stack} bytes of stack, but its machine code allows \
+                     {longest} and {deepest}; one of the two measurements is wrong"
+                )
+                .into())
+            }
+            _ => Ok(self),
+        }
+    }
+}
+
+/// Counts the instructions of some ticks of a control loop in open loop.
+///
+/// # Errors
+/// An image that does not run to its end.
+pub fn count(image: &Image, ticks: usize) -> Result<Spread, Box<dyn Error>> {
+    Ok(run(image, ticks, |_, _| ())?.0)
+}
+
+/// Runs an image over the built-in inputs and hands on each input with its output.
+fn run(image: &Image, ticks: usize, mut each: impl FnMut(Input, Output)) -> Result<(Spread, Summary), Box<dyn Error>> {
+    let mut inputs = Inputs::new(SEED, variant(image)?.words());
+    let mut link = Link::start(image)?;
+    let mut instructions = Vec::with_capacity(ticks);
+    for _ in 0..ticks {
+        let input = inputs.next_input();
+        let output = link.exchange(&input)?;
+        instructions.push(output.instructions);
+        each(input, output);
+    }
+    Ok((Spread::of(instructions), link.finish()?))
+}
+
+fn variant(image: &Image) -> Result<&'static Row, Box<dyn Error>> {
+    Ok(find(&image.variant).ok_or_else(|| format!("no variant is called `{}`", image.variant))?)
 }
 
 /// Functions that the bench measures and `budgets.toml` may name.
@@ -120,16 +162,19 @@ impl Cost {
         let number = if board.target.ends_with("hf") { "f32" } else { "fixed" };
         let image = build(&format!("hoist/{number}/reduced/10000"), board, Program::Bench, |_| {})?;
         let lines = crate::link::run(&image, BENCH_LIMIT)?.lines;
-        let cost = |name: &str| {
+        let code = MachineCode::read(&image.path, Loops::default())?;
+        let cost = |name: &str| -> Result<_, Box<dyn Error>> {
             let line = lines.iter().find(|line| line["bench"].as_str().is_some_and(|bench| name.ends_with(bench)));
             let figure =
                 |key: &str| line.and_then(|line| line[key].as_u64()).and_then(|value| u32::try_from(value).ok());
-            let (Some(min), Some(median), Some(max)) = (figure("min"), figure("median"), figure("max")) else {
+            let [Some(min), Some(median), Some(max), Some(function)] = ["min", "median", "max", "function"].map(figure)
+            else {
                 return Err(format!("{name} was not measured on {}", board.name).into());
             };
             let instructions = Spread { min, median, max };
-            let stack = figure("stack").unwrap_or(0);
-            Ok((name.into(), Cost { instructions, sizes: Sizes::default(), tick_code: 0, state: 0, stack }))
+            let (bound, stack) = (code.bound(function), figure("stack").unwrap_or(0));
+            let cost = Cost { instructions, bound, sizes: Sizes::default(), tick_code: 0, state: 0, stack };
+            Ok((name.into(), cost.within_bound(name)?))
         };
         BENCHES.iter().map(|name| cost(name)).collect()
     }

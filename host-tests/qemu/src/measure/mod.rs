@@ -1,8 +1,11 @@
-//! Measurements of images in QEMU: instructions and stack, fingerprints of self-tests, budgets.
+//! Measurements of images in QEMU: instructions and stack, counted and bounded, fingerprints of self-tests, budgets.
 
+mod bound;
 pub mod budgets;
 mod cost;
 mod self_test;
 
-pub use cost::{BENCHES, Cost, Spread};
+pub use bound::MachineCode;
+pub use cost::{BENCHES, Cost, Spread, count};
+pub use driveline_longest_path::{Bound, Core, Cycles, Loops, Piece, Refusal};
 pub use self_test::self_test;

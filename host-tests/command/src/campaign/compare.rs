@@ -1,0 +1,108 @@
+//! Two campaigns over the same draws, beside each other.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::figure::{Figure, Outcome};
+use super::record::Settings;
+use super::statistics::quantile;
+use driveline_report::format::{percent, significant};
+use driveline_report::{Section, Table};
+
+/// A figure of a first drive over that of a second, draw by draw.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Ratio {
+    /// Name of the figure.
+    pub name: &'static str,
+    /// Median of the ratios.
+    pub median: f64,
+    /// Nine ratios of ten are not worse.
+    pub p90: f64,
+    /// The worst.
+    pub worst: f64,
+    /// The draw of the worst.
+    pub worst_draw: u64,
+    /// Share of the draws in which the first drive is not worse than the second.
+    pub not_worse: f64,
+}
+
+/// Two campaigns over the same draws.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    /// The first variant.
+    pub first: String,
+    /// The second.
+    pub second: String,
+    /// Number of draws.
+    pub draws: u64,
+    /// The figures that both have.
+    pub ratios: Vec<Ratio>,
+}
+
+/// The figures that are compared.
+const COMPARED: [Figure; 7] = [
+    Figure::ShaftTorque,
+    Figure::LoadSpeed,
+    Figure::LoadTorque,
+    Figure::Peak,
+    Figure::DynamicPeak,
+    Figure::Decay,
+    Figure::Residual,
+];
+
+/// A campaign that is done.
+type Done = (Settings, BTreeMap<u64, Outcome>);
+
+/// Compares two campaigns that are done.
+///
+/// # Errors
+/// A sentence: they have other draws, or not all.
+pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
+    let [a, b] = [&first.0, &second.0];
+    if (a.scene(), a.draws, a.seed, &a.tolerances) != (b.scene(), b.draws, b.seed, &b.tolerances) {
+        return Err("the two files have other draws: expected one scene, one seed, one number of draws and the same \
+                    tolerances, and two drives"
+            .to_owned());
+    }
+    let ratio = |figure: Figure| {
+        let pairs = first.1.iter().filter_map(|(number, one)| Some((*number, one, second.1.get(number)?)));
+        // a part of a peak that is not there has no ratio
+        let pairs = pairs.filter(|(_, _, other)| !(other.of(figure) <= 0.0));
+        let mut ratios: Vec<(f64, u64)> =
+            pairs.map(|(number, one, other)| (one.of(figure) / other.of(figure), number)).collect();
+        // not a number is worst
+        let badness = |ratio: f64| if ratio.is_nan() { f64::INFINITY } else { figure.badness(ratio) };
+        ratios.sort_by(|x, y| badness(x.0).total_cmp(&badness(y.0)));
+        let sorted: Vec<f64> = ratios.iter().map(|(ratio, _)| *ratio).collect();
+        let good = sorted.iter().filter(|ratio| badness(**ratio) <= figure.badness(1.0)).count();
+        let worst = ratios.last().copied().unwrap_or((f64::NAN, 0));
+        Ratio {
+            name: figure.name(),
+            median: quantile(&sorted, 0.5),
+            p90: quantile(&sorted, 0.9),
+            worst: worst.0,
+            worst_draw: worst.1,
+            not_worse: good as f64 / sorted.len().max(1) as f64,
+        }
+    };
+    Ok(Comparison {
+        first: a.variant.clone(),
+        second: b.variant.clone(),
+        draws: a.draws,
+        ratios: COMPARED.into_iter().map(ratio).collect(),
+    })
+}
+
+impl Comparison {
+    /// As a table.
+    pub fn table(&self) -> Section {
+        let mut table = Table::new(["figure", "median", "90 % not worse than", "worst", "draw", "first not worse in"]);
+        for r in &self.ratios {
+            let [median, p90, worst] = [r.median, r.p90, r.worst].map(significant);
+            table.row([r.name.to_owned(), median, p90, worst, r.worst_draw.to_string(), percent(r.not_worse)]);
+        }
+        let title = format!("{} over {}, {} draws", self.first, self.second, self.draws);
+        Section::new(title, "Ratios of the same draw. For the decay, lower is worse.", table)
+    }
+}

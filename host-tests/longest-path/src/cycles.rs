@@ -1,0 +1,131 @@
+//! Cycles of an instruction as an interval, by the rules of the cores' manuals, without wait states.
+//!
+//! Arm DDI 0337 (Cortex-M3) and DDI 0439 (Cortex-M4), table 3-1, and for the floating-point unit DDI 0439, table 7-1.
+//! The manuals leave open, and the interval covers:
+//! - P, the refilling of the pipeline after a taken branch: 1 to 3.
+//! - A load or a store alone: 2, or 1 where its phases overlap those of a neighbour.
+//! - Long multiplications of the M3 (3 to 5, with a sum 4 to 7) and divisions (2 to 12): they depend on the operands.
+//! - `IT`: 1, or none where it is folded into the instruction before.
+//! - A result of the floating-point unit that the next instruction uses: one more.
+
+/// A core whose manual has the rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Core {
+    /// Cortex-M3.
+    M3,
+    /// Cortex-M4, with or without its floating-point unit.
+    M4,
+}
+
+/// Least and most cycles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cycles {
+    /// The least.
+    pub least: u64,
+    /// The most.
+    pub most: u64,
+}
+
+/// The pipeline after a taken branch: P in the tables.
+pub(crate) const TAKEN: Cycles = between(1, 3);
+
+const fn between(least: u64, most: u64) -> Cycles {
+    Cycles { least, most }
+}
+
+const fn exactly(cycles: u64) -> Cycles {
+    between(cycles, cycles)
+}
+
+/// A load or a store alone.
+const ACCESS: Cycles = between(1, 2);
+
+impl Cycles {
+    /// Of an instruction that is executed, and not skipped; a branch, which counts as not taken.
+    pub fn of(core: Core, first: u16, second: u16) -> Self {
+        if first >> 11 >= 0b11101 { long(core, first, second) } else { short(first) }
+    }
+}
+
+impl std::ops::Add for Cycles {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        between(self.least + other.least, self.most + other.most)
+    }
+}
+
+/// One, and one more for each of some registers.
+fn registers(list: u16) -> Cycles {
+    exactly(1 + u64::from(list.count_ones()))
+}
+
+/// A5.2
+fn short(word: u16) -> Cycles {
+    match word >> 9 {
+        0b101_1010 => return registers(word & 0x1ff), // PUSH
+        0b101_1110 if word & 0x100 != 0 => return registers(word & 0x1ff) + TAKEN,
+        0b101_1110 => return registers(word & 0xff), // POP
+        _ => {}
+    }
+    match word >> 11 {
+        0b01001 | 0b01010..=0b10011 => ACCESS,        // LDR, STR and the like
+        0b11000 | 0b11001 => registers(word & 0xff),  // STM, LDM
+        _ if word >> 8 == 0x47 => exactly(1) + TAKEN, // BX, BLX
+        _ if word & 0xff87 == 0x4687 || word & 0xff87 == 0x4487 => exactly(1) + TAKEN, // into the program counter
+        _ if word >> 8 == 0xbf && word & 0xf != 0 => between(0, 1), // IT
+        _ => exactly(1),
+    }
+}
+
+/// A5.3
+fn long(core: Core, first: u16, second: u16) -> Cycles {
+    let m3 = core == Core::M3;
+    let into_counter = if second & 0x8000 != 0 { TAKEN } else { exactly(0) };
+    match first >> 9 {
+        // LDM, STM; LDM may load the program counter
+        0x74 if first & 0x40 == 0 && first & 0x10 != 0 => registers(second) + into_counter,
+        0x74 if first & 0x40 == 0 => registers(second),
+        0x74 if first & 0xfff0 == 0xe8d0 => exactly(2), // TBB, TBH and exclusive loads
+        0x74 => exactly(3),                             // LDRD, STRD
+        0x76 => floating_access(first, second),
+        0x77 if second & 0x10 == 0 => floating(first, second),
+        // BL and control: barriers, special registers
+        0x78..=0x7b if second & 0xd000 == 0xd000 => exactly(1) + TAKEN,
+        0x78..=0x7b if second & 0xd000 == 0x8000 && first >> 7 & 7 == 7 => between(1, 4),
+        0x7c if first & 0x10 != 0 && second >> 12 == 15 => ACCESS + TAKEN, // LDR into the program counter
+        0x7c => ACCESS,
+        0x7d => match first >> 4 & 0x1f {
+            0x10 if second >> 12 != 15 && m3 => exactly(2), // MLA, MLS
+            0x19 | 0x1b => between(2, 12),                  // SDIV, UDIV
+            0x18 | 0x1a if m3 => between(3, 5),             // SMULL, UMULL
+            0x1c | 0x1e if m3 => between(4, 7),             // SMLAL, UMLAL
+            _ => exactly(1),
+        },
+        _ => exactly(1),
+    }
+}
+
+/// VLDR, VSTR and several registers; two core registers to or from the unit.
+fn floating_access(first: u16, second: u16) -> Cycles {
+    let words = u64::from(second & 0xff);
+    match first {
+        _ if first & 0xffe0 == 0xec40 => exactly(2),
+        // one register: of two words where it is a double
+        _ if first & 0xff20 == 0xed00 => exactly(if second & 0x100 == 0 { 2 } else { 3 }),
+        _ => exactly(1 + words),
+    }
+}
+
+/// Arithmetic of the unit; its result may be used at once.
+fn floating(first: u16, second: u16) -> Cycles {
+    let used = |cycles| between(cycles, cycles + 1);
+    match first & 0xffb0 {
+        0xee00 | 0xee10 | 0xee90 | 0xeea0 => used(3), // VMLA, VMLS, VNMLA, VNMLS, VFMA, VFMS, VFNMA, VFNMS
+        0xee20 | 0xee30 => used(1),                   // VMUL, VNMUL, VADD, VSUB
+        0xee80 => used(14),                           // VDIV
+        0xeeb0 if first & 0xf == 1 && second & 0xc0 == 0xc0 => used(14), // VSQRT
+        0xeeb0 if first & 0xf >= 8 || first & 0xe == 2 => used(1), // VCVT
+        _ => exactly(1),                              // VMOV, VABS, VNEG, VCMP
+    }
+}

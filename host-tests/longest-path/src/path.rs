@@ -1,0 +1,105 @@
+//! The longest path through ordered elements, and the path itself.
+
+use std::collections::BTreeMap;
+
+use crate::graph::Graph;
+use crate::loops::Element;
+
+/// A stretch of the longest path: instructions one after the other, executed `times` times.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// The function.
+    pub function: String,
+    /// How many calls below the function that was asked for.
+    pub depth: usize,
+    /// The first instruction.
+    pub from: u32,
+    /// The address after the last.
+    pub to: u32,
+    /// Instructions.
+    pub instructions: u64,
+    /// How often the path goes through them.
+    pub times: u64,
+}
+
+/// The most instructions up to and with an instruction.
+#[derive(Clone, Debug)]
+struct Best {
+    weight: u64,
+    from: Option<u32>,
+    /// Of a loop's entry: the turns before the last.
+    earlier: Option<(u64, Longest, u32)>,
+}
+
+/// The longest ways to the instructions of a function or of a loop's turn.
+#[derive(Clone, Debug)]
+pub struct Longest(BTreeMap<u32, Best>);
+
+impl Longest {
+    /// Through the elements. They have the `weight` of each instruction, its callee included, `jump` for going anywhere
+    /// but to the next instruction, and the `turns` of a loop by its entry.
+    pub fn through(
+        graph: &Graph,
+        elements: &[Element],
+        weight: &impl Fn(u32) -> u64,
+        jump: u64,
+        turns: &impl Fn(u32) -> u64,
+    ) -> Self {
+        let mut longest = Longest(BTreeMap::new());
+        for element in elements {
+            match element {
+                Element::Instruction(at) => {
+                    let (before, from) = longest.before(graph, *at, jump);
+                    longest.0.insert(*at, Best { weight: before + weight(*at), from, earlier: None });
+                }
+                Element::Loop { entry, body } => {
+                    let turn = Longest::through(graph, body, weight, jump, turns);
+                    let (before, from) = longest.before(graph, *entry, jump);
+                    let (once, last) = turn.before(graph, *entry, jump);
+                    let repeats = turns(*entry).saturating_sub(1);
+                    for (at, best) in &turn.0 {
+                        let weight = before + repeats * once + best.weight;
+                        longest.0.insert(*at, Best { weight, ..best.clone() });
+                    }
+                    if let Some(best) = longest.0.get_mut(entry) {
+                        best.from = from;
+                        best.earlier = last.filter(|_| repeats > 0).map(|last| (repeats, turn, last));
+                    }
+                }
+            }
+        }
+        longest
+    }
+
+    /// The most instructions before one, and the last of them.
+    fn before(&self, graph: &Graph, at: u32, jump: u64) -> (u64, Option<u32>) {
+        let from = graph.nodes.get(&at).into_iter().flat_map(|node| &node.from);
+        let known = from.filter_map(|from| {
+            let jump = if graph.goes_on(*from, at) { 0 } else { jump };
+            Some((self.0.get(from)?.weight + jump, Some(*from)))
+        });
+        known.max_by_key(|(weight, _)| *weight).unwrap_or((0, None))
+    }
+
+    /// The most instructions, and the last of them.
+    pub fn most(&self) -> (u64, u32) {
+        let ends = self.0.iter().map(|(at, best)| (best.weight, *at));
+        ends.max_by_key(|(weight, _)| *weight).unwrap_or((0, 0))
+    }
+
+    /// The instructions of the longest path to one, each with how often it is executed.
+    pub fn path(&self, to: u32) -> Vec<(u32, u64)> {
+        let mut backwards = Vec::new();
+        let mut at = Some(to);
+        while let Some((here, best)) = at.and_then(|at| Some((at, self.0.get(&at)?))) {
+            backwards.push((here, 1));
+            if let Some((repeats, turn, last)) = &best.earlier {
+                let turn = turn.path(*last).into_iter().rev();
+                backwards.extend(turn.map(|(at, times)| (at, times * repeats)));
+            }
+            at = best.from;
+        }
+        backwards.reverse();
+        backwards
+    }
+}
