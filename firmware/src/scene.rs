@@ -39,8 +39,6 @@ impl Input {
     /// Flag: the brake is open and the governor at work; without it the scene holds, and [`Input::setpoint`] is the
     /// torque that it holds with.
     pub const RELEASED: u32 = 1;
-    /// Lowest of the 16 bits of flags that count the ticks that did not run before this one, for a scene on an axis.
-    pub const MISSED: u32 = 8;
 }
 
 /// Output of a tick: eight words, as on the link.

@@ -96,8 +96,7 @@ fn TIM6_DAC() {
 #[entry]
 fn main() -> ! {
     let full_scale = const { FullScale::<f32>::new(TestRig::RATING.torque_limit) };
-    let (nucleo, Beside { vibration, serial, button }) =
-        Nucleo::torque_input(Selected::RATE_HZ, test_rig::COUNTS, full_scale);
+    let (nucleo, Beside { vibration, serial, button }) = Nucleo::torque_input(test_rig::COUNTS, full_scale);
     let control = Control {
         scene: Selected::start(),
         turn: Turn::new(nucleo),

@@ -51,7 +51,6 @@ impl<B: Board<N>, N: Number> Turn<B, N> {
         vibration: Result<[N; 2], Faults>,
         tick: impl FnOnce(&Input, &mut Output),
     ) -> (Input, Output) {
-        let missed = self.board.missed().min(0xffff) << Input::MISSED;
         let mut faults = self.refused;
         let mut torque = self.set;
         match self.board.torque(self.set) {
@@ -70,7 +69,7 @@ impl<B: Board<N>, N: Number> Turn<B, N> {
             angle: self.angle,
             torque: torque.to_word(),
             setpoint: asked.speed.to_word(),
-            flags: faults.bits() & !Input::RELEASED | missed | if asked.released { Input::RELEASED } else { 0 },
+            flags: faults.bits() & !Input::RELEASED | if asked.released { Input::RELEASED } else { 0 },
             vibration: vibration.map(Number::to_word),
             asked: [0; 2],
         };

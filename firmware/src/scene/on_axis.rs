@@ -4,9 +4,8 @@
 //! same machine code on a board with a motor, where [`Turn`](crate::control_loop::step::Turn) reads and does, and in
 //! QEMU, where the host does.
 //!
-//! Into [`Input::flags`] go [`Input::RELEASED`], the ticks that did not run ([`Input::MISSED`]) and the board's faults
-//! as bits of [`Faults`]: of this reading (angle, torque, vibration) and of the outputs after the last tick (torque
-//! output, enable). [`Output::faults`] has
+//! Into [`Input::flags`] go [`Input::RELEASED`] and the board's faults as bits of [`Faults`]: of this reading (angle,
+//! torque, vibration) and of the outputs after the last tick (torque output, enable). [`Output::faults`] has
 //! [`Faults::TRIPPED`] while the power stage is to be off.
 
 use core::marker::PhantomData;
@@ -36,7 +35,6 @@ struct Image<N> {
     angle: u32,
     torque: N,
     faults: Faults,
-    missed: u32,
 }
 
 impl<N: Number> Image<N> {
@@ -47,11 +45,6 @@ impl<N: Number> Image<N> {
 }
 
 impl<N: Number> Board<N> for Image<N> {
-    #[inline(always)]
-    fn missed(&mut self) -> u32 {
-        self.missed
-    }
-
     #[inline(always)]
     fn angle(&mut self) -> Result<u32, Faults> {
         self.unless(Faults::ANGLE_MISSING).map(|()| self.angle)
@@ -101,7 +94,7 @@ impl<M: HasVibration, N: SensorUnit, O: Observer<N, Config: 'static>> FromConfig
 
     fn from_config(config: &'static ConfigOf<BalancedDrive<N, O>>) -> Self {
         // An incremental encoder counts from where it was switched on.
-        let board = Image { angle: 0, torque: N::ZERO, faults: Faults::NONE, missed: 0 };
+        let board = Image { angle: 0, torque: N::ZERO, faults: Faults::NONE };
         OnAxis { config, axis: Axis::new(board, config, TRIPPING), released: false, machine: PhantomData }
     }
 }
@@ -112,8 +105,7 @@ impl<M: HasVibration, N: SensorUnit, O: Observer<N, Config: 'static>> Scene for 
         let word = <N as Number>::from_word;
         let config = self.config;
         let faults = Faults::from_bits(input.flags) & OF_THE_BOARD;
-        let missed = input.flags >> Input::MISSED & 0xffff;
-        *self.axis.board() = Image { angle: input.angle, torque: word(input.torque), faults, missed };
+        *self.axis.board() = Image { angle: input.angle, torque: word(input.torque), faults };
         let released = input.flags & Input::RELEASED != 0;
         if released != self.released {
             self.released = released;

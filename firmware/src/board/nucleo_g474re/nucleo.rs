@@ -2,15 +2,14 @@
 
 use driveline::fault::Faults;
 use driveline::hal::{
-    Board, EnableChain, EnableLine, Enabling, FullScale, MissedTicks, PhaseConfig, PwmTorque, Quadrature, ThreePhase,
-    TorqueOutput,
+    Board, EnableChain, EnableLine, Enabling, FullScale, PhaseConfig, PwmTorque, Quadrature, ThreePhase, TorqueOutput,
 };
 
 use super::bridge::{self, Channel, Outputs};
 use super::encoder::Timer2;
 use super::pin::Pin;
 use super::serial::Serial;
-use super::tick::{clock_now, tick_clocks, tick_is_due};
+use super::tick::tick_is_due;
 use super::vibration::Vibration;
 use super::watchdog::Watchdog;
 use super::{clock, encoder};
@@ -22,7 +21,6 @@ pub struct Nucleo<T> {
     /// On from the first to the last, off from the last to the first: the drive is enabled once it is given no torque.
     chain: (Outputs, EnableChain<Pin, 1>),
     enabled: bool,
-    missed: MissedTicks,
     watchdog: Watchdog,
 }
 
@@ -39,21 +37,21 @@ pub struct Beside {
 impl Nucleo<PwmTorque<Channel<0>, f32>> {
     /// A drive that controls its current. Its torque input is the difference of PA8 and PA7, each behind a low-pass:
     /// switched off both are low, and the difference is no torque.
-    pub fn torque_input(rate_hz: u32, counts_per_turn: u32, full_scale: FullScale<f32>) -> (Self, Beside) {
-        Self::with(rate_hz, counts_per_turn, PwmTorque::new(Channel, full_scale))
+    pub fn torque_input(counts_per_turn: u32, full_scale: FullScale<f32>) -> (Self, Beside) {
+        Self::with(counts_per_turn, PwmTorque::new(Channel, full_scale))
     }
 }
 
 impl Nucleo<ThreePhase<Channel<0>, Channel<1>, Channel<2>, f32>> {
     /// The bridge of a small synchronous motor.
-    pub fn three_phase(rate_hz: u32, counts_per_turn: u32, config: PhaseConfig<f32>) -> (Self, Beside) {
-        Self::with(rate_hz, counts_per_turn, ThreePhase::new((Channel, Channel, Channel), config))
+    pub fn three_phase(counts_per_turn: u32, config: PhaseConfig<f32>) -> (Self, Beside) {
+        Self::with(counts_per_turn, ThreePhase::new((Channel, Channel, Channel), config))
     }
 }
 
 impl<T> Nucleo<T> {
     /// Starts the clock, every peripheral and the watchdog; the outputs stay off.
-    fn with(rate_hz: u32, counts_per_turn: u32, torque: T) -> (Self, Beside) {
+    fn with(counts_per_turn: u32, torque: T) -> (Self, Beside) {
         clock::start();
         let drive_enable = Pin::output('C', 10);
         bridge::start();
@@ -64,7 +62,6 @@ impl<T> Nucleo<T> {
             torque,
             chain: (Outputs, EnableChain::new([EnableLine::high(drive_enable)])),
             enabled: false,
-            missed: MissedTicks::new(tick_clocks(rate_hz), 32),
             watchdog: Watchdog::start(),
         };
         (nucleo, beside)
@@ -72,11 +69,6 @@ impl<T> Nucleo<T> {
 }
 
 impl<T: TorqueOutput<f32>> Board<f32> for Nucleo<T> {
-    #[inline]
-    fn missed(&mut self) -> u32 {
-        self.missed.count(clock_now())
-    }
-
     #[inline]
     fn angle(&mut self) -> Result<u32, Faults> {
         if let Some(count) = Timer2::index() {
