@@ -33,6 +33,7 @@
 //! | `BacklashObserver` | [`Machine::BACKLASH_OBSERVER`] | a gap in the chain |
 //! | `CrankObserver` | [`HasCrank::CRANK_OBSERVER`] | [`HasCrank`] |
 //! | `GearedObserver` | those of its observer, [`Machine::GEAR`] | |
+//! | `EccentricityObserver` | those of its observer | |
 //! | `SpeedLoop` | [`Machine::SPEED_LOOP`], [`Machine::RAMP`], torque limit | |
 //! | `SpeedGovernor` | [`Machine::GAINS`], [`Machine::RAMP`], those of its parts | |
 //! | `SymmetricLimit`, `TorqueRange` | torque limit, [`Machine::LEAST_TORQUE`] | |
@@ -81,6 +82,7 @@
 //!
 //! Generic code asks for `D: Composition + Configure<M, D::Number, Config = ConfigOf<D>>` and takes `D::CONFIG`.
 
+mod family;
 mod fluctuation;
 mod gain_source;
 mod governor;
@@ -90,6 +92,7 @@ mod observer;
 mod units;
 mod vibration;
 
+pub use family::{Family, Follows, ScheduleOf, Scheduled};
 pub use gain_source::GainSource;
 pub use governor::{HasBacklash, HasBarredSpeeds, HasDroop, HasSequencer, HasSlew, HasTorqueCurve};
 pub use machine::{Machine, Rating};

@@ -34,6 +34,7 @@
 //! motor's side. The estimated load torque is then the torque that would lock it.
 
 mod axis;
+mod switch;
 
 pub use axis::MADE_UP;
 

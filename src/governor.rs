@@ -64,6 +64,10 @@ pub trait Governor<N: Number>: Default {
     /// setpoint is zero.
     fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N);
 
+    /// Bumpless transfer from the constants `from` to `to`, between two ticks, at the present estimate: the gains
+    /// change, the torque does not.
+    fn switch(&mut self, _from: &Self::Config, _to: &Self::Config, _estimate: &Estimate<N>) {}
+
     /// The angle is lost: starts anew without torque, in this and every further tick without it.
     #[inline(always)]
     fn angle_lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {

@@ -21,8 +21,9 @@
 //! # Modules
 //! [`machine`] describes the machine and [`design`] its control (both `const fn` in `f64`); [`settings`] converts a
 //! design to a [`number`] type. [`observer`], [`fluctuation`], [`governor`] and [`balancing`] are the parts of a
-//! [`drive`], composed by type: a part that a machine does not need is `()` and costs nothing. [`commissioning`]
-//! identifies the machine by a test. [`sample`] holds inputs and outputs of a tick, [`fault`] its flags.
+//! [`drive`], composed by type: a part that a machine does not need is `()` and costs nothing. [`scheduling`] follows a
+//! load and a rope that change, [`learning`] finds losses and errors while the machine works, [`commissioning`]
+//! identifies it by a test. [`sample`] holds inputs and outputs of a tick, [`fault`] its flags.
 //!
 //! # Glossary
 //! | term | meaning | unit |
@@ -55,6 +56,7 @@ pub mod fluctuation;
 pub mod governor;
 #[cfg(feature = "hal")]
 pub mod hal;
+pub mod learning;
 pub mod machine;
 pub mod math;
 pub mod number;
@@ -63,6 +65,7 @@ pub mod observer;
 pub mod parameters;
 pub mod prelude;
 pub mod sample;
+pub mod scheduling;
 pub mod settings;
 #[cfg(feature = "telemetry")]
 pub mod telemetry;

@@ -13,8 +13,10 @@
 
 mod fixed;
 mod float;
+mod interpolate;
 
 pub use fixed::{Coefficient, Fixed};
+pub use interpolate::{Interpolate, Magnitude, Weight};
 
 use core::fmt::Debug;
 use core::ops::{Add, Neg, Sub};

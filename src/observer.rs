@@ -64,6 +64,11 @@ pub trait Observer<N: Number>: Sized {
         *self = Self::steady(config, angle, torque, speed);
     }
 
+    /// Bumpless transfer from the constants `from` to `to`, between two ticks: the estimate is the same under both.
+    ///
+    /// For an observer whose states are quantities of the estimate nothing changes.
+    fn switch(&mut self, _from: &Self::Config, _to: &Self::Config) {}
+
     /// The speed at which the motor turns by `turned` [2^-32 turn] in a tick.
     fn speed_of_turn(config: &Self::Config, turned: N) -> N;
 

@@ -2,6 +2,7 @@
 
 use super::{Configure, Machine};
 use crate::design::CrankedDesign;
+use crate::learning::{Correction, EccentricityObserver};
 use crate::number::Fixed;
 use crate::observer::{
     BacklashConfig, BacklashObserver, CrankConfig, CrankObserver, GearedConfig, GearedObserver, Observer, RigidConfig,
@@ -15,6 +16,16 @@ pub trait HasCrank: Machine {
     const CRANKED: crate::machine::Cranked;
     /// The observer, from machine, rate, encoder and disturbance.
     const CRANK_OBSERVER: CrankedDesign = Self::CRANKED.observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE);
+}
+
+impl<M, N, O> Configure<M, N> for EccentricityObserver<N, O>
+where
+    M: Machine,
+    N: Correction,
+    O: Observer<N> + Configure<M, N, Config = <O as Observer<N>>::Config>,
+{
+    type Config = <O as Observer<N>>::Config;
+    const CONFIG: Self::Config = <O as Configure<M, N>>::CONFIG;
 }
 
 macro_rules! observers {

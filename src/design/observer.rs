@@ -167,7 +167,7 @@ impl TwoMassDesign {
 }
 
 /// Exact transition and input of the five states over a tick.
-const fn transition(machine: &TwoMass, step: &ExactStep, t: f64) -> (Matrix<5, 5>, [f64; 5]) {
+pub(super) const fn transition(machine: &TwoMass, step: &ExactStep, t: f64) -> (Matrix<5, 5>, [f64; 5]) {
     let (jm, jl, total) = (machine.motor_inertia, machine.load_inertia, machine.total_inertia());
     let (motor, load) = (jm / total, jl / total);
     // theta_m = mean angle + (J_l/J) delta; the mean angle moves as one rigid machine.

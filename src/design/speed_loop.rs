@@ -137,7 +137,7 @@ impl TwoMass {
     }
 
     /// Proportional gain, integral gain, gain on the slip, natural frequency of the damped shaft.
-    const fn speed_loop_gains(&self, tuning: &SpeedLoopTuning) -> [f64; 4] {
+    pub(super) const fn speed_loop_gains(&self, tuning: &SpeedLoopTuning) -> [f64; 4] {
         let SpeedLoopTuning { bandwidth: b, damping: z1, shaft_damping: z2 } = *tuning;
         let (wa, wr) = (self.antiresonance(), self.resonance());
         let w1 = b * wa;

@@ -202,6 +202,10 @@ where
         torque
     }
 
+    fn switch(&mut self, from: &Self::Config, to: &Self::Config, estimate: &Estimate<N>) {
+        SpeedGovernor::switch(self, from, to, estimate);
+    }
+
     fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) {
         self.sequence.start();
         self.filter.start(&config.filter, estimate);

@@ -70,6 +70,14 @@ impl<N: Number> Governor<N> for SpeedLoop<N> {
         torque
     }
 
+    /// The integral takes over the difference of the torques.
+    fn switch(&mut self, from: &SpeedLoopConfig<N>, to: &SpeedLoopConfig<N>, estimate: &Estimate<N>) {
+        let error = (self.ramped - estimate.motor_speed).gain_operand();
+        let twist_rate = (estimate.motor_speed - estimate.load_speed).gain_operand();
+        let prompt = |c: &SpeedLoopConfig<N>| N::truncated([c.proportional, c.damping], [error, twist_rate]);
+        self.integral = (self.integral + (prompt(from) - prompt(to))).saturated();
+    }
+
     fn start(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>, torque: N) {
         self.ramped = estimate.motor_speed;
         self.setpoint = N::ZERO;

@@ -58,6 +58,16 @@ impl Coefficient {
     pub const fn to_f64(self) -> f64 {
         self.0 as f64 / 4_294_967_296.0
     }
+
+    /// The coefficient with these bits.
+    pub const fn from_bits(bits: i32) -> Coefficient {
+        Coefficient(bits)
+    }
+
+    /// The bits: parts of 2^32.
+    pub const fn to_bits(self) -> i32 {
+        self.0
+    }
 }
 
 /// To the nearest integer, halves away from zero; a value too large to have a fraction stays unchanged.

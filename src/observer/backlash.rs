@@ -218,6 +218,17 @@ impl<N: Gap> Observer<N> for BacklashObserver<N> {
         }
     }
 
+    /// As that of [`TwoMassObserver`](super::TwoMassObserver), for the stretch beyond the flank; in the gap the twist
+    /// stays.
+    fn switch(&mut self, from: &BacklashConfig<N>, to: &BacklashConfig<N>) {
+        let (before, after) = (self.estimate(from), self.estimate(to));
+        self.speed = (self.speed + (before.motor_speed - after.motor_speed)).saturated();
+        if !self.is_open(from) {
+            let missing = [(before.shaft_torque - after.shaft_torque).widened()];
+            self.twist = self.twist.accumulate(&mut { N::CARRY }, [to.compliance], missing).saturated();
+        }
+    }
+
     fn speed_of_turn(config: &BacklashConfig<N>, turned: N) -> N {
         turned.speed_of_turn(config.speed)
     }

@@ -89,6 +89,10 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for GearedObserver<O> {
         GearedObserver { observer: O::steady(&config.observer, angle, torque, speed) }
     }
 
+    fn switch(&mut self, from: &Self::Config, to: &Self::Config) {
+        self.observer.switch(&from.observer, &to.observer);
+    }
+
     fn speed_of_turn(config: &Self::Config, turned: N) -> N {
         O::speed_of_turn(&config.observer, turned)
     }

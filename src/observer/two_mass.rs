@@ -74,6 +74,14 @@ impl<N: Number> Observer<N> for TwoMassObserver<N> {
         }
     }
 
+    /// The mean speed takes over the difference of the inertias' shares, the twist that of the stiffness.
+    fn switch(&mut self, from: &TwoMassConfig<N>, to: &TwoMassConfig<N>) {
+        let (before, after) = (self.estimate(from), self.estimate(to));
+        self.speed = (self.speed + (before.motor_speed - after.motor_speed)).saturated();
+        let missing = [(before.shaft_torque - after.shaft_torque).widened()];
+        self.twist = self.twist.accumulate(&mut { N::CARRY }, [to.compliance], missing).saturated();
+    }
+
     fn speed_of_turn(config: &TwoMassConfig<N>, turned: N) -> N {
         turned.speed_of_turn(config.speed)
     }

@@ -4,7 +4,7 @@ use super::constants::constants;
 use super::convert::get;
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
-use crate::design::{RigidDesign, StepChoice, TwoMassDesign};
+use crate::design::{PlacedObserver, RigidDesign, StepChoice, TwoMassDesign};
 use crate::observer::{RigidConfig, SemiImplicitConfig, TwoMassConfig};
 
 const STEP: &str = "a coefficient of the observer's step is beyond the range of its number: the machine is too soft, \
@@ -15,8 +15,19 @@ const GAIN: &str = "a gain of the observer is beyond the range of its number: th
 const COARSE: &str = "the semi-implicit step is too coarse for this machine at this rate: take TwoMassObserver, which \
     has the exact step the design chose, or overrule the design by with_step(StepChoice::SemiImplicit)";
 
+/// What the constants take of a design.
+const fn gains(design: &TwoMassDesign) -> PlacedObserver {
+    let TwoMassDesign { period, machine, step, gains, mut poles, .. } = *design;
+    let mut k = 0;
+    while k < 5 {
+        poles[k].0 -= 1.0;
+        k += 1;
+    }
+    PlacedObserver { period, machine, step, gains, poles }
+}
+
 /// The exact observer's constants, scaled to a format.
-const fn two_mass(design: &TwoMassDesign, format: &Format) -> TwoMassConfig<f64> {
+const fn two_mass(design: &PlacedObserver, format: &Format) -> TwoMassConfig<f64> {
     let machine = &design.machine;
     let (motor, load) = (machine.motor_inertia, machine.load_inertia);
     let total = motor + load;
@@ -48,7 +59,7 @@ const fn two_mass(design: &TwoMassDesign, format: &Format) -> TwoMassConfig<f64>
 }
 
 /// The semi-implicit observer's constants, scaled to a format.
-const fn semi_implicit(design: &TwoMassDesign, format: &Format) -> SemiImplicitConfig<f64> {
+const fn semi_implicit(design: &PlacedObserver, format: &Format) -> SemiImplicitConfig<f64> {
     let machine = &design.machine;
     let Bases { torque, speed, .. } = format.bases;
     let (stiffness, damping) = (machine.stiffness, machine.damping);
@@ -96,6 +107,13 @@ const fn rigid(design: &RigidDesign, load_share: f64, format: &Format) -> RigidC
 constants! {
     /// [`Error::Coefficient`] where one is beyond the range of its number.
     impl[] TwoMassConfig[], new, try_new(design: &TwoMassDesign), |format| {
+        Self::try_of_placed(&gains(design), format.bases)
+    }
+}
+
+constants! {
+    /// [`Error::Coefficient`] where one is beyond the range of its number.
+    impl[] TwoMassConfig[], of_placed, try_of_placed(design: &PlacedObserver), |format| {
         let c = two_mass(design, &format);
         let [acceleration, compliance, speed] = get!(To::coefficients([c.acceleration, c.compliance, c.speed], STEP));
         let angle_correction = get!(To::coefficient(c.angle_correction, GAIN));
@@ -125,6 +143,13 @@ constants! {
         if matches!(design.chosen, StepChoice::Exact) {
             return Err(Error::Value(COARSE));
         }
+        Self::try_of_placed(&gains(design), format.bases)
+    }
+}
+
+constants! {
+    /// [`Error::Coefficient`] where one is beyond the range of its number.
+    impl[] SemiImplicitConfig[], of_placed, try_of_placed(design: &PlacedObserver), |format| {
         let c = semi_implicit(design, &format);
         let [motor, load, turn, speed] = get!(To::coefficients([c.motor, c.load, c.turn, c.speed], STEP));
         let angle_correction = get!(To::coefficient(c.angle_correction, GAIN));

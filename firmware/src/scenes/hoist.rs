@@ -5,7 +5,7 @@
 //! 1987 (2.87 MN/m for 8.7 t on two falls); inertias and efficiency are of the size that makers' tables give for such a
 //! motor (frame size 315, 0.6 kg m2) and a two-stage gearbox. They are not those of one machine.
 
-use driveline::configure::{Machine, Rating};
+use driveline::configure::{Family, Machine, Rating};
 use driveline::design::{
     Disturbance, Encoder, SemiImplicitStep, SpeedLoopDesign, SpeedLoopTuning, StepChoice, TwoMassDesign,
 };
@@ -25,14 +25,58 @@ use crate::scene::table::variants;
 /// counts of the encoder: the play is eight.
 pub struct Hoist<const RATE_HZ: u32>;
 
-impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
-    const CHAIN: Chain = Chain::motor(Inertia(0.62))
+/// The hoist with a load of `mass` \[kg\] on a rope of `length` \[m\], whose stiffness above is that of 12 m.
+pub const fn chain(mass: f64, length: f64) -> Chain {
+    Chain::motor(Inertia(0.62))
         .shaft(Stiffness(5.0e4), Damping(2.0))
         .rotor(Inertia(0.08))
         .gear(Ratio(31.5), Efficiency(0.94))
         .drum(Diameter(0.8))
-        .damped_rope(Falls(2), Stiffness(2.9e6), LinearDamping(3.6e3))
-        .lifted(Mass(12_000.0));
+        .damped_rope(Falls(2), Stiffness(2.9e6 * (12.0 / length)), LinearDamping(3.6e3))
+        .lifted(Mass(mass))
+}
+
+/// Travel of the load per angle of the motor \[m/rad\]: half the drum's diameter, two falls, the gear.
+pub const TRAVEL: f64 = 0.8 / 2.0 / 2.0 / 31.5;
+
+/// Loads at the points of the gain schedule \[kg\]: from an empty hook to a tenth over the largest load.
+const MASSES: [f64; 5] = [13_000.0, 6_000.0, 2_700.0, 1_200.0, 500.0];
+
+/// Lengths of rope at its points \[m\].
+const LENGTHS: [f64; 4] = [30.0, 17.0, 9.0, 5.0];
+
+/// By loads per tonne, inverse, and by the inverse of the rope's length \[1/m\].
+impl<const RATE_HZ: u32> Family<5, 4> for Hoist<RATE_HZ> {
+    const FIRST: [f64; 5] = inverse(MASSES, 1e3);
+    const SECOND: [f64; 4] = inverse(LENGTHS, 1.0);
+    const MEMBERS: [[TwoMass; 4]; 5] = {
+        let mut members = [[Self::TWO_MASS; 4]; 5];
+        let mut i = 0;
+        while i < 5 {
+            let mut j = 0;
+            while j < 4 {
+                members[i][j] = chain(MASSES[i], LENGTHS[j]).reduce(Match::ResonanceAntiresonance);
+                j += 1;
+            }
+            i += 1;
+        }
+        members
+    };
+}
+
+/// A number over each value.
+const fn inverse<const K: usize>(values: [f64; K], over: f64) -> [f64; K] {
+    let mut inverse = [0.0; K];
+    let mut k = 0;
+    while k < K {
+        inverse[k] = over / values[k];
+        k += 1;
+    }
+    inverse
+}
+
+impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
+    const CHAIN: Chain = chain(12_000.0, 12.0);
     /// 1480 r/min.
     const RATING: Rating = Rating { torque: 750.0, speed: 155.0, torque_limit: 1_350.0 };
     const ENCODER: Encoder = Encoder::lines(2048);

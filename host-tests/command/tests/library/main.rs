@@ -8,8 +8,11 @@ mod elements;
 mod fluctuation;
 mod governor;
 mod hal;
+mod learning;
+mod lift;
 mod logged;
 mod machine;
 #[path = "../references/mod.rs"]
 mod references;
+mod scheduling;
 mod tick;

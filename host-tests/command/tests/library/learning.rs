@@ -1,0 +1,4 @@
+//! Learners: what they find, and that nonsense changes nothing.
+
+mod eccentricity;
+mod gear_loss;

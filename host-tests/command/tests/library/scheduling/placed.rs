@@ -1,0 +1,56 @@
+//! Gains at the points of a schedule, against the Riccati equation's.
+
+use driveline::configure::{Family, Machine};
+use driveline::design::{Disturbance, Rate};
+use driveline_firmware::scenes::hoist::Hoist;
+use nalgebra::{DMatrix, DVector};
+
+type Known = Hoist<10_000>;
+
+/// The pole of the continuous filter furthest out, 220 rad/s, turns by 0.02 rad in a tick at 10 kHz and by 0.2 rad at
+/// 1 kHz; the sampled filter's gains differ by the square of that: 0.05 % and 5 %.
+#[test]
+fn gains_at_the_points_are_the_kalman_filters() {
+    for (rate_hz, limit) in [(10_000, 5e-4), (1_000, 0.05)] {
+        for member in [(0, 0), (0, 3), (2, 1), (4, 0), (4, 3)].map(|(i, j)| Known::MEMBERS[i][j]) {
+            let scale = member.load_inertia / Known::TWO_MASS.load_inertia;
+            let disturbance = Disturbance { load_torque_step: 300.0 * scale, ..Known::DISTURBANCE };
+            let rate = Rate::hz(rate_hz);
+            let riccati = member.observer(rate, Known::ENCODER, disturbance);
+            let placed = member.try_placed_observer(rate, Known::ENCODER, disturbance).unwrap();
+            for (k, (placed, riccati)) in placed.gains.iter().zip(riccati.gains).enumerate() {
+                assert!((placed / riccati - 1.0).abs() < limit, "{rate_hz} Hz, gain {k}: {placed} {riccati}");
+            }
+        }
+    }
+}
+
+/// The poles of `(1 - K C) F`, by nalgebra, are where they were to be placed.
+#[test]
+fn poles_are_where_they_were_placed() {
+    for (member, observer) in Known::MEMBERS.iter().flatten().zip(Known::OBSERVERS.iter().flatten()) {
+        let whole = member.observer(Known::RATE, Known::ENCODER, Known::DISTURBANCE).transition;
+        let f = DMatrix::from_fn(5, 5, |i, j| whole.0[i][j]);
+        let k = DVector::from_row_slice(&observer.gains);
+        let error = &f - &k * f.row(0);
+        for (re, im) in observer.poles {
+            // |det(error - z)| is the product of the distances of z from the five poles, next to 1 - 1e-2
+            let z = nalgebra::Complex::new(1.0 + re, im);
+            let shifted = error.map(|x| nalgebra::Complex::new(x, 0.0)) - DMatrix::identity(5, 5) * z;
+            let others = observer.poles.iter().map(|other| (re - other.0).hypot(im - other.1)).filter(|&far| far > 0.0);
+            let distance = shifted.determinant().norm() / others.product::<f64>();
+            // of poles 1e-3 from one another, from entries with the rounding of 1: 1e-16/(1e-3)^2, with room
+            assert!(distance < 1e-7, "{distance:e} from ({re}, {im})");
+        }
+    }
+}
+
+/// No faster than the heaviest load's loop, and the gain on the twist rate at most a tenth of the proportional one.
+#[test]
+fn speed_loops_are_limited() {
+    for (member, design) in Known::MEMBERS.iter().flatten().zip(Known::SPEED_LOOPS.iter().flatten()) {
+        assert!(design.bandwidth <= Known::SPEED_LOOP.bandwidth * (1.0 + 1e-12));
+        assert!(design.bandwidth <= 0.4 * member.antiresonance() * (1.0 + 1e-12));
+        assert!(design.damping <= 0.1 * design.proportional && design.spectral_radius < 1.0);
+    }
+}

@@ -1,0 +1,242 @@
+//! A family of machines: one drive whose load and shaft change, and its gain schedule.
+
+use super::{Configure, Machine};
+use crate::balancing::Balancer;
+use crate::design::{Disturbance, PlacedObserver, SpeedLoopDesign};
+use crate::drive::Drive;
+use crate::fluctuation::Fluctuation;
+use crate::governor::{Governor, SpeedLoop, SpeedLoopConfig};
+use crate::learning::{Correction, EccentricityObserver};
+use crate::machine::TwoMass;
+use crate::number::{Fixed, Interpolate, Number};
+use crate::observer::{
+    GearedConfig, GearedObserver, Observer, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver,
+};
+use crate::scheduling::{Axis, Schedule};
+use crate::settings::{Bases, SpeedLoopSettings};
+
+/// A machine with two parameters that change while it runs, such as the load's mass and the rope's length.
+///
+/// The constants of a drive are designed at the points of a grid and interpolated between them. A model's coefficients
+/// are nearly linear in the stiffness and in the inverse of the load: these make good parameters.
+///
+/// [`Machine::TWO_MASS`] is one member, by which the disturbance is scaled and from which the speed loop's bandwidth
+/// is taken. [`Machine::BASES`] must hold for all members: with the exact step a stiffness may change fourfold in fixed
+/// point.
+///
+/// ```
+/// use driveline::configure::{Family, Machine, Rating};
+/// use driveline::machine::{Match, TwoMass};
+/// use driveline::prelude::*;
+/// use driveline::scheduling::Schedule;
+///
+/// /// By the load in tonnes, and the stiffness of the rope over that of the longest one.
+/// const fn member(load: f64, rope: f64) -> Chain {
+///     Chain::motor(Inertia(0.62)).shaft(Stiffness(900.0 * rope), Damping(0.5)).rotor(Inertia(0.17 * load))
+/// }
+/// struct Hoist;
+/// impl Machine for Hoist {
+///     const CHAIN: Chain = member(2.0, 1.0);
+///     const RATING: Rating = Rating { torque: 200.0, speed: 150.0, torque_limit: 300.0 };
+///     const ENCODER: Encoder = Encoder::lines(2048);
+///     const RATE_HZ: u32 = 10_000;
+/// }
+/// impl Family<2, 2> for Hoist {
+///     /// Load per tonne, inverse.
+///     const FIRST: [f64; 2] = [0.5, 1.0];
+///     const SECOND: [f64; 2] = [1.0, 3.0];
+///     const MEMBERS: [[TwoMass; 2]; 2] = {
+///         const TWO_MASS: Match = Match::ResonanceAntiresonance;
+///         [
+///             [member(2.0, 1.0).reduce(TWO_MASS), member(2.0, 3.0).reduce(TWO_MASS)],
+///             [member(1.0, 1.0).reduce(TWO_MASS), member(1.0, 3.0).reduce(TWO_MASS)],
+///         ]
+///     };
+/// }
+/// type Observer = TwoMassObserver<f32>;
+/// type HoistDrive = Drive<f32, Observer, (), SpeedLoop<f32>>;
+/// static SCHEDULE: driveline::configure::ScheduleOf<HoistDrive, 2, 2> = HoistDrive::schedule::<Hoist, 2, 2>();
+/// let mut config = HoistDrive::configure::<Hoist>();
+/// let mut drive = HoistDrive::new(&config, 0);
+/// // between two ticks: a load of 1.5 t on a rope of half the longest
+/// drive.follow(&mut config, &SCHEDULE, 1.0 / 1.5, 2.0);
+/// assert!(config.governor.proportional < HoistDrive::configure::<Hoist>().governor.proportional);
+/// ```
+pub trait Family<const A: usize, const B: usize>: Machine {
+    /// Points of the first parameter, rising.
+    const FIRST: [f64; A];
+    /// Points of the second parameter, rising.
+    const SECOND: [f64; B];
+    /// The two masses at the points.
+    const MEMBERS: [[TwoMass; B]; A];
+    /// The observers' gains at the points.
+    ///
+    /// They are those of [`Machine::DISTURBANCE`] with the step of the load torque in proportion to the load's inertia:
+    /// a light load cannot change by more than itself. Without this a schedule is worse than fixed gains at a light
+    /// load.
+    const OBSERVERS: [[PlacedObserver; B]; A] = {
+        let mut observers = [[observer::<Self>(&Self::MEMBERS[0][0]); B]; A];
+        let mut i = 0;
+        while i < A {
+            let mut j = 0;
+            while j < B {
+                if i + j > 0 {
+                    observers[i][j] = observer::<Self>(&Self::MEMBERS[i][j]);
+                }
+                j += 1;
+            }
+            i += 1;
+        }
+        observers
+    };
+    /// The speed loops at the points: [`TwoMass::try_limited_speed_loop`] with the bandwidth of
+    /// [`Machine::SPEED_LOOP`].
+    const SPEED_LOOPS: [[SpeedLoopDesign; B]; A] = {
+        let mut loops = [[Self::SPEED_LOOP; B]; A];
+        let mut i = 0;
+        while i < A {
+            let mut j = 0;
+            while j < B {
+                match Self::MEMBERS[i][j].try_limited_speed_loop(Self::RATE, Self::SPEED_LOOP.bandwidth) {
+                    Ok(design) => loops[i][j] = design,
+                    Err(error) => error.stop(),
+                }
+                j += 1;
+            }
+            i += 1;
+        }
+        loops
+    };
+}
+
+/// The gains for a member.
+const fn observer<M: Machine + ?Sized>(member: &TwoMass) -> PlacedObserver {
+    let scale = member.load_inertia / M::TWO_MASS.load_inertia;
+    let disturbance = Disturbance { load_torque_step: scale * M::DISTURBANCE.load_torque_step, ..M::DISTURBANCE };
+    match member.try_placed_observer(M::RATE, M::ENCODER, disturbance) {
+        Ok(observer) => observer,
+        Err(error) => error.stop(),
+    }
+}
+
+/// A part whose constants follow two parameters of the machine.
+pub trait Scheduled<M: Family<A, B>, N: Number, const A: usize, const B: usize>: Configure<M, N> {
+    /// The part's constants at the points.
+    const CELLS: [[Self::Config; B]; A];
+}
+
+macro_rules! cells {
+    ($first:expr, |$i:ident, $j:ident| $cell:expr) => {{
+        let mut cells = [[$first; B]; A];
+        let mut $i = 0;
+        while $i < A {
+            let mut $j = 0;
+            while $j < B {
+                cells[$i][$j] = $cell;
+                $j += 1;
+            }
+            $i += 1;
+        }
+        cells
+    }};
+}
+
+impl<M, N, O, const A: usize, const B: usize> Scheduled<M, N, A, B> for EccentricityObserver<N, O>
+where
+    M: Family<A, B>,
+    N: Correction,
+    O: Observer<N> + Configure<M, N, Config = <O as Observer<N>>::Config> + Scheduled<M, N, A, B>,
+{
+    const CELLS: [[Self::Config; B]; A] = O::CELLS;
+}
+
+macro_rules! scheduled {
+    ($number:ident, $bases:expr) => {
+        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for TwoMassObserver<$number> {
+            const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
+                TwoMassConfig::<$number>::of_placed(&M::OBSERVERS[i][j], $bases)
+            });
+        }
+
+        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B>
+            for SemiImplicitObserver<$number>
+        {
+            const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
+                SemiImplicitConfig::<$number>::of_placed(&M::OBSERVERS[i][j], $bases)
+            });
+        }
+
+        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for SpeedLoop<$number> {
+            const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
+                SpeedLoopConfig::<$number>::new(
+                    &M::SPEED_LOOPS[i][j],
+                    SpeedLoopSettings { torque_limit: M::RATING.torque_limit, ramp: M::RAMP },
+                    $bases,
+                )
+            });
+        }
+
+        impl<M: Family<A, B>, O, const A: usize, const B: usize> Scheduled<M, $number, A, B> for GearedObserver<O>
+        where
+            O: Observer<$number, Config: Copy>
+                + Configure<M, $number, Config = <O as Observer<$number>>::Config>
+                + Scheduled<M, $number, A, B>,
+        {
+            const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
+                GearedConfig::<$number, _>::new(O::CELLS[i][j], &M::GEAR, M::PERIOD, $bases)
+            });
+        }
+    };
+}
+
+scheduled!(f32, Bases::SI);
+scheduled!(f64, Bases::SI);
+scheduled!(Fixed, M::BASES);
+
+/// The gain schedule of a drive's observer and governor.
+pub type ScheduleOf<D, const A: usize, const B: usize> = Schedule<<D as Follows>::Constants, A, B>;
+
+/// A drive that can follow a gain schedule.
+pub trait Follows {
+    /// The constants of observer and governor.
+    type Constants;
+}
+
+impl<N, O, F, G, B> Follows for Drive<N, O, F, G, B>
+where
+    N: Number,
+    O: Observer<N>,
+    G: Governor<N>,
+{
+    type Constants = (O::Config, G::Config);
+}
+
+impl<N, O, F, G, B> Drive<N, O, F, G, B>
+where
+    N: Number,
+    O: Observer<N, Config: Interpolate>,
+    F: Fluctuation<N>,
+    G: Governor<N, Config: Interpolate>,
+    B: Balancer<N>,
+{
+    /// The gain schedule of this drive for a family of machines, to be kept in a `static`.
+    pub const fn schedule<M, const I: usize, const K: usize>() -> ScheduleOf<Self, I, K>
+    where
+        M: Family<I, K>,
+        O: Scheduled<M, N, I, K> + Configure<M, N, Config = <O as Observer<N>>::Config>,
+        G: Scheduled<M, N, I, K> + Configure<M, N, Config = <G as Governor<N>>::Config>,
+    {
+        let (observers, governors) = (O::CELLS, G::CELLS);
+        let mut cells = [[(O::CONFIG, G::CONFIG); K]; I];
+        let mut i = 0;
+        while i < I {
+            let mut k = 0;
+            while k < K {
+                cells[i][k] = (observers[i][k], governors[i][k]);
+                k += 1;
+            }
+            i += 1;
+        }
+        Schedule::new(Axis::new(M::FIRST), Axis::new(M::SECOND), cells)
+    }
+}

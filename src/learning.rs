@@ -1,0 +1,37 @@
+//! Learning: parameters of the machine that a data sheet gives roughly, found while it works.
+//!
+//! Each learner is a part of its own and costs nothing when it is left out. It changes a parameter only within a bound
+//! and only where two independent findings agree, says so ([`Finding`]), and its result can be kept in the record of
+//! parameters. What it cannot use it leaves out.
+//!
+//! | learner | finds | from |
+//! |---|---|---|
+//! | [`GearLoss`] | friction of a gear per shaft torque | motor torque, up and down at a steady speed |
+//! | [`EccentricityObserver`] | eccentricity of the encoder | the innovation at once a turn |
+
+mod eccentricity;
+mod gear_loss;
+#[cfg(feature = "parameters")]
+mod record;
+
+pub use eccentricity::{Correction, EccentricityConfig, EccentricityObserver};
+pub use gear_loss::{GearLoss, GearLossConfig};
+#[cfg(feature = "parameters")]
+pub use record::Learnt;
+
+/// What an update of a learner has done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Finding {
+    /// Nothing is found yet.
+    #[default]
+    None,
+    /// A first finding, to be confirmed by a second one.
+    Unconfirmed,
+    /// The parameter has changed.
+    Changed,
+    /// The parameter has changed and is at its bound: the machine differs by more, or something else is wrong.
+    AtBound,
+    /// A finding was left out: out of bounds, or it does not agree with the one before.
+    Rejected,
+}

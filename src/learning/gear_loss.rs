@@ -1,0 +1,180 @@
+//! Friction of a gear, from the motor's torque up and down.
+//!
+//! At a steady speed under a load torque T the motor carries `T/eta` where it drives the load, and `eta T` where the
+//! load drives it [Wang 1989 §1-3]. From the two means, with `q = (up - down)/(up + down)`,
+//!
+//! ```text
+//! lambda = (1/eta - eta)/2 = q/sqrt(1 - q^2)
+//! ```
+//!
+//! the friction per shaft torque of [`GearedObserver`](crate::observer::GearedObserver). The load cancels out, and so
+//! does the torque constant.
+//!
+//! Only windows count in which speed and torque are steady, and only a pair that lies close in time without a closed
+//! brake between: a load that was changed would pass for a loss. A finding changes the friction once a second pair
+//! agrees with it.
+
+use super::Finding;
+
+/// Constants of [`GearLoss`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct GearLossConfig {
+    /// Updates in a window.
+    pub window: u32,
+    /// Updates between the windows of a pair, at the most.
+    pub pause: u32,
+    /// Least speed, either way \[rad/s\].
+    pub least_speed: f32,
+    /// Least torque \[N m\]: below it the friction without load counts for more than the loss.
+    pub least_torque: f32,
+    /// Smallest and largest friction per shaft torque that is accepted.
+    pub range: [f32; 2],
+}
+
+impl GearLossConfig {
+    /// For a motor of rated `torque` \[N m\] and `speed` \[rad/s\], a gear whose efficiency lies within a range, and
+    /// an update every so many seconds: windows of half a second from a quarter of the rated speed and a fifth of the
+    /// rated torque on, pairs within ten seconds.
+    ///
+    /// # Panics
+    /// At compile time in a constant, for an interval that leaves no ten updates in a window, a rating that is not
+    /// positive, and efficiencies that do not rise within 0 to 1.
+    pub const fn new(torque: f64, speed: f64, efficiency: [f64; 2], every: f64) -> Self {
+        assert!(every > 0.0 && every <= 0.05, "the gear's loss needs an update every 50 ms or more often");
+        assert!(torque > 0.0 && speed > 0.0, "the rated torque and speed must be above zero");
+        let [least, most] = efficiency;
+        assert!(
+            least > 0.0 && most > least && most <= 1.0,
+            "the gear's efficiency must lie between two rising values above 0 and at most 1"
+        );
+        GearLossConfig {
+            window: (0.5 / every) as u32,
+            pause: (10.0 / every) as u32,
+            least_speed: (0.25 * speed) as f32,
+            least_torque: (0.2 * torque) as f32,
+            range: [(0.5 * (1.0 / most - most)) as f32, (0.5 * (1.0 / least - least)) as f32],
+        }
+    }
+}
+
+/// Change of the speed within a window, as a fraction.
+const STEADY_SPEED: f32 = 0.01;
+/// Difference of the torques of a window's halves, as a fraction: a noise of 1 % of rated is below 0.5 % in the mean of
+/// ten updates.
+const STEADY_TORQUE: f32 = 0.02;
+/// Difference of the speeds of a pair, as a fraction.
+const SAME_SPEED: f32 = 0.2;
+/// Difference of two findings that confirm each other.
+const AGREEMENT: f32 = 0.01;
+
+/// A window that has passed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Steady {
+    speed: f32,
+    torque: f32,
+    /// Updates since.
+    age: u32,
+}
+
+/// Friction of a gear per shaft torque, learnt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct GearLoss {
+    friction: f32,
+    count: u32,
+    speed: f32,
+    /// Of the two halves of the window.
+    sums: [f32; 2],
+    last: Option<Steady>,
+    unconfirmed: Option<f32>,
+}
+
+impl GearLoss {
+    /// From a friction to begin with: that of the data sheet, or one that was learnt. A value out of range is moved to
+    /// its end.
+    pub fn new(config: &GearLossConfig, friction: f32) -> Self {
+        let [least, most] = config.range;
+        GearLoss {
+            friction: if friction >= least { friction.min(most) } else { least },
+            count: 0,
+            speed: 0.0,
+            sums: [0.0; 2],
+            last: None,
+            unconfirmed: None,
+        }
+    }
+
+    /// The friction per shaft torque, as [`GearedConfig::friction`](crate::observer::GearedConfig::friction).
+    pub fn friction(&self) -> f32 {
+        self.friction
+    }
+
+    /// The brake has closed, or the load may have changed: the windows so far have no partner.
+    pub fn interrupt(&mut self) {
+        (self.count, self.last) = (0, None);
+    }
+
+    /// Takes the motor's reported torque \[N m\] and speed \[rad/s\], between the ticks at a steady rate.
+    pub fn update(&mut self, config: &GearLossConfig, torque: f32, speed: f32) -> Finding {
+        if !(torque.is_finite() && speed.is_finite()) {
+            self.interrupt();
+            return Finding::None;
+        }
+        if let Some(last) = &mut self.last {
+            last.age += 1;
+            if last.age > config.pause {
+                self.last = None;
+            }
+        }
+        let changed = (speed - self.speed).abs() > STEADY_SPEED * self.speed.abs();
+        if changed || speed.abs() < config.least_speed {
+            (self.count, self.speed, self.sums) = (0, speed, [0.0; 2]);
+            return Finding::None;
+        }
+        let half = config.window / 2;
+        let [first, second] = &mut self.sums;
+        *(if self.count < half { first } else { second }) += torque;
+        self.count += 1;
+        if self.count < 2 * half {
+            return Finding::None;
+        }
+        let [first, second] = self.sums.map(|sum| sum / half as f32);
+        (self.count, self.sums) = (0, [0.0; 2]);
+        let torque = 0.5 * (first + second);
+        if (first - second).abs() > STEADY_TORQUE * torque.abs() || torque.abs() < config.least_torque {
+            return Finding::None;
+        }
+        let now = Steady { speed, torque, age: 0 };
+        match self.last.replace(now) {
+            Some(last) if last.speed * speed < 0.0 => self.pair(config, last, now),
+            _ => Finding::None,
+        }
+    }
+
+    /// Two windows of opposite directions.
+    fn pair(&mut self, config: &GearLossConfig, one: Steady, other: Steady) -> Finding {
+        let (driving, driven) = if one.torque * one.speed > 0.0 { (one, other) } else { (other, one) };
+        let [up, down] = [driving.torque.abs(), driven.torque.abs()];
+        let opposed = one.torque * other.torque <= 0.0;
+        if opposed || (one.speed + other.speed).abs() > SAME_SPEED * one.speed.abs() {
+            return Finding::None;
+        }
+        let q = (up - down) / (up + down);
+        let found = q / crate::math::sqrt(f64::from(1.0 - q * q)) as f32;
+        let [least, most] = config.range;
+        if !(found >= least && found <= most) {
+            self.unconfirmed = None;
+            return Finding::Rejected;
+        }
+        match self.unconfirmed.replace(found) {
+            Some(before) if (found - before).abs() <= AGREEMENT => {
+                self.friction = 0.5 * (before + found);
+                Finding::Changed
+            }
+            Some(_) => Finding::Rejected,
+            None => Finding::Unconfirmed,
+        }
+    }
+}
