@@ -13,6 +13,7 @@
 //! | angle further from the prediction than the innovation limit | [`Faults::ANGLE_JUMP`] | coasts |
 //! | angle unchanged though the motor should have turned by more than the frozen-turn limit, or far from the prediction | [`Faults::ANGLE_FROZEN`] | coasts |
 //! | no angle at all ([`Drive::coast`]) | [`Faults::ANGLE_MISSING`] | coasts |
+//! | ticks that did not run before it ([`Drive::make_up`]) | [`Faults::TICK_MISSED`] | is preceded by as many predictions |
 //! | after more than the limit of such ticks | [`Faults::ANGLE_LOST`] as well | keeps the estimates and commands no torque until there are two angles in a row that differ |
 //!
 //! With a lost angle the drive commands no torque: the brake must hold the machine. The governor starts anew when the
@@ -23,11 +24,19 @@
 //! angles, in steady motion under the applied torque. So a drive that is switched on catches a spinning machine, and
 //! one whose speed has changed without an angle. A speed beyond twice the largest setpoint is rejected.
 //!
+//! # Ticks that do not run
+//! An observer predicts one period a tick. A tick that does not run leaves the next angle a period further than
+//! predicted, an error as if the motor's speed had jumped. A control loop that may miss ticks counts them and calls
+//! [`Drive::tick_after`], or [`Drive::make_up`] before a tick; `hal::Axis` does both.
+//!
+//! # Standstill
 //! Below the speed of the frozen-turn limit, a frozen encoder and a locked machine cannot be distinguished from the
 //! motor's side. The estimated load torque is then the torque that would lock it.
 
 mod axis;
 mod switch;
+
+pub use axis::MADE_UP;
 
 use crate::balancing::Balancer;
 use crate::fault::Faults;
@@ -137,7 +146,9 @@ where
         }
     }
 
-    /// One tick with the governor active.
+    /// One tick with the governor active, a period after the last one.
+    ///
+    /// Where ticks did not run in between, use [`Drive::tick_after`].
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
         if self.coasted < 0 {

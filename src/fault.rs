@@ -42,9 +42,11 @@ impl Faults {
     pub const ENABLE: Faults = Faults(1 << 27);
     /// The axis has tripped: no torque, its enable chain taken back, until it is started again.
     pub const TRIPPED: Faults = Faults(1 << 28);
+    /// Ticks did not run before this one; they were made up by prediction.
+    pub const TICK_MISSED: Faults = Faults(1 << 30);
 
     /// Every flag with its name.
-    pub const NAMES: [(Faults, &'static str); 12] = [
+    pub const NAMES: [(Faults, &'static str); 13] = [
         (Faults::TORQUE, "torque"),
         (Faults::SETPOINT, "setpoint"),
         (Faults::ANGLE_JUMP, "angle jump"),
@@ -57,6 +59,7 @@ impl Faults {
         (Faults::TORQUE_OUTPUT, "torque output"),
         (Faults::ENABLE, "enable"),
         (Faults::TRIPPED, "tripped"),
+        (Faults::TICK_MISSED, "tick missed"),
     ];
 
     /// Whether there is none.

@@ -13,6 +13,7 @@
 //! | [`EnableChain`], [`TripLine`] | `OutputPin` | enabling the power stage, tripping the contactor |
 //! | [`Adxl355`] | `SpiDevice` | vibration, digital |
 //! | [`AdcVibration`] | a slice of conversions | vibration, analog |
+//! | [`MissedTicks`] | a free-running timer, or the sample's time | ticks that did not run |
 //! | `AwaitedAngle`, `AwaitedTorque` | values awaited between two ticks | the four on `SpiDevice` under `embedded-hal-async` |
 //!
 //! A reading is a value that is new and sound, or [`Faults`](crate::fault::Faults); there is no third answer, so that a
@@ -85,7 +86,9 @@
 //! }
 //! ```
 //!
-//! The timer's interrupt then calls [`Axis::tick`].
+//! The timer's interrupt then calls [`Axis::tick`]. A board whose interrupt may be held up for longer than a tick
+//! counts the ticks that did not run, with [`MissedTicks`] behind [`Board::missed`]; the axis makes them up by
+//! prediction.
 //!
 //! # From a board to a governed motor
 //! With the feature `hal`, two dozen lines, on any board; the timer's wait here stands for its interrupt:
@@ -143,6 +146,7 @@ mod board;
 mod dac;
 mod enable;
 mod magnetic;
+mod missed_ticks;
 mod pwm;
 mod quadrature;
 mod scale;
@@ -163,6 +167,7 @@ pub use board::{Board, Parts};
 pub use dac::{Dac, SpiDac};
 pub use enable::{EnableChain, EnableLine, Enabling, TripLine};
 pub use magnetic::{Chip, MagneticEncoder};
+pub use missed_ticks::MissedTicks;
 pub use pwm::PwmTorque;
 pub use quadrature::{Counter, Quadrature};
 pub use scale::{FullScale, PerCount, Scaled};

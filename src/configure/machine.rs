@@ -90,7 +90,7 @@ pub trait Machine {
     const CHAIN: Chain;
     /// Rating of the motor.
     const RATING: Rating;
-    /// The encoder on the motor's shaft.
+    /// The encoder on the motor's shaft, with its accuracy where its data sheet states one.
     const ENCODER: Encoder;
     /// Ticks a second.
     const RATE_HZ: u32;

@@ -5,6 +5,8 @@ sentences! {
     Error: [Machine(crate::machine::Error)]
     Period => "the sample rate must be positive and finite (Hz)",
     EncoderLines => "the encoder must have at least one line",
+    EncoderAccuracy => "the accuracy of the encoder must be zero or above and finite: interpolation error (fraction of \
+        a signal period), eccentricity (rad), jitter (s) and its speed (rad/s)",
     TorqueAccuracy => "torque_accuracy of the disturbance must be positive and finite (N m)",
     LoadTorqueStep => "load_torque_step of the disturbance must be positive and finite (N m)",
     Within => "within of the disturbance must be positive and finite (s)",

@@ -41,7 +41,7 @@ pub struct TwoMassDesign {
     pub step: ExactStep,
     /// The cheap step, with its error.
     pub semi_implicit: SemiImplicitStep,
-    /// Which of the two to take, at [`StepChoice::THRESHOLD`].
+    /// Which of the two to take: at [`StepChoice::THRESHOLD`], unless [`with_step`](Self::with_step) overruled it.
     pub chosen: StepChoice,
     /// Transition of the state over a tick.
     pub transition: Matrix<5, 5>,
@@ -153,6 +153,16 @@ impl TwoMass {
             innovation: sqrt(filter.innovation.0[0][0]),
             posterior: *p,
         })
+    }
+}
+
+impl TwoMassDesign {
+    /// The same design with its choice of the step overruled: the semi-implicit one is cheaper, and wrong by
+    /// [`SemiImplicitStep::fidelity`].
+    #[must_use]
+    pub const fn with_step(mut self, step: StepChoice) -> Self {
+        self.chosen = step;
+        self
     }
 }
 

@@ -48,7 +48,8 @@ impl Rigid {
     /// [`observer`](Self::observer), with an error instead of a panic.
     ///
     /// # Errors
-    /// A value out of range; [`Error::NotConverged`] or [`Error::NotStabilising`].
+    /// A value out of range; [`Error::NotConverged`], also where a deviation is not a number, or
+    /// [`Error::NotStabilising`].
     pub const fn try_observer(
         &self,
         rate: Rate,
@@ -74,6 +75,12 @@ impl Rigid {
         match Kalman::<3, 1>::design(&transition, &seen, &noise, &Matrix([[variances.angle]])) {
             Ok(filter) => {
                 let p = &filter.posterior.0;
+                let standard_deviation = [sqrt(p[0][0]), sqrt(p[1][1]), sqrt(p[2][2])];
+                let innovation = sqrt(filter.innovation.0[0][0]);
+                // A NaN makes the sum one.
+                if !(standard_deviation[0] + standard_deviation[1] + standard_deviation[2] + innovation).is_finite() {
+                    return Err(Error::NotConverged);
+                }
                 Ok(RigidDesign {
                     period: t,
                     machine: *self,
@@ -82,8 +89,8 @@ impl Rigid {
                     gains: filter.gain.transpose().0[0],
                     poles: filter.poles,
                     spectral_radius: filter.spectral_radius,
-                    standard_deviation: [sqrt(p[0][0]), sqrt(p[1][1]), sqrt(p[2][2])],
-                    innovation: sqrt(filter.innovation.0[0][0]),
+                    standard_deviation,
+                    innovation,
                 })
             }
             Err(error) => Err(error),

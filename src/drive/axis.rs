@@ -1,4 +1,4 @@
-//! Further ticks of a drive: one without an angle, and starting while the machine turns.
+//! Further ticks of a drive: one without an angle, ticks that did not run, and starting while the machine turns.
 
 use super::{ConfigOf, Drive, NONE_YET};
 use crate::balancing::Balancer;
@@ -8,6 +8,9 @@ use crate::governor::Governor;
 use crate::number::Number;
 use crate::observer::Observer;
 use crate::sample::{Command, Sample};
+
+/// The most ticks that did not run which [`Drive::make_up`] predicts: it bounds the time of the call.
+pub const MADE_UP: u32 = 8;
 
 impl<N, O, F, G, B> Drive<N, O, F, G, B>
 where
@@ -33,6 +36,49 @@ where
         let (faults, _) = self.observe(config, &sample, false);
         let estimate = self.estimate(config);
         self.govern(config, &estimate, faults)
+    }
+
+    /// [`Drive::tick`] after so many ticks that did not run. `sample.torque` acted during them.
+    ///
+    /// Up to [`MADE_UP`] ticks are predicted first ([`Drive::make_up`]). After more than these the estimates go on from
+    /// the last prediction and the present angle, without a correction, which raises [`Faults::ANGLE_MISSING`] too.
+    #[inline(always)]
+    pub fn tick_after(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>, missed: u32) -> Command<N> {
+        let mut faults = Faults::NONE;
+        if missed != 0 {
+            faults = self.make_up(config, sample.torque, missed);
+            if missed > MADE_UP {
+                let Command { torque, faults: found } = self.coast(config, sample.torque, sample.setpoint);
+                self.observer.resync(sample.angle);
+                return Command { torque, faults: faults | found };
+            }
+        }
+        let Command { torque, faults: found } = self.tick(config, sample);
+        Command { torque, faults: faults | found }
+    }
+
+    /// Predicts so many ticks that did not run, at most [`MADE_UP`], under the torque that acted during them, and
+    /// returns [`Faults::TICK_MISSED`]. Call it before the next tick.
+    ///
+    /// The governor is left as it is: its ramp and its times stand still meanwhile. The measurement of the fluctuation
+    /// and a balancing reading begin anew. More ticks than the limit of those without an angle lose the angle.
+    #[cold]
+    #[inline(never)]
+    pub fn make_up(&mut self, config: &ConfigOf<Self>, torque: N, missed: u32) -> Faults {
+        let limits = &config.limits;
+        self.fluctuation.disturb();
+        self.balancer.missed(Faults::TICK_MISSED);
+        if self.coasted < 0 || missed > limits.max_coast {
+            self.coasted = NONE_YET;
+            return Faults::TICK_MISSED;
+        }
+        let torque = if torque.exceeds(limits.torque) { self.commanded } else { torque };
+        let angle = self.observer.angle();
+        for _ in 0..missed.min(MADE_UP) {
+            let predicted = self.observer.predict(&config.observer, angle, torque);
+            self.observer.coast(predicted, angle);
+        }
+        Faults::TICK_MISSED
     }
 
     /// The governor starts anew, from the speed that the machine has and no torque; its setpoint is zero. The estimates

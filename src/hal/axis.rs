@@ -80,17 +80,22 @@ where
     }
 
     /// One tick: angle in, drive, torque out. While the axis is tripped it estimates, gives no torque, raises
-    /// [`Faults::TRIPPED`], and retries a line that has failed.
+    /// [`Faults::TRIPPED`], and retries a line that has failed. Ticks that the board reports as missed are made up
+    /// first and raise [`Faults::TICK_MISSED`].
     #[inline]
     pub fn tick(&mut self, config: &ConfigOf<Drive<N, O, F, G, B>>, setpoint: N) -> Command<N> {
+        let missed = self.board.missed();
         let (torque, mut faults) = match self.board.torque(self.set) {
             Ok(torque) => (torque, Faults::NONE),
             Err(faults) => (self.set, faults),
         };
         let Command { torque, faults: found } = match self.board.angle() {
-            Ok(angle) => self.drive.tick(config, &Sample { angle, torque, setpoint }),
+            Ok(angle) => self.drive.tick_after(config, &Sample { angle, torque, setpoint }, missed),
             Err(missing) => {
                 faults |= missing;
+                if missed != 0 {
+                    faults |= self.drive.make_up(config, torque, missed);
+                }
                 self.drive.coast(config, torque, setpoint)
             }
         };

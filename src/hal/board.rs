@@ -5,6 +5,12 @@ use crate::fault::Faults;
 
 /// A board with a motor: an angle in, a torque out, the power stage on and off.
 pub trait Board<N> {
+    /// Ticks that should have run since the last one and did not, as [`MissedTicks`](super::MissedTicks) counts them:
+    /// none, where the board cannot miss one.
+    fn missed(&mut self) -> u32 {
+        0
+    }
+
     /// The motor's angle now, 2^32 to the turn.
     ///
     /// # Errors

@@ -27,6 +27,8 @@ sentences! {
     BacklashAlone => "a backlash needs a shaft or a rope beside it",
     Rigid => "a chain without a shaft has no two masses: it is a rigid machine",
     CutOutOfRange => "the shaft of the textbook cut must be one of the chain's shafts, counted from 0 at the motor",
+    Reduction => "two masses cannot stand for the machine: its inertias or stiffnesses differ by more than the \
+        calculation can resolve",
     ShaftStiffnessNegative => "stiffness between the two masses must be zero or positive and finite (N m/rad)",
     GravityTorque => "gravity torque of the load must be finite (N m at the motor)",
     SectionDiameter => "outer diameters of the shaft's section must be positive and finite, its bore smaller than both \

@@ -35,7 +35,8 @@ impl Chain {
     /// [`reduce`](Self::reduce), with an error instead of a panic.
     ///
     /// # Errors
-    /// As [`check`](Self::check), [`Error::Rigid`], [`Error::CutOutOfRange`].
+    /// As [`check`](Self::check), [`Error::Rigid`], [`Error::CutOutOfRange`]; [`Error::Reduction`] where an error of
+    /// the reduction is not a number.
     pub const fn try_reduce(&self, by: Match) -> Result<TwoMass, Error> {
         if let Err(error) = self.check() {
             return Err(error);
@@ -90,6 +91,9 @@ impl Chain {
             }
         }
         machine.error = self.error_of(&machine, &modes);
+        if !machine.error.is_sound() {
+            return Err(Error::Reduction);
+        }
         Ok(machine)
     }
 

@@ -32,4 +32,10 @@ impl ReductionError {
         compliance: 0.0,
         worst: 0.0,
     };
+
+    /// Whether each is a number.
+    pub(super) const fn is_sound(&self) -> bool {
+        let Self { next_mode, next_share, resonance, antiresonance, compliance, worst } = self;
+        !next_mode.is_nan() && (*next_share + *resonance + *antiresonance + *compliance + *worst).is_finite()
+    }
 }

@@ -31,7 +31,8 @@ impl Train {
     /// [`reduce`](Self::reduce), with an error instead of a panic.
     ///
     /// # Errors
-    /// That of the train, [`Error::TrainCut`], [`Error::Unseen`].
+    /// That of the train, [`Error::TrainCut`], [`Error::Unseen`]; [`Error::Reduction`] where an error of the reduction
+    /// is not a number.
     pub const fn try_reduce(&self, by: Match) -> Result<TwoMass, Error> {
         if let Some(error) = self.error() {
             return Err(error);
@@ -55,6 +56,9 @@ impl Train {
             Match::TextbookCut(_) | Match::TextbookShaft(_) => return Err(Error::TrainCut),
         }
         machine.error = self.error_of(&machine, &modes, &seen, total);
+        if !machine.error.is_sound() {
+            return Err(Error::Reduction);
+        }
         Ok(machine)
     }
 

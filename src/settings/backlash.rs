@@ -7,9 +7,9 @@ use super::{Bases, Error, Format};
 use crate::design::BacklashDesign;
 use crate::observer::{BacklashConfig, Contact, Correction, FreeFlight, TwoMassConfig};
 
-const GAIN: &str = "a searching gain of the observer of backlash is beyond the range of fixed point: let the twist \
+const GAIN: &str = "a searching gain of the observer of backlash is beyond the range of its number: let the twist \
     wander less, or raise the rate";
-const STEP: &str = "a coefficient of the observer's step in the gap is beyond the range of fixed point: raise the base \
+const STEP: &str = "a coefficient of the observer's step in the gap is beyond the range of its number: raise the base \
     of the torque, or the rate";
 const GAP: &str = "the gap must be positive and finite, and half of it at most the twist's base in fixed point: raise \
     the base of the torque";

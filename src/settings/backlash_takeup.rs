@@ -6,7 +6,7 @@ use super::{Bases, Error, Format};
 use crate::design::BacklashTakeUpDesign;
 use crate::governor::BacklashTakeUpConfig;
 
-const GAIN: &str = "a gain of the backlash take-up is beyond the range of fixed point: let its impact be larger, \
+const GAIN: &str = "a gain of the backlash take-up is beyond the range of its number: let its impact be larger, \
     damp less, or raise the base of the torque";
 const TORQUE: &str = "torque, rise and largest torque of the backlash take-up must be positive and finite, and at most \
     twice \

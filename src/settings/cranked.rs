@@ -10,10 +10,10 @@ use core::f64::consts::TAU;
 
 const GEAR: &str =
     "the crank must turn between 1/65536 and 15 times while the motor turns once, in at most 2^20 turns of the motor";
-const LIGHT: &str = "the crank's inertia swings too far for fixed point: the least one must be above 0.35 of the mean";
-const DRAG: &str = "the crank's inertia torque is too large for the bases: at the base of the speed it must be below \
-    0.9 of \
-    the base of the torque";
+const LIGHT: &str = "the crank's inertia swings too far for its number: the least one must be above 0.35 of the mean \
+    in fixed point";
+const DRAG: &str = "the crank's inertia torque is too large for its number: in fixed point, at the base of the speed, \
+    it must be below 0.9 of the base of the torque";
 
 impl CrankedDesign {
     /// Mean inertia over inertia, and torque at the base of the speed per base of the torque, at the points of the
@@ -44,11 +44,11 @@ impl CrankedDesign {
 }
 
 constants! {
-    /// [`Error::Coefficient`] or [`Error::Value`] for a value beyond fixed point, or a gear ratio out of range.
+    /// [`Error::Coefficient`] or [`Error::Value`] for a value beyond its number, or a gear ratio out of range.
     impl[] CrankConfig[], new, try_new(design: &CrankedDesign), |format| {
         let rigid = get!(RigidConfig::<Number>::try_new(&design.rigid, design.load_share(), format.bases));
         let exact = design.points(format.bases.torque, format.bases.speed);
-        let none = To::exactly(0.0);
+        let none = get!(To::exactly(0.0, DRAG));
         let mut points = [TablePoint { inertia_ratio: none, inertia_slope: none }; TABLE_POINTS];
         let mut k = 0;
         while k < TABLE_POINTS {
@@ -62,8 +62,8 @@ constants! {
                 return Err(Error::Value(DRAG));
             }
             points[k] = TablePoint {
-                inertia_ratio: To::exactly(inertia_ratio),
-                inertia_slope: To::exactly(inertia_slope),
+                inertia_ratio: get!(To::exactly(inertia_ratio, LIGHT)),
+                inertia_slope: get!(To::exactly(inertia_slope, DRAG)),
             };
             k += 1;
         }

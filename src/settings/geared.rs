@@ -36,7 +36,7 @@ impl Gear {
             return Err(Error::Value(EFFICIENCY));
         }
         let stiction_gain = 0.5 * self.inertia / period;
-        if !(stiction_gain > 0.0 && stiction_gain.is_finite() && period > 0.0) {
+        if !(stiction_gain as f32 > 0.0 && (stiction_gain as f32).is_finite() && period > 0.0) {
             return Err(Error::Value(MOTOR));
         }
         let deadband = self.deadband * ANGLE_PER_RADIAN;

@@ -12,7 +12,7 @@ use crate::governor::{
 use crate::number::Fixed;
 
 const GAIN: &str =
-    "a gain of the governor is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
+    "a gain of the governor is beyond the range of its number: lower its bandwidth or raise the base of the torque";
 const NO_GAIN: &str = "the gains of the governor must be finite, and the proportional one above zero";
 pub(super) const RAMP: &str = "the ramp of the governor must be positive and finite, and within a tick at most twice \
     the base of the speed, in fixed point at least 2^-28 of it";

@@ -11,8 +11,8 @@ use crate::governor::{BarredConfig, CurveConfig, CurvePiece, SlewConfig, SpeedRa
 
 const SLEW: &str =
     "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
-const CURVE: &str = "the torque curve must lie within twice the bases in fixed point, and its slopes within 2 bases of \
-    the torque per base of the speed";
+const CURVE: &str = "the torque curve and its slopes must be finite; in fixed point it must lie within twice the \
+    bases, and its slopes within 2 bases of the torque per base of the speed";
 const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
 
 const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
@@ -74,8 +74,8 @@ constants! {
 }
 
 constants! {
-    /// [`Error`] for a smallest torque [N m] above zero or not finite, a point beyond twice its base, or a slope of 2
-    /// bases of the torque per base of the speed or more.
+    /// [`Error`] for a smallest torque [N m] above zero or not finite, a point or a slope that the float does not hold,
+    /// a point beyond twice its base, or a slope of 2 bases of the torque per base of the speed or more.
     impl[const K: usize] CurveConfig[, K], new, try_new(curve: &TorqueCurve<K>, min: f64), |format| {
         let ([min, _], []) = get!(To::part(between(min, format.bases.torque, &format), LIMIT));
         let ([none], [flat]) = get!(To::part(Ok(([0.0], [0.0])), CURVE));

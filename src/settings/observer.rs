@@ -4,14 +4,16 @@ use super::constants::constants;
 use super::convert::get;
 use super::format::ANGLE_PER_RADIAN;
 use super::{Bases, Error, Format};
-use crate::design::{PlacedObserver, RigidDesign, TwoMassDesign};
+use crate::design::{PlacedObserver, RigidDesign, StepChoice, TwoMassDesign};
 use crate::observer::{RigidConfig, SemiImplicitConfig, TwoMassConfig};
 
-const STEP: &str = "a coefficient of the observer's step is beyond the range of fixed point: the machine is too soft, \
+const STEP: &str = "a coefficient of the observer's step is beyond the range of its number: the machine is too soft, \
     too light or too strongly damped for its bases at this rate";
 const SHARE: &str = "the load's share of the inertia must be at least 0 and at most 1";
-const GAIN: &str = "a gain of the observer is beyond the range of fixed point: the disturbances are too large for the \
+const GAIN: &str = "a gain of the observer is beyond the range of its number: the disturbances are too large for the \
     machine's bases, or the rate is too low";
+const COARSE: &str = "the semi-implicit step is too coarse for this machine at this rate: take TwoMassObserver, which \
+    has the exact step the design chose, or overrule the design by with_step(StepChoice::SemiImplicit)";
 
 /// What the constants take of a design.
 const fn gains(design: &TwoMassDesign) -> PlacedObserver {
@@ -103,14 +105,14 @@ const fn rigid(design: &RigidDesign, load_share: f64, format: &Format) -> RigidC
 }
 
 constants! {
-    /// [`Error::Coefficient`] where one is beyond the range of fixed point.
+    /// [`Error::Coefficient`] where one is beyond the range of its number.
     impl[] TwoMassConfig[], new, try_new(design: &TwoMassDesign), |format| {
         Self::try_of_placed(&gains(design), format.bases)
     }
 }
 
 constants! {
-    /// [`Error::Coefficient`] where one is beyond the range of fixed point.
+    /// [`Error::Coefficient`] where one is beyond the range of its number.
     impl[] TwoMassConfig[], of_placed, try_of_placed(design: &PlacedObserver), |format| {
         let c = two_mass(design, &format);
         let [acceleration, compliance, speed] = get!(To::coefficients([c.acceleration, c.compliance, c.speed], STEP));
@@ -135,14 +137,18 @@ constants! {
 }
 
 constants! {
-    /// [`Error::Coefficient`] where one is beyond the range of fixed point.
+    /// [`Error::Value`] for a design that chose the exact step and was not overruled
+    /// ([`TwoMassDesign::with_step`]), [`Error::Coefficient`] where a coefficient is beyond the range of its number.
     impl[] SemiImplicitConfig[], new, try_new(design: &TwoMassDesign), |format| {
+        if matches!(design.chosen, StepChoice::Exact) {
+            return Err(Error::Value(COARSE));
+        }
         Self::try_of_placed(&gains(design), format.bases)
     }
 }
 
 constants! {
-    /// [`Error::Coefficient`] where one is beyond the range of fixed point.
+    /// [`Error::Coefficient`] where one is beyond the range of its number.
     impl[] SemiImplicitConfig[], of_placed, try_of_placed(design: &PlacedObserver), |format| {
         let c = semi_implicit(design, &format);
         let [motor, load, turn, speed] = get!(To::coefficients([c.motor, c.load, c.turn, c.speed], STEP));
@@ -161,7 +167,7 @@ constants! {
 
 constants! {
     /// [`Error::Value`] for a part of the inertia on the load side that is not from 0 to 1, [`Error::Coefficient`]
-    /// where a coefficient is beyond the range of fixed point.
+    /// where a coefficient is beyond the range of its number.
     impl[] RigidConfig[], new, try_new(design: &RigidDesign, load_share: f64), |format| {
         get!(share(load_share));
         let c = rigid(design, load_share, &format);

@@ -7,7 +7,7 @@ use crate::design::SpeedLoopDesign;
 use crate::governor::SpeedLoopConfig;
 
 const GAIN: &str =
-    "a gain of the speed loop is beyond the range of fixed point: lower its bandwidth or raise the base of the torque";
+    "a gain of the speed loop is beyond the range of its number: lower its bandwidth or raise the base of the torque";
 const TORQUE: &str = "the torque limit of the speed loop must be positive and finite, and at most twice the base of \
     the torque in fixed point";
 const RAMP: &str = "the ramp of the speed loop must be positive and finite, and within a tick at most twice the base \

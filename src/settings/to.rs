@@ -20,14 +20,14 @@ macro_rules! float {
                 Ok(Format::FLOAT)
             }
 
-            /// A number.
-            pub(super) const fn number(value: f64, _: &'static str) -> Result<$float, Error> {
-                Ok(value as $float)
+            /// A number, finite.
+            pub(super) const fn number(value: f64, sentence: &'static str) -> Result<$float, Error> {
+                if (value as $float).is_finite() { Ok(value as $float) } else { Err(Error::Value(sentence)) }
             }
 
             /// A number within the headroom.
-            pub(super) const fn exactly(value: f64) -> $float {
-                value as $float
+            pub(super) const fn exactly(value: f64, sentence: &'static str) -> Result<$float, Error> {
+                Self::number(value, sentence)
             }
 
             /// A positive number.
@@ -36,48 +36,55 @@ macro_rules! float {
             }
 
             /// An angle \[2^-32 turn\].
-            pub(super) const fn angle(value: f64, _: &'static str) -> Result<$float, Error> {
-                Ok(value as $float)
+            pub(super) const fn angle(value: f64, sentence: &'static str) -> Result<$float, Error> {
+                Self::number(value, sentence)
             }
 
             /// The turn of a tick \[2^-32 turn\], as `less_turn` takes it.
-            pub(super) const fn turn(value: f64, _: &'static str) -> Result<$float, Error> {
-                Ok(value as $float)
+            pub(super) const fn turn(value: f64, sentence: &'static str) -> Result<$float, Error> {
+                Self::number(value, sentence)
             }
 
-            pub(super) const fn coefficient(value: f64, _: &'static str) -> Result<$float, Error> {
-                Ok(value as $float)
+            pub(super) const fn coefficient(value: f64, sentence: &'static str) -> Result<$float, Error> {
+                let [coefficient] = get!(Self::coefficients([value], sentence));
+                Ok(coefficient)
             }
 
             pub(super) const fn coefficients<const K: usize>(
                 values: [f64; K],
-                _: &'static str,
+                sentence: &'static str,
             ) -> Result<[$float; K], Error> {
-                Ok(Self::rounded(values))
+                let mut out = [0.0; K];
+                let mut k = 0;
+                while k < K {
+                    out[k] = values[k] as $float;
+                    if !out[k].is_finite() {
+                        return Err(Error::Coefficient(sentence));
+                    }
+                    k += 1;
+                }
+                Ok(out)
             }
 
             /// The coefficients of the twist's free motion.
-            pub(super) const fn pair($pair: [f64; 4], _: &'static str) -> Result<[$float; 4], Error> {
-                Ok(Self::rounded($settled))
+            pub(super) const fn pair($pair: [f64; 4], sentence: &'static str) -> Result<[$float; 4], Error> {
+                get!(Self::coefficients($pair, sentence));
+                Self::coefficients($settled, sentence)
             }
 
             /// Numbers and coefficients of a part.
             pub(super) const fn part<const A: usize, const B: usize>(
                 values: Values<A, B>,
-                _: &'static str,
+                sentence: &'static str,
             ) -> Result<([$float; A], [$float; B]), Error> {
                 let (numbers, coefficients) = get!(values);
-                Ok((Self::rounded(numbers), Self::rounded(coefficients)))
-            }
-
-            const fn rounded<const K: usize>(values: [f64; K]) -> [$float; K] {
-                let mut out = [0.0; K];
+                let mut out = [0.0; A];
                 let mut k = 0;
-                while k < K {
-                    out[k] = values[k] as $float;
+                while k < A {
+                    out[k] = get!(Self::number(numbers[k], sentence));
                     k += 1;
                 }
-                out
+                Ok((out, get!(Self::coefficients(coefficients, sentence))))
             }
         }
     };
@@ -102,8 +109,8 @@ impl To<Fixed> {
     }
 
     /// A number within the headroom.
-    pub(super) const fn exactly(value: f64) -> Fixed {
-        Fixed::from_f64(value)
+    pub(super) const fn exactly(value: f64, _: &'static str) -> Result<Fixed, Error> {
+        Ok(Fixed::from_f64(value))
     }
 
     /// A positive number within twice its base.

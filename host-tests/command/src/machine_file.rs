@@ -177,6 +177,29 @@ pub struct Part {
 pub struct Encoder {
     /// Lines on a turn; quadrature gives four counts a line.
     pub lines: u32,
+    /// Its accuracy, where the file states one.
+    #[serde(skip_serializing_if = "Accuracy::is_none")]
+    pub accuracy: Accuracy,
+}
+
+/// The accuracy of an encoder, as a data sheet states it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Accuracy {
+    /// Signal periods on a turn: the lines of its scale.
+    pub signal_periods: u32,
+    /// Amplitude of the interpolation error, as a fraction of a signal period.
+    pub interpolation: f64,
+    /// Amplitude of the angle's error once a turn \[rad\].
+    pub eccentricity: f64,
+    /// Rms deviation of the time at which it is read \[s\].
+    pub jitter: f64,
+}
+
+impl Accuracy {
+    /// Whether none is stated: the encoder is accurate to its counts.
+    pub fn is_none(&self) -> bool {
+        self.interpolation == 0.0 && self.eccentricity == 0.0 && self.jitter == 0.0
+    }
 }
 
 /// The controller.

@@ -235,7 +235,13 @@ pub fn tuning(machine: &MachineFile) -> (Rate, Encoder, Disturbance) {
         load_torque_step: machine.disturbance.load_torque_step,
         within: machine.disturbance.within,
     };
-    (Rate::hz(machine.control.rate_hz), Encoder::lines(machine.encoder.lines), disturbance)
+    let accuracy = machine.encoder.accuracy;
+    // a jitter is that of the angle at the largest speed
+    let encoder = Encoder::lines(machine.encoder.lines)
+        .interpolation(accuracy.signal_periods, accuracy.interpolation)
+        .eccentricity(accuracy.eccentricity)
+        .jitter(accuracy.jitter, machine.limits.speed);
+    (Rate::hz(machine.control.rate_hz), encoder, disturbance)
 }
 
 /// The machine as two masses; `None` where it has no shaft.

@@ -37,6 +37,18 @@ pub fn rust(machine: &MachineFile) -> String {
     let kind = if machine.branches.is_empty() { "Chain" } else { "Train" };
     let (torque, step, within) =
         (machine.disturbance.torque_accuracy, machine.disturbance.load_torque_step, machine.disturbance.within);
+    let accuracy = &machine.encoder.accuracy;
+    let mut encoder = format!("Encoder::lines({})", machine.encoder.lines);
+    if !accuracy.is_none() {
+        encoder += &format!(
+            ".interpolation({}, {:?}).eccentricity({:?}).jitter({:?}, {:?})",
+            accuracy.signal_periods,
+            accuracy.interpolation,
+            accuracy.eccentricity,
+            accuracy.jitter,
+            machine.limits.speed,
+        );
+    }
     let (model, make, observer) = if two {
         ("TwoMass", format!("{name}.reduce(Match::ResonanceAntiresonance)"), "TwoMassDesign")
     } else {
@@ -60,14 +72,13 @@ pub const {name}_RATE: Rate = Rate::hz({rate});
 /// The observer.
 pub const {name}_OBSERVER: {observer} = {name}_MODEL.observer(
     {name}_RATE,
-    Encoder::lines({lines}),
+    {encoder},
     Disturbance {{ torque_accuracy: {torque:?}, load_torque_step: {step:?}, within: {within:?} }},
 );
 ",
         title = machine.name,
         words = words.into_iter().collect::<Vec<_>>().join(", "),
         rate = machine.control.rate_hz,
-        lines = machine.encoder.lines,
     );
     if two {
         // Writing to a `String` cannot fail.

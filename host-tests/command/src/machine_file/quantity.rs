@@ -69,6 +69,10 @@ impl Quantity {
     pub const GAP: Self = Quantity { most: std::f64::consts::TAU, ..not_negative("rad") };
     /// Lines of an encoder on a turn; four counts a line fit the 2^32 of an angle word.
     pub const LINES: Self = Quantity { least: 1.0, most: 1_073_741_824.0, whole: true, ..positive("") };
+    /// Amplitude of an interpolation error, as a fraction of a signal period.
+    pub const INTERPOLATION: Self = Quantity { most: 0.5, ..not_negative("") };
+    /// Amplitude of an angle's error once a turn.
+    pub const ECCENTRICITY: Self = Quantity { most: 0.1, ..not_negative("rad") };
     /// Control ticks a second.
     pub const RATE: Self = Quantity { least: 1.0, most: 10_000_000.0, whole: true, ..positive("Hz") };
     /// Torque.

@@ -15,7 +15,7 @@ use super::quantity::Quantity;
 use super::source::{Source, printable};
 use super::station::{NOTHING, Station, begun, stations};
 use super::table::Table;
-use super::{Branch, Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
+use super::{Accuracy, Branch, Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
 
 /// Largest machine file in bytes: a thousand times what the longest chain needs.
 pub const LARGEST: u64 = 1 << 20;
@@ -83,7 +83,14 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let (branches, train) = branches(source, &mut root, chain, &elements)?;
     let encoder = section(&mut root, "encoder", |table| {
         // `LINES` and `RATE` allow whole numbers within `u32` only.
-        Ok(Encoder { lines: table.number("lines", Quantity::LINES)? as u32 })
+        let lines = table.number("lines", Quantity::LINES)?;
+        let accuracy = Accuracy {
+            signal_periods: table.number_or("signal_periods", Quantity::LINES, lines)? as u32,
+            interpolation: table.number_or("interpolation", Quantity::INTERPOLATION, 0.0)?,
+            eccentricity: table.number_or("eccentricity", Quantity::ECCENTRICITY, 0.0)?,
+            jitter: table.number_or("jitter", Quantity::RISE, 0.0)?,
+        };
+        Ok(Encoder { lines: lines as u32, accuracy })
     })?;
     let control = section(&mut root, "control", |table| {
         Ok(Control { rate_hz: table.number("rate_hz", Quantity::RATE)? as u32 })

@@ -1,6 +1,6 @@
 //! The steps under test: the library's own observers, run open loop.
 
-use driveline::design::TwoMassDesign;
+use driveline::design::{StepChoice, TwoMassDesign};
 use driveline::number::Fixed;
 use driveline::observer::{Observer, SemiImplicitConfig, SemiImplicitObserver, TwoMassConfig, TwoMassObserver};
 use driveline::settings::{Bases, Error};
@@ -142,16 +142,16 @@ macro_rules! steps {
 
 steps!(
     f32,
-    |design, bases| Ok(TwoMassConfig::<f32>::new(design, bases)),
-    Ok(SemiImplicitConfig::<f32>::new(design, bases))
+    |design, bases| TwoMassConfig::<f32>::try_new(design, bases),
+    SemiImplicitConfig::<f32>::try_new(&design.with_step(StepChoice::SemiImplicit), bases)
 );
 steps!(
     f64,
-    |design, bases| Ok(TwoMassConfig::<f64>::new(design, bases)),
-    Ok(SemiImplicitConfig::<f64>::new(design, bases))
+    |design, bases| TwoMassConfig::<f64>::try_new(design, bases),
+    SemiImplicitConfig::<f64>::try_new(&design.with_step(StepChoice::SemiImplicit), bases)
 );
 steps!(
     Fixed,
     |design, bases| TwoMassConfig::<Fixed>::try_new(design, bases),
-    SemiImplicitConfig::<Fixed>::try_new(design, bases)
+    SemiImplicitConfig::<Fixed>::try_new(&design.with_step(StepChoice::SemiImplicit), bases)
 );

@@ -4,6 +4,7 @@ mod approximate;
 mod closed_loop;
 mod defaults;
 mod draws;
+mod encoder;
 mod kalman;
 mod matrix;
 mod nodes;

@@ -7,6 +7,7 @@ mod axis;
 mod bus;
 mod chips;
 mod enable;
+mod missed;
 mod parameters;
 mod table;
 mod torque;

@@ -31,6 +31,8 @@ type Told<T> = Box<dyn FnMut(T) -> Result<(), Faults>>;
 /// A board of closures, and what it was told.
 pub struct Scripted {
     pub tick: u64,
+    /// Ticks that the board has missed before the next one.
+    pub missed: u32,
     pub angle: Asked<u32>,
     pub torque: Told<f32>,
     pub enable: Told<bool>,
@@ -42,6 +44,7 @@ impl Scripted {
     pub fn sound() -> Self {
         Scripted {
             tick: 0,
+            missed: 0,
             angle: Box::new(|tick| Ok(turned(tick))),
             torque: Box::new(|_| Ok(())),
             enable: Box::new(|_| Ok(())),
@@ -51,6 +54,9 @@ impl Scripted {
 }
 
 impl Board<f32> for Scripted {
+    fn missed(&mut self) -> u32 {
+        self.missed
+    }
     fn angle(&mut self) -> Result<u32, Faults> {
         let tick = self.tick;
         self.tick += 1;

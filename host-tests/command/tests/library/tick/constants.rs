@@ -3,7 +3,7 @@
 use core::hint::black_box;
 
 use driveline::configure::Machine as _;
-use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopTuning};
+use driveline::design::{Disturbance, Encoder, Rate, SpeedLoopTuning, StepChoice};
 use driveline::drive::{Config, Limits};
 use driveline::governor::SpeedLoopConfig;
 use driveline::machine::{
@@ -46,7 +46,8 @@ fn test<const R: u32>() {
     let reduced: TwoMass = chain().reduce(Match::ResonanceAntiresonance);
     same(&Hoist::<R>::TWO_MASS, &reduced);
     let encoder = Encoder::lines(black_box(2048));
-    let design = reduced.observer(Rate::hz(rate), encoder, disturbance());
+    let design =
+        reduced.observer(Rate::hz(rate), encoder, disturbance()).with_step(black_box(StepChoice::SemiImplicit));
     let cut = chain().reduce(Match::TextbookShaft(black_box(1))).observer(Rate::hz(rate), encoder, disturbance());
     let rigid = chain().rigid().observer(Rate::hz(rate), encoder, disturbance());
     let speed_loop = reduced.speed_loop(Rate::hz(rate), SpeedLoopTuning::USUAL);
