@@ -34,7 +34,9 @@
 //! | `CrankObserver` | [`HasCrank::CRANK_OBSERVER`] | [`HasCrank`] |
 //! | `GearedObserver` | those of its observer, [`Machine::GEAR`] | |
 //! | `EccentricityObserver` | those of its observer | |
-//! | `SpeedLoop` | [`Machine::SPEED_LOOP`], [`Machine::RAMP`], torque limit | |
+//! | `SpeedLoop` | [`Machine::SPEED_LOOP`], [`Machine::RAMP`], torque limit, those of its filters | |
+//! | `SetpointLag` | none | |
+//! | `DampingLag` | [`Machine::SPEED_LOOP`] | a design with a lag of the damping |
 //! | `SpeedGovernor` | [`Machine::GAINS`], [`Machine::RAMP`], those of its parts | |
 //! | `SymmetricLimit`, `TorqueRange` | torque limit, [`Machine::LEAST_TORQUE`] | |
 //! | `Curve` | [`HasTorqueCurve::CURVE`], [`Machine::LEAST_TORQUE`] | [`HasTorqueCurve`] |

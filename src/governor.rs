@@ -7,13 +7,14 @@
 //!
 //! | governor | for |
 //! |---|---|
-//! | [`SpeedLoop`] | continuous operation: proportional, integral, active damping |
+//! | [`SpeedLoop`] | continuous operation: proportional, integral, active damping, lags of setpoint and damping |
 //! | [`SpeedGovernor`] | composed of parts: droop, feed-forward, limits by a curve, run sequence and trips |
 
 mod actuator_monitor;
 mod backlash_takeup;
 mod compensation;
 mod limit;
+mod loop_filter;
 mod sequencer;
 mod setpoint;
 mod speed_filter;
@@ -31,6 +32,7 @@ pub use limit::{
     Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
     TorqueRangeConfig,
 };
+pub use loop_filter::{DampingLag, DampingLagConfig, LoopFilter, SetpointLag};
 pub use sequencer::{RunAction, RunRequest, RunState, Sequence, Sequencer, SequencerConfig, Trip};
 pub use setpoint::{Barred, BarredConfig, Droop, DroopConfig, SetpointShape, SpeedRange};
 pub use speed_filter::{CycleAverage, MovingAverage, MovingAverageConfig, SpeedFilter};

@@ -4,11 +4,11 @@ use super::{Configure, GainSource, LoopPart, Machine};
 use crate::design::{BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, SpeedLoopDesign, TorqueCurve};
 use crate::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
-    BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CycleAverage, Droop, DroopConfig,
-    FeedForward, FeedForwardConfig, Gains, Limit, MovingAverage, MovingAverageConfig, Sequence, Sequencer,
-    SequencerConfig, SetpointShape, Slew, SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig,
-    SpeedGovernorConfigOf, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
-    TorqueRangeConfig,
+    BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CycleAverage, DampingLag,
+    DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Limit, LoopFilter, MovingAverage,
+    MovingAverageConfig, Sequence, Sequencer, SequencerConfig, SetpointLag, SetpointShape, Slew, SlewConfig,
+    SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf, SpeedLoop, SpeedLoopConfig, SymmetricLimit,
+    SymmetricLimitConfig, TorqueRange, TorqueRangeConfig,
 };
 use crate::number::{Fixed, Number};
 use crate::settings::{Bases, SequencerSettings, SpeedLoopSettings};
@@ -89,6 +89,12 @@ impl<M: Machine, N: Number> Configure<M, N> for CycleAverage<N> {
     const LOOP: LoopPart = LoopPart::Unknown;
 }
 
+/// None: its time constant is that of the loop's gains.
+impl<M: Machine, N: Number> Configure<M, N> for SetpointLag<N> {
+    type Config = ();
+    const CONFIG: () = ();
+}
+
 macro_rules! parts {
     ($number:ident, $bases:expr;
         $([$($k:ident)?] $machine:path, $part:ty => $config:ty, $new:expr $(, $loop:expr)?;)+) => {$(
@@ -103,9 +109,8 @@ macro_rules! parts {
 macro_rules! governors {
     ($number:ident, $bases:expr) => {
         parts! { $number, $bases;
-            [] Machine, SpeedLoop<$number> => SpeedLoopConfig<$number>, SpeedLoopConfig::<$number>::new(
-                &M::SPEED_LOOP, SpeedLoopSettings { torque_limit: M::RATING.torque_limit, ramp: M::RAMP }, $bases
-            ), LoopPart::SpeedLoop(M::SPEED_LOOP);
+            [] Machine, DampingLag<$number> => DampingLagConfig<$number>,
+                DampingLagConfig::<$number>::new(M::SPEED_LOOP.damping_lag, M::PERIOD, $bases);
             [] Machine, Gains<$number> => Gains<$number>, match &M::GAINS {
                 GainSource::SpeedLoop(design) => Gains::<$number>::of_speed_loop(design, M::RAMP, $bases),
                 GainSource::Governor(design) => Gains::<$number>::new(design, M::RAMP, $bases),
@@ -130,6 +135,24 @@ macro_rules! governors {
                 SequencerConfig::<$number>::new(&M::SEQUENCER, M::PERIOD, $bases);
             [K] Machine, MovingAverage<$number, K> => MovingAverageConfig<$number, K>,
                 MovingAverageConfig::<$number, K>::of_ticks(), LoopPart::Unknown;
+        }
+
+        impl<M: Machine, F> Configure<M, $number> for SpeedLoop<$number, F>
+        where
+            F: LoopFilter<$number, Config: Copy> + Configure<M, $number, Config = <F as LoopFilter<$number>>::Config>,
+        {
+            type Config = SpeedLoopConfig<$number, <F as LoopFilter<$number>>::Config>;
+            const LOOP: LoopPart = LoopPart::SpeedLoop(M::SPEED_LOOP);
+            const CONFIG: Self::Config = {
+                assert!(
+                    <F as LoopFilter<$number>>::LAGS_DAMPING == (M::SPEED_LOOP.damping_lag > 0.0),
+                    "the speed loop's design and its governor differ in the lag of the damping: give the design \
+                        with_damping_lag and the governor DampingLag, or neither"
+                );
+                let settings = SpeedLoopSettings { torque_limit: M::RATING.torque_limit, ramp: M::RAMP };
+                SpeedLoopConfig::<$number>::new(&M::SPEED_LOOP, settings, $bases)
+                    .with_filter(<F as Configure<M, $number>>::CONFIG)
+            };
         }
 
         impl<M: HasSlew, L> Configure<M, $number> for Slew<$number, L>

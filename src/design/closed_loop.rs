@@ -113,7 +113,7 @@ impl ClosedLoop {
     }
 
     const fn close(o: &Observer, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<Self, Error> {
-        let SpeedLoopDesign { proportional, integral, damping: slip, .. } = *speed_loop;
+        let SpeedLoopDesign { proportional, integral, damping: slip, damping_lag, .. } = *speed_loop;
         let t = o.period;
         if (t - speed_loop.period).abs() > 1e-9 * t {
             return Err(Error::Period);
@@ -128,8 +128,9 @@ impl ClosedLoop {
         let n = &o.step;
         let square = &o.twist.denominator;
         // Of the mean speed, and of the slip, times delta: the governor's law.
-        let law = Polynomial::new([integral * t, proportional + integral * t]);
-        let law_of_slip = law.scaled(o.share).plus(slip, &Polynomial::new([0.0, 1.0]));
+        let (damps, lags_damping) = first_order(damping_lag, t);
+        let law = Polynomial::new([integral * t, proportional + integral * t]).times(&lags_damping);
+        let law_of_slip = law.scaled(o.share).plus(slip, &damps.raised(1));
 
         // What an innovation does: mean angle times delta^3; twist and slip beside what comes by the load torque; slip.
         let glide = t * t * o.load_torque * per_total;
@@ -166,7 +167,7 @@ impl ClosedLoop {
         let known = of_torque.raised(1).scaled(1.0 - o.angle).plus(1.0, &Polynomial::Z.times(&both));
 
         let (acts, lags) = lagged(lag, t);
-        let mut late = lags.times(&poles);
+        let mut late = lags.times(&lags_damping).times(&poles);
         let mut tick = 0.0;
         while tick < ticks {
             late = late.times(&Polynomial::Z);
@@ -349,6 +350,15 @@ const fn edge(varied: &Varied, up: bool) -> f64 {
         halving += 1;
     }
     good
+}
+
+/// A lag of first order of the samples: numerator and denominator.
+const fn first_order(lag: f64, period: f64) -> (Polynomial, Polynomial) {
+    if lag == 0.0 {
+        return (Polynomial::ONE, Polynomial::ONE);
+    }
+    let share = -exp_m1(-period / lag);
+    (Polynomial::new([share, share]), Polynomial::new([share, 1.0]))
 }
 
 /// The mean torque over a tick of an actuator of first order, its command held: numerator and denominator.

@@ -69,12 +69,23 @@ pub struct SpeedLoopDesign {
     pub integral: f64,
     /// Active damping: gain on the twist rate \[N m s/rad\], subtracted from the torque.
     pub damping: f64,
+    /// Time constant of the lag on the damping \[s\], 0 without: [`with_damping_lag`](Self::with_damping_lag).
+    pub damping_lag: f64,
     /// Natural frequency of the speed \[rad/s\].
     pub bandwidth: f64,
     /// Natural frequency of the damped shaft \[rad/s\].
     pub shaft_frequency: f64,
     /// Largest size of a pole of the discrete closed loop.
     pub spectral_radius: f64,
+}
+
+impl SpeedLoopDesign {
+    /// The same with a lag on the damping \[s\], for a governor with [`DampingLag`](crate::governor::DampingLag). The
+    /// reciprocal of the resonance keeps the damping off vibrations of several times its frequency.
+    #[must_use]
+    pub const fn with_damping_lag(self, damping_lag: f64) -> Self {
+        Self { damping_lag, ..self }
+    }
 }
 
 impl TwoMass {
@@ -128,6 +139,7 @@ impl TwoMass {
             proportional,
             integral,
             damping: slip,
+            damping_lag: 0.0,
             bandwidth: w1,
             shaft_frequency: w2,
             spectral_radius,

@@ -5,16 +5,17 @@
 //! ```
 //!
 //! limited to the drive's torque. Anti-windup is by back-calculation with the integral's own time constant. The
-//! setpoint moves by at most the ramp's step a tick.
+//! setpoint moves by at most the ramp's step a tick. Filters of the ramped setpoint and of the twist rate are optional:
+//! [`LoopFilter`].
 
-use super::Governor;
+use super::{Governor, LoopFilter};
 use crate::number::Number;
 use crate::sample::Estimate;
 
 /// Constants of [`SpeedLoop`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SpeedLoopConfig<N: Number> {
+pub struct SpeedLoopConfig<N: Number, F = ()> {
     /// Proportional gain k_p [N m s/rad].
     pub proportional: N::Coefficient,
     /// Integral gain per tick, k_i T [N m s/rad].
@@ -27,26 +28,38 @@ pub struct SpeedLoopConfig<N: Number> {
     pub torque_limit: N,
     /// Largest change of the setpoint in a tick [rad/s].
     pub ramp: N,
+    /// Constants of the filters.
+    pub filter: F,
+}
+
+impl<N: Number> SpeedLoopConfig<N> {
+    /// The same with the constants of filters.
+    #[must_use]
+    pub const fn with_filter<F: Copy>(self, filter: F) -> SpeedLoopConfig<N, F> {
+        let Self { proportional, integral, damping, anti_windup, torque_limit, ramp, filter: () } = self;
+        SpeedLoopConfig { proportional, integral, damping, anti_windup, torque_limit, ramp, filter }
+    }
 }
 
 /// State of the speed loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SpeedLoop<N> {
+pub struct SpeedLoop<N, F = ()> {
     integral: N,
     ramped: N,
     setpoint: N,
+    filter: F,
 }
 
-impl<N: Copy> SpeedLoop<N> {
+impl<N: Copy, F> SpeedLoop<N, F> {
     /// The ramped setpoint [rad/s].
     pub fn ramped_setpoint(&self) -> N {
         self.ramped
     }
 }
 
-impl<N: Number> Governor<N> for SpeedLoop<N> {
-    type Config = SpeedLoopConfig<N>;
+impl<N: Number, F: LoopFilter<N>> Governor<N> for SpeedLoop<N, F> {
+    type Config = SpeedLoopConfig<N, F::Config>;
 
     const COMMANDS: bool = true;
 
@@ -56,12 +69,14 @@ impl<N: Number> Governor<N> for SpeedLoop<N> {
     }
 
     #[inline(always)]
-    fn command(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>) -> N {
+    fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N {
         let mut carry = N::CARRY;
         let step = (self.setpoint - self.ramped).limited(config.ramp);
         self.ramped = self.ramped + step;
-        let error = (self.ramped - estimate.motor_speed).gain_operand();
-        let twist_rate = (estimate.motor_speed - estimate.load_speed).gain_operand();
+        let setpoint = self.filter.setpoint(&mut carry, config.anti_windup, step, self.ramped);
+        let error = (setpoint - estimate.motor_speed).gain_operand();
+        let twist_rate = estimate.motor_speed - estimate.load_speed;
+        let twist_rate = self.filter.twist_rate(&mut carry, &config.filter, twist_rate).gain_operand();
         let integral = self.integral.accumulate(&mut carry, [config.integral], [error]);
         let prompt = N::truncated([config.proportional, config.damping], [error, twist_rate]);
         let wanted = integral + prompt;
@@ -71,16 +86,17 @@ impl<N: Number> Governor<N> for SpeedLoop<N> {
     }
 
     /// The integral takes over the difference of the torques.
-    fn switch(&mut self, from: &SpeedLoopConfig<N>, to: &SpeedLoopConfig<N>, estimate: &Estimate<N>) {
-        let error = (self.ramped - estimate.motor_speed).gain_operand();
-        let twist_rate = (estimate.motor_speed - estimate.load_speed).gain_operand();
-        let prompt = |c: &SpeedLoopConfig<N>| N::truncated([c.proportional, c.damping], [error, twist_rate]);
+    fn switch(&mut self, from: &Self::Config, to: &Self::Config, estimate: &Estimate<N>) {
+        let error = (self.filter.filtered_setpoint(self.ramped) - estimate.motor_speed).gain_operand();
+        let twist_rate = self.filter.filtered_twist_rate(estimate.motor_speed - estimate.load_speed).gain_operand();
+        let prompt = |c: &Self::Config| N::truncated([c.proportional, c.damping], [error, twist_rate]);
         self.integral = (self.integral + (prompt(from) - prompt(to))).saturated();
     }
 
-    fn start(&mut self, config: &SpeedLoopConfig<N>, estimate: &Estimate<N>, torque: N) {
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) {
         self.ramped = estimate.motor_speed;
         self.setpoint = N::ZERO;
         self.integral = torque.limited(config.torque_limit);
+        self.filter = F::default();
     }
 }

@@ -20,7 +20,7 @@ macro_rules! fields {
 fields! {
     RigidConfig { acceleration, turn, correction, angle_correction, speed, load_share }
     SemiImplicitConfig { motor, load, shaft, turn, correction, angle_correction, speed }
-    SpeedLoopConfig { proportional, integral, damping, anti_windup, torque_limit, ramp }
+    SpeedLoopConfig { proportional, integral, damping, anti_windup, torque_limit, ramp, filter }
 }
 
 impl<N, C> Interpolate for GearedConfig<N, C>

@@ -4,7 +4,8 @@ use super::constants::constants;
 use super::convert::get;
 use super::{Bases, Error, Format};
 use crate::design::SpeedLoopDesign;
-use crate::governor::SpeedLoopConfig;
+use crate::governor::{DampingLagConfig, SpeedLoopConfig};
+use crate::math::exp_m1;
 
 const GAIN: &str =
     "a gain of the speed loop is beyond the range of its number: lower its bandwidth or raise the base of the torque";
@@ -12,6 +13,9 @@ const TORQUE: &str = "the torque limit of the speed loop must be positive and fi
     the torque in fixed point";
 const RAMP: &str = "the ramp of the speed loop must be positive and finite, and within a tick at most twice the base \
     of the speed in fixed point";
+
+const LAG: &str = "the lag of the damping must be positive and finite, in fixed point over 1.5 ticks: lengthen it or \
+    raise the rate";
 
 /// Settings of the speed loop beside its gains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +37,7 @@ const fn speed_loop(design: &SpeedLoopDesign, settings: &SpeedLoopSettings, form
         anti_windup: design.integral * design.period / design.proportional,
         torque_limit: settings.torque_limit / torque,
         ramp: settings.ramp * design.period / speed,
+        filter: (),
     }
 }
 
@@ -54,6 +59,19 @@ constants! {
             anti_windup,
             torque_limit: get!(To::positive(c.torque_limit, TORQUE)),
             ramp: get!(To::positive(c.ramp, RAMP)),
+            filter: (),
         })
+    }
+}
+
+constants! {
+    /// [`Error::Value`] for a lag \[s\] that is not positive and finite, [`Error::Coefficient`] in fixed point for one
+    /// of 1.44 ticks of `period` \[s\] or less.
+    impl[] DampingLagConfig[], new, try_new(lag: f64, period: f64), |_format| {
+        let share = -exp_m1(-period / lag);
+        if !(lag > 0.0 && lag.is_finite() && share > 0.0) {
+            return Err(Error::Value(LAG));
+        }
+        Ok(DampingLagConfig { share: get!(To::coefficient(share, LAG)) })
     }
 }

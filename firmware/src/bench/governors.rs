@@ -52,7 +52,7 @@ macro_rules! governors {
             }
             use parts::$run as p;
             let hoist = &<Of<Hoist<10_000>, Reduced<N>> as Constants>::CONFIG.governor;
-            bench.measure("governor/speed-loop", (hoist, SpeedLoop::default()), input::<N>, command);
+            bench.measure("governor/speed-loop", (hoist, SpeedLoop::<_>::default()), input::<N>, command);
             one!("governor/core", (), (), SymmetricLimit, (), (), (), p::SYMMETRIC, ());
             one!("governor/between", (), (), TorqueRange, (), (), (), p::BETWEEN, ());
             one!("governor/droop", Droop, (), SymmetricLimit, (), p::DROOP, (), p::SYMMETRIC, ());

@@ -13,11 +13,12 @@ use driveline::configure::{Machine, Rating};
 use driveline::design::{
     Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Requirement, SpeedLoopTuning,
 };
+use driveline::governor::{SetpointLag, SpeedLoop};
 use driveline::machine::{Chain, Diameter, Efficiency, Inertia, Length, Mass, Ratio};
 use driveline::observer;
 use driveline::settings::{Bases, Screening};
 
-use crate::scene::composed::Governed;
+use crate::scene::composed::GovernedBy;
 use crate::scene::table::variants;
 
 /// The machine, from the motors to the load.
@@ -69,10 +70,13 @@ pub const SELECTION: ObserverSelection = CraneTravel::TWO_MASS.select_observer(
 
 const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::SemiImplicit));
 
+/// A speed loop that follows the ramp with a lag of a third of the load's swing: the load hardly swings.
+type Loop<N> = SpeedLoop<N, SetpointLag<N>>;
+
 /// One mass: the load fixed to the trolley.
-pub type Rigid<N> = Governed<N, observer::RigidObserver<N>>;
+pub type Rigid<N> = GovernedBy<N, observer::RigidObserver<N>, Loop<N>>;
 /// Two masses, semi-implicit step: the design's choice.
-pub type SemiImplicit<N> = Governed<N, observer::SemiImplicitObserver<N>>;
+pub type SemiImplicit<N> = GovernedBy<N, observer::SemiImplicitObserver<N>, Loop<N>>;
 
 variants! {
     "rigid": Rigid for CraneTravel;

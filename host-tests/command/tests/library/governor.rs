@@ -2,6 +2,7 @@
 
 mod barred;
 mod design;
+mod dynamic_part;
 mod law;
 mod modes;
 mod sharing;

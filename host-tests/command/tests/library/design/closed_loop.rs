@@ -5,9 +5,10 @@ use std::collections::VecDeque;
 
 use driveline::configure::Machine;
 use driveline::design::{Actuator, ClosedLoop, Error, Plant, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign};
-use driveline::governor::{Governor, SpeedLoop, SpeedLoopConfig};
+use driveline::governor::{DampingLag, DampingLagConfig, Governor, SpeedLoop, SpeedLoopConfig};
 use driveline::machine::{Chain, TwoMass};
 use driveline::observer::{self, Observer, RigidConfig, TwoMassConfig};
+use driveline::sample::Estimate;
 use driveline::settings::{Bases, SpeedLoopSettings};
 use driveline_firmware::scenes::blooming_mill::BloomingMill;
 use driveline_firmware::scenes::crane_travel::CraneTravel;
@@ -208,14 +209,21 @@ fn settles<O: Observer<f64>>(scene: &Scene, known: &O::Config, gain: f64, late: 
     let mut body = body.start(start).build().unwrap();
     let law = SpeedLoopConfig::<f64>::new(speed_loop, SpeedLoopSettings { torque_limit: 1e30, ramp: 1e30 }, Bases::SI);
     let mut eye = O::at_rest(known, 0, 0.0);
-    let mut governor = SpeedLoop::<f64>::default();
+    let mut command: Box<dyn FnMut(&Estimate<f64>) -> f64> = if speed_loop.damping_lag > 0.0 {
+        let law = law.with_filter(DampingLagConfig::<f64>::new(speed_loop.damping_lag, *period, Bases::SI));
+        let mut governor = SpeedLoop::<f64, DampingLag<f64>>::default();
+        Box::new(move |estimate| governor.command(&law, estimate))
+    } else {
+        let mut governor = SpeedLoop::<f64>::default();
+        Box::new(move |estimate| governor.command(&law, estimate))
+    };
     let mut acting = VecDeque::from(vec![0.0; late]);
     let ticks = (seconds / period) as usize;
     let (mut torque, mut swings) = (0.0, [0.0_f64; 10]);
     for tick in 0..ticks {
         let angle = (body.motor_angle() / std::f64::consts::TAU * 2.0_f64.powi(32)).round() as i64 as u32;
         eye.step(known, angle, torque);
-        acting.push_back(governor.command(&law, &eye.estimate(known)));
+        acting.push_back(command(&eye.estimate(known)));
         torque = acting.pop_front().unwrap();
         body.advance(gain * torque, *period);
         let swing = &mut swings[10 * tick / ticks];

@@ -205,7 +205,7 @@ fn with_damping_and_nothing_else_it_is_the_speed_loop() {
     let loop_config =
         SpeedLoopConfig::<f32>::new(&design, SpeedLoopSettings { torque_limit: TORQUE, ramp: RAMP }, Bases::SI);
     let mut governor = SpeedGovernor::<f32, (), ActiveDamping>::default();
-    let mut speed_loop = SpeedLoop::default();
+    let mut speed_loop = SpeedLoop::<_>::default();
     for tick in 0..4000 {
         let swing = (f64::from(tick) * 0.05).sin() as f32;
         let now =

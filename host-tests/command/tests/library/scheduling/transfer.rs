@@ -1,6 +1,7 @@
 //! Bumpless transfer: estimate and torque are the same before and after a change of the constants.
 
 use driveline::configure::{Configure, Family, Machine, Rating, ScheduleOf, Scheduled};
+use driveline::design::{StepChoice, TwoMassDesign};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::machine::{Match, TwoMass};
@@ -25,6 +26,10 @@ impl Machine for Winch {
     const RATING: Rating = Rating { torque: 200.0, speed: 150.0, torque_limit: 300.0 };
     const ENCODER: Encoder = Encoder::lines(2048);
     const RATE_HZ: u32 = 4_000;
+    /// Both steps are tried.
+    const OBSERVER: TwoMassDesign = Self::TWO_MASS
+        .observer(Self::RATE, Self::ENCODER, Self::RATING.disturbance())
+        .with_step(StepChoice::SemiImplicit);
     const BASES: Bases = Bases::new(&member(1.0, 2.0), 600.0, 200.0);
 }
 

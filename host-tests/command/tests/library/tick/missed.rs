@@ -9,20 +9,25 @@ use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::{self, scenario::Machine};
 use driveline::drive::{ConfigOf, Drive, MADE_UP};
 use driveline::fault::Faults;
-use driveline::governor::SpeedLoop;
+use driveline::governor::Governor;
 use driveline::number::{Fixed, Number};
+use driveline::observer::Observer;
 use driveline::sample::{Command, Sample};
 use driveline_firmware::Words;
-use driveline_firmware::scene::composed::GovernedVariant;
-use driveline_firmware::scene::{Input, Of, Output};
+use driveline_firmware::scene::{Constants, FromConfig, Input, Of, Output};
 use driveline_firmware::scenes::hoist::{self, Hoist};
 use driveline_firmware::scenes::strip_mill::{self, StripMill};
 use driveline_solver::noise::Noise;
 
 /// The drive of a variant, of whose ticks some do not run.
-struct Missing<V: GovernedVariant> {
-    drive: Drive<V::Number, V::Observer, (), SpeedLoop<V::Number>>,
-    config: &'static ConfigOf<Drive<V::Number, V::Observer, (), SpeedLoop<V::Number>>>,
+struct Missing<N, O, G>
+where
+    N: Number + 'static,
+    O: Observer<N, Config: 'static> + 'static,
+    G: Governor<N, Config: 'static> + 'static,
+{
+    drive: Drive<N, O, (), G>,
+    config: &'static ConfigOf<Drive<N, O, (), G>>,
     noise: Noise,
     /// Probability that a tick does not run.
     share: f64,
@@ -33,11 +38,16 @@ struct Missing<V: GovernedVariant> {
     counted: [u32; 2],
 }
 
-impl<V: GovernedVariant> Missing<V> {
-    fn new(share: f64, made_up: bool) -> Self {
+impl<N, O, G> Missing<N, O, G>
+where
+    N: Number + 'static,
+    O: Observer<N, Config: 'static> + 'static,
+    G: Governor<N, Config: 'static> + 'static,
+{
+    fn new(config: &'static ConfigOf<Drive<N, O, (), G>>, share: f64, made_up: bool) -> Self {
         Missing {
-            drive: Drive::new(V::CONFIG, 0),
-            config: V::CONFIG,
+            drive: Drive::<N, O, (), G>::new(config, 0),
+            config,
             noise: Noise::new(7),
             share,
             made_up,
@@ -48,9 +58,14 @@ impl<V: GovernedVariant> Missing<V> {
     }
 }
 
-impl<V: GovernedVariant> Ticks for Missing<V> {
+impl<N, O, G> Ticks for Missing<N, O, G>
+where
+    N: Number + 'static,
+    O: Observer<N, Config: 'static> + 'static,
+    G: Governor<N, Config: 'static> + 'static,
+{
     fn tick(&mut self, input: &Input) -> io::Result<Output> {
-        let word = V::Number::from_word;
+        let word = N::from_word;
         let released = input.flags & Input::RELEASED != 0;
         if released && 0.5 * (self.noise.uniform() + 1.0) < self.share {
             self.missed += 1;
@@ -82,7 +97,13 @@ impl<V: GovernedVariant> Ticks for Missing<V> {
 }
 
 /// Rms errors of shaft torque and load torque, over their peaks, and of load speed, over rated, in the counted runs.
-fn errors<V: GovernedVariant>(machine: &Machine, words: Words, share: f64, made_up: bool) -> [f64; 3] {
+fn errors<V, N, O, G>(machine: &Machine, words: Words, share: f64, made_up: bool) -> [f64; 3]
+where
+    V: Constants<Scene: FromConfig<Drive = Drive<N, O, (), G>>>,
+    N: Number + 'static,
+    O: Observer<N, Config: 'static> + 'static,
+    G: Governor<N, Config: 'static> + 'static,
+{
     let units = Units::new(words, machine.bases);
     let mut counted = [0; 2];
     let traces: Vec<Trace> = machine
@@ -90,7 +111,7 @@ fn errors<V: GovernedVariant>(machine: &Machine, words: Words, share: f64, made_
         .iter()
         .filter(|scenario| scenario.counted)
         .map(|scenario| {
-            let mut drive = Missing::<V>::new(share, made_up);
+            let mut drive = Missing::<N, O, G>::new(V::CONFIG, share, made_up);
             let trace = run(machine, scenario, &units, V::RATE_HZ, &mut drive, |_| ()).unwrap();
             counted = [counted[0] + drive.counted[0], counted[1] + drive.counted[1]];
             trace
@@ -107,10 +128,16 @@ fn errors<V: GovernedVariant>(machine: &Machine, words: Words, share: f64, made_
     errors
 }
 
-fn test<V: GovernedVariant>(machine: &Machine, words: Words) {
-    let nominal = errors::<V>(machine, words, 0.0, true);
-    let overlooked = errors::<V>(machine, words, 0.001, false);
-    let made_up = errors::<V>(machine, words, 0.001, true);
+fn test<V, N, O, G>(machine: &Machine, words: Words)
+where
+    V: Constants<Scene: FromConfig<Drive = Drive<N, O, (), G>>>,
+    N: Number + 'static,
+    O: Observer<N, Config: 'static> + 'static,
+    G: Governor<N, Config: 'static> + 'static,
+{
+    let nominal = errors::<V, N, O, G>(machine, words, 0.0, true);
+    let overlooked = errors::<V, N, O, G>(machine, words, 0.001, false);
+    let made_up = errors::<V, N, O, G>(machine, words, 0.001, true);
     for k in 0..3 {
         // the project's target; a gap is seen by the estimates as long as it lasts, a thousandth of the time
         assert!(made_up[k] <= 1.2 * nominal[k], "{} {k}: {made_up:?} {nominal:?}", V::NAME);
@@ -122,30 +149,36 @@ fn test<V: GovernedVariant>(machine: &Machine, words: Words) {
 #[test]
 fn a_thousandth_of_the_ticks_missed_leaves_the_hoists_errors() {
     let machine = drivetrains::hoist::machine().unwrap();
-    test::<Of<Hoist<10_000>, hoist::Reduced<f32>>>(&machine, Words::Single);
-    test::<Of<Hoist<10_000>, hoist::Reduced<Fixed>>>(&machine, Words::Fixed);
+    test::<Of<Hoist<10_000>, hoist::Reduced<f32>>, _, _, _>(&machine, Words::Single);
+    test::<Of<Hoist<10_000>, hoist::Reduced<Fixed>>, _, _, _>(&machine, Words::Fixed);
 }
 
 #[test]
 fn a_thousandth_of_the_ticks_missed_leaves_the_strip_mills_errors() {
     let machine = drivetrains::strip_mill::machine().unwrap();
-    test::<Of<StripMill, strip_mill::SemiImplicit<f32>>>(&machine, Words::Single);
-    test::<Of<StripMill, strip_mill::SemiImplicit<Fixed>>>(&machine, Words::Fixed);
+    test::<Of<StripMill, strip_mill::SemiImplicit<f32>>, _, _, _>(&machine, Words::Single);
+    test::<Of<StripMill, strip_mill::SemiImplicit<Fixed>>, _, _, _>(&machine, Words::Fixed);
 }
 
 /// A motor that turns steadily: whatever the gap, the estimate of its speed stands, and a gap beyond the limit of ticks
 /// without an angle loses the angle until there are two in a row.
 #[test]
 fn a_gap_of_any_length_leaves_the_speed() {
-    fn gap<V: GovernedVariant>(base: f64) {
+    fn gap<V, N, O, G>(base: f64)
+    where
+        V: Constants<Scene: FromConfig<Drive = Drive<N, O, (), G>>>,
+        N: Number + 'static,
+        O: Observer<N, Config: 'static> + 'static,
+        G: Governor<N, Config: 'static> + 'static,
+    {
         let config = V::CONFIG;
         const SPEED: f64 = 30.0;
         let turn =
             |tick: u32| (SPEED * f64::from(tick) * 1e-4 / core::f64::consts::TAU * 4_294_967_296.0) as u64 as u32;
         let most = config.limits.max_coast;
         for missed in [1, MADE_UP, MADE_UP + 1, most, most + 1, u32::MAX] {
-            let mut drive = Drive::<V::Number, V::Observer, (), SpeedLoop<V::Number>>::new(config, 0);
-            let sample = |tick| Sample { angle: turn(tick), torque: V::Number::ZERO, setpoint: V::Number::ZERO };
+            let mut drive = Drive::<N, O, (), G>::new(config, 0);
+            let sample = |tick| Sample { angle: turn(tick), torque: N::ZERO, setpoint: N::ZERO };
             for tick in 0..2_000 {
                 drive.tick(config, &sample(tick));
             }
@@ -166,6 +199,6 @@ fn a_gap_of_any_length_leaves_the_speed() {
         }
     }
     use driveline::configure::Machine as _;
-    gap::<Of<Hoist<10_000>, hoist::Reduced<f32>>>(1.0);
-    gap::<Of<Hoist<10_000>, hoist::Reduced<Fixed>>>(Hoist::<10_000>::BASES.speed);
+    gap::<Of<Hoist<10_000>, hoist::Reduced<f32>>, _, _, _>(1.0);
+    gap::<Of<Hoist<10_000>, hoist::Reduced<Fixed>>, _, _, _>(Hoist::<10_000>::BASES.speed);
 }

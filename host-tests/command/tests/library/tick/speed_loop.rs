@@ -29,13 +29,13 @@ proptest! {
         errors in prop::collection::vec((-8.0..8.0_f64, -4.0..4.0_f64, -40.0..40.0_f64), 1..200),
     ) {
         let exact_config = SpeedLoopConfig::<f64>::new(&design(), settings(1e9), Bases::SI);
-        let mut exact = SpeedLoop::default();
+        let mut exact = SpeedLoop::<_>::default();
         let single_config = SpeedLoopConfig::<f32>::new(&design(), settings(1e9), Bases::SI);
-        let mut single = SpeedLoop::default();
+        let mut single = SpeedLoop::<_>::default();
         // In fixed point a ramp crosses no more than twice the base in a tick.
         let ramp = 1.9 * BASES.speed * 1e4;
         let fixed_config = SpeedLoopConfig::<Fixed>::new(&design(), settings(ramp), BASES);
-        let mut fixed = SpeedLoop::default();
+        let mut fixed = SpeedLoop::<_>::default();
         for (error, slip, speed) in errors {
             let (motor, load, setpoint) = (speed, speed - slip, speed + error);
             let now = Estimate { motor_speed: motor, load_speed: load, ..Estimate::default() };
@@ -65,7 +65,7 @@ proptest! {
         let config = SpeedLoopConfig::<Fixed>::new(&design(), settings(1.9 * BASES.speed * 1e4), BASES);
         let speed = Fixed::from_bits(motor);
         let now = Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() };
-        let mut governor = SpeedLoop::default();
+        let mut governor = SpeedLoop::<_>::default();
         // The setpoint's ramp first.
         let mut torque = Fixed::ZERO;
         for _ in 0..ticks + 3 {
@@ -114,7 +114,7 @@ fn the_integral_does_not_wind_up() {
         let settings = SpeedLoopSettings { torque_limit: limit, ramp: 1e9 };
         let mut config = SpeedLoopConfig::<f64>::new(&design(), settings, Bases::SI);
         config.anti_windup *= anti_windup;
-        let (mut governor, mut speed, mut top, mut limited) = (SpeedLoop::default(), 0.0, 0.0_f64, 0);
+        let (mut governor, mut speed, mut top, mut limited) = (SpeedLoop::<_>::default(), 0.0, 0.0_f64, 0);
         for _ in 0..60_000 {
             let now = Estimate { motor_speed: speed, load_speed: speed, ..Estimate::default() };
             governor.set_setpoint(RATED_SPEED);

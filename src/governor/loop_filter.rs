@@ -1,0 +1,280 @@
+//! Filters in the speed loop: lag of the setpoint, lag of the active damping.
+
+use crate::number::Number;
+
+/// Filters in a [`SpeedLoop`](super::SpeedLoop); `()` is none, a tuple is one after the other.
+///
+/// The default is a filter at rest: the governor starts with it.
+pub trait LoopFilter<N: Number>: Default {
+    /// Its constants.
+    type Config;
+
+    /// Whether the damping lags.
+    const LAGS_DAMPING: bool = false;
+
+    /// The setpoint for the loop, once a tick: the ramp has moved by `step` to `ramped`. `share` is the integral's part
+    /// of the proportional gain in a tick, k_i T/k_p.
+    #[inline(always)]
+    fn setpoint(&mut self, _carry: &mut N::Carry, _share: N::Coefficient, _step: N, ramped: N) -> N {
+        ramped
+    }
+
+    /// The twist rate for the active damping, once a tick.
+    #[inline(always)]
+    fn twist_rate(&mut self, _carry: &mut N::Carry, _config: &Self::Config, twist_rate: N) -> N {
+        twist_rate
+    }
+
+    /// The setpoint that the last tick had for the loop.
+    fn filtered_setpoint(&self, ramped: N) -> N {
+        ramped
+    }
+
+    /// The twist rate that the last tick had for the active damping; `twist_rate` is the estimated one.
+    fn filtered_twist_rate(&self, twist_rate: N) -> N {
+        twist_rate
+    }
+}
+
+/// Setpoint and twist rate as they are.
+impl<N: Number> LoopFilter<N> for () {
+    type Config = ();
+}
+
+impl<N: Number, A: LoopFilter<N>, B: LoopFilter<N>> LoopFilter<N> for (A, B) {
+    type Config = (A::Config, B::Config);
+
+    const LAGS_DAMPING: bool = A::LAGS_DAMPING || B::LAGS_DAMPING;
+
+    #[inline(always)]
+    fn setpoint(&mut self, carry: &mut N::Carry, share: N::Coefficient, step: N, ramped: N) -> N {
+        let first = self.0.setpoint(carry, share, step, ramped);
+        // The step of the first filter's output is not its input's: only one of the two filters the setpoint.
+        self.1.setpoint(carry, share, step, first)
+    }
+
+    #[inline(always)]
+    fn twist_rate(&mut self, carry: &mut N::Carry, config: &Self::Config, twist_rate: N) -> N {
+        let first = self.0.twist_rate(carry, &config.0, twist_rate);
+        self.1.twist_rate(carry, &config.1, first)
+    }
+
+    fn filtered_setpoint(&self, ramped: N) -> N {
+        self.1.filtered_setpoint(self.0.filtered_setpoint(ramped))
+    }
+
+    fn filtered_twist_rate(&self, twist_rate: N) -> N {
+        self.1.filtered_twist_rate(self.0.filtered_twist_rate(twist_rate))
+    }
+}
+
+/// Lag of the setpoint: the loop follows the ramp with the time constant k_p/k_i, as though the proportional part acted
+/// on the speed alone.
+///
+/// From setpoint to speed a proportional and integral loop has a zero at -k_i/k_p. With it the torque overshoots by an
+/// eighth of the accelerating torque at the ends of a ramp (`e^-2` at a damping ratio of 1), and a ramp that begins at
+/// once lets the shaft swing with the whole accelerating torque. The lag's pole lies on the zero: no overshoot is left,
+/// and of the swing the part `1/sqrt(1 + (omega k_p/k_i)^2)`. The price is that the speed follows the ramp later by
+/// k_p/k_i, 2/bandwidth at a damping ratio of 1. Load torques are answered as without it.
+///
+/// The state is the distance to the ramp, which decays to nothing: no bit of the setpoint is lost.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SetpointLag<N> {
+    behind: N,
+}
+
+impl<N: Number> LoopFilter<N> for SetpointLag<N> {
+    type Config = ();
+
+    #[inline(always)]
+    fn setpoint(&mut self, carry: &mut N::Carry, share: N::Coefficient, step: N, ramped: N) -> N {
+        let behind = self.behind + step;
+        self.behind = behind.accumulate(carry, [share], [-behind]);
+        ramped - self.behind
+    }
+
+    fn filtered_setpoint(&self, ramped: N) -> N {
+        ramped - self.behind
+    }
+}
+
+/// Lag of the active damping: it damps the first resonance and leaves the higher ones alone.
+///
+/// An observer of two masses takes a higher vibration for a twist rate; damping on it drives that vibration. A lag of
+/// the resonance's reciprocal costs the damping half of its power at the resonance, and takes from a vibration of ten
+/// times the frequency nine tenths.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DampingLag<N> {
+    twist_rate: N,
+}
+
+/// Constants of [`DampingLag`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DampingLagConfig<N: Number> {
+    /// Share of a step that the lag covers in a tick.
+    pub share: N::Coefficient,
+}
+
+impl<N: Number> LoopFilter<N> for DampingLag<N> {
+    type Config = DampingLagConfig<N>;
+
+    const LAGS_DAMPING: bool = true;
+
+    #[inline(always)]
+    fn twist_rate(&mut self, carry: &mut N::Carry, config: &DampingLagConfig<N>, twist_rate: N) -> N {
+        // In fixed point both are within twice the base, their difference within four times.
+        let behind = twist_rate.saturated() - self.twist_rate;
+        self.twist_rate = self.twist_rate.accumulate(carry, [config.share], [behind]);
+        self.twist_rate
+    }
+
+    fn filtered_twist_rate(&self, _twist_rate: N) -> N {
+        self.twist_rate
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use std::vec::Vec;
+
+    use super::{DampingLag, DampingLagConfig, LoopFilter, SetpointLag};
+    use crate::governor::{Governor, SpeedLoop, SpeedLoopConfig};
+    use crate::sample::Estimate;
+
+    const PERIOD: f64 = 1e-3;
+    const ACCELERATION: f64 = 2.0;
+
+    /// A proportional and integral loop on this inertia, natural frequency `w`, damping ratio 1.
+    const fn config(inertia: f64, w: f64) -> SpeedLoopConfig<f64> {
+        SpeedLoopConfig {
+            proportional: 2.0 * w * inertia,
+            integral: w * w * inertia * PERIOD,
+            damping: 0.0,
+            anti_windup: 0.5 * w * PERIOD,
+            torque_limit: 1e9,
+            ramp: ACCELERATION * PERIOD,
+            filter: (),
+        }
+    }
+
+    /// Torques of a motor that carries a pendulum, per tick, in a ramp without end: the motor's inertia 1, the
+    /// pendulum's `load`, swinging at `swing` with the motor at rest. The second is the pendulum's.
+    fn run<F: LoopFilter<f64, Config = ()>>(w: f64, load: f64, swing: f64, ticks: usize) -> Vec<(f64, f64)> {
+        let config = config(1.0 + load, w);
+        let mut governor = SpeedLoop::<f64, F>::default();
+        let (mut motor, mut speed, mut twist) = (0.0, 0.0, 0.0);
+        let mut torques = Vec::new();
+        for _ in 0..ticks {
+            governor.set_setpoint(1e9);
+            let now = Estimate { motor_speed: motor, ..Estimate::default() };
+            let torque = governor.command(&config, &now);
+            // A hundredth of a tick: the swing's frequency is right to 1e-8.
+            for _ in 0..100 {
+                let h = 0.01 * PERIOD;
+                let shaft = load * swing * swing * twist;
+                motor += h * (torque - shaft);
+                speed += if load > 0.0 { h * shaft / load } else { 0.0 };
+                twist += h * (motor - speed);
+            }
+            torques.push((torque, load * swing * swing * twist));
+        }
+        torques
+    }
+
+    /// A rigid machine: `s (2 w s + w^2)/(s + w)^2` from the ramp's acceleration to the torque overshoots by `e^-2`, at
+    /// `2/w`; without its zero the response rises to the accelerating torque and stays there.
+    #[test]
+    fn the_torque_of_a_ramp_does_not_overshoot() {
+        let w = 10.0;
+        let peak = |torques: Vec<(f64, f64)>| torques.iter().map(|(torque, _)| *torque).fold(0.0, f64::max);
+        // The delay of a tick is 1 % of 1/w, and the overshoot about as much more; a tick in 1/w of rounding.
+        let plain = peak(run::<()>(w, 0.0, 1.0, 1500)) / ACCELERATION;
+        assert!((plain - 1.0 - (-2.0_f64).exp()).abs() < 0.01, "{plain}");
+        let lagged = peak(run::<SetpointLag<f64>>(w, 0.0, 1.0, 1500)) / ACCELERATION;
+        assert!((lagged - 1.0).abs() < 1e-3, "{lagged}");
+    }
+
+    /// A pendulum so light that it does not act on the motor swings with the accelerating torque times the gain of the
+    /// loop at its frequency: `|w^2 + 2 w j W|/(w^2 + W^2)`, with the lag `w^2/(w^2 + W^2)`.
+    #[test]
+    fn a_ramp_leaves_a_swing_by_the_loops_gain_at_its_frequency() {
+        let (w, swing, load) = (6.0, 15.0, 1e-4);
+        let amplitude = |torques: Vec<(f64, f64)>| {
+            // After twenty time constants of the loop nothing but the swing is left, four of its periods.
+            let last = &torques[3400..5080];
+            let (low, high) = last.iter().fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x.1), high.max(x.1)));
+            0.5 * (high - low) / (load * ACCELERATION)
+        };
+        let square = w * w + swing * swing;
+        let plain = amplitude(run::<()>(w, load, swing, 5080));
+        // A tick's delay turns the loop at this frequency by 1 %.
+        assert!((plain - w * w.hypot(2.0 * swing) / square).abs() < 0.02 * plain, "{plain}");
+        let lagged = amplitude(run::<SetpointLag<f64>>(w, load, swing, 5080));
+        assert!((lagged - w * w / square).abs() < 0.02 * lagged, "{lagged}");
+        // The documented factor, 1/sqrt(1 + (W k_p/k_i)^2).
+        let factor = 1.0 / (1.0 + (2.0 * swing / w).powi(2)).sqrt();
+        assert!((lagged / plain - factor).abs() < 0.02 * factor, "{lagged} {plain}");
+    }
+
+    /// At the end the setpoint is the ramp's, to the last bit: a lag that moved by less than half a unit in the last
+    /// place would stop short.
+    #[test]
+    fn the_setpoint_is_reached_to_the_bit() {
+        let (mut lag, share, step) = (SetpointLag::<f32>::default(), 1e-4, 0.01);
+        let mut ramped = 0.0;
+        for _ in 0..15_000 {
+            ramped += step;
+            lag.setpoint(&mut (), share, step, ramped);
+        }
+        // Behind by the step over the share, less e^-1.5 of it.
+        let behind = f64::from(step / share) * (1.0 - (-1.5_f64).exp());
+        assert!((f64::from(lag.behind) - behind).abs() < 1e-3 * behind, "{}", lag.behind);
+        for _ in 0..300_000 {
+            lag.setpoint(&mut (), share, 0.0, ramped);
+        }
+        assert_eq!(lag.setpoint(&mut (), share, 0.0, ramped), ramped);
+    }
+
+    /// A sine comes through with the gain of a first-order lag that is sampled: `c/|1 - (1 - c) e^(-j w T)|`, in every
+    /// number.
+    #[test]
+    fn the_damping_is_lagged_by_a_first_order_lag() {
+        use crate::number::{Fixed, Number};
+        use crate::settings::Bases;
+        fn gain<N: Number>(config: &DampingLagConfig<N>, angle: f64, number: fn(f64) -> N) -> f64 {
+            let (mut lag, mut carry, mut peak) = (DampingLag::<N>::default(), N::CARRY, 0.0_f64);
+            for tick in 0..20_000 {
+                let out = lag.twist_rate(&mut carry, config, number((angle * f64::from(tick)).sin())).to_real();
+                peak = if tick > 10_000 { peak.max(out.abs()) } else { 0.0 };
+            }
+            peak
+        }
+        let (lag, period) = (0.017_f64, 1e-4_f64);
+        let share = 1.0 - (-period / lag).exp();
+        for frequency in [10.0_f64, 59.0, 565.0] {
+            let angle = frequency * period;
+            let (sine, cosine) = angle.sin_cos();
+            let expected = share / (1.0 - (1.0 - share) * cosine).hypot((1.0 - share) * sine);
+            let all = [
+                gain(&DampingLagConfig::<f64>::new(lag, period, Bases::SI), angle, |x| x),
+                gain(&DampingLagConfig::<f32>::new(lag, period, Bases::SI), angle, |x| x as f32),
+                gain(&DampingLagConfig::<Fixed>::new(lag, period, Bases::SI), angle, Fixed::from_f64),
+            ];
+            // The largest of many samples misses the peak by half the angle between two squared; f32 rounds the share.
+            assert!(all.iter().all(|gain| (gain / expected - 1.0).abs() < 1e-3), "{frequency}: {all:?} {expected}");
+        }
+    }
+
+    /// No filter takes no room.
+    #[test]
+    fn no_filter_takes_no_room() {
+        assert_eq!(size_of::<SpeedLoop<f32>>(), 12);
+        assert_eq!(size_of::<SpeedLoop<f32, SetpointLag<f32>>>(), 16);
+        assert_eq!(size_of::<SpeedLoopConfig<f32, DampingLagConfig<f32>>>(), size_of::<SpeedLoopConfig<f32>>() + 4);
+    }
+}
