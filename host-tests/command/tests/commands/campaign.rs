@@ -116,8 +116,8 @@ fn drawn_plants_are_proven_and_an_unrecorded_one_is_the_same_to_the_bit() {
         let drive = Drive::named(&machine, None).unwrap();
         let units = drive.units(&machine);
         let mut scenario = machine.scenarios[0].clone();
-        // the start and the first ramp: each has friction, gaps or brakes at work
-        scenario.duration = 0.6;
+        // the start and the first ramp: each has friction, gaps or brakes at work, and the crane has broken away
+        scenario.duration = 2.0;
         let imperfections = draw.imperfections(scene.lines, scene.rated_torque);
         let runs = [scenario.plant.clone(), scenario.plant.unrecorded()].map(|mut plant| {
             let mut ticking = drive.start(scene, &machine);
