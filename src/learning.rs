@@ -1,8 +1,8 @@
-//! Learning: parameters of the machine that a data sheet gives roughly, found while it works.
+//! Learning: parameters of the machine that a data sheet gives roughly, identified while it runs.
 //!
 //! Each learner is a part of its own and costs nothing when it is left out. It changes a parameter only within a bound
-//! and only where two independent findings agree, says so ([`Finding`]), and its result can be kept in the record of
-//! parameters. What it cannot use it leaves out.
+//! and only where two findings agree, and returns a [`Finding`]. Its result can be kept in the record of parameters.
+//! Data that it cannot use is left out.
 //!
 //! | learner | finds | from |
 //! |---|---|---|

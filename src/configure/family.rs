@@ -20,9 +20,9 @@ use crate::settings::{Bases, SpeedLoopSettings};
 /// The constants of a drive are designed at the points of a grid and interpolated between them. A model's coefficients
 /// are nearly linear in the stiffness and in the inverse of the load: these make good parameters.
 ///
-/// [`Machine::TWO_MASS`] is one member, by which the disturbance is scaled and from which the speed loop's bandwidth
-/// is taken. [`Machine::BASES`] must hold for all members: with the exact step a stiffness may change fourfold in fixed
-/// point.
+/// [`Machine::TWO_MASS`] is one member. It scales the disturbance and sets the speed loop's bandwidth. Margins and
+/// tolerances of the loops at the points are not tested. [`Machine::BASES`] must hold for all members: with the exact
+/// step a stiffness may change fourfold in fixed point.
 ///
 /// ```
 /// use driveline::configure::{Family, Machine, Rating};

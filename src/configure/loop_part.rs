@@ -11,7 +11,7 @@ use crate::design::{LoopObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign};
 pub enum LoopPart {
     /// It changes nothing in the loop.
     None,
-    /// It changes the loop in a way that no test knows.
+    /// It changes the loop in a way that the test does not model.
     Unknown,
     /// An observer of two masses.
     TwoMass(TwoMassDesign),
@@ -36,7 +36,8 @@ impl LoopPart {
         }
     }
 
-    /// Stops the compilation where observer and governor make a speed loop that does not bear the machine's tolerances.
+    /// Stops the compilation where the speed loop of observer and governor lacks margin, or is unstable within the
+    /// machine's tolerances.
     pub(super) const fn test<M: Machine>(&self, governor: &Self) {
         let Self::SpeedLoop(speed_loop) = governor else { return };
         let observer = match self {

@@ -6,10 +6,10 @@
 //! The loop is cut at the torque on the machine. A gain above 1 there is a torque constant that is larger than
 //! described, or inertias and stiffness that are all smaller.
 //!
-//! With `phi` and `omega` the mean angle and speed, `delta` and `v` twist and slip, all states of the observer follow
-//! from the torque `tau` of the ended tick and from the innovation `i` by the model's own step. Eliminating `i` from
-//! `theta_m - theta_m^ = (1 - K_1) i` leaves the governor's torque as `u = -(Q tau + P theta_m)/D_o`, with `D_o` the
-//! polynomial of the observer's poles; all of it in closed form, in `z - 1`.
+//! With `phi` and `omega` the mean angle and speed, `delta` and `v` twist and twist rate, all states of the observer
+//! follow from the torque `tau` of the ended tick and from the innovation `i` by the model's own step. Eliminating `i`
+//! from `theta_m - theta_m^ = (1 - K_1) i` leaves the governor's torque as `u = -(Q tau + P theta_m)/D_o`, with `D_o`
+//! the polynomial of the observer's poles; all of it in closed form, in `z - 1`.
 
 use super::margins::{Margins, OpenLoop};
 use super::plant::{Plant, Twist};
@@ -41,7 +41,7 @@ struct Observer {
     share: f64,
     step: ExactStep,
     twist: Twist,
-    /// Whole angle of the motor, mean angle, mean speed, twist, slip, load torque, each per radian of innovation.
+    /// Whole angle of the motor, mean angle, mean speed, twist, twist rate, load torque, each per radian of innovation.
     angle: f64,
     mean_angle: f64,
     mean_speed: f64,
@@ -100,7 +100,7 @@ impl ClosedLoop {
         Self::close(&Observer::of_two_masses(observer), speed_loop, actuator)
     }
 
-    /// A speed loop on the estimates of one mass, which shows no slip.
+    /// A speed loop on the estimates of one mass, which has no twist rate.
     ///
     /// # Errors
     /// As [`of`](Self::of).
@@ -127,12 +127,13 @@ impl ClosedLoop {
         let [per_total, per_motor, per_load] = o.inverse;
         let n = &o.step;
         let square = &o.twist.denominator;
-        // Of the mean speed, and of the slip, times delta: the governor's law.
+        // Of the mean speed, and of the twist rate, times delta: the governor's law.
         let (damps, lags_damping) = first_order(damping_lag, t);
         let law = Polynomial::new([integral * t, proportional + integral * t]).times(&lags_damping);
         let law_of_slip = law.scaled(o.share).plus(slip, &damps.raised(1));
 
-        // What an innovation does: mean angle times delta^3; twist and slip beside what comes by the load torque; slip.
+        // Effect of an innovation: mean angle times delta^3; twist and twist rate without the load torque's part; twist
+        // rate.
         let glide = t * t * o.load_torque * per_total;
         let mean = Polynomial::new([-glide, t * o.mean_speed - 0.5 * glide, o.mean_angle]);
         let twisted = Polynomial::new([n.n12 * o.slip - n.n22 * o.twist_gain, o.twist_gain]);

@@ -67,7 +67,7 @@ impl LoopObserver<'_> {
 }
 
 impl TwoMass {
-    /// Stops where a speed loop does not bear its tolerances.
+    /// Stops where a speed loop lacks margin, or is unstable within its tolerances.
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_robust`](Self::try_robust) returns.
@@ -84,8 +84,8 @@ impl TwoMass {
         }
     }
 
-    /// Whether a speed loop on this machine, with its observer in it, has the margins that are asked for, and is stable
-    /// within the tolerances.
+    /// Whether a speed loop on this machine, with its observer in it, has the required margins, and is stable within
+    /// the tolerances.
     ///
     /// Nothing but stability is tested: at the nominal machine with the gain at both ends of its margin and the phase
     /// at its margin, and at all points of the tolerances, 32 for the usual ones.

@@ -25,12 +25,12 @@ pub trait LoopFilter<N: Number>: Default {
         twist_rate
     }
 
-    /// The setpoint that the last tick had for the loop.
+    /// The filtered setpoint of the last tick.
     fn filtered_setpoint(&self, ramped: N) -> N {
         ramped
     }
 
-    /// The twist rate that the last tick had for the active damping; `twist_rate` is the estimated one.
+    /// The filtered twist rate of the last tick; `twist_rate` is the estimated one.
     fn filtered_twist_rate(&self, twist_rate: N) -> N {
         twist_rate
     }
@@ -49,7 +49,7 @@ impl<N: Number, A: LoopFilter<N>, B: LoopFilter<N>> LoopFilter<N> for (A, B) {
     #[inline(always)]
     fn setpoint(&mut self, carry: &mut N::Carry, share: N::Coefficient, step: N, ramped: N) -> N {
         let first = self.0.setpoint(carry, share, step, ramped);
-        // The step of the first filter's output is not its input's: only one of the two filters the setpoint.
+        // The first filter's output has another step than its input. So only one of the two may filter the setpoint.
         self.1.setpoint(carry, share, step, first)
     }
 
@@ -75,7 +75,7 @@ impl<N: Number, A: LoopFilter<N>, B: LoopFilter<N>> LoopFilter<N> for (A, B) {
 /// eighth of the accelerating torque at the ends of a ramp (`e^-2` at a damping ratio of 1), and a ramp that begins at
 /// once lets the shaft swing with the whole accelerating torque. The lag's pole lies on the zero: no overshoot is left,
 /// and of the swing the part `1/sqrt(1 + (omega k_p/k_i)^2)`. The price is that the speed follows the ramp later by
-/// k_p/k_i, 2/bandwidth at a damping ratio of 1. Load torques are answered as without it.
+/// k_p/k_i, about 2/bandwidth at a damping ratio of 1. The response to load torques is that without it.
 ///
 /// The state is the distance to the ramp, which decays to nothing: no bit of the setpoint is lost.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

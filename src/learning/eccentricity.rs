@@ -12,8 +12,8 @@
 //! divides these by S at the present speed: amplitude and phase of the remaining error. Without the phase of S the
 //! estimate runs away.
 //!
-//! Where S is small the encoder's error cannot be told from the motion, and nothing is learnt. An error of once a turn
-//! that stems from the machine is taken for the encoder's, up to the bound.
+//! Where S is small the encoder's error cannot be distinguished from the motion, and nothing is learnt. An error of
+//! once a turn that stems from the machine is taken for the encoder's, up to the bound.
 
 use super::Finding;
 use crate::angle::Synchronous;
@@ -60,8 +60,8 @@ impl EccentricityConfig {
     /// For an observer of two masses, with amplitudes up to `bound` \[rad\] and blocks of `time` \[s\].
     ///
     /// # Panics
-    /// At compile time in a constant, for a bound that is not positive or beyond a tenth of a radian, or a time of no
-    /// hundred ticks.
+    /// At compile time in a constant, for a bound that is not positive or beyond a tenth of a radian, or a time of less
+    /// than a hundred ticks.
     pub const fn new(observer: &TwoMassDesign, bound: f64, time: f64) -> Self {
         let TwoMassDesign { period, machine, step, gains, mut poles, .. } = *observer;
         let mut k = 0;

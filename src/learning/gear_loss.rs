@@ -11,7 +11,7 @@
 //! does the torque constant.
 //!
 //! Only windows count in which speed and torque are steady, and only a pair that lies close in time without a closed
-//! brake between: a load that was changed would pass for a loss. A finding changes the friction once a second pair
+//! brake between: a change of the load would be taken for a loss. A finding changes the friction once a second pair
 //! agrees with it.
 
 use super::Finding;
@@ -38,8 +38,8 @@ impl GearLossConfig {
     /// rated torque on, pairs within ten seconds.
     ///
     /// # Panics
-    /// At compile time in a constant, for an interval that leaves no ten updates in a window, a rating that is not
-    /// positive, and efficiencies that do not rise within 0 to 1.
+    /// At compile time in a constant, for an interval that leaves fewer than ten updates in a window, a rating that is
+    /// not positive, and efficiencies that do not rise within 0 to 1.
     pub const fn new(torque: f64, speed: f64, efficiency: [f64; 2], every: f64) -> Self {
         assert!(every > 0.0 && every <= 0.05, "the gear's loss needs an update every 50 ms or more often");
         assert!(torque > 0.0 && speed > 0.0, "the rated torque and speed must be above zero");

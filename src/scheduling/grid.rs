@@ -41,8 +41,8 @@ impl<const K: usize> Axis<K> {
         if K < 2 { Err(RISING) } else { Ok(Axis { points: single }) }
     }
 
-    /// The point below a value and the way to the next; a value beyond the ends is taken to be at the end, one that is
-    /// not a number at the first point.
+    /// The point below a value and the weight of the next. A value beyond an end is taken to be at the end, NaN at the
+    /// first point.
     fn place(&self, value: f32) -> (usize, Weight) {
         let mut below = 0;
         let mut ends = [0.0, 1.0];

@@ -31,7 +31,7 @@ const fn added(design: &BacklashDesign, format: &Format) -> Added {
     let wide = format.widened;
     let per_angle = format.unit / (ANGLE_PER_RADIAN * format.innovation);
     let (contact, free, period) = (&design.contact.step, &design.free, design.contact.period);
-    // From a flank with the slip v: v' = (1 + n22) v and delta' = n12 v, where free flight has v and y = T v.
+    // From a flank with the twist rate v: v' = (1 + n22) v and delta' = n12 v, where free flight has v and y = T v.
     let damping = machine.damping / machine.reduced_inertia();
     let late = damping * (twist / twist_rate) / wide;
     let share = (-contact.n22 / period - damping) * (twist / twist_rate) / wide;

@@ -29,7 +29,7 @@ impl Machine for BalancedFan {
     const RATE_HZ: u32 = 4_000;
     const DISTURBANCE: Disturbance =
         Disturbance { load_torque_step: 0.3 * Self::RATING.torque, within: 2.0, ..Self::RATING.disturbance() };
-    /// Soft: a steady speed is what counts, and a stiff one would stir it with the encoder's counts. The fan outweighs
+    /// Soft: the speed must be steady, and a stiff loop would disturb it by the encoder's counts. The fan outweighs
     /// the motor eight times: without damping by the twist rate the coupling's swing grows where the coupling is softer
     /// and the torque late.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.05, damping: 1.0, shaft_damping: 0.3 };

@@ -32,8 +32,8 @@ impl Machine for BeltConveyor {
     const RATE_HZ: u32 = 1_000;
     /// The resistance to motion hardly changes while the belt runs.
     const DISTURBANCE: Disturbance = Disturbance { within: 100.0, ..Self::RATING.disturbance() };
-    /// The observer that takes the belt for rigid has to follow the belt's swing as if it were the load's doing, or the
-    /// speed loop would excite it.
+    /// The observer that takes the belt for rigid must follow the belt's swing as a change of the load torque, or the
+    /// speed loop would excite the swing.
     const RIGID_OBSERVER: RigidDesign =
         Self::CHAIN.rigid().observer(Self::RATE, Self::ENCODER, Disturbance { within: 1.0, ..Self::DISTURBANCE });
     /// The soft start.

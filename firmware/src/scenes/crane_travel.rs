@@ -41,8 +41,8 @@ impl Machine for CraneTravel {
         load_torque_step: 0.05 * Self::RATING.torque,
         within: 100.0,
     };
-    /// Seven tenths of the pendulum's frequency. With a damping ratio of 0.5 for the swing the loop would bear no more
-    /// than 1.4 times the torque: the observer finds the swing with a lag.
+    /// Seven tenths of the pendulum's frequency. With a damping ratio of 0.5 for the swing the loop would be
+    /// unstable beyond 1.4 times the torque: the observer estimates the swing with a lag.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.7, damping: 1.0, shaft_damping: 0.2 };
     const RAMP: f64 = Self::RATING.speed / 6.0;
     const BASES: Bases = Bases::new(&Self::TWO_MASS, 2.0 * Self::RATING.torque_limit, 1.34 * Self::RATING.speed);
@@ -70,7 +70,7 @@ pub const SELECTION: ObserverSelection = CraneTravel::TWO_MASS.select_observer(
 
 const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::SemiImplicit));
 
-/// A speed loop that follows the ramp with a lag of a third of the load's swing: the load hardly swings.
+/// A speed loop that follows the ramp with a lag of half a period of the load's swing: the load hardly swings.
 type Loop<N> = SpeedLoop<N, SetpointLag<N>>;
 
 /// One mass: the load fixed to the trolley.

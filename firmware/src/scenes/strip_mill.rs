@@ -33,7 +33,7 @@ impl Machine for StripMill {
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
     const RATE_HZ: u32 = 10_000;
     /// A tenth of the antiresonance, and a shaft that is damped after a strip's bite. Without the damping's lag a
-    /// lively observer and the vibration at 90 Hz that it does not know would excite one another.
+    /// fast observer and the vibration at 90 Hz, which its model leaves out, would excite one another.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.1, damping: 1.0, shaft_damping: 0.15 };
     const SPEED_LOOP: SpeedLoopDesign =
         Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING).with_damping_lag(1.0 / Self::TWO_MASS.resonance());

@@ -32,7 +32,7 @@ pub enum Flow {
         /// Whether entries have two bytes.
         wide: bool,
     },
-    /// Nowhere: an undefined instruction, where the compiler knows that execution never comes.
+    /// Nowhere: an undefined instruction, which the compiler puts where execution cannot come.
     Trap,
     /// To an address in a register or in memory, or out of the program.
     Unknown,

@@ -10,7 +10,7 @@ use crate::loops::Element;
 pub struct Piece {
     /// The function.
     pub function: String,
-    /// How many calls below the function that was asked for.
+    /// Depth of calls below the requested function.
     pub depth: usize,
     /// The first instruction.
     pub from: u32,

@@ -1,7 +1,7 @@
 //! The scenes that campaigns are run of, with their tolerances.
 //!
-//! The tolerances are those of a class of machine. Those of inertias, stiffness and torque are the ones that the design
-//! of a speed loop is to bear, [`driveline::design::Tolerance::USUAL`]; nothing is calibrated.
+//! The tolerances are those of a class of machine. Those of inertias, stiffness and torque are those for which
+//! speed loops are designed, [`driveline::design::Tolerance::USUAL`]; nothing is calibrated.
 
 use core::f64::consts::PI;
 
@@ -48,7 +48,7 @@ impl CampaignScene {
 /// A minute of arc [rad].
 const ARCMINUTE: f64 = PI / 10_800.0;
 
-/// The range of a ratio that the design of a loop is to bear.
+/// The range of a ratio for which a loop is designed.
 const fn usual(factor: Factor, spread: Spread) -> Tolerance {
     Tolerance::new(factor, spread.min, spread.max)
 }
@@ -96,7 +96,7 @@ const LIFTS: &[Tolerance] = &[
     Tolerance::new(Factor::Efficiency, -0.03, 0.03),
 ];
 
-/// The crane's: the load and the length of the pendulum, as far as the drive knows them.
+/// The crane's: load and length of the pendulum, to the accuracy of the drive's constants.
 const SWINGS: &[Tolerance] = &[Tolerance::new(Factor::Load, 0.9, 1.1), Tolerance::new(Factor::Rope, 0.9, 1.1)];
 
 /// The spindles' gap, which wears.

@@ -33,7 +33,7 @@ pub trait Step<N: Swept>: Observer<N> + Copy {
     /// The constants with corrections that set a state when the angle has turned by [`KICK`].
     fn kicked(config: &Self::Config, design: &TwoMassDesign, bases: Bases, start: Start) -> Self::Config;
 
-    /// The step of the free pair as stored: twist and slip, or slip and shaft torque.
+    /// The step of the free pair as stored: twist and twist rate, or twist rate and shaft torque.
     fn increments(config: &Self::Config) -> Increments;
 }
 
@@ -130,7 +130,7 @@ macro_rules! steps {
                 SemiImplicitConfig { correction: [Default::default(), Default::default(), shaft, load], ..*config }
             }
 
-            // slip -= c torque, then torque += s0 slip' + s1 slip.
+            // rate -= c torque, then torque += s0 rate' + s1 rate, with the twist rate.
             fn increments(config: &Self::Config) -> Increments {
                 let softness = <$number>::coefficient(config.motor) + <$number>::coefficient(config.load);
                 let [new, old] = config.shaft.map(<$number>::coefficient);

@@ -108,7 +108,7 @@ fn radius(machine: &TwoMass, o: &TwoMassDesign, l: &SpeedLoopDesign, actuator: A
     sizes[size - 2]
 }
 
-/// Other machines than the observer knows, at three rates, prompt and late: at the margin's edge the largest pole of
+/// Other machines than the observer's model, at three rates, prompt and late: at the margin's edge the largest pole of
 /// the matrix is on the unit circle.
 #[test]
 fn gain_margins_and_ranges_are_where_a_pole_leaves_the_circle() {

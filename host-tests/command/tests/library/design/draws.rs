@@ -1,7 +1,7 @@
 //! Machines drawn from the tolerances of each scene: the loop with its observer in it stays stable, with 6 dB to spare.
 //!
-//! By the closed forms alone: the chain with all its vibrations, sampled, and a speed loop that knows the machine that
-//! is described. `closed_loop.rs` tests them against the full plant.
+//! By the closed forms alone: the chain with all its vibrations, sampled, and a speed loop designed for the machine as
+//! described. `closed_loop.rs` tests them against the full plant.
 
 use driveline::configure::{Configure, LoopPart, Machine};
 use driveline::design::{

@@ -1,4 +1,4 @@
-//! An axis on a board that does as it is told: what becomes of a fault.
+//! An axis on a scripted board: the effect of each fault.
 
 use std::cell::RefCell;
 use std::f64::consts::TAU;
@@ -28,7 +28,7 @@ pub fn turned(tick: u64) -> u32 {
 type Asked<T> = Box<dyn FnMut(u64) -> Result<T, Faults>>;
 type Told<T> = Box<dyn FnMut(T) -> Result<(), Faults>>;
 
-/// A board of closures, and what it was told.
+/// A board of closures, and its commands.
 pub struct Scripted {
     pub tick: u64,
     /// Ticks that the board has missed before the next one.

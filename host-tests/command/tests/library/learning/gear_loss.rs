@@ -76,7 +76,7 @@ fn a_torque_that_is_reported_too_small_gives_the_same_loss() {
     assert!((f64::from(feed.learner.friction()) - friction(0.9)).abs() < 0.004);
 }
 
-/// Nothing that is fed in here is a lift and a lowering of one load: the friction stays as it was told.
+/// Nothing that is fed in here is a lift and a lowering of one load: the friction stays as it was set.
 #[test]
 fn nonsense_changes_nothing() {
     type Nonsense = (&'static str, fn(&mut Feed));
