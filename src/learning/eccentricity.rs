@@ -272,6 +272,8 @@ impl<N: Correction, O: Observer<N>> Observer<N> for EccentricityObserver<N, O> {
         let corrected = angle.wrapping_sub(N::error(self.eccentricity, direction::<N>(angle)) as u32);
         self.observer.restart(config, corrected, torque, speed);
         self.measured = angle;
+        self.learner.unconfirmed = None;
+        self.begin(0.0);
     }
 
     fn switch(&mut self, from: &O::Config, to: &O::Config) {
@@ -285,6 +287,8 @@ impl<N: Correction, O: Observer<N>> Observer<N> for EccentricityObserver<N, O> {
     fn resync(&mut self, angle: u32) {
         self.observer.resync(angle.wrapping_sub(N::error(self.eccentricity, direction::<N>(angle)) as u32));
         self.measured = angle;
+        self.learner.unconfirmed = None;
+        self.begin(0.0);
     }
 
     #[inline(always)]

@@ -113,7 +113,7 @@ impl GearLoss {
 
     /// The brake has closed, or the load may have changed: the windows so far have no partner.
     pub fn interrupt(&mut self) {
-        (self.count, self.last) = (0, None);
+        (self.count, self.sums, self.last) = (0, [0.0; 2], None);
     }
 
     /// Takes the motor's reported torque \[N m\] and speed \[rad/s\], between the ticks at a steady rate.
@@ -147,9 +147,13 @@ impl GearLoss {
             return Finding::None;
         }
         let now = Steady { speed, torque, age: 0 };
-        match self.last.replace(now) {
+        // A window has one partner: a wrong one would bias two findings alike, and they would confirm each other.
+        match self.last.take() {
             Some(last) if last.speed * speed < 0.0 => self.pair(config, last, now),
-            _ => Finding::None,
+            _ => {
+                self.last = Some(now);
+                Finding::None
+            }
         }
     }
 
