@@ -28,12 +28,13 @@ impl RopeLength {
     }
 
     /// Takes angle [2^-32 turn] and speed of the motor \[rad/s\], `elapsed` \[s\] after the last update. A speed that
-    /// is not finite counts as the last one.
+    /// is not finite counts as the last one, such a time as none.
     pub fn update(&mut self, angle: u32, speed: f32, elapsed: f32) -> f32 {
         let speed = if speed.is_finite() { speed } else { self.speed };
+        let elapsed = if elapsed.is_finite() { elapsed } else { 0.0 };
         let predicted = (0.5 * (self.speed + speed) * elapsed * PER_RADIAN) as i64;
         let beside = angle.wrapping_sub(self.angle).wrapping_sub(predicted as u32) as i32;
-        self.wound += predicted + i64::from(beside);
+        self.wound = self.wound.saturating_add(predicted.saturating_add(i64::from(beside)));
         (self.angle, self.speed) = (angle, speed);
         self.length()
     }
@@ -73,5 +74,9 @@ mod tests {
         assert!((f64::from(rope.length()) - expected).abs() < 1e-5, "{} {expected}", rope.length());
         rope.resync(12.0);
         assert_eq!(rope.length(), 12.0);
+        // what cannot be neither stops the drive nor leaves a length that is not a number
+        for (speed, elapsed) in [(f32::MAX, 1.0), (f32::MAX, f32::INFINITY), (f32::NAN, f32::NAN), (-f32::MAX, 1e30)] {
+            assert!(rope.update(7, speed, elapsed).is_finite());
+        }
     }
 }
