@@ -67,10 +67,20 @@ pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
     }
     let ratio = |figure: Figure| {
         let pairs = first.1.iter().filter_map(|(number, one)| Some((*number, one, second.1.get(number)?)));
-        // a part of a peak that is not there has no ratio
-        let pairs = pairs.filter(|(_, _, other)| !(other.of(figure) <= 0.0));
+        // a part of a peak that is not there has no ratio; beside a swing that does not decay any decay is better
+        let pairs = pairs.filter(|(_, _, other)| figure == Figure::Decay || !(other.of(figure) <= 0.0));
+        let over = |one: f64, other: f64| match one / other {
+            _ if figure == Figure::Decay && other <= 0.0 => {
+                if one >= other {
+                    f64::INFINITY
+                } else {
+                    0.0
+                }
+            }
+            ratio => ratio,
+        };
         let mut ratios: Vec<(f64, u64)> =
-            pairs.map(|(number, one, other)| (one.of(figure) / other.of(figure), number)).collect();
+            pairs.map(|(number, one, other)| (over(one.of(figure), other.of(figure)), number)).collect();
         // not a number is worst
         let badness = |ratio: f64| if ratio.is_nan() { f64::INFINITY } else { figure.badness(ratio) };
         ratios.sort_by(|x, y| badness(x.0).total_cmp(&badness(y.0)));

@@ -200,12 +200,13 @@ fn distribution(drawn: &Drawn, figure: Figure, nominal: &Outcome) -> Distributio
     order.sort_by(|&a, &b| badness(values[a]).total_cmp(&badness(values[b])));
     let sorted: Vec<f64> = order.iter().map(|&at| values[at]).collect();
     let worst = order.last().copied();
+    let (one, other) = median_range(&sorted);
     Distribution {
         name: figure.name(),
         unit: figure.unit(),
         nominal: nominal.of(figure),
         median: quantile(&sorted, 0.5),
-        median_range: median_range(&sorted),
+        median_range: (one.min(other), one.max(other)),
         p90: quantile(&sorted, 0.9),
         worst: worst.map_or(f64::NAN, |at| values[at]),
         worst_draw: worst.map_or(0, |at| drawn.draws[at].0.number),
