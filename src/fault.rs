@@ -42,7 +42,7 @@ impl Faults {
     pub const ENABLE: Faults = Faults(1 << 27);
     /// The axis has tripped: no torque, its enable chain taken back, until it is started again.
     pub const TRIPPED: Faults = Faults(1 << 28);
-    /// Ticks did not run before this one; they were made up by prediction.
+    /// Ticks did not run before this one; up to [`MADE_UP`](crate::drive::MADE_UP) were made up by prediction.
     pub const TICK_MISSED: Faults = Faults(1 << 30);
 
     /// Every flag with its name.

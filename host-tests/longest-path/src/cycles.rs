@@ -69,7 +69,7 @@ fn short(word: u16) -> Cycles {
         _ => {}
     }
     match word >> 11 {
-        0b01001 | 0b01010..=0b10011 => ACCESS,        // LDR, STR and the like
+        0b01001..=0b10011 => ACCESS,                  // LDR, STR and the like
         0b11000 | 0b11001 => registers(word & 0xff),  // STM, LDM
         _ if word >> 8 == 0x47 => exactly(1) + TAKEN, // BX, BLX
         _ if word & 0xff87 == 0x4687 || word & 0xff87 == 0x4487 => exactly(1) + TAKEN, // into the program counter

@@ -87,7 +87,7 @@ impl LongestPath {
         say(table(&pieces));
         let counted = counted.map_or(String::new(), |counted| format!("; most counted: {counted}"));
         say(format!("{name}: at most {instructions} instructions and {stack} bytes of stack{counted}"));
-        say(format!("at most {least} to {most} cycles on {}, without wait states", self.core));
+        say(format!("{least} to {most} cycles on {}, without wait states", self.core));
         Ok(())
     }
 
