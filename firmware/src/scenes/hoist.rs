@@ -87,9 +87,8 @@ impl<const RATE_HZ: u32> Machine for Hoist<RATE_HZ> {
     const DISTURBANCE: Disturbance =
         Disturbance { load_torque_step: 300.0, within: 50.0, ..Self::RATING.disturbance() };
     /// At 1 kHz `Reduced` overrules the design, which chooses the exact step there, to show the cost.
-    const OBSERVER: TwoMassDesign = Self::TWO_MASS
-        .observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE)
-        .with_step(StepChoice::SemiImplicit);
+    const OBSERVER: TwoMassDesign =
+        Self::TWO_MASS.observer(Self::RATE, Self::ENCODER, Self::DISTURBANCE).with_step(StepChoice::SemiImplicit);
     const TUNING: SpeedLoopTuning = SpeedLoopTuning::USUAL;
     /// An empty hook of 0.5 t to 13 t, on 30 m to 5 m of rope where the chain has 12 m.
     const TOLERANCE: Tolerance = Tolerance {

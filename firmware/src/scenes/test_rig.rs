@@ -36,8 +36,7 @@ impl Machine for TestRig {
         within: 1.0,
     };
     /// Its drive controls the current with 1 kHz, as servo drives of that size do.
-    const TOLERANCE: Tolerance =
-        Tolerance { lag: 1.0 / (core::f64::consts::TAU * 1_000.0), ..Tolerance::USUAL };
+    const TOLERANCE: Tolerance = Tolerance { lag: 1.0 / (core::f64::consts::TAU * 1_000.0), ..Tolerance::USUAL };
     const RAMP: f64 = Self::RATING.speed / 3.0;
     /// Two thirds over the largest torque; 1/128 turn, more than that torque moves the motor before the observer has
     /// followed; two counts; 15 ms without an angle.
