@@ -140,18 +140,20 @@ impl SpeedLoop {
         let observer = LoopObserver::TwoMass(observer);
         let least = two.least_margins(observer, governor, Actuator::DIRECT, TOLERANCE);
         let robust = two.try_robust(observer, governor, Actuator::DIRECT, TOLERANCE, &Robustness::USUAL);
+        let no_margins = margins.as_ref().err().map(|error| match robust {
+            Ok(()) => NEGLECTED,
+            Err(_) => error.message(),
+        });
         Ok(Self {
             proportional: governor.proportional,
             integral: governor.integral,
             damping: governor.damping,
             bandwidth: governor.bandwidth,
-            no_margins: margins.as_ref().err().map(|error| match robust {
-                Ok(()) => NEGLECTED,
-                Err(_) => error.message(),
-            }),
+            no_margins,
             margins: margins.ok(),
-            least_margins: least.ok().map(|least| LeastMargins::of(&least)),
-            not_robust: robust.err().map(Error::message),
+            // those of two masses, which mean nothing where the whole machine is unstable
+            least_margins: least.ok().filter(|_| no_margins.is_none()).map(|least| LeastMargins::of(&least)),
+            not_robust: robust.err().map(Error::message).or(no_margins),
             spectral_radius: governor.spectral_radius,
         })
     }

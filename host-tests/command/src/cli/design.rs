@@ -172,6 +172,7 @@ fn within_tolerances(speed_loop: &SpeedLoop) -> String {
          a tick late, current control of 500 Hz)";
     let refused = speed_loop.not_robust.map_or_else(String::new, |why| format!("warning: {why}\n"));
     match &speed_loop.least_margins {
+        None if speed_loop.margins.is_none() => String::new(),
         None => none(WHERE, speed_loop.not_robust),
         Some(least) => format!(
             "{WHERE}: gain up {}, gain down {}, phase {}, delay {}, distance from -1 {}\n{refused}",
