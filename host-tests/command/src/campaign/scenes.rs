@@ -5,9 +5,13 @@
 
 use core::f64::consts::PI;
 
-use driveline::configure::Machine as _;
+use driveline::configure::Machine as Designed;
 use driveline::design::{SpeedLoopDesign, Spread, Tolerance as Usual};
-use driveline_firmware::scenes::{blooming_mill, crane_travel, hoist, spindle, strip_mill};
+use driveline_firmware::scenes::blooming_mill::{self, BloomingMill};
+use driveline_firmware::scenes::crane_travel::{self, CraneTravel};
+use driveline_firmware::scenes::hoist::{self, Hoist};
+use driveline_firmware::scenes::spindle::{self, Spindle};
+use driveline_firmware::scenes::strip_mill::{self, StripMill};
 use driveline_solver::plant::PlantError;
 
 use super::factor::{Factor, Tolerance};
@@ -39,6 +43,27 @@ pub struct CampaignScene {
 }
 
 impl CampaignScene {
+    /// A scene with ratings, ramp and speed loop of the design that its firmware is built from.
+    const fn of<M: Designed>(
+        name: &'static str,
+        departing: fn(&Departure) -> Result<Machine, PlantError>,
+        tolerances: [&'static [Tolerance]; 2],
+        lines: f64,
+        free: (f64, f64),
+    ) -> Self {
+        CampaignScene {
+            name,
+            departing,
+            tolerances,
+            lines,
+            rated_torque: M::RATING.torque,
+            torque_limit: M::RATING.torque_limit,
+            ramp: M::RAMP,
+            speed_loop: M::SPEED_LOOP,
+            free,
+        }
+    }
+
     /// Its tolerances.
     pub fn tolerances(&self) -> Vec<Tolerance> {
         [DRAWINGS, self.tolerances[0], self.tolerances[1]].concat()
@@ -104,59 +129,33 @@ const GAP: &[Tolerance] = &[Tolerance::new(Factor::Gap, 0.7, 1.3)];
 
 /// The scenes.
 pub const SCENES: [CampaignScene; 5] = [
-    CampaignScene {
-        name: hoist::SCENE,
-        departing: drivetrains::hoist::departing,
-        tolerances: [CRANE, LIFTS],
-        lines: 2048.0,
-        rated_torque: hoist::Hoist::<10_000>::RATING.torque,
-        torque_limit: hoist::Hoist::<10_000>::RATING.torque_limit,
-        ramp: hoist::Hoist::<10_000>::RAMP,
-        speed_loop: hoist::Hoist::<10_000>::SPEED_LOOP,
-        free: (6.1, 8.0),
-    },
-    CampaignScene {
-        name: strip_mill::SCENE,
-        departing: drivetrains::strip_mill::departing,
-        tolerances: [MILL, &[]],
-        lines: 4096.0,
-        rated_torque: strip_mill::StripMill::RATING.torque,
-        torque_limit: strip_mill::StripMill::RATING.torque_limit,
-        ramp: strip_mill::StripMill::RAMP,
-        speed_loop: strip_mill::StripMill::SPEED_LOOP,
-        free: (7.1, 9.0),
-    },
-    CampaignScene {
-        name: spindle::SCENE,
-        departing: drivetrains::spindle::departing,
-        tolerances: [MACHINE_TOOL, &[]],
-        lines: 512.0,
-        rated_torque: spindle::Spindle::RATING.torque,
-        torque_limit: spindle::Spindle::RATING.torque_limit,
-        ramp: spindle::Spindle::RAMP,
-        speed_loop: spindle::Spindle::SPEED_LOOP,
-        free: (1.503, 1.56),
-    },
-    CampaignScene {
-        name: blooming_mill::SCENE,
-        departing: drivetrains::blooming_mill::departing,
-        tolerances: [MILL, GAP],
-        lines: 8192.0,
-        rated_torque: blooming_mill::BloomingMill::RATING.torque,
-        torque_limit: blooming_mill::BloomingMill::RATING.torque_limit,
-        ramp: blooming_mill::BloomingMill::RAMP,
-        speed_loop: blooming_mill::BloomingMill::SPEED_LOOP,
-        free: (5.8, 6.6),
-    },
-    CampaignScene {
-        name: crane_travel::SCENE,
-        departing: drivetrains::crane_travel::departing,
-        tolerances: [CRANE, SWINGS],
-        lines: 1024.0,
-        rated_torque: crane_travel::CraneTravel::RATING.torque,
-        torque_limit: crane_travel::CraneTravel::RATING.torque_limit,
-        ramp: crane_travel::CraneTravel::RAMP,
-        speed_loop: crane_travel::CraneTravel::SPEED_LOOP,
-        free: (32.0, 40.0),
-    },
+    CampaignScene::of::<Hoist<10_000>>(hoist::SCENE, drivetrains::hoist::departing, [CRANE, LIFTS], 2048.0, (6.1, 8.0)),
+    CampaignScene::of::<StripMill>(
+        strip_mill::SCENE,
+        drivetrains::strip_mill::departing,
+        [MILL, &[]],
+        4096.0,
+        (7.1, 9.0),
+    ),
+    CampaignScene::of::<Spindle>(
+        spindle::SCENE,
+        drivetrains::spindle::departing,
+        [MACHINE_TOOL, &[]],
+        512.0,
+        (1.503, 1.56),
+    ),
+    CampaignScene::of::<BloomingMill>(
+        blooming_mill::SCENE,
+        drivetrains::blooming_mill::departing,
+        [MILL, GAP],
+        8192.0,
+        (5.8, 6.6),
+    ),
+    CampaignScene::of::<CraneTravel>(
+        crane_travel::SCENE,
+        drivetrains::crane_travel::departing,
+        [CRANE, SWINGS],
+        1024.0,
+        (32.0, 40.0),
+    ),
 ];
