@@ -248,3 +248,41 @@ impl Position {
         if unsure { Crossing::Lost } else { Crossing::Passed }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{CycleConfig, Position};
+
+    /// Two thirds of 2^-32 turn over at each end of a cycle: in three cycles 2 units, and nothing is left.
+    #[test]
+    fn the_remainders_of_cycles_add_up_to_whole_units_both_ways() {
+        let cycle = CycleConfig {
+            length: 1 << 28,
+            last_segment: 3,
+            whole: 5,
+            part: 2,
+            divisor: 3,
+            angle: 1.0,
+            period: 1.0,
+            speed: 1.0,
+            torque: 1.0,
+        };
+        let mut position = Position::default();
+        let mut excess = [0; 6];
+        for extra in &mut excess {
+            position.measure(&cycle);
+            *extra = position.extra;
+            position.next_cycle(&cycle);
+            position.carry_on(&cycle);
+        }
+        // 5 + 2/3 each: 5, 11, 17 after one, two, three
+        assert_eq!(excess, [5, 6, 6, 5, 6, 6]);
+        assert_eq!(position.carry, 0);
+        for expected in excess.iter().rev() {
+            position.carry_back(&cycle);
+            position.measure(&cycle);
+            assert_eq!(position.extra, *expected);
+        }
+        assert_eq!(position.carry, 0);
+    }
+}

@@ -143,6 +143,8 @@ pub enum Wrong {
     Parity,
     ErrorBit,
     Magnet,
+    Strong,
+    Overflow,
     Low,
     High,
 }
@@ -175,6 +177,9 @@ impl Frames {
             Wrong::ErrorBit => (even(SOUND), even(counts | 0x4000)),
             // too weak: the gain is at its end
             Wrong::Magnet => (even(SOUND | 0x08ff), even(counts)),
+            // MAGH and COF alone [AS5047P datasheet, table 13]
+            Wrong::Strong => (even(SOUND | 1 << 10), even(counts)),
+            Wrong::Overflow => (even(SOUND | 1 << 9), even(counts)),
             Wrong::Low => (0, 0),
             Wrong::High => (0xffff, 0xffff),
         };
@@ -182,7 +187,7 @@ impl Frames {
         if wrong != Wrong::High {
             self.expected.exchange(&DIAGNOSIS, &angle.to_be_bytes());
         }
-        if !matches!(wrong, Wrong::Magnet | Wrong::Low) {
+        if !matches!(wrong, Wrong::Magnet | Wrong::Strong | Wrong::Overflow | Wrong::Low) {
             self.expected.exchange(&ERRORS, &[0, 0]);
             self.primed = false;
         }
@@ -215,7 +220,9 @@ fn the_older_chip_has_its_diagnosis_elsewhere() {
 
 #[test]
 fn whatever_is_wrong_there_is_no_angle_and_the_next_one_is_new() {
-    for wrong in [Wrong::Bus, Wrong::Parity, Wrong::ErrorBit, Wrong::Magnet, Wrong::Low, Wrong::High] {
+    let magnet = [Wrong::Magnet, Wrong::Strong, Wrong::Overflow];
+    let bus = [Wrong::Bus, Wrong::Parity, Wrong::ErrorBit, Wrong::Low, Wrong::High];
+    for wrong in magnet.into_iter().chain(bus) {
         let mut frames = Frames::default();
         frames.good(100);
         frames.wrong(200, wrong);

@@ -1,0 +1,183 @@
+//! The drive's own part: screening, the stand-in torque, the lost angle, and what the other parts are told.
+
+use driveline::balancing::Balancer;
+use driveline::drive::{Config, Drive, Limits};
+use driveline::fault::Faults;
+use driveline::fluctuation::Fluctuation;
+use driveline::governor::{SpeedLoop, SpeedLoopConfig};
+use driveline::observer::RigidObserver;
+use driveline::sample::{Estimate, Sample};
+
+use super::UNIT;
+
+const LIMITS: Limits<f64> =
+    Limits { torque: 10.0, setpoint: 1000.0, innovation: 100.0, frozen_turn: 2.0, max_coast: 3 };
+
+/// Counts what a drive tells its fluctuation or its balancer.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Told {
+    measured: u32,
+    disturbed: u32,
+}
+
+impl Fluctuation<f64> for Told {
+    type Config = ();
+
+    fn measure(&mut self, (): &(), _angle: u32, _torque: f64, _estimate: &Estimate<f64>) {
+        self.measured += 1;
+    }
+
+    fn disturb(&mut self) {
+        self.disturbed += 1;
+    }
+}
+
+impl Balancer<f64> for Told {
+    type Config = ();
+    type Vibration = f64;
+
+    fn measure(&mut self, (): &(), _angle: u32, _vibration: &f64) {
+        self.measured += 1;
+    }
+
+    fn missed(&mut self, _faults: Faults) {
+        self.disturbed += 1;
+    }
+}
+
+type Watched = Drive<f64, RigidObserver<f64>, Told, (), Told>;
+
+const WATCHED: driveline::drive::ConfigOf<Watched> =
+    Config { limits: LIMITS, observer: UNIT, fluctuation: (), governor: (), balancer: () };
+
+/// Disturbances told by one action on a fresh drive, or on one that has lost its angle.
+fn disturbed(lost: bool, action: impl FnOnce(&mut Watched)) -> u32 {
+    let mut drive = Watched::new(&WATCHED, 0);
+    for _ in 0..if lost { 4 } else { 0 } {
+        drive.coast(&WATCHED, 0.0, 0.0);
+    }
+    assert_eq!(drive.is_lost(), lost);
+    let before = drive.fluctuation().disturbed;
+    action(&mut drive);
+    drive.fluctuation().disturbed - before
+}
+
+#[test]
+fn the_fluctuation_is_told_of_every_tick_without_an_angle() {
+    let at = |angle| Sample { angle, torque: 0.0, setpoint: 0.0 };
+    let tick = |angle| {
+        move |drive: &mut Watched| {
+            drive.tick(&WATCHED, &at(angle));
+        }
+    };
+    let coast = |drive: &mut Watched| {
+        drive.coast(&WATCHED, 0.0, 0.0);
+    };
+    let hold = |drive: &mut Watched| {
+        drive.hold(&WATCHED, 0, 0.0);
+    };
+    let miss = |drive: &mut Watched| {
+        drive.make_up(&WATCHED, 0.0, 1);
+    };
+    assert_eq!(disturbed(false, tick(0)), 0);
+    assert_eq!(disturbed(false, tick(101)), 1, "an angle that jumps");
+    assert_eq!(disturbed(false, coast), 1, "no angle");
+    assert_eq!(disturbed(false, hold), 1, "the brake");
+    assert_eq!(disturbed(false, miss), 1, "a missed tick");
+    assert_eq!(disturbed(true, tick(0)), 1, "lost, and seen again");
+    assert_eq!(disturbed(true, coast), 1, "lost, and still without an angle");
+}
+
+#[test]
+fn fluctuation_and_balancer_measure_once_a_tick() {
+    let mut drive = Watched::new(&WATCHED, 0);
+    drive.tick(&WATCHED, &Sample { angle: 0, torque: 0.0, setpoint: 0.0 });
+    drive.vibration(&WATCHED, &0.0);
+    assert_eq!(*drive.fluctuation(), Told { measured: 1, disturbed: 0 });
+    assert_eq!(*drive.balancer(), Told { measured: 1, disturbed: 0 });
+    drive.vibration_missing(Faults::VIBRATION_CLIPPED);
+    drive.make_up(&WATCHED, 0.0, 2);
+    assert_eq!(*drive.balancer(), Told { measured: 1, disturbed: 2 });
+}
+
+/// Angles after the loss, `None` for a blind tick; whether the drive has its angle again after each.
+fn search(angles: &[Option<u32>]) -> Vec<bool> {
+    let mut drive = Watched::new(&WATCHED, 0);
+    for _ in 0..4 {
+        drive.coast(&WATCHED, 0.0, 0.0);
+    }
+    let one = |angle: &Option<u32>| {
+        match *angle {
+            Some(angle) => drive.tick(&WATCHED, &Sample { angle, torque: 0.0, setpoint: 0.0 }),
+            None => drive.coast(&WATCHED, 0.0, 0.0),
+        };
+        !drive.is_lost()
+    };
+    angles.iter().map(one).collect()
+}
+
+/// A machine may run at up to twice the largest setpoint, 1,000 of 2^-32 turn a tick.
+#[test]
+fn a_lost_angle_is_found_up_to_twice_the_largest_setpoint() {
+    for turned in [5, 999, 1001, 1500, 1999] {
+        assert_eq!(search(&[Some(50_000), Some(50_000 + turned)]), [false, true], "{turned}");
+        assert_eq!(search(&[Some(50_000), Some(50_000 - turned)]), [false, true], "-{turned}");
+    }
+    for turned in [2001, 5000] {
+        assert_eq!(search(&[Some(50_000), Some(50_000 + turned)]), [false, false], "{turned}");
+        assert_eq!(search(&[Some(50_000), Some(50_000 - turned)]), [false, false], "-{turned}");
+    }
+    // the angle after one that was too far is judged against that one
+    assert_eq!(search(&[Some(50_000), Some(60_000), Some(60_100)]), [false, false, true]);
+}
+
+#[test]
+fn a_blind_tick_begins_the_search_anew() {
+    assert_eq!(search(&[Some(50_000), None, Some(50_100), Some(50_200)]), [false, false, false, true]);
+    // and so does an angle that stands
+    assert_eq!(search(&[Some(50_000), Some(50_000), Some(50_100), Some(50_200)]), [false, false, false, true]);
+}
+
+type Governed = Drive<f64, RigidObserver<f64>, (), SpeedLoop<f64>>;
+
+const GOVERNED: driveline::drive::ConfigOf<Governed> = Config {
+    limits: LIMITS,
+    observer: UNIT,
+    fluctuation: (),
+    governor: SpeedLoopConfig {
+        proportional: 0.5,
+        integral: 0.0,
+        damping: 0.0,
+        anti_windup: 0.0,
+        torque_limit: 8.0,
+        ramp: 4.0,
+        filter: (),
+    },
+    balancer: (),
+};
+
+/// Speed after one more tick with a torque that is not a number: the stand-in's, as the inertia is one.
+fn stand_in(mut drive: Governed) -> f64 {
+    let before = drive.estimate(&GOVERNED).motor_speed;
+    let command = drive.coast(&GOVERNED, f64::NAN, 0.0);
+    assert!(command.faults.contains(Faults::TORQUE));
+    drive.estimate(&GOVERNED).motor_speed - before
+}
+
+#[test]
+fn the_last_command_stands_in_for_a_torque_that_cannot_be() {
+    let mut drive = Governed::new(&GOVERNED, 0);
+    // the ramp's first step of 4 times the gain of a half
+    let command = drive.tick(&GOVERNED, &Sample { angle: 0, torque: 0.0, setpoint: 100.0 });
+    assert_eq!(command.torque, 2.0);
+    assert_eq!(stand_in(drive), 2.0);
+    let mut engaged = drive;
+    engaged.engage(&GOVERNED);
+    assert_eq!(stand_in(engaged), 0.0, "after `engage` nothing has been commanded");
+    let mut held = drive;
+    assert_eq!(held.hold(&GOVERNED, 0, 3.0).torque, 3.0);
+    // the load carries the 3 N m, so that they accelerate nothing
+    assert_eq!(stand_in(held), 0.0, "after `hold` its torque stands in");
+    held.hold(&GOVERNED, 0, 11.0);
+    assert_eq!(held.estimate(&GOVERNED).load_torque, 0.0, "a torque beyond the limit holds with none");
+}

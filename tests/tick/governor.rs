@@ -1,0 +1,128 @@
+//! Single ticks of the governors.
+
+use driveline::governor::{
+    Gains, Governor, MovingAverage, MovingAverageConfig, RunRequest, RunState, Sequencer, SequencerConfig, Slew,
+    SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SpeedRange,
+    SymmetricLimit, SymmetricLimitConfig,
+};
+use driveline::number::{Coefficient, Fixed};
+use driveline::sample::Estimate;
+
+const GAINS: Gains<f64> = Gains { proportional: 1.0, integral: 0.0, anti_windup: 0.0, ramp: 10.0 };
+
+fn at(speed: f64) -> Estimate<f64> {
+    Estimate { motor_speed: speed, shaft_torque: 0.0, load_speed: speed, load_torque: 0.0 }
+}
+
+/// An integral within the limit leaves the next command as soon as an error asks for less.
+#[test]
+fn a_start_beyond_the_torque_limit_starts_at_the_limit() {
+    let config = SpeedLoopConfig::<f64> {
+        proportional: 1.0,
+        integral: 0.0,
+        damping: 0.0,
+        anti_windup: 0.0,
+        torque_limit: 50.0,
+        ramp: 0.0,
+        filter: (),
+    };
+    for sign in [1.0, -1.0] {
+        let mut governor = SpeedLoop::<f64>::default();
+        governor.start(&config, &at(0.0), sign * 1000.0);
+        assert_eq!(governor.command(&config, &at(sign * 10.0)), sign * 40.0);
+    }
+}
+
+type Slewed = SpeedGovernor<f64, (), (), Slew<f64, SymmetricLimit>>;
+
+#[test]
+fn the_slew_starts_from_the_torque_that_there_is() {
+    let limit = SlewConfig { step: 2.0, limit: SymmetricLimitConfig { torque: 100.0 } };
+    let config = SpeedGovernorConfig { gains: GAINS, shape: (), compensation: (), limit, sequence: (), filter: () };
+    let mut governor = Slewed::default();
+    governor.start(&config, &at(0.0), 30.0);
+    // with the machine 20 rad/s too fast the loop wants 10 N m; the slew allows 28, 26 ...
+    assert_eq!(governor.command(&config, &at(20.0)), 28.0);
+    assert_eq!(governor.command(&config, &at(20.0)), 26.0);
+    governor.start(&config, &at(0.0), -30.0);
+    assert_eq!(governor.command(&config, &at(-20.0)), -28.0);
+}
+
+type Sequenced = SpeedGovernor<f64, (), (), SymmetricLimit, Sequencer>;
+
+const SEQUENCE: SequencerConfig<f64> = SequencerConfig {
+    running: SpeedRange { middle: 100.0, half: 20.0 },
+    allowed: SpeedRange { middle: 50.0, half: 100.0 },
+    shaft_torque: 1000.0,
+    standstill: 1.0,
+    trip_delay: 2,
+    underspeed_delay: 100,
+    start: 1000,
+};
+
+const SEQUENCED: driveline::governor::SpeedGovernorConfigOf<f64, (), (), SymmetricLimit, Sequencer> =
+    SpeedGovernorConfig {
+        gains: GAINS,
+        shape: (),
+        compensation: (),
+        limit: SymmetricLimitConfig { torque: 100.0 },
+        sequence: SEQUENCE,
+        filter: (),
+    };
+
+#[test]
+fn braking_goes_to_standstill_and_forgets_no_setpoint() {
+    let mut governor = Sequenced::default();
+    governor.start(&SEQUENCED, &at(100.0), 0.0);
+    governor.set_setpoint(100.0);
+    governor.command(&SEQUENCED, &at(100.0));
+    assert_eq!(governor.sequence().state(), RunState::Running);
+    assert!(governor.sequence_mut().request(RunRequest::Stop));
+    for ramped in [90.0, 80.0] {
+        governor.command(&SEQUENCED, &at(ramped));
+        assert_eq!(governor.ramped_setpoint(), ramped);
+    }
+    assert_eq!(governor.sequence().state(), RunState::Braking);
+    // started again on the way, without a further setpoint
+    assert!(governor.sequence_mut().request(RunRequest::Start));
+    for ramped in [90.0, 100.0, 100.0] {
+        governor.command(&SEQUENCED, &at(ramped));
+        assert_eq!(governor.ramped_setpoint(), ramped);
+    }
+}
+
+#[test]
+fn with_a_lost_angle_the_setpoint_is_zero_until_there_is_another() {
+    let limit = SymmetricLimitConfig { torque: 100.0 };
+    let config = SpeedGovernorConfig { gains: GAINS, shape: (), compensation: (), limit, sequence: (), filter: () };
+    let mut governor = SpeedGovernor::<f64>::default();
+    governor.start(&config, &at(50.0), 0.0);
+    governor.set_setpoint(100.0);
+    governor.command(&config, &at(50.0));
+    assert_eq!(governor.ramped_setpoint(), 60.0);
+    governor.angle_lost(&config, &at(55.0));
+    governor.command(&config, &at(55.0));
+    assert_eq!(governor.ramped_setpoint(), 45.0);
+}
+
+/// The sum is renewed once a period from its own terms: an error in it lasts no longer than that.
+#[test]
+fn a_moving_average_does_not_drift() {
+    const TICKS: usize = 16;
+    let config = MovingAverageConfig::<Fixed, TICKS> { share: Coefficient::from_f64(1.0 / 16.0).unwrap() };
+    let fixed = |bits| Estimate {
+        motor_speed: Fixed::from_bits(bits),
+        shaft_torque: Fixed::from_bits(0),
+        load_speed: Fixed::from_bits(bits),
+        load_torque: Fixed::from_bits(-bits),
+    };
+    let mut average = MovingAverage::<Fixed, TICKS>::default();
+    // each term is cut to 6; a start at 100 is 4 above their sum, until the sum is renewed
+    average.start(&config, &fixed(100));
+    let speeds: Vec<i32> = (0..2 * TICKS).map(|_| average.filter(&config, &fixed(100)).motor_speed.to_bits()).collect();
+    assert!(speeds[..TICKS - 1].iter().all(|&speed| speed == 100), "{speeds:?}");
+    assert!(speeds[TICKS - 1..].iter().all(|&speed| speed == 96), "{speeds:?}");
+    let load = average.filter(&config, &fixed(100)).load_torque.to_bits();
+    // -100/16 cut downwards is -7
+    assert_eq!(load, -112);
+}

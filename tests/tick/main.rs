@@ -1,0 +1,20 @@
+//! The tick path against closed forms of one or a few ticks, with numbers small enough to be checked by hand.
+//!
+//! Each test notices one deliberate error that the runs over whole machines would hide: a sign, a part left out, a
+//! state that is kept or lost. It needs the library alone, so that every mutant of the tick path is judged in seconds.
+
+mod drive;
+mod governor;
+mod observer;
+
+use driveline::observer::RigidConfig;
+
+/// An inertia of one, ticks as unit of time, 2^-32 turn as unit of angle, and no correction: pure prediction.
+const UNIT: RigidConfig<f64> = RigidConfig {
+    acceleration: 1.0,
+    turn: 0.5,
+    correction: [0.0, 0.0],
+    angle_correction: 0.0,
+    speed: 1.0,
+    load_share: 0.25,
+};

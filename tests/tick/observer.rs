@@ -1,0 +1,218 @@
+//! Single steps of the observers.
+
+use driveline::angle::RotorAngleConfig;
+use driveline::number::{Coefficient, Fixed, Number};
+use driveline::observer::{
+    CrankConfig, CrankObserver, GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig,
+    SemiImplicitObserver, TABLE_POINTS, TablePoint, TwoMassConfig, TwoMassObserver,
+};
+
+use super::UNIT;
+
+/// Shaft torque: the load's torque, and the load's share of the torque that accelerates.
+#[test]
+fn the_rigid_shaft_carries_the_loads_share_of_the_accelerating_torque() {
+    let mut rigid = RigidObserver::<f64>::steady(&UNIT, 0, 4.0, 0.0);
+    assert_eq!(rigid.estimate(&UNIT).shaft_torque, 4.0);
+    // 12 - 4 = 8 accelerate, a quarter of it through the shaft
+    let predicted = rigid.predict(&UNIT, 4, 12.0);
+    rigid.correct(&UNIT, predicted, 4);
+    assert_eq!(rigid.estimate(&UNIT).shaft_torque, 6.0);
+    assert_eq!(rigid.estimate(&UNIT).motor_speed, 8.0);
+    // coasting with -4 N m: -8 accelerate
+    let predicted = rigid.predict(&UNIT, 4, -4.0);
+    rigid.coast(predicted, 4);
+    assert_eq!(rigid.estimate(&UNIT).shaft_torque, 2.0);
+    assert_eq!(rigid.estimate(&UNIT).motor_speed, 0.0);
+}
+
+const SEMI_IMPLICIT: SemiImplicitConfig<f64> = SemiImplicitConfig {
+    motor: 0.5,
+    load: 0.25,
+    shaft: [3.0, 5.0],
+    turn: 1.0,
+    correction: [0.0; 4],
+    angle_correction: 0.0,
+    speed: 1.0,
+};
+
+/// One step by hand: speeds first, then the shaft's torque from the new twist rate and, by its damping, from the old.
+#[test]
+fn a_semi_implicit_step_is_the_one_on_paper() {
+    let mut observer = SemiImplicitObserver::<f64>::steady(&SEMI_IMPLICIT, 0, 8.0, 100.0);
+    observer.step(&SEMI_IMPLICIT, 0, 16.0);
+    let first = observer.estimate(&SEMI_IMPLICIT);
+    // motor 100 + (16 - 8)/2, load 100 + (8 - 8)/4, shaft 8 + 3 (104 - 100) + 5 (100 - 100)
+    assert_eq!((first.motor_speed, first.load_speed, first.shaft_torque), (104.0, 100.0, 20.0));
+    observer.step(&SEMI_IMPLICIT, 0, 16.0);
+    let second = observer.estimate(&SEMI_IMPLICIT);
+    // motor 104 + (16 - 20)/2, load 100 + (20 - 8)/4, shaft 20 + 3 (102 - 103) + 5 (104 - 100)
+    assert_eq!((second.motor_speed, second.load_speed, second.shaft_torque), (102.0, 103.0, 37.0));
+    assert_eq!(second.load_torque, 8.0);
+}
+
+/// Twice the base, where fixed point saturates: 2^29 units less one.
+const TWICE: i32 = (1 << 29) - 1;
+
+#[test]
+fn the_semi_implicit_states_saturate_at_twice_their_base_and_say_so() {
+    let half = Coefficient::from_f64(0.499).unwrap();
+    let config = SemiImplicitConfig::<Fixed> {
+        motor: half,
+        load: Coefficient::ZERO,
+        shaft: [Coefficient::ZERO; 2],
+        turn: Coefficient::ZERO,
+        correction: [Coefficient::ZERO; 4],
+        angle_correction: Coefficient::ZERO,
+        speed: Coefficient::ZERO,
+    };
+    let base = Fixed::from_bits(1 << 28);
+    let mut observer = SemiImplicitObserver::<Fixed>::at_rest(&config, 0, Fixed::ZERO);
+    let mut seen = Vec::new();
+    for _ in 0..8 {
+        observer.step(&config, 0, base);
+        seen.push((observer.estimate(&config).motor_speed.to_bits(), observer.beyond_base()));
+    }
+    // 0.499 of a base a step: two stay within it, four within twice of it
+    assert!(seen[1].0 < 1 << 28 && seen[1].1 == 0, "{seen:?}");
+    assert!(seen[2].0 > 1 << 28 && seen[2].1 == 1, "{seen:?}");
+    assert!((TWICE - 1..=TWICE).contains(&seen[7].0) && seen[7].1 == 1, "{seen:?}");
+    // and a coast saturates as a correction does
+    let predicted = observer.predict(&config, 0, base);
+    observer.coast(predicted, 0);
+    assert!((TWICE - 1..=TWICE).contains(&observer.estimate(&config).motor_speed.to_bits()));
+}
+
+/// 150 units times 0.01 and the rounding half make 2 units and leave nothing over. A quarter of the 2 is then half a
+/// unit of turn, which nothing rounds up: a sum begins with what the one before it has left.
+#[test]
+fn a_sum_takes_over_what_the_one_before_has_left() {
+    let zero = Coefficient::ZERO;
+    let config = TwoMassConfig::<Fixed> {
+        forcing: [zero; 2],
+        twist: [zero; 3],
+        twist_rate: [zero; 3],
+        acceleration: Coefficient::from_f64(0.01).unwrap(),
+        turn: [Coefficient::from_f64(0.25).unwrap(), zero],
+        correction: [zero; 4],
+        angle_correction: zero,
+        speed: zero,
+        share: [zero; 2],
+        shaft: [zero; 2],
+        compliance: zero,
+    };
+    let mut observer = TwoMassObserver::<Fixed>::at_rest(&config, 0, Fixed::ZERO);
+    // 0.01 in parts of 2^32 lies above a hundredth: 151 units would leave 0.01, 150 leave 1e-8
+    let predicted = observer.predict(&config, 0, Fixed::from_bits(150));
+    assert_eq!(predicted.turn().to_bits(), 0);
+    observer.correct(&config, predicted, 0);
+    assert_eq!(observer.estimate(&config).motor_speed.to_bits(), 2);
+}
+
+fn geared(stiction_gain: f64) -> GearedConfig<f64, RigidConfig<f64>> {
+    let observer = RigidConfig { correction: [0.5, 0.0], ..UNIT };
+    GearedConfig { observer, friction: 0.125, stiction_gain, deadband: 10.0 }
+}
+
+/// The gear's loss is an eighth of the shaft's torque and opposes the motion, whatever the shaft's sign.
+#[test]
+fn a_gear_takes_its_loss_against_the_motion() {
+    let config = geared(16.0);
+    for (speed, shaft, expected) in [(50.0, 8.0, -1.0), (-50.0, 8.0, 1.0), (50.0, -8.0, -1.0), (-50.0, -8.0, 1.0)] {
+        let mut observer = GearedObserver::<RigidObserver<f64>>::steady(&config, 0, shaft, speed);
+        // the shaft's torque is applied, so that the loss alone accelerates
+        let predicted = observer.predict(&config, 0, shaft);
+        observer.coast(predicted, 0);
+        assert_eq!(observer.estimate(&config).motor_speed, speed + expected, "{speed} rad/s, {shaft} N m");
+    }
+}
+
+/// A gear that holds: what is applied beyond the shaft's torque, up to the loss, moves nothing.
+#[test]
+fn a_held_gear_does_not_move_and_does_not_learn_from_the_deadband() {
+    let config = geared(16.0);
+    let mut held = GearedObserver::<RigidObserver<f64>>::at_rest(&config, 0, 8.0);
+    // half the loss: it holds, and an angle within the deadband corrects nothing
+    held.step(&config, 9, 8.5);
+    assert_eq!(held.estimate(&config).motor_speed, 0.0);
+    // beyond the deadband it does: half the innovation of 11
+    held.step(&config, 11, 8.5);
+    assert_eq!(held.estimate(&config).motor_speed, 5.5);
+    // more than the loss breaks it loose: 2 less 1 accelerate, and an innovation of 9 - 1/2 corrects by half of it
+    let mut loose = GearedObserver::<RigidObserver<f64>>::at_rest(&config, 0, 8.0);
+    loose.step(&config, 9, 10.0);
+    assert_eq!(loose.estimate(&config).motor_speed, 1.0 + 8.5 / 2.0);
+}
+
+fn cranked(points: [TablePoint<f64>; TABLE_POINTS]) -> CrankConfig<f64> {
+    CrankConfig { rigid: UNIT, turning: RotorAngleConfig::new(1, 1).unwrap(), points }
+}
+
+const FLAT: TablePoint<f64> = TablePoint { inertia_ratio: 1.0, inertia_slope: 0.0 };
+
+/// Between the last place of the table and the first the crank goes over its zero.
+#[test]
+fn the_table_of_a_crank_closes() {
+    let mut points = [FLAT; TABLE_POINTS];
+    points[TABLE_POINTS - 1].inertia_ratio = 3.0;
+    let config = cranked(points);
+    let place = 1_u32 << 26;
+    for (at, ratio) in [(-2, 1.0), (-1, 3.0), (0, 1.0)] {
+        let crank_angle = place.wrapping_mul(at as u32);
+        let mut observer = CrankObserver::<f64>::at_rest(&config, 0, 0.0);
+        observer.home(&config, crank_angle);
+        observer.step(&config, 0, 1.0);
+        let speed = observer.estimate(&config).motor_speed;
+        // the angle in the table has 2^-26 turns of resolution, 2^-20 of a place
+        assert!((speed - ratio).abs() < 1e-5, "{at}: {speed}");
+        observer = CrankObserver::<f64>::at_rest(&config, 0, 0.0);
+        observer.home(&config, crank_angle.wrapping_add(place / 2));
+        observer.step(&config, 0, 1.0);
+        let speed = observer.estimate(&config).motor_speed;
+        let between = if at == 0 { 1.0 } else { 2.0 };
+        assert!((speed - between).abs() < 1e-5, "after {at}: {speed}");
+    }
+}
+
+/// With twice the inverse inertia, the crank itself gives as much torque as the motor; the shaft feels all but that.
+#[test]
+fn a_crank_that_coasts_goes_on_and_one_that_starts_anew_keeps_its_angle() {
+    let config = cranked([TablePoint { inertia_ratio: 2.0, ..FLAT }; TABLE_POINTS]);
+    let mut observer = CrankObserver::<f64>::at_rest(&config, 0, 0.0);
+    observer.home(&config, 1 << 30);
+    let predicted = observer.predict(&config, 0, 4.0);
+    observer.coast(predicted, 0);
+    // 8 N m accelerate an inertia of one; 4 - 8 remain for the crank; a quarter of 8 is the load's share
+    assert_eq!(observer.estimate(&config).motor_speed, 8.0);
+    assert_eq!(observer.estimate(&config).shaft_torque, 2.0 - 4.0);
+    assert!(observer.crank_angle(&config).abs_diff(1 << 30) < 1 << 7, "a coast has no angle to follow");
+    // half a turn later it starts anew, at 5 rad/s and 3 N m
+    observer.restart(&config, 1 << 31, 3.0, 5.0);
+    let estimate = observer.estimate(&config);
+    assert_eq!((estimate.motor_speed, estimate.shaft_torque, estimate.load_torque), (5.0, 3.0, 3.0));
+    let crank = observer.crank_angle(&config);
+    assert!(crank.abs_diff((1 << 30) + (1 << 31)) < 1 << 7, "{crank:#x}");
+    assert_eq!(observer.angle(), 1 << 31);
+}
+
+/// A crank behind a gear of 5 to 2, turned backwards over its zero and forwards again.
+#[test]
+fn a_crank_behind_a_gear_turns_back_over_its_zero() {
+    let config = CrankConfig { turning: RotorAngleConfig::new(2, 5).unwrap(), ..cranked([FLAT; TABLE_POINTS]) };
+    let mut observer = CrankObserver::<f64>::at_rest(&config, 0, 0.0);
+    observer.home(&config, 0);
+    let mut motor = 0_i64;
+    // two turns of the motor back in steps of 0.3 turn, three forwards: 0.8 and 1.2 turns of the crank
+    let steps = [-3_i64; 7].into_iter().chain([3; 10]);
+    for step in steps {
+        let turned = step * (1 << 32) / 10;
+        motor += turned;
+        let angle = motor as u32;
+        let predicted = observer.predict(&config, angle, 0.0);
+        observer.correct(&config, predicted, angle);
+        let expected = (motor * 2 / 5) as u32;
+        let off = observer.crank_angle(&config).wrapping_sub(expected) as i32;
+        // 2^-26 turns of resolution, and the motor's angle times 2/5 cut to whole units
+        assert!(off.abs() < 1 << 8, "{motor}: {off}");
+    }
+}
