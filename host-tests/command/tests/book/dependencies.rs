@@ -1,0 +1,119 @@
+//! The page of dependencies against `cargo metadata`: what is depended on, under which licence, and from where.
+
+use std::collections::BTreeMap;
+use std::process::Command;
+
+use serde_json::Value;
+
+use super::pages::{Page, root};
+
+/// Licences of which one must be offered.
+const ALLOWED: [&str; 6] = ["MIT", "Apache-2.0", "0BSD", "Zlib", "BSD-3-Clause", "Unicode-3.0"];
+
+/// Packages under MPL-2.0, which tests use and nothing ships.
+const IN_TESTS: [&str; 2] = ["alterable_logger", "colored"];
+
+fn metadata() -> Value {
+    // of this platform alone: what is built here is here, and nothing is fetched for others
+    let platform = format!("--filter-platform={}-unknown-linux-gnu", std::env::consts::ARCH);
+    let arguments = ["metadata", "--format-version=1", "--locked", "--all-features", &platform];
+    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn packages(metadata: &Value) -> impl Iterator<Item = &Value> {
+    metadata["packages"].as_array().unwrap().iter()
+}
+
+fn is_ours(package: &Value) -> bool {
+    package["source"].is_null()
+}
+
+fn text<'a>(package: &'a Value, key: &str) -> &'a str {
+    package[key].as_str().unwrap_or_default()
+}
+
+/// The page lists every direct dependency, with its licence, and nothing else.
+#[test]
+fn the_page_lists_every_dependency_with_its_licence() {
+    let metadata = metadata();
+    let licences: BTreeMap<&str, &str> =
+        packages(&metadata).map(|package| (text(package, "name"), text(package, "license"))).collect();
+    let mut expected = BTreeMap::new();
+    for package in packages(&metadata).filter(|package| is_ours(package)) {
+        for dependency in package["dependencies"].as_array().unwrap() {
+            let name = text(dependency, "name");
+            if !dependency["source"].is_null() {
+                expected.insert(name.to_owned(), licences[name].to_owned());
+            }
+        }
+    }
+    let page = Page::read("doc/dependencies.md");
+    let rows = page.sections.iter().flat_map(|section| &section.rows).filter(|row| row[0].starts_with('`'));
+    let listed: BTreeMap<String, String> =
+        rows.map(|row| (row[0].trim_matches('`').to_owned(), row[3].clone())).collect();
+    assert_eq!(listed, expected);
+}
+
+/// Whether a licence expression offers an allowed one: `A OR B` if either does, `A AND B` if both do.
+fn offers(expression: &str, allowed: &[&str]) -> bool {
+    let expression = expression.trim();
+    // the expressions of the registry nest no deeper than one pair of parentheses, before an `AND`
+    if let Some((left, right)) = expression.split_once(" AND ") {
+        let inner = |part: &str| part.trim().trim_start_matches('(').trim_end_matches(')').to_owned();
+        return offers(&inner(left), allowed) && offers(&inner(right), allowed);
+    }
+    expression.split(" OR ").flat_map(|part| part.split('/')).any(|part| {
+        let licence = part.trim().split(" WITH ").next().unwrap_or_default();
+        allowed.contains(&licence)
+    })
+}
+
+/// Every package, however far down, comes from the registry and offers a licence that may be combined with ours.
+#[test]
+fn every_package_has_an_allowed_licence_and_comes_from_the_registry() {
+    let metadata = metadata();
+    let mut wrong = Vec::new();
+    for package in packages(&metadata).filter(|package| !is_ours(package)) {
+        let (name, licence) = (text(package, "name"), text(package, "license"));
+        let allowed = offers(licence, &ALLOWED) || IN_TESTS.contains(&name) && offers(licence, &["MPL-2.0"]);
+        if !allowed || !text(package, "source").starts_with("registry+https://github.com/rust-lang/crates.io-index") {
+            wrong.push(format!("{name}: {licence:?}, {}", text(package, "source")));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// What is used in tests alone stays there: no crate of ours reaches it without its tests.
+#[test]
+fn packages_under_mpl_are_reached_from_tests_alone() {
+    let metadata = metadata();
+    for package in packages(&metadata).filter(|package| is_ours(package)) {
+        for dependency in package["dependencies"].as_array().unwrap() {
+            if dependency["name"] == "defmt-decoder" {
+                assert_eq!(dependency["kind"], "dev", "{}", text(package, "name"));
+            }
+        }
+    }
+    let above = |name: &str| -> Vec<String> {
+        let nodes = metadata["resolve"]["nodes"].as_array().unwrap().iter();
+        let named = |id: &Value| packages(&metadata).find(|package| package["id"] == *id).map(|it| text(it, "name"));
+        let has = |node: &&Value| node["dependencies"].as_array().unwrap().iter().any(|id| named(id) == Some(name));
+        nodes.filter(has).filter_map(|node| named(&node["id"]).map(str::to_owned)).collect()
+    };
+    for name in IN_TESTS {
+        assert_eq!(above(name), ["defmt-decoder"], "{name}");
+    }
+}
+
+#[test]
+fn an_expression_offers_what_it_says() {
+    let mit = ["MIT"];
+    for good in ["MIT", "Apache-2.0 OR MIT", "MIT/Apache-2.0", "(MIT OR Apache-2.0) AND MIT"] {
+        assert!(offers(good, &mit), "{good}");
+    }
+    for bad in ["", "GPL-3.0", "MIT-0", "MIT AND GPL-3.0", "(Apache-2.0 OR MIT) AND BSD-3-Clause"] {
+        assert!(!offers(bad, &mit), "{bad}");
+    }
+}
