@@ -41,6 +41,7 @@ pub use modes::Vibration;
 pub use progress::Progress;
 
 use std::ffi::OsString;
+use std::io::ErrorKind;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
@@ -145,8 +146,15 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             eprintln!("{}", failure::visible(&error.render().to_string()));
             return ExitCode::from(2);
         }
-        // Help and version are no errors.
-        Err(error) => error.exit(),
+        // Help and version are no errors, unless they cannot be written; a reader that has gone away is none.
+        Err(error) => {
+            return match error.print() {
+                Err(failed) if failed.kind() != ErrorKind::BrokenPipe => {
+                    Failure::failed("standard output cannot be written").report(false)
+                }
+                _ => ExitCode::SUCCESS,
+            };
+        }
     };
     if let Err(error) = end_with_signals() {
         return Failure::failed(format!("signals cannot be caught: {error}")).report(cli.command.json());

@@ -17,7 +17,7 @@ use crate::backlash::backlash_page;
   cargo driveline backlash --json")]
 pub struct Backlash {
     /// Seconds of each of the 24 runs, 1 to 1000
-    #[arg(long, default_value_t = 6)]
+    #[arg(long, default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=1000))]
     seconds: u32,
     /// Seed of the random runs
     #[arg(long, default_value_t = 31)]
@@ -34,11 +34,8 @@ impl Backlash {
     /// Runs the comparison and shows it.
     ///
     /// # Errors
-    /// Seconds out of range; a page that cannot be written.
+    /// A page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
-        if !(1..=1000).contains(&self.seconds) {
-            return Err(Failure::usage(format!("--seconds must be from 1 to 1000, not {}", self.seconds)));
-        }
         let file = Destination::page_unless(self.json, self.html.as_deref(), "backlash");
         check(&[], &file)?;
         let bar = Progress::of(Comparison::COURSES as u64);

@@ -10,7 +10,7 @@ use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::commissioning::{Case, Trial, Verdict, in_qemu, named, of_file, on_host, verdict};
-use crate::machine_file::{Diagnostic, MachineFile, Source, read, text};
+use crate::machine_file::{Diagnostic, MachineFile, Source, parse, text};
 use driveline_qemu::setup::Need;
 
 /// Commission a machine: run the test that identifies its inertias, resonance, damping, friction, gap and encoder
@@ -155,9 +155,9 @@ impl Commission {
 
 /// A machine without branches: the plant of a test is a chain.
 fn read_chain(path: &Path) -> Result<MachineFile, Failure> {
-    let machine = read(path)?;
-    let Some(branch) = machine.branches.first() else { return Ok(machine) };
     let (name, text) = text(path, "a machine file")?;
+    let machine = parse(&name, &text)?;
+    let Some(branch) = machine.branches.first() else { return Ok(machine) };
     let source = Source { name: &name, text: &text };
     let place = text.find("[[branch]]").map_or(0..0, |at| at..at + "[[branch]]".len());
     let found = format!("a branch at \"{}\"", branch.at);

@@ -19,7 +19,7 @@ use train::TrainVibration;
 
 use super::results::{Destination, check};
 use super::{Failure, say, say_json};
-use crate::machine_file::{is_train, read, read_train};
+use crate::machine_file::{is_train, parse, parse_train, text};
 use driveline_report::Section;
 
 /// Natural frequencies and shapes of a machine, its two-mass reductions, and the sensitivity to each part.
@@ -50,12 +50,14 @@ impl Modes {
     /// # Errors
     /// A machine file with a fault; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
-        if is_train(&self.file) {
-            let file = read_train(&self.file)?;
+        // read once: a pipe gives its text only once
+        let (name, text) = text(&self.file, "a machine file")?;
+        if is_train(&text) {
+            let file = parse_train(&name, &text)?;
             let vibration = TrainVibration::of(&file)?;
             return self.show(&file.slug(), || vibration.page(&file), &vibration, vibration.tables());
         }
-        let machine = read(&self.file)?;
+        let machine = parse(&name, &text)?;
         let vibration = Vibration::of(&machine);
         self.show(&machine.slug(), || page(&machine, &vibration), &vibration, tables(&vibration))
     }

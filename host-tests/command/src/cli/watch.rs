@@ -41,7 +41,7 @@ pub struct Watch {
     #[arg(long, value_name = "PATH")]
     csv: Option<PathBuf>,
     /// Stop after so many records
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     records: Option<u64>,
     /// Print {records, dropped, damaged, unknown, channels: [...]} at the end, and nothing before
     #[arg(long)]
@@ -164,7 +164,7 @@ impl Watch {
             let kept = if seen.records > 0 { format!(", after {} records", seen.records) } else { String::new() };
             return Err(Failure::failed(format!("{name}: {error}{kept}")));
         }
-        if seen.records == 0 && self.records != Some(0) {
+        if seen.records == 0 {
             return Err(Failure::failed(nothing(&name, &decoder)));
         }
         if self.json {

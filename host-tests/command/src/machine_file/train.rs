@@ -114,10 +114,9 @@ impl TrainFile {
     }
 }
 
-/// Whether a file holds coordinates and links, and not elements. What cannot be read holds neither.
-pub fn is_train(path: &Path) -> bool {
-    let Ok((_, text)) = text(path, "a machine file") else { return false };
-    DeTable::parse(&text).is_ok_and(|table| table.get_ref().iter().any(|(name, _)| name.get_ref() == "coordinate"))
+/// Whether a text holds coordinates and links, and not elements. A text that is not TOML holds neither.
+pub fn is_train(text: &str) -> bool {
+    DeTable::parse(text).is_ok_and(|table| table.get_ref().iter().any(|(name, _)| name.get_ref() == "coordinate"))
 }
 
 /// Reads a train from a file.

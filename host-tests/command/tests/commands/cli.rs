@@ -372,10 +372,31 @@ fn a_signal_ends_long_work_at_once() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_standard_output_is_a_failure() {
-    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
-    let status =
-        Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["design", HOIST]).stdout(full).status().unwrap();
-    assert_eq!(status.code(), Some(1));
+    for arguments in [&["design", HOIST][..], &["--help"], &["modes", "--help"]] {
+        let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+        let status =
+            Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(arguments).stdout(full).status().unwrap();
+        assert_eq!(status.code(), Some(1), "{arguments:?}");
+    }
+}
+
+/// A pipe gives its text once: nothing is read twice.
+#[test]
+fn a_machine_comes_through_a_pipe() {
+    const TILTING: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/trains/tilting.toml");
+    for (command, file) in [("modes", HOIST), ("modes", TILTING), ("design", HOIST), ("simulate", TILTING)] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"))
+            .args([command, "/dev/stdin", "--json"])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::io::Write::write_all(&mut child.stdin.take().unwrap(), &std::fs::read(file).unwrap()).unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{command} {file}: {}", err(&output));
+        assert!(json(&out(&output)).is_object(), "{command} {file}");
+    }
 }
 
 #[test]
