@@ -172,15 +172,24 @@ const fn state_error(n: [f64; 4], machine: &TwoMass, period: f64, horizon: u32) 
     let w = machine.resonance();
     // Twist in units of 1/w, or of T where there is no spring.
     let unit = if w > 0.0 { w } else { 1.0 / period };
-    let step = (1.0 + n[0], n[1] * unit, n[2] / unit, 1.0 + n[3]);
-    let truth = (1.0 + exact.n11, exact.n12 * unit, exact.n21 / unit, 1.0 + exact.n22);
-    let (mut p, mut q) = ((1.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 1.0));
+    // Powers as single numbers, their products written out: the compiler interprets some thousand ticks.
+    let (s11, s12, s21, s22) = (1.0 + n[0], n[1] * unit, n[2] / unit, 1.0 + n[3]);
+    let (t11, t12, t21, t22) = (1.0 + exact.n11, exact.n12 * unit, exact.n21 / unit, 1.0 + exact.n22);
+    let (mut p11, mut p12, mut p21, mut p22) = (1.0, 0.0, 0.0, 1.0);
+    let (mut q11, mut q12, mut q21, mut q22) = (1.0, 0.0, 0.0, 1.0);
     let mut largest = 0.0;
     let mut tick = 0;
     while tick < horizon {
-        p = product(p, step);
-        q = product(q, truth);
-        let (a, b, c, d) = (p.0 - q.0, p.1 - q.1, p.2 - q.2, p.3 - q.3);
+        let (a, b, c, d) = (p11, p21, q11, q21);
+        p11 = a * s11 + p12 * s21;
+        p12 = a * s12 + p12 * s22;
+        p21 = b * s11 + p22 * s21;
+        p22 = b * s12 + p22 * s22;
+        q11 = c * t11 + q12 * t21;
+        q12 = c * t12 + q12 * t22;
+        q21 = d * t11 + q22 * t21;
+        q22 = d * t12 + q22 * t22;
+        let (a, b, c, d) = (p11 - q11, p12 - q12, p21 - q21, p22 - q22);
         let square = a * a + b * b + c * c + d * d;
         if square > largest {
             largest = square;
@@ -188,10 +197,4 @@ const fn state_error(n: [f64; 4], machine: &TwoMass, period: f64, horizon: u32) 
         tick += 1;
     }
     sqrt(largest)
-}
-
-type Square = (f64, f64, f64, f64);
-
-const fn product(a: Square, b: Square) -> Square {
-    (a.0 * b.0 + a.1 * b.2, a.0 * b.1 + a.1 * b.3, a.2 * b.0 + a.3 * b.2, a.2 * b.1 + a.3 * b.3)
 }

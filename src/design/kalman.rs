@@ -25,8 +25,7 @@ pub struct Kalman<const N: usize, const M: usize> {
 impl<const N: usize, const M: usize> Kalman<N, M> {
     /// Designs the gains.
     ///
-    /// The states may have very different units: the equation is solved in the units that make F balanced, then again
-    /// in units of the standard deviations found.
+    /// The states may have very different units: the equation is solved in the units that make F balanced.
     ///
     /// # Errors
     /// [`Error::Noise`] where R is not invertible or not positive on its diagonal, [`Error::NotConverged`] where there
@@ -41,21 +40,16 @@ impl<const N: usize, const M: usize> Kalman<N, M> {
             j += 1;
         }
         let mut units = balance(f);
-        let mut prior = Matrix::ZERO;
-        let mut pass = 0;
-        while pass < 2 {
-            prior = match solve(f, h, q, r, &units) {
-                Ok(prior) => prior,
-                Err(error) => return Err(error),
-            };
-            let mut i = 0;
-            while i < N {
-                if prior.0[i][i] > 0.0 {
-                    units[i] = power_of_two(sqrt(prior.0[i][i]));
-                }
-                i += 1;
+        let prior = match solve(f, h, q, r, &units) {
+            Ok(prior) => prior,
+            Err(error) => return Err(error),
+        };
+        let mut i = 0;
+        while i < N {
+            if prior.0[i][i] > 0.0 {
+                units[i] = power_of_two(sqrt(prior.0[i][i]));
             }
-            pass += 1;
+            i += 1;
         }
 
         let seen = h.times(&prior);

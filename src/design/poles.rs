@@ -18,11 +18,11 @@ const fn minus(a: Complex, b: Complex) -> Complex {
 const fn times(a: Complex, b: Complex) -> Complex {
     (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
 }
-const fn conjugate(a: Complex) -> Complex {
-    (a.0, -a.1)
-}
 const fn size(a: Complex) -> f64 {
     hypot(a.0, a.1)
+}
+const fn sum(a: Complex) -> f64 {
+    a.0.abs() + a.1.abs()
 }
 /// The square root with a real part that is not negative.
 const fn root(a: Complex) -> Complex {
@@ -54,10 +54,14 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
         // The block that is still joined to its last row.
         let mut low = n;
         while low > 0 && low < N {
-            let around = size(h[low][low]) + size(h[low - 1][low - 1]);
-            if size(h[low][low - 1]) <= f64::EPSILON * 0.1 * around || size(h[low][low - 1]) < 1e-290 {
-                h[low][low - 1] = (0.0, 0.0);
-                break;
+            let (joint, above, here) = (h[low][low - 1], h[low - 1][low - 1], h[low][low]);
+            // By sums of parts, between which and 0.7 of which a size lies: the roots are taken close to the edge alone.
+            if 0.5 * sum(joint) <= f64::EPSILON * 0.1 * (sum(here) + sum(above)) || sum(joint) < 1e-289 {
+                let around = size(here) + size(above);
+                if size(joint) <= f64::EPSILON * 0.1 * around || size(joint) < 1e-290 {
+                    h[low][low - 1] = (0.0, 0.0);
+                    break;
+                }
             }
             low -= 1;
         }
@@ -200,24 +204,25 @@ const fn qr_step<const N: usize>(h: &mut [[Complex; N]; N], low: usize, n: usize
         if length > 0.0 {
             turns[i] = ((x.0 / length, x.1 / length), (y.0 / length, y.1 / length));
         }
-        let (c, s) = turns[i];
+        // Without the functions of complex numbers: a call costs the compiler, which interprets this, the most.
+        let ((c, d), (s, t)) = turns[i];
         let mut j = i;
         while j <= n && j < N {
-            let (p, q) = (h[i][j], h[i + 1][j]);
-            h[i][j] = plus(times(conjugate(c), p), times(conjugate(s), q));
-            h[i + 1][j] = minus(times(c, q), times(s, p));
+            let ((p, q), (u, v)) = (h[i][j], h[i + 1][j]);
+            h[i][j] = ((c * p + d * q) + (s * u + t * v), (c * q - d * p) + (s * v - t * u));
+            h[i + 1][j] = ((c * u - d * v) - (s * p - t * q), (c * v + d * u) - (s * q + t * p));
             j += 1;
         }
         i += 1;
     }
     let mut i = low;
     while i < n && i + 1 < N {
-        let (c, s) = turns[i];
+        let ((c, d), (s, t)) = turns[i];
         let mut r = low;
         while r <= n && r <= i + 1 && r < N {
-            let (p, q) = (h[r][i], h[r][i + 1]);
-            h[r][i] = plus(times(p, c), times(q, s));
-            h[r][i + 1] = minus(times(q, conjugate(c)), times(p, conjugate(s)));
+            let ((p, q), (u, v)) = (h[r][i], h[r][i + 1]);
+            h[r][i] = ((p * c - q * d) + (u * s - v * t), (p * d + q * c) + (u * t + v * s));
+            h[r][i + 1] = ((u * c + v * d) - (p * s + q * t), (v * c - u * d) - (q * s - p * t));
             r += 1;
         }
         i += 1;

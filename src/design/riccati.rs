@@ -3,8 +3,14 @@
 //! [Chu, Fan, Lin, Wang 2004, Int. J. Control 77(8)]: each iteration doubles the horizon of the solution, so some
 //! twenty suffice from a millisecond to a quarter of an hour. It converges quadratically and keeps the solution
 //! symmetric and positive.
+//!
+//! The states may have units of very different sizes. Rows are chosen in units of the standard deviations found so far;
+//! as powers of two they round nothing.
+
+mod five;
 
 use super::Matrix;
+use five::{Solver, Square};
 
 /// A solution of the Riccati equation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,15 +29,19 @@ pub struct Doubling<const N: usize> {
 /// `None` where it does not converge within 60 doublings: no stabilising solution, or one at the edge of stability.
 #[must_use]
 pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Matrix<N, N>) -> Option<Doubling<N>> {
+    if let (Some(a), Some(g), Some(h)) = (five::square(a), five::square(g), five::square(h)) {
+        return doubling_of_five(a, g, h);
+    }
     let (mut a, mut g, mut h) = (*a, *g, *h);
     let mut iterations = 0;
     while iterations < 60 {
         // W = (1 + G H)^-1 applied to A and to G.
-        let joint = Matrix::IDENTITY.plus(1.0, &g.times(&h));
-        let Some(wa) = joint.solve(&a) else {
+        let units = units(&h);
+        let joint = Matrix::IDENTITY.plus(1.0, &g.times(&h)).scaled(&units, &[1.0; N]);
+        let Some(wa) = joint.solve(&a.scaled(&units, &[1.0; N])) else {
             return None;
         };
-        let Some(wg) = joint.solve(&g) else {
+        let Some(wg) = joint.solve(&g.scaled(&units, &[1.0; N])) else {
             return None;
         };
         let back = a.transpose();
@@ -53,6 +63,50 @@ pub const fn doubling<const N: usize>(a: &Matrix<N, N>, g: &Matrix<N, N>, h: &Ma
         }
         if settled {
             return Some(Doubling { solution: h, iterations });
+        }
+    }
+    None
+}
+
+/// The powers of two just below the standard deviations of a covariance; 1 where it has none.
+const fn units<const N: usize>(covariance: &Matrix<N, N>) -> [f64; N] {
+    let mut units = [1.0; N];
+    let mut i = 0;
+    while i < N {
+        let variance = covariance.0[i][i];
+        if variance > 0.0 {
+            // half the exponent, rounded down
+            let exponent = (variance.to_bits() as i64 >> 52) - 1023;
+            units[i] = f64::from_bits((((exponent >> 1) + 1023) << 52) as u64);
+        }
+        i += 1;
+    }
+    units
+}
+
+/// The same for five states.
+const fn doubling_of_five<const N: usize>(mut a: Square, mut g: Square, mut h: Square) -> Option<Doubling<N>> {
+    let mut iterations = 0;
+    while iterations < 60 {
+        let joint = five::sum(&five::UNIT, &five::product(&g, &h));
+        let Some(solver) = Solver::new(&joint, &units(&Matrix(h))) else {
+            return None;
+        };
+        let back = five::transpose(&a);
+        let wa = five::transpose(&solver.columns(&back));
+        let grown = five::symmetric(&five::product(&back, &five::product(&h, &wa)));
+        let wg = five::transpose(&solver.columns(&five::transpose(&g)));
+        g = five::symmetric(&five::sum(&g, &five::product(&five::product(&a, &wg), &back)));
+        h = five::sum(&h, &grown);
+        a = five::product(&a, &wa);
+        iterations += 1;
+        if !five::is_finite(&h) {
+            return None;
+        }
+        let [a0, b0, c0, d0, e0] = five::diagonal(&grown);
+        let [a1, b1, c1, d1, e1] = five::diagonal(&h);
+        if a0 <= 1e-17 * a1 && b0 <= 1e-17 * b1 && c0 <= 1e-17 * c1 && d0 <= 1e-17 * d1 && e0 <= 1e-17 * e1 {
+            return Some(Doubling { solution: five::matrix(&h), iterations });
         }
     }
     None
