@@ -125,65 +125,84 @@ impl<T: Scalar, const PLANES: usize> Root<T, PLANES> {
     }
 }
 
-/// A problem whose rows and columns are brought to the size of one.
-pub(super) struct Search<T: Scalar, const ROWS: usize, const PLANES: usize> {
-    objective: Objective,
+/// A plane with a limit: the limit, its square less the weight's, the weight searched about and the weight, all in the
+/// search's unit.
+struct Limited<T: Scalar> {
+    plane: usize,
+    limit: T,
+    inside: T,
+    centre: Complex<T>,
+    weight: Complex<T>,
+}
+
+/// A problem about the weights found so far: its columns have norm one, its residuals are of the size of one.
+///
+/// The optimum may be a millionth of the vibration. Counted from zero weights, its residuals would be differences of
+/// numbers a million times as large; so both are counted from a centre that follows the search.
+pub(super) struct Search<'p, T: Scalar, const ROWS: usize, const PLANES: usize> {
+    influence: &'p Influence<T, ROWS, PLANES>,
+    vibration: &'p [Complex<T>],
+    aim: &'p Aim<T, ROWS, PLANES>,
     rows: usize,
     /// The planes that are searched.
     used: [bool; PLANES],
+    /// The weighted influence, each column over its norm.
     a: [[Complex<T>; PLANES]; ROWS],
+    norms: [T; PLANES],
+    /// The weights that are searched about.
+    centre: [Complex<T>; PLANES],
+    /// The weighted residual with them, over the unit.
     b: [Complex<T>; ROWS],
-    limits: [Option<T>; PLANES],
-    /// Scale of the weights.
-    scale: [T; PLANES],
-    /// Scale of the rows.
+    /// The largest residual with them.
     unit: T,
 }
 
-impl<T: Scalar, const ROWS: usize, const PLANES: usize> Search<T, ROWS, PLANES> {
+/// Weights found, with the proof of their distance from the optimum.
+pub(super) struct Found<T: Scalar, const PLANES: usize> {
+    pub(super) weights: [Complex<T>; PLANES],
+    /// Lower bound of the objective.
+    pub(super) below: T,
+    /// The objective with these weights.
+    pub(super) reached: T,
+}
+
+impl<'p, T: Scalar, const ROWS: usize, const PLANES: usize> Search<'p, T, ROWS, PLANES> {
     pub(super) fn new(
-        influence: &Influence<T, ROWS, PLANES>,
-        vibration: &[Complex<T>],
-        aim: &Aim<T, ROWS, PLANES>,
+        influence: &'p Influence<T, ROWS, PLANES>,
+        vibration: &'p [Complex<T>],
+        aim: &'p Aim<T, ROWS, PLANES>,
         pivoted: &PivotedQr<T, PLANES>,
     ) -> Self {
         let mut search = Search {
-            objective: aim.objective,
+            influence,
+            vibration,
+            aim,
             rows: influence.rows(),
             used: [false; PLANES],
             a: [[zero(); PLANES]; ROWS],
+            norms: [T::one(); PLANES],
+            centre: [zero(); PLANES],
             b: [zero(); ROWS],
-            limits: [None; PLANES],
-            scale: [T::one(); PLANES],
             unit: T::one(),
         };
-        let mut largest = T::zero();
-        let rows = search.rows;
-        for (row, (a, b)) in search.a.iter_mut().zip(&mut search.b).enumerate().take(rows) {
-            (*a, *b) = influence.row(row, vibration, &aim.weighting);
-            largest = largest.max(size(*b));
-        }
-        if largest > T::zero() {
-            search.unit = largest;
+        for (row, a) in search.a.iter_mut().enumerate().take(influence.rows()) {
+            *a = influence.row(row, vibration, &aim.weighting).0;
         }
         for &plane in pivoted.order.iter().take(pivoted.rank) {
             let norm = search.a.iter().fold(T::zero(), |norm, row| norm.max(size(pick(row, plane, zero()))));
-            let scale = norm / search.unit;
             put(&mut search.used, plane, true);
-            put(&mut search.scale, plane, scale);
-            put(&mut search.limits, plane, pick(&aim.limits, plane, None).map(|limit| limit * scale));
+            put(&mut search.norms, plane, norm);
         }
-        for (a, b) in search.a.iter_mut().zip(&mut search.b) {
-            *b = b.unscale(search.unit);
-            for ((a, used), scale) in a.iter_mut().zip(&search.used).zip(&search.scale) {
-                *a = if *used { a.unscale(search.unit * *scale) } else { zero() };
+        for a in &mut search.a {
+            for ((a, used), norm) in a.iter_mut().zip(&search.used).zip(&search.norms) {
+                *a = if *used { a.unscale(*norm) } else { zero() };
             }
         }
         search
     }
 
     fn free(&self) -> impl DoubleEndedIterator<Item = usize> + Clone + '_ {
-        let bound = self.objective == Objective::MinMax;
+        let bound = self.aim.objective == Objective::MinMax;
         (0..=2 * PLANES).filter(move |&index| pick(&self.used, index / 2, bound))
     }
 
@@ -195,72 +214,161 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Search<T, ROWS, PLANES> 
         sum
     }
 
-    /// Searches from weights near the optimum: the weights found, and the lower bound of the objective. `None` where
-    /// that is too far.
-    pub(super) fn run(&self, start: &[Complex<T>; PLANES]) -> Option<([Complex<T>; PLANES], T)> {
-        let mut at = Wide::new();
-        let mut cones = if self.objective == Objective::MinMax { 2 * self.rows } else { 0 };
-        for (plane, (at, start)) in at.weights.iter_mut().zip(start).enumerate() {
-            let mut weight = start.scale(pick(&self.scale, plane, T::one()));
+    /// Counts from other weights from now on.
+    fn centre(&mut self, weights: &[Complex<T>; PLANES]) {
+        self.centre = *weights;
+        let residuals = self.influence.weighted(self.vibration, weights, &self.aim.weighting);
+        let largest = residuals.iter().fold(T::zero(), |most, residual| most.max(size(*residual)));
+        self.unit = if largest > T::zero() { largest } else { T::one() };
+        self.b = residuals.map(|residual| residual.unscale(self.unit));
+    }
+
+    /// The weights at a point, none beyond its limit by rounding.
+    fn weights(&self, at: &Wide<T, PLANES>) -> [Complex<T>; PLANES] {
+        let mut weights = self.centre;
+        let parts = weights.iter_mut().zip(&at.weights).zip(self.norms.iter().zip(&self.aim.limits));
+        for ((weight, [re, im]), (norm, limit)) in parts {
+            *weight += Complex { re: *re, im: *im }.scale(self.unit / *norm);
+            if let Some(limit) = limit.filter(|limit| size(*weight) > *limit) {
+                *weight = weight.scale(limit * (T::one() - T::default_epsilon() * real(4.0)) / size(*weight));
+            }
+        }
+        weights
+    }
+
+    /// The objective at a point: the largest residual, or the sum of their squares.
+    fn value(&self, at: &Wide<T, PLANES>) -> T {
+        let residuals = (0..self.rows).map(|row| self.residual(row, at));
+        match self.aim.objective {
+            Objective::MinMax => residuals.fold(T::zero(), |most, residual| most.max(size(residual))),
+            Objective::LeastSquares => residuals.fold(T::zero(), |sum, residual| sum + square(residual)),
+        }
+    }
+
+    /// Whether a point is within all cones.
+    fn within(&self, at: &Wide<T, PLANES>) -> bool {
+        let below = |row| size(self.residual(row, at)) < at.bound;
+        (self.aim.objective == Objective::LeastSquares || (0..self.rows).all(below))
+            && self.limited(at).all(|limited| limited.inside > T::zero())
+    }
+
+    /// Searches from weights near the optimum: the best weights found, and the best lower bound.
+    pub(super) fn run(mut self, start: &[Complex<T>; PLANES]) -> Found<T, PLANES> {
+        let mut weights = [zero(); PLANES];
+        let mut cones = if self.aim.objective == Objective::MinMax { 2 * self.rows } else { 0 };
+        for (plane, (weight, start)) in weights.iter_mut().zip(start).enumerate() {
             if !pick(&self.used, plane, false) {
                 continue;
             }
-            if let Some(limit) = pick(&self.limits, plane, None) {
+            *weight = *start;
+            if let Some(limit) = pick(&self.aim.limits, plane, None) {
                 cones += 1;
                 let far = limit * real(0.9);
-                if size(weight) > far {
-                    weight = weight.scale(far / size(weight));
+                if size(*weight) > far {
+                    *weight = weight.scale(far / size(*weight));
                 }
             }
-            *at = [weight.re, weight.im];
         }
-        let value = |at: &Wide<T, PLANES>| match self.objective {
-            Objective::MinMax => (0..self.rows).fold(T::zero(), |most, row| most.max(size(self.residual(row, at)))),
-            Objective::LeastSquares => (0..self.rows).fold(T::zero(), |sum, row| sum + square(self.residual(row, at))),
-        };
-        at.bound = value(&at) * real(1.2);
-        let parameter = real::<T>(cones as f64);
-        let mut tau = parameter / value(&at).max(T::default_epsilon());
-        for _ in 0..40 {
-            for _ in 0..60 {
-                let (step, decrement) = self.newton(&at, tau);
-                if !decrement.is_finite() {
-                    return None;
-                }
-                let share = if decrement > real(0.25) { T::one() / (T::one() + decrement) } else { T::one() };
-                for index in self.free() {
-                    *at.at_mut(index) += share * step.at(index);
-                }
-                if decrement < real(1e-3) {
-                    break;
-                }
+        self.centre(&weights);
+        let mut at = Wide::new();
+        at.bound = self.value(&at) * real(1.2);
+        let mut found = Found { weights, below: T::zero(), reached: self.reached(&at) };
+        let mut tau = real::<T>(cones as f64) / self.value(&at).max(T::default_epsilon());
+        let mut idle = 0;
+        for _ in 0..60 {
+            if !self.follow(&mut at, tau) {
+                break;
             }
-            if parameter / tau < value(&at) * real(T::CLOSE) {
+            let (below, reached) = (self.below(&at, tau) * self.unit, self.reached(&at));
+            let gap = found.reached - found.below;
+            found.below = found.below.max(below);
+            if reached < found.reached {
+                (found.reached, found.weights) = (reached, self.weights(&at));
+            }
+            let left = found.reached - found.below;
+            if left <= found.reached * real(T::CLOSE) {
+                break;
+            }
+            // the gap shrinks by eight a round, until rounding ends that
+            idle = if left < gap * real(0.5) { 0 } else { idle + 1 };
+            if idle > 4 {
                 break;
             }
             tau *= real(8.0);
+            if reached < self.unit * real(0.1) {
+                let before = self.unit;
+                let weights = self.weights(&at);
+                self.centre(&weights);
+                let grown = before / self.unit;
+                let bound = at.bound * grown;
+                at = Wide::new();
+                at.bound = bound;
+                // the same path: `tau` times the objective stays
+                tau /= if self.aim.objective == Objective::MinMax { grown } else { grown * grown };
+                if !self.within(&at) {
+                    break;
+                }
+            }
         }
-        let below = self.below(&at, tau);
-        let reached = match self.objective {
-            Objective::MinMax => value(&at),
-            Objective::LeastSquares => value(&at).sqrt(),
-        };
-        // ten thousand times the aim in double precision, a hundred times in single: the accuracy promised to the
-        // caller
-        if !(reached - below <= reached * real::<T>(T::CLOSE).max(real(1e-8)) * real(100.0)) {
-            return None;
-        }
-        let mut weights = [zero(); PLANES];
-        for ((weight, [re, im]), scale) in weights.iter_mut().zip(&at.weights).zip(&self.scale) {
-            *weight = Complex { re: *re, im: *im }.unscale(*scale);
-        }
-        Some((weights, below * self.unit))
+        found
     }
 
-    /// The planes with a limit, their limits and weights.
-    fn limited<'s>(&'s self, at: &'s Wide<T, PLANES>) -> impl Iterator<Item = (usize, T, [T; 2])> + 's {
-        let limits = self.limits.iter().zip(&self.used).zip(&at.weights).enumerate();
-        limits.filter_map(|(plane, ((limit, used), weight))| Some((plane, (*limit).filter(|_| *used)?, *weight)))
+    /// Newton's steps to the middle of the path; false where rounding allows no step.
+    fn follow(&self, at: &mut Wide<T, PLANES>, tau: T) -> bool {
+        let mut last = T::max_value().unwrap_or(T::one());
+        for _ in 0..60 {
+            let (step, decrement) = self.newton(at, tau);
+            if !decrement.is_finite() {
+                return false;
+            }
+            // near the middle the decrement is squared by each step, until rounding ends that
+            if decrement < real(0.25) && decrement > last * real(0.5) {
+                return true;
+            }
+            last = decrement;
+            let mut share = if decrement > real(0.25) { T::one() / (T::one() + decrement) } else { T::one() };
+            let moved = |share: T| {
+                let mut to = *at;
+                for index in self.free() {
+                    *to.at_mut(index) += share * step.at(index);
+                }
+                to
+            };
+            // a step of that length ends inside, but for rounding
+            while !self.within(&moved(share)) {
+                share *= real(0.5);
+                if !(share > real(1e-3)) {
+                    return false;
+                }
+            }
+            *at = moved(share);
+            if decrement < real(1e-3) {
+                return true;
+            }
+        }
+        true
+    }
+
+    /// The objective at a point, in the unit of the readings.
+    fn reached(&self, at: &Wide<T, PLANES>) -> T {
+        match self.aim.objective {
+            Objective::MinMax => self.value(at) * self.unit,
+            Objective::LeastSquares => self.value(at).sqrt() * self.unit,
+        }
+    }
+
+    /// The planes with a limit.
+    fn limited<'s>(&'s self, at: &'s Wide<T, PLANES>) -> impl Iterator<Item = Limited<T>> + 's {
+        let limits = self.aim.limits.iter().zip(&self.used).zip(&at.weights).enumerate();
+        limits.filter_map(|(plane, ((limit, used), [x, y]))| {
+            let scale = pick(&self.norms, plane, T::one()) / self.unit;
+            let (limit, centre) = ((*limit).filter(|_| *used)?, pick(&self.centre, plane, zero()));
+            let (left, from) = ((limit - size(centre)) * scale, centre.scale(scale));
+            let limit = limit * scale;
+            // L^2 - |c + d|^2 without the difference of the large squares
+            let inside = left * (limit + size(from)) - (*x * (from.re + from.re + *x) + *y * (from.im + from.im + *y));
+            Some(Limited { plane, limit, inside, centre: from, weight: from + Complex { re: *x, im: *y } })
+        })
     }
 
     /// Newton's step of `tau` times the objective and the barriers.
@@ -268,7 +376,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Search<T, ROWS, PLANES> 
         let two = real::<T>(2.0);
         let mut root = Root { rows: [[Wide::new(); 2]; PLANES], last: Wide::new() };
         let mut gradient = Wide::new();
-        if self.objective == Objective::MinMax {
+        if self.aim.objective == Objective::MinMax {
             gradient.bound = tau;
         }
         for row in 0..self.rows {
@@ -280,7 +388,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Search<T, ROWS, PLANES> 
                 *re = [a.re, -a.im];
                 *im = [a.im, a.re];
             }
-            let pull = match self.objective {
+            let pull = match self.aim.objective {
                 Objective::LeastSquares => {
                     let factor = (two * tau).sqrt();
                     for part in [re, im] {
@@ -315,9 +423,9 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Search<T, ROWS, PLANES> 
                 *gradient.at_mut(index) += pull * (r.re * re.at(index) + r.im * im.at(index));
             }
         }
-        for (plane, limit, [x, y]) in self.limited(at) {
-            let length = Complex { re: x, im: y }.modulus();
-            let inside = (limit - length) * (limit + length);
+        for Limited { plane, inside, weight, .. } in self.limited(at) {
+            let Complex { re: x, im: y } = weight;
+            let length = size(weight);
             let factor = (two / inside).sqrt();
             // the root of I + 2 w w^T/inside: longer along w by a factor
             let along = (T::one() + two * length * length / inside).sqrt() - T::one();
@@ -341,7 +449,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Search<T, ROWS, PLANES> 
         let mut shares = [T::one(); ROWS];
         let mut whole = T::one();
         let mut force = T::one() / tau;
-        if self.objective == Objective::MinMax {
+        if self.aim.objective == Objective::MinMax {
             force = two * at.bound / tau;
             whole = T::zero();
             for (row, share) in shares.iter_mut().enumerate().take(self.rows) {
@@ -355,12 +463,11 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Search<T, ROWS, PLANES> 
             qr.absorb(&a.map(|a| a.scale(root)), -b.scale(root));
         }
         let mut squares = T::zero();
-        for (plane, limit, [re, im]) in self.limited(at) {
-            let length = Complex { re, im }.modulus();
-            let mu = force / ((limit - length) * (limit + length)) / whole;
+        for Limited { plane, limit, inside, centre, .. } in self.limited(at) {
+            let mu = force / inside / whole;
             let mut a = [zero(); PLANES];
             put(&mut a, plane, Complex { re: mu.sqrt(), im: T::zero() });
-            qr.absorb(&a, zero());
+            qr.absorb(&a, -centre.scale(mu.sqrt()));
             squares -= mu * limit * limit;
         }
         (squares + qr.rest).max(T::zero()).sqrt()

@@ -3,6 +3,7 @@
 mod holes;
 mod in_run;
 mod influence;
+mod min_max;
 mod noise;
 mod phasor;
 mod procedure;
