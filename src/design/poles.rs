@@ -55,7 +55,7 @@ pub const fn eigenvalues<const N: usize>(a: &Matrix<N, N>) -> [Complex; N] {
         let mut low = n;
         while low > 0 && low < N {
             let (joint, above, here) = (h[low][low - 1], h[low - 1][low - 1], h[low][low]);
-            // By sums of parts, between which and 0.7 of which a size lies: the roots are taken close to the edge alone.
+            // A size lies between 0.7 of the sum of its parts and that sum: roots are taken close to the edge alone.
             if 0.5 * sum(joint) <= f64::EPSILON * 0.1 * (sum(here) + sum(above)) || sum(joint) < 1e-289 {
                 let around = size(here) + size(above);
                 if size(joint) <= f64::EPSILON * 0.1 * around || size(joint) < 1e-290 {

@@ -374,8 +374,7 @@ fn a_signal_ends_long_work_at_once() {
 fn a_full_standard_output_is_a_failure() {
     for arguments in [&["design", HOIST][..], &["--help"], &["modes", "--help"]] {
         let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
-        let status =
-            Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(arguments).stdout(full).status().unwrap();
+        let status = Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(arguments).stdout(full).status().unwrap();
         assert_eq!(status.code(), Some(1), "{arguments:?}");
     }
 }
