@@ -89,7 +89,7 @@ const fn doubling_of_five<const N: usize>(mut a: Square, mut g: Square, mut h: S
     let mut iterations = 0;
     while iterations < 60 {
         let joint = five::sum(&five::UNIT, &five::product(&g, &h));
-        let Some(solver) = Solver::new(&joint, &units(&Matrix(h))) else {
+        let Some(solver) = Solver::new(&joint, units(&Matrix(h))) else {
             return None;
         };
         let back = five::transpose(&a);

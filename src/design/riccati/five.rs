@@ -121,25 +121,26 @@ pub(super) struct Solver {
 
 impl Solver {
     /// `None` where the matrix is singular. Rows are compared with their elements times `weights`.
-    pub(super) const fn new(left: &Square, weights: &[f64; 5]) -> Option<Self> {
+    pub(super) const fn new(left: &Square, mut weights: [f64; 5]) -> Option<Self> {
         let (mut lu, mut order) = (*left, [0, 1, 2, 3, 4]);
         let mut pivot = 0;
         while pivot < 5 {
             let mut best = pivot;
-            let mut largest = (lu[pivot][pivot] * weights[order[pivot]]).abs();
+            let mut largest = (lu[pivot][pivot] * weights[pivot]).abs();
             let mut i = pivot + 1;
             while i < 5 {
-                let size = (lu[i][pivot] * weights[order[i]]).abs();
+                let size = (lu[i][pivot] * weights[i]).abs();
                 if size > largest {
                     (best, largest) = (i, size);
                 }
                 i += 1;
             }
-            if largest == 0.0 || !largest.is_finite() {
+            // The bound holds anyway: it is there for the compiler, which then leaves no panic in an image.
+            if largest == 0.0 || !largest.is_finite() || best >= 5 {
                 return None;
             }
             let (upper, place) = (lu[best], order[best]);
-            (lu[best], order[best]) = (lu[pivot], order[pivot]);
+            (lu[best], order[best], weights[best]) = (lu[pivot], order[pivot], weights[pivot]);
             (lu[pivot], order[pivot]) = (upper, place);
             let [_, g, h, k, l] = upper;
             let mut i = pivot + 1;
@@ -173,11 +174,11 @@ impl Solver {
         let mut i = 0;
         while i < 5 {
             let column = &right[i];
-            let a = column[p];
-            let b = column[q] - b0 * a;
-            let c = column[r] - c0 * a - c1 * b;
-            let d = column[s] - d0 * a - d1 * b - d2 * c;
-            let e = column[t] - e0 * a - e1 * b - e2 * c - e3 * d;
+            let a = at(column, p);
+            let b = at(column, q) - b0 * a;
+            let c = at(column, r) - c0 * a - c1 * b;
+            let d = at(column, s) - d0 * a - d1 * b - d2 * c;
+            let e = at(column, t) - e0 * a - e1 * b - e2 * c - e3 * d;
             let e = e / e4;
             let d = (d - d4 * e) / d3;
             let c = (c - c3 * d - c4 * e) / c2;
@@ -187,5 +188,17 @@ impl Solver {
             i += 1;
         }
         solved
+    }
+}
+
+/// An element of a column; without a bound that could be missed, since an image may hold no panic.
+const fn at(column: &[f64; 5], place: usize) -> f64 {
+    let [a, b, c, d, e] = *column;
+    match place {
+        0 => a,
+        1 => b,
+        2 => c,
+        3 => d,
+        _ => e,
     }
 }
