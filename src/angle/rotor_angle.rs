@@ -135,7 +135,13 @@ impl RotorAngle {
         ((u64::from(self.units()) * u64::from(config.inverse)) >> 26) as u32
     }
 
-    /// Sets the rotor's angle [2^-32 turn], as an index on the rotor shows it.
+    /// Sets the rotor's angle [2^-32 turn] at an angle of the motor [2^-32 turn], as an index on the rotor shows it.
+    pub fn set_at(&mut self, config: &RotorAngleConfig, motor: u32, angle: u32) {
+        self.motor = motor;
+        self.set(config, angle);
+    }
+
+    /// Sets the rotor's angle [2^-32 turn] at the motor's angle of the last tick.
     pub fn set(&mut self, config: &RotorAngleConfig, angle: u32) {
         self.position = i64::from(angle) * i64::from(config.turn);
     }

@@ -5,18 +5,24 @@
 //! Wittenmark, *Adaptive Control*, 7.3), larger where the influence is too uncertain to be identified by it, and never
 //! larger than four standard deviations of that uncertainty allow within the bound.
 //!
-//! Without a first estimate the first move is the probe: a weight that is known to change the vibration by less than
-//! the bound allows. Later moves are bounded by the identified influence.
+//! Without a first estimate the head stands still for one reading: its change is the machine's own. The first move is
+//! the probe: a weight that is known to change the vibration by less than the bound allows. Later moves are bounded by
+//! the identified influence.
+//!
+//! An estimate is used for a correction only after a second move has confirmed it, and only where the correction cannot
+//! make the vibration worse within its uncertainty. Where readings change by themselves by more than the moves change
+//! them, the head goes back to where it began. A change that an identified influence does not explain is a jump of the
+//! unbalance: the influence stays, and the correction follows.
 
 use core::fmt;
 
-use nalgebra::ComplexField;
+mod estimate;
 
 use super::error::Error;
 use super::influence::Influence;
-use super::matrix::{Matrix, pick, put};
-use super::qr::Qr;
+use super::matrix::{pick, put};
 use super::scalar::{Complex, Scalar, real, size, zero};
+use estimate::{DEVIATIONS, Estimate};
 
 /// How far a machine may be moved while it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,8 +41,7 @@ pub struct InRunConfig<T, const PLANES: usize> {
     /// Forgetting factor per move, 0 to 1.
     pub forgetting: T,
     /// Standard deviation of a reading as a share of the initial vibration, unless the reading's own variance is
-    /// larger. Include the drift of the influence from move to move: with too small a value one start in several
-    /// thousand exceeds the bound.
+    /// larger. What the readings change by themselves is added as it is seen.
     pub noise: T,
 }
 
@@ -44,9 +49,9 @@ pub struct InRunConfig<T, const PLANES: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub enum Action<T: Scalar, const PLANES: usize> {
-    /// Set these weights, wait for a steady reading and give it.
+    /// Set these weights, wait for a steady reading and give it. The same weights again ask for another reading.
     Set([Complex<T>; PLANES]),
-    /// Within the target: leave the weights.
+    /// Within the target, or nothing left to gain: leave the weights.
     Hold,
     /// Abort: set these weights, the best so far, and look for the cause.
     Abort([Complex<T>; PLANES], AbortReason),
@@ -62,6 +67,8 @@ pub enum AbortReason {
     Stalled,
     /// A reading is missing or not a number.
     NoReading,
+    /// The weights change the readings by no more than these change by themselves.
+    Unidentified,
 }
 
 impl fmt::Display for AbortReason {
@@ -70,14 +77,26 @@ impl fmt::Display for AbortReason {
             AbortReason::Diverging => "the vibration rose above its bound",
             AbortReason::Stalled => "eight moves brought nothing",
             AbortReason::NoReading => "a reading is missing or not a number",
+            AbortReason::Unidentified => "the weights change the readings by no more than these change by themselves",
         })
     }
 }
 
 /// Moves without a better vibration before it is given up.
 const PATIENCE: u32 = 8;
-/// Standard deviations that a move is bounded by.
-const DEVIATIONS: f64 = 4.0;
+/// Moves, for each plane, that may serve identification before the vibration is better.
+const PROBES: u32 = 16;
+/// Square of what the vibration wanders from reading to reading, over the square of a reading's error.
+const WALK: f64 = 0.1;
+/// Least share of a correction that is worth a move.
+const LEAST_SHARE: f64 = 0.3;
+/// Relative change of the vibration for a relative change of the speed: acceleration by unbalance goes with the fourth
+/// power of the speed, with more near a resonance.
+const SPEED_POWER: f64 = 8.0;
+/// Deviation from the speed of the first reading beyond which a reading is not used.
+const SPEED_BAND: f64 = 0.02;
+/// A vibration below this share of the initial one is better beyond doubt.
+const BETTER: f64 = 0.7;
 
 /// In-run balancing of at most `ROWS` readings by `PLANES` heads.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,18 +104,26 @@ const DEVIATIONS: f64 = 4.0;
 pub struct InRun<T: Scalar, const ROWS: usize, const PLANES: usize> {
     config: InRunConfig<T, PLANES>,
     rows: usize,
-    /// The estimated influence, and the covariance of one of its rows.
-    influence: Matrix<T, ROWS, PLANES>,
-    covariance: Matrix<T, PLANES, PLANES>,
-    known: bool,
+    estimate: Estimate<T, ROWS, PLANES>,
     weights: [Complex<T>; PLANES],
     /// Change of the weights since the last reading.
     moved: [Complex<T>; PLANES],
-    last: [Complex<T>; ROWS],
-    /// Level that it began with; none before the first reading.
+    /// Level of the last reading.
+    level: T,
+    /// Weights that it began with, and their level; none before the first reading.
+    rest: [Complex<T>; PLANES],
     start: Option<T>,
     best: (T, [Complex<T>; PLANES]),
+    /// Standard deviation of the readings beside their prediction, over the level.
+    scatter: T,
+    /// Speed of the first reading.
+    speed: Option<T>,
     stalled: u32,
+    probes: u32,
+    /// Moves in a row that ended above the bound, or beside their prediction.
+    failures: u32,
+    /// The last reading was beside its prediction although the influence is confirmed.
+    jumped: bool,
     aborted: Option<AbortReason>,
 }
 
@@ -127,15 +154,19 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         Ok(InRun {
             config,
             rows,
-            influence: Matrix::new(),
-            covariance: Matrix::new(),
-            known: false,
+            estimate: Estimate::new(rows),
             weights,
             moved: [zero(); PLANES],
-            last: [zero(); ROWS],
+            level: T::zero(),
+            rest: weights,
             start: None,
             best: (T::zero(), weights),
+            scatter: T::zero(),
+            speed: None,
             stalled: 0,
+            probes: 0,
+            failures: 0,
+            jumped: false,
             aborted: None,
         })
     }
@@ -149,17 +180,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         if !(share > T::zero() && share.is_finite()) {
             return Err(Error::Setting { index: 0 });
         }
-        for plane in 0..PLANES {
-            let mut largest = T::zero();
-            for row in 0..self.rows {
-                let value = model.get(row, plane).ok_or(Error::PlaneUnknown { plane })?;
-                self.influence.set(row, plane, value);
-                largest = largest.max(size(value));
-            }
-            let deviation = largest * share;
-            self.covariance.set(plane, plane, Complex { re: deviation * deviation, im: T::zero() });
-        }
-        self.known = true;
+        self.estimate.adopt(model, share)?;
         Ok(self)
     }
 
@@ -178,152 +199,248 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
 
     /// The largest amplitude over that of the first reading; none before that.
     pub fn level(&self) -> Option<T> {
-        self.start.map(|start| largest(&self.last, self.rows) / start)
+        self.start.map(|start| self.level / start)
     }
 
     /// The estimate of a coefficient and its standard deviation.
     pub fn influence(&self, row: usize, plane: usize) -> (Complex<T>, T) {
-        (self.influence.at(row, plane), self.deviation(plane))
+        (self.estimate.influence(row, plane), self.estimate.deviation(plane))
+    }
+
+    /// Begins again after an abort, from where the heads stand now. The influence learnt so far is kept; the next
+    /// reading is the first one.
+    pub fn resume(&mut self, weights: &[Complex<T>; PLANES]) {
+        (self.aborted, self.start, self.speed) = (None, None, None);
+        (self.weights, self.rest, self.moved) = (*weights, *weights, [zero(); PLANES]);
+        (self.stalled, self.probes, self.failures, self.jumped) = (0, 0, 0, false);
     }
 
     /// Takes a steady reading with the present weights and its variance (0 where unknown), and returns the next action.
+    ///
+    /// All readings are of one speed; [`InRun::advise_at`] allows for another.
     pub fn advise(&mut self, reading: &[Complex<T>], variance: T) -> Action<T, PLANES> {
+        self.next(reading, variance, T::zero())
+    }
+
+    /// The same with the speed of the reading, in any unit. A reading more than 2 % off the first one's speed is not
+    /// used; within that the uncertainty grows with the deviation.
+    pub fn advise_at(&mut self, reading: &[Complex<T>], variance: T, speed: T) -> Action<T, PLANES> {
+        let first = *self.speed.get_or_insert(speed);
+        let off = (speed / first - T::one()).abs();
+        // written so that a NaN is beyond the band
+        if !(off <= real(SPEED_BAND)) {
+            if self.speed == Some(speed) {
+                self.speed = None;
+            }
+            if let Some(reason) = self.aborted {
+                return Action::Abort(self.best.1, reason);
+            }
+            self.stalled += 1;
+            if self.stalled > PATIENCE {
+                return self.abort(AbortReason::Stalled);
+            }
+            return Action::Set(self.weights);
+        }
+        self.next(reading, variance, off * real(SPEED_POWER))
+    }
+
+    fn next(&mut self, reading: &[Complex<T>], variance: T, off: T) -> Action<T, PLANES> {
         if let Some(reason) = self.aborted {
             return Action::Abort(self.best.1, reason);
         }
         let numbers = reading.iter().take(self.rows).all(|value| value.re.is_finite() && value.im.is_finite());
         if reading.len() < self.rows || !numbers {
             // nothing is learnt from this; the next reading may be better
-            return Action::Abort(self.best.1, AbortReason::NoReading);
+            return Action::Abort(self.home(), AbortReason::NoReading);
         }
         let level = largest(reading, self.rows);
-        let start = match self.start {
-            Some(start) => {
-                self.learn(reading, start, variance);
-                start
-            }
-            None => {
-                self.begin(level);
-                level
-            }
+        let given = if variance > T::zero() { variance.sqrt() } else { T::zero() };
+        let own = |start: T| (start * self.config.noise).max(given).max(level * off);
+        let Some(start) = self.start else {
+            self.level = level;
+            (self.start, self.best) = (Some(level), (level, self.weights));
+            self.estimate.restart(reading, own(level) * own(level));
+            let most = level * (self.config.bound - T::one()) * real(0.95) / self.config.probe;
+            return if self.estimate.begin(most) { Action::Set(self.weights) } else { self.correct(level, own(level)) };
         };
-        for (last, value) in self.last.iter_mut().zip(reading).take(self.rows) {
-            *last = *value;
-        }
-        self.stalled += 1;
-        if level < self.best.0 {
+        let noise = own(start).max(level.max(self.level) * self.scatter);
+        let at_rest = self.weights == self.rest;
+        let mut start = self.learn(reading, level, start, noise * noise);
+        self.level = level;
+        let confirmed = self.estimate.confirmed();
+        self.stalled += u32::from(confirmed);
+        if level < self.best.0 && confirmed {
             // anything less than a tenth better counts as nothing
             if level < self.best.0 * real(0.9) {
                 self.stalled = 0;
             }
             self.best = (level, self.weights);
         }
+        if at_rest {
+            // what the head is judged by: where it has jumped, identification begins again
+            if level > start * self.config.bound {
+                self.probes = 0;
+                self.estimate.restart(reading, noise * noise);
+            }
+            start = level;
+            (self.start, self.best) = (Some(start), (level, self.weights));
+        }
         if level > start * self.config.bound {
-            return self.abort(AbortReason::Diverging);
+            self.failures += 1;
+            if self.failures > 1 {
+                return self.abort(AbortReason::Diverging);
+            }
+            return self.go(self.home());
         }
         if level <= start * self.config.target {
-            self.stalled = 0;
+            (self.stalled, self.probes, self.failures) = (0, 0, 0);
             return Action::Hold;
+        }
+        if self.failures > 3 {
+            return self.abort(AbortReason::Unidentified);
         }
         if self.stalled > PATIENCE {
             return self.abort(AbortReason::Stalled);
         }
-        let step = self.step(start);
-        for ((moved, weight), step) in self.moved.iter_mut().zip(&mut self.weights).zip(&step) {
-            *moved = *step;
-            *weight += *step;
+        if core::mem::take(&mut self.jumped) {
+            // a jump stays, a disturbance goes: the next reading shows which
+            return if self.estimate.confirmed() { Action::Set(self.weights) } else { self.go(self.rest) };
         }
-        Action::Set(self.weights)
+        self.correct(start, noise)
+    }
+
+    /// The best weights, where they are better beyond doubt, or those that it began with.
+    fn home(&self) -> [Complex<T>; PLANES] {
+        let better = self.start.is_some_and(|start| self.best.0 < start * real(BETTER));
+        if better { self.best.1 } else { self.rest }
     }
 
     fn abort(&mut self, reason: AbortReason) -> Action<T, PLANES> {
         self.aborted = Some(reason);
+        self.best.1 = self.home();
         Action::Abort(self.best.1, reason)
     }
 
-    fn begin(&mut self, level: T) {
-        self.start = Some(level);
-        self.best = (level, self.weights);
-        if !self.known {
-            // the promise of the probe, as so many standard deviations
-            let most = level * (self.config.bound - T::one()) * real(0.95) / self.config.probe;
-            let deviation = most / real(DEVIATIONS);
-            for plane in 0..PLANES {
-                self.covariance.set(plane, plane, Complex { re: deviation * deviation, im: T::zero() });
-            }
-        }
+    /// Sets weights.
+    fn go(&mut self, to: [Complex<T>; PLANES]) -> Action<T, PLANES> {
+        self.installed(&to);
+        Action::Set(to)
     }
 
-    /// Recursive least squares: the change of the readings against the change of the weights.
-    fn learn(&mut self, reading: &[Complex<T>], start: T, variance: T) {
-        let (moved, rows) = (self.moved, self.rows);
-        self.moved = [zero(); PLANES];
-        if moved.iter().all(|moved| *moved == zero()) {
-            return;
-        }
-        for p in 0..PLANES {
-            for q in 0..PLANES {
-                self.covariance.set(p, q, self.covariance.at(p, q).unscale(self.config.forgetting));
+    /// Takes in what has changed since the last reading, and returns the level of the weights that it began with.
+    fn learn(&mut self, reading: &[Complex<T>], level: T, start: T, noise: T) -> T {
+        let moved = core::mem::replace(&mut self.moved, [zero(); PLANES]);
+        let still = moved.iter().all(|moved| *moved == zero());
+        let predicted = self.estimate.largest_change(&moved);
+        self.estimate.predict(&moved, noise * real(WALK));
+        let innovation = self.estimate.innovation(reading, noise);
+        let surprise = innovation.largest > innovation.deviation * real(DEVIATIONS);
+        // what the readings change by themselves: all of it where nothing has moved, or what the prediction leaves
+        let beyond = if still { innovation.largest * real(0.7) } else { innovation.largest - innovation.predicted };
+        let beyond = beyond.max(T::zero()) / level.max(self.level);
+        if surprise && self.estimate.confirmed() {
+            self.failures += 1;
+            self.stalled = 0;
+            self.jumped = true;
+            let wrong = innovation.largest > predicted * real(0.5) && level > self.level * real(0.9);
+            if !still && wrong {
+                // the influence may be wrong: it has to be confirmed again, from where it began
+                let ratio = innovation.largest / innovation.deviation;
+                self.estimate.learn(&innovation);
+                self.estimate.doubt(ratio * ratio);
+                return start;
             }
+            // a jump of the unbalance: the influence stays
+            self.estimate.restart(reading, noise);
+            let start = self.at_rest().max(level / self.config.bound);
+            (self.start, self.best) = (Some(start), (level, self.weights));
+            return start;
         }
-        let own = start * self.config.noise;
-        let given = if variance > T::zero() { variance } else { T::zero() };
-        // two readings differ
-        let noise = (own * own).max(given) * real(2.0);
-        let mut gain = [zero(); PLANES];
-        let mut spread = noise;
-        for (p, gain) in gain.iter_mut().enumerate() {
-            *gain =
-                moved.iter().enumerate().fold(zero(), |sum, (q, moved)| sum + self.covariance.at(p, q) * moved.conj());
-            spread += (pick(&moved, p, zero()) * *gain).re;
-        }
-        let along = gain;
-        for gain in &mut gain {
-            *gain = gain.unscale(spread);
-        }
-        for row in 0..rows {
-            let known = (0..PLANES).fold(zero(), |sum, p| sum + self.influence.at(row, p) * pick(&moved, p, zero()));
-            let innovation = pick(reading, row, zero()) - pick(&self.last, row, zero()) - known;
-            for (p, gain) in gain.iter().enumerate() {
-                self.influence.set(row, p, self.influence.at(row, p) + *gain * innovation);
+        let share = real::<T>(if self.scatter > T::zero() { 0.35 } else { 1.0 });
+        let square = self.scatter * self.scatter * (T::one() - share) + beyond * beyond * share;
+        self.scatter = square.sqrt();
+        self.estimate.learn(&innovation);
+        if surprise {
+            self.failures += 1;
+            self.scatter = self.scatter.max(beyond * real(0.5));
+            let ratio = innovation.largest / (innovation.deviation * real(DEVIATIONS));
+            self.estimate.doubt(real::<T>(4.0) * ratio * ratio);
+        } else if !still {
+            if self.estimate.confirmed() {
+                self.failures = 0;
             }
+            self.estimate.confirm(&moved, predicted, &innovation, self.config.forgetting);
         }
-        for (p, gain) in gain.iter().enumerate() {
-            for (q, along) in along.iter().enumerate() {
-                self.covariance.set(p, q, self.covariance.at(p, q) - *gain * along.conj());
-            }
-        }
+        start
     }
 
-    fn deviation(&self, plane: usize) -> T {
-        self.covariance.at(plane, plane).re.max(T::zero()).sqrt()
+    /// Level with the weights that it began with, as estimated.
+    fn at_rest(&self) -> T {
+        let mut back = self.rest;
+        for (back, weight) in back.iter_mut().zip(&self.weights) {
+            *back -= *weight;
+        }
+        self.estimate.level_after(&back)
     }
 
-    /// The change of the weights.
-    fn step(&self, start: T) -> [Complex<T>; PLANES] {
-        let allowed = start * self.config.bound * real(0.95);
-        let level = largest(&self.last, self.rows);
-        // the plane of largest relative uncertainty
-        let (mut unknown_plane, mut worst) = (PLANES, real::<T>(0.5));
-        for plane in 0..PLANES {
-            let known = (0..self.rows).fold(T::zero(), |most, row| most.max(size(self.influence.at(row, plane))));
-            let unknown = self.deviation(plane) / known.max(T::default_epsilon() * self.deviation(plane));
-            if unknown > worst {
-                (unknown_plane, worst) = (plane, unknown);
+    /// The next move: a correction where it cannot do harm, a probe where the influence is not known well enough.
+    fn correct(&mut self, start: T, noise: T) -> Action<T, PLANES> {
+        let level = self.estimate.level();
+        let correction = self.within(self.estimate.cautious());
+        let mut probing = self.estimate.least_known();
+        if probing.is_none() {
+            // within the readings' error nothing is left to gain
+            if level - self.estimate.level_after(&correction) < noise {
+                (self.stalled, self.probes, self.failures) = (0, 0, 0);
+                return Action::Hold;
             }
+            let mut share = T::one();
+            while self.estimate.expected(&correction, share) > level && share > real(LEAST_SHARE) {
+                share *= real(0.8);
+            }
+            if share > real(LEAST_SHARE) {
+                return self.move_by(&correction, share);
+            }
+            probing = (0..PLANES).max_by(|a, b| {
+                let doubt = |plane: &usize| self.estimate.doubt_of(*plane);
+                doubt(a).partial_cmp(&doubt(b)).unwrap_or(core::cmp::Ordering::Equal)
+            });
         }
-        let mut step = self.cautious();
-        if unknown_plane < PLANES {
-            // learn by the largest move that is safe whichever way it goes
-            let known =
-                (0..self.rows).fold(T::zero(), |most, row| most.max(size(self.influence.at(row, unknown_plane))));
-            let length = (allowed - level).max(T::zero()) / (known + self.deviation(unknown_plane) * real(DEVIATIONS));
-            let wanted = pick(&step, unknown_plane, zero());
+        let Some(plane) = probing else { return self.abort(AbortReason::Unidentified) };
+        self.probes += 1;
+        if self.probes > PROBES * PLANES as u32 {
+            return self.abort(AbortReason::Unidentified);
+        }
+        // the first reading may have been a large one
+        let start = start.min(self.at_rest());
+        // learn by the largest move that is safe whichever way it goes: towards the correction where that is known
+        // roughly, else to and fro about the weights that it began with
+        let allowed = start * self.config.bound * real(0.93);
+        let mut step = [zero(); PLANES];
+        let wanted = pick(&correction, plane, zero());
+        if self.estimate.doubt_of(plane) < real(0.5) && size(wanted) > T::zero() && self.level <= start {
+            let length = (allowed - level.max(self.level)).max(T::zero()) / self.estimate.most(plane);
+            put(&mut step, plane, wanted.unscale(size(wanted)).scale(length));
+        } else {
+            let length = (allowed - start).max(T::zero()) / self.estimate.most(plane);
+            let from = pick(&self.weights, plane, zero()) - pick(&self.rest, plane, zero());
             let ahead = Complex { re: T::one(), im: T::zero() };
-            let way = if size(wanted) > T::zero() { wanted.unscale(size(wanted)) } else { ahead };
-            step = [zero(); PLANES];
-            put(&mut step, unknown_plane, way.scale(length.max(size(wanted))));
+            let way = if size(from) > T::zero() { -from.unscale(size(from)) } else { ahead };
+            put(&mut step, plane, way.scale(length) - from);
         }
+        let step = self.within(step);
+        let mut share = T::one();
+        for _ in 0..24 {
+            if self.estimate.expected(&step, share) <= allowed {
+                break;
+            }
+            share *= real(0.8);
+        }
+        self.move_by(&step, share)
+    }
+
+    /// A step within the limits of a move and of the heads.
+    fn within(&self, mut step: [Complex<T>; PLANES]) -> [Complex<T>; PLANES] {
         for ((step, weight), limit) in step.iter_mut().zip(&self.weights).zip(&self.config.limits) {
             if size(*step) > self.config.step {
                 *step = step.scale(self.config.step / size(*step));
@@ -333,51 +450,15 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
                 *step = to.scale(*limit / size(to)) - *weight;
             }
         }
-        let mut share = T::one();
-        for _ in 0..24 {
-            if self.expected(&step, share) <= allowed {
-                break;
-            }
-            share *= real(0.8);
-        }
-        step.map(|step| step.scale(share))
+        step
     }
 
-    /// The change that minimises the expected square, uncertainty included.
-    fn cautious(&self) -> [Complex<T>; PLANES] {
-        let mut qr = Qr::<T, PLANES>::new();
-        for (row, last) in self.last.iter().enumerate().take(self.rows) {
-            let mut a = [zero(); PLANES];
-            for (plane, a) in a.iter_mut().enumerate() {
-                *a = self.influence.at(row, plane);
-            }
-            qr.absorb(&a, -*last);
+    fn move_by(&mut self, step: &[Complex<T>; PLANES], share: T) -> Action<T, PLANES> {
+        let mut to = self.weights;
+        for (to, step) in to.iter_mut().zip(step) {
+            *to += step.scale(share);
         }
-        for plane in 0..PLANES {
-            let mut a = [zero(); PLANES];
-            let root = self.deviation(plane) * real::<T>(self.rows as f64).sqrt();
-            put(&mut a, plane, Complex { re: root, im: T::zero() });
-            qr.absorb(&a, zero());
-        }
-        qr.pivoted(T::zero()).solve()
-    }
-
-    /// The largest amplitude that a share of a step may lead to, within the standard deviations that count.
-    fn expected(&self, step: &[Complex<T>; PLANES], share: T) -> T {
-        let mut square = T::zero();
-        for (p, a) in step.iter().enumerate() {
-            for (q, b) in step.iter().enumerate() {
-                square += (*a * self.covariance.at(p, q) * b.conj()).re;
-            }
-        }
-        let unknown = square.max(T::zero()).sqrt() * share * real(DEVIATIONS);
-        let mut most = T::zero();
-        for (row, last) in self.last.iter().enumerate().take(self.rows) {
-            let change =
-                step.iter().enumerate().fold(zero(), |sum, (plane, step)| sum + self.influence.at(row, plane) * *step);
-            most = most.max(size(*last + change.scale(share)));
-        }
-        most + unknown
+        self.go(to)
     }
 }
 

@@ -130,11 +130,12 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
         (self.noted, self.left) = (0, 1);
     }
 
-    /// Sets the rotor's present angle [2^-32 turn], as from an index mark on the rotor, and begins a new reading.
+    /// Sets the rotor's angle [2^-32 turn] at an angle of the motor [2^-32 turn], as an index mark on the rotor shows
+    /// it, and begins a new reading.
     ///
     /// An incremental encoder has its zero where it was switched on; without this, so has the phase.
-    pub fn align(&mut self, config: &PhasorsConfig<N, CHANNELS>, angle: u32) {
-        self.turning.set(&config.turning, angle);
+    pub fn align(&mut self, config: &PhasorsConfig<N, CHANNELS>, motor: u32, angle: u32) {
+        self.turning.set_at(&config.turning, motor, angle);
         self.direction = N::direction(self.turning.direction(&config.turning));
         self.begin();
     }

@@ -87,23 +87,25 @@ impl From<Phasor> for nalgebra::Complex<f64> {
     }
 }
 
-/// Limits of a reading's unsteadiness.
+/// Limits of a reading's unsteadiness, judged on the mean of its blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Steadiness {
     /// Difference of the fastest and the slowest block's speed, over the mean speed.
     pub speed: f32,
-    /// Change of the phasor from the first block to the last along a straight line, over its amplitude.
+    /// Change of the phasor from the first block to the last along a straight line, over its amplitude, beyond what the
+    /// blocks' remaining differences explain.
     pub drift: f32,
-    /// Root mean square of the blocks' remaining differences, over the amplitude.
+    /// Standard deviation of the phasor by the blocks' remaining differences, over its amplitude.
     pub scatter: f32,
     /// Smallest reference amplitude of drift and scatter \[unit of the channel, or of its base\].
     pub floor: f32,
 }
 
 impl Steadiness {
-    /// 1 % of speed, 3 % of drift and 10 % of scatter among the blocks; no floor.
-    pub const USUAL: Self = Steadiness { speed: 0.01, drift: 0.03, scatter: 0.1, floor: 0.0 };
+    /// 1 % of speed, 3 % of drift and 20 % of the mean's standard deviation, of which a correction leaves a fifth; no
+    /// floor.
+    pub const USUAL: Self = Steadiness { speed: 0.01, drift: 0.03, scatter: 0.2, floor: 0.0 };
 }
 
 /// A phasor and how it came about.
@@ -121,7 +123,8 @@ pub struct Reading {
     pub ticks: f32,
     /// Difference of the fastest and the slowest block's speed, over the mean speed.
     pub speed_spread: f32,
-    /// Change of the phasor along a straight line over the reading, over the amplitude.
+    /// Change of the phasor along a straight line over the reading, over the amplitude, beyond three times its standard
+    /// deviation by the blocks' remaining differences.
     pub drift: f32,
     /// Root mean square of the blocks' remaining differences, over the amplitude.
     pub scatter: f32,
@@ -167,7 +170,7 @@ pub enum ReadingFault {
     },
     /// The vibration fluctuates: noise, or a beat with another rotating part.
     Scattered {
-        /// Root mean square of the blocks' differences, over the amplitude.
+        /// Standard deviation of the mean by the blocks' differences, over the amplitude.
         scatter: f32,
     },
 }
@@ -195,7 +198,7 @@ impl fmt::Display for ReadingFault {
                 f.write_str(" while the speed stood: a resonance is near, or the rotor is getting warm")
             }
             ReadingFault::Scattered { scatter } => {
-                f.write_str("the vibration fluctuates by ")?;
+                f.write_str("the vibration fluctuates: the mean is uncertain by ")?;
                 tenths(f, *scatter)
             }
         }
@@ -290,13 +293,16 @@ impl Reading {
         // two phasors are spent on the line
         let variance = if blocks > 2.0 { squares / (blocks - 2.0) } else { 0.0 };
         let over = 1.0 / mean.amplitude();
+        let drift = slope.amplitude() * (blocks - 1.0);
+        // of a straight line through blocks that differ by chance
+        let explained = if places > 0.0 { root(variance / places) * (blocks - 1.0) } else { 0.0 };
         Ok(Reading {
             phasor: mean,
             variance: variance / blocks,
             turns: config.block.wrapping_mul(edges.len().saturating_sub(1) as u32),
             ticks,
             speed_spread: (longest - shortest) / (ticks * turns),
-            drift: slope.amplitude() * (blocks - 1.0) * over,
+            drift: if drift > 3.0 * explained { (drift - 3.0 * explained) * over } else { 0.0 },
             scatter: root(variance) * over,
         })
     }
@@ -304,14 +310,15 @@ impl Reading {
     /// This reading, where it is within limits.
     pub(crate) fn accept(self, clipped: bool, steadiness: &Steadiness) -> Result<Reading, ReadingFault> {
         let amplitude = self.phasor.amplitude();
+        let uncertain = root(self.variance) / amplitude;
         let relative = if amplitude < steadiness.floor { amplitude / steadiness.floor } else { 1.0 };
         // a NaN is beyond every limit
         if clipped || !amplitude.is_finite() {
             Err(ReadingFault::Clipped)
         } else if !(self.speed_spread <= steadiness.speed) {
             Err(ReadingFault::SpeedMoved { spread: self.speed_spread })
-        } else if !(self.scatter * relative <= steadiness.scatter) && amplitude > 0.0 {
-            Err(ReadingFault::Scattered { scatter: self.scatter })
+        } else if !(uncertain * relative <= steadiness.scatter) && amplitude > 0.0 {
+            Err(ReadingFault::Scattered { scatter: uncertain })
         } else if !(self.drift * relative <= steadiness.drift) && amplitude > 0.0 {
             Err(ReadingFault::Drifting { drift: self.drift })
         } else {

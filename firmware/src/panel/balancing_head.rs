@@ -29,7 +29,7 @@ impl<H: Head> HeadPanel<H> {
         let Some(in_run) = &mut self.in_run else { return refused(1) };
         self.reading = measured.readings.map(|reading| reading.phasor);
         let variance = measured.readings.iter().fold(0.0, |most: f32, reading| most.max(reading.variance));
-        match in_run.advise(&self.reading.map(Complex::from), variance) {
+        match in_run.advise_at(&self.reading.map(Complex::from), variance, measured.speed) {
             Action::Set([place]) => {
                 self.place = place;
                 DONE
@@ -41,6 +41,7 @@ impl<H: Head> HeadPanel<H> {
                     AbortReason::Diverging => 4,
                     AbortReason::Stalled => 5,
                     AbortReason::NoReading => 6,
+                    AbortReason::Unidentified => 7,
                 })
             }
         }

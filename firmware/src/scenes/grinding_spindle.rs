@@ -39,7 +39,7 @@ impl HasVibration for GrindingSpindle {
     /// Eight blocks of eight turns, 1.3 s.
     const PHASORS: PhasorSettings = PhasorSettings {
         turns: 8,
-        steadiness: Steadiness { drift: 0.1, scatter: 0.3, floor: 0.4, ..Steadiness::USUAL },
+        steadiness: Steadiness { drift: 0.1, scatter: 0.1, floor: 0.4, ..Steadiness::USUAL },
         ..PhasorSettings::DIRECT
     };
     /// Of acceleration [m/s2].

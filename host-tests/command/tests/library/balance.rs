@@ -4,6 +4,7 @@ mod holes;
 mod in_run;
 mod influence;
 mod min_max;
+mod never_harmful;
 mod noise;
 mod phasor;
 mod procedure;
