@@ -7,17 +7,24 @@
 //! | learner | finds | from |
 //! |---|---|---|
 //! | [`GearLoss`] | friction of a gear per shaft torque | motor torque, up and down at a steady speed |
+//! | [`TorqueConstant`] | torque constant and offset of the motor | the same under known loads |
+//! | [`RunUp`] | inertia | motor torque above that of the steady motion, per change of the speed |
 //! | [`EccentricityObserver`] | eccentricity of the encoder | the innovation at once a turn |
 
 mod eccentricity;
 mod gear_loss;
 #[cfg(feature = "parameters")]
 mod record;
+mod run_up;
+mod steady;
+mod torque_constant;
 
 pub use eccentricity::{Correction, EccentricityConfig, EccentricityObserver};
 pub use gear_loss::{GearLoss, GearLossConfig};
 #[cfg(feature = "parameters")]
 pub use record::Learnt;
+pub use run_up::{RunUp, RunUpConfig};
+pub use torque_constant::{TorqueCalibration, TorqueConstant, TorqueConstantConfig};
 
 /// What an update of a learner has done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

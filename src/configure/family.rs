@@ -69,19 +69,22 @@ pub trait Family<const A: usize, const B: usize>: Machine {
     const SECOND: [f64; B];
     /// The two masses at the points.
     const MEMBERS: [[TwoMass; B]; A];
+    /// The disturbance that the observers at the points are designed for, with the load of [`Machine::TWO_MASS`]. The
+    /// schedule follows the load: the rest wanders less than under one set of gains for all loads.
+    const SCHEDULED_DISTURBANCE: Disturbance = Self::DISTURBANCE;
     /// The observers' gains at the points.
     ///
-    /// They are those of [`Machine::DISTURBANCE`] with the step of the load torque in proportion to the load's inertia:
+    /// They are those of [`SCHEDULED_DISTURBANCE`](Self::SCHEDULED_DISTURBANCE) with the step of the load torque in proportion to the load's inertia:
     /// a light load cannot change by more than itself. Without this a schedule is worse than fixed gains at a light
     /// load.
     const OBSERVERS: [[PlacedObserver; B]; A] = {
-        let mut observers = [[observer::<Self>(&Self::MEMBERS[0][0]); B]; A];
+        let mut observers = [[observer::<Self>(&Self::MEMBERS[0][0], &Self::SCHEDULED_DISTURBANCE); B]; A];
         let mut i = 0;
         while i < A {
             let mut j = 0;
             while j < B {
                 if i + j > 0 {
-                    observers[i][j] = observer::<Self>(&Self::MEMBERS[i][j]);
+                    observers[i][j] = observer::<Self>(&Self::MEMBERS[i][j], &Self::SCHEDULED_DISTURBANCE);
                 }
                 j += 1;
             }
@@ -110,9 +113,9 @@ pub trait Family<const A: usize, const B: usize>: Machine {
 }
 
 /// The gains for a member.
-const fn observer<M: Machine + ?Sized>(member: &TwoMass) -> PlacedObserver {
+const fn observer<M: Machine + ?Sized>(member: &TwoMass, disturbance: &Disturbance) -> PlacedObserver {
     let scale = member.load_inertia / M::TWO_MASS.load_inertia;
-    let disturbance = Disturbance { load_torque_step: scale * M::DISTURBANCE.load_torque_step, ..M::DISTURBANCE };
+    let disturbance = Disturbance { load_torque_step: scale * disturbance.load_torque_step, ..*disturbance };
     match member.try_placed_observer(M::RATE, M::ENCODER, disturbance) {
         Ok(observer) => observer,
         Err(error) => error.stop(),

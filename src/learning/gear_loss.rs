@@ -15,6 +15,7 @@
 //! agrees with it.
 
 use super::Finding;
+use super::steady::{Pairs, Steady, Window};
 
 /// Constants of [`GearLoss`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,36 +59,19 @@ impl GearLossConfig {
     }
 }
 
-/// Change of the speed within a window, as a fraction.
-const STEADY_SPEED: f32 = 0.01;
 /// Difference of the torques of a window's halves, as a fraction: a noise of 1 % of rated is below 0.5 % in the mean of
 /// ten updates.
 const STEADY_TORQUE: f32 = 0.02;
-/// Difference of the speeds of a pair, as a fraction.
-const SAME_SPEED: f32 = 0.2;
 /// Difference of two findings that confirm each other.
 const AGREEMENT: f32 = 0.01;
-
-/// A window that has passed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-struct Steady {
-    speed: f32,
-    torque: f32,
-    /// Updates since.
-    age: u32,
-}
 
 /// Friction of a gear per shaft torque, learnt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GearLoss {
     friction: f32,
-    count: u32,
-    speed: f32,
-    /// Of the two halves of the window.
-    sums: [f32; 2],
-    last: Option<Steady>,
+    window: Window,
+    pairs: Pairs,
     unconfirmed: Option<f32>,
 }
 
@@ -98,10 +82,8 @@ impl GearLoss {
         let [least, most] = config.range;
         GearLoss {
             friction: if friction >= least { friction.min(most) } else { least },
-            count: 0,
-            speed: 0.0,
-            sums: [0.0; 2],
-            last: None,
+            window: Window::default(),
+            pairs: Pairs::default(),
             unconfirmed: None,
         }
     }
@@ -113,7 +95,7 @@ impl GearLoss {
 
     /// The brake has closed, or the load may have changed: the windows so far have no partner.
     pub fn interrupt(&mut self) {
-        (self.count, self.sums, self.last) = (0, [0.0; 2], None);
+        (self.window, self.pairs) = Default::default();
     }
 
     /// Takes the motor's reported torque \[N m\] and speed \[rad/s\], between the ticks at a steady rate.
@@ -122,47 +104,24 @@ impl GearLoss {
             self.interrupt();
             return Finding::None;
         }
-        if let Some(last) = &mut self.last {
-            last.age += 1;
-            if last.age > config.pause {
-                self.last = None;
-            }
-        }
-        let changed = (speed - self.speed).abs() > STEADY_SPEED * self.speed.abs();
-        if changed || speed.abs() < config.least_speed {
-            (self.count, self.speed, self.sums) = (0, speed, [0.0; 2]);
+        self.pairs.age(config.pause);
+        let Some(steady) = self.window.update(config.window, config.least_speed, torque, speed) else {
+            return Finding::None;
+        };
+        if steady.drift > STEADY_TORQUE * steady.torque.abs() || steady.torque.abs() < config.least_torque {
             return Finding::None;
         }
-        let half = config.window / 2;
-        let [first, second] = &mut self.sums;
-        *(if self.count < half { first } else { second }) += torque;
-        self.count += 1;
-        if self.count < 2 * half {
-            return Finding::None;
-        }
-        let [first, second] = self.sums.map(|sum| sum / half as f32);
-        (self.count, self.sums) = (0, [0.0; 2]);
-        let torque = 0.5 * (first + second);
-        if (first - second).abs() > STEADY_TORQUE * torque.abs() || torque.abs() < config.least_torque {
-            return Finding::None;
-        }
-        let now = Steady { speed, torque, age: 0 };
-        // A window has one partner: a wrong one would bias two findings alike, and they would confirm each other.
-        match self.last.take() {
-            Some(last) if last.speed * speed < 0.0 => self.pair(config, last, now),
-            _ => {
-                self.last = Some(now);
-                Finding::None
-            }
+        match self.pairs.of(steady) {
+            Some(pair) => self.pair(config, pair),
+            None => Finding::None,
         }
     }
 
     /// Two windows of opposite directions.
-    fn pair(&mut self, config: &GearLossConfig, one: Steady, other: Steady) -> Finding {
+    fn pair(&mut self, config: &GearLossConfig, [one, other]: [Steady; 2]) -> Finding {
         let (driving, driven) = if one.torque * one.speed > 0.0 { (one, other) } else { (other, one) };
         let [up, down] = [driving.torque.abs(), driven.torque.abs()];
-        let opposed = one.torque * other.torque <= 0.0;
-        if opposed || (one.speed + other.speed).abs() > SAME_SPEED * one.speed.abs() {
+        if one.torque * other.torque <= 0.0 {
             return Finding::None;
         }
         let q = (up - down) / (up + down);

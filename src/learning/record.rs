@@ -10,17 +10,21 @@ pub struct Learnt {
     pub friction: f32,
     /// Eccentricity of the encoder: coefficients of cosine and sine [2^-32 turn].
     pub eccentricity: [i32; 2],
+    /// Torque at the shaft over the reported one, less one, and where none is reported \[N m\].
+    pub torque: [f32; 2],
+    /// Inertia of the motor over that of the data sheet, less one.
+    pub inertia: f32,
 }
 
 impl Serialize for Learnt {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        (self.friction, self.eccentricity).serialize(serializer)
+        (self.friction, self.eccentricity, self.torque, self.inertia).serialize(serializer)
     }
 }
 
 impl<'de> Deserialize<'de> for Learnt {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let (friction, eccentricity) = Deserialize::deserialize(deserializer)?;
-        Ok(Learnt { friction, eccentricity })
+        let (friction, eccentricity, torque, inertia) = Deserialize::deserialize(deserializer)?;
+        Ok(Learnt { friction, eccentricity, torque, inertia })
     }
 }

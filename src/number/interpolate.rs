@@ -34,6 +34,9 @@ pub trait Magnitude: Interpolate {
     fn magnitude(&self) -> f32;
     /// The factor nearest to a value; at the end of its range beyond it.
     fn of(value: f32) -> Self;
+    /// Times a factor near one, from 0 to 2.
+    #[must_use]
+    fn scaled(&self, factor: f32) -> Self;
 }
 
 impl Magnitude for f32 {
@@ -42,6 +45,9 @@ impl Magnitude for f32 {
     }
     fn of(value: f32) -> Self {
         value
+    }
+    fn scaled(&self, factor: f32) -> Self {
+        self * factor
     }
 }
 
@@ -52,6 +58,9 @@ impl Magnitude for f64 {
     fn of(value: f32) -> Self {
         value.into()
     }
+    fn scaled(&self, factor: f32) -> Self {
+        self * f64::from(factor)
+    }
 }
 
 impl Magnitude for Coefficient {
@@ -61,6 +70,10 @@ impl Magnitude for Coefficient {
     // The cast saturates.
     fn of(value: f32) -> Self {
         Coefficient::from_bits((value * 4_294_967_296.0) as i32)
+    }
+    fn scaled(&self, factor: f32) -> Self {
+        let change = (factor - 1.0) * self.to_bits() as f32;
+        Coefficient::from_bits(self.to_bits().saturating_add(change as i32))
     }
 }
 

@@ -5,6 +5,7 @@
 use driveline::configure::Machine;
 use driveline::design::TwoMassDesign;
 use driveline::drive::Drive;
+use driveline::learning::{Correction, EccentricityObserver};
 use driveline::machine;
 use driveline::number::Number;
 use driveline::observer::{
@@ -75,6 +76,12 @@ impl<M: Machine, N: Number> Expects<M> for RigidObserver<N> {
 impl<M, N: Number> Expects<M> for CrankObserver<N> {}
 
 impl<M, O: Expects<M>> Expects<M> for GearedObserver<O> {
+    fn expected() -> Option<Expected> {
+        O::expected()
+    }
+}
+
+impl<M, N: Correction, O: Expects<M>> Expects<M> for EccentricityObserver<N, O> {
     fn expected() -> Option<Expected> {
         O::expected()
     }

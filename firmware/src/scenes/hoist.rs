@@ -5,6 +5,8 @@
 //! 1987 (2.87 MN/m for 8.7 t on two falls); inertias and efficiency are of the size that makers' tables give for such a
 //! motor (frame size 315, 0.6 kg m2) and a two-stage gearbox. They are not those of one machine.
 
+mod learnt;
+
 use driveline::configure::{Family, Machine, Rating};
 use driveline::design::{
     Disturbance, Encoder, SemiImplicitStep, SpeedLoopDesign, SpeedLoopTuning, Spread, StepChoice, Tolerance,
@@ -50,6 +52,9 @@ const LENGTHS: [f64; 4] = [30.0, 17.0, 9.0, 5.0];
 impl<const RATE_HZ: u32> Family<5, 4> for Hoist<RATE_HZ> {
     const FIRST: [f64; 5] = inverse(MASSES, 1e3);
     const SECOND: [f64; 4] = inverse(LENGTHS, 1.0);
+    /// A third of the scene's: on the schedule a load of 12 t that is half as heavy again within a second is followed as
+    /// well, and the noise in a steady load is halved.
+    const SCHEDULED_DISTURBANCE: Disturbance = Disturbance { load_torque_step: 90.0, ..Self::DISTURBANCE };
     const MEMBERS: [[TwoMass; 4]; 5] = {
         let mut members = [[Self::TWO_MASS; 4]; 5];
         let mut i = 0;
@@ -136,9 +141,12 @@ pub type Exact<N> = Governed<N, GearedObserver<observer::TwoMassObserver<N>>>;
 /// Two masses, semi-implicit step: the design's choice.
 pub type Reduced<N> = Governed<N, GearedObserver<SemiImplicitObserver<N>>>;
 
+pub use learnt::{Learnt, panel};
+
 variants! {
     "rigid": Rigid for Hoist<1_000>, Hoist<4_000>, Hoist<10_000>;
     "cut": Exact for CutAtRope<1_000>, CutAtRope<4_000>, CutAtRope<10_000>;
     "exact": Exact for Hoist<1_000>, Hoist<4_000>, Hoist<10_000>;
     "reduced": Reduced for Hoist<1_000>, Hoist<4_000>, Hoist<10_000>;
+    "learnt": Learnt for Hoist<10_000>;
 }

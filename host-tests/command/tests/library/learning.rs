@@ -2,3 +2,5 @@
 
 mod eccentricity;
 mod gear_loss;
+mod run_up;
+mod torque_constant;
