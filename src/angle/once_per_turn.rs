@@ -1,9 +1,9 @@
 //! The angle of a rotor with one pulse a turn: a photo tacho, or a mark on the shaft.
 //!
-//! Between pulses the angle grows with the speed of the turns before. Each pulse corrects angle and speed with the gains
-//! of a straight line through the pulses so far, with a memory of twelve turns (alpha-beta filter of growing memory). So
-//! a pulse that is only known to a tick leaves less of its error: a quarter in the angle, and next to none in the mean
-//! over the turns of a reading.
+//! Between pulses the angle grows with the speed of the turns before. Each pulse corrects angle and speed with the
+//! gains of a straight line through the pulses so far, with a memory of twelve turns (alpha-beta filter of growing
+//! memory). So of the error of a pulse that is only known to a tick less is left in the angle, and next to none in the
+//! mean over the turns of a reading.
 
 /// Turns of memory.
 const MEMORY: usize = 12;
@@ -60,8 +60,8 @@ impl OncePerTurn {
         OncePerTurn { angle: 0, step: 0, pulses: 0, since: 0, late: 0, turns: 0, astray: 0 }
     }
 
-    /// Takes a tick, and returns the rotor's angle \[2^-32 turn\]; `None` before the second pulse, and where pulses stay
-    /// away or come astray.
+    /// Takes a tick, and returns the rotor's angle \[2^-32 turn\]; `None` before the second pulse, and where pulses
+    /// stay away or come astray.
     ///
     /// `pulse` is how long before this tick the pulse came \[2^-32 tick\], by a capture timer. Where a level is sampled
     /// that is half a tick on the mean: `1 << 31`.

@@ -76,7 +76,12 @@ impl<T: Scalar> Tolerance<T> {
     pub fn judge(&self, residual: T) -> Result<Verdict<T>, Error> {
         let permissible = self.permissible()?;
         let grade = residual * self.speed / self.mass * real(1e3);
-        let fulfils = GRADES.iter().map(|&known| real::<T>(known)).find(|known| grade <= *known);
+        // near a grade rounded as the permissible residual is, so that one of exactly that is within it
+        let within = |known: &T| match (grade - *known).abs() <= *known * real(1e-5) {
+            true => Tolerance { grade: *known, ..*self }.permissible().is_ok_and(|most| residual <= most),
+            false => grade <= *known,
+        };
+        let fulfils = GRADES.iter().map(|&known| real::<T>(known)).find(within);
         Ok(Verdict { grade, fulfils, passed: residual <= permissible })
     }
 }

@@ -29,9 +29,9 @@ impl PhasorSettings {
     /// With blocks lengthened to whole beats of a disturbance that keeps its frequency, as the mains' hum in a sensor's
     /// cable: over whole beats it adds nothing to the phasor.
     ///
-    /// `hertz` is the disturbance's frequency, `rotor_hertz` the rotor's turns a second; their beat at the order decides.
-    /// The block is the shortest of at least [`PhasorSettings::turns`] that ends within 2 % of a beat, or the best one of
-    /// up to 300 turns times the order; nothing changes where frequencies are equal or not positive.
+    /// `hertz` is the disturbance's frequency, `rotor_hertz` the rotor's turns a second; their beat at the order
+    /// decides. The block is the shortest of at least [`PhasorSettings::turns`] that ends within 2 % of a beat, or the
+    /// best one of up to 300 turns times the order; nothing changes where frequencies are equal or not positive.
     pub const fn over_whole_beats(mut self, hertz: f64, rotor_hertz: f64) -> Self {
         if !(hertz > 0.0 && rotor_hertz > 0.0 && hertz < 1e6 && self.order > 0) {
             return self;

@@ -238,7 +238,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Estimate<T, ROWS, PLANES
         (0..self.rows).fold(T::zero(), |most, row| most.max(size(self.change(row, moved))))
     }
 
-    /// Confirms the planes of a move whose change, `predicted`, was as predicted, and forgets a part of what is certain.
+    /// Confirms the planes of a move whose change, `predicted`, was as predicted; forgets a part of what is certain.
     pub(super) fn confirm(
         &mut self,
         moved: &[Complex<T>; PLANES],

@@ -7,6 +7,7 @@ mod min_max;
 mod never_harmful;
 mod noise;
 mod phasor;
+mod polygon;
 mod procedure;
 mod tolerance;
 mod wrong_use;

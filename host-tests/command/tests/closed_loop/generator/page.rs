@@ -9,7 +9,8 @@ use cargo_driveline::generator::verdict::{Verdict, Verdicts, Way};
 use driveline_qemu::measure::Spread;
 
 fn verdicts() -> Verdicts {
-    let step = Step { time: 1.0, load: [0.0, 0.5], drop: 0.0312, rise: 0.0034, recovery: 0.25, precise: 1.25 };
+    let step =
+        Step { time: 1.0, load: [0.0, 0.5], drop: 0.0312, rise: 0.0034, coarse: 0.125, recovery: 0.25, precise: 1.25 };
     let steady = Steady { load: 0.5, mean: 1.0, band: 0.0011, swing: 0.02 };
     let figures = Figures { steps: vec![step], steady: vec![steady], top: 1.07 };
     let moments = (0..100).map(|tick| Moment { time: f64::from(tick), frequency: 1.0, ..Moment::default() }).collect();

@@ -4,7 +4,7 @@ use cargo_driveline::closed_loop::ticks::OnHost;
 use cargo_driveline::generator::faults::{FAULTS, MOST, PASSING, WIRES, documented, outcome};
 use cargo_driveline::generator::run::{Moment, Program, run};
 use cargo_driveline::generator::set::Kind;
-use cargo_driveline::generator::standard::{CLASSES, Figures, figures};
+use cargo_driveline::generator::standard::{CLASSES, Figures, Steady, Step, figures};
 use cargo_driveline::generator::trips::{CAUSES, latched};
 use cargo_driveline::generator::verdict::{WAYS, Way, loads, program};
 use driveline::governor::Trip;
@@ -124,4 +124,54 @@ fn figures_are_those_of_a_known_course() {
     assert!((figures.recovery(0.002) - 0.5 * 50.0_f64.ln()).abs() < 0.5 * 0.3);
     assert_eq!(figures.class(), Some("G3"));
     assert!(CLASSES.windows(2).all(|pair| pair[1].band < pair[0].band && pair[1].recovery < pair[0].recovery));
+}
+
+/// A record within every limit of G3: the verdict, and what takes it away.
+#[test]
+fn a_verdict_needs_a_record_and_every_limit() {
+    let step = |load: [f64; 2], drop: f64, rise: f64| Step {
+        time: 1.0,
+        load,
+        drop,
+        rise,
+        coarse: 0.5,
+        recovery: 1.0,
+        precise: 1.4,
+    };
+    let steady = |load: f64, mean: f64| Steady { load, mean, band: 0.004, swing: 0.0 };
+    let sound = Figures {
+        steps: vec![step([0.0, 0.5], 0.06, 0.0), step([1.0, 0.0], 0.0, 0.09)],
+        steady: vec![steady(0.0, 1.03), steady(0.5, 1.015), steady(1.0, 1.0)],
+        top: 1.09,
+    };
+    assert_eq!(sound.class(), Some("G3"));
+    assert!((sound.droop() - 0.03).abs() < 1e-15);
+    // no record, half of one, and one with a number missing
+    assert_eq!(Figures::default().class(), None);
+    assert_eq!(Figures { steps: Vec::new(), ..sound.clone() }.class(), None);
+    assert_eq!(Figures { steady: Vec::new(), ..sound.clone() }.class(), None);
+    assert!(!Figures::default().meets_class_d());
+    let mut missing = sound.clone();
+    missing.steps[1].rise = f64::NAN;
+    assert_eq!(missing.class(), None);
+    assert_eq!(figures(&[], &[(0.0, 0.0), (3.0, 1.0)], 9.0).class(), None);
+    // droop of 4 % is G2's, of 9 % no class's; a set that runs 2 % too fast at every load has none of it
+    let mut drooping = sound.clone();
+    drooping.steady[0].mean = 1.04;
+    assert_eq!(drooping.class(), Some("G2"));
+    drooping.steady[0].mean = 1.09;
+    assert_eq!(drooping.class(), None);
+    let mut slow = sound.clone();
+    slow.steady[2].mean = 0.98;
+    assert_eq!(slow.class(), None);
+    // back within 1.75 % in 9 s, within 1 % only in 11 s: G1 by its own band
+    let mut lazy = sound.clone();
+    (lazy.steps[0].coarse, lazy.steps[0].recovery) = (9.0, 11.0);
+    assert_eq!(lazy.class(), Some("G1"));
+    // 7 % as frequencies give it, one unit in the last place of one above, and two
+    let mut at_limit = sound;
+    at_limit.steps[0].drop = 1.0 - 0.93;
+    assert_eq!(at_limit.class(), Some("G3"));
+    at_limit.steps[0].drop = 0.07 + 2.0 * f64::EPSILON;
+    assert_eq!(at_limit.class(), Some("G2"));
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use driveline::balancing::{Complex, Entry, Error, Tolerance, degrees, from_amplitudes, two_planes};
+use driveline::balancing::{Complex, Entry, Error, GRADES, Tolerance, degrees, from_amplitudes, two_planes};
 use serde_json::Value;
 
 use super::noise::Noise;
@@ -109,6 +109,24 @@ fn amplitudes_alone() {
     assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0), (2.0, -1.5)]), Err(Error::Reading { row: 2 }));
     assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0), (2.0, 1.0), (4.0, 1.0)]), Err(Error::NoEffect { plane: 0 }));
     assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.1), (0.0, 1.2), (0.0, 1.3)]), Err(Error::NotFound));
+}
+
+/// A residual of exactly what a grade permits is within it, in both numbers; the next number above is not.
+#[test]
+fn grades_end_to_the_last_place() {
+    for known in GRADES {
+        for (mass, speed) in [(12.0, 154.985), (25.0, 314.159), (0.3, 7330.38), (1800.0, 15.7)] {
+            let tolerance = Tolerance { grade: known, mass, speed };
+            let most = tolerance.permissible().unwrap();
+            let verdict = tolerance.judge(most).unwrap();
+            assert!(verdict.passed && verdict.fulfils == Some(known), "{known} {verdict:?}");
+            let verdict = tolerance.judge(most.next_up()).unwrap();
+            assert!(!verdict.passed && verdict.fulfils != Some(known), "{known} {verdict:?}");
+            let tolerance = Tolerance { grade: known as f32, mass: mass as f32, speed: speed as f32 };
+            let verdict = tolerance.judge(tolerance.permissible().unwrap()).unwrap();
+            assert!(verdict.passed && verdict.fulfils == Some(known as f32), "{known} {verdict:?}");
+        }
+    }
 }
 
 #[test]
