@@ -17,6 +17,7 @@ mod figure;
 pub mod merge;
 mod page;
 mod plain;
+mod preparation;
 pub mod record;
 pub mod run;
 pub mod scenes;

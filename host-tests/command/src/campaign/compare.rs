@@ -15,6 +15,12 @@ use driveline_report::{Section, Table};
 pub struct Ratio {
     /// Name of the figure.
     pub name: &'static str,
+    /// Unit of the figure; empty for a fraction.
+    pub unit: &'static str,
+    /// The first drive's figure: median, and what nine draws of ten are not worse than.
+    pub first: (f64, f64),
+    /// The second's.
+    pub second: (f64, f64),
     /// Median of the ratios.
     pub median: f64,
     /// Nine ratios of ten are not worse.
@@ -87,8 +93,16 @@ pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
         let sorted: Vec<f64> = ratios.iter().map(|(ratio, _)| *ratio).collect();
         let good = sorted.iter().filter(|ratio| badness(**ratio) <= figure.badness(1.0)).count();
         let worst = ratios.last().copied().unwrap_or((f64::NAN, 0));
+        let spread = |outcomes: &BTreeMap<u64, Outcome>| {
+            let mut values: Vec<f64> = outcomes.values().map(|outcome| outcome.of(figure)).collect();
+            values.sort_by(|x, y| badness(*x).total_cmp(&badness(*y)));
+            (quantile(&values, 0.5), quantile(&values, 0.9))
+        };
         Ratio {
             name: figure.name(),
+            unit: figure.unit(),
+            first: spread(&first.1),
+            second: spread(&second.1),
             median: quantile(&sorted, 0.5),
             p90: quantile(&sorted, 0.9),
             worst: worst.0,
@@ -107,10 +121,22 @@ pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
 impl Comparison {
     /// As a table.
     pub fn table(&self) -> Section {
-        let mut table = Table::new(["figure", "median", "90 % not worse than", "worst", "draw", "first not worse in"]);
+        let mut table = Table::new([
+            "figure",
+            "first: median, 90 %",
+            "second: median, 90 %",
+            "ratio: median",
+            "90 % not worse than",
+            "worst",
+            "draw",
+            "first not worse in",
+        ]);
         for r in &self.ratios {
             let [median, p90, worst] = [r.median, r.p90, r.worst].map(significant);
-            table.row([r.name.to_owned(), median, p90, worst, r.worst_draw.to_string(), percent(r.not_worse)]);
+            let text = |value: f64| if r.unit.is_empty() { percent(value) } else { significant(value) };
+            let [first, second] = [r.first, r.second].map(|(median, p90)| format!("{}, {}", text(median), text(p90)));
+            let draw = r.worst_draw.to_string();
+            table.row([r.name.to_owned(), first, second, median, p90, worst, draw, percent(r.not_worse)]);
         }
         let title = format!("{} over {}, {} draws", self.first, self.second, self.draws);
         Section::new(title, "Ratios of the same draw. For the decay, lower is worse.", table)

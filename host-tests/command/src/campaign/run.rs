@@ -7,6 +7,7 @@ use driveline_firmware::scenes::{Row, find};
 use super::draw::Draw;
 use super::figure::{Gathering, Outcome, Scale};
 use super::plain::PlainLoop;
+use super::preparation::preparation;
 use super::scenes::CampaignScene;
 use crate::closed_loop::actuator::ActuatorErrors;
 use crate::closed_loop::encoder_errors::EncoderErrors;
@@ -91,8 +92,9 @@ pub fn run(scene: &CampaignScene, drive: &Drive, draw: &Draw) -> Result<Outcome,
     let mut scenario = machine.scenarios.first().ok_or_else(|| wrong(&"the machine has no run"))?.clone();
     scenario.duration = scenario.duration.max(scene.free.1);
     let imperfections = draw.imperfections(scene.lines, scene.rated_torque);
+    let prepared = preparation(scene.name, drive, &draw.departure()).map_err(|error| wrong(&error))?;
     let follow = |machine: &Machine, imperfections: &Imperfections| {
-        follow_draw(scene, drive, machine, &scenario, imperfections).map_err(|error| wrong(&error))
+        follow_draw(scene, drive, machine, &prepared, &scenario, imperfections).map_err(|error| wrong(&error))
     };
     let outcome = follow(&machine, &imperfections)?;
     if !outcome.swings() {
@@ -109,6 +111,7 @@ fn follow_draw(
     scene: &CampaignScene,
     drive: &Drive,
     machine: &Machine,
+    prepared: &[Scenario],
     scenario: &Scenario,
     imperfections: &Imperfections,
 ) -> std::io::Result<Outcome> {
@@ -123,6 +126,12 @@ fn follow_draw(
     let step = scene.ramp / f64::from(drive.rate_hz());
     let mut ramped = 0.0_f64;
     let mut ticking = drive.start(scene, machine);
+    for (before, run) in (1..).zip(prepared) {
+        // other noise in each run
+        let imperfections = Imperfections { seed: imperfections.seed ^ before, ..*imperfections };
+        let mut plant = run.plant.unrecorded();
+        follow(machine, run, &units, drive.rate_hz(), &imperfections, &mut ticking, &mut plant, |_, _| {})?;
+    }
     let each = |moment: &_, (input, _): (Input, _)| {
         let target = if input.flags & Input::RELEASED == 0 { ramped } else { units.speed(input.setpoint) };
         let change = (target - ramped).clamp(-step, step);

@@ -4,7 +4,7 @@
 //! [Huang 1987 ch. 1, Wang 1989 §1-3], so that an error of the library's reduction would show.
 
 use driveline::configure::Machine as _;
-use driveline_firmware::scenes::hoist::Hoist;
+use driveline_firmware::scenes::hoist::{Hoist, panel};
 
 use super::departure::Departure;
 use super::facts;
@@ -21,6 +21,8 @@ const FALLS: f64 = 2.0;
 const RATIO: f64 = 31.5;
 const ROPE: f64 = 2.9e6;
 const ROPE_DAMPING: f64 = 3.6e3;
+/// Of the rope with these figures [m].
+const LENGTH: f64 = 12.0;
 const EFFICIENCY: f64 = 0.94;
 const MOTOR_SHAFT: f64 = 5.0e4;
 
@@ -38,18 +40,24 @@ const ROPE_SHAFT: usize = 1;
 
 /// The chain up to the load, which hangs on a rope that comes taut at `slack` [rad of the motor].
 fn chain(slack: f64, by: &Departure) -> Chain {
-    let square = TRAVEL * TRAVEL;
-    let rope = Shaft::rope(ROPE * square * by.stiffness / by.rope).damping(ROPE_DAMPING * square / by.rope);
+    let [stiffness, damping] = rope(by);
+    let rope = Shaft::rope(stiffness).damping(damping);
     Chain::motor(0.62 * by.motor_inertia)
         .shaft(Shaft::elastic(MOTOR_SHAFT * by.stiffness).damping(2.0), 0.08)
         .efficiency(EFFICIENCY + by.efficiency)
-        .shaft(rope.gap(slack), MASS * square * by.load)
+        .shaft(rope.gap(slack), MASS * TRAVEL * TRAVEL * by.load)
+}
+
+/// Stiffness and damping of the rope at the motor.
+fn rope(by: &Departure) -> [f64; 2] {
+    let square = TRAVEL * TRAVEL;
+    [ROPE * square * by.stiffness / by.rope, ROPE_DAMPING * square / by.rope]
 }
 
 /// The load on its rope as the brake holds it: the rope carries the weight, and the drive is about to.
 fn hanging(program: LoadProgram, by: &Departure) -> Result<Plant, PlantError> {
     let weight = WEIGHT * by.load;
-    let rope = ROPE * TRAVEL * TRAVEL * by.stiffness / by.rope;
+    let [rope, _] = rope(by);
     chain(0.0, by)
         .load(weight)
         .program(program)
@@ -113,23 +121,95 @@ pub fn machine() -> Result<Machine, PlantError> {
     Ok(with(vec![pretensioned, slack, sudden]))
 }
 
-/// The hoist as it is: one lift with the weight on the hook known, up at rated speed and down at half of it.
+/// The hoist as it is: one lift with the weight on the hook held, up at rated speed and down at half of it. The rope
+/// has its length at the top.
 ///
 /// # Errors
 /// A figure of the plant that is out of range.
 pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let up = Hoist::<10_000>::RATING.speed;
-    let lift = Scenario {
-        name: "a lift",
-        plant: hanging(LoadProgram::steps(&[]), by)?.into(),
-        held: WEIGHT * by.load,
-        actions: [&RELEASE[..], &[(0.2, Action::Setpoint(up)), (3.0, Action::Setpoint(-0.5 * up))]].concat(),
-        duration: 8.0,
-        counted: true,
-        marks: vec![(0.2, "brake opens"), (3.0, "reversal")],
-        law: None,
-    };
+    let lift = lift("a lift", by, None, &[(0.2, up), (3.0, -0.5 * up)], 8.0)?;
     Ok(with(vec![lift]))
+}
+
+/// Runs for the learners, with known loads: an empty hook and a test weight, up and down at rated speed, then steps of
+/// the speed.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn test_lifts(by: &Departure) -> Result<Vec<Scenario>, PlantError> {
+    let up = Hoist::<10_000>::RATING.speed;
+    let (fall, steps) = (0.45 * up, 30.0);
+    let lifts = [(0.2, up), (4.7, -up), (10.7, up), (16.7, -up), (22.7, up)];
+    let changes = (0..6).map(|k| (steps + 2.8 * f64::from(k), if k % 2 == 0 { fall } else { up }));
+    let course: Vec<(f64, f64)> = lifts.into_iter().chain(changes).collect();
+    let load = |mass: f64| Departure { load: mass / MASS, rope: 1.0, ..*by };
+    Ok(vec![
+        lift("empty hook", &load(500.0), Some(500.0), &lifts, 28.0)?,
+        lift("test weight", &load(MASS), Some(MASS), &course, steps + 6.0 * 2.8)?,
+    ])
+}
+
+/// A load [kg] from 30 m to 5 m of rope at rated speed, named for the learners.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn whole_height(mass: f64) -> Result<Machine, PlantError> {
+    let up = Hoist::<10_000>::RATING.speed;
+    let by = Departure { load: mass / MASS, rope: 5.0 / LENGTH, ..Departure::NONE };
+    // a ramp at either end has the travel of one second at rated speed
+    let stop = 0.2 + 25.0 / (TRAVEL * up);
+    Ok(with(vec![lift("the whole height", &by, Some(mass), &[(0.2, up), (stop, 0.0)], stop + 3.0)?]))
+}
+
+/// A load that hangs on the brake, and its speeds from the times on that they are set at.
+fn lift(
+    name: &'static str,
+    by: &Departure,
+    named: Option<f64>,
+    speeds: &[(f64, f64)],
+    duration: f64,
+) -> Result<Scenario, PlantError> {
+    let travel = wound(speeds, duration);
+    let most = travel.iter().map(|(_, way)| *way).fold(0.0, f64::max);
+    let start = LENGTH * by.rope + most;
+    let at = |length: f64| Departure { rope: length / LENGTH, ..*by };
+    let mut actions = RELEASE.to_vec();
+    actions.push((1e-4, Action::Panel(panel::ROPE, start as f32)));
+    actions.push((2e-4, Action::Panel(panel::LOAD, named.unwrap_or(-1.0) as f32)));
+    actions.extend(speeds.iter().map(|&(time, speed)| (time, Action::Setpoint(speed))));
+    actions.extend(travel.iter().map(|&(time, way)| {
+        let [stiffness, damping] = rope(&at(start - way));
+        (time, Action::Rope(ROPE_SHAFT, stiffness, damping))
+    }));
+    actions.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    Ok(Scenario {
+        name,
+        plant: hanging(LoadProgram::steps(&[]), &at(start))?.into(),
+        held: WEIGHT * by.load,
+        actions,
+        duration,
+        counted: true,
+        marks: vec![(0.2, "brake opens")],
+        law: None,
+    })
+}
+
+/// Travel of the load [m] at times 50 ms apart, by the ramped setpoint.
+fn wound(speeds: &[(f64, f64)], duration: f64) -> Vec<(f64, f64)> {
+    const EVERY: f64 = 0.05;
+    let ramp = Hoist::<10_000>::RAMP * EVERY;
+    let (mut speed, mut way) = (0.0_f64, 0.0);
+    (0..(duration / EVERY) as u32)
+        .map(|step| {
+            let time = f64::from(step) * EVERY;
+            let before = speed;
+            let target = speeds.iter().rev().find(|(from, _)| *from <= time + 1e-9).map_or(0.0, |(_, speed)| *speed);
+            speed += (target - speed).clamp(-ramp, ramp);
+            way += 0.5 * (before + speed) * EVERY * TRAVEL;
+            (time + EVERY, way)
+        })
+        .collect()
 }
 
 /// The machine with these runs.

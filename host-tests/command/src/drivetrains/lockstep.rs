@@ -118,6 +118,8 @@ pub fn follow(
     let (mut setpoint, mut released) = (0.0, false);
     let (mut command, mut reported) = (0.0, 0.0_f64);
     let (mut tripped, mut brake) = (false, 0.0);
+    // a request waits for a tick that runs
+    let mut asked = [0; 2];
     for tick in 0..ticks {
         let time = tick as f64 * period;
         // An action belongs to the tick that it falls on: half a period of slack against rounding.
@@ -132,6 +134,8 @@ pub fn follow(
                         brake = torque;
                     }
                 }
+                Action::Rope(shaft, stiffness, damping) => plant.set_shaft(shaft, stiffness, damping),
+                Action::Panel(key, value) => asked = [key, value.to_bits()],
                 Action::Trip => tripped = true,
             }
         }
@@ -158,6 +162,7 @@ pub fn follow(
                 torque: units.torque_word(reported + slipping + torque_noise),
                 setpoint: if released { units.speed_word(setpoint) } else { units.torque_word(scenario.held) },
                 flags: if released { Input::RELEASED } else { 0 },
+                asked: std::mem::take(&mut asked),
                 ..Input::default()
             };
             let output = drive.tick(&input)?;

@@ -172,6 +172,18 @@ impl Body {
         }
     }
 
+    /// Winds a rope up or pays it out: stiffness [N m/rad] and damping [N m s/rad] of a shaft of a chain.
+    ///
+    /// # Panics
+    /// For a train, whose links stay as they are: a scene that winds one is written wrongly.
+    pub fn set_shaft(&mut self, shaft: usize, stiffness: f64, damping: f64) {
+        match self {
+            Body::Chain(chain) => chain.set_shaft(shaft, stiffness, damping),
+            Body::Unrecorded(plant) => plant.set_shaft(shaft, stiffness, damping),
+            Body::Train(_) => panic!("a train has no rope at link {shaft}"),
+        }
+    }
+
     /// Runs on by `dt` [s] under a torque of the motor [N m].
     pub fn advance(&mut self, torque: f64, dt: f64) {
         match self {

@@ -17,6 +17,10 @@ pub enum Action {
     Load(usize, f64),
     /// A node's brake closes with this torque [N m]; 0 opens it.
     Brake(usize, f64),
+    /// A rope is wound up or paid out: a shaft has this stiffness and damping now [N m/rad, N m s/rad].
+    Rope(usize, f64, f64),
+    /// A key of the panel with a number.
+    Panel(u32, f32),
     /// The inverter is switched off: from now on the motor gives no torque, whatever the drive commands.
     Trip,
 }

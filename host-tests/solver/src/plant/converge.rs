@@ -58,6 +58,7 @@ fn tightened(run: &Recording) -> Vec<Vec<f64>> {
             }
             Step::Load { node, torque } => plant.set_load_torque(node, torque),
             Step::Brake { node, torque } => plant.set_brake(node, torque),
+            Step::Shaft { shaft, stiffness, damping } => plant.set_shaft(shaft, stiffness, damping),
         }
     }
     samples

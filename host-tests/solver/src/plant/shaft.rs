@@ -53,6 +53,15 @@ impl Shaft {
         if self.rope { self.gap } else { 0.5 * self.gap * f64::from(contact) }
     }
 
+    /// The twist at which the new shaft carries the elastic torque that this one carries at a twist, in this contact.
+    pub(super) fn wound(&self, new: &Self, contact: i8, twist: f64) -> f64 {
+        if contact == 0 && !self.is_linear() {
+            return twist;
+        }
+        let origin = self.origin(contact);
+        origin + (twist - origin) * self.stiffness / new.stiffness
+    }
+
     pub(super) fn validate(&self, shaft: usize) -> Result<(), PlantError> {
         let place = Place::Shaft(shaft);
         positive("stiffness", place, self.stiffness)?;

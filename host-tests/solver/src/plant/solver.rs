@@ -11,6 +11,7 @@ use super::guard::{Guard, guards};
 use super::layout::Layout;
 use super::mode::{FREE, Hold, Mode, elastic_torque};
 use super::regime::Regime;
+use super::shaft::Shaft;
 
 /// Default time within which an event is located, s.
 pub(super) const EVENT_TOLERANCE: f64 = 1e-14;
@@ -129,6 +130,26 @@ impl Plant {
         } else if self.mode.motion[node] == FREE {
             self.settle_node(node);
         }
+        self.enter_mode();
+    }
+
+    /// A rope has been wound up or paid out: stiffness, N m/rad, above zero, and damping, N m s/rad, zero or above, of a
+    /// shaft change. Its elastic torque stays: the wound part keeps its stretch on the drum. Bad input changes nothing
+    /// and counts as [`refused`](Self::refused).
+    pub fn set_shaft(&mut self, shaft: usize, stiffness: f64, damping: f64) {
+        let Some(old) = self.chain.shafts.get(shaft).copied() else {
+            self.refused += 1;
+            return;
+        };
+        let new = Shaft { stiffness, damping, ..old };
+        if new.validate(shaft).is_err() {
+            self.refused += 1;
+            return;
+        }
+        self.x[shaft] = old.wound(&new, self.mode.contact[shaft], self.x[shaft]);
+        self.chain.shafts[shaft] = new;
+        self.regimes.clear();
+        self.index.clear();
         self.enter_mode();
     }
 

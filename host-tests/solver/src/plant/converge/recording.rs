@@ -7,9 +7,10 @@ pub(super) enum Step {
     Advance { torque: f64, dt: f64 },
     Load { node: usize, torque: f64 },
     Brake { node: usize, torque: f64 },
+    Shaft { shaft: usize, stiffness: f64, damping: f64 },
 }
 
-/// A plant whose run is written down as it goes: held torques, ticks, changes of load and brake, and the result of
+/// A plant whose run is written down as it goes: held torques, ticks, changes of load, brake and shaft, and the result of
 /// every tick.
 #[derive(Debug, Clone)]
 pub struct Recording {
@@ -55,6 +56,15 @@ impl Recording {
         self.plant.set_brake(node, torque);
         if self.plant.refused() == refused {
             self.steps.push(Step::Brake { node, torque });
+        }
+    }
+
+    /// [`Plant::set_shaft`], written down.
+    pub fn set_shaft(&mut self, shaft: usize, stiffness: f64, damping: f64) {
+        let refused = self.plant.refused();
+        self.plant.set_shaft(shaft, stiffness, damping);
+        if self.plant.refused() == refused {
+            self.steps.push(Step::Shaft { shaft, stiffness, damping });
         }
     }
 

@@ -1,5 +1,6 @@
 //! The second integration of a chain, from its recording.
 
+use super::super::chain::Chain;
 use super::super::solver::Plant;
 use super::pass::{CLOSE, Pass, REACH};
 use super::proof::NotProven;
@@ -11,7 +12,7 @@ pub(super) fn rerun(run: &Recording) -> Result<Vec<Vec<f64>>, NotProven> {
     let plant = &run.start;
     let mut y = plant.x.clone();
     let mut machine = Machine::new(plant, &y);
-    let pass = Pass { scale: scale(run, plant), longest: REACH / fastest(plant), close: CLOSE };
+    let mut pass = Pass { scale: scale(run, plant), longest: REACH / fastest(&plant.chain), close: CLOSE };
     let mut samples = Vec::new();
     let mut start = plant.time();
     let mut fresh = true;
@@ -30,6 +31,10 @@ pub(super) fn rerun(run: &Recording) -> Result<Vec<Vec<f64>>, NotProven> {
             Step::Brake { node, torque } => {
                 machine.dry[node] = machine.chain.nodes[node].coulomb + torque;
                 machine.judge(start, &y, node);
+            }
+            Step::Shaft { shaft, stiffness, damping } => {
+                machine.wind(&mut y, shaft, stiffness, damping);
+                pass.longest = pass.longest.min(REACH / fastest(&machine.chain));
             }
         }
     }
@@ -55,9 +60,9 @@ fn scale(run: &Recording, plant: &Plant) -> Vec<f64> {
 }
 
 /// Bound of the rates of the chain, 1/s, by Gershgorin's circles.
-fn fastest(plant: &Plant) -> f64 {
-    let shafts = &plant.chain.shafts;
-    let rates = plant.chain.nodes.iter().enumerate().map(|(j, node)| {
+fn fastest(chain: &Chain) -> f64 {
+    let shafts = &chain.shafts;
+    let rates = chain.nodes.iter().enumerate().map(|(j, node)| {
         let near = [j.checked_sub(1), Some(j)].into_iter().flatten().filter_map(|s| shafts.get(s));
         let (k, d) = near.fold((0.0, node.viscous), |(k, d), shaft| (k + shaft.stiffness, d + shaft.damping));
         let loss = node.efficiency;

@@ -26,8 +26,8 @@ pub(super) enum Change {
 const TRAILING: f64 = 0.5;
 
 /// Parameters and discrete state. The continuous state is twists, speeds, angle of the motor.
-pub(super) struct Machine<'a> {
-    pub chain: &'a Chain,
+pub(super) struct Machine {
+    pub chain: Chain,
     pub load: Vec<f64>,
     pub dry: Vec<f64>,
     pub motor_torque: f64,
@@ -38,8 +38,8 @@ pub(super) struct Machine<'a> {
     pub motion: Vec<Motion>,
 }
 
-impl<'a> Machine<'a> {
-    pub fn new(plant: &'a Plant, y: &[f64]) -> Self {
+impl Machine {
+    pub fn new(plant: &Plant, y: &[f64]) -> Self {
         let chain = &plant.chain;
         let side = chain.shafts.iter().zip(y).map(|(shaft, &twist)| {
             let reach = if shaft.rope { shaft.gap } else { 0.5 * shaft.gap };
@@ -58,7 +58,7 @@ impl<'a> Machine<'a> {
             side: side.collect(),
             flow: vec![1.0; chain.shafts.len()],
             motion: vec![Motion::Smooth; chain.nodes.len()],
-            chain,
+            chain: chain.clone(),
         };
         for s in 0..chain.shafts.len() {
             if machine.torque(y, s) < 0.0 {
@@ -69,6 +69,16 @@ impl<'a> Machine<'a> {
             }
         }
         machine
+    }
+
+    /// Winds a rope: its elastic torque stays, its twist beyond the slack changes with its stiffness.
+    pub fn wind(&mut self, y: &mut [f64], s: usize, stiffness: f64, damping: f64) {
+        let shaft = &mut self.chain.shafts[s];
+        let slack = if shaft.rope { shaft.gap } else { 0.5 * shaft.gap * self.side[s].signum() };
+        if self.side[s] != 0.0 {
+            y[s] = slack + (y[s] - slack) * shaft.stiffness / stiffness;
+        }
+        (shaft.stiffness, shaft.damping) = (stiffness, damping);
     }
 
     fn n(&self) -> usize {
@@ -174,7 +184,7 @@ impl<'a> Machine<'a> {
     }
 }
 
-impl Hybrid for Machine<'_> {
+impl Hybrid for Machine {
     type Change = Change;
 
     fn rate(&self, t: f64, y: &[f64], out: &mut [f64]) {

@@ -99,3 +99,42 @@ fn a_run_with_coarse_events_is_refused() {
         other => panic!("{other:?}"),
     }
 }
+
+/// A load at rest on its rope stays there while the rope is wound, and swings at `sqrt(k (1/J_1 + 1/J_2))` of the new
+/// stiffness once it is pulled. A crossing is found to a tick.
+#[test]
+fn a_rope_that_is_wound_up_keeps_its_torque_and_swings_faster() {
+    let (weight, inertias) = (300.0, [0.7, 0.5]);
+    let chain = Chain::motor(inertias[0])
+        .shaft(Shaft::rope(50.0), inertias[1])
+        .load(weight)
+        .start(Start::Given { twists: vec![weight / 50.0], speeds: vec![0.0; 2] });
+    let mut run = Recording::new(chain.build().unwrap());
+    let mut stiffness = 50.0;
+    for _ in 0..1000 {
+        run.advance(weight, 1e-4);
+        stiffness += 0.25;
+        run.set_shaft(0, stiffness, 0.0);
+        // rounding of a thousand changes
+        assert!((run.plant().shaft_torque(0) - weight).abs() < 1e-9 && run.plant().speed(1).abs() < 1e-9);
+    }
+    let mut crossings = Vec::new();
+    let mut before = 0.0;
+    for tick in 0..10_000 {
+        run.advance(if tick == 0 { weight + 100.0 } else { weight }, 1e-4);
+        let twisting = run.plant().speed(0) - run.plant().speed(1);
+        if before < 0.0 && twisting >= 0.0 {
+            crossings.push(f64::from(tick) * 1e-4);
+        }
+        before = twisting;
+    }
+    let periods = (crossings.len() - 1) as f64;
+    let period = (crossings.last().unwrap() - crossings[0]) / periods;
+    let expected = std::f64::consts::TAU / (stiffness * (1.0 / inertias[0] + 1.0 / inertias[1])).sqrt();
+    assert!((period - expected).abs() < 1e-4 / periods + 1e-9, "{period} {expected}");
+    report("wound rope", &run);
+    run.set_shaft(0, -1.0, 0.0);
+    run.set_shaft(7, 50.0, 0.0);
+    run.set_shaft(0, 50.0, f64::NAN);
+    assert_eq!((run.plant().refused(), run.plant().shaft_torque(0).is_finite()), (3, true));
+}
