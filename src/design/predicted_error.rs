@@ -178,6 +178,10 @@ impl Linear {
             }
             k += 1;
         }
+        // the accelerating torque of the tick that has ended has the load torque from before it
+        let before = over(outputs[2], z);
+        outputs[0].0 += self.through * (outputs[2].0 - before.0);
+        outputs[0].1 += self.through * (outputs[2].1 - before.1);
         outputs
     }
 
