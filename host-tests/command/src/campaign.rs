@@ -17,6 +17,7 @@ pub mod file;
 pub mod merge;
 mod page;
 mod plain;
+pub mod real;
 pub mod record;
 pub mod run;
 pub mod scenes;
