@@ -121,6 +121,7 @@ mod limits;
 mod loop_part;
 mod machine;
 mod observer;
+mod schedule_test;
 mod units;
 mod vibration;
 
@@ -130,6 +131,7 @@ pub use governor::{HasBacklash, HasBarredSpeeds, HasDroop, HasSequencer, HasSlew
 pub use loop_part::LoopPart;
 pub use machine::{Machine, Rating};
 pub use observer::HasCrank;
+pub use schedule_test::{RefusedPoint, ScheduleTest, test_schedule};
 pub use units::Units;
 pub use vibration::HasVibration;
 

@@ -35,6 +35,7 @@ mod placed;
 mod plant;
 mod poles;
 mod polynomial;
+mod predicted_error;
 mod riccati;
 mod rigid;
 mod robustness;
@@ -63,6 +64,7 @@ pub use observer_choice::{LoadCycle, ObserverChoice, ObserverSelection, Penalty,
 pub use placed::PlacedObserver;
 pub use plant::Plant;
 pub use poles::{eigenvalues, spectral_radius};
+pub use predicted_error::{EstimateError, Operation, PredictedErrors};
 pub use riccati::{Doubling, doubling};
 pub use rigid::RigidDesign;
 pub use robustness::{LoopObserver, Robustness};

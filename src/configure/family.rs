@@ -5,7 +5,7 @@ use crate::balancing::Balancer;
 use crate::design::{Disturbance, PlacedObserver, SpeedLoopDesign};
 use crate::drive::Drive;
 use crate::fluctuation::Fluctuation;
-use crate::governor::{Governor, SpeedLoop, SpeedLoopConfig};
+use crate::governor::{DampingLag, DampingLagConfig, Governor, LoopFilter, SetpointLag, SpeedLoop, SpeedLoopConfig};
 use crate::learning::{Correction, EccentricityObserver};
 use crate::machine::TwoMass;
 use crate::number::{Fixed, Interpolate, Number};
@@ -21,8 +21,9 @@ use crate::settings::{Bases, SpeedLoopSettings};
 /// are nearly linear in the stiffness and in the inverse of the load: these make good parameters.
 ///
 /// [`Machine::TWO_MASS`] is one member. It scales the disturbance and sets the speed loop's bandwidth. Margins and
-/// tolerances of the loops at the points are not tested. [`Machine::BASES`] must hold for all members: with the exact
-/// step a stiffness may change fourfold in fixed point.
+/// tolerances of the loops at the points are tested by [`test_schedule`], which belongs into a test of the firmware: it
+/// would cost the compiler many times a drive. [`Machine::BASES`] must hold for all members: with the exact step a
+/// stiffness may change fourfold in fixed point.
 ///
 /// ```
 /// use driveline::configure::{Family, Machine, Rating};
@@ -93,7 +94,7 @@ pub trait Family<const A: usize, const B: usize>: Machine {
         observers
     };
     /// The speed loops at the points: [`TwoMass::try_limited_speed_loop`] with the bandwidth of
-    /// [`Machine::SPEED_LOOP`].
+    /// [`Machine::SPEED_LOOP`]. A lag of its damping is in proportion to the period of the member's resonance.
     const SPEED_LOOPS: [[SpeedLoopDesign; B]; A] = {
         let mut loops = [[Self::SPEED_LOOP; B]; A];
         let mut i = 0;
@@ -101,7 +102,10 @@ pub trait Family<const A: usize, const B: usize>: Machine {
             let mut j = 0;
             while j < B {
                 match Self::MEMBERS[i][j].try_limited_speed_loop(Self::RATE, Self::SPEED_LOOP.bandwidth) {
-                    Ok(design) => loops[i][j] = design,
+                    Ok(design) => {
+                        let period = Self::TWO_MASS.resonance() / Self::MEMBERS[i][j].resonance();
+                        loops[i][j] = design.with_damping_lag(Self::SPEED_LOOP.damping_lag * period);
+                    }
                     Err(error) => error.stop(),
                 }
                 j += 1;
@@ -153,6 +157,25 @@ where
     const CELLS: [[Self::Config; B]; A] = O::CELLS;
 }
 
+/// No filter.
+impl<M: Family<A, B>, N: Number, const A: usize, const B: usize> Scheduled<M, N, A, B> for () {
+    const CELLS: [[(); B]; A] = [[(); B]; A];
+}
+
+impl<M: Family<A, B>, N: Number, const A: usize, const B: usize> Scheduled<M, N, A, B> for SetpointLag<N> {
+    const CELLS: [[(); B]; A] = [[(); B]; A];
+}
+
+impl<M, N, F, G, const A: usize, const B: usize> Scheduled<M, N, A, B> for (F, G)
+where
+    M: Family<A, B>,
+    N: Number,
+    F: Scheduled<M, N, A, B, Config: Copy>,
+    G: Scheduled<M, N, A, B, Config: Copy>,
+{
+    const CELLS: [[Self::Config; B]; A] = cells!((F::CONFIG, G::CONFIG), |i, j| (F::CELLS[i][j], G::CELLS[i][j]));
+}
+
 macro_rules! scheduled {
     ($number:ident, $bases:expr) => {
         impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for TwoMassObserver<$number> {
@@ -169,13 +192,25 @@ macro_rules! scheduled {
             });
         }
 
-        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for SpeedLoop<$number> {
+        impl<M: Family<A, B>, F, const A: usize, const B: usize> Scheduled<M, $number, A, B> for SpeedLoop<$number, F>
+        where
+            F: LoopFilter<$number, Config: Copy>
+                + Configure<M, $number, Config = <F as LoopFilter<$number>>::Config>
+                + Scheduled<M, $number, A, B>,
+        {
             const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
                 SpeedLoopConfig::<$number>::new(
                     &M::SPEED_LOOPS[i][j],
                     SpeedLoopSettings { torque_limit: M::RATING.torque_limit, ramp: M::RAMP },
                     $bases,
                 )
+                .with_filter(F::CELLS[i][j])
+            });
+        }
+
+        impl<M: Family<A, B>, const A: usize, const B: usize> Scheduled<M, $number, A, B> for DampingLag<$number> {
+            const CELLS: [[Self::Config; B]; A] = cells!(<Self as Configure<M, $number>>::CONFIG, |i, j| {
+                DampingLagConfig::<$number>::new(M::SPEED_LOOPS[i][j].damping_lag, M::PERIOD, $bases)
             });
         }
 

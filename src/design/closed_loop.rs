@@ -14,7 +14,7 @@
 use super::margins::{Margins, OpenLoop};
 use super::plant::{Plant, Twist};
 use super::polynomial::Polynomial;
-use super::{Actuator, Error, ExactStep, RigidDesign, SpeedLoopDesign, TwoMassDesign};
+use super::{Actuator, Error, ExactStep, PlacedObserver, RigidDesign, SpeedLoopDesign, TwoMassDesign};
 use crate::machine::TwoMass;
 use crate::math::{exp_m1, sin_cos, sqrt};
 
@@ -51,17 +51,16 @@ struct Observer {
 }
 
 impl Observer {
-    const fn of_two_masses(design: &TwoMassDesign) -> Self {
-        let machine = &design.machine;
-        let [angle, motor_speed, twist, load_speed, load_torque] = design.gains;
+    const fn of_two_masses(machine: &TwoMass, step: &ExactStep, gains: [f64; 5], period: f64) -> Self {
+        let [angle, motor_speed, twist, load_speed, load_torque] = gains;
         let (jm, jl, total) = (machine.motor_inertia, machine.load_inertia, machine.total_inertia());
         let share = jl / total;
         Self {
-            period: design.period,
+            period,
             inverse: [1.0 / total, 1.0 / jm, 1.0 / jl],
             share,
-            step: design.step,
-            twist: Twist::of(&design.step),
+            step: *step,
+            twist: Twist::of(step),
             angle,
             mean_angle: angle - share * twist,
             mean_speed: (jm * motor_speed + jl * load_speed) / total,
@@ -97,7 +96,21 @@ impl ClosedLoop {
     /// [`Error::Period`] where the two are not designed for the same rate; [`Error::Actuator`] for one that is out of
     /// range or later than twelve ticks.
     pub const fn of(observer: &TwoMassDesign, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<Self, Error> {
-        Self::close(&Observer::of_two_masses(observer), speed_loop, actuator)
+        let TwoMassDesign { machine, step, gains, period, .. } = observer;
+        Self::close(&Observer::of_two_masses(machine, step, *gains, *period), speed_loop, actuator)
+    }
+
+    /// A speed loop at a point of a gain schedule.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub const fn of_placed(
+        observer: &PlacedObserver,
+        speed_loop: &SpeedLoopDesign,
+        actuator: Actuator,
+    ) -> Result<Self, Error> {
+        let PlacedObserver { machine, step, gains, period, .. } = observer;
+        Self::close(&Observer::of_two_masses(machine, step, *gains, *period), speed_loop, actuator)
     }
 
     /// A speed loop on the estimates of one mass, which has no twist rate.

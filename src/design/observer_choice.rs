@@ -14,7 +14,7 @@
 //! The figures are rms over the time between two changes. Noise and lag, common to all observers, come on top. A
 //! simpler observer is therefore chosen only where its error is at most half of the requirement.
 
-use super::{SemiImplicitStep, StepChoice};
+use super::{EstimateError, SemiImplicitStep, StepChoice};
 use crate::machine::TwoMass;
 use crate::math::{exp_m1, sqrt};
 
@@ -99,16 +99,35 @@ pub struct ObserverSelection {
     pub chosen: ObserverChoice,
 }
 
+impl ObserverSelection {
+    /// By how much the errors of one mass may exceed those of two masses: less than either is predicted to.
+    pub const AS_GOOD: f64 = 1.05;
+
+    /// The selection over the tolerances of machine, motor and encoder, by the predicted errors of both observers: one
+    /// mass where its errors of shaft torque and load speed are as good as those of two masses.
+    ///
+    /// Two masses follow the swings of the shaft, and amplify errors of the encoder and of the model more than one
+    /// mass does.
+    #[must_use]
+    pub const fn over_tolerances(self, rigid: &EstimateError, two_masses: &EstimateError) -> Self {
+        let as_good = rigid.shaft_torque <= Self::AS_GOOD * two_masses.shaft_torque
+            && rigid.load_speed <= Self::AS_GOOD * two_masses.load_speed;
+        match self.chosen {
+            ObserverChoice::SemiImplicit | ObserverChoice::Exact if as_good => {
+                Self { chosen: ObserverChoice::Rigid, ..self }
+            }
+            _ => self,
+        }
+    }
+}
+
 impl TwoMass {
     /// The observer for a load cycle, at a tick period \[s\].
     ///
     /// A scene may take another, at the cost of the excess error. Without damping a swing does not decay.
     #[must_use]
     pub const fn select_observer(&self, cycle: &LoadCycle, aim: &Requirement, period: f64) -> ObserverSelection {
-        let share = if self.motor_inertia > self.load_inertia { self.motor_inertia } else { self.load_inertia };
-        let turned = self.resonance() * cycle.rise;
-        let damped = if turned > 2.0 { 2.0 / turned } else { 1.0 };
-        let without_shaft = self.swing(cycle.change * damped * share / self.total_inertia(), cycle);
+        let without_shaft = self.swing(self.amplitude_after(cycle), cycle);
         let without_gap = if cycle.reverses && self.gap > 0.0 {
             let closing = sqrt(2.0 * cycle.change * self.gap / self.motor_inertia);
             self.swing(self.impact_torque(closing).0, cycle)
@@ -129,13 +148,26 @@ impl TwoMass {
         ObserverSelection { without_shaft, without_gap, semi_implicit: step.fidelity.error_bound, chosen }
     }
 
+    /// Largest amplitude of the shaft torque's swing after a change of the load cycle \[N m\].
+    pub(super) const fn amplitude_after(&self, cycle: &LoadCycle) -> f64 {
+        let share = if self.motor_inertia > self.load_inertia { self.motor_inertia } else { self.load_inertia };
+        let turned = self.resonance() * cycle.rise;
+        let damped = if turned > 2.0 { 2.0 / turned } else { 1.0 };
+        cycle.change * damped * share / self.total_inertia()
+    }
+
+    /// Rms of an amplitude that decays until the next change.
+    pub(super) const fn rms_until(&self, every: f64, amplitude: f64) -> f64 {
+        let decays = 2.0 * self.damping_ratio() * self.resonance() * every;
+        // The mean of exp(-x) over the interval.
+        let left = if decays > 0.0 { -exp_m1(-decays) / decays } else { 1.0 };
+        amplitude * sqrt(0.5 * left)
+    }
+
     /// Rms error of a shaft torque oscillation of this amplitude \[N m\], until the next change.
     const fn swing(&self, amplitude: f64, cycle: &LoadCycle) -> Penalty {
         let resonance = self.resonance();
-        let decays = 2.0 * self.damping_ratio() * resonance * cycle.every;
-        // The mean of exp(-x) over the interval.
-        let left = if decays > 0.0 { -exp_m1(-decays) / decays } else { 1.0 };
-        let rms = amplitude * sqrt(0.5 * left);
+        let rms = self.rms_until(cycle.every, amplitude);
         let speed = rms * resonance / self.stiffness * (self.motor_inertia / self.total_inertia());
         Penalty { shaft_torque: rms / cycle.torque, load_speed: speed / cycle.speed }
     }

@@ -8,7 +8,7 @@
 use super::closed_loop::{ClosedLoop, Mapped};
 use super::margins::Margins;
 use super::plant::Plant;
-use super::{Actuator, Error, RigidDesign, SpeedLoopDesign, Tolerance, TwoMassDesign};
+use super::{Actuator, Error, PlacedObserver, RigidDesign, SpeedLoopDesign, Tolerance, TwoMassDesign};
 use crate::machine::TwoMass;
 
 /// The least margins of a speed loop.
@@ -36,6 +36,8 @@ impl Robustness {
 pub enum LoopObserver<'a> {
     /// Two masses.
     TwoMass(&'a TwoMassDesign),
+    /// Two masses, at a point of a gain schedule.
+    Placed(&'a PlacedObserver),
     /// One mass.
     Rigid(&'a RigidDesign),
 }
@@ -44,6 +46,7 @@ impl LoopObserver<'_> {
     const fn close(&self, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<ClosedLoop, Error> {
         match self {
             Self::TwoMass(design) => ClosedLoop::of(design, speed_loop, actuator),
+            Self::Placed(design) => ClosedLoop::of_placed(design, speed_loop, actuator),
             Self::Rigid(design) => ClosedLoop::of_rigid(design, speed_loop, actuator),
         }
     }

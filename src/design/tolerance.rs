@@ -29,6 +29,17 @@ impl Spread {
         Self { min, max }
     }
 
+    /// Mean square of the deviation from 1, uniform between the two factors.
+    pub(super) const fn mean_square(&self) -> f64 {
+        let (low, high) = (self.min - 1.0, self.max - 1.0);
+        (low * low + low * high + high * high) / 3.0
+    }
+
+    /// The middle of the range and so many half ranges.
+    pub(super) const fn mean_plus(&self, halves: f64) -> f64 {
+        0.5 * (self.min + self.max + halves * (self.max - self.min))
+    }
+
     const fn is_sound(&self) -> bool {
         self.min > 0.0 && self.min <= 1.0 && self.max >= 1.0 && self.max.is_finite()
     }
@@ -73,6 +84,12 @@ pub struct Tolerance {
     pub late: u32,
     /// Lag of the torque \[s\] on top of the actuator's.
     pub lag: f64,
+    /// Torque at the shaft that is not reported, either way, as a fraction of rated torque.
+    pub offset: f64,
+    /// Efficiency of the gears, either way, as a difference.
+    pub efficiency: f64,
+    /// Gap of a backlash.
+    pub gap: Spread,
 }
 
 impl Tolerance {
@@ -85,6 +102,9 @@ impl Tolerance {
         torque: Spread::within(0.05),
         late: 1,
         lag: 1.0 / (core::f64::consts::TAU * 500.0),
+        offset: 0.01,
+        efficiency: 0.03,
+        gap: Spread::within(0.3),
     };
 
     /// Everything is as described.
@@ -95,13 +115,17 @@ impl Tolerance {
         torque: Spread::NONE,
         late: 0,
         lag: 0.0,
+        offset: 0.0,
+        efficiency: 0.0,
+        gap: Spread::NONE,
     };
 
     /// Whether every field is in its range.
     pub(super) const fn is_sound(&self) -> bool {
-        let Self { motor_inertia, load_inertia, stiffness, torque, late: _, lag } = self;
+        let Self { motor_inertia, load_inertia, stiffness, torque, late: _, lag, offset, efficiency, gap } = self;
         let spreads = motor_inertia.is_sound() && load_inertia.is_sound() && stiffness.is_sound() && torque.is_sound();
-        spreads && *lag >= 0.0 && lag.is_finite()
+        let rest = *offset >= 0.0 && offset.is_finite() && *efficiency >= 0.0 && *efficiency < 1.0;
+        spreads && rest && gap.min >= 0.0 && gap.max >= gap.min && *lag >= 0.0 && lag.is_finite()
     }
 
     /// Machines that these tolerances are sampled by.

@@ -51,22 +51,24 @@ impl Rate {
 pub struct Encoder {
     counts: u64,
     /// Amplitudes of interpolation error and eccentricity \[rad\].
-    amplitudes: [f64; 2],
+    pub(super) amplitudes: [f64; 2],
+    /// Signal periods on a turn.
+    pub(super) periods: u32,
     /// Rms of the turn during the jitter \[rad\].
-    jitter: f64,
+    pub(super) jitter: f64,
 }
 
 impl Encoder {
     /// An encoder of so many lines, each read as four counts.
     #[must_use]
     pub const fn lines(lines: u32) -> Self {
-        Self { counts: 4 * lines as u64, amplitudes: [0.0; 2], jitter: 0.0 }
+        Self { counts: 4 * lines as u64, amplitudes: [0.0; 2], periods: lines, jitter: 0.0 }
     }
 
     /// An encoder or resolver of so many counts a turn.
     #[must_use]
     pub const fn counts(counts: u32) -> Self {
-        Self { counts: counts as u64, amplitudes: [0.0; 2], jitter: 0.0 }
+        Self { counts: counts as u64, amplitudes: [0.0; 2], periods: 1, jitter: 0.0 }
     }
 
     /// With an interpolation error: its amplitude as a fraction of a signal period, and the signal periods on a turn
@@ -74,6 +76,7 @@ impl Encoder {
     #[must_use]
     pub const fn interpolation(mut self, periods: u32, error: f64) -> Self {
         self.amplitudes[0] = error * core::f64::consts::TAU / periods as f64;
+        self.periods = periods;
         self
     }
 

@@ -1,6 +1,6 @@
 //! Interpolation of the constants of observers and governors, field by field.
 
-use crate::governor::SpeedLoopConfig;
+use crate::governor::{DampingLagConfig, SpeedLoopConfig};
 use crate::number::{Interpolate, Magnitude, Number, Weight};
 use crate::observer::{GearedConfig, RigidConfig, SemiImplicitConfig, Stiction, TwoMassConfig};
 
@@ -20,7 +20,25 @@ macro_rules! fields {
 fields! {
     RigidConfig { acceleration, turn, correction, angle_correction, speed, load_share }
     SemiImplicitConfig { motor, load, shaft, turn, correction, angle_correction, speed }
-    SpeedLoopConfig { proportional, integral, damping, anti_windup, torque_limit, ramp, filter }
+    DampingLagConfig { share }
+}
+
+impl<N, F> Interpolate for SpeedLoopConfig<N, F>
+where
+    N: Number<Coefficient: Interpolate> + Interpolate,
+    F: Interpolate,
+{
+    fn between(&self, other: &Self, weight: Weight) -> Self {
+        SpeedLoopConfig {
+            proportional: self.proportional.between(&other.proportional, weight),
+            integral: self.integral.between(&other.integral, weight),
+            damping: self.damping.between(&other.damping, weight),
+            anti_windup: self.anti_windup.between(&other.anti_windup, weight),
+            torque_limit: self.torque_limit.between(&other.torque_limit, weight),
+            ramp: self.ramp.between(&other.ramp, weight),
+            filter: self.filter.between(&other.filter, weight),
+        }
+    }
 }
 
 impl<N, C> Interpolate for GearedConfig<N, C>

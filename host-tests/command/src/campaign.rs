@@ -12,12 +12,13 @@
 
 pub mod compare;
 mod draw;
-mod factor;
 mod figure;
+pub mod file;
 pub mod merge;
 mod page;
 mod plain;
 mod preparation;
+pub mod real;
 pub mod record;
 pub mod run;
 pub mod scenes;
@@ -25,10 +26,10 @@ mod statistics;
 mod summary;
 mod work;
 
+pub use crate::machine_file::factor::{Factor, Tolerance};
 pub use draw::Draw;
-pub use factor::{Factor, Tolerance};
 pub use figure::{Figure, Outcome, decay};
 pub use plain::PlainLoop;
-pub use statistics::{quantile, rank_correlation};
+pub use statistics::{noise_of_largest, quantile, rank_correlation};
 pub use summary::Summary;
 pub use work::work;

@@ -35,7 +35,19 @@
 //! change = 150.0           # N m at the motor: the largest change of torque ...
 //! rise = 0.1               # s ... comes about in this time
 //! every = 2.0              # s from one to the next
+//!
+//! [actuator]               # may be left out: the torque acts within the tick
+//! delay = 1e-4             # s from the command to the current's setpoint
+//! bandwidth = 500.0        # Hz, of the current control
+//!
+//! [tolerance]              # may be left out: those of the class `general`
+//! class = "crane"          # general, crane, mill or machine-tool: what is not stated below
+//! stiffness = 0.2          # 20 % either way
+//! load = [0.05, 1.1]       # from and to, of nominal
 //! ```
+//!
+//! A tolerance is a number or a range. A number is a ratio's deviation either way, a difference either way, or the
+//! largest amplitude: see [`factor`] for the keys and their units.
 //!
 //! | kind | keys (those in brackets may be left out) |
 //! |---|---|
@@ -84,12 +96,15 @@
 //! sheet gives them; the library refers them to the motor.
 
 pub mod balance;
+pub mod class;
+pub mod designs;
 mod diagnostic;
 mod element;
 mod excitation;
+pub mod factor;
 mod quantity;
 mod read;
-mod referred;
+pub(crate) mod referred;
 mod rotor;
 mod source;
 pub(crate) mod station;
@@ -106,7 +121,9 @@ pub use source::{Source, printable};
 pub use table::{Item, Table};
 pub use train::{TrainFile, is_train, parse_train, read_train};
 
+use class::Class;
 use driveline::machine::{Chain, Train};
+use factor::Tolerance;
 use serde::Serialize;
 
 /// A machine as its file describes it.
@@ -124,6 +141,13 @@ pub struct MachineFile {
     pub disturbance: Disturbance,
     /// Limits of the machine.
     pub limits: Limits,
+    /// Delay and bandwidth of the torque.
+    pub actuator: Actuator,
+    /// Its class, which tolerances that the file does not state come from.
+    pub class: Class,
+    /// The tolerances.
+    #[serde(skip)]
+    pub tolerances: Vec<Tolerance>,
     /// The speeds it runs at, where the file says so.
     pub running: Option<Running>,
     /// Its excitations.
@@ -227,6 +251,17 @@ pub struct Limits {
     pub torque: f64,
     /// Speed \[rad/s\].
     pub speed: f64,
+    /// Rated torque \[N m\]; half of the largest where the file states none.
+    pub rated_torque: f64,
+}
+
+/// The motor's torque after its command.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Actuator {
+    /// Dead time \[s\].
+    pub delay: f64,
+    /// Bandwidth of the current control \[Hz\], where it is not within the tick.
+    pub bandwidth: Option<f64>,
 }
 
 /// How the machine is shaken: what decides which observer it needs.

@@ -22,6 +22,7 @@ pub mod format;
 pub mod page;
 mod report;
 mod results;
+mod sample;
 mod sheet;
 pub mod svg;
 mod sweep;
@@ -30,6 +31,7 @@ mod trajectory;
 
 pub use report::Report;
 pub use results::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Variant};
+pub use sample::{Sample, Sampled, samples_section};
 pub use sheet::{Arrangement, Figure, Key, Section, Sheet};
 pub use sweep::{Slice, Sweep, SweepPoint};
 pub use table::{Table, variants_table};

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::results::{Budget, Comparison, Composition, Fact, Variant};
+use crate::sample::Sample;
 use crate::sweep::Sweep;
 use crate::trajectory::Trajectory;
 
@@ -16,6 +17,8 @@ pub struct Report {
     pub summary: String,
     /// What the machine and the run are.
     pub facts: Vec<Fact>,
+    /// Drives on samples of machines within their tolerances.
+    pub samples: Vec<Sample>,
     /// Every variant, in the order of the table.
     pub variants: Vec<Variant>,
     /// Courses over time; the first variant and situation are shown first.

@@ -1,9 +1,9 @@
 //! The page of a campaign.
 
-use super::factor::Factor;
 use super::figure::Figure;
 use super::statistics::quantile;
 use super::summary::Summary;
+use crate::machine_file::factor::Factor;
 use driveline_report::chart::{Curve, Lines};
 use driveline_report::format::significant;
 use driveline_report::{Fact, Figure as Drawing, Key, Sheet};

@@ -10,8 +10,8 @@ use std::fs::{File, OpenOptions};
 use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
-use super::factor::Tolerance;
 use super::figure::{FIGURES, Figure, Outcome};
+use crate::machine_file::factor::Tolerance;
 
 /// What a campaign is of.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,7 +64,12 @@ impl Settings {
         })
     }
 
-    /// The whole file of a campaign that is done: the draws by their numbers.
+    /// Whether it is the other campaign with more draws.
+    fn extends(&self, fewer: &Self) -> bool {
+        fewer.draws < self.draws && Self { draws: self.draws, ..fewer.clone() } == *self
+    }
+
+    /// The file of a campaign with some draws done, by their numbers: the whole one where all are.
     pub fn file(&self, outcomes: &BTreeMap<u64, Outcome>) -> String {
         let lines = outcomes.iter().map(|(number, outcome)| line(*number, outcome));
         std::iter::once(self.text()).chain(lines).collect()
@@ -134,7 +139,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// Opens the file of a campaign, or begins it.
+    /// Opens the file of a campaign, or begins it. One of fewer draws goes on to more.
     ///
     /// # Errors
     /// A sentence: a file of other settings, one that another process writes, or what the system says.
@@ -150,6 +155,15 @@ impl Record {
         let mut text = String::new();
         file.read_to_string(&mut text).map_err(system)?;
         let begin = settings.text();
+        if Settings::parse(&text).is_some_and(|fewer| settings.extends(&fewer)) {
+            // beside it first: a kill loses nothing
+            let (_, outcomes, _) = parse(path, &text)?;
+            let beside = path.with_extension("extended");
+            std::fs::write(&beside, settings.file(&outcomes)).map_err(system)?;
+            std::fs::rename(&beside, path).map_err(system)?;
+            drop(file);
+            return Self::open(path, settings);
+        }
         let outcomes = if begin.starts_with(&text) {
             // killed before the first draw, at the latest
             file.set_len(0).map_err(system)?;

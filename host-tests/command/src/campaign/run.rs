@@ -6,6 +6,7 @@ use driveline_firmware::scenes::{Row, find};
 
 use super::draw::Draw;
 use super::figure::{Gathering, Outcome, Scale};
+use super::file::FileObserver;
 use super::plain::PlainLoop;
 use super::preparation::preparation;
 use super::scenes::CampaignScene;
@@ -21,6 +22,8 @@ use crate::drivetrains::scenario::{Machine, Scenario};
 pub enum Drive {
     /// A variant of the scene.
     Variant(&'static Row),
+    /// A machine file's drive with an observer, at this many ticks a second.
+    File(FileObserver, u32),
     /// The [`PlainLoop`] with the scene's gains, at this many ticks a second.
     Plain(u32),
 }
@@ -29,12 +32,24 @@ pub enum Drive {
 const PLAIN: &str = "plain";
 
 impl Drive {
-    /// The design's choice in `f32`, the variant with this number, observer and rate, or `plain`.
+    /// The design's choice in `f32`, the variant with this number, observer and rate, or `plain`. Of a machine file the
+    /// choice over its tolerances, `two-mass`, `rigid` or `plain`.
     ///
     /// # Errors
     /// A sentence: no such variant.
-    pub fn named(machine: &Machine, name: Option<&str>) -> Result<Self, String> {
+    pub fn named(scene: &CampaignScene, machine: &Machine, name: Option<&str>) -> Result<Self, String> {
         let (observer, rate) = machine.chosen;
+        if scene.file().is_some() {
+            let name = name.unwrap_or(observer);
+            let found = FileObserver::ALL.into_iter().find(|observer| observer.name() == name);
+            return match found {
+                Some(observer) => Ok(Self::File(observer, rate)),
+                None if name == PLAIN => Ok(Self::Plain(rate)),
+                None => {
+                    Err(format!("there is no drive `{name}` for a machine file; expected two-mass, rigid or plain"))
+                }
+            };
+        }
         let usual = format!("f32/{observer}/{rate}");
         match name.unwrap_or(&usual) {
             PLAIN => Ok(Self::Plain(rate)),
@@ -51,6 +66,7 @@ impl Drive {
     pub fn name(&self, scene: &str) -> String {
         match self {
             Self::Variant(row) => row.name.to_owned(),
+            Self::File(observer, _) => format!("{scene}/{}", observer.name()),
             Self::Plain(_) => format!("{scene}/{PLAIN}"),
         }
     }
@@ -59,7 +75,7 @@ impl Drive {
     pub const fn rate_hz(&self) -> u32 {
         match self {
             Self::Variant(row) => row.rate_hz,
-            Self::Plain(rate) => *rate,
+            Self::File(_, rate) | Self::Plain(rate) => *rate,
         }
     }
 
@@ -67,16 +83,23 @@ impl Drive {
     pub fn units(&self, machine: &Machine) -> Units {
         let words = match self {
             Self::Variant(row) => row.words(),
-            Self::Plain(_) => Words::Single,
+            Self::File(..) | Self::Plain(_) => Words::Single,
         };
         Units::new(words, machine.bases)
     }
 
     /// It at rest.
-    pub fn start(&self, scene: &CampaignScene, machine: &Machine) -> Box<dyn Ticks> {
-        match self {
-            Self::Variant(row) => Box::new(OnHost(row.start())),
-            Self::Plain(_) => Box::new(PlainLoop::new(scene.speed_loop, scene.torque_limit, scene.ramp, machine.bases)),
+    ///
+    /// # Errors
+    /// A sentence: constants that `f32` does not hold.
+    pub fn start(&self, scene: &CampaignScene, machine: &Machine) -> Result<Box<dyn Ticks>, String> {
+        match (self, scene.file()) {
+            (Self::Variant(row), _) => Ok(Box::new(OnHost(row.start()))),
+            (Self::File(observer, _), Some(file)) => file.start(*observer),
+            (Self::File(..), None) => Err(format!("`{}` is no machine file", scene.name)),
+            (Self::Plain(_), _) => {
+                Ok(Box::new(PlainLoop::new(scene.speed_loop, scene.torque_limit, scene.ramp, machine.bases)))
+            }
         }
     }
 }
@@ -88,13 +111,17 @@ impl Drive {
 /// A sentence: values that no plant can have.
 pub fn run(scene: &CampaignScene, drive: &Drive, draw: &Draw) -> Result<Outcome, String> {
     let wrong = |error: &dyn core::fmt::Display| format!("draw {} of `{}`: {error}", draw.number, scene.name);
-    let machine = (scene.departing)(&draw.departure()).map_err(|error| wrong(&error))?;
+    let machine = scene.departing(&draw.departure()).map_err(|error| wrong(&error))?;
     let mut scenario = machine.scenarios.first().ok_or_else(|| wrong(&"the machine has no run"))?.clone();
     scenario.duration = scenario.duration.max(scene.free.1);
-    let imperfections = draw.imperfections(scene.lines, scene.rated_torque);
+    let mut imperfections = draw.imperfections(scene.lines, scene.rated_torque);
+    imperfections.actuator.delay += scene.actuator.delay * f64::from(drive.rate_hz());
+    imperfections.actuator.lag += scene.actuator.lag;
     let prepared = preparation(scene.name, drive, &draw.departure()).map_err(|error| wrong(&error))?;
     let follow = |machine: &Machine, imperfections: &Imperfections| {
-        follow_draw(scene, drive, machine, &prepared, &scenario, imperfections).map_err(|error| wrong(&error))
+        let mut ticking = drive.start(scene, machine).map_err(|error| wrong(&error))?;
+        follow_draw(scene, drive, machine, &prepared, &scenario, imperfections, &mut ticking)
+            .map_err(|error| wrong(&error))
     };
     let outcome = follow(&machine, &imperfections)?;
     if !outcome.swings() {
@@ -102,7 +129,7 @@ pub fn run(scene: &CampaignScene, drive: &Drive, draw: &Draw) -> Result<Outcome,
     }
     let encoder = EncoderErrors::default();
     let actuator = ActuatorErrors { cogging: 0.0, ..imperfections.actuator };
-    let quiet = Machine { torque_noise: 0.0, ..(scene.departing)(&draw.departure()).map_err(|error| wrong(&error))? };
+    let quiet = Machine { torque_noise: 0.0, ..scene.departing(&draw.departure()).map_err(|error| wrong(&error))? };
     let quiet = follow(&quiet, &Imperfections { encoder, actuator, ..imperfections })?;
     Ok(outcome.with_sustained(&quiet, scene.free.1 - scene.free.0))
 }
@@ -114,6 +141,7 @@ fn follow_draw(
     prepared: &[Scenario],
     scenario: &Scenario,
     imperfections: &Imperfections,
+    ticking: &mut Box<dyn Ticks>,
 ) -> std::io::Result<Outcome> {
     let units = drive.units(machine);
     let mut plant = scenario.plant.unrecorded();
@@ -125,12 +153,11 @@ fn follow_draw(
     });
     let step = scene.ramp / f64::from(drive.rate_hz());
     let mut ramped = 0.0_f64;
-    let mut ticking = drive.start(scene, machine);
     for (before, run) in (1..).zip(prepared) {
         // other noise in each run
         let imperfections = Imperfections { seed: imperfections.seed ^ before, ..*imperfections };
         let mut plant = run.plant.unrecorded();
-        follow(machine, run, &units, drive.rate_hz(), &imperfections, &mut ticking, &mut plant, |_, _| {})?;
+        follow(machine, run, &units, drive.rate_hz(), &imperfections, ticking, &mut plant, |_, _| {})?;
     }
     let each = |moment: &_, (input, _): (Input, _)| {
         let target = if input.flags & Input::RELEASED == 0 { ramped } else { units.speed(input.setpoint) };
@@ -138,6 +165,6 @@ fn follow_draw(
         ramped += change;
         gathering.add(moment, change / step * scene.ramp);
     };
-    follow(machine, scenario, &units, drive.rate_hz(), imperfections, &mut ticking, &mut plant, each)?;
+    follow(machine, scenario, &units, drive.rate_hz(), imperfections, ticking, &mut plant, each)?;
     Ok(gathering.outcome())
 }

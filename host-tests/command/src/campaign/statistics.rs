@@ -25,6 +25,22 @@ pub fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
     if size > 0.0 { sum(&x, &y) / size } else { 0.0 }
 }
 
+/// The size that the largest of so many rank correlations exceeds in one of twenty campaigns of so many draws in which
+/// no factor matters: the normal approximation `z/sqrt(n - 1)` [Conover 1999, 5.4], z for the share `0.05/many` in both
+/// tails, which bounds the largest by the sum of all.
+pub fn noise_of_largest(draws: usize, many: usize) -> f64 {
+    let tail = 0.5 * 0.05 / many.max(1) as f64;
+    deviate(tail) / (draws as f64 - 1.0).max(1.0).sqrt()
+}
+
+/// The standard normal deviate that is exceeded with this probability of at most one half, to 4.5e-4 [Abramowitz and
+/// Stegun 1964, 26.2.23].
+fn deviate(probability: f64) -> f64 {
+    let t = (-2.0 * probability.ln()).sqrt();
+    let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
+    t - above / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)))
+}
+
 /// Ranks from 1; ties have their mean rank.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();

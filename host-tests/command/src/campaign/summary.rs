@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::draw::Draw;
-use super::factor::{Factor, Tolerance};
 use super::figure::{Figure, Outcome};
 use super::record::Settings;
-use super::statistics::{median_range, quantile, rank_correlation};
+use super::statistics::{median_range, noise_of_largest, quantile, rank_correlation};
+use crate::machine_file::factor::{Factor, Tolerance};
 use driveline_report::format::{percent, significant};
 use driveline_report::{Section, Table};
 
@@ -44,6 +44,8 @@ pub struct Influence {
     pub with_value: f64,
     /// The same with the size of the factor's departure from nominal.
     pub with_departure: f64,
+    /// Whether the larger of both exceeds that of noise, [`Summary::noise`].
+    pub significant: bool,
 }
 
 impl Influence {
@@ -81,6 +83,8 @@ pub struct Summary {
     pub figures: Vec<Distribution>,
     /// Draws whose loop did not hold.
     pub unstable: Vec<Unstable>,
+    /// The largest of a figure's rank correlations where no factor matters: less in 19 of 20 campaigns.
+    pub noise: f64,
     /// The factors by figure, the strongest first.
     pub influences: Vec<Influence>,
     #[serde(skip)]
@@ -140,6 +144,7 @@ impl Summary {
             tolerances: tolerances.iter().map(|t| (t.factor.name(), (t.low, t.high))).collect(),
             figures: Figure::ALL.iter().map(|&figure| distribution(&drawn, figure, &nominal)).collect(),
             unstable,
+            noise: noise(&drawn),
             influences: RANKED.iter().flat_map(|&figure| influences(&drawn, figure)).collect(),
             drawn,
         }
@@ -159,8 +164,13 @@ impl Summary {
         }
         let mut ranks = Table::new(["figure", "factor", "rank correlation", "with its departure's size"]);
         for figure in RANKED {
-            for influence in self.influences.iter().filter(|influence| influence.figure == figure.name()).take(SHOWN) {
-                let Influence { figure, factor, with_value, with_departure } = *influence;
+            let of_figure = |influence: &&Influence| influence.figure == figure.name() && influence.significant;
+            let mut significant = self.influences.iter().filter(of_figure).peekable();
+            if significant.peek().is_none() {
+                ranks.row([figure.name(), "none beyond noise"]);
+            }
+            for influence in significant.take(SHOWN) {
+                let Influence { figure, factor, with_value, with_departure, .. } = *influence;
                 ranks.row([figure, factor, &format!("{with_value:+.2}"), &format!("{with_departure:+.2}")]);
             }
         }
@@ -173,7 +183,9 @@ impl Summary {
                       lies in its range with 95 % confidence. For the decay, lower is worse.";
         let strongest = format!(
             "The {SHOWN} strongest factors of each figure by Spearman's rank correlation: with the value itself, and \
-             with the size of its departure from nominal."
+             with the size of its departure from nominal. Where no factor matters, the largest of a figure's is below \
+             {:.2} in 19 of 20 campaigns of {} draws; what is below that is left out.",
+            self.noise, self.draws
         );
         let count = self.unstable.len();
         let listed = format!(
@@ -213,19 +225,27 @@ fn distribution(drawn: &Drawn, figure: Figure, nominal: &Outcome) -> Distributio
     }
 }
 
+/// The factors that vary.
+fn varied(drawn: &Drawn) -> impl Iterator<Item = &Tolerance> {
+    drawn.tolerances.iter().filter(|tolerance| tolerance.low < tolerance.high)
+}
+
+/// The noise of a figure's largest rank correlation, of two a factor.
+fn noise(drawn: &Drawn) -> f64 {
+    noise_of_largest(drawn.draws.len(), 2 * varied(drawn).count())
+}
+
 fn influences(drawn: &Drawn, figure: Figure) -> Vec<Influence> {
     let values = drawn.figure(figure);
-    let varied = drawn.tolerances.iter().filter(|tolerance| tolerance.low < tolerance.high);
-    let mut all: Vec<Influence> = varied
+    let noise = noise(drawn);
+    let mut all: Vec<Influence> = varied(drawn)
         .map(|&Tolerance { factor, .. }| {
             let factors = drawn.factor(factor);
             let departures: Vec<f64> = factors.iter().map(|value| (value - factor.nominal()).abs()).collect();
-            Influence {
-                figure: figure.name(),
-                factor: factor.name(),
-                with_value: rank_correlation(&factors, &values),
-                with_departure: rank_correlation(&departures, &values),
-            }
+            let (with_value, with_departure) =
+                (rank_correlation(&factors, &values), rank_correlation(&departures, &values));
+            let significant = with_value.abs().max(with_departure.abs()) > noise;
+            Influence { figure: figure.name(), factor: factor.name(), with_value, with_departure, significant }
         })
         .collect();
     all.sort_by(|a, b| b.size().total_cmp(&a.size()));

@@ -15,6 +15,7 @@ use crate::campaign::run::{Drive, run};
 use crate::campaign::scenes::{CampaignScene, SCENES};
 use crate::campaign::{Draw, Figure, Outcome, Summary, Tolerance, work};
 use crate::drivetrains::departure::Departure;
+use crate::machine_file::read;
 use driveline_report::Table;
 use driveline_report::format::{percent, significant};
 
@@ -34,11 +35,12 @@ use driveline_report::format::{percent, significant};
   cargo driveline campaign merge shard-*.draws --html hoist.html
   cargo driveline campaign hoist --drive plain --results plain.draws
   cargo driveline campaign compare hoist.draws plain.draws
+  cargo driveline campaign my.toml --draws 500
   cargo driveline campaign hoist --draw 17 --json")]
 pub struct Campaign {
     #[command(subcommand)]
     further: Option<Further>,
-    /// The scene: hoist, strip-mill, spindle, blooming-mill or crane-travel
+    /// The scene: hoist, strip-mill, spindle, blooming-mill or crane-travel; or a machine file, FILE.toml
     #[arg(required = true)]
     scene: Option<String>,
     /// Number of draws
@@ -47,8 +49,8 @@ pub struct Campaign {
     /// Seed of the draws
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// The drive: a variant of the scene, as NUMBER/OBSERVER/RATE, or `plain`, a loop without an observer [default: the
-    /// design's choice in f32]
+    /// The drive: a variant of the scene, as NUMBER/OBSERVER/RATE; of a machine file two-mass or rigid; or `plain`, a
+    /// loop without an observer [default: the design's choice in f32]
     #[arg(long, value_name = "DRIVE")]
     drive: Option<String>,
     /// Range of a factor, as NAME=LOW..HIGH or NAME=VALUE, in place of the scene's; may be repeated
@@ -134,14 +136,12 @@ impl Campaign {
     }
 
     fn run(&self) -> Result<(), Failure> {
-        let name = self.scene.as_deref().unwrap_or_default();
-        let scene = SCENES.iter().find(|scene| scene.name == name).ok_or_else(|| {
-            let names = SCENES.map(|scene| format!("`{}`", scene.name)).join(", ");
-            Failure::usage(format!("there is no campaign of a scene `{name}`; there are {names}"))
-        })?;
-        let drive = (scene.departing)(&Departure::NONE)
+        let scene = &self.scene()?;
+        let name = scene.name;
+        let drive = scene
+            .departing(&Departure::NONE)
             .map_err(|error| error.to_string())
-            .and_then(|machine| Drive::named(&machine, self.drive.as_deref()))
+            .and_then(|machine| Drive::named(scene, &machine, self.drive.as_deref()))
             .map_err(Failure::usage)?;
         let tolerances = self.tolerances(scene).map_err(Failure::usage)?;
         if let Some(number) = self.draw {
@@ -172,6 +172,20 @@ impl Campaign {
         }
         Destination::chosen("results", &path).write(&settings.file(&record.outcomes))?;
         show(&Summary::of(&settings, &record.outcomes), page.as_ref(), self.json)
+    }
+
+    /// The scene of a name, or of a machine file.
+    fn scene(&self) -> Result<CampaignScene, Failure> {
+        let name = self.scene.as_deref().unwrap_or_default();
+        if let Some(scene) = SCENES.iter().find(|scene| scene.name == name) {
+            return Ok(*scene);
+        }
+        let path = Path::new(name);
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            return CampaignScene::of_file(read(path)?).map_err(|error| Failure::usage(format!("{name}: {error}")));
+        }
+        let names = SCENES.map(|scene| format!("`{}`", scene.name)).join(", ");
+        Err(Failure::usage(format!("there is no campaign of a scene `{name}`; there are {names}, and files FILE.toml")))
     }
 
     /// The scene's tolerances with those of the command line in their place.

@@ -1,13 +1,14 @@
 //! Result of `design` for a machine: step, observer, governor.
 
 use driveline::design::{
-    Actuator, ClosedLoop, Disturbance, Encoder, Error, LoopObserver, ObserverChoice, Penalty, Plant, Rate, Requirement,
-    RigidDesign, Robustness, SpeedLoopDesign, SpeedLoopTuning, StepChoice, Tolerance, TwoMassDesign,
+    ClosedLoop, Error, EstimateError, LoopObserver, ObserverChoice, ObserverSelection, Penalty, Plant, PredictedErrors,
+    RigidDesign, Robustness, SpeedLoopDesign, StepChoice, TwoMassDesign,
 };
-use driveline::machine::{Match, TwoMass};
+use driveline::machine::TwoMass;
 use serde::Serialize;
 
-use crate::machine_file::{Duty, MachineFile};
+use crate::machine_file::MachineFile;
+use crate::machine_file::designs::Designs;
 
 /// The controller of a machine, in SI units at the motor.
 #[derive(Clone, Debug, Serialize)]
@@ -34,6 +35,8 @@ pub struct Plan {
     pub speed_loop: Option<SpeedLoop>,
     /// The selected observer, for two masses whose file has a `[duty]`.
     pub need: Option<Needed>,
+    /// Errors over the tolerances, for two masses.
+    pub predicted: Option<Predicted>,
 }
 
 /// Selection of an observer.
@@ -45,6 +48,55 @@ pub struct Needed {
     pub without_shaft: [f64; 2],
     /// Error without the gap.
     pub without_gap: [f64; 2],
+}
+
+/// Errors that are predicted over the tolerances, rms, and the observer that is selected by them.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Predicted {
+    /// The selected observer: `rigid` where one mass is as good.
+    pub observer: &'static str,
+    /// Whether it is simpler than the one that the load cycle alone asks for.
+    pub is_simpler: bool,
+    /// Of the observer of two masses.
+    pub two_masses: Causes,
+    /// Of the observer of one mass.
+    pub one_mass: Causes,
+}
+
+/// Errors of shaft torque, load speed and load torque by their causes, over rated torque and the largest speed.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Causes {
+    /// Torque constant, offset, efficiency, inertias.
+    pub statics: [f64; 3],
+    /// Periodic errors of the encoder.
+    pub encoder: [f64; 3],
+    /// Noise of torque and angle.
+    pub noise: [f64; 3],
+    /// Swings of the shaft.
+    pub swing: [f64; 3],
+    /// All together.
+    pub total: [f64; 3],
+}
+
+impl Predicted {
+    fn of(machine: &MachineFile, designs: &Designs) -> Self {
+        let (torque, speed) = (machine.limits.rated_torque, machine.limits.speed);
+        let three =
+            |error: EstimateError| [error.shaft_torque / torque, error.load_speed / speed, error.load_torque / torque];
+        let causes = |errors: &PredictedErrors| Causes {
+            statics: three(errors.statics),
+            encoder: three(errors.encoder),
+            noise: three(errors.noise),
+            swing: three(errors.swing),
+            total: three(errors.total()),
+        };
+        Self {
+            observer: name(designs.selected.chosen),
+            is_simpler: designs.selected.chosen != designs.nominal.chosen,
+            two_masses: causes(&designs.two_masses_errors),
+            one_mass: causes(&designs.rigid_errors),
+        }
+    }
 }
 
 /// The shaft between the two masses.
@@ -115,9 +167,9 @@ pub struct SpeedLoop {
     pub margins: Option<Margins>,
     /// Why there are no margins.
     pub no_margins: Option<&'static str>,
-    /// The least margins within the usual tolerances of two masses; `null` where the loop is unstable within them.
+    /// The least margins within the tolerances of two masses; `null` where the loop is unstable within them.
     pub least_margins: Option<LeastMargins>,
-    /// What the loop has not within the usual tolerances: 6 dB, 30 degrees, stability. `null` where it has all.
+    /// What the loop has not within the tolerances: 6 dB, 30 degrees, stability. `null` where it has all.
     pub not_robust: Option<&'static str>,
     /// Largest size of a pole of the closed loop.
     pub spectral_radius: f64,
@@ -134,12 +186,12 @@ impl SpeedLoop {
         observer: &TwoMassDesign,
         governor: &SpeedLoopDesign,
     ) -> Result<Self, Error> {
-        const TOLERANCE: &Tolerance = &Tolerance::USUAL;
-        let closed = ClosedLoop::of(observer, governor, Actuator::DIRECT)?;
+        let (actuator, tolerance) = (machine.actuator(), &machine.tolerance());
+        let closed = ClosedLoop::of(observer, governor, actuator)?;
         let margins = Margins::of(machine, two, &closed);
         let observer = LoopObserver::TwoMass(observer);
-        let least = two.least_margins(observer, governor, Actuator::DIRECT, TOLERANCE);
-        let robust = two.try_robust(observer, governor, Actuator::DIRECT, TOLERANCE, &Robustness::USUAL);
+        let least = two.least_margins(observer, governor, actuator, tolerance);
+        let robust = two.try_robust(observer, governor, actuator, tolerance, &Robustness::USUAL);
         let no_margins = margins.as_ref().err().map(|error| match robust {
             Ok(()) => NEGLECTED,
             Err(_) => error.message(),
@@ -230,45 +282,25 @@ impl Margins {
     }
 }
 
-/// The tuning of a file in the library's words.
-pub fn tuning(machine: &MachineFile) -> (Rate, Encoder, Disturbance) {
-    let disturbance = Disturbance {
-        torque_accuracy: machine.disturbance.torque_accuracy,
-        load_torque_step: machine.disturbance.load_torque_step,
-        within: machine.disturbance.within,
-    };
-    let accuracy = machine.encoder.accuracy;
-    // a jitter is that of the angle at the largest speed
-    let encoder = Encoder::lines(machine.encoder.lines)
-        .interpolation(accuracy.signal_periods, accuracy.interpolation)
-        .eccentricity(accuracy.eccentricity)
-        .jitter(accuracy.jitter, machine.limits.speed);
-    (Rate::hz(machine.control.rate_hz), encoder, disturbance)
-}
-
-/// The machine as two masses; `None` where it has no shaft.
-pub fn two_masses(machine: &MachineFile) -> Option<TwoMass> {
-    machine.reduce(Match::ResonanceAntiresonance).ok()
-}
-
 impl Plan {
     /// Designs observer and governor.
     ///
     /// # Errors
     /// The library's sentence for a machine that cannot be observed or governed so.
     pub fn of(machine: &MachineFile) -> Result<Self, Error> {
-        let (rate, encoder, disturbance) = tuning(machine);
-        match two_masses(machine) {
+        let (rate, encoder, disturbance) = machine.tuning();
+        match machine.two_masses() {
             Some(two) => {
-                let observer = two.try_observer(rate, encoder, disturbance)?;
-                let governor = two.try_speed_loop(rate, SpeedLoopTuning::of(&two))?;
-                Ok(Self::two_mass(machine, &two, &observer, &SpeedLoop::of(machine, &two, &observer, &governor)?))
+                let designs = Designs::of(machine, &two)?;
+                let speed_loop = SpeedLoop::of(machine, &two, &designs.two_masses, &designs.speed_loop)?;
+                Ok(Self::two_mass(machine, &designs, speed_loop))
             }
             None => Ok(Self::rigid(machine, &machine.rigid()?.try_observer(rate, encoder, disturbance)?)),
         }
     }
 
-    fn two_mass(machine: &MachineFile, two: &TwoMass, observer: &TwoMassDesign, speed_loop: &SpeedLoop) -> Self {
+    fn two_mass(machine: &MachineFile, designs: &Designs, speed_loop: SpeedLoop) -> Self {
+        let Designs { two, two_masses: observer, .. } = designs;
         let deviation = &observer.standard_deviation;
         let of = [
             deviation.motor_angle,
@@ -286,7 +318,8 @@ impl Plan {
         ];
         Self {
             name: machine.name.clone(),
-            need: machine.duty.map(|duty| needed(machine, two, duty)),
+            need: machine.duty.map(|_| needed(&designs.nominal)),
+            predicted: Some(Predicted::of(machine, designs)),
             observer: "two-mass",
             rate_hz: machine.control.rate_hz,
             inertias: vec![two.motor_inertia, two.load_inertia],
@@ -306,7 +339,7 @@ impl Plan {
             poles: poles(&observer.poles),
             spectral_radius: observer.spectral_radius,
             innovation: observer.innovation,
-            speed_loop: Some(speed_loop.clone()),
+            speed_loop: Some(speed_loop),
         }
     }
 
@@ -315,6 +348,7 @@ impl Plan {
         Self {
             name: machine.name.clone(),
             need: None,
+            predicted: None,
             observer: "rigid",
             rate_hz: machine.control.rate_hz,
             inertias: vec![observer.machine.inertia],
@@ -328,23 +362,18 @@ impl Plan {
     }
 }
 
-/// Which observer two masses need. A weight that is heavier than the change keeps a gap closed.
-fn needed(machine: &MachineFile, two: &TwoMass, duty: Duty) -> Needed {
-    let Duty { change, rise, every } = duty;
-    let reverses = two.gravity_torque.abs() < change;
-    let (speed, torque) = (machine.limits.speed, machine.limits.torque);
-    let duty = driveline::design::LoadCycle { speed, torque, change, rise, every, reverses };
-    let need = two.select_observer(&duty, &Requirement::USUAL, 1.0 / f64::from(machine.control.rate_hz));
+/// Selection by the load cycle alone.
+fn needed(need: &ObserverSelection) -> Needed {
     let cost = |cost: Penalty| [cost.shaft_torque, cost.load_speed];
-    Needed {
-        observer: match need.chosen {
-            ObserverChoice::Rigid => "rigid",
-            ObserverChoice::SemiImplicit => "semi-implicit",
-            ObserverChoice::Exact => "exact",
-            ObserverChoice::Backlash => "backlash",
-        },
-        without_shaft: cost(need.without_shaft),
-        without_gap: cost(need.without_gap),
+    Needed { observer: name(need.chosen), without_shaft: cost(need.without_shaft), without_gap: cost(need.without_gap) }
+}
+
+const fn name(choice: ObserverChoice) -> &'static str {
+    match choice {
+        ObserverChoice::Rigid => "rigid",
+        ObserverChoice::SemiImplicit => "semi-implicit",
+        ObserverChoice::Exact => "exact",
+        ObserverChoice::Backlash => "backlash",
     }
 }
 

@@ -5,9 +5,11 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::controller::{Margins, SpeedLoop};
+use super::controller::{Causes, Margins, Predicted, SpeedLoop};
 use super::{Failure, Plan, rust, say, say_json};
+use crate::machine_file::class::Class;
 use crate::machine_file::{MachineFile, read};
+use driveline::design::{Spread, Tolerance};
 use driveline_report::Table;
 use driveline_report::format::{percent, rate, significant};
 
@@ -155,10 +157,29 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
             significant(governor.damping),
             significant(governor.bandwidth / TAU),
             governor.margins.as_ref().map_or_else(|| none("margins", governor.no_margins), margins),
-            within_tolerances(governor),
+            within_tolerances(machine, governor),
         ));
     }
+    if let Some(predicted) = &plan.predicted {
+        text.push_str(&over_tolerances(machine, predicted));
+    }
     text.trim_end().to_owned()
+}
+
+/// The errors that are predicted over the tolerances, and the observer that is selected by them.
+fn over_tolerances(machine: &MachineFile, predicted: &Predicted) -> String {
+    let mut table = Table::new(["errors over tolerances, rms", "statics", "encoder", "noise", "swing", "total"]);
+    let quantities = ["shaft torque, of rated", "load speed, of the largest", "load torque, of rated"];
+    for (name, causes) in [("two masses", &predicted.two_masses), ("one mass", &predicted.one_mass)] {
+        for (k, quantity) in quantities.into_iter().enumerate() {
+            let Causes { statics, encoder, noise, swing, total } = causes;
+            let parts = [statics, encoder, noise, swing, total].map(|part| percent(part[k]));
+            table.row([format!("{name}: {quantity}")].into_iter().chain(parts));
+        }
+    }
+    let class = Class::ALL.into_iter().find(|(_, class)| *class == machine.class).map_or("general", |(name, _)| name);
+    let why = if predicted.is_simpler { ": one mass is as good over the tolerances" } else { "" };
+    format!("\n{table}observer over the tolerances, class {class}: {}{why}\n", predicted.observer)
 }
 
 /// Margins that there are not, and why.
@@ -166,16 +187,25 @@ fn none(which: &str, why: Option<&str>) -> String {
     format!("{which}: none: {}\n", why.unwrap_or_default())
 }
 
-/// The least margins within the usual tolerances, and a warning where the library would refuse the loop.
-fn within_tolerances(speed_loop: &SpeedLoop) -> String {
-    const WHERE: &str = "margins within tolerances (motor side 10 %, load side and stiffness 20 %, torque 5 %, \
-         a tick late, current control of 500 Hz)";
+/// The least margins within the tolerances, and a warning where the library would refuse the loop.
+fn within_tolerances(machine: &MachineFile, speed_loop: &SpeedLoop) -> String {
+    let Tolerance { motor_inertia, load_inertia, stiffness, torque, late, lag, .. } = machine.tolerance();
+    let range = |spread: Spread| format!("{} to {}", significant(spread.min), significant(spread.max));
+    let control =
+        if lag > 0.0 { format!(", current control of {} Hz", significant(1.0 / (TAU * lag))) } else { String::new() };
+    let within = format!(
+        "margins within tolerances (motor side {}, load side {}, stiffness {}, torque {}, {late} ticks late{control})",
+        range(motor_inertia),
+        range(load_inertia),
+        range(stiffness),
+        range(torque),
+    );
     let refused = speed_loop.not_robust.map_or_else(String::new, |why| format!("warning: {why}\n"));
     match &speed_loop.least_margins {
         None if speed_loop.margins.is_none() => String::new(),
-        None => none(WHERE, speed_loop.not_robust),
+        None => none(&within, speed_loop.not_robust),
         Some(least) => format!(
-            "{WHERE}: gain up {}, gain down {}, phase {}, delay {}, distance from -1 {}\n{refused}",
+            "{within}: gain up {}, gain down {}, phase {}, delay {}, distance from -1 {}\n{refused}",
             factor(least.gain_up),
             significant(least.gain_down),
             angle(least.phase),

@@ -5,7 +5,6 @@ use std::fmt::Write;
 
 use driveline::machine::Member;
 
-use super::controller::two_masses;
 use crate::machine_file::{Branch, Element, MachineFile, Part};
 
 /// The constants: the chain, its reduction, the observer's design and, for two masses, the speed loop's.
@@ -19,7 +18,7 @@ pub fn rust(machine: &MachineFile) -> String {
     if !machine.branches.is_empty() {
         words.extend(["Train", "Ratio", "Inertia"]);
     }
-    let two = two_masses(machine).is_some();
+    let two = machine.two_masses().is_some();
     words.extend(if two { ["Match", "TwoMass"].as_slice() } else { ["Rigid"].as_slice() });
     let designs = if two {
         "Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign"

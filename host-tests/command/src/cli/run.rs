@@ -9,11 +9,18 @@ use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::balancing::{Scene, scenes};
+use crate::campaign::real::sample;
+use crate::campaign::run::Drive;
+use crate::campaign::scenes::SCENES as CAMPAIGNS;
+use crate::drivetrains::departure::Departure;
 use crate::drivetrains::{Plan, SCENES, Variants};
 use driveline_qemu::setup::Need;
-use driveline_report::variants_table;
+use driveline_report::{Sample, Section, Variant, samples_section, variants_table};
 
 /// Run a scene's variants in QEMU, in closed loop with the full solver, and report their errors and cost.
+///
+/// A first table has the errors of ten machines out of the tolerances beside the nominal ones, where the scene has
+/// tolerances.
 ///
 /// Installs what is missing (as `setup` does), builds the firmware of the variants, runs it, prints a table and writes
 /// a page with plots that opens in any browser. Without --all or --variants these are the design's choice in `f32` and
@@ -81,13 +88,21 @@ impl Run {
         check(&[], [&file])?;
         ready(&Need::to_run(plan.boards()))?;
         let progress = Progress::of(plan.steps());
-        let report = plan
+        let mut report = plan
             .run(&|text| progress.says(text), &|| progress.step())
             .map_err(|error| Failure::failed(error.to_string()))?;
+        if !self.quick {
+            progress.says("machines within their tolerances");
+            report.samples = samples(scene, &report.variants).map_err(Failure::failed)?;
+        }
         drop(progress);
         if self.json {
             say_json(&report.json())?;
             return file.write(&report.page());
+        }
+        if !report.samples.is_empty() {
+            let Section { title, text, table } = samples_section(&report.samples);
+            say(format_args!("{title}\n{text}\n{table}"));
         }
         say(format_args!("{}\n{}", report.scene, variants_table(&report.variants)));
         for budget in report.budgets.iter().filter(|budget| !budget.kept()) {
@@ -96,4 +111,24 @@ impl Run {
         }
         file.write_and_say(&report.page(), false)
     }
+}
+
+/// Machines of a sample.
+const DRAWS: u64 = 10;
+
+/// The variants on machines within the scene's tolerances, each once, whatever its core; none where the scene has no
+/// tolerances.
+fn samples(scene: &str, variants: &[Variant]) -> Result<Vec<Sample>, String> {
+    let Some(scene) = CAMPAIGNS.iter().find(|known| known.name == scene) else { return Ok(Vec::new()) };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let machine = scene.departing(&Departure::NONE).map_err(|error| error.to_string())?;
+    let mut samples: Vec<Sample> = Vec::new();
+    for variant in variants {
+        let name = format!("{}/{}/{}", variant.number, variant.observer, variant.rate_hz);
+        let drive = Drive::named(scene, &machine, Some(&name))?;
+        if samples.iter().all(|sample| sample.variant != drive.name(scene.name)) {
+            samples.push(sample(scene, &drive, DRAWS, threads)?);
+        }
+    }
+    Ok(samples)
 }

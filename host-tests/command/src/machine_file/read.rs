@@ -9,13 +9,15 @@ use driveline::machine::{Chain, Ratio, Train};
 use toml::Spanned;
 use toml::de::DeTable;
 
+use super::class::Class;
 use super::diagnostic::Diagnostic;
 use super::excitation::excitations;
+use super::factor::{Factor, Tolerance};
 use super::quantity::Quantity;
 use super::source::{Source, printable};
 use super::station::{NOTHING, Station, begun, stations};
 use super::table::Table;
-use super::{Accuracy, Branch, Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
+use super::{Accuracy, Actuator, Branch, Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
 
 /// Largest machine file in bytes: a thousand times what the longest chain needs.
 pub const LARGEST: u64 = 1 << 20;
@@ -103,8 +105,25 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         })
     })?;
     let limits = section(&mut root, "limits", |table| {
-        Ok(Limits { torque: table.number("torque", Quantity::TORQUE)?, speed: table.number("speed", Quantity::SPEED)? })
+        let torque = table.number("torque", Quantity::TORQUE)?;
+        Ok(Limits {
+            torque,
+            speed: table.number("speed", Quantity::SPEED)?,
+            rated_torque: table.number_or("rated_torque", Quantity::TORQUE, 0.5 * torque)?,
+        })
     })?;
+    let actuator = match root.table_if("actuator")? {
+        Some(mut table) => {
+            let delay = table.number_or("delay", Quantity::RISE, 0.0)?;
+            let bandwidth = table.number_if("bandwidth", Quantity::FREQUENCY)?;
+            table.finish()?;
+            Actuator { delay, bandwidth }
+        }
+        None => Actuator::default(),
+    };
+    let lossy = chain.efficiency() < 1.0;
+    let gap = chain.shafts().iter().any(|shaft| shaft.gap > 0.0);
+    let (class, tolerances) = tolerances(&mut root, encoder.accuracy, lossy, gap)?;
     let (running, excitations) = excitations(&mut root)?;
     // what a run of it needs is read by `read_train`
     root.pass(&["link", "torque", "friction", "start", "run"]);
@@ -128,6 +147,9 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         control,
         disturbance,
         limits,
+        actuator,
+        class,
+        tolerances,
         running,
         excitations,
         duty,
@@ -135,6 +157,61 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         branches,
         train,
     })
+}
+
+/// Reads the tolerances: those of the class with the file's in their place. An accuracy that the encoder states is the
+/// largest error that it has.
+fn tolerances(
+    root: &mut Table<'_>,
+    accuracy: Accuracy,
+    lossy: bool,
+    gap: bool,
+) -> Result<(Class, Vec<Tolerance>), Diagnostic> {
+    let mut table = root.table_if("tolerance")?;
+    let class = match &mut table {
+        Some(table) => {
+            let names = Class::ALL.map(|(name, _)| name).join(", ");
+            let text = table.text_if("class", &names)?;
+            let found = text.map(|text| Class::ALL.into_iter().find(|(name, _)| *name == text));
+            found.unwrap_or(Some(Class::ALL[0])).ok_or_else(|| table.wrong("class", format!("one of {names}")))?.1
+        }
+        None => Class::default(),
+    };
+    let mut all = class.machine(lossy, gap);
+    let mut replace = |tolerance: Tolerance| match all.iter_mut().find(|known| known.factor == tolerance.factor) {
+        Some(known) => *known = tolerance,
+        None => all.push(tolerance),
+    };
+    for (factor, stated) in [
+        (Factor::Interpolation, accuracy.interpolation),
+        (Factor::Eccentricity, accuracy.eccentricity),
+        (Factor::Jitter, accuracy.jitter),
+    ] {
+        if stated > 0.0 {
+            replace(factor.about(stated));
+        }
+    }
+    if let Some(mut table) = table {
+        for &factor in Factor::ALL.iter().filter(|factor| **factor != Factor::Rope) {
+            let (least, most) = factor.possible();
+            let (by, unit) = (factor.about(0.1), factor.unit());
+            let expected = format!(
+                "a number, such as 0.1 for {} to {}, or a range [from, to], from {least} to {most} {unit}",
+                by.low, by.high
+            );
+            let tolerance = match table.number_or_pair(factor.key(), &expected)? {
+                None => continue,
+                Some((by, None)) => factor.about(by),
+                Some((low, Some(high))) => Tolerance::new(factor, low, high),
+            };
+            if !(tolerance.low <= tolerance.high && tolerance.low >= least && tolerance.high <= most) {
+                return Err(table.wrong(factor.key(), expected));
+            }
+            replace(tolerance);
+        }
+        table.finish()?;
+    }
+    Ok((class, all))
 }
 
 /// The TOML of a text that is not empty.

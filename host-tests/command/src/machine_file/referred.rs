@@ -16,28 +16,10 @@ pub(super) struct Referred {
 /// or branch.
 pub(super) fn referred(machine: &MachineFile) -> Referred {
     let (masses, shafts) = machine.names();
-    let mut rope = vec![false; shafts.len()];
-    let mut efficiency = vec![1.0; shafts.len()];
+    let Losses { efficiency, rope } = losses(machine);
     let mut weight = vec![0.0; masses.len()];
-    let mut look = |elements: &[Part], stations: &[Station], at: &dyn Fn(usize) -> usize| {
-        for (part, Station { chain, .. }) in elements.iter().zip(stations) {
-            let last = chain.masses().len() - 1;
-            match part.element {
-                Element::Rope { .. } => rope[at(last - 1)] = true,
-                Element::Gear { efficiency: eta, .. } => {
-                    let ends_a_shaft = last > 0 && chain.masses()[last] == 0.0;
-                    if let Some(known) = efficiency.get_mut(at(if ends_a_shaft { last - 1 } else { last })) {
-                        *known *= eta;
-                    }
-                }
-                _ => {}
-            }
-        }
-    };
-    look(&machine.elements, &stations(&machine.elements), &|shaft| shaft);
     weight[machine.chain.masses().len() - 1] = machine.chain.gravity_torque();
     for branch in &machine.branches {
-        look(&branch.elements, &stations(&branch.elements), &|shaft| branch.shaft(shaft));
         weight[branch.mass(branch.chain.masses().len() - 1)] += branch.chain.gravity_torque() / branch.ratio;
     }
     let coordinate = |(&inertia, &weight): (&f64, &f64)| {
@@ -56,6 +38,38 @@ pub(super) fn referred(machine: &MachineFile) -> Referred {
         coordinates: masses.into_iter().zip(machine.masses().iter().zip(&weight).map(coordinate)).collect(),
         links: shafts.into_iter().zip(machine.joints().into_iter().enumerate().map(link)).collect(),
     }
+}
+
+/// Losses of the gears before the shafts, and which shafts are ropes.
+pub(crate) struct Losses {
+    pub efficiency: Vec<f64>,
+    pub rope: Vec<bool>,
+}
+
+/// Of a machine.
+pub(crate) fn losses(machine: &MachineFile) -> Losses {
+    let shafts = machine.joints().len();
+    let (mut efficiency, mut rope) = (vec![1.0; shafts], vec![false; shafts]);
+    let mut look = |elements: &[Part], stations: &[Station], at: &dyn Fn(usize) -> usize| {
+        for (part, Station { chain, .. }) in elements.iter().zip(stations) {
+            let last = chain.masses().len() - 1;
+            match part.element {
+                Element::Rope { .. } => rope[at(last - 1)] = true,
+                Element::Gear { efficiency: eta, .. } => {
+                    let ends_a_shaft = last > 0 && chain.masses()[last] == 0.0;
+                    if let Some(known) = efficiency.get_mut(at(if ends_a_shaft { last - 1 } else { last })) {
+                        *known *= eta;
+                    }
+                }
+                _ => {}
+            }
+        }
+    };
+    look(&machine.elements, &stations(&machine.elements), &|shaft| shaft);
+    for branch in &machine.branches {
+        look(&branch.elements, &stations(&branch.elements), &|shaft| branch.shaft(shaft));
+    }
+    Losses { efficiency, rope }
 }
 
 impl MachineFile {

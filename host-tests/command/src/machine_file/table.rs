@@ -89,6 +89,25 @@ impl<'a> Table<'a> {
         self.in_range(key, value, quantity).map(Some)
     }
 
+    /// A number, or a list of two, where the key is there.
+    ///
+    /// # Errors
+    /// Neither.
+    pub fn number_or_pair(
+        &mut self,
+        key: &'static str,
+        expected: &str,
+    ) -> Result<Option<(f64, Option<f64>)>, Diagnostic> {
+        let Some(value) = self.get(key) else { return Ok(None) };
+        let one = |value: &DeValue<'_>| number(value).filter(|number| number.is_finite());
+        let pair = value.get_ref().as_array().filter(|list| list.len() == 2);
+        let read = match pair {
+            Some(list) => one(list[0].get_ref()).zip(one(list[1].get_ref())).map(|(low, high)| (low, Some(high))),
+            None => one(value.get_ref()).map(|number| (number, None)),
+        };
+        read.map(Some).ok_or_else(|| self.wrong(key, expected))
+    }
+
     /// A table that may be left out.
     ///
     /// # Errors

@@ -153,7 +153,7 @@ pub fn parse_train(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
             tables.extend(branch.tables("element")?);
         }
         element_places = tables.into_iter().map(|(place, _)| place).collect();
-        root.pass(&["encoder", "control", "disturbance", "limits", "duty"]);
+        root.pass(&["encoder", "control", "disturbance", "limits", "duty", "actuator", "tolerance"]);
         file.static_force = vec![None; referred.links.len()];
         (file.names, coordinates) = referred.coordinates.into_iter().unzip();
         (file.links, links) = referred.links.into_iter().unzip();

@@ -8,7 +8,7 @@ use crate::balancing;
 use crate::cases::Case;
 use crate::commissioning::Verdict;
 use crate::generator::verdict::Verdicts;
-use driveline_report::{Sweep, Variant};
+use driveline_report::{Sample, Sweep, Variant};
 
 /// A variant of a drivetrain.
 #[derive(Clone, Debug, Serialize)]
@@ -122,6 +122,8 @@ pub struct Failure {
 pub struct Survey {
     /// The drivetrains.
     pub scenes: Vec<SceneFigures>,
+    /// The chosen drives on samples of machines within their tolerances.
+    pub samples: Vec<Sample>,
     /// The gensets, where requested.
     pub generator: Option<Verdicts>,
     /// The machines that were commissioned, each beside its true figures.

@@ -10,16 +10,20 @@ use super::selection::{COMMISSIONING, GENERATOR};
 use super::{Aim, Factor, Run, SceneFigures, Survey, Wanted, reasons};
 use crate::backlash::Comparison;
 use crate::balancing;
+use crate::campaign::real::sample;
+use crate::campaign::run::Drive;
+use crate::campaign::scenes::{CampaignScene, SCENES as CAMPAIGNS};
 use crate::cases::{self, Case};
 use crate::closed_loop::candidates::{Candidate, candidates};
 use crate::commissioning;
 use crate::commissioning::Verdict;
+use crate::drivetrains::departure::Departure;
 use crate::drivetrains::engine;
 use crate::drivetrains::engine::Options;
 use crate::drivetrains::{Build, SCENES};
 use crate::generator::verdict::{self, Verdicts};
 use crate::sweep;
-use driveline_report::Sweep;
+use driveline_report::{Sample, Sweep};
 
 /// A job of one thread.
 pub struct Job {
@@ -42,6 +46,8 @@ pub type Work = Box<dyn FnOnce(&dyn Fn(&str)) -> Result<Piece, String> + Send>;
 pub enum Piece {
     /// A variant of the scene of that name, and what is aimed at there.
     Run(String, Aim, Box<Run>),
+    /// The chosen drive on a sample of machines.
+    Sample(Box<Sample>),
     /// A generator set's verdicts.
     Generator(Verdicts),
     /// A machine that was commissioned.
@@ -60,6 +66,9 @@ pub enum Piece {
 const SEED: u64 = 1;
 /// Random numbers and seconds of each course through backlash, as the command `backlash` has them.
 const BACKLASH: (u64, f64) = (31, 6.0);
+
+/// Machines of a scene's sample.
+const SAMPLED: u64 = 20;
 
 /// The places of what belongs to no scene.
 pub const CASES: &str = "cases";
@@ -92,6 +101,9 @@ pub fn jobs(wanted: &Wanted, quick: bool) -> (Vec<Job>, Survey) {
     for scene in balancing::scenes().into_iter().filter(|scene| wanted.has(scene.name)) {
         survey.balanced.push((scene.name.to_owned(), Vec::new()));
         jobs.extend(scene.variants(None).into_iter().map(|(variant, board)| balanced(scene, variant, board)));
+    }
+    if !quick {
+        jobs.extend(CAMPAIGNS.iter().filter(|scene| wanted.has(scene.name)).map(sampled));
     }
     for &(name, build) in SCENES.iter().filter(|(name, _)| wanted.has(name)) {
         let machine = match build() {
@@ -147,6 +159,11 @@ impl Survey {
                     }
                     scene.runs.push(*run);
                 }
+            }
+            Piece::Sample(sample) => {
+                self.samples.push(*sample);
+                let at = |sample: &Sample| self.scenes.iter().position(|scene| sample.is_of(&scene.name));
+                self.samples.sort_by_key(at);
             }
             Piece::Generator(verdicts) => {
                 let all = self.generator.get_or_insert_with(Verdicts::default);
@@ -240,6 +257,17 @@ fn commissioned(case: commissioning::Case, quick: bool) -> Job {
         weight: if board.is_some() { 1_500 } else { 100 },
         work: Box::new(work),
     }
+}
+
+/// The design's choice in `f32` on machines within the scene's tolerances.
+fn sampled(scene: &'static CampaignScene) -> Job {
+    let work = move |says: &dyn Fn(&str)| {
+        says(&format!("{} within its tolerances", scene.name));
+        let machine = scene.departing(&Departure::NONE).map_err(|error| error.to_string())?;
+        let drive = Drive::named(scene, &machine, None)?;
+        Ok(Piece::Sample(Box::new(sample(scene, &drive, SAMPLED, 1)?)))
+    };
+    Job { place: scene.name.into(), name: "tolerances".into(), core: "", weight: 400, work: Box::new(work) }
 }
 
 fn balanced(scene: balancing::Scene, variant: &'static str, board: Facts) -> Job {

@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::survey::{Survey, adapters};
 use driveline_report::page::fill;
 use driveline_report::page::view::{Costs, Sweeps};
-use driveline_report::{Fact, Table};
+use driveline_report::{Fact, Table, samples_section};
 
 #[derive(Serialize)]
 struct View {
@@ -54,7 +54,7 @@ impl Sections {
     fn of(survey: &Survey) -> Self {
         let shown = |all: Vec<Section>| all.into_iter().filter(|section| !section.is_empty()).collect();
         Self {
-            before: shown(vec![scenes::overview(survey), front::section(survey)]),
+            before: shown(vec![real(survey), scenes::overview(survey), front::section(survey)]),
             scenes: survey.scenes.iter().map(|scene| scenes::section(survey, scene)).collect(),
             after: shown(vec![
                 sizes::section(survey),
@@ -70,6 +70,13 @@ impl Sections {
             ]),
         }
     }
+}
+
+/// The chosen drives on machines within their tolerances.
+fn real(survey: &Survey) -> Section {
+    let shown = samples_section(&survey.samples);
+    let section = Section::new(&shown.title, &shown.text);
+    if survey.samples.is_empty() { section } else { section.table("", "", &shown.table) }
 }
 
 /// The facts and tables of the page in Markdown, as a page of the book.

@@ -51,6 +51,30 @@ fn the_file_and_the_scene_are_one_hoist() {
     );
 }
 
+/// A class gives what the file does not state; a number is a deviation either way, a list a range.
+#[test]
+fn tolerances_are_those_of_the_class_with_the_files_in_their_place() {
+    use driveline::design::{Spread, Tolerance};
+    let with = |text: &str| hoist_with("[limits]", &format!("[tolerance]\n{text}\n[limits]"));
+    let usual = parse("hoist.toml", HOIST).unwrap().tolerance();
+    assert_eq!(usual, Tolerance { gap: Spread::NONE, ..Tolerance::USUAL });
+    let mill = with("class = \"mill\"\nload = [0.05, 1.1]\nstiffness = 0.1").unwrap().tolerance();
+    assert_eq!(mill.stiffness, Spread::within(0.1));
+    // 20 % of the class beside the load
+    assert!((mill.load_inertia.min - 0.04).abs() < 1e-15 && (mill.load_inertia.max - 1.32).abs() < 1e-15);
+    // 200 Hz
+    assert!((mill.lag * core::f64::consts::TAU * 200.0 - 1.0).abs() < 1e-15);
+    for (text, key) in [
+        ("class = \"boat\"", "tolerance.class"),
+        ("stiffness = 2", "tolerance.stiffness"),
+        ("load = [2, 1]", "tolerance.load"),
+        ("jitter = \"none\"", "tolerance.jitter"),
+        ("rope = 0.1", "tolerance.rope"),
+    ] {
+        assert_eq!(with(text).expect_err("it should be refused").key, key);
+    }
+}
+
 #[test]
 fn a_fault_names_place_key_found_and_expected() {
     let fault = fault("inertia = 0.08 ", "inertia = -0.08");

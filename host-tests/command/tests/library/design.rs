@@ -9,5 +9,6 @@ mod kalman;
 mod matrix;
 mod nodes;
 mod observer;
+mod predicted;
 mod speed_loop;
 mod step;

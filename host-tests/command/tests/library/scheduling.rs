@@ -2,4 +2,5 @@
 
 mod hoist;
 mod placed;
+mod points;
 mod transfer;

@@ -10,6 +10,8 @@ use super::thinning::fineness;
 use crate::chart;
 use crate::report::Report;
 use crate::results::{Fact, Variant};
+use crate::sample::{Sample, samples_section};
+use crate::sheet::Section;
 use crate::svg::MARKERS;
 use crate::sweep::Sweep;
 use crate::trajectory::Trajectory;
@@ -26,6 +28,7 @@ pub struct View<'a> {
     #[serde(flatten)]
     costs: Costs,
     rows: Vec<variants::Row>,
+    sampled: Option<Sampled>,
     courses: Courses,
     comparison: Option<String>,
     compared: Vec<Vec<String>>,
@@ -87,6 +90,22 @@ struct Course {
     svg: String,
 }
 
+/// The table of the samples.
+#[derive(Serialize)]
+struct Sampled {
+    title: String,
+    text: String,
+    headings: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Sampled {
+    fn of(samples: &[Sample]) -> Self {
+        let Section { title, text, table } = samples_section(samples);
+        Self { title, text: text.replace('`', ""), headings: table.headings().to_vec(), rows: table.filled() }
+    }
+}
+
 /// Prepares a report for the page.
 pub fn view(report: &Report) -> View<'_> {
     let looks = variants::Looks::of(&report.variants);
@@ -99,6 +118,7 @@ pub fn view(report: &Report) -> View<'_> {
         tiles: tiles::tiles(report),
         costs: Costs::named(&report.variants, &report.variants),
         rows: variants::rows(&report.variants, &looks.each),
+        sampled: (!report.samples.is_empty()).then(|| Sampled::of(&report.samples)),
         courses: courses(&report.trajectories),
         comparison: compared.then(|| chart::step_errors(&report.comparisons)),
         compared: tables::compared(&report.comparisons),

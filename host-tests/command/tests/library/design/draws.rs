@@ -72,7 +72,7 @@ impl Scene<'_> {
 
     /// Unstable ones of 1,000, and those that have less than 6 dB: the first 32 are corners.
     fn drawn(&self) -> (u32, u32) {
-        let Tolerance { motor_inertia, load_inertia, stiffness, torque, late, lag } = self.tolerance;
+        let Tolerance { motor_inertia, load_inertia, stiffness, torque, late, lag, .. } = self.tolerance;
         let mut draws = Draws(0x9E37_79B9_7F4A_7C15);
         let ends = [self.close(0.0, 0.0), self.close(f64::from(late), lag)];
         let (mut unstable, mut fragile) = (0, 0);

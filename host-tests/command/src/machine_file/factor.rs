@@ -4,7 +4,7 @@ use core::fmt;
 
 /// Lists the factors with their names and units.
 macro_rules! factors {
-    ($($(#[$text:meta])* $factor:ident = $name:literal, $unit:literal, $nominal:literal;)+) => {
+    ($($(#[$text:meta])* $factor:ident = $name:literal, $key:literal, $unit:literal, $nominal:literal;)+) => {
         /// A quantity in which machines of one design differ.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Factor {
@@ -18,6 +18,11 @@ macro_rules! factors {
             /// Name on the command line.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$factor => $name),+ }
+            }
+
+            /// Key in a machine file.
+            pub const fn key(self) -> &'static str {
+                match self { $(Self::$factor => $key),+ }
             }
 
             /// Unit.
@@ -35,37 +40,37 @@ macro_rules! factors {
 
 factors! {
     /// Stiffness of the shafts.
-    Stiffness = "stiffness", "of nominal", 1.0;
+    Stiffness = "stiffness", "stiffness", "of nominal", 1.0;
     /// Inertia of the motor.
-    MotorInertia = "motor-inertia", "of nominal", 1.0;
+    MotorInertia = "motor-inertia", "motor_inertia", "of nominal", 1.0;
     /// Inertia of the load.
-    LoadInertia = "load-inertia", "of nominal", 1.0;
+    LoadInertia = "load-inertia", "load_inertia", "of nominal", 1.0;
     /// Efficiency of the gear, as a difference.
-    Efficiency = "efficiency", "added", 0.0;
+    Efficiency = "efficiency", "efficiency", "added", 0.0;
     /// Gap of the backlash.
-    Gap = "gap", "of nominal", 1.0;
+    Gap = "gap", "gap", "of nominal", 1.0;
     /// Mass on the hook.
-    Load = "load", "of nominal", 1.0;
+    Load = "load", "load", "of nominal", 1.0;
     /// Length of the rope.
-    Rope = "rope", "of nominal", 1.0;
+    Rope = "rope", "rope", "of nominal", 1.0;
     /// Torque constant of the motor.
-    TorqueConstant = "torque-constant", "of nominal", 1.0;
+    TorqueConstant = "torque-constant", "torque_constant", "of nominal", 1.0;
     /// Torque at the shaft that the inverter does not report.
-    TorqueOffset = "torque-offset", "of rated torque", 0.0;
+    TorqueOffset = "torque-offset", "torque_offset", "of rated torque", 0.0;
     /// Amplitude of the cogging torque.
-    Cogging = "cogging", "of rated torque", 0.0;
+    Cogging = "cogging", "cogging", "of rated torque", 0.0;
     /// Delay of the torque.
-    Delay = "delay", "ticks", 0.0;
+    Delay = "delay", "delay", "ticks", 0.0;
     /// Time constant of the current loop.
-    Lag = "lag", "s", 0.0;
+    Lag = "lag", "lag", "s", 0.0;
     /// Amplitude of the encoder's error once a turn.
-    Eccentricity = "eccentricity", "rad", 0.0;
+    Eccentricity = "eccentricity", "eccentricity", "rad", 0.0;
     /// Amplitude of the encoder's error once a line.
-    Interpolation = "interpolation", "of a line", 0.0;
+    Interpolation = "interpolation", "interpolation", "of a line", 0.0;
     /// Standard deviation of the instant at which the encoder is sampled.
-    Jitter = "jitter", "s", 0.0;
+    Jitter = "jitter", "jitter", "s", 0.0;
     /// Share of the ticks that do not run.
-    MissedTicks = "missed-ticks", "of all", 0.0;
+    MissedTicks = "missed-ticks", "missed_ticks", "of all", 0.0;
 }
 
 impl Factor {
@@ -126,8 +131,19 @@ impl Tolerance {
 }
 
 impl Factor {
+    /// The range that a single number stands for: a ratio by so much either way, a difference or an offset either way, an
+    /// amplitude from none.
+    pub const fn about(self, by: f64) -> Tolerance {
+        let (low, high) = match self {
+            Self::Efficiency | Self::TorqueOffset => (-by, by),
+            _ if self.nominal() == 0.0 => (0.0, by),
+            _ => (self.nominal() - by, self.nominal() + by),
+        };
+        Tolerance::new(self, low, high)
+    }
+
     /// Values that a run is possible with.
-    const fn possible(self) -> (f64, f64) {
+    pub const fn possible(self) -> (f64, f64) {
         match self {
             Self::Stiffness | Self::MotorInertia | Self::LoadInertia | Self::Load | Self::Rope => (0.01, 100.0),
             Self::Gap => (0.0, 100.0),

@@ -1,0 +1,279 @@
+//! A machine file as a scene of campaigns: its plant, a run that its load cycle makes, and its drives.
+
+use std::io;
+
+use driveline::design::SpeedLoopDesign;
+use driveline::drive::{Config, ConfigOf, Drive, Limits};
+use driveline::governor::{SpeedLoop, SpeedLoopConfig};
+use driveline::observer::{
+    GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, TwoMassConfig, TwoMassObserver,
+};
+use driveline::sample::Sample;
+use driveline::settings::{Bases, Gear, SpeedLoopSettings};
+use driveline_firmware::scene::{Input, Output};
+use driveline_solver::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
+
+use crate::closed_loop::sensors::Encoder;
+use crate::closed_loop::ticks::Ticks;
+use crate::drivetrains::departure::Departure;
+use crate::drivetrains::plant::Body;
+use crate::drivetrains::scenario::{Action, Machine, Scenario};
+use crate::machine_file::MachineFile;
+use crate::machine_file::designs::Designs;
+use crate::machine_file::referred::{Losses, losses};
+
+/// The observer of a file's drive, in `f32`, with the exact step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileObserver {
+    /// Two masses.
+    TwoMass,
+    /// One mass.
+    Rigid,
+}
+
+impl FileObserver {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::TwoMass, Self::Rigid];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::TwoMass => "two-mass",
+            Self::Rigid => "rigid",
+        }
+    }
+}
+
+/// A machine of a file with its designs.
+#[derive(Clone, Debug)]
+pub struct FileCase {
+    /// The machine.
+    pub machine: MachineFile,
+    /// Its name in names of results.
+    pub name: String,
+    /// Its designs.
+    pub designs: Designs,
+    /// Begin of the load's change, its end, the lower speed, the end of the run [s].
+    times: [f64; 4],
+    /// The softest shaft, whose torque the two masses have.
+    shaft: usize,
+}
+
+/// When the governor is released [s].
+const RELEASE: f64 = 0.1;
+
+/// Longest run [s].
+const LONGEST: f64 = 600.0;
+
+impl FileCase {
+    /// A machine that a campaign can be run of.
+    ///
+    /// # Errors
+    /// A sentence: it has branches or no shaft, or cannot be designed.
+    pub fn of(machine: MachineFile) -> Result<Self, String> {
+        if !machine.branches.is_empty() {
+            return Err("a campaign runs a chain of elements; this machine has branches".to_owned());
+        }
+        let two = machine.two_masses().ok_or("a campaign needs a machine with a shaft; this one is rigid")?;
+        let designs = Designs::of(&machine, &two).map_err(|error| format!("no controller can be designed: {error}"))?;
+        let cycle = machine.cycle(two.gravity_torque);
+        let ramp = machine.limits.speed / designs.ramp;
+        // the loop has settled to e^-5
+        let settled = RELEASE + ramp + 5.0 / designs.speed_loop.bandwidth;
+        let off = settled + cycle.rise + cycle.every;
+        let slower = off + cycle.rise + cycle.every;
+        let end = slower + 0.5 * ramp + cycle.every.max(5.0 / designs.speed_loop.bandwidth);
+        if end > LONGEST {
+            return Err(format!("a run of {end:.0} s would be needed, {LONGEST} s are possible: shorten `duty.every`"));
+        }
+        let ticks = machine.actuator.delay * f64::from(machine.control.rate_hz);
+        if ticks > 1.0 {
+            return Err(format!("the torque is {ticks:.1} ticks late; a campaign has room for one tick"));
+        }
+        let shafts = machine.chain.shafts();
+        let softest = shafts.iter().enumerate().min_by(|a, b| a.1.stiffness.total_cmp(&b.1.stiffness));
+        let shaft = softest.map_or(0, |(shaft, _)| shaft);
+        Ok(Self { name: machine.slug(), machine, designs, times: [settled, off, slower, end], shaft })
+    }
+
+    /// From when to when nothing excites the swing at the end of the run [s].
+    pub fn free(&self) -> (f64, f64) {
+        let [.., slower, end] = self.times;
+        (slower + 0.5 * self.machine.limits.speed / self.designs.ramp, end)
+    }
+
+    /// The machine as it is: up to its speed, a change of load that comes and goes, half of the speed.
+    ///
+    /// # Errors
+    /// A figure of the plant that is out of range.
+    pub fn departing(&'static self, by: &Departure) -> Result<Machine, PlantError> {
+        let Self { machine, designs, times: [on, off, slower, end], .. } = self;
+        let cycle = machine.cycle(designs.two.gravity_torque);
+        let program = LoadProgram::table(&[
+            (*on, 0.0),
+            (on + cycle.rise.max(1e-6), cycle.change),
+            (*off, cycle.change),
+            (off + cycle.rise.max(1e-6), 0.0),
+        ]);
+        let speed = machine.limits.speed;
+        let run = Scenario {
+            name: "run-up, a load that comes and goes, slower",
+            plant: plant(machine, program, by)?.into(),
+            held: designs.two.gravity_torque * by.load,
+            actions: vec![
+                (RELEASE, Action::Release),
+                (RELEASE, Action::Setpoint(speed)),
+                (*slower, Action::Setpoint(0.5 * speed)),
+            ],
+            duration: *end,
+            counted: true,
+            marks: Vec::new(),
+            law: None,
+        };
+        let last = machine.chain.masses().len() - 1;
+        Ok(Machine {
+            name: &self.name,
+            summary: "",
+            facts: Vec::new(),
+            notes: Vec::new(),
+            chosen: (if designs.is_rigid() { FileObserver::Rigid } else { FileObserver::TwoMass }.name(), self.rate()),
+            scenarios: vec![run],
+            encoder: Encoder::new(machine.encoder.lines.saturating_mul(4)),
+            torque_noise: machine.disturbance.torque_accuracy,
+            load: last,
+            shaft_torque: SHAFTS[self.shaft.min(SHAFTS.len() - 1)],
+            load_torque: LOADS[last.min(LOADS.len() - 1)],
+            told_brake: None,
+            told_friction: 0.0,
+            rated_speed: speed,
+            bases: Bases::SI,
+        })
+    }
+
+    /// Ticks a second.
+    pub const fn rate(&self) -> u32 {
+        self.machine.control.rate_hz
+    }
+
+    /// The drive with an observer, at rest.
+    ///
+    /// # Errors
+    /// A sentence: constants that `f32` does not hold.
+    pub fn start(&self, observer: FileObserver) -> Result<Box<dyn Ticks>, String> {
+        let Designs { two, two_masses, rigid, speed_loop, ramp, .. } = &self.designs;
+        let sentence = |error: driveline::settings::Error| error.to_string();
+        let (rate, encoder, _) = self.machine.tuning();
+        let rating = self.machine.rating();
+        let limits = Limits::<f32>::try_new(&rating.screening(encoder, rate), Bases::SI).map_err(sentence)?;
+        let governor = governor(speed_loop, rating.torque_limit, *ramp)?;
+        let gear = Gear {
+            efficiency: self.machine.chain.efficiency(),
+            inertia: two.motor_inertia,
+            deadband: 8.0 * encoder.resolution().map_err(|error| error.to_string())?,
+        };
+        let period = 1.0 / f64::from(self.rate());
+        match observer {
+            FileObserver::TwoMass => {
+                let config = TwoMassConfig::<f32>::try_new(two_masses, Bases::SI).map_err(sentence)?;
+                let observer = GearedConfig::<f32, _>::try_new(config, &gear, period, Bases::SI).map_err(sentence)?;
+                Ok(Observed::<GearedObserver<TwoMassObserver<f32>>>::boxed(limits, observer, governor))
+            }
+            FileObserver::Rigid => {
+                let share = two.load_inertia / two.total_inertia();
+                let config = RigidConfig::<f32>::try_new(rigid, share, Bases::SI).map_err(sentence)?;
+                let observer = GearedConfig::<f32, _>::try_new(config, &gear, period, Bases::SI).map_err(sentence)?;
+                Ok(Observed::<GearedObserver<RigidObserver<f32>>>::boxed(limits, observer, governor))
+            }
+        }
+    }
+}
+
+/// A machine as a plant that departs from the file: it hangs on its shafts, its gears have their losses, its ropes
+/// only pull, and a load torque is added at its far end.
+///
+/// # Errors
+/// What the plant refuses.
+fn plant(machine: &MachineFile, load: LoadProgram, by: &Departure) -> Result<Plant, PlantError> {
+    let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
+    let Losses { efficiency, rope } = losses(machine);
+    let (weight, last) = (machine.chain.gravity_torque() * by.load, masses.len() - 1);
+    let loaded = |node: usize, inertia: f64| if node == last { inertia * by.load_inertia * by.load } else { inertia };
+    let mut known = Chain::motor(masses[0] * by.motor_inertia);
+    let mut twists = Vec::new();
+    for (s, (shaft, inertia)) in shafts.iter().zip(&masses[1..]).enumerate() {
+        let (stiffness, gap) = (shaft.stiffness * by.stiffness, shaft.gap * by.gap);
+        let of = if rope[s] { Shaft::rope(stiffness) } else { Shaft::elastic(stiffness) };
+        let flank = if weight > 0.0 && !rope[s] { 0.5 * gap } else { 0.0 };
+        twists.push(flank + weight / stiffness);
+        if efficiency[s] < 1.0 {
+            known = known.efficiency((efficiency[s] + by.efficiency).min(1.0));
+        }
+        known = known.shaft(of.damping(shaft.damping).gap(gap), loaded(s + 1, *inertia));
+    }
+    let start = Start::Given { twists, speeds: vec![0.0; masses.len()] };
+    known.load(weight).program(load).start(start).build()
+}
+
+fn governor(design: &SpeedLoopDesign, torque_limit: f64, ramp: f64) -> Result<SpeedLoopConfig<f32>, String> {
+    let settings = SpeedLoopSettings { torque_limit, ramp };
+    SpeedLoopConfig::<f32>::try_new(design, settings, Bases::SI).map_err(|error| error.to_string())
+}
+
+/// A drive with an observer and a speed loop.
+type Driven<O> = Drive<f32, O, (), SpeedLoop<f32>>;
+
+/// It with its constants.
+struct Observed<O: Observer<f32>> {
+    drive: Driven<O>,
+    config: ConfigOf<Driven<O>>,
+}
+
+impl<O: Observer<f32> + 'static> Observed<O>
+where
+    O::Config: 'static,
+{
+    fn boxed(limits: Limits<f32>, observer: O::Config, governor: SpeedLoopConfig<f32>) -> Box<dyn Ticks> {
+        let config = Config { limits, observer, fluctuation: (), governor, balancer: () };
+        Box::new(Self { drive: Driven::<O>::new(&config, 0), config })
+    }
+}
+
+impl<O: Observer<f32>> Ticks for Observed<O> {
+    fn tick(&mut self, input: &Input) -> io::Result<Output> {
+        let [torque, setpoint] = [input.torque, input.setpoint].map(f32::from_bits);
+        let command = if input.flags & Input::RELEASED == 0 {
+            self.drive.hold(&self.config, input.angle, setpoint)
+        } else {
+            self.drive.tick(&self.config, &Sample { angle: input.angle, torque, setpoint })
+        };
+        let estimate = self.drive.estimate(&self.config);
+        Ok(Output {
+            torque: command.torque.to_bits(),
+            motor_speed: estimate.motor_speed.to_bits(),
+            shaft_torque: estimate.shaft_torque.to_bits(),
+            load_speed: estimate.load_speed.to_bits(),
+            load_torque: estimate.load_torque.to_bits(),
+            faults: command.faults.bits(),
+            ..Output::default()
+        })
+    }
+}
+
+/// A torque of a plant.
+type Torque = fn(&Body) -> f64;
+
+fn behind_gear<const SHAFT: usize>(plant: &Body) -> f64 {
+    plant.torque_behind_gear(SHAFT)
+}
+
+fn load<const NODE: usize>(plant: &Body) -> f64 {
+    plant.load_torque(NODE)
+}
+
+macro_rules! each {
+    ($torque:ident: $($index:literal)+) => { [$($torque::<$index>),+] };
+}
+
+/// The shafts and masses that a chain may have.
+const SHAFTS: [Torque; 16] = each!(behind_gear: 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
+const LOADS: [Torque; 16] = each!(load: 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);

@@ -1,0 +1,165 @@
+//! The designs for a machine of a file, and the errors predicted over its tolerances.
+
+use std::f64::consts::PI;
+
+use driveline::configure::Rating;
+use driveline::design::{
+    Actuator, Disturbance, Encoder, Error, LoadCycle, LoopObserver, ObserverChoice, ObserverSelection, Operation,
+    PredictedErrors, Rate, Requirement, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, Spread, Tolerance,
+    TwoMassDesign,
+};
+use driveline::machine::{Match, TwoMass};
+
+use super::factor::Factor;
+use super::{Duty, MachineFile};
+
+/// Designs for a machine of two masses.
+#[derive(Clone, Copy, Debug)]
+pub struct Designs {
+    /// The two masses.
+    pub two: TwoMass,
+    /// The observer of two masses.
+    pub two_masses: TwoMassDesign,
+    /// The observer of one mass.
+    pub rigid: RigidDesign,
+    /// The speed loop.
+    pub speed_loop: SpeedLoopDesign,
+    /// Acceleration of the setpoint \[rad/s2\].
+    pub ramp: f64,
+    /// Errors of the observer of two masses over the tolerances.
+    pub two_masses_errors: PredictedErrors,
+    /// Errors of the observer of one mass over the tolerances.
+    pub rigid_errors: PredictedErrors,
+    /// The observer that the load cycle needs.
+    pub nominal: ObserverSelection,
+    /// The observer over the tolerances.
+    pub selected: ObserverSelection,
+}
+
+impl Designs {
+    /// Of a machine as two masses.
+    ///
+    /// # Errors
+    /// The library's sentence for a machine that cannot be observed or governed so.
+    pub fn of(machine: &MachineFile, two: &TwoMass) -> Result<Self, Error> {
+        let (rate, encoder, disturbance) = machine.tuning();
+        let two_masses = two.try_observer(rate, encoder, disturbance)?;
+        let rigid = machine.rigid()?.try_observer(rate, encoder, disturbance)?;
+        let speed_loop = two.try_speed_loop(rate, SpeedLoopTuning::of(two))?;
+        let ramp = machine.rating().ramp(two.total_inertia());
+        let (drawn, tolerance) = (machine.drawn_encoder(), machine.tolerance());
+        let operation = machine.operation(two, ramp);
+        let errors = |observer| two.predicted_errors(observer, drawn, &tolerance, &operation);
+        let two_masses_errors = errors(LoopObserver::TwoMass(&two_masses));
+        let rigid_errors = errors(LoopObserver::Rigid(&rigid));
+        let period = 1.0 / f64::from(machine.control.rate_hz);
+        let nominal = two.select_observer(&operation.cycle, &Requirement::USUAL, period);
+        let selected = nominal.over_tolerances(&rigid_errors.total(), &two_masses_errors.total());
+        Ok(Self { two: *two, two_masses, rigid, speed_loop, ramp, two_masses_errors, rigid_errors, nominal, selected })
+    }
+
+    /// Whether one mass is chosen over the tolerances.
+    pub fn is_rigid(&self) -> bool {
+        self.selected.chosen == ObserverChoice::Rigid
+    }
+}
+
+impl MachineFile {
+    /// The machine as two masses; `None` where it has no shaft.
+    pub fn two_masses(&self) -> Option<TwoMass> {
+        self.reduce(Match::ResonanceAntiresonance).ok()
+    }
+
+    /// The tuning in the library's words.
+    pub fn tuning(&self) -> (Rate, Encoder, Disturbance) {
+        let disturbance = Disturbance {
+            torque_accuracy: self.disturbance.torque_accuracy,
+            load_torque_step: self.disturbance.load_torque_step,
+            within: self.disturbance.within,
+        };
+        let accuracy = self.encoder.accuracy;
+        let encoder = self.encoder_of(accuracy.interpolation, accuracy.eccentricity, accuracy.jitter);
+        (Rate::hz(self.control.rate_hz), encoder, disturbance)
+    }
+
+    /// The encoder with an interpolation error, an eccentricity and a jitter, that of the angle at the largest speed.
+    fn encoder_of(&self, interpolation: f64, eccentricity: f64, jitter: f64) -> Encoder {
+        Encoder::lines(self.encoder.lines)
+            .interpolation(self.encoder.accuracy.signal_periods, interpolation)
+            .eccentricity(eccentricity)
+            .jitter(jitter, self.limits.speed)
+    }
+
+    /// The encoder with the errors of the tolerances, each the root of its mean square.
+    fn drawn_encoder(&self) -> Encoder {
+        let rms = |factor: Factor| self.range(factor).map_or(0.0, |(low, high)| rms(low, high));
+        self.encoder_of(rms(Factor::Interpolation), rms(Factor::Eccentricity), rms(Factor::Jitter))
+    }
+
+    /// Rating of the motor.
+    pub fn rating(&self) -> Rating {
+        Rating { torque: self.limits.rated_torque, speed: self.limits.speed, torque_limit: self.limits.torque }
+    }
+
+    /// Delay and lag of the torque.
+    pub fn actuator(&self) -> Actuator {
+        let bandwidth = self.actuator.bandwidth;
+        let lag = bandwidth.map_or(0.0, |bandwidth| 1.0 / (2.0 * PI * bandwidth));
+        Actuator { delay: self.actuator.delay, lag }
+    }
+
+    /// Range of a factor, where it has one.
+    fn range(&self, factor: Factor) -> Option<(f64, f64)> {
+        let found = self.tolerances.iter().find(|tolerance| tolerance.factor == factor);
+        found.map(|tolerance| (tolerance.low, tolerance.high))
+    }
+
+    /// The tolerances in the library's words.
+    pub fn tolerance(&self) -> Tolerance {
+        let spread = |factor: Factor| {
+            let (low, high) = self.range(factor).unwrap_or((1.0, 1.0));
+            Spread::between(low.min(1.0), high.max(1.0))
+        };
+        let most = |factor: Factor| self.range(factor).map_or(0.0, |(low, high)| low.abs().max(high.abs()));
+        let (inertia, load) = (spread(Factor::LoadInertia), spread(Factor::Load));
+        Tolerance {
+            motor_inertia: spread(Factor::MotorInertia),
+            load_inertia: Spread::between(inertia.min * load.min, inertia.max * load.max),
+            stiffness: spread(Factor::Stiffness),
+            torque: spread(Factor::TorqueConstant),
+            late: most(Factor::Delay).ceil() as u32,
+            lag: most(Factor::Lag),
+            offset: most(Factor::TorqueOffset),
+            efficiency: most(Factor::Efficiency),
+            gap: spread(Factor::Gap),
+        }
+    }
+
+    /// The load cycle: that of `[duty]`, or three tenths of rated torque in a tenth of a second every two seconds. A
+    /// weight that is heavier than the change keeps a gap closed.
+    pub fn cycle(&self, gravity_torque: f64) -> LoadCycle {
+        let usual = Duty { change: 0.3 * self.limits.rated_torque, rise: 0.1, every: 2.0 };
+        let Duty { change, rise, every } = self.duty.unwrap_or(usual);
+        let reverses = gravity_torque.abs() < change;
+        LoadCycle { speed: self.limits.speed, torque: self.limits.torque, change, rise, every, reverses }
+    }
+
+    /// The conditions that errors are predicted for: the weight or half of rated torque, half of the ramp in the mean,
+    /// the largest speed.
+    fn operation(&self, two: &TwoMass, ramp: f64) -> Operation {
+        let rated_torque = self.limits.rated_torque;
+        Operation {
+            rated_torque,
+            torque: two.gravity_torque.abs().max(0.5 * rated_torque),
+            acceleration: 0.5 * ramp,
+            speed: self.limits.speed,
+            torque_noise: self.disturbance.torque_accuracy,
+            cycle: self.cycle(two.gravity_torque),
+        }
+    }
+}
+
+/// Root of the mean square of what is uniform between two values.
+fn rms(low: f64, high: f64) -> f64 {
+    ((low * low + low * high + high * high) / 3.0).sqrt()
+}

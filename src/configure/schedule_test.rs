@@ -1,0 +1,95 @@
+//! Test of a gain schedule: margins and tolerances at its points.
+
+use super::Family;
+use crate::design::{Error, LoopObserver, SemiImplicitStep, Spread, Tolerance};
+use crate::machine::TwoMass;
+use crate::math::sqrt;
+
+/// A point of a gain schedule that is refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RefusedPoint {
+    /// Index of its first parameter.
+    pub first: usize,
+    /// Index of its second parameter.
+    pub second: usize,
+    /// What its speed loop lacks.
+    pub error: Error,
+}
+
+/// What a gain schedule is like at its points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScheduleTest {
+    /// The first point that is refused.
+    pub refused: Option<RefusedPoint>,
+    /// The largest error of the semi-implicit step over a period of the resonance; above
+    /// [`StepChoice::THRESHOLD`](crate::design::StepChoice::THRESHOLD) the schedule needs `TwoMassObserver`.
+    pub semi_implicit: f64,
+}
+
+/// Tests the speed loops at all points of a family's gain schedule.
+///
+/// The loop of a point must have the margins of [`Machine::ROBUSTNESS`](super::Machine::ROBUSTNESS) there, and be stable with every machine up to
+/// half way to the neighbouring points, by inertia of the load and stiffness in equal ratios, within
+/// [`Machine::TOLERANCE`](super::Machine::TOLERANCE) of motor inertia, torque and delay. For a test on the host: it takes as long as a drive's own
+/// at each point.
+#[must_use]
+pub const fn test_schedule<M: Family<A, B>, const A: usize, const B: usize>() -> ScheduleTest {
+    let mut test = ScheduleTest { refused: None, semi_implicit: 0.0 };
+    let mut first = 0;
+    while first < A {
+        let mut second = 0;
+        while second < B {
+            let member = &M::MEMBERS[first][second];
+            let tolerance = Tolerance {
+                load_inertia: half_way::<M, A, B>(first, second, false),
+                stiffness: half_way::<M, A, B>(first, second, true),
+                ..M::TOLERANCE
+            };
+            let observer = LoopObserver::Placed(&M::OBSERVERS[first][second]);
+            let speed_loop = &M::SPEED_LOOPS[first][second];
+            let tested = member.try_robust(observer, speed_loop, M::ACTUATOR, &tolerance, &M::ROBUSTNESS);
+            if let (Err(error), None) = (tested, &test.refused) {
+                test.refused = Some(RefusedPoint { first, second, error });
+            }
+            let step = SemiImplicitStep::new(member, M::PERIOD).fidelity.error_bound;
+            if !(step <= test.semi_implicit) {
+                test.semi_implicit = step;
+            }
+            second += 1;
+        }
+        first += 1;
+    }
+    test
+}
+
+/// Factors of load inertia or stiffness up to half way to the neighbours of a point.
+const fn half_way<M: Family<A, B>, const A: usize, const B: usize>(
+    first: usize,
+    second: usize,
+    stiffness: bool,
+) -> Spread {
+    let own = quantity(&M::MEMBERS[first][second], stiffness);
+    let mut spread = Spread::NONE;
+    let mut i = first.saturating_sub(1);
+    while i < A && i <= first + 1 {
+        let mut j = second.saturating_sub(1);
+        while j < B && j <= second + 1 {
+            let ratio = sqrt(quantity(&M::MEMBERS[i][j], stiffness) / own);
+            if ratio < spread.min {
+                spread.min = ratio;
+            }
+            if ratio > spread.max {
+                spread.max = ratio;
+            }
+            j += 1;
+        }
+        i += 1;
+    }
+    spread
+}
+
+const fn quantity(member: &TwoMass, stiffness: bool) -> f64 {
+    if stiffness { member.stiffness } else { member.load_inertia }
+}
