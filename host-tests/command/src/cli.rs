@@ -19,12 +19,16 @@ mod controller;
 mod design;
 mod emit;
 mod example;
+mod export;
 mod failure;
 mod generator;
 mod longest_path;
 mod modes;
+mod new;
 mod output;
 mod progress;
+mod project;
+mod qemu;
 mod report;
 mod results;
 mod rotor;
@@ -66,6 +70,9 @@ enum Command {
     Modes(modes::Modes),
     Design(design::Design),
     Example(example::Example),
+    Export(export::Export),
+    New(new::New),
+    Qemu(qemu::Qemu),
     Rotor(rotor::Rotor),
     Balancing(balance::Balance),
     Genset(generator::Generator),
@@ -88,6 +95,9 @@ impl Command {
             Self::Modes(command) => command.json,
             Self::Design(command) => command.json,
             Self::Example(command) => command.json,
+            Self::Export(command) => command.json,
+            Self::New(command) => command.json,
+            Self::Qemu(_) => false,
             Self::Rotor(command) => command.json,
             Self::Balancing(command) => command.json,
             Self::Genset(command) => command.json,
@@ -110,6 +120,9 @@ impl Command {
             Self::Modes(command) => command.execute(),
             Self::Design(command) => command.execute(),
             Self::Example(command) => command.execute(),
+            Self::Export(command) => command.execute(),
+            Self::New(command) => command.execute(),
+            Self::Qemu(command) => command.execute(),
             Self::Rotor(command) => command.execute(),
             Self::Balancing(command) => command.execute(),
             Self::Genset(command) => command.execute(),

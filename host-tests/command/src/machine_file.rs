@@ -104,7 +104,7 @@ mod excitation;
 pub mod factor;
 mod quantity;
 mod read;
-pub(crate) mod referred;
+mod referred;
 mod rotor;
 mod source;
 pub(crate) mod station;

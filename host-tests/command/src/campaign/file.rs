@@ -20,7 +20,6 @@ use crate::drivetrains::plant::Body;
 use crate::drivetrains::scenario::{Action, Machine, Scenario};
 use crate::machine_file::MachineFile;
 use crate::machine_file::designs::Designs;
-use crate::machine_file::referred::{Losses, losses};
 
 /// The observer of a file's drive, in `f32`, with the exact step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -195,7 +194,7 @@ impl FileCase {
 /// What the plant refuses.
 fn plant(machine: &MachineFile, load: LoadProgram, by: &Departure) -> Result<Plant, PlantError> {
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
-    let Losses { efficiency, rope } = losses(machine);
+    let (rope, efficiency) = machine.ropes_and_efficiencies();
     let (weight, last) = (machine.chain.gravity_torque() * by.load, masses.len() - 1);
     let loaded = |node: usize, inertia: f64| if node == last { inertia * by.load_inertia * by.load } else { inertia };
     let mut known = Chain::motor(masses[0] * by.motor_inertia);

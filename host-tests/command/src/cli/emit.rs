@@ -10,11 +10,7 @@ use crate::machine_file::{Branch, Element, MachineFile, Part};
 /// The constants: the chain, its reduction, the observer's design and, for two masses, the speed loop's.
 pub fn rust(machine: &MachineFile) -> String {
     let name = machine.constant();
-    let mut words: BTreeSet<&str> = ["Chain"].into();
-    let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
-    for part in machine.elements.iter().chain(branched) {
-        words.extend(words_of(&part.element));
-    }
+    let mut words = words(machine);
     if !machine.branches.is_empty() {
         words.extend(["Train", "Ratio", "Inertia"]);
     }
@@ -36,18 +32,7 @@ pub fn rust(machine: &MachineFile) -> String {
     let kind = if machine.branches.is_empty() { "Chain" } else { "Train" };
     let (torque, step, within) =
         (machine.disturbance.torque_accuracy, machine.disturbance.load_torque_step, machine.disturbance.within);
-    let accuracy = &machine.encoder.accuracy;
-    let mut encoder = format!("Encoder::lines({})", machine.encoder.lines);
-    if !accuracy.is_none() {
-        encoder += &format!(
-            ".interpolation({}, {:?}).eccentricity({:?}).jitter({:?}, {:?})",
-            accuracy.signal_periods,
-            accuracy.interpolation,
-            accuracy.eccentricity,
-            accuracy.jitter,
-            machine.limits.speed,
-        );
-    }
+    let encoder = encoder(machine);
     let (model, make, observer) = if two {
         ("TwoMass", format!("{name}.reduce(Match::ResonanceAntiresonance)"), "TwoMassDesign")
     } else {
@@ -103,8 +88,32 @@ pub const {name}_SPEED: f64 = {:?};
     text
 }
 
+/// The library's words that the elements are written with.
+pub(super) fn words(machine: &MachineFile) -> BTreeSet<&'static str> {
+    let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
+    let parts = machine.elements.iter().chain(branched);
+    parts.flat_map(|part| words_of(&part.element)).copied().chain(["Chain"]).collect()
+}
+
+/// The encoder with its accuracy.
+pub(super) fn encoder(machine: &MachineFile) -> String {
+    let accuracy = &machine.encoder.accuracy;
+    let mut encoder = format!("Encoder::lines({})", machine.encoder.lines);
+    if !accuracy.is_none() {
+        encoder += &format!(
+            ".interpolation({}, {:?}).eccentricity({:?}).jitter({:?}, {:?})",
+            accuracy.signal_periods,
+            accuracy.interpolation,
+            accuracy.eccentricity,
+            accuracy.jitter,
+            machine.limits.speed,
+        );
+    }
+    encoder
+}
+
 /// The elements of a chain or a branch in the library's words, a line for each.
-fn written(elements: &[Part], indent: &str) -> String {
+pub(super) fn written(elements: &[Part], indent: &str) -> String {
     let mut text = String::new();
     for (index, part) in elements.iter().enumerate() {
         match part.element {

@@ -16,7 +16,7 @@ pub(super) struct Referred {
 /// or branch.
 pub(super) fn referred(machine: &MachineFile) -> Referred {
     let (masses, shafts) = machine.names();
-    let Losses { efficiency, rope } = losses(machine);
+    let (rope, efficiency) = machine.ropes_and_efficiencies();
     let mut weight = vec![0.0; masses.len()];
     weight[machine.chain.masses().len() - 1] = machine.chain.gravity_torque();
     for branch in &machine.branches {
@@ -40,39 +40,33 @@ pub(super) fn referred(machine: &MachineFile) -> Referred {
     }
 }
 
-/// Losses of the gears before the shafts, and which shafts are ropes.
-pub(crate) struct Losses {
-    pub efficiency: Vec<f64>,
-    pub rope: Vec<bool>,
-}
-
-/// Of a machine.
-pub(crate) fn losses(machine: &MachineFile) -> Losses {
-    let shafts = machine.joints().len();
-    let (mut efficiency, mut rope) = (vec![1.0; shafts], vec![false; shafts]);
-    let mut look = |elements: &[Part], stations: &[Station], at: &dyn Fn(usize) -> usize| {
-        for (part, Station { chain, .. }) in elements.iter().zip(stations) {
-            let last = chain.masses().len() - 1;
-            match part.element {
-                Element::Rope { .. } => rope[at(last - 1)] = true,
-                Element::Gear { efficiency: eta, .. } => {
-                    let ends_a_shaft = last > 0 && chain.masses()[last] == 0.0;
-                    if let Some(known) = efficiency.get_mut(at(if ends_a_shaft { last - 1 } else { last })) {
-                        *known *= eta;
-                    }
-                }
-                _ => {}
-            }
-        }
-    };
-    look(&machine.elements, &stations(&machine.elements), &|shaft| shaft);
-    for branch in &machine.branches {
-        look(&branch.elements, &stations(&branch.elements), &|shaft| branch.shaft(shaft));
-    }
-    Losses { efficiency, rope }
-}
-
 impl MachineFile {
+    /// Of each shaft: whether it is a rope, and the efficiency of the gear before it.
+    pub fn ropes_and_efficiencies(&self) -> (Vec<bool>, Vec<f64>) {
+        let shafts = self.joints().len();
+        let (mut rope, mut efficiency) = (vec![false; shafts], vec![1.0; shafts]);
+        let mut look = |elements: &[Part], stations: &[Station], at: &dyn Fn(usize) -> usize| {
+            for (part, Station { chain, .. }) in elements.iter().zip(stations) {
+                let last = chain.masses().len() - 1;
+                match part.element {
+                    Element::Rope { .. } => rope[at(last - 1)] = true,
+                    Element::Gear { efficiency: eta, .. } => {
+                        let ends_a_shaft = last > 0 && chain.masses()[last] == 0.0;
+                        if let Some(known) = efficiency.get_mut(at(if ends_a_shaft { last - 1 } else { last })) {
+                            *known *= eta;
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        };
+        look(&self.elements, &stations(&self.elements), &|shaft| shaft);
+        for branch in &self.branches {
+            look(&branch.elements, &stations(&branch.elements), &|shaft| branch.shaft(shaft));
+        }
+        (rope, efficiency)
+    }
+
     /// The machine as a plant that runs in lock-step: it hangs on its shafts, which carry its weight, with dry friction
     /// \[N m at the motor\] at its far end. A gear before the first shaft loses nothing.
     ///

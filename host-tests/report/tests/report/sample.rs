@@ -1,8 +1,8 @@
 //! A made-up report with everything in it: good and bad variants, a step that diverges, failures in a sweep.
 
 use driveline_report::{
-    Budget, Comparison, Composition, Deviation, Fact, Instructions, Mark, Report, Signal, Sweep, SweepPoint,
-    Trajectory, Variant,
+    Budget, Comparison, Composition, Deviation, Fact, Instructions, Mark, Report, Sample, Sampled, Signal, Sweep,
+    SweepPoint, Trajectory, Variant,
 };
 
 /// The report.
@@ -24,6 +24,7 @@ pub fn report() -> Report {
             fact("first resonance", "41.2 Hz"),
             fact("time simulated", "12 s"),
         ],
+        samples: samples(),
         variants: variants(),
         trajectories: trajectories(),
         comparisons: comparisons(),
@@ -38,6 +39,20 @@ pub fn report() -> Report {
         ],
         notes: vec!["These figures are made up: they show what a page looks like.".into()],
     }
+}
+
+fn samples() -> Vec<Sample> {
+    let errors = |nominal: f64| Sampled { nominal, median: 4.0 * nominal, p90: f64::INFINITY };
+    vec![Sample {
+        variant: "hoist/f32/reduced/10000".into(),
+        run: "lift".into(),
+        draws: 20,
+        seed: 1,
+        unstable: 1,
+        shaft_torque: errors(0.002),
+        load_speed: errors(0.003),
+        load_torque: errors(0.006),
+    }]
 }
 
 fn budget(name: &str, unit: &str, measured: f64, limit: f64) -> Budget {

@@ -1,0 +1,136 @@
+//! The library for C: written as a crate, compiled, and handed over with its header.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use serde::Serialize;
+
+use super::archive::DriveObject;
+use super::core::Core;
+use super::interface::{Fault, REFUSALS, Refusal, faults, version};
+use crate::cli::Failure;
+use crate::cli::project::{Project, fill};
+use driveline_qemu::children::{Folder, Running};
+use driveline_qemu::setup::cargo;
+
+/// Inputs of the templates. What the compiler decides is zero in those of the crate.
+#[derive(Debug, Serialize)]
+struct Values<'p> {
+    #[serde(flatten)]
+    project: &'p Project,
+    c: bool,
+    core: String,
+    core_name: &'static str,
+    flags: &'static str,
+    header: String,
+    refusals: [Refusal; 6],
+    faults: Vec<Fault>,
+    size: u32,
+    align: u32,
+    word: &'static str,
+    torque_base: String,
+    speed_base: String,
+}
+
+/// The files of a library, by their paths, and the bytes of a drive's state.
+#[derive(Debug)]
+pub struct Library {
+    /// The files.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// Bytes of a drive's state.
+    pub state: u32,
+    /// Functions that the firmware's compiler brings.
+    pub undefined: Vec<String>,
+}
+
+/// Compiles the drive of a machine, whose file has this text, for a core.
+///
+/// # Errors
+/// The compiler's error, such as a speed loop that is not stable within its tolerances.
+pub fn library(project: &Project, source: &str, core: Core) -> Result<Library, Failure> {
+    let mut values = Values {
+        project,
+        c: true,
+        core: core.key(),
+        core_name: core.name(),
+        flags: core.flags(),
+        header: "0x0".into(),
+        refusals: REFUSALS,
+        faults: faults(),
+        size: 0,
+        align: 4,
+        word: "uint32_t",
+        torque_base: String::new(),
+        speed_base: String::new(),
+    };
+    // of all that the header and the library must agree on
+    let texts = ["lib.rs", "machine.rs", "c/c.rs", "c/header.h"].map(|template| fill(template, &values));
+    values.header = format!("0x{:08x}", version(&texts.each_ref().map(String::as_str)));
+    let mut files: Vec<(String, Vec<u8>)> = [
+        ("Cargo.toml", "c/Cargo.toml"),
+        ("src/lib.rs", "lib.rs"),
+        ("src/machine.rs", "machine.rs"),
+        ("src/c.rs", "c/c.rs"),
+    ]
+    .map(|(path, template)| (format!("rust/{path}"), fill(template, &values).into_bytes()))
+    .into();
+    let object = compiled(&files, &project.krate, core)?;
+    let reachable = format!("{}_panic_is_reachable", project.krate);
+    if object.undefined.contains(&reachable) {
+        return Err(Failure::failed("the drive of this machine could panic, and is not handed over: please report it"));
+    }
+    let [size, align, torque, speed] = object.layout;
+    (values.size, values.align) = (size, align);
+    values.word = if align == 8 { "uint64_t" } else { "uint32_t" };
+    [values.torque_base, values.speed_base] = [torque, speed].map(|bits| format!("{:?}", f32::from_bits(bits)));
+    let krate = &project.krate;
+    for (path, template) in [
+        (format!("{krate}.h"), "c/header.h"),
+        (format!("{krate}.hpp"), "c/header.hpp"),
+        (format!("{krate}.cmake"), "c/cmake"),
+        (format!("{krate}.mk"), "c/make"),
+        ("main.c".to_owned(), "c/main.c"),
+        ("README.md".to_owned(), "c/README.md"),
+    ] {
+        files.push((path, fill(template, &values).into_bytes()));
+    }
+    files.push((format!("lib{krate}.a"), object.archive()));
+    files.push(("machine.toml".to_owned(), source.into()));
+    Ok(Library { files, state: size, undefined: object.undefined })
+}
+
+/// Compiles the crate in a temporary folder.
+fn compiled(files: &[(String, Vec<u8>)], krate: &str, core: Core) -> Result<DriveObject, Failure> {
+    let failed = |error: std::io::Error| Failure::failed(format!("the library cannot be built: {error}"));
+    let folder = Folder::make().map_err(failed)?;
+    for (path, bytes) in files {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap_or(folder.path())).map_err(failed)?;
+        fs::write(path, bytes).map_err(failed)?;
+    }
+    let mut command = Command::new(cargo());
+    command
+        .args(["build", "--release", "--quiet", "--target-dir"])
+        .arg(folder.path().join("target"))
+        .args(core.target().iter().flat_map(|target| ["--target", target]))
+        .current_dir(folder.path().join("rust"))
+        // flags for the caller's own crates
+        .env_remove("RUSTFLAGS")
+        .env_remove("CARGO_ENCODED_RUSTFLAGS")
+        .env_remove("CARGO_BUILD_TARGET")
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped());
+    let mut child = Running::start(&mut command).map_err(failed)?;
+    let mut said = String::new();
+    if let Some(mut stderr) = child.stderr.take() {
+        std::io::Read::read_to_string(&mut stderr, &mut said).map_err(failed)?;
+    }
+    if !child.wait().map_err(failed)?.success() {
+        return Err(Failure::failed(format!("the compiler refused the drive of this machine:\n{}", said.trim_end())));
+    }
+    let built = core.target().map_or_else(|| "target".into(), |target| Path::new("target").join(target));
+    let archive = folder.path().join(built).join("release").join(format!("lib{krate}.a"));
+    DriveObject::find(&fs::read(archive).map_err(failed)?, krate).map_err(Failure::failed)
+}

@@ -1,0 +1,181 @@
+//! `cargo driveline new`: a firmware crate of the user's own.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use serde_json::json;
+
+use super::project::{Number, PartOptions, Project, fill, is_free, write};
+use super::setup::install;
+use super::{Failure, say, say_json};
+use crate::machine_file::{parse, text};
+use driveline_firmware::board::{Facts, mps2_an385, mps2_an386, nucleo_g474re};
+use driveline_qemu::setup::Need;
+
+/// The machine where none is named.
+const ROLL: &str = include_str!("../../machines/roll.toml");
+
+/// Write a firmware crate of your own: a machine, its drive, a board, a test against the full solver.
+///
+/// `cargo run` in it starts the firmware in QEMU, `cargo test` runs it on the host. The folder must not exist, or be
+/// empty.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline new roll && cd roll && cargo run
+  cargo driveline new crane --machine hoist.toml --board qemu-m3
+  cargo driveline new fan --board nucleo-g474re --parts fluctuation")]
+pub struct New {
+    /// The folder; its last part is the crate's name
+    name: PathBuf,
+    /// The machine: a TOML file of elements from the motor to the load; else a motor, a coupling and a roll
+    #[arg(long, value_name = "FILE")]
+    machine: Option<PathBuf>,
+    /// The board
+    #[arg(long, default_value = "qemu-m4f")]
+    board: Board,
+    #[command(flatten)]
+    parts: PartOptions,
+    /// Print {folder, files, board, number, observer}
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A board that a project begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Board {
+    /// Cortex-M4F in QEMU, in `f32`, with a simulated machine
+    QemuM4f,
+    /// Cortex-M3 in QEMU, in fixed point, with a simulated machine
+    QemuM3,
+    /// NUCLEO-G474RE, in `f32`
+    NucleoG474re,
+    /// Your own, with a Cortex-M4F
+    Generic,
+}
+
+impl Board {
+    const fn facts(self) -> Facts {
+        match self {
+            Board::QemuM4f | Board::Generic => mps2_an386::FACTS,
+            Board::QemuM3 => mps2_an385::FACTS,
+            Board::NucleoG474re => nucleo_g474re::FACTS,
+        }
+    }
+
+    const fn number(self) -> Number {
+        if matches!(self, Board::QemuM3) { Number::Fixed } else { Number::Single }
+    }
+
+    const fn is_in_qemu(self) -> bool {
+        matches!(self, Board::QemuM3 | Board::QemuM4f)
+    }
+
+    /// The template of `src/board.rs`.
+    const fn template(self) -> &'static str {
+        match self {
+            Board::QemuM3 | Board::QemuM4f => "new/qemu.rs",
+            Board::NucleoG474re => "new/nucleo_g474re.rs",
+            Board::Generic => "new/generic.rs",
+        }
+    }
+}
+
+/// Inputs of the templates.
+#[derive(Serialize)]
+struct Values {
+    #[serde(flatten)]
+    project: Project,
+    c: bool,
+    board: String,
+    board_name: &'static str,
+    target: &'static str,
+    /// QEMU's machine; empty for a board that it does not have.
+    qemu: &'static str,
+    tool: String,
+    run: &'static str,
+}
+
+impl New {
+    /// Installs the compiler's target, then writes the folder.
+    ///
+    /// # Errors
+    /// A wrong name, a folder that is not empty, a machine that no drive can be made of. Nothing is left then.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let name = self.name.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let (place, source) = match &self.machine {
+            Some(file) => text(file, "a machine file")?,
+            None => ("roll.toml".to_owned(), ROLL.to_owned()),
+        };
+        let machine = parse(&place, &source)?;
+        let project = Project::of(&machine, name, self.board.number(), &self.parts)?;
+        is_free(&self.name)?;
+        let facts = self.board.facts();
+        install(&Need::to_build([&facts]))?;
+        let observer = project.observer().to_owned();
+        let values = Values {
+            project,
+            c: false,
+            board: self.board.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default(),
+            board_name: match self.board {
+                Board::QemuM4f => "a Cortex-M4F in QEMU",
+                Board::QemuM3 => "a Cortex-M3 in QEMU",
+                Board::NucleoG474re => "a NUCLEO-G474RE",
+                Board::Generic => "your board",
+            },
+            target: facts.target,
+            qemu: if self.board.is_in_qemu() { facts.name } else { "" },
+            tool: tool(),
+            run: if self.board.is_in_qemu() {
+                "builds the firmware and starts it in QEMU"
+            } else {
+                "flashes the board"
+            },
+        };
+        let files: Vec<(String, Vec<u8>)> = [
+            ("Cargo.toml", "new/Cargo.toml"),
+            (".cargo/config.toml", "new/config.toml"),
+            ("README.md", "new/README.md"),
+            ("build.rs", "new/build.rs"),
+            ("memory.x", "new/memory.x"),
+            ("src/board.rs", self.board.template()),
+            ("src/firmware.rs", "new/firmware.rs"),
+            ("src/lib.rs", "lib.rs"),
+            ("src/machine.rs", "machine.rs"),
+            ("src/main.rs", "new/main.rs"),
+            ("tests/closed_loop.rs", "new/closed_loop.rs"),
+        ]
+        .map(|(path, template)| (path.to_owned(), fill(template, &values).into_bytes()))
+        .into_iter()
+        .chain([("machine.toml".to_owned(), source.into_bytes()), (".gitignore".to_owned(), b"/target\n".to_vec())])
+        .collect();
+        write(&self.name, &files)?;
+        if self.json {
+            let names: Vec<&str> = files.iter().map(|(path, _)| path.as_str()).collect();
+            return say_json(&json!({
+                "folder": self.name, "files": names, "board": values.board, "number": self.board.number().name(),
+                "observer": observer,
+            }));
+        }
+        say(format_args!(
+            "{} has the drive of `{}` on {}: {observer} with a speed loop\ncd {}, then cargo run, cargo test",
+            self.name.display(),
+            machine.name,
+            values.board_name,
+            self.name.display(),
+        ));
+        Ok(())
+    }
+}
+
+/// This program, by its name where that finds it.
+fn tool() -> String {
+    const NAME: &str = "cargo-driveline";
+    let this = std::env::current_exe().unwrap_or_else(|_| NAME.into());
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let found = std::env::split_paths(&path).map(|folder| folder.join(NAME)).find(|file| file.is_file());
+    let is_this = found
+        .and_then(|file| file.canonicalize().ok())
+        .is_some_and(|file| this.canonicalize().is_ok_and(|this| this == file));
+    if is_this { NAME.into() } else { this.to_string_lossy().replace('\\', "\\\\").replace('"', "\\\"") }
+}

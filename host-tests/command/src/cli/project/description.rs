@@ -1,0 +1,264 @@
+//! A machine and its drive as the templates need them.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+use super::{Part, PartOptions, Source};
+use crate::cli::Failure;
+use crate::cli::controller::Plan;
+use crate::cli::emit::{encoder, words, written};
+use crate::machine_file::MachineFile;
+
+/// The number of a drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Number {
+    /// `f32` in SI units.
+    Single,
+    /// Fixed point per unit of the machine's bases.
+    Fixed,
+}
+
+impl Number {
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Number::Single => "f32",
+            Number::Fixed => "fixed",
+        }
+    }
+}
+
+/// A machine and its drive, in the words of Rust.
+#[derive(Clone, Debug, Serialize)]
+pub struct Project {
+    /// The package: `feed-axis`.
+    pub name: String,
+    /// The crate, and the prefix of C: `feed_axis`.
+    #[serde(rename = "crate")]
+    pub krate: String,
+    /// `FEED_AXIS`.
+    pub upper: String,
+    /// `FeedAxis`.
+    #[serde(rename = "type")]
+    pub type_name: String,
+    /// The machine's name in its file.
+    pub title: String,
+    words: String,
+    chain: String,
+    encoder: String,
+    torque: String,
+    speed: String,
+    rate_hz: u32,
+    torque_accuracy: String,
+    load_torque_step: String,
+    within: String,
+    number: &'static str,
+    observer: String,
+    observers: String,
+    fluctuation: bool,
+    phasors: bool,
+    vibration_limit: String,
+    vibration_base: String,
+    counts: u32,
+    weight: String,
+    nodes: Vec<Node>,
+    plant: TwoMasses,
+    dependency_note: &'static str,
+    driveline: String,
+    solver: String,
+    firmware: String,
+}
+
+/// A mass of the machine, and the shaft before it, at the motor.
+#[derive(Clone, Debug, Serialize)]
+struct Node {
+    inertia: String,
+    /// Of the gear between it and the next shaft; empty for 1.
+    efficiency: String,
+    kind: &'static str,
+    stiffness: String,
+    damping: String,
+    /// Empty for none.
+    gap: String,
+    twist: String,
+}
+
+/// The two masses that an example simulates, and its steps.
+#[derive(Clone, Debug, Serialize)]
+struct TwoMasses {
+    motor_inertia: String,
+    load_inertia: String,
+    stiffness: String,
+    damping: String,
+    steps: u32,
+    seconds: u32,
+}
+
+impl Project {
+    /// A drive of the machine in a file, under a name.
+    ///
+    /// # Errors
+    /// A name that is no crate's, a machine that no drive can be made of, options that contradict each other.
+    pub fn of(machine: &MachineFile, name: &str, number: Number, options: &PartOptions) -> Result<Self, Failure> {
+        let krate = crate_name(name)?;
+        let limit = options.vibration_limit()?;
+        let refused = |why: &str| Failure::usage(format!("`{}`: no drive can be made: {why}", machine.name));
+        if !machine.branches.is_empty() {
+            return Err(refused("it has branches; leave them out, or write its constants by hand"));
+        }
+        let Some(two) = machine.two_masses() else {
+            return Err(refused("it has no shaft, and a drive needs one between motor and load"));
+        };
+        let plan = Plan::of(machine).map_err(|error| refused(error.message()))?;
+        if let Some(why) = plan.speed_loop.as_ref().and_then(|design| design.not_robust) {
+            return Err(refused(why));
+        }
+        let observers = observers(machine, &plan);
+        let words = words(machine);
+        let float = |value: f64| format!("{value:?}");
+        let weight = machine.chain.gravity_torque();
+        let seconds = 2.0 * machine.limits.speed / machine.limits.torque * machine.chain.total_inertia();
+        let period = 1.0 / f64::from(machine.control.rate_hz);
+        Ok(Project {
+            name: name.to_owned(),
+            upper: krate.to_ascii_uppercase(),
+            type_name: type_name(&krate, &words.iter().copied().collect::<Vec<_>>()),
+            krate,
+            title: machine.name.clone(),
+            words: words.into_iter().collect::<Vec<_>>().join(", "),
+            chain: written(&machine.elements, "        "),
+            encoder: encoder(machine),
+            torque: float(machine.limits.torque),
+            speed: float(machine.limits.speed),
+            rate_hz: machine.control.rate_hz,
+            torque_accuracy: float(machine.disturbance.torque_accuracy),
+            load_torque_step: float(machine.disturbance.load_torque_step),
+            within: float(machine.disturbance.within),
+            number: match number {
+                Number::Single => "f32",
+                Number::Fixed => "driveline::number::Fixed",
+            },
+            observer: observers.iter().rev().fold(String::new(), |inner, &outer| match inner.as_str() {
+                "" => format!("{outer}<Number>"),
+                inner => format!("{outer}<{inner}>"),
+            }),
+            observers: match observers.as_slice() {
+                [one] => (*one).to_owned(),
+                several => format!("{{{}}}", several.join(", ")),
+            },
+            fluctuation: options.has(Part::Fluctuation),
+            phasors: limit.is_some(),
+            vibration_limit: float(limit.unwrap_or_default()),
+            // as `HasVibration::VIBRATION_BASE` follows from the limit
+            vibration_base: float(2.0 * limit.unwrap_or_default()),
+            counts: 4 * machine.encoder.lines,
+            weight: float(weight),
+            nodes: nodes(machine, weight),
+            plant: TwoMasses {
+                motor_inertia: float(two.motor_inertia),
+                load_inertia: float(two.load_inertia),
+                stiffness: float(two.stiffness),
+                damping: float(two.damping),
+                steps: 1 + (40.0 / TAU * period * two.resonance()) as u32,
+                // the ramp takes two seconds, or half of the largest torque (`Rating::ramp`)
+                seconds: 2 + seconds.max(2.0) as u32,
+            },
+            dependency_note: Source::find().note(),
+            driveline: Source::find().dependency(""),
+            solver: Source::find().dependency("host-tests/solver"),
+            firmware: Source::find().dependency("firmware"),
+        })
+    }
+
+    /// The observer as a type.
+    pub fn observer(&self) -> &str {
+        &self.observer
+    }
+}
+
+/// The observer that the design selects, from the outside in: behind the gear's losses, where it has some.
+fn observers(machine: &MachineFile, plan: &Plan) -> Vec<&'static str> {
+    let exact = plan.shaft.as_ref().is_none_or(|shaft| shaft.step == "exact");
+    let selected = match plan.need.map(|need| need.observer) {
+        Some("rigid") => "RigidObserver",
+        Some("backlash") => "BacklashObserver",
+        Some("exact") => "TwoMassObserver",
+        Some(_) => "SemiImplicitObserver",
+        None if exact => "TwoMassObserver",
+        None => "SemiImplicitObserver",
+    };
+    if machine.chain.efficiency() < 1.0 { vec!["GearedObserver", selected] } else { vec![selected] }
+}
+
+/// The masses for the full solver.
+fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
+    let (ropes, efficiencies) = machine.ropes_and_efficiencies();
+    let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
+    let unless = |neutral: f64, value: f64| if value == neutral { String::new() } else { format!("{value:?}") };
+    let node = |(at, inertia): (usize, &f64)| {
+        let before = at.checked_sub(1);
+        let shaft = before.and_then(|before| shafts.get(before));
+        let [stiffness, damping, gap] =
+            shaft.map_or([1.0, 0.0, 0.0], |shaft| [shaft.stiffness, shaft.damping, shaft.gap]);
+        // the weight keeps a gap on its flank
+        let flank = if weight > 0.0 { 0.5 * gap } else { 0.0 };
+        let is_rope = before.and_then(|before| ropes.get(before)).is_some_and(|&rope| rope);
+        Node {
+            inertia: format!("{inertia:?}"),
+            efficiency: unless(1.0, efficiencies.get(at).copied().unwrap_or(1.0)),
+            kind: if is_rope { "rope" } else { "elastic" },
+            stiffness: format!("{stiffness:?}"),
+            damping: format!("{damping:?}"),
+            gap: unless(0.0, gap),
+            twist: format!("{:?}", flank + weight / stiffness),
+        }
+    };
+    masses.iter().enumerate().map(node).collect()
+}
+
+/// The crate of a package's name, as cargo has it.
+fn crate_name(name: &str) -> Result<String, Failure> {
+    let krate = name.replace('-', "_").to_ascii_lowercase();
+    let letters = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
+    let taken = ["driveline", "core", "std", "alloc", "test", "build", "deps", "examples", "proc_macro"];
+    let reserved = [
+        "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
+        "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro",
+        "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super",
+        "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+    ];
+    if !letters || !name.starts_with(|c: char| c.is_ascii_alphabetic()) || name.len() > 40 {
+        return Err(Failure::usage(format!(
+            "`{name}` is no name of a project: expected a letter, then letters, digits, `-` or `_`, at most 40 in all"
+        )));
+    }
+    if taken.contains(&krate.as_str()) || reserved.contains(&krate.as_str()) {
+        return Err(Failure::usage(format!("`{name}` is a word of Rust or cargo; name the project otherwise")));
+    }
+    Ok(krate)
+}
+
+/// A type for the machine that is none of the words it is described with.
+fn type_name(krate: &str, words: &[&str]) -> String {
+    let part = |part: &str| part[..1].to_ascii_uppercase() + &part[1..];
+    let name: String = krate.split('_').filter(|name| !name.is_empty()).map(part).collect();
+    let imported = ["Machine", "Rating", "Disturbance", "Encoder", "HasVibration", "Self", "TheMachine"];
+    if words.contains(&name.as_str()) || imported.contains(&name.as_str()) { name + "Drive" } else { name }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{crate_name, type_name};
+
+    #[test]
+    fn a_name_is_that_of_a_crate_and_of_a_type() {
+        assert_eq!(crate_name("feed-axis").unwrap(), "feed_axis");
+        assert_eq!(type_name("feed_axis_2", &[]), "FeedAxis2");
+        // an import of the machine's file is not defined twice
+        assert_eq!(type_name("chain", &["Chain"]), "ChainDrive");
+        for wrong in ["", "2fast", "a b", "../x", "match", "core", "driveline", "größe"] {
+            assert!(crate_name(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! A project that `new` writes: run in QEMU, tested on the host, built for the boards that QEMU does not have.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use driveline_qemu::clone::target_directory;
+use driveline_qemu::setup::cargo;
+
+const HOIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/hoist.toml");
+
+fn new(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    command.arg("new").args(arguments).current_dir(folder).output().unwrap()
+}
+
+#[track_caller]
+fn ended_well(ended: &Output) -> String {
+    let said = [&ended.stdout, &ended.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
+    assert!(ended.status.success(), "{}\n{}", ended.status, said.join("\n"));
+    said.join("\n")
+}
+
+/// Cargo in a project. Its dependencies are compiled once for all projects and runs of this test.
+fn in_project(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(cargo());
+    command.args(arguments).current_dir(folder).env("CARGO_TARGET_DIR", target_directory().unwrap().join("projects"));
+    // flags of this test's own cargo
+    command.env_remove("RUSTFLAGS").env_remove("CARGO_ENCODED_RUSTFLAGS").output().unwrap()
+}
+
+#[test]
+fn a_project_runs_in_qemu_on_each_board_and_passes_its_test() {
+    let place = tempfile::tempdir().unwrap();
+    for (name, board, parts) in
+        [("crane-m4f", "qemu-m4f", &[][..]), ("crane-m3", "qemu-m3", &["--parts", "fluctuation"])]
+    {
+        let options = [&[name, "--machine", HOIST, "--board", board], parts].concat();
+        ended_well(&new(place.path(), &options));
+        let folder = place.path().join(name);
+        let said = ended_well(&in_project(&folder, &["run", "--release"]));
+        // a line for each tenth of a second; the last one at the largest speed of the file, 155 rad/s
+        let last = said.lines().filter(|line| line.ends_with("  none")).last().unwrap_or(&said).to_owned();
+        let values: Vec<f64> = last.split_whitespace().filter_map(|value| value.parse().ok()).collect();
+        // an integral leaves no error: what is left of the settling
+        assert!(values.len() == 6 && (values[2] - 155.0).abs() < 1.55, "{last}");
+        assert_eq!(said.contains("coefficient of speed fluctuation"), board == "qemu-m3", "{said}");
+        ended_well(&in_project(&folder, &["test"]));
+    }
+}
+
+#[test]
+fn a_project_is_built_for_the_boards_that_qemu_does_not_have() {
+    let place = tempfile::tempdir().unwrap();
+    for board in ["nucleo-g474re", "generic"] {
+        ended_well(&new(place.path(), &[board, "--board", board]));
+        let build = ["build", "--release", "--target", "thumbv7em-none-eabihf"];
+        ended_well(&in_project(&place.path().join(board), &build));
+    }
+}
+
+/// A refused project leaves nothing, and says what is wrong.
+#[test]
+fn a_project_that_cannot_be_is_refused_and_leaves_nothing() {
+    let place = tempfile::tempdir().unwrap();
+    let ship = HOIST.replace("hoist", "ship");
+    for (arguments, word) in [
+        (&["2fast"][..], "is no name of a project"),
+        (&["match"], "is a word of Rust"),
+        (&["none/roll"], "make that first"),
+        (&["ship", "--machine", &ship], "it has branches"),
+        (&["roll", "--machine", "no.toml"], "no.toml"),
+        (&["roll", "--parts", "phasors"], "--vibration-limit"),
+        (&["roll", "--vibration-limit", "1"], "--parts phasors"),
+        (&["roll", "--parts", "phasors", "--vibration-limit", "-1"], "expected a value above 0"),
+    ] {
+        let ended = new(place.path(), arguments);
+        let said = String::from_utf8(ended.stderr).unwrap();
+        assert!(ended.status.code() == Some(2) && said.contains(word), "{arguments:?}: {said}");
+        assert_eq!(std::fs::read_dir(&place).unwrap().count(), 0, "{arguments:?}");
+    }
+    std::fs::create_dir(place.path().join("roll")).unwrap();
+    std::fs::write(place.path().join("roll/mine"), "kept").unwrap();
+    let said = String::from_utf8(new(place.path(), &["roll"]).stderr).unwrap();
+    assert!(said.contains("exists and is not empty"), "{said}");
+    assert_eq!(std::fs::read_dir(place.path().join("roll")).unwrap().count(), 1);
+}
