@@ -157,8 +157,8 @@ impl<N: Classed, const CLASSES: usize, const REVERSALS: usize> Rainflow<N, CLASS
         }
     }
 
-    /// Takes the cycles that are closed and the times out, and leaves the residue: for the time between two ticks, before
-    /// a count of ticks wraps (119 hours at 10 kHz).
+    /// Takes the cycles that are closed and the times out, and leaves the residue: for the time between two ticks,
+    /// before a count of ticks wraps (119 hours at 10 kHz).
     pub fn take(&mut self, config: &TorqueClasses<N>) -> Counts<CLASSES, REVERSALS> {
         let taken = self.snapshot(config);
         (self.cycles, self.ticks, self.largest) = ([0; CLASSES], [0; CLASSES], N::ZERO);
