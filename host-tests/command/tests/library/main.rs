@@ -5,6 +5,7 @@ mod balance;
 mod cranked;
 mod design;
 mod elements;
+mod fatigue;
 mod fluctuation;
 mod governor;
 mod hal;

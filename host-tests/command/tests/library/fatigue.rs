@@ -1,0 +1,3 @@
+//! Fatigue: rainflow counting on the tick against the standard's rule, damage against Miner's sum.
+
+mod rainflow;

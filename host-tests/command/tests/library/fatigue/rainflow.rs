@@ -1,0 +1,170 @@
+//! The tick's rainflow count against the four-point rule applied to whole series, and against ASTM E1049's example.
+
+use driveline::fatigue::{Classed, Counts, Rainflow, TorqueClasses, WoehlerLine};
+use driveline::fluctuation::Fluctuation;
+use driveline::number::Fixed;
+use driveline::sample::Estimate;
+
+const CLASSES: usize = 60;
+const REVERSALS: usize = 128;
+/// Classes of 1 N m.
+const LIMIT: f64 = 30.0;
+const SINGLE: TorqueClasses<f32> = TorqueClasses::<f32>::new::<CLASSES>(LIMIT);
+/// A base of 100 N m.
+const FIXED: TorqueClasses<Fixed> = TorqueClasses::<Fixed>::new::<CLASSES>(LIMIT, 100.0);
+
+type Count<N> = Rainflow<N, CLASSES, REVERSALS>;
+
+/// Feeds classes, each for two ticks, as torques in their middle.
+fn counted<N: Classed>(
+    series: &[u8],
+    config: &TorqueClasses<N>,
+    torque: impl Fn(f64) -> N,
+) -> Counts<CLASSES, REVERSALS> {
+    let mut count = Count::<N>::default();
+    for class in series {
+        let shaft_torque = torque(f64::from(*class) - 0.5 * CLASSES as f64 + 0.5);
+        let estimate = Estimate { shaft_torque, ..Estimate::default() };
+        for _ in 0..2 {
+            count.measure(config, 0, N::ZERO, &estimate);
+        }
+    }
+    count.counts(config)
+}
+
+/// The rule as the standard has it, on a whole series: reversals first; then, of any four in a row, the middle two are a
+/// cycle where their range is not greater than the ranges on either side; they are taken out and the search begins
+/// again.
+fn by_rule(series: &[u8]) -> ([u32; CLASSES], Vec<u8>) {
+    let mut points: Vec<i32> = Vec::new();
+    for &value in series {
+        let value = i32::from(value);
+        match points[..] {
+            [.., last] if last == value => {}
+            [.., before, last] if (last - before).signum() == (value - last).signum() => {
+                *points.last_mut().unwrap() = value;
+            }
+            _ => points.push(value),
+        }
+    }
+    let mut cycles = [0; CLASSES];
+    'search: loop {
+        for at in 0..points.len().saturating_sub(3) {
+            let [a, b, c, d] = points[at..at + 4] else { unreachable!() };
+            let (left, inner, right) = ((b - a).abs(), (c - b).abs(), (d - c).abs());
+            if inner <= left && inner <= right {
+                cycles[inner as usize] += 1;
+                points.drain(at + 1..at + 3);
+                continue 'search;
+            }
+        }
+        return (cycles, points.into_iter().map(|point| point as u8).collect());
+    }
+}
+
+/// Marsaglia's generator (xorshift), for series that differ.
+fn random(state: &mut u64) -> u64 {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    *state
+}
+
+/// 1,000 random series: white, wandering and swinging, of up to 1,000 values. Counts are whole numbers, and equal.
+#[test]
+fn a_thousand_random_series_are_counted_as_by_the_rule() {
+    let mut state = 88_172_645_463_325_252;
+    let mut closed = 0;
+    for number in 0..1_000_u32 {
+        let length = 2 + random(&mut state) % 999;
+        let mut place = 30.0_f64;
+        let series: Vec<u8> = (0..length)
+            .map(|at| {
+                let white = (random(&mut state) % 60) as f64;
+                place = match number % 3 {
+                    0 => white,
+                    1 => (place + (white - 29.5) / 6.0).clamp(0.0, 59.0),
+                    _ => 30.0 + 20.0 * (0.3 * at as f64).sin() * (0.011 * at as f64).sin() + (white - 29.5) / 12.0,
+                };
+                place as u8
+            })
+            .collect();
+        let (cycles, residue) = by_rule(&series);
+        let single = counted(&series, &SINGLE, |torque| torque as f32);
+        let fixed = counted(&series, &FIXED, |torque| Fixed::from_f64(torque / 100.0));
+        assert_eq!((single.cycles(), single.residue(), single.lost()), (&cycles, &residue[..], 0), "{number}");
+        assert_eq!((fixed.cycles(), fixed.residue(), fixed.lost()), (&cycles, &residue[..], 0), "{number}");
+        closed += cycles.iter().sum::<u32>();
+    }
+    assert!(closed > 50_000, "{closed}");
+}
+
+/// ASTM E1049-85, figure 6: -2, 1, -3, 5, -1, 3, -4, 4, -2. Its one whole cycle is 4 (from -1 to 3); the half cycles 3,
+/// 4, 8, 9, 8, 6 are the residue's ranges, from the standard's table.
+#[test]
+fn the_standard_s_example() {
+    let series = [-2, 1, -3, 5, -1, 3, -4, 4, -2].map(|value| (value + 30) as u8);
+    let counts = counted(&series, &SINGLE, |torque| torque as f32);
+    let mut cycles = [0; CLASSES];
+    cycles[4] = 1;
+    assert_eq!(counts.cycles(), &cycles);
+    let ranges: Vec<u8> = counts.residue().windows(2).map(|pair| pair[0].abs_diff(pair[1])).collect();
+    assert_eq!(ranges, [3, 4, 8, 9, 8, 6]);
+    // Miner's sum of the same table: amplitudes are half the ranges.
+    let line = WoehlerLine { knee: 2.5, cycles: 1e6, slope: 3.0, below: 5.0 };
+    let each = |range: f64, share: f64| {
+        let over = range / 5.0;
+        share * over.powf(if over < 1.0 { 5.0 } else { 3.0 }) / 1e6
+    };
+    let halves: f64 = [3.0, 4.0, 8.0, 9.0, 8.0, 6.0].iter().map(|range| each(*range, 0.5)).sum();
+    // exponential and logarithm to an ulp each
+    assert!((counts.damage(&line) / (each(4.0, 1.0) + halves) - 1.0).abs() < 1e-13);
+}
+
+/// Time above a limit by the classes that begin there, largest torque, and their factor.
+#[test]
+fn times_and_peaks() {
+    let config = SINGLE.with_period(1e-3);
+    let mut count = Count::<f32>::default();
+    for tick in 0..1_000 {
+        let shaft_torque = if tick < 100 {
+            25.5
+        } else if tick < 130 {
+            -27.25
+        } else {
+            3.5
+        };
+        count.measure(&config, 0, 0.0, &Estimate { shaft_torque, ..Estimate::default() });
+    }
+    let counts = count.counts(&config);
+    // counts of ticks times the period
+    for (limit, time) in [(20.0, 0.13), (25.0, 0.13), (26.0, 0.03), (28.0, 0.0), (3.0, 1.0)] {
+        assert!((counts.time_above(limit) - time).abs() < 1e-12, "{limit}: {}", counts.time_above(limit));
+    }
+    assert_eq!((counts.largest(), counts.amplification(5.45)), (27.25, 5.0));
+}
+
+/// The longest residue there can be fits: ranges that grow class by class to the whole and shrink again.
+#[test]
+fn the_longest_residue_fits() {
+    let mut series = vec![29_u8];
+    for range in (1..60).chain((1..60).rev()) {
+        let last = *series.last().unwrap();
+        series.push(if series.len() % 2 == 1 { last + range } else { last - range });
+    }
+    let (cycles, residue) = by_rule(&series);
+    assert_eq!((cycles, residue.len()), ([0; CLASSES], 119));
+    let counts = counted(&series, &SINGLE, |torque| torque as f32);
+    assert_eq!((counts.cycles(), counts.residue(), counts.lost()), (&cycles, &residue[..], 0));
+}
+
+/// Reversals in every tick are more than a tick can count: the count says so.
+#[test]
+fn reversals_that_come_too_fast_are_reported() {
+    let mut count = Count::<f32>::default();
+    for tick in 0..2_000 {
+        let shaft_torque = if tick % 2 == 0 { 10.5 } else { -10.5 };
+        count.measure(&SINGLE, 0, 0.0, &Estimate { shaft_torque, ..Estimate::default() });
+    }
+    assert!(count.counts(&SINGLE).lost() > 0);
+}

@@ -1,0 +1,115 @@
+//! Classes of the torque.
+
+use crate::number::{Fixed, Number};
+
+/// Equal classes of the torque, from minus a limit to the limit. What is beyond counts in the outermost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TorqueClasses<N: Classed> {
+    pub(super) scale: N::Scale,
+    /// Half of the classes.
+    pub(super) middle: i32,
+    /// Width of a class \[N m\].
+    pub(super) width: f64,
+    /// Base of torques \[N m\]; 1 for floats.
+    pub(super) base: f64,
+    /// Time between two ticks \[s\]; 1 where it is left in ticks.
+    pub(super) period: f64,
+}
+
+impl<N: Classed> TorqueClasses<N> {
+    /// Width of a class \[N m\].
+    pub const fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// The same with the time between two ticks \[s\].
+    #[must_use]
+    pub const fn with_period(self, period: f64) -> Self {
+        TorqueClasses { period, ..self }
+    }
+}
+
+/// Sorting into classes, beside the operations of [`Number`].
+pub trait Classed: Number {
+    /// Factor from a torque to its class.
+    type Scale: Copy + PartialEq + core::fmt::Debug;
+
+    /// The torque in classes, rounded down; it may be beyond them.
+    fn classes(self, scale: Self::Scale) -> i32;
+}
+
+const LIMIT: &str = "the limit of the torque's classes must be positive and finite (N m), in fixed point at least \
+    1/512 and at most 8 bases";
+const COUNT: &str = "the classes of the torque must be an even number from 4 to 128";
+
+const fn checked(limit: f64, classes: usize) -> f64 {
+    assert!(limit > 0.0 && limit.is_finite(), "{}", LIMIT);
+    assert!(classes.is_multiple_of(2) && classes >= 4 && classes <= 128, "{}", COUNT);
+    2.0 * limit / classes as f64
+}
+
+macro_rules! classed {
+    ($float:ident) => {
+        impl Classed for $float {
+            type Scale = $float;
+
+            // A cast saturates, and takes a NaN for zero.
+            #[inline(always)]
+            fn classes(self, scale: $float) -> i32 {
+                let classes = self * scale;
+                let whole = classes as i32;
+                if (whole as $float) > classes { whole.wrapping_sub(1) } else { whole }
+            }
+        }
+
+        impl TorqueClasses<$float> {
+            /// `CLASSES` classes between `-limit` and `limit` \[N m\].
+            ///
+            /// # Panics
+            /// At compile time in a constant: for a limit that is not positive and finite, or a number of classes that
+            /// is odd, below 4 or above 128.
+            #[must_use]
+            pub const fn new<const CLASSES: usize>(limit: f64) -> Self {
+                let width = checked(limit, CLASSES);
+                TorqueClasses {
+                    scale: (1.0 / width) as $float,
+                    middle: CLASSES as i32 / 2,
+                    width,
+                    base: 1.0,
+                    period: 1.0,
+                }
+            }
+        }
+    };
+}
+
+classed!(f32);
+classed!(f64);
+
+/// Binary places of the factor in fixed point: 2^28 are a base, and a class is some 2^22 of them at least.
+const PLACES: u32 = 44;
+
+impl Classed for Fixed {
+    type Scale = i32;
+
+    #[inline(always)]
+    fn classes(self, scale: i32) -> i32 {
+        ((i64::from(self.to_bits()) * i64::from(scale)) >> 32) as i32 >> (PLACES - 32)
+    }
+}
+
+impl TorqueClasses<Fixed> {
+    /// `CLASSES` classes between `-limit` and `limit` \[N m\], of torques with this base \[N m\].
+    ///
+    /// # Panics
+    /// At compile time in a constant: for a limit below 1/512 of the base or beyond eight bases, or a number of classes
+    /// that is odd, below 4 or above 128.
+    #[must_use]
+    pub const fn new<const CLASSES: usize>(limit: f64, base: f64) -> Self {
+        let width = checked(limit, CLASSES);
+        let scale = base / width * 65_536.0;
+        assert!(scale >= 1.0 && scale <= i32::MAX as f64 && limit <= 8.0 * base, "{}", LIMIT);
+        TorqueClasses { scale: (scale + 0.5) as i32, middle: CLASSES as i32 / 2, width, base, period: 1.0 }
+    }
+}

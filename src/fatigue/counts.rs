@@ -1,0 +1,83 @@
+//! Result of a count: cycles by range, time by torque, damage.
+
+use super::WoehlerLine;
+
+/// Cycles, times and residue up to a moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Counts<const CLASSES: usize, const REVERSALS: usize> {
+    pub(super) width: f64,
+    pub(super) period: f64,
+    pub(super) cycles: [u32; CLASSES],
+    pub(super) ticks: [u32; CLASSES],
+    pub(super) residue: [u8; REVERSALS],
+    pub(super) length: usize,
+    pub(super) largest: f64,
+    pub(super) lost: u32,
+}
+
+impl<const CLASSES: usize, const REVERSALS: usize> Counts<CLASSES, REVERSALS> {
+    /// Closed cycles by their range in classes, from none on.
+    pub fn cycles(&self) -> &[u32; CLASSES] {
+        &self.cycles
+    }
+
+    /// Reversals that close no cycle, as classes; the last is the present torque.
+    pub fn residue(&self) -> &[u8] {
+        self.residue.get(2..self.length).unwrap_or_default()
+    }
+
+    /// Reversals that came too fast to be counted.
+    pub fn lost(&self) -> u32 {
+        self.lost
+    }
+
+    /// Damage by Miner's rule: the closed cycles, and each range of the residue as half a cycle.
+    pub fn damage(&self, line: &WoehlerLine) -> f64 {
+        self.closed_damage(line) + self.residual_damage(line)
+    }
+
+    /// Damage of the closed cycles.
+    pub fn closed_damage(&self, line: &WoehlerLine) -> f64 {
+        let each = (0_u32..).zip(&self.cycles);
+        each.map(|(range, &cycles)| f64::from(cycles) * self.of_range(line, range)).sum()
+    }
+
+    /// Damage of the residue, each of its ranges as half a cycle.
+    pub fn residual_damage(&self, line: &WoehlerLine) -> f64 {
+        let pairs = self.residue().windows(2);
+        let range = |pair: &[u8]| match pair {
+            [from, to] => u32::from(from.abs_diff(*to)),
+            _ => 0,
+        };
+        pairs.map(|pair| 0.5 * self.of_range(line, range(pair))).sum()
+    }
+
+    fn of_range(&self, line: &WoehlerLine, range: u32) -> f64 {
+        line.damage(0.5 * f64::from(range) * self.width)
+    }
+
+    /// Time in which the torque was beyond a limit \[N m\], either way, to the class \[s, or ticks\]: classes that
+    /// begin at the limit or beyond it.
+    pub fn time_above(&self, limit: f64) -> f64 {
+        let middle = CLASSES as f64 / 2.0;
+        let each = (0_u32..).zip(&self.ticks);
+        let beyond = each.filter(|&(class, _)| {
+            let low = f64::from(class) - middle;
+            let nearest = if low < 0.0 { -(low + 1.0) } else { low };
+            // the outermost class has no end
+            nearest * self.width >= limit
+        });
+        beyond.map(|(_, &ticks)| f64::from(ticks)).sum::<f64>() * self.period
+    }
+
+    /// The largest torque, either way \[N m\].
+    pub fn largest(&self) -> f64 {
+        self.largest
+    }
+
+    /// The torque amplification factor: the largest torque over this rated torque \[N m\].
+    pub fn amplification(&self, rated: f64) -> f64 {
+        self.largest / rated
+    }
+}

@@ -1,0 +1,44 @@
+//! A machine's life so far, as a part of the record in flash.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Classed, TorqueClasses};
+use super::{Counts, Rainflow, WoehlerLine};
+
+/// Damage and largest torque over the machine's life: a field of one's own
+/// [`Parameters`](crate::parameters::Parameters), or all of them.
+///
+/// It holds the closed cycles of all counts that were added; the residue of the present count stays on the tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LifeRecord {
+    /// Damage by Miner's rule; failure at 1.
+    pub damage: f64,
+    /// Time beyond the limit of one's own \[s\].
+    pub time_above: f64,
+    /// The largest torque, either way \[N m\].
+    pub largest: f64,
+}
+
+impl LifeRecord {
+    /// Takes the closed cycles, the time above `limit` \[N m\] and the largest torque out of a running count: between
+    /// two ticks.
+    pub fn take<N: Classed, const CLASSES: usize, const REVERSALS: usize>(
+        &mut self,
+        count: &mut Rainflow<N, CLASSES, REVERSALS>,
+        config: &TorqueClasses<N>,
+        line: &WoehlerLine,
+        limit: f64,
+    ) {
+        let taken: Counts<CLASSES, REVERSALS> = count.take(config);
+        self.damage += taken.closed_damage(line);
+        self.time_above += taken.time_above(limit);
+        self.largest = if taken.largest() > self.largest { taken.largest() } else { self.largest };
+    }
+
+    /// Share of the life that is left; none below zero.
+    #[must_use]
+    pub fn remaining(&self) -> f64 {
+        if self.damage < 1.0 { 1.0 - self.damage } else { 0.0 }
+    }
+}
