@@ -16,3 +16,4 @@ mod machine;
 mod references;
 mod scheduling;
 mod tick;
+mod wheel;
