@@ -168,7 +168,9 @@ const WINDOWS: usize = 2083;
 fn an_even_engine_has_no_weak_cylinder() {
     for engine in engines() {
         let windows = engine.windows(&vec![1.0; engine.cylinders], WINDOWS, 9);
-        let bad = windows.iter().filter(|cylinders| cylinders.iter().any(|c| c.verdict != CylinderVerdict::Good));
+        // Where it is uncertain there is no false one.
+        let faulty = |c: &Cylinder| matches!(c.verdict, CylinderVerdict::Weak | CylinderVerdict::Misfire);
+        let bad = windows.iter().filter(|cylinders| cylinders.iter().any(faulty));
         assert_eq!(bad.count(), 0, "{} at {}", engine.cylinders, engine.speed);
     }
 }
