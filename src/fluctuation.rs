@@ -11,9 +11,9 @@
 //! | [`CycleMean`] | nothing but at the ends of segments | several times a cycle: the speed without its ripple, for a governor |
 //! | a pair of any | both | both |
 //!
-//! [`ToothedWheel`] takes the times of teeth instead of the angles of ticks and gives the same [`Ripple`]. From a
-//! ripple and the machine's constants follow speed and torque of the load ([`Ripple::load_side`]) and the required
-//! flywheel ([`Ripple::flywheel`]).
+//! [`ToothWindow`] takes the times of a [toothed wheel](crate::wheel)'s teeth instead of the angles of ticks and gives
+//! the same [`Ripple`]. From a ripple and the machine's constants follow speed and torque of the load ([`Ripple::load_side`]) and the required
+//! flywheel ([`Ripple::flywheel`]), from that of an engine the contribution of each cylinder ([`Ripple::cylinders`]).
 //!
 //! Lengthy calculations (divisions, sines, the waveform from its bins) are done by a `reading` between the ticks, in
 //! `f64`.
@@ -45,7 +45,7 @@
 //!     let angle = (phi / core::f64::consts::TAU * 4_294_967_296.0) as u64 as u32;
 //!     waveform.measure(&CONFIG, angle, 0.0, &Estimate::default()); // in a drive: `drive.tick(..)`
 //!     if let Some(window) = waveform.take() { // in a drive: `drive.fluctuation_mut().take()`, between two ticks
-//!         break window.ripple(&CONFIG, 4); // four orders; and this in its own time
+//!         break window.ripple(&CONFIG, 4).unwrap(); // four orders; and this in its own time
 //!     }
 //! };
 //! assert!((ripple.motor.delta - 0.02).abs() < 1e-4);
@@ -60,23 +60,27 @@
 
 mod bin;
 mod cycle_mean;
+mod cylinders;
 mod extremes;
 mod flywheel;
 mod load_side;
 mod position;
+mod quality;
 mod series;
-mod toothed_wheel;
+mod teeth;
 mod waveform;
 mod window;
 
 pub use bin::{Bin, Summed, WaveformConfig};
 pub use cycle_mean::{CycleMean, CycleMeanConfig};
+pub use cylinders::{Cylinder, CylinderVerdict, Engine};
 pub use extremes::{Extreme, Extremes, Fluctuations, Ranked, Reading};
 pub use flywheel::{Balance, Flywheel, MachineClass, Remedy};
 pub use load_side::{Drivetrain, LoadSide};
 pub use position::{CycleConfig, Edge};
+pub use quality::{Quality, Unusable};
 pub use series::{Order, Series};
-pub use toothed_wheel::{ToothErrors, ToothWindow, ToothedWheel, ToothedWheelConfig};
+pub use teeth::{ToothErrors, ToothWindow};
 pub(crate) use waveform::PLACES;
 pub use waveform::Waveform;
 pub use window::{MAX_ORDER, Ripple, Window};

@@ -5,7 +5,7 @@
 //! |---|---|---|
 //! | [`Quadrature`] | a [`Counter`] | an incremental encoder on a timer |
 //! | [`MagneticEncoder`] | `SpiDevice` | an absolute encoder: AS5047P, AS5048A |
-//! | [`ToothedWheel`] | capture times | a wheel with missing teeth |
+//! | [`ToothedWheel`](crate::wheel::ToothedWheel) | capture times | a toothed wheel |
 //! | [`PwmTorque`] | `SetDutyCycle` | a drive's torque input behind a filter, a DC motor's bridge |
 //! | [`ThreePhase`] | three `SetDutyCycle` | the bridge of a small synchronous motor |
 //! | [`SpiDac`] | `SpiDevice` | a drive's torque input in volts |
@@ -173,6 +173,5 @@ pub use quadrature::{Counter, Quadrature};
 pub use scale::{FullScale, PerCount, Scaled};
 pub use three_phase::{PhaseConfig, ThreePhase};
 pub use tmc4671::Tmc4671;
-pub use toothed_wheel::{ToothedWheel, Wheel};
 pub use torque::TorqueOutput;
 pub use vibration::VibrationSensor;

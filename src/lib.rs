@@ -70,6 +70,7 @@ pub mod scheduling;
 pub mod settings;
 #[cfg(feature = "telemetry")]
 pub mod telemetry;
+pub mod wheel;
 
 /// The listings of the book.
 #[cfg(all(doctest, feature = "hal"))]

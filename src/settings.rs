@@ -23,15 +23,17 @@ mod phasors;
 mod settled;
 mod speed_loop;
 mod to;
+mod wheel;
 
 pub use actuator_monitor::ActuatorMonitorSettings;
 pub use bases::Bases;
 pub use error::Error;
-pub use fluctuation::{Cycle, Wheel};
+pub use fluctuation::Cycle;
 pub use geared::Gear;
 pub use governor_parts::SequencerSettings;
 pub use limits::Screening;
 pub use phasors::{PhasorError, PhasorSettings};
 pub use speed_loop::SpeedLoopSettings;
+pub use wheel::{Teeth, ToothClock};
 
 pub(crate) use format::Format;

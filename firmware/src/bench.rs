@@ -9,6 +9,7 @@ mod governors;
 mod phasors;
 mod steps;
 mod table;
+mod wheel;
 
 pub use table::run;
 

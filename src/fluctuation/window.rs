@@ -3,9 +3,10 @@
 use core::f64::consts::TAU;
 
 use super::extremes::{Extreme, Fluctuations};
+use super::quality::{Quality, Unusable};
 use super::series::{GRID, Order, Series, circle};
 use super::{Bin, Edge, Summed, WaveformConfig};
-use crate::math::sin_cos;
+use crate::math::{sin_cos, sqrt};
 
 pub use super::series::MAX_ORDER;
 
@@ -34,6 +35,8 @@ pub struct Ripple {
     pub motor: Fluctuations,
     /// Cycles that it is the mean of.
     pub cycles: u32,
+    /// How far it can be relied on.
+    pub quality: Quality,
 }
 
 impl<N: Summed, const BINS: usize> Window<N, BINS> {
@@ -50,7 +53,11 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// is taken off, as that of a steady acceleration.
     ///
     /// Not for the tick: some thousand operations in `f64`, and sines.
-    pub fn ripple(&self, config: &WaveformConfig, highest: usize) -> Ripple {
+    ///
+    /// # Errors
+    /// [`Unusable::Ticks`] where the motor turns so fast that the work at the end of a cycle, a slice in every other
+    /// tick, comes late; [`Unusable::Trend`].
+    pub fn ripple(&self, config: &WaveformConfig, highest: usize) -> Result<Ripple, Unusable> {
         let highest = highest.min(MAX_ORDER).min(BINS / 4);
         let cycles = f64::from(self.cycles.max(1));
         let sign = if self.forward { 1.0 } else { -1.0 };
@@ -63,6 +70,9 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         // waveform that they belong to.
         let [first, _, _, last] = self.edges;
         let whole = f64::from(last.tick.wrapping_sub(first.tick).max(1));
+        if whole < cycles * Unusable::TICKS * (f64::from(config.cycle.last_segment) + 1.0) {
+            return Err(Unusable::Ticks);
+        }
         let mut turned = [cycles * config.cycle.angle / whole; 2];
         let mut ticks = whole;
         let mut slowness = Series { mean: 1.0, ..Series::default() };
@@ -89,10 +99,40 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         for order in &mut slowness.orders {
             order.sin *= sign;
         }
+        let rise = ramp.slowness * TAU * cycles / ticks / f64::from(self.cycles.max(1));
+        if rise.abs() > Unusable::RISE {
+            return Err(Unusable::Trend);
+        }
+        let residue = self.residue(&slowness) * config.cycle.angle / TAU;
+        let quality = Quality { residue, trend: rise, ..Quality::default() };
         let mean = sign * cycles * config.cycle.angle / (ticks * config.cycle.period);
         let per_tick = config.cycle.angle / TAU / config.cycle.period;
         let acceleration = sign * per_tick * ramp.acceleration / config.cycle.period;
-        Ripple::of(slowness, mean, acceleration, config.cycle.angle, highest, self.cycles)
+        let ripple = Ripple::of(slowness, mean, acceleration, config.cycle.angle, highest, self.cycles);
+        Ok(Ripple { quality, ..ripple })
+    }
+
+    /// Rms of the angle by which the ticks counted up to the end of each bin differ from the waveform \[rad\], 2 pi to
+    /// the cycle.
+    fn residue(&self, slowness: &Series) -> f64 {
+        let total: f64 = self.bins.iter().map(|bin| f64::from(bin.ticks)).sum();
+        let (mut counted, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        for (index, bin) in (1_u32..).zip(&self.bins) {
+            counted += f64::from(bin.ticks);
+            let theta = TAU * f64::from(index) / BINS as f64;
+            // The integral of the slowness over the angle, but for a constant.
+            let mut late = 0.0;
+            for (n, order) in (1_u32..).zip(&slowness.orders) {
+                let n = f64::from(n);
+                let (s, c) = sin_cos(n * theta);
+                late += (order.cos * s - order.sin * c) / n;
+            }
+            let left = TAU * counted / total.max(1.0) - theta - late;
+            sum += left;
+            squares += left * left;
+        }
+        let mean = sum / BINS as f64;
+        sqrt((squares / BINS as f64 - mean * mean).max(0.0))
     }
 
     /// Integral of cos(n theta) and sin(n theta) over the ticks that were counted.
@@ -162,7 +202,7 @@ impl Ripple {
             Extreme { speed: mean / slowness.at(theta), angle: within / TAU * angle }
         };
         let motor = Fluctuations::of(extreme(most), extreme(least), mean);
-        Ripple { mean, acceleration, speed, motor, cycles }
+        Ripple { mean, acceleration, speed, motor, cycles, quality: Quality::default() }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::convert::{fixed, get, or_stop};
 use super::{Bases, Error, Format};
-use crate::fluctuation::{CycleConfig, CycleMeanConfig, Drivetrain, PLACES, ToothedWheelConfig, WaveformConfig};
+use crate::fluctuation::{CycleConfig, CycleMeanConfig, Drivetrain, PLACES, WaveformConfig};
 use crate::machine::TwoMass;
 use crate::number::Fixed;
 
@@ -15,9 +15,6 @@ const SEGMENTS_SENTENCE: &str = "the segments of the cycle's mean must be a powe
     than a quarter of a turn of the motor nor shorter than 2^-23 of one";
 const SLOW: &str =
     "the motor turns too little in a tick at the base of the speed for a mean in fixed point: lower the rate";
-const WHEEL: &str = "the wheel must have at least one missing tooth and twice as many places as a gap takes, and as \
-    many places in a cycle as the table";
-const CLOCK: &str = "the clock that the teeth are timed with must be positive and finite (Hz)";
 const CYCLES: &str = "the waveform must be taken over at least 1 cycle, and at most 65,535";
 
 /// A cycle: turns of the motor to a number of cycles.
@@ -201,50 +198,5 @@ impl WaveformConfig {
             return Err(Error::Value(BINS_SENTENCE));
         }
         Ok(WaveformConfig { cycle, cycles, scale: scale as i32, per_segment })
-    }
-}
-
-/// A toothed wheel with a gap, and the clock that its teeth are timed with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Wheel {
-    /// Places to a turn, missing teeth included: 60 of a 60-2 wheel.
-    pub places: u32,
-    /// Missing teeth, in a row: 2 of a 60-2 wheel.
-    pub missing: u32,
-    /// Turns of the wheel to a cycle: 1, or 2 of a four-stroke engine.
-    pub turns: u32,
-    /// Clock \[Hz\].
-    pub clock: f64,
-}
-
-impl ToothedWheelConfig {
-    /// The constants of a wheel with so many places to the cycle, measured over `cycles` cycles.
-    ///
-    /// # Panics
-    /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
-    pub const fn new<const PLACES: usize>(wheel: Wheel, cycles: u32) -> Self {
-        or_stop!(Self::try_new::<PLACES>(wheel, cycles))
-    }
-
-    /// The constants of a wheel with so many places to the cycle, measured over `cycles` cycles.
-    ///
-    /// # Errors
-    /// [`Error::Value`] for a wheel without a gap or with too large a one, a table of another size, a clock that is not
-    /// positive and finite, or a number of cycles that is zero or beyond 65,535.
-    pub const fn try_new<const PLACES: usize>(wheel: Wheel, cycles: u32) -> Result<Self, Error> {
-        let Wheel { places, missing, turns, clock } = wheel;
-        let whole = places as u64 * turns as u64 == PLACES as u64 && turns > 0;
-        if !(whole && missing > 0 && places / 2 > missing) {
-            return Err(Error::Value(WHEEL));
-        }
-        if !(clock > 0.0 && clock.is_finite()) {
-            return Err(Error::Value(CLOCK));
-        }
-        if cycles == 0 || cycles > 65_535 {
-            return Err(Error::Value(CYCLES));
-        }
-        let cycle = get!(CycleConfig::try_new(Cycle { turns, cycles: 1 }, 1.0 / clock, Bases::SI));
-        Ok(ToothedWheelConfig { cycle, places, missing, cycles })
     }
 }

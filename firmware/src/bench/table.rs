@@ -7,7 +7,7 @@ use driveline::settings::Bases;
 
 use super::Bench;
 use super::calibration::{ten_nops, thousand_nops};
-use super::{advice, correction, cranked, fluctuation, governors, phasors, steps};
+use super::{advice, correction, cranked, fluctuation, governors, phasors, steps, wheel};
 use crate::Words;
 use crate::board::Board;
 use crate::measure::count::Measured;
@@ -42,6 +42,7 @@ pub fn run<V: Variant, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<V::Sce
             governors::fixed(bench);
         }
     }
+    wheel::all(bench);
     correction::solves(bench);
     correction::accuracy(bench);
     advice::all(bench);

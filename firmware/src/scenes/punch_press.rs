@@ -218,7 +218,7 @@ impl<N: Summed> Notes<N> {
 
     fn advise(&mut self, config: &WaveformConfig, permissible: f64) -> u32 {
         let Some(window) = &self.window else { return panel::NOT_YET };
-        let ripple = window.ripple(config, HIGHEST);
+        let Ok(ripple) = window.ripple(config, HIGHEST) else { return panel::NONE };
         // The motor's torque does not follow the speed within a stroke: the governor does not see it.
         let balance = Balance { inertia: Series::from_samples(&INERTIA), slope: 0.0 };
         self.advice = ripple.flywheel(&config.cycle, &balance, permissible).map(|flywheel| (ripple, flywheel));

@@ -2,6 +2,7 @@
 
 mod breakage;
 mod cycle_mean;
+mod cylinders;
 mod extremes;
 mod flywheel;
 mod motion;

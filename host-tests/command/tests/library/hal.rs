@@ -13,4 +13,3 @@ mod table;
 mod torque;
 mod turn;
 mod vibration;
-mod wheel;

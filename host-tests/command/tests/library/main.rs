@@ -17,3 +17,4 @@ mod machine;
 mod references;
 mod scheduling;
 mod tick;
+mod wheel;

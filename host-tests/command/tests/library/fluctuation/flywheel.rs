@@ -113,7 +113,7 @@ fn window(
     });
     let taken = taken.unwrap();
     let config = &config.fluctuation.1;
-    (taken.ripple(config, highest), taken.motor_torque(config, highest), config.cycle)
+    (taken.ripple(config, highest).unwrap(), taken.motor_torque(config, highest), config.cycle)
 }
 
 const MACHINE: Drivetrain = Drivetrain { motor_inertia: MOTOR, load_inertia: LOAD, stiffness: STIFFNESS, damping: 0.0 };

@@ -112,7 +112,7 @@ fn drift(ticks: u64) -> ([f64; 2], [f64; 2]) {
         if let Some(window) = parts.1.take()
             && (tick < 10_000 || tick > ticks - 10_000)
         {
-            ends.push(window.ripple(&config.1, 4));
+            ends.push(window.ripple(&config.1, 4).unwrap());
         }
     }
     let (first, last) = (ends.first().unwrap(), ends.last().unwrap());
@@ -166,7 +166,7 @@ fn at_a_standstill_and_to_and_fro_there_is_no_cycle() {
         let speed = if k < 1500 { 1.0 } else { -1.0 } * 10_000_000.0 / 4_294_967_296.0 * TAU / PERIOD;
         let (reading, window) = feed(angle as u32, speed);
         if let Some(window) = window {
-            seen.push(window.ripple(&config.1, 4).mean / speed);
+            seen.push(window.ripple(&config.1, 4).unwrap().mean / speed);
         }
         if let Some(reading) = reading {
             let sign = if k < 1500 || reading.mean > 0.0 { 1.0 } else { -1.0 };
@@ -197,7 +197,7 @@ fn a_disturbance_costs_what_it_falls_into() {
             assert!((reading.mean / speed - 1.0).abs() < 1e-6, "{k}: {reading:?}");
         }
         if let Some(window) = parts.1.take() {
-            let ripple = window.ripple(&config.1, 4);
+            let ripple = window.ripple(&config.1, 4).unwrap();
             // Between a parabola over a bin and a sine of the fourth order some 1e-5 of a bin's time is left.
             assert!((ripple.mean / speed - 1.0).abs() < 1e-6 && ripple.motor.delta < 5e-5, "{k}: {ripple:?}");
             good += 1;

@@ -68,7 +68,7 @@ impl Machine {
             let angle = ((phi / TAU * 8192.0).floor() as i64 as u32) << 19;
             waveform.measure(&config, angle, 0.0, &Estimate::default());
             if let Some(window) = waveform.take() {
-                return (window.ripple(&config, 16), cycle, 2.0 * (most - least) / (most + least));
+                return (window.ripple(&config, 16).unwrap(), cycle, 2.0 * (most - least) / (most + least));
             }
         }
     }

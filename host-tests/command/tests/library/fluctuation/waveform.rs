@@ -29,7 +29,7 @@ fn window<N: Built>(motion: &mut Motion, cycle: Cycle, cycles: u32, highest: usi
         window.is_some()
     });
     let window = window.expect("a window within 70 s");
-    let ripple = window.ripple(&config.fluctuation.1, highest);
+    let ripple = window.ripple(&config.fluctuation.1, highest).unwrap();
     (window, ripple)
 }
 

@@ -1,0 +1,8 @@
+//! The toothed wheel: angle, place, phase and cycles, from simulated edges and from recordings.
+
+mod angle;
+mod cam;
+mod edges;
+mod learnt;
+mod other_teeth;
+mod recordings;

@@ -1,0 +1,291 @@
+//! Ripple from the times of a wheel's teeth.
+//!
+//! The lateness of each tooth against an even cycle is averaged over several cycles, each taken by its own length. It
+//! is the ripple's integral plus the wheel's pitch errors: a tooth displaced by a tenth of a degree appears as a delta
+//! of 1/500. So the errors are learnt while there is no ripple, as the machine coasts without fuel or load, and taken
+//! off. The orders follow from the lateness by least squares, whatever the places of the teeth.
+
+use core::f64::consts::TAU;
+
+use super::quality::{Quality, Unusable};
+use super::series::{Order, Series};
+use super::{MAX_ORDER, Ripple};
+use crate::math::{ln, sin_cos, sqrt};
+use crate::wheel::{ToothCycle, ToothedWheelConfig};
+
+/// The cycles of a wheel's teeth, `TEETH` of them to a cycle: 58 of a 60-2 wheel that turns once in it, 116 where it
+/// turns twice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ToothWindow<const TEETH: usize> {
+    /// Sums of the lateness \[cycle\].
+    late: [f32; TEETH],
+    /// Sum of its squares over all teeth \[cycle2\].
+    squares: f64,
+    cycles: u32,
+    /// Length of all cycles, of the first and of the last \[s\].
+    whole: f64,
+    opening: f64,
+    closing: f64,
+    /// Number of the last cycle.
+    number: u32,
+    missed: u32,
+}
+
+/// By how much each tooth passes later than its place would \[rad\], 2 pi to the cycle, less the first's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ToothErrors<const TEETH: usize>([f32; TEETH]);
+
+impl<const TEETH: usize> ToothErrors<TEETH> {
+    /// A perfect wheel.
+    pub const NONE: Self = ToothErrors([0.0; TEETH]);
+
+    /// The errors, tooth by tooth.
+    pub fn radians(&self) -> &[f32; TEETH] {
+        &self.0
+    }
+}
+
+impl<const TEETH: usize> Default for ToothWindow<TEETH> {
+    fn default() -> Self {
+        ToothWindow {
+            late: [0.0; TEETH],
+            squares: 0.0,
+            cycles: 0,
+            whole: 0.0,
+            opening: 0.0,
+            closing: 0.0,
+            number: 0,
+            missed: 0,
+        }
+    }
+}
+
+/// Angle of a cycle's tooth \[cycle\].
+fn place<const WHEEL: usize>(config: &ToothedWheelConfig<WHEEL>, tooth: usize) -> f64 {
+    let (turn, in_turn) = (tooth / WHEEL.max(1), tooth % WHEEL.max(1));
+    let angle = config.teeth.get(in_turn).map_or(0, |tooth| tooth.angle);
+    (f64::from(turn as u32) + f64::from(angle) / 4_294_967_296.0) / f64::from(config.turns.max(1))
+}
+
+impl<const TEETH: usize> ToothWindow<TEETH> {
+    /// Adds a cycle, in the main loop. A tooth without an edge counts as late as its neighbours.
+    pub fn add<const WHEEL: usize>(&mut self, config: &ToothedWheelConfig<WHEEL>, cycle: &ToothCycle<TEETH>) {
+        let length = f64::from(cycle.length());
+        if length <= 0.0 {
+            return;
+        }
+        let first = place(config, 0);
+        let mut late = [None; TEETH];
+        for (tooth, (late, since)) in late.iter_mut().zip(cycle.since_first()).enumerate() {
+            *late = since.map(|since| (f64::from(since) / length - (place(config, tooth) - first)) as f32);
+        }
+        let (mut last, mut sum) = (0.0, 0.0);
+        for tooth in 0..TEETH {
+            let own = late.get(tooth).copied().flatten().unwrap_or_else(|| {
+                let next = late.iter().skip(tooth).find_map(|late| *late).unwrap_or(0.0);
+                0.5 * (last + next)
+            });
+            last = own;
+            sum += f64::from(own) * f64::from(own);
+            if let Some(late) = self.late.get_mut(tooth) {
+                *late += own;
+            }
+        }
+        self.squares += sum;
+        let seconds = length * config.period;
+        if self.cycles == 0 {
+            self.opening = seconds;
+        } else {
+            self.missed += cycle.number().wrapping_sub(self.number).wrapping_sub(1);
+        }
+        self.number = cycle.number();
+        self.closing = seconds;
+        self.whole += seconds;
+        self.cycles += 1;
+    }
+
+    /// Cycles so far.
+    pub fn cycles(&self) -> u32 {
+        self.cycles
+    }
+
+    /// Relative rise of the slowness over a cycle, and the acceleration of the mean speed of a cycle of so many turns
+    /// [rad/s2].
+    fn trend(&self, angle: f64) -> (f64, f64) {
+        if self.cycles < 2 || self.opening <= 0.0 || self.closing <= 0.0 {
+            return (0.0, 0.0);
+        }
+        // Cycles that were missed have passed all the same.
+        let between = f64::from(self.cycles - 1 + self.missed);
+        let rise = (ln(self.closing) - ln(self.opening)) / between;
+        let mean = self.whole / f64::from(self.cycles);
+        (rise, (angle / self.closing - angle / self.opening) / (between * mean))
+    }
+
+    /// The mean lateness of each tooth \[cycle\], the trend taken off.
+    fn lateness<const WHEEL: usize>(&self, config: &ToothedWheelConfig<WHEEL>, rise: f64) -> [f64; TEETH] {
+        let mut mean = [0.0; TEETH];
+        let first = place(config, 0);
+        for (tooth, (mean, &late)) in mean.iter_mut().zip(&self.late).enumerate() {
+            let x = place(config, tooth) - first;
+            // The integral of rise (x - 1/2), and of the slope's own change under a steady acceleration.
+            let bend = 0.5 * (x * x - x) * rise * (1.0 + 0.5 * rise * (2.0 * x - 1.0));
+            *mean = f64::from(late) / f64::from(self.cycles.max(1)) - bend;
+        }
+        mean
+    }
+
+    /// The wheel's errors, from a window in which the machine had no ripple: it coasted, without fuel and without load.
+    /// Over some 16 turns: fewer average less of the clock's rounding.
+    pub fn errors<const WHEEL: usize>(&self, config: &ToothedWheelConfig<WHEEL>) -> ToothErrors<TEETH> {
+        let (rise, _) = self.trend(1.0);
+        let mut errors = [0.0; TEETH];
+        for (error, late) in errors.iter_mut().zip(self.lateness(config, rise)) {
+            *error = (late * TAU) as f32;
+        }
+        ToothErrors(errors)
+    }
+
+    /// The waveform of the wheel's speed with the orders up to `highest`, which counts at most [`MAX_ORDER`] and a
+    /// quarter of the teeth.
+    ///
+    /// Take no more orders than the machine has: the clock's rounding, which a steady speed may repeat in every turn,
+    /// shows in the n-th order n times.
+    ///
+    /// # Errors
+    /// A window that cannot be used, with the cause.
+    pub fn ripple<const WHEEL: usize>(
+        &self,
+        config: &ToothedWheelConfig<WHEEL>,
+        errors: &ToothErrors<TEETH>,
+        highest: usize,
+    ) -> Result<Ripple, Unusable> {
+        if self.cycles == 0 {
+            return Err(Unusable::NoCycle);
+        }
+        let highest = highest.min(MAX_ORDER).min(TEETH / 4);
+        let angle = TAU * f64::from(config.turns);
+        let (rise, acceleration) = self.trend(angle);
+        if rise.abs() > Unusable::RISE {
+            return Err(Unusable::Trend);
+        }
+        let late = self.lateness(config, rise);
+        let mut slowness = Series::constant(1.0);
+        let mut fit = Series::default();
+        let mut own = late;
+        // The passage of a tooth's error depends on the slowness there.
+        let rounds = if errors.0.iter().all(|error| *error == 0.0) { 1 } else { 3 };
+        for _ in 0..rounds {
+            for (tooth, (own, (&late, &error))) in own.iter_mut().zip(late.iter().zip(&errors.0)).enumerate() {
+                *own = late - f64::from(error) / TAU * slowness.at(TAU * place(config, tooth));
+            }
+            fit = fitted(config, &own, &fit, highest);
+            // Time over the cycle's is theta/2 pi and the lateness; its derivative is the slowness over its mean.
+            slowness = fit.derivative();
+            slowness.mean = 1.0;
+            for order in &mut slowness.orders {
+                *order = Order { cos: TAU * order.cos, sin: TAU * order.sin };
+            }
+        }
+        let mut residue = 0.0;
+        for (tooth, &own) in own.iter().enumerate() {
+            let left = own - fit.at(TAU * place(config, tooth));
+            let slack = config.teeth.get(tooth % WHEEL.max(1)).map_or(0, |tooth| tooth.slack);
+            if left.abs() * f64::from(config.turns) > f64::from(slack) / 4_294_967_296.0 * Unusable::TOOTH {
+                return Err(Unusable::Teeth);
+            }
+            residue += left * left;
+        }
+        let teeth = TEETH.max(1) as f64;
+        let mean_square: f64 = self.late.iter().map(|&late| f64::from(late) * f64::from(late)).sum::<f64>()
+            / f64::from(self.cycles)
+            / f64::from(self.cycles);
+        let spread = self.squares / f64::from(self.cycles) - mean_square;
+        let quality = Quality {
+            residue: sqrt(residue / teeth) * angle,
+            spread: if self.cycles > 1 { sqrt((spread / teeth).max(0.0)) * angle } else { 0.0 },
+            trend: rise,
+            missed: self.missed,
+        };
+        let speed = f64::from(self.cycles) * angle / self.whole;
+        Ok(Ripple { quality, ..Ripple::of(slowness, speed, acceleration, angle, highest, self.cycles) })
+    }
+}
+
+/// Most steps of the least squares; each is closer by a factor that grows with the evenness of the teeth.
+const STEPS: u32 = 40;
+
+/// The mean and the orders of values at the teeth by least squares, from a first guess: conjugate gradients on the
+/// normal equations (Bjorck, Numerical Methods for Least Squares Problems, 7.4.1).
+fn fitted<const WHEEL: usize, const TEETH: usize>(
+    config: &ToothedWheelConfig<WHEEL>,
+    values: &[f64; TEETH],
+    guess: &Series,
+    highest: usize,
+) -> Series {
+    let at = |tooth: usize| sin_cos(TAU * place(config, tooth));
+    let mut series = *guess;
+    let mut left = *values;
+    for (tooth, left) in left.iter_mut().enumerate() {
+        let (sin, cos) = at(tooth);
+        *left -= series.along(cos, sin);
+    }
+    let mut direction = Series::default();
+    let (mut first, mut last) = (0.0, 0.0);
+    for step in 0..STEPS {
+        let mut gradient = Series::default();
+        for (tooth, &left) in left.iter().enumerate() {
+            let (sin, cos) = at(tooth);
+            gradient.mean += left;
+            let (mut c, mut s) = (1.0, 0.0);
+            for order in gradient.orders.iter_mut().take(highest) {
+                (c, s) = (c * cos - s * sin, s * cos + c * sin);
+                order.cos += left * c;
+                order.sin += left * s;
+            }
+        }
+        let size = product(&gradient, &gradient);
+        if step == 0 {
+            first = size;
+        }
+        // The orders are then right to 1e-9 of the largest.
+        if size <= 1e-18 * first || size <= 1e-30 {
+            break;
+        }
+        let share = if step == 0 { 0.0 } else { size / last };
+        last = size;
+        direction = combined(&gradient, share, &direction);
+        let mut along = [0.0; TEETH];
+        let mut square = 0.0;
+        for (tooth, along) in along.iter_mut().enumerate() {
+            let (sin, cos) = at(tooth);
+            *along = direction.along(cos, sin);
+            square += *along * *along;
+        }
+        if square <= 0.0 {
+            break;
+        }
+        let length = size / square;
+        series = combined(&series, length, &direction);
+        for (left, along) in left.iter_mut().zip(&along) {
+            *left -= length * along;
+        }
+    }
+    series
+}
+
+fn product(a: &Series, b: &Series) -> f64 {
+    a.mean * b.mean + a.orders.iter().zip(&b.orders).map(|(a, b)| a.cos * b.cos + a.sin * b.sin).sum::<f64>()
+}
+
+/// `a + share b`.
+fn combined(a: &Series, share: f64, b: &Series) -> Series {
+    let mut sum = *a;
+    sum.mean += share * b.mean;
+    for (sum, b) in sum.orders.iter_mut().zip(&b.orders) {
+        *sum = Order { cos: sum.cos + share * b.cos, sin: sum.sin + share * b.sin };
+    }
+    sum
+}

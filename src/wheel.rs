@@ -1,0 +1,41 @@
+//! The toothed wheel: the angle and the times of a cycle's teeth, from one capture interrupt.
+//!
+//! | part | called by | gives |
+//! |---|---|---|
+//! | [`ToothedWheel::tooth`] | the interrupt of the crank's capture | |
+//! | [`ToothedWheel::cam`] | the interrupt of a cam's capture, where there is one | the phase of the cycle |
+//! | [`ToothedWheel::index`] | that of an index's capture | the zero of a wheel without a gap |
+//! | [`ToothedWheel::at`] | the tick | the angle, with its standard deviation |
+//! | [`ToothedWheel::take`] | the main loop, once a cycle | the times of its teeth, for [`crate::fluctuation`] |
+//!
+//! # Place
+//! The wheel is described by the angles of its teeth ([`crate::settings::Teeth`]). While the place is unknown, the
+//! ratio of each interval to the one before excludes the places where it cannot occur. The place that is left must then
+//! hold for a turn, for two where there is jitter or where the teeth are few, every tooth within half a pitch of where
+//! the smoothed speed expects it: a wheel with other teeth gives no angle. A wheel that once was found to be the one
+//! described is found again at its next gap.
+//!
+//! # Speed
+//! The passage of the next tooth is predicted from a smoothed time and a smoothed speed, which are corrected by the
+//! prediction's error. How strongly follows from the errors: errors of the same sign call for more, errors of
+//! alternating sign are jitter and call for less.
+//!
+//! # Edges too many and too few
+//! An edge that comes early by more than five times the errors' mean size, or by three quarters of a pitch, is left
+//! out. An edge that fits one of the next [`SKIPPED`] teeth stands for that tooth. Behind a longer interval the machine
+//! is taken to have paused. More than eight of these lose the place; one is forgotten in 16 good teeth.
+//!
+//! One pickup does not see the direction: the wheel counts upwards.
+
+mod cam;
+mod check;
+mod cycle;
+mod place;
+mod tooth;
+mod track;
+
+pub use cam::Cam;
+pub use cycle::{CycleTimes, Record, ToothCycle};
+pub use place::Search;
+pub(crate) use place::{MOST, RATIOS, ratio_of};
+pub use tooth::{SKIPPED, Stage, Tooth, ToothedWheel, ToothedWheelConfig, WheelAngle};

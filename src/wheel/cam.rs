@@ -1,0 +1,105 @@
+//! The phase of the cycle from a cam, and the zero of a wheel without a gap from an index.
+
+use super::cycle::Record;
+use super::tooth::{Stage, ToothedWheel, ToothedWheelConfig};
+
+/// A cam's edges, `EDGES` to the cycle. Made by [`crate::settings`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Cam<const EDGES: usize> {
+    /// Their places in the cycle [2^-32 cycle].
+    pub edges: [u32; EDGES],
+    /// How far an edge may be from its place, as a cam's drive may be stretched or shifted [2^-32 cycle].
+    pub tolerance: u32,
+}
+
+/// What the edges of cam and index have shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Phase {
+    /// Parts of the cycle, counted from the one assumed, that the wheel may be in.
+    left: u32,
+    /// Turns of an even wheel with all teeth between two edges of the index; none before its first edge.
+    turns: Option<u32>,
+}
+
+impl Phase {
+    pub const NEW: Phase = Phase { left: u32::MAX, turns: None };
+
+    /// Whether the index has shown all teeth of a turn.
+    pub fn counted(&self) -> bool {
+        self.turns.is_some_and(|turns| turns > 0)
+    }
+}
+
+impl<R: Record> ToothedWheel<R> {
+    /// An edge of the cam; to be called from the interrupt of its capture. The parts of the cycle in which the cam has
+    /// no edge here are excluded; when one is left, the cycle goes on from there. An edge that excludes all is left
+    /// out, and the next begin anew.
+    pub fn cam<const TEETH: usize, const EDGES: usize>(
+        &mut self,
+        config: &ToothedWheelConfig<TEETH>,
+        cam: &Cam<EDGES>,
+        time: u32,
+    ) {
+        let end = (TEETH as u32).wrapping_mul(config.turns);
+        let parts = end.checked_div(config.sector).unwrap_or(0);
+        let turn = self.in_cycle.checked_div(TEETH as u32).unwrap_or(0);
+        let elapsed = time.wrapping_sub(self.track.passage) as i32;
+        let (Some(tooth), 1..=32) = (config.teeth.get(self.place as usize), parts) else { return };
+        if self.stage == Stage::Searching {
+            return;
+        }
+        let angle = tooth.angle.wrapping_add(self.track.scale().angle(elapsed));
+        let share = |whole: u32, parts: u32| whole.checked_div(parts).unwrap_or(0);
+        let place = share(u32::MAX, config.turns).wrapping_mul(turn).wrapping_add(share(angle, config.turns));
+        let mut fitting = 0;
+        for part in 0..parts {
+            let here = place.wrapping_add(share(u32::MAX, parts).wrapping_mul(part));
+            if cam.edges.iter().any(|edge| (here.wrapping_sub(*edge) as i32).unsigned_abs() <= cam.tolerance) {
+                fitting |= 1 << part;
+            }
+        }
+        self.cam.left &= fitting;
+        if self.cam.left == 0 {
+            self.cam.left = u32::MAX;
+        }
+        if self.cam.left.is_power_of_two() && self.cam.left != 1 {
+            let later = self.cam.left.trailing_zeros().wrapping_mul(config.sector);
+            self.in_cycle = wrapped(self.in_cycle.wrapping_add(later), end);
+            self.place = self.in_cycle.checked_rem(TEETH as u32).unwrap_or(0);
+            self.cam.left = 1;
+            self.record.lost();
+        }
+    }
+
+    /// An edge of the index of a wheel without a gap: the next tooth is the first. The angle is given once all teeth
+    /// have been counted between two edges of the index.
+    pub fn index<const TEETH: usize>(&mut self, _config: &ToothedWheelConfig<TEETH>) {
+        let last = (TEETH as u32).wrapping_sub(1);
+        match self.cam.turns {
+            Some(turns) if self.place == last => self.cam.turns = Some(turns.saturating_add(1)),
+            _ if self.stage == Stage::Known => self.lose(),
+            _ => {
+                self.cam.turns = Some(0);
+                self.place = last;
+                self.in_cycle = last;
+            }
+        }
+    }
+
+    /// The turn of the cycle that the wheel is in, counted from 0; which is the first is open until a cam has shown it.
+    pub fn turn<const TEETH: usize>(&self, _config: &ToothedWheelConfig<TEETH>) -> u32 {
+        self.in_cycle.checked_div(TEETH as u32).unwrap_or(0)
+    }
+
+    /// Whether the cam has shown the phase of the cycle.
+    pub fn has_phase(&self) -> bool {
+        self.stage == Stage::Known && self.cam.left == 1
+    }
+}
+
+/// A number below twice `end`, less `end` where it reaches it.
+fn wrapped(number: u32, end: u32) -> u32 {
+    if number >= end { number.wrapping_sub(end) } else { number }
+}
