@@ -1,8 +1,8 @@
 //! A made-up report with everything in it: good and bad variants, a step that diverges, failures in a sweep.
 
 use driveline_report::{
-    Budget, Comparison, Composition, Deviation, Fact, Instructions, Mark, Report, Signal, Sweep, SweepPoint,
-    Trajectory, Variant,
+    Budget, Comparison, Composition, Deviation, Fact, Instructions, Mark, Report, Sample, Sampled, Signal, Sweep,
+    SweepPoint, Trajectory, Variant,
 };
 
 /// The report.
@@ -24,6 +24,7 @@ pub fn report() -> Report {
             fact("first resonance", "41.2 Hz"),
             fact("time simulated", "12 s"),
         ],
+        samples: vec![sampled()],
         variants: variants(),
         trajectories: trajectories(),
         comparisons: comparisons(),
@@ -196,4 +197,18 @@ fn compositions() -> Vec<Composition> {
         composition("two-mass", "fixed", "m3", 788, 100, 44),
         composition("full", "fixed", "m3", 1_364, 168, 84),
     ]
+}
+
+fn sampled() -> Sample {
+    let error = |nominal: f64| Sampled { nominal, median: 5.0 * nominal, p90: 8.0 * nominal };
+    Sample {
+        variant: "hoist/f32/reduced/10000".into(),
+        run: "a lift".into(),
+        draws: 10,
+        seed: 1,
+        unstable: 0,
+        shaft_torque: error(0.002),
+        load_speed: error(0.003),
+        load_torque: error(0.006),
+    }
 }
