@@ -131,8 +131,8 @@ impl Tolerance {
 }
 
 impl Factor {
-    /// The range that a single number stands for: a ratio by so much either way, a difference or an offset either way, an
-    /// amplitude from none.
+    /// The range that a single number stands for: a ratio by so much either way, a difference or an offset either way,
+    /// an amplitude from none.
     pub const fn about(self, by: f64) -> Tolerance {
         let (low, high) = match self {
             Self::Efficiency | Self::TorqueOffset => (-by, by),

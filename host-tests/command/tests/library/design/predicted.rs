@@ -171,8 +171,8 @@ fn a_swing_of_another_machine_passes_as_predicted() {
 }
 
 /// Draws of torque constant, offset, efficiency and inertias at a steady acceleration: what a motor of the drawn
-/// machine does with the reported torque. 4,000 draws have an rms that is known to `1/sqrt(2 n)` = 1.1 %, the products of
-/// two deviations add 5 % of 5 %.
+/// machine does with the reported torque. 4,000 draws have an rms that is known to `1/sqrt(2 n)` = 1.1 %, the products
+/// of two deviations add 5 % of 5 %.
 #[test]
 fn static_errors_are_those_of_draws() {
     const TOLERANCE: Tolerance = Tolerance { efficiency: 0.03, ..Tolerance::USUAL };
