@@ -117,7 +117,7 @@ fn find(rotor: &RotorFile, peaks: Vec<Peak>) -> Result<Found, RotorError> {
 
 fn response(rotor: &RotorFile) -> Result<(Response, Vec<Peak>), RotorError> {
     let unbalance = rotor.unbalances();
-    let mut speeds: Vec<f64> = (1..POINTS).map(|k| rotor.highest * k as f64 / (POINTS - 1) as f64).collect();
+    let mut speeds = steps(rotor.highest);
     // the top of a narrow peak, too; an undamped one has none
     speeds.extend(rotor.modal.criticals().iter().map(|critical| critical.speed * (1.0 + 1e-9)));
     speeds.retain(|&speed| speed <= rotor.highest);
@@ -139,6 +139,11 @@ fn response(rotor: &RotorFile) -> Result<(Response, Vec<Peak>), RotorError> {
         }
     }
     Ok((Response { speeds, amplitudes }, peaks))
+}
+
+/// The speeds of the response up to the highest, which rounding does not pass.
+fn steps(highest: f64) -> Vec<f64> {
+    (1..POINTS).map(|k| (highest * k as f64 / (POINTS - 1) as f64).min(highest)).collect()
 }
 
 const fn word(sense: WhirlSense) -> &'static str {
@@ -310,5 +315,21 @@ fn campbell(found: &Found) -> Lines {
             })
             .collect(),
         logarithmic: false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{POINTS, steps};
+
+    #[test]
+    fn the_highest_speed_is_the_last_step() {
+        for number in 1..20_000 {
+            let highest = f64::from(number) * 0.037;
+            let speeds = steps(highest);
+            let last = speeds[POINTS - 2];
+            // one rounding below at most, and never above: what is above is left out
+            assert!(last <= highest && last >= highest.next_down(), "{last} {highest}");
+        }
     }
 }
