@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::{Failure, say, say_json};
 
-/// Print a file to begin with: a machine, a train with its run, a rotor, readings of a rotor to be balanced.
+/// Print a file to begin with: a machine, a train with its run, a rotor, readings for balancing, a recording.
 ///
 /// Without a name, prints what there is.
 #[derive(Debug, Args)]
@@ -30,7 +30,7 @@ struct Entry {
 }
 
 /// Name, for which commands, and text of each.
-const EXAMPLES: [(&str, &str, &str); 9] = [
+const EXAMPLES: [(&str, &str, &str); 10] = [
     ("hoist", "modes, design", include_str!("../../machines/hoist.toml")),
     ("axis", "modes, design, commissioning", include_str!("../../machines/axis.toml")),
     ("mill", "modes, design", include_str!("../../machines/mill.toml")),
@@ -40,6 +40,7 @@ const EXAMPLES: [(&str, &str, &str); 9] = [
     ("tilting", "simulate, modes", include_str!("../../trains/tilting.toml")),
     ("three-discs", "rotor", include_str!("../../rotors/three_discs.toml")),
     ("fan-balance", "balancing", include_str!("../../rotors/fan-balance.toml")),
+    ("bench-log", "identify, replay", include_str!("../../recordings/two-mass-bench.csv")),
 ];
 
 impl Example {
