@@ -110,6 +110,7 @@ mod stage;
 pub use eccentricity::Eccentricity;
 pub use error::Error;
 pub use figure::Figure;
+pub use fit::{Derived, Fit, fit};
 pub use friction::Friction;
 pub use job::{Findings, Job};
 pub use response::Response;

@@ -22,7 +22,7 @@ const COMPLIANCE: f64 = 0.5;
 /// A fitted machine, in the unit of a guessed inertia.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct Fit {
+pub struct Fit {
     /// Unit of inertia \[kg m2\].
     unit: f64,
     /// Highest frequency \[rad/s\], the unit of R.
@@ -39,7 +39,7 @@ pub(crate) struct Fit {
 /// Quantities derived from a fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct Derived {
+pub struct Derived {
     /// Total inertia \[kg m2\].
     pub total: f64,
     /// Inertia on the motor's side \[kg m2\].
@@ -59,9 +59,12 @@ pub(crate) struct Derived {
 }
 
 impl Derived {
-    pub(crate) const COUNT: usize = 8;
+    /// How many there are.
+    pub const COUNT: usize = 8;
 
-    pub(crate) fn array(&self) -> [f64; Self::COUNT] {
+    /// In the order of the fields.
+    #[must_use]
+    pub fn array(&self) -> [f64; Self::COUNT] {
         [
             self.total,
             self.motor,
@@ -181,8 +184,10 @@ impl Data<'_> {
 /// Points of the grid.
 const PLACES: u32 = 96;
 
-/// Fits responses, with the resonance looked for between two frequencies \[rad/s\]; `unit` is a guess of the inertia.
-pub(crate) fn fit(responses: &[Response], unit: f64, between: [f64; 2]) -> Option<Fit> {
+/// Fits responses, with the resonance looked for between two frequencies \[rad/s\]; `unit` is a guess of the inertia
+/// \[kg m2\]. `None` for fewer than six responses, and where no two masses with positive inertias fit.
+#[must_use]
+pub fn fit(responses: &[Response], unit: f64, between: [f64; 2]) -> Option<Fit> {
     let highest = responses.iter().map(|response| response.frequency).fold(0.0, f64::max);
     let data = Data { responses, unit, highest };
     let lines = data.each().count();
@@ -265,12 +270,15 @@ impl Fit {
         sqrt(damped.over(below).square()) * derived.load / derived.total
     }
 
-    pub(crate) fn derived(&self) -> Derived {
+    /// The machine of the fit.
+    #[must_use]
+    pub fn derived(&self) -> Derived {
         derived(&self.x, self.unit, self.highest)
     }
 
     /// Values and standard deviations, in the order of [`Derived::array`].
-    pub(crate) fn figures(&self) -> [Figure; Derived::COUNT] {
+    #[must_use]
+    pub fn figures(&self) -> [Figure; Derived::COUNT] {
         let values = self.derived().array();
         let mut slopes = [[0.0; PARAMETERS]; Derived::COUNT];
         for k in 0..PARAMETERS {

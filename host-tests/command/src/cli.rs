@@ -22,6 +22,7 @@ mod example;
 mod export;
 mod failure;
 mod generator;
+mod identify;
 mod longest_path;
 mod modes;
 mod new;
@@ -29,6 +30,8 @@ mod output;
 mod progress;
 mod project;
 mod qemu;
+mod recorded;
+mod replay;
 mod report;
 mod results;
 mod rotor;
@@ -76,9 +79,11 @@ enum Command {
     Rotor(rotor::Rotor),
     Balancing(balance::Balance),
     Genset(generator::Generator),
+    Identify(identify::Identify),
     LongestPath(longest_path::LongestPath),
     Check(check::Check),
     Commissioning(commission::Commission),
+    Replay(replay::Replay),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
     Sizes(sizes::Sizes),
@@ -101,9 +106,11 @@ impl Command {
             Self::Rotor(command) => command.json,
             Self::Balancing(command) => command.json,
             Self::Genset(command) => command.json,
+            Self::Identify(command) => command.json,
             Self::LongestPath(command) => command.json,
             Self::Check(command) => command.json,
             Self::Commissioning(command) => command.json,
+            Self::Replay(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
             Self::Sizes(command) => command.json,
@@ -126,9 +133,11 @@ impl Command {
             Self::Rotor(command) => command.execute(),
             Self::Balancing(command) => command.execute(),
             Self::Genset(command) => command.execute(),
+            Self::Identify(command) => command.execute(),
             Self::LongestPath(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Commissioning(command) => command.execute(),
+            Self::Replay(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),
             Self::Sizes(command) => command.execute(),

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::{Failure, say, say_json};
 
-/// Print a file to begin with: a machine, a train with its run, a rotor, readings of a rotor to be balanced.
+/// Print a file to begin with: a machine, a train with its run, a rotor, readings for balancing, a recording.
 ///
 /// Without a name, prints what there is.
 #[derive(Debug, Args)]
@@ -41,6 +41,7 @@ const EXAMPLES: [(&str, &str, &str); 10] = [
     ("tilting", "simulate, modes", include_str!("../../trains/tilting.toml")),
     ("three-discs", "rotor", include_str!("../../rotors/three_discs.toml")),
     ("fan-balance", "balancing", include_str!("../../rotors/fan-balance.toml")),
+    ("bench-log", "identify, replay", include_str!("../../recordings/two-mass-bench.csv")),
 ];
 
 impl Example {

@@ -39,6 +39,8 @@ fn every_command_explains_itself_with_examples() {
         "setup",
         "sizes",
         "commissioning",
+        "identify",
+        "replay",
     ] {
         let output = driveline(&[command, "--help"]);
         assert!(output.status.success());

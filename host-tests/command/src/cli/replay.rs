@@ -1,0 +1,146 @@
+//! `cargo driveline replay`: the observer over a recording.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use driveline::configure::Rating;
+use driveline::design::Rate;
+use serde_json::json;
+
+use super::controller::{tuning, two_masses};
+use super::identify::slug;
+use super::recorded::Recorded;
+use super::results::{Destination, check};
+use super::{Failure, Progress, say, say_json};
+use crate::machine_file::{MachineFile, read};
+use crate::recording::{Recording, read_recording};
+use crate::replay::{Between, Design, Replayed, Signals, csv, page, replay, summaries, table};
+use driveline_report::Fact;
+use driveline_report::format::significant;
+
+/// Replay a recording through the observer of a machine: estimates, innovation, flags, and errors where the load was
+/// measured.
+///
+/// The library's own code runs as on the drive, in `f32` and in fixed point, designed from the machine file at the
+/// recording's rate. Columns are found by quantity and unit: torque or current and angle or speed of the motor;
+/// `load_angle`, `load_speed`, `shaft_torque` and `load_torque`, at the motor's shaft, are what the estimates are
+/// compared with.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  cargo driveline example bench-log > bench.csv
+  cargo driveline identify bench.csv --rate 2500 --torque-constant 0.564 --to 5 --toml bench.toml
+  cargo driveline replay bench.csv --machine bench.toml --rate 2500 --torque-constant 0.564 --delay 1.2e-4 --from 5")]
+pub struct Replay {
+    /// The recording: a CSV file
+    file: PathBuf,
+    /// The machine: a TOML file of elements from the motor to the load
+    #[arg(long, value_name = "FILE")]
+    machine: PathBuf,
+    #[command(flatten)]
+    recorded: Recorded,
+    /// Keep the torque from each sample to the next, as of a command; a measured one runs straight
+    #[arg(long)]
+    held: bool,
+    /// Time by which the torque acts after its sample [s]
+    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    delay: f64,
+    /// Write the estimates of every tick as a table
+    #[arg(long, value_name = "PATH")]
+    csv: Option<PathBuf>,
+    /// File of the page [default: report/NAME-replay.html]
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+    /// Print JSON, and write a page only with --html
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Replay {
+    /// Reads recording and machine, runs the observer and shows its estimates.
+    ///
+    /// # Errors
+    /// A fault of a file; a machine that no observer follows at the recording's rate.
+    pub fn execute(&self) -> Result<(), Failure> {
+        let asked = self.recorded.asked()?;
+        if !(self.delay >= 0.0 && self.delay.is_finite()) {
+            return Err(Failure::usage(format!("--delay must be zero or above and finite, not {:?}", self.delay)));
+        }
+        let name = slug(&self.file);
+        let sheet = Destination::page_unless(self.json, self.html.as_deref(), &format!("{name}-replay"));
+        let destination = self.csv.as_deref().map(|path| Destination::chosen("table", path));
+        check(&[&self.file, &self.machine], destination.iter().chain(&sheet))?;
+        let machine = read(&self.machine)?;
+        let recording = read_recording(&self.file, &asked)?;
+        if recording.len() < 100 || !recording.period.is_finite() {
+            let found = format!("{} samples over time", recording.len());
+            return Err(recording.fault(found, "at least 100").into());
+        }
+        let two = two_masses(&machine);
+        let constant = self.recorded.torque_constant;
+        let between = if self.held { Between::Held } else { Between::Straight };
+        let signals = Signals::of(&recording, two.as_ref(), constant, between, self.delay)?;
+        let progress = Progress::of(2 * recording.len() as u64);
+        progress.says("observing");
+        let mut done = 0_u64;
+        let tick = || {
+            done += 1;
+            if done.is_multiple_of(4096) {
+                progress.at(done);
+            }
+        };
+        let replayed = self.run(&machine, &recording, signals, tick)?;
+        drop(progress);
+        if self.json {
+            let predicted = replayed.predicted;
+            say_json(&json!({
+                "file": recording.name,
+                "machine": machine.name,
+                "samples": recording.len(),
+                "rate_hz": 1.0 / recording.period,
+                "settling": replayed.settling,
+                "predicted_innovation": predicted,
+                "numbers": summaries(&replayed),
+            }))?;
+        } else {
+            say(table(&replayed));
+            if replayed.signals.floating && replayed.signals.shaft_torque.is_some() {
+                say("shaft torque: against the twist of two encoders, whose zeros are not known: means apart");
+            }
+        }
+        destination.map_or(Ok(()), |table| table.write_and_say(&csv(&replayed), self.json))?;
+        let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
+        let facts = vec![
+            fact("samples", recording.len().to_string()),
+            fact("samples a second", significant(1.0 / recording.period)),
+            fact("innovation predicted", format!("{} rad", significant(replayed.predicted))),
+        ];
+        sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page(&name, &machine.name, facts, &replayed), self.json))
+    }
+
+    fn run(
+        &self,
+        machine: &MachineFile,
+        recording: &Recording,
+        signals: Signals,
+        tick: impl FnMut(),
+    ) -> Result<Replayed, Failure> {
+        let refused = |error: driveline::design::Error| {
+            let file = self.machine.display();
+            Failure::usage(format!("{file}: no observer can be designed at the recording's rate: {error}"))
+        };
+        let (_, encoder, disturbance) = tuning(machine);
+        let rate = Rate::every(recording.period);
+        let design = match two_masses(machine) {
+            Some(two) => Design::TwoMass(two.try_observer(rate, encoder, disturbance).map_err(refused)?),
+            None => {
+                let rigid = machine.rigid().map_err(|error| refused(error.into()))?;
+                // without a shaft there is no load behind one
+                Design::Rigid(rigid.try_observer(rate, encoder, disturbance).map_err(refused)?, 0.0)
+            }
+        };
+        let (torque, speed) = (machine.limits.torque, machine.limits.speed);
+        let screening = Rating { torque, speed, torque_limit: torque }.screening(encoder, rate);
+        replay(signals, &design, &screening, [torque, speed], tick)
+            .map_err(|error| Failure::usage(format!("{}: {error}", self.machine.display())))
+    }
+}

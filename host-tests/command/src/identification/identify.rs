@@ -1,0 +1,125 @@
+//! From a recording or a table to a machine.
+
+use super::estimate::{Estimate, Setting, estimate};
+use super::model::{Motion, Torque};
+use super::refusal::{self, LEAST, Refusal};
+use super::spectrum::{Line, carriers, guess, lines, smoothed, tabulated};
+use crate::machine_file::Diagnostic;
+use crate::recording::{Quantity, Recording};
+
+/// A machine that was identified.
+#[derive(Clone, Debug)]
+pub struct Identified {
+    /// The estimate.
+    pub estimate: Estimate,
+    /// How motion and torque were taken.
+    pub setting: Setting,
+    /// The lines that carry the torque, about the resonance.
+    pub lines: Vec<Line>,
+}
+
+/// Lines below which there are not enough: two for each parameter.
+const LINES: usize = 24;
+
+/// Why there is no machine: a fault of the recording, or a reason why it cannot tell.
+#[derive(Debug, thiserror::Error)]
+pub enum NotIdentified {
+    /// A column is missing.
+    #[error(transparent)]
+    File(#[from] Diagnostic),
+    /// The record cannot tell.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+}
+
+/// The machine of a recording of torque and motion.
+///
+/// # Errors
+/// See [`NotIdentified`].
+pub fn identify(recording: &Recording, torque_constant: Option<f64>) -> Result<Identified, NotIdentified> {
+    let torque = recording.torque(torque_constant)?;
+    let motions = [
+        (Quantity::Angle, Motion::Angle),
+        (Quantity::Speed, Motion::Speed),
+        (Quantity::Acceleration, Motion::Acceleration),
+    ];
+    let there = motions.iter().find_map(|(quantity, motion)| Some((recording.signal(*quantity)?, *motion)));
+    let Some((values, motion)) = there else {
+        return Err(recording.fault(recording.found(), "a column of the motor's angle, speed or acceleration").into());
+    };
+    refusal::signals(recording, &torque)?;
+    let all = lines(&torque, values, motion, recording.period);
+    let Some(lowest) = all.first().map(|line| 3.0 * line.frequency) else {
+        return Err(Refusal::Short(recording.len()).into());
+    };
+    let carrying = carriers(&all, [lowest, f64::INFINITY]);
+    let responses = smoothed(&carrying, motion);
+    if responses.len() < 8 {
+        return Err(Refusal::NotExcited(carrying.len().min(responses.len())).into());
+    }
+    let (start, fit) = guess(&responses).ok_or(Refusal::Unrelated)?;
+    // below that friction alone acts, above it higher modes
+    let between = [lowest.max(start.antiresonance() / 30.0), 5.0 * start.resonance()];
+    let lines = carriers(&all, between);
+    if lines.len() < LINES {
+        return Err(Refusal::NotExcited(lines.len()).into());
+    }
+    let settings = [Torque::Smooth, Torque::Held].map(|torque| Setting { motion, torque, period: recording.period });
+    let (estimate, setting) = estimate(&lines, start, &settings).ok_or(Refusal::Unrelated)?;
+    judged(&estimate, fit.improvement)?;
+    Ok(Identified { estimate, setting, lines })
+}
+
+/// An estimate that is of use; where it is not, and the first guess shows no resonance, that is the reason.
+fn judged(estimate: &Estimate, improvement: f64) -> Result<(), Refusal> {
+    refusal::figures(&estimate.model, &estimate.figures, estimate.unexplained, estimate.condition)
+        .map_err(|refusal| if improvement < LEAST { Refusal::Rigid(improvement) } else { refusal })
+}
+
+/// The machine of a table of a frequency response.
+///
+/// # Errors
+/// See [`NotIdentified`].
+pub fn identify_response(
+    recording: &Recording,
+    motion: Motion,
+    torque_constant: Option<f64>,
+) -> Result<Identified, NotIdentified> {
+    let lines = table(recording, motion, torque_constant)?;
+    if lines.len() < LINES {
+        return Err(Refusal::NotExcited(lines.len()).into());
+    }
+    let (start, fit) = guess(&tabulated(&lines, motion)).ok_or(Refusal::Unrelated)?;
+    let setting = Setting { motion, torque: Torque::Sine, period: 1.0 };
+    let (estimate, setting) = estimate(&lines, start, &[setting]).ok_or(Refusal::Unrelated)?;
+    judged(&estimate, fit.improvement)?;
+    Ok(Identified { estimate, setting, lines })
+}
+
+/// The rows of a table as lines of unit torque, in the order of their frequencies.
+fn table(recording: &Recording, motion: Motion, torque_constant: Option<f64>) -> Result<Vec<Line>, Diagnostic> {
+    let missing =
+        || recording.fault(recording.found(), "frequency with magnitude and phase, or with real and imaginary");
+    let frequencies = recording.signal(Quantity::Frequency).ok_or_else(missing)?;
+    let pair = |one, other| Some((recording.signal(one)?, recording.signal(other)?));
+    let polar = |(size, phase): (&f64, &f64)| nalgebra::Complex::from_polar(*size, *phase);
+    let values: Vec<_> = match pair(Quantity::Magnitude, Quantity::Phase) {
+        Some((sizes, phases)) => sizes.iter().zip(phases).map(polar).collect(),
+        None => {
+            let (re, im) = pair(Quantity::Real, Quantity::Imaginary).ok_or_else(missing)?;
+            re.iter().zip(im).map(|(re, im)| nalgebra::Complex::new(*re, *im)).collect()
+        }
+    };
+    let torque = nalgebra::Complex::new(torque_constant.unwrap_or(1.0), 0.0);
+    // an angle's noise grows with the frequency when it is taken as a speed; here it is taken as it is
+    let line = |(&frequency, &response)| Line { frequency, torque, motion: response, noise: 1.0 };
+    let mut lines: Vec<Line> = frequencies.iter().zip(&values).map(line).collect();
+    for (line, row) in lines.iter().zip(&recording.lines) {
+        if !(line.frequency > 0.0) || line.motion.norm_sqr() == 0.0 {
+            let found = format!("a frequency or a response of zero at line {row}");
+            return Err(recording.fault(found, format!("frequencies above zero, and responses of the {motion}")));
+        }
+    }
+    lines.sort_by(|one, other| one.frequency.total_cmp(&other.frequency));
+    Ok(lines)
+}

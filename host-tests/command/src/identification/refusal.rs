@@ -1,0 +1,147 @@
+//! Reasons why a recording cannot give a machine.
+
+use super::estimate::Figures;
+use super::model::Model;
+use crate::recording::{Quantity, Recording};
+
+/// Samples below which there is nothing to identify.
+const FEWEST: usize = 200;
+/// Share of samples at an extreme, in runs, from which a signal counts as clipped.
+const CLIPPED: f64 = 2e-3;
+/// Share by which speed and difference of the angle may differ.
+const AGREE: f64 = 0.1;
+
+/// Why a recording gives no machine.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Refusal {
+    /// Hardly any samples.
+    #[error("{0} samples are too few: at least {FEWEST} are expected, over ten periods of the resonance")]
+    Short(usize),
+    /// A signal does not move.
+    #[error("the {0} is constant: a record with a torque that changes, and the motion that follows, is expected")]
+    Constant(&'static str),
+    /// A signal stops at its extremes.
+    #[error("the {0} is clipped at {1:.4}, {2} samples from line {3} on: a wider range of the sensor is expected")]
+    Clipped(&'static str, f64, usize, u64),
+    /// Two columns of one motion contradict each other.
+    #[error("speed is {0:.4} times the change of the angle: one of the two units is wrong")]
+    Units(f64),
+    /// Too few lines carry torque.
+    #[error(
+        "the torque excites {0} frequencies at most: a multisine, a chirp, pseudo-random steps or a run-up past the \
+         resonance is expected"
+    )]
+    NotExcited(usize),
+    /// Nothing fits.
+    #[error(
+        "torque and motion do not belong to one machine: check the sign of the torque, the units, and whether both are \
+         of the same time"
+    )]
+    Unrelated,
+    /// A rigid machine explains it as well.
+    #[error(
+        "no resonance shows: a rigid machine explains the record as well (variance ratio {0:.1}, {LEAST:.0} are \
+         expected); excite it more, or at higher frequencies"
+    )]
+    Rigid(f64),
+    /// Two masses explain too little.
+    #[error(
+        "two masses leave {0:.0} % of the torque unexplained, {MOST:.0} % are accepted: another torque, backlash, or a \
+         machine of more masses acts, or a unit is wrong"
+    )]
+    Unexplained(f64),
+    /// The estimate is too vague.
+    #[error(
+        "the record does not determine the {0}: its standard deviation is {1:.1} % (condition of the information \
+         {2:.0}); excite more about resonance and antiresonance, or record longer"
+    )]
+    Vague(&'static str, f64, f64),
+    /// The estimate is no machine.
+    #[error("the fit has {0}, which no machine has: check units and sign of torque and motion")]
+    Impossible(&'static str),
+}
+
+/// Ratio of variances from which a resonance is significant, as in commissioning.
+pub const LEAST: f64 = 12.0;
+/// Largest share of the torque that may be left unexplained \[%\].
+pub const MOST: f64 = 40.0;
+
+/// Signals that can tell nothing.
+pub fn signals(recording: &Recording, torque: &[f64]) -> Result<(), Refusal> {
+    if recording.len() < FEWEST {
+        return Err(Refusal::Short(recording.len()));
+    }
+    let moved = [Quantity::Angle, Quantity::Speed, Quantity::Acceleration];
+    let signals = moved.iter().filter_map(|quantity| Some((quantity.name(), recording.signal(*quantity)?)));
+    for (name, signal) in [("torque", torque)].into_iter().chain(signals) {
+        let (low, high) = extremes(signal);
+        if !(high - low > 1e-12 * high.abs().max(low.abs())) {
+            return Err(Refusal::Constant(name));
+        }
+        // an angle that stops at its end is a machine that stands still
+        if name != "angle" {
+            for extreme in [low, high] {
+                clipped(name, signal, extreme, high - low, &recording.lines)?;
+            }
+        }
+    }
+    match (recording.signal(Quantity::Angle), recording.signal(Quantity::Speed)) {
+        (Some(angle), Some(speed)) => agree(angle, speed, recording.period),
+        _ => Ok(()),
+    }
+}
+
+fn extremes(signal: &[f64]) -> (f64, f64) {
+    signal.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)))
+}
+
+/// A signal that stays at an extreme while it has many other values: steps between a few levels are a command.
+fn clipped(name: &'static str, signal: &[f64], extreme: f64, range: f64, lines: &[u64]) -> Result<(), Refusal> {
+    let there = |value: &f64| (value - extreme).abs() < 1e-9 * range;
+    let runs = signal.windows(3).filter(|three| three.iter().all(there)).count();
+    let moving = signal.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    let is_smooth = moving > signal.len() / 2;
+    if is_smooth && runs as f64 > CLIPPED * signal.len() as f64 {
+        let first = signal.windows(3).position(|three| three.iter().all(there)).unwrap_or(0);
+        let line = lines.get(first).copied().unwrap_or(0);
+        let count = signal.iter().filter(|value| there(value)).count();
+        return Err(Refusal::Clipped(name, extreme, count, line));
+    }
+    Ok(())
+}
+
+/// The slope of the speed over the angle's differences.
+fn agree(angle: &[f64], speed: &[f64], period: f64) -> Result<(), Refusal> {
+    let pairs = angle.windows(3).zip(speed.iter().skip(1)).map(|(three, speed)| (three[2] - three[0], speed));
+    let (cross, square) = pairs.fold((0.0, 0.0), |(cross, square), (turned, speed)| {
+        let rate = turned / (2.0 * period);
+        (cross + rate * speed, square + rate * rate)
+    });
+    let ratio = cross / square;
+    if (ratio - 1.0).abs() < AGREE { Ok(()) } else { Err(Refusal::Units(ratio)) }
+}
+
+/// Figures that are too vague, or no machine's.
+pub fn figures(model: &Model, figures: &Figures, unexplained: f64, condition: f64) -> Result<(), Refusal> {
+    if !(model.damping_ratio() > -0.01) {
+        return Err(Refusal::Impossible("a resonance that grows by itself"));
+    }
+    if !(model.delay.abs() * model.resonance() < 1.5) {
+        return Err(Refusal::Impossible("a dead time of a quarter of the resonance's period"));
+    }
+    if !(100.0 * unexplained < MOST) {
+        return Err(Refusal::Unexplained(100.0 * unexplained));
+    }
+    let named = [
+        ("resonance", figures.resonance, 0.03),
+        ("antiresonance", figures.antiresonance, 0.05),
+        ("inertia on the motor's side", figures.motor_inertia, 0.1),
+        ("inertia on the load's side", figures.load_inertia, 0.1),
+    ];
+    for (name, figure, most) in named {
+        if !(figure.relative() < most) {
+            return Err(Refusal::Vague(name, 100.0 * figure.relative(), condition));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,284 @@
+//! From a CSV file to the signals of a recording.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::column::{Column, Quantity, Scales, Unusable};
+use crate::machine_file::{Diagnostic, Source, printable};
+
+/// Largest recording in bytes.
+const LARGEST: u64 = 1 << 30;
+
+/// What the user says of a recording beside its file.
+#[derive(Clone, Debug, Default)]
+pub struct Asked {
+    /// Samples a second, where there is no column of time.
+    pub rate: Option<f64>,
+    /// Torque per current [N m/A].
+    pub torque_constant: Option<f64>,
+    /// Counts on a turn of the encoder.
+    pub counts: Option<f64>,
+    /// Columns by name: `quantity=heading` or `quantity=heading:unit`.
+    pub columns: Vec<String>,
+    /// The part that is used \[s\].
+    pub window: [Option<f64>; 2],
+}
+
+/// Signals of a machine, sampled together.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    /// Name of the file as the user typed it.
+    pub name: String,
+    /// Time between samples \[s\]; none in a table of a frequency response.
+    pub period: f64,
+    /// The columns that are used.
+    pub columns: Vec<Column>,
+    /// Headings of those that are not.
+    pub unused: Vec<String>,
+    /// The line of the file that each row stands on.
+    pub lines: Vec<u64>,
+    signals: Vec<Vec<f64>>,
+}
+
+impl Recording {
+    /// A signal in SI units.
+    pub fn signal(&self, quantity: Quantity) -> Option<&[f64]> {
+        let index = self.columns.iter().position(|column| column.quantity == quantity)?;
+        self.signals.get(index).map(Vec::as_slice)
+    }
+
+    /// Samples.
+    pub fn len(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.lines.is_empty()
+    }
+
+    /// The torque of the motor, by its column or from the current.
+    ///
+    /// # Errors
+    /// A sentence: neither is there, or nobody says what torque a current makes.
+    pub fn torque(&self, constant: Option<f64>) -> Result<Vec<f64>, Diagnostic> {
+        if let Some(torque) = self.signal(Quantity::Torque) {
+            return Ok(torque.to_vec());
+        }
+        match (self.signal(Quantity::Current), constant) {
+            (Some(current), Some(constant)) => Ok(current.iter().map(|current| constant * current).collect()),
+            (Some(_), None) => {
+                Err(self.fault("a current without the torque that it makes", "--torque-constant [N m/A]"))
+            }
+            (None, _) => Err(self.fault(self.found(), "a column of torque, such as `torque_Nm`, or of current")),
+        }
+    }
+
+    /// The columns in words.
+    pub fn found(&self) -> String {
+        let names: Vec<String> = self.columns.iter().map(Column::to_string).collect();
+        let unused: Vec<String> = self.unused.iter().map(|name| format!("`{name}` (unknown)")).collect();
+        format!("the columns {}", [names, unused].concat().join(", "))
+    }
+
+    /// A fault of the recording as a whole.
+    pub fn fault(&self, found: impl Into<String>, expected: impl Into<String>) -> Diagnostic {
+        Diagnostic::of_file(&self.name, found, expected)
+    }
+}
+
+/// Reads a recording.
+///
+/// # Errors
+/// The place, what is wrong there and what was expected: no text, a heading without a unit, a value that is no finite
+/// number, a row with other columns, a time that does not rise or leaves a gap.
+pub fn read_recording(path: &Path, asked: &Asked) -> Result<Recording, Diagnostic> {
+    let name = printable(&path.display().to_string(), 200);
+    let file = |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), "a CSV file");
+    let mut text = String::new();
+    File::open(path).and_then(|file| file.take(LARGEST).read_to_string(&mut text)).map_err(file)?;
+    parse(&name, &text, asked)
+}
+
+/// A row's place in the text and its line.
+fn row(source: Source<'_>, position: Option<&csv::Position>, column: usize, delimiter: char) -> std::ops::Range<usize> {
+    let begin = position.map_or(0, |position| position.byte() as usize).min(source.text.len());
+    // the reader's position is before the line ends and comments that it skips
+    let mut start = begin;
+    for line in source.text[begin..].split_inclusive('\n') {
+        if !line.trim().is_empty() && !line.starts_with('#') {
+            break;
+        }
+        start += line.len();
+    }
+    let line = source.text[start..].lines().next().unwrap_or_default();
+    let mut at = start;
+    for (index, field) in line.split(delimiter).enumerate() {
+        if index == column {
+            return at..at + field.len();
+        }
+        at += field.len() + delimiter.len_utf8();
+    }
+    start..start + line.len()
+}
+
+fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic> {
+    let source = Source { name, text };
+    let head = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
+    let delimiter = [';', '\t', ','].into_iter().find(|c| head.contains(*c)).unwrap_or(',');
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(delimiter as u8)
+        .trim(csv::Trim::All)
+        .comment(Some(b'#'))
+        .flexible(true)
+        .from_reader(text.as_bytes());
+    let broken = |error: csv::Error| Diagnostic::of_file(name, error.to_string(), "a table in CSV");
+    let headings = reader.headers().map_err(broken)?.clone();
+    let place = row(source, headings.position(), usize::MAX, delimiter);
+    if headings.iter().all(|heading| heading.parse::<f64>().is_ok()) {
+        let expected = "a first line that names each column by quantity and unit, such as `time_s,torque_Nm,speed_rpm`";
+        return Err(Diagnostic::at(source, place, "", "no headings", expected));
+    }
+    let (columns, unused) = columns(source, &headings, asked, delimiter)?;
+    let mut signals = vec![Vec::new(); columns.len()];
+    let mut lines = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(broken)?;
+        let at = |column: usize| row(source, record.position(), column, delimiter);
+        if record.len() != headings.len() {
+            let (found, expected) = (record.len(), headings.len());
+            let expected = format!("{expected}, as in the first line");
+            return Err(Diagnostic::at(source, at(usize::MAX), "", format!("{found} columns"), expected));
+        }
+        for (column, signal) in columns.iter().zip(&mut signals) {
+            let field = &record[column.index];
+            let number = field.parse().ok().map(|raw| column.value(raw)).filter(|value: &f64| value.is_finite());
+            let Some(number) = number else {
+                let found = if field.is_empty() { "nothing".to_owned() } else { format!("`{}`", printable(field, 40)) };
+                let key = printable(&column.heading, 40);
+                return Err(Diagnostic::at(source, at(column.index), key, found, "a finite number"));
+            };
+            signal.push(number);
+        }
+        lines.push(record.position().map_or(0, csv::Position::line));
+    }
+    let mut recording = Recording { name: name.to_owned(), period: f64::NAN, columns, unused, lines, signals };
+    if recording.signal(Quantity::Frequency).is_none() {
+        cut(&mut recording, asked);
+        recording.period = period(&recording, asked)?;
+    }
+    Ok(recording)
+}
+
+/// The columns by the user's word, and the others by their headings.
+fn columns(
+    source: Source<'_>,
+    headings: &csv::StringRecord,
+    asked: &Asked,
+    delimiter: char,
+) -> Result<(Vec<Column>, Vec<String>), Diagnostic> {
+    let scales = Scales { counts: asked.counts };
+    let place = |index: usize| row(source, headings.position(), index, delimiter);
+    let (mut columns, mut unused): (Vec<Column>, Vec<String>) = (Vec::new(), Vec::new());
+    let mut named = Vec::new();
+    for word in &asked.columns {
+        let fault = |expected: String| Diagnostic::of_file(source.name, format!("--column {word}"), expected);
+        let Some((quantity, heading)) = word.split_once('=') else {
+            return Err(fault("QUANTITY=HEADING or QUANTITY=HEADING:UNIT".to_owned()));
+        };
+        let Some(quantity) = Quantity::named(quantity) else {
+            return Err(fault("a quantity such as `torque`, `speed`, `angle` or `load-angle`".to_owned()));
+        };
+        let find = |heading: &str| headings.iter().position(|other| other == heading);
+        let whole = find(heading).map(|index| (index, None));
+        let parted = || heading.rsplit_once(':').and_then(|(heading, unit)| Some((find(heading)?, Some(unit))));
+        let Some((index, unit)) = whole.or_else(parted) else {
+            let names: Vec<String> = headings.iter().map(|name| format!("`{name}`")).collect();
+            return Err(fault(format!("one of the headings {}", names.join(", "))));
+        };
+        named.push((index, quantity, unit));
+    }
+    for (index, heading) in headings.iter().enumerate() {
+        let found = match named.iter().find(|(named, ..)| *named == index) {
+            Some((_, quantity, Some(unit))) => Column::of(index, heading, *quantity, Some(unit), scales),
+            Some((_, quantity, None)) => Column::of_heading(index, heading, scales)
+                .and_then(|column| Ok(Column { quantity: *quantity, ..column }))
+                .or_else(|_| Column::of(index, heading, *quantity, None, scales)),
+            None => Column::of_heading(index, heading, scales),
+        };
+        match found {
+            Ok(column) => {
+                let by_name = |column: &Column| named.iter().any(|(index, ..)| *index == column.index);
+                let other = columns.iter().position(|other| other.quantity == column.quantity);
+                match other.map(|at| (at, by_name(&columns[at]), by_name(&column))) {
+                    None => columns.push(column),
+                    Some((_, true, false)) => unused.push(column.heading),
+                    Some((at, false, true)) => {
+                        let other = std::mem::replace(&mut columns[at], column);
+                        unused.push(other.heading);
+                    }
+                    Some((at, ..)) => {
+                        let found = format!("a second column of {}, beside {}", column.quantity.name(), columns[at]);
+                        let expected = format!("one; --column {}=HEADING names it", column.quantity.name());
+                        return Err(Diagnostic::at(source, place(index), heading, found, expected));
+                    }
+                }
+            }
+            Err(Unusable::Unknown) => unused.push(heading.to_owned()),
+            Err(Unusable::Fault(found, expected)) => {
+                return Err(Diagnostic::at(source, place(index), "", found, expected));
+            }
+        }
+    }
+    Ok((columns, unused))
+}
+
+/// The time between samples: by the column of time, which must be even, or by the rate.
+fn period(recording: &Recording, asked: &Asked) -> Result<f64, Diagnostic> {
+    let Some(time) = recording.signal(Quantity::Time) else {
+        return match asked.rate {
+            Some(rate) => Ok(1.0 / rate),
+            None => {
+                Err(recording.fault(recording.found(), "a column of time, such as `time_s`, or --rate [samples/s]"))
+            }
+        };
+    };
+    let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let mut sorted = steps.clone();
+    sorted.sort_by(f64::total_cmp);
+    let Some(&usual) = sorted.get(sorted.len() / 2) else {
+        return Err(recording.fault("fewer than two rows", "a recording"));
+    };
+    for (step, line) in steps.iter().zip(recording.lines.iter().skip(1)) {
+        if !(*step > 0.0) {
+            let found = format!("a time that does not rise, at line {line}");
+            return Err(recording.fault(found, "rows in the order of their times"));
+        }
+        if *step > 1.5 * usual {
+            let found = format!("a gap of {step:.3e} s at line {line}, after steps of {usual:.3e} s");
+            return Err(recording.fault(found, "even steps of time; --from and --to cut out a part without gaps"));
+        }
+    }
+    let mean = (time[time.len() - 1] - time[0]) / steps.len() as f64;
+    let uneven = (steps.iter().map(|step| (step - mean) * (step - mean)).sum::<f64>() / steps.len() as f64).sqrt();
+    // a column rounded to the step has a third of it
+    if uneven > 0.35 * mean {
+        let found = format!("steps of time that spread by {:.0} %", 100.0 * uneven / mean);
+        return Err(recording.fault(found, "samples at an even rate"));
+    }
+    Ok(mean)
+}
+
+/// Keeps the part between two times from the first row.
+fn cut(recording: &mut Recording, asked: &Asked) {
+    let count = recording.lines.len();
+    let index = |time: f64| match (recording.signal(Quantity::Time), asked.rate) {
+        (Some(times), _) => times.iter().position(|at| at - times[0] >= time - 1e-9).unwrap_or(count),
+        (None, rate) => (time * rate.unwrap_or(0.0)).round().max(0.0) as usize,
+    };
+    let end = asked.window[1].map_or(count, index).min(count);
+    let begin = asked.window[0].map_or(0, index).min(end);
+    recording.lines = recording.lines[begin..end].to_vec();
+    recording.signals.iter_mut().for_each(|signal| *signal = signal[begin..end].to_vec());
+}

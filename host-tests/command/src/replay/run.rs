@@ -1,0 +1,166 @@
+//! The observer, tick by tick.
+
+use driveline::design::{RigidDesign, TwoMassDesign};
+use driveline::drive::{Config, Drive, Limits};
+use driveline::fault::Faults;
+use driveline::number::{Fixed, Number};
+use driveline::observer::{Observer, RigidConfig, RigidObserver, TwoMassConfig, TwoMassObserver};
+use driveline::sample::Sample;
+use driveline::settings::{Bases, Error, Screening};
+
+use super::signals::{Signals, turned};
+
+/// The estimates of one number over the recording, in SI units.
+#[derive(Clone, Debug, Default)]
+pub struct Course {
+    /// `f32` or `fixed`.
+    pub number: &'static str,
+    /// Speed of the motor \[rad/s\].
+    pub motor_speed: Vec<f64>,
+    /// Torque of the shaft \[N m\].
+    pub shaft_torque: Vec<f64>,
+    /// Speed of the load \[rad/s\].
+    pub load_speed: Vec<f64>,
+    /// Load torque \[N m\].
+    pub load_torque: Vec<f64>,
+    /// Measured less predicted angle of the motor \[rad\].
+    pub innovation: Vec<f64>,
+    /// Faults of each tick.
+    pub faults: Vec<Faults>,
+}
+
+/// A recording with its estimates.
+#[derive(Clone, Debug)]
+pub struct Replayed {
+    /// The recording.
+    pub signals: Signals,
+    /// The estimates of each number.
+    pub courses: Vec<Course>,
+    /// Deviation of the innovation that the design predicts \[rad\].
+    pub predicted: f64,
+    /// Ticks at the start that errors leave out: ten time constants of the observer's slowest pole, a tenth of the
+    /// recording at most.
+    pub settling: usize,
+}
+
+/// The observer of a design.
+#[derive(Clone, Copy, Debug)]
+pub enum Design {
+    /// Of two masses.
+    TwoMass(TwoMassDesign),
+    /// Of one, and the load's share of its inertia.
+    Rigid(RigidDesign, f64),
+}
+
+/// What numbers are in SI units.
+#[derive(Clone, Copy)]
+struct Units {
+    name: &'static str,
+    torque: f64,
+    speed: f64,
+    /// Of [`Number::to_real`] of an innovation \[rad\].
+    angle: f64,
+}
+
+/// Radians to 2^-32 turn.
+const STEP: f64 = std::f64::consts::TAU / 4_294_967_296.0;
+/// Units in the last place to the base of a fixed-point number.
+const UNIT: f64 = 268_435_456.0;
+/// Doublings of the bases of torque and speed, together.
+const DOUBLINGS: i32 = 12;
+
+/// Runs the observer over a recording, in `f32` and in fixed point. `tick` counts.
+///
+/// # Errors
+/// The library's sentence, where constants do not fit.
+pub fn replay(
+    signals: Signals,
+    design: &Design,
+    screening: &Screening,
+    most: [f64; 2],
+    mut tick: impl FnMut(),
+) -> Result<Replayed, Error> {
+    let single = Units { name: "f32", torque: 1.0, speed: 1.0, angle: STEP };
+    let fixed = |bases: &Bases| Units { name: "fixed", torque: bases.torque, speed: bases.speed, angle: STEP * UNIT };
+    let limits = Limits::<f32>::try_new(screening, Bases::SI)?;
+    let (courses, predicted, radius) = match design {
+        Design::TwoMass(design) => {
+            let of = |torque: f64, speed: f64| Bases::of(design, torque, speed);
+            let fits = |bases: &Bases| TwoMassConfig::<Fixed>::try_new(design, *bases).is_ok();
+            let bases = fitting(of, fits, most);
+            let config = TwoMassConfig::<f32>::try_new(design, Bases::SI)?;
+            let one = run::<f32, TwoMassObserver<f32>>(&signals, config, limits, single, &mut tick);
+            let config = TwoMassConfig::<Fixed>::try_new(design, bases)?;
+            let limits = Limits::<Fixed>::try_new(screening, bases)?;
+            let other = run::<Fixed, TwoMassObserver<Fixed>>(&signals, config, limits, fixed(&bases), &mut tick);
+            ([one, other], design.innovation, design.spectral_radius)
+        }
+        Design::Rigid(design, share) => {
+            let fits = |bases: &Bases| RigidConfig::<Fixed>::try_new(design, *share, *bases).is_ok();
+            let bases = fitting(Bases::rigid, fits, most);
+            let config = RigidConfig::<f32>::try_new(design, *share, Bases::SI)?;
+            let one = run::<f32, RigidObserver<f32>>(&signals, config, limits, single, &mut tick);
+            let config = RigidConfig::<Fixed>::try_new(design, *share, bases)?;
+            let limits = Limits::<Fixed>::try_new(screening, bases)?;
+            let other = run::<Fixed, RigidObserver<Fixed>>(&signals, config, limits, fixed(&bases), &mut tick);
+            ([one, other], design.innovation, design.spectral_radius)
+        }
+    };
+    let slowest = -10.0 / radius.ln();
+    let settling = if slowest.is_finite() { (slowest as usize).min(signals.time.len() / 10) } else { 0 };
+    Ok(Replayed { signals, courses: courses.into(), predicted, settling })
+}
+
+/// The smallest bases that hold the observer's coefficients, from twice the torque and a third over the speed on. A fine
+/// encoder or a light machine has large gains. Each doubling takes one of 28 bits.
+fn fitting(of: impl Fn(f64, f64) -> Bases, fits: impl Fn(&Bases) -> bool, [torque, speed]: [f64; 2]) -> Bases {
+    let doubled = |torques: i32, speeds: i32| of(2.0 * torque * 2_f64.powi(torques), 1.34 * speed * 2_f64.powi(speeds));
+    let all = (0..=DOUBLINGS).flat_map(|sum| (0..=sum).map(move |speeds| doubled(sum - speeds, speeds)));
+    all.into_iter().find(fits).unwrap_or_else(|| doubled(0, 0))
+}
+
+fn run<N, O>(signals: &Signals, config: O::Config, limits: Limits<N>, units: Units, tick: &mut impl FnMut()) -> Course
+where
+    N: Number + OfReal,
+    O: Observer<N>,
+{
+    let config = Config { limits, observer: config, fluctuation: (), governor: (), balancer: () };
+    let begin = signals.angle.first().copied().map_or(0, turned);
+    let mut drive = Drive::<N, O>::new(&config, begin);
+    // a machine that turns already
+    let speed = signals.motor_speed.first().copied().unwrap_or(0.0);
+    drive.observer_mut().restart(&config.observer, begin, N::ZERO, N::of_real(speed / units.speed));
+    let mut course = Course { number: units.name, ..Course::default() };
+    for (angle, torque) in signals.angle.iter().zip(&signals.torque) {
+        let sample = Sample { angle: turned(*angle), torque: N::of_real(torque / units.torque), setpoint: N::ZERO };
+        let innovation = drive.observer().predict(&config.observer, sample.angle, sample.torque).innovation();
+        let command = drive.tick(&config, &sample);
+        let estimate = drive.estimate(&config);
+        course.motor_speed.push(units.speed * estimate.motor_speed.to_real());
+        course.shaft_torque.push(units.torque * estimate.shaft_torque.to_real());
+        course.load_speed.push(units.speed * estimate.load_speed.to_real());
+        course.load_torque.push(units.torque * estimate.load_torque.to_real());
+        course.innovation.push(units.angle * innovation.to_real());
+        course.faults.push(command.faults);
+        tick();
+    }
+    course
+}
+
+/// From a real number, which the tick itself never needs.
+pub trait OfReal {
+    /// The nearest.
+    fn of_real(value: f64) -> Self;
+}
+
+impl OfReal for f32 {
+    fn of_real(value: f64) -> Self {
+        value as Self
+    }
+}
+
+impl OfReal for Fixed {
+    fn of_real(value: f64) -> Self {
+        Self::from_f64(value)
+    }
+}

@@ -1,0 +1,247 @@
+//! `cargo driveline identify` and `replay` as a user meets them: on the recording of a real bench, on simulated ones
+//! and on useless ones.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use cargo_driveline::identification::{Figures, identify};
+use cargo_driveline::recording::{Asked, read_recording};
+use driveline::commissioning::Figure;
+use driveline_solver::noise::Noise;
+use driveline_solver::plant::{Chain, Shaft};
+use serde_json::Value;
+
+const BENCH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/recordings/two-mass-bench.csv");
+/// The bench as others found it, by both encoders: inertias \[kg m2\], stiffness \[N m/rad\] and damping \[N m s/rad\].
+const INERTIAS: [f64; 2] = [2.747e-3, 2.746e-3];
+const SHAFT: [f64; 2] = [315.0, 5.8e-3];
+const RESONANCES: [f64; 2] = [76.2, 53.9];
+
+fn driveline(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(arguments).output().unwrap()
+}
+
+fn json(output: &Output) -> Value {
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn path<'p>(folder: &'p Path, name: &str) -> PathBuf {
+    folder.join(name)
+}
+
+#[test]
+fn half_of_the_benchs_record_gives_the_machine_and_the_observer_follows_the_other_half() {
+    let folder = tempfile::tempdir().unwrap();
+    let [machine, table] = ["bench.toml", "bench.csv"].map(|name| path(folder.path(), name));
+    let (machine, table) = (machine.to_str().unwrap(), table.to_str().unwrap());
+    let common = ["--rate", "2500", "--torque-constant", "0.564", "--json"];
+    let found = json(&driveline(&[&["identify", BENCH, "--to", "5", "--toml", machine], &common[..]].concat()));
+    let figure = |name: &str| ["value", "standard_deviation"].map(|of| found[name][of].as_f64().unwrap());
+    // the tolerances, and three of the figures' own deviations
+    for (name, truth, tolerance) in [
+        ("resonance", TAU * RESONANCES[0], 0.01),
+        ("antiresonance", TAU * RESONANCES[1], 0.01),
+        ("motor_inertia", INERTIAS[0], 0.03),
+        ("load_inertia", INERTIAS[1], 0.03),
+    ] {
+        let [value, deviation] = figure(name);
+        assert!((value / truth - 1.0).abs() < tolerance, "{name}: {value}, not {truth}");
+        assert!((value - truth).abs() < 3.0 * deviation, "{name}: {value} by {deviation}, not {truth}");
+    }
+    let delay = figure("dead_time")[0].to_string();
+    let options = ["--machine", machine, "--from", "5", "--delay", &delay, "--csv", table];
+    let replayed = json(&driveline(&[&["replay", BENCH], &options[..], &common[..]].concat()));
+    assert_eq!(replayed["samples"], 12_500);
+    let settling = replayed["settling"].as_u64().unwrap() as usize;
+    // the truth from both encoders and the bench as others found it, not from the machine that was identified
+    let rows = rows(&std::fs::read_to_string(BENCH).unwrap());
+    let estimates = rows_of(&std::fs::read_to_string(table).unwrap());
+    for number in ["f32", "fixed"] {
+        let column = |name: &str| estimates.0.iter().position(|head| *head == format!("{number}_{name}")).unwrap();
+        let (speed, torque) = (column("load_speed_rad_s"), column("shaft_torque_Nm"));
+        let (mut speeds, mut torques) = (Vec::new(), Vec::new());
+        for tick in settling..12_499 {
+            let at = 12_500 + tick;
+            let rate = |of: usize| (rows[at + 1][of] - rows[at - 1][of]) * 1250.0;
+            let twist = rows[at][1] - rows[at][2];
+            speeds.push([rate(2), estimates.1[tick][speed]]);
+            torques.push([SHAFT[0] * twist + SHAFT[1] * (rate(1) - rate(2)), estimates.1[tick][torque]]);
+        }
+        let (speed, torque) = (error(&speeds), error(&torques));
+        assert!(speed < 0.06 && torque < 0.04, "{number}: load speed {speed}, shaft torque {torque}");
+    }
+}
+
+/// Rms error over rms truth, both about their means: the zeros of two encoders differ.
+fn error(pairs: &[[f64; 2]]) -> f64 {
+    let spread = |of: &dyn Fn(&[f64; 2]) -> f64| {
+        let mean = pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
+        (pairs.iter().map(|pair| (of(pair) - mean).powi(2)).sum::<f64>() / pairs.len() as f64).sqrt()
+    };
+    spread(&|pair| pair[1] - pair[0]) / spread(&|pair| pair[0])
+}
+
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    rows_of(text).1
+}
+
+fn rows_of(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let heads = lines.next().unwrap().split(',').map(str::to_owned).collect();
+    (heads, lines.map(|line| line.split(',').map(|number| number.parse().unwrap()).collect()).collect())
+}
+
+/// A simulated machine: resonance, antiresonance, inertias; and its record with noise of 1 % in torque and speed.
+fn simulated(seed: u64) -> ([f64; 4], String) {
+    let mut noise = Noise::new(7919 * seed);
+    let mut between = |low: f64, high: f64| low * (high / low).powf(0.5 + 0.5 * noise.uniform());
+    let (motor, share) = (between(1e-3, 1.0), between(0.2, 5.0));
+    let load = motor * share;
+    let resonance = TAU * between(5.0, 80.0);
+    let reduced = motor * load / (motor + load);
+    let stiffness = reduced * resonance * resonance;
+    let damping = 2.0 * between(0.003, 0.05) * reduced * resonance;
+    let friction = [motor, load].map(|inertia| between(0.002, 0.02) * inertia * resonance);
+    let rate = resonance / TAU * between(30.0, 150.0);
+    let chain = Chain::motor(motor).viscous(friction[0]).shaft(Shaft::elastic(stiffness).damping(damping), load);
+    let mut plant = chain.viscous(friction[1]).build().unwrap();
+    // two hundred periods of the resonance
+    let count = (200.0 * TAU * rate / resonance) as usize;
+    let (mut held, mut rows) = (0.0, Vec::new());
+    for tick in 0..count {
+        let time = tick as f64 / rate;
+        let chirp = 0.1 * resonance * time + 1.45 * resonance * time * time * rate / count as f64;
+        if tick.is_multiple_of(4) {
+            held = noise.uniform().signum();
+        }
+        let torque = 100.0 * (motor + load) * if seed.is_multiple_of(2) { chirp.sin() } else { held };
+        rows.push([time, torque, plant.motor_speed()]);
+        plant.advance(torque, 1.0 / rate);
+    }
+    let rms = |of: usize| {
+        let mean = rows.iter().map(|row| row[of]).sum::<f64>() / count as f64;
+        (rows.iter().map(|row| (row[of] - mean).powi(2)).sum::<f64>() / count as f64).sqrt()
+    };
+    let sizes = [0.01 * rms(1), 0.01 * rms(2)];
+    let mut text = "time_s,torque_Nm,speed_rad_per_s\n".to_owned();
+    for [time, torque, speed] in rows {
+        let (torque, speed) = (torque + sizes[0] * noise.normal(), speed + sizes[1] * noise.normal());
+        writeln!(text, "{time:.9},{torque:.9e},{speed:.9e}").unwrap();
+    }
+    ([resonance, (stiffness / load).sqrt(), motor, load], text)
+}
+
+#[test]
+fn fifty_simulated_machines_are_found_within_their_own_deviations() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut beyond, mut all) = (0, 0);
+    for seed in 1..=50 {
+        let (truth, text) = simulated(seed);
+        let file = path(folder.path(), "log.csv");
+        std::fs::write(&file, text).unwrap();
+        let recording = read_recording(&file, &Asked::default()).unwrap();
+        let found = identify(&recording, None).unwrap_or_else(|error| panic!("{seed}: {error}"));
+        let Figures { resonance, antiresonance, motor_inertia, load_inertia, .. } = found.estimate.figures;
+        let figures = [resonance, antiresonance, motor_inertia, load_inertia];
+        // the tolerances
+        for ((Figure { value, standard_deviation }, truth), most) in figures.into_iter().zip(truth).zip([1, 1, 3, 3]) {
+            assert!((value / truth - 1.0).abs() < 0.01 * f64::from(most), "{seed}: {value}, not {truth}");
+            beyond += usize::from((value - truth).abs() > 3.0 * standard_deviation);
+            all += 1;
+        }
+    }
+    assert!(beyond * 20 <= all, "{beyond} of {all} figures are beyond three of their deviations");
+}
+
+/// Speed per torque of two masses [Huang 1987 part 2]: inertias 0.02 and 0.05, 800 N m/rad, 0.1 N m s/rad.
+fn response(frequency: f64) -> [f64; 2] {
+    let s2 = -frequency * frequency;
+    // (J_l s^2 + d s + k)/(s (J_m J_l s^2 + (J_m + J_l)(d s + k)))
+    let above = [0.05 * s2 + 800.0, 0.1 * frequency];
+    let inner = [0.02 * 0.05 * s2 + 0.07 * 800.0, 0.07 * 0.1 * frequency];
+    let below = [-frequency * inner[1], frequency * inner[0]];
+    let square = below[0] * below[0] + below[1] * below[1];
+    [(above[0] * below[0] + above[1] * below[1]) / square, (above[1] * below[0] - above[0] * below[1]) / square]
+}
+
+#[test]
+fn a_table_of_a_response_gives_the_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(folder.path(), "response.csv");
+    let mut noise = Noise::new(5);
+    let mut text = "frequency_Hz,magnitude [dB],phase_deg\n".to_owned();
+    for line in 0..120 {
+        let hertz = 4.0 * 25_f64.powf(f64::from(line) / 119.0);
+        let [re, im] = response(TAU * hertz);
+        // 1 % of noise
+        let [re, im] = [re, im].map(|part| part + 0.01 * re.hypot(im) * noise.normal());
+        writeln!(text, "{hertz:.6},{:.6},{:.6}", 20.0 * re.hypot(im).log10(), im.atan2(re).to_degrees()).unwrap();
+    }
+    std::fs::write(&file, text).unwrap();
+    let found = json(&driveline(&["identify", file.to_str().unwrap(), "--response", "speed", "--json"]));
+    let truths = [
+        ("resonance", (800.0_f64 * (1.0 / 0.02 + 1.0 / 0.05)).sqrt(), 0.01),
+        ("antiresonance", (800.0_f64 / 0.05).sqrt(), 0.01),
+        ("motor_inertia", 0.02, 0.03),
+        ("load_inertia", 0.05, 0.03),
+    ];
+    // the tolerances
+    for (name, truth, most) in truths {
+        let value = found[name]["value"].as_f64().unwrap();
+        assert!((value / truth - 1.0).abs() < most, "{name}: {value}, not {truth}");
+    }
+}
+
+/// What is done to a good record, and what the refusal says.
+#[test]
+fn useless_records_are_refused_with_their_reason() {
+    type Change = fn(usize, &mut [f64; 3]);
+    let (_, good) = simulated(2);
+    let rows = rows(&good);
+    let largest = rows.iter().fold(0.0_f64, |size, row| size.max(row[2].abs()));
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |text: &str| {
+        let file = path(folder.path(), "log.csv");
+        std::fs::write(&file, text).unwrap();
+        let output = driveline(&["identify", file.to_str().unwrap(), "--html", "/dev/null"]);
+        assert!(!output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let changed = |change: &dyn Fn(usize, &mut [f64; 3])| {
+        let mut text = "time_s,torque_Nm,speed_rad_per_s\n".to_owned();
+        for (index, row) in rows.iter().enumerate() {
+            let mut row = [row[0], row[1], row[2]];
+            change(index, &mut row);
+            writeln!(text, "{},{},{}", row[0], row[1], row[2]).unwrap();
+        }
+        text
+    };
+    let cases: [(Change, &str); 6] = [
+        (|_, row| row[1] = 3.0, "the torque is constant"),
+        (|_, row| row[2] = 3.0, "the speed is constant"),
+        (|_, row| row[1] = -row[1], "check the sign of the torque"),
+        (|index, row| row[0] += if index > 900 { 1.0 } else { 0.0 }, "a gap of"),
+        (|index, row| row[0] -= if index == 900 { 1.0 } else { 0.0 }, "a time that does not rise, at line 902"),
+        (|index, row| row[2] = if index == 900 { f64::NAN } else { row[2] }, "log.csv:902:"),
+    ];
+    for (change, words) in cases {
+        let sentence = refused(&changed(&change));
+        assert!(sentence.contains(words), "{sentence}");
+    }
+    let clipped = refused(&changed(&|_, row| row[2] = row[2].clamp(-0.2 * largest, 0.2 * largest)));
+    assert!(clipped.contains("the speed is clipped"), "{clipped}");
+    let mut noise = Noise::new(3);
+    let draws: Vec<f64> = rows.iter().map(|_| noise.normal()).collect();
+    assert!(refused(&changed(&|index, row| row[2] = draws[index])).contains("no machine is identified"));
+    for (from, to, words) in [
+        ("speed_rad_per_s", "speed_kg", "log.csv:1:17: found the heading `speed_kg` without a unit"),
+        ("torque_Nm", "torque", "found the heading `torque` without a unit"),
+        ("torque_Nm", "current_A", "--torque-constant"),
+    ] {
+        let sentence = refused(&good.replace(from, to));
+        assert!(sentence.contains(words), "{sentence}");
+    }
+}
