@@ -32,7 +32,7 @@ struct Entry {
 /// Name, for which commands, and text of each.
 const EXAMPLES: [(&str, &str, &str); 10] = [
     ("hoist", "modes, design", include_str!("../../machines/hoist.toml")),
-    ("roll", "modes, design, new, export", include_str!("../../machines/roll.toml")),
+    ("roll", "modes, design", include_str!("../../machines/roll.toml")),
     ("axis", "modes, design, commissioning", include_str!("../../machines/axis.toml")),
     ("mill", "modes, design", include_str!("../../machines/mill.toml")),
     ("ship", "modes, design", include_str!("../../machines/ship.toml")),
