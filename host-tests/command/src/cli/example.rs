@@ -30,7 +30,7 @@ struct Entry {
 }
 
 /// Name, for which commands, and text of each.
-const EXAMPLES: [(&str, &str, &str); 10] = [
+const EXAMPLES: [(&str, &str, &str); 11] = [
     ("hoist", "modes, design", include_str!("../../machines/hoist.toml")),
     ("roll", "modes, design", include_str!("../../machines/roll.toml")),
     ("axis", "modes, design, commissioning", include_str!("../../machines/axis.toml")),

@@ -7,7 +7,6 @@ use driveline::configure::Rating;
 use driveline::design::Rate;
 use serde_json::json;
 
-use super::controller::{tuning, two_masses};
 use super::identify::slug;
 use super::recorded::Recorded;
 use super::results::{Destination, check};
@@ -75,7 +74,7 @@ impl Replay {
             let found = format!("{} samples over time", recording.len());
             return Err(recording.fault(found, "at least 100").into());
         }
-        let two = two_masses(&machine);
+        let two = machine.two_masses();
         let constant = self.recorded.torque_constant;
         let between = if self.held { Between::Held } else { Between::Straight };
         let signals = Signals::of(&recording, two.as_ref(), constant, between, self.delay)?;
@@ -128,9 +127,9 @@ impl Replay {
             let file = self.machine.display();
             Failure::usage(format!("{file}: no observer can be designed at the recording's rate: {error}"))
         };
-        let (_, encoder, disturbance) = tuning(machine);
+        let (_, encoder, disturbance) = machine.tuning();
         let rate = Rate::every(recording.period);
-        let design = match two_masses(machine) {
+        let design = match machine.two_masses() {
             Some(two) => Design::TwoMass(two.try_observer(rate, encoder, disturbance).map_err(refused)?),
             None => {
                 let rigid = machine.rigid().map_err(|error| refused(error.into()))?;
