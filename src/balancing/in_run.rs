@@ -414,7 +414,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         // the first reading may have been a large one
         let start = start.min(self.at_rest());
         // learn by the largest move that is safe whichever way it goes: towards the correction where that is known
-        // roughly, else to and fro about the weights that it began with
+        // roughly, else on both sides of the weights that it began with
         let allowed = start * self.config.bound * real(0.93);
         let mut step = [zero(); PLANES];
         let wanted = pick(&correction, plane, zero());

@@ -75,9 +75,9 @@ pub trait Family<const A: usize, const B: usize>: Machine {
     const SCHEDULED_DISTURBANCE: Disturbance = Self::DISTURBANCE;
     /// The observers' gains at the points.
     ///
-    /// They are those of [`SCHEDULED_DISTURBANCE`](Self::SCHEDULED_DISTURBANCE) with the step of the load torque in proportion to the load's inertia:
-    /// a light load cannot change by more than itself. Without this a schedule is worse than fixed gains at a light
-    /// load.
+    /// They are those of [`SCHEDULED_DISTURBANCE`](Self::SCHEDULED_DISTURBANCE) with the step of the load torque in
+    /// proportion to the load's inertia: a light load cannot change by more than itself. Without this a schedule is
+    /// worse than fixed gains at a light load.
     const OBSERVERS: [[PlacedObserver; B]; A] = {
         let mut observers = [[observer::<Self>(&Self::MEMBERS[0][0], &Self::SCHEDULED_DISTURBANCE); B]; A];
         let mut i = 0;

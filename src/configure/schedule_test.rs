@@ -30,10 +30,10 @@ pub struct ScheduleTest {
 
 /// Tests the speed loops at all points of a family's gain schedule.
 ///
-/// The loop of a point must have the margins of [`Machine::ROBUSTNESS`](super::Machine::ROBUSTNESS) there, and be stable with every machine up to
-/// half way to the neighbouring points, by inertia of the load and stiffness in equal ratios, within
-/// [`Machine::TOLERANCE`](super::Machine::TOLERANCE) of motor inertia, torque and delay. For a test on the host: it takes as long as a drive's own
-/// at each point.
+/// The loop of a point must have the margins of [`Machine::ROBUSTNESS`](super::Machine::ROBUSTNESS) there. It must be
+/// stable with every machine up to half way to the neighbouring points, by inertia of the load and stiffness in equal
+/// ratios, within [`Machine::TOLERANCE`](super::Machine::TOLERANCE) of motor inertia, torque and delay. For a test on
+/// the host: it takes as long as a drive's own at each point.
 #[must_use]
 pub const fn test_schedule<M: Family<A, B>, const A: usize, const B: usize>() -> ScheduleTest {
     let mut test = ScheduleTest { refused: None, semi_implicit: 0.0 };

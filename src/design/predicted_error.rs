@@ -7,7 +7,8 @@
 //!   `g^2 T^2 + o^2 + e^2 T^2 + j_m^2 a^2` of the shaft torque, squared, and with `(j_m + j_l)^2` of the load torque;
 //! - **encoder**: a periodic error of the angle passes through the estimates as `C (1 - A/z)^-1 K`, A = (1 - K H) F the
 //!   observer's transition, at `z = e^(j w T)` with w the error's periods on a turn times the speed;
-//! - **noise** of torque, count and jitter: white, by the covariance `P = A P A^T + K r K^T + b q b^T`, b = (1 - K H) B;
+//! - **noise** of torque, count and jitter: white, by the covariance `P = A P A^T + K r K^T + b q b^T`,
+//!   b = (1 - K H) B;
 //! - **swing**: a free swing of the shaft of a machine that differs from the model, with the eigenvalue s, turns the
 //!   motor by `theta`. It has the shaft torque `-J_m s^2 theta`; the estimates are the response above at `z = e^(s T)`.
 //!
@@ -17,9 +18,9 @@
 use super::complex::{Complex, over, times};
 use super::observer::transition;
 use super::tuning::Encoder;
-use super::{LoadCycle, LoopObserver, Matrix, PlacedObserver, Tolerance, TwoMassDesign};
+use super::{EstimateError, LoadCycle, LoopObserver, Matrix, PlacedObserver, Tolerance, TwoMassDesign};
 use crate::machine::TwoMass;
-use crate::math::{exp, hypot, sin_cos, sqrt};
+use crate::math::{exp, sin_cos, sqrt};
 
 /// Conditions that errors are predicted for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,34 +38,6 @@ pub struct Operation {
     pub torque_noise: f64,
     /// The load cycle.
     pub cycle: LoadCycle,
-}
-
-/// Errors of shaft torque, load speed and load torque \[N m, rad/s, N m\], rms.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct EstimateError {
-    /// Of the shaft torque \[N m\].
-    pub shaft_torque: f64,
-    /// Of the load's speed \[rad/s\].
-    pub load_speed: f64,
-    /// Of the load torque \[N m\].
-    pub load_torque: f64,
-}
-
-impl EstimateError {
-    const fn of(squares: [f64; 3]) -> Self {
-        Self { shaft_torque: sqrt(squares[0]), load_speed: sqrt(squares[1]), load_torque: sqrt(squares[2]) }
-    }
-
-    /// Both, independent of one another.
-    #[must_use]
-    pub const fn and(&self, other: &Self) -> Self {
-        Self {
-            shaft_torque: hypot(self.shaft_torque, other.shaft_torque),
-            load_speed: hypot(self.load_speed, other.load_speed),
-            load_torque: hypot(self.load_torque, other.load_torque),
-        }
-    }
 }
 
 /// Predicted errors by their causes.

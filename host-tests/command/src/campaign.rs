@@ -12,6 +12,7 @@
 
 pub mod compare;
 mod draw;
+pub mod drive;
 mod figure;
 pub mod file;
 pub mod merge;

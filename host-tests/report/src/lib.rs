@@ -31,7 +31,7 @@ mod trajectory;
 
 pub use report::Report;
 pub use results::{Budget, Comparison, Composition, Deviation, Fact, Instructions, Variant};
-pub use sample::{Sample, Sampled, samples_section};
+pub use sample::{SAMPLES, Sample, Sampled, samples_table};
 pub use sheet::{Arrangement, Figure, Key, Section, Sheet};
 pub use sweep::{Slice, Sweep, SweepPoint};
 pub use table::{Table, variants_table};

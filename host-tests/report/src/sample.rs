@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::format::percent;
 use crate::results::diverged_as_null;
-use crate::sheet::Section;
 use crate::table::Table;
 
 /// An error of the nominal machine and over a sample of machines, as a fraction of a rated value.
@@ -49,8 +48,11 @@ impl Sample {
     }
 }
 
-/// Samples as a section: nominal and real beside each other.
-pub fn samples_section(samples: &[Sample]) -> Section {
+/// Title of the table of samples.
+pub const SAMPLES: &str = "Machines within their tolerances";
+
+/// Samples as a text and a table: nominal and real beside each other.
+pub fn samples_table(samples: &[Sample]) -> (String, Table) {
     let quantities = ["shaft torque", "load speed", "load torque"];
     let columns = quantities.map(|name| [format!("{name}, nominal"), "median".to_owned(), "p90".to_owned()]);
     let ends = ["machines".to_owned(), "unstable".to_owned()];
@@ -70,5 +72,5 @@ pub fn samples_section(samples: &[Sample]) -> Section {
             sample.seed
         )
     });
-    Section::new("Machines within their tolerances", text, table)
+    (text, table)
 }

@@ -17,7 +17,7 @@ use driveline::observer::{GearedObserver, SemiImplicitObserver, Stiction};
 use driveline::sample::{Estimate, Sample};
 use driveline::scheduling::{LoadMass, LoadMassConfig, RopeLength};
 
-use super::{Hoist, TRAVEL};
+use super::machine::{Hoist, TRAVEL};
 use crate::scene::composed::{Beside, Composed, OverWords, output};
 use crate::scene::{Input, Output};
 

@@ -3,7 +3,7 @@
 use driveline_firmware::scenes::hoist;
 use driveline_solver::plant::PlantError;
 
-use super::run::Drive;
+use super::drive::Drive;
 use crate::drivetrains;
 use crate::drivetrains::departure::Departure;
 use crate::drivetrains::scenario::Scenario;

@@ -5,8 +5,9 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use super::draw::Draw;
+use super::drive::Drive;
 use super::figure::{Figure, Outcome};
-use super::run::{Drive, run};
+use super::run::run;
 use super::scenes::CampaignScene;
 use super::statistics::quantile;
 use driveline_report::{Sample, Sampled};

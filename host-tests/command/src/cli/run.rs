@@ -9,13 +9,13 @@ use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::balancing::{Scene, scenes};
+use crate::campaign::drive::Drive;
 use crate::campaign::real::sample;
-use crate::campaign::run::Drive;
 use crate::campaign::scenes::SCENES as CAMPAIGNS;
 use crate::drivetrains::departure::Departure;
 use crate::drivetrains::{Plan, SCENES, Variants};
 use driveline_qemu::setup::Need;
-use driveline_report::{Sample, Section, Variant, samples_section, variants_table};
+use driveline_report::{SAMPLES, Sample, Variant, samples_table, variants_table};
 
 /// Run a scene's variants in QEMU, in closed loop with the full solver, and report their errors and cost.
 ///
@@ -101,8 +101,8 @@ impl Run {
             return file.write(&report.page());
         }
         if !report.samples.is_empty() {
-            let Section { title, text, table } = samples_section(&report.samples);
-            say(format_args!("{title}\n{text}\n{table}"));
+            let (text, table) = samples_table(&report.samples);
+            say(format_args!("{SAMPLES}\n{text}\n{table}"));
         }
         say(format_args!("{}\n{}", report.scene, variants_table(&report.variants)));
         for budget in report.budgets.iter().filter(|budget| !budget.kept()) {

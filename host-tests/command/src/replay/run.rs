@@ -111,8 +111,8 @@ pub fn replay(
     Ok(Replayed { signals, courses: courses.into(), predicted, settling })
 }
 
-/// The smallest bases that hold the observer's coefficients, from twice the torque and a third over the speed on. A fine
-/// encoder or a light machine has large gains. Each doubling takes one of 28 bits.
+/// The smallest bases that hold the observer's coefficients, from twice the torque and a third over the speed on. A
+/// fine encoder or a light machine has large gains. Each doubling takes one of 28 bits.
 fn fitting(of: impl Fn(f64, f64) -> Bases, fits: impl Fn(&Bases) -> bool, [torque, speed]: [f64; 2]) -> Bases {
     let doubled = |torques: i32, speeds: i32| of(2.0 * torque * 2_f64.powi(torques), 1.34 * speed * 2_f64.powi(speeds));
     let all = (0..=DOUBLINGS).flat_map(|sum| (0..=sum).map(move |speeds| doubled(sum - speeds, speeds)));

@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::survey::{Survey, adapters};
 use driveline_report::page::fill;
 use driveline_report::page::view::{Costs, Sweeps};
-use driveline_report::{Fact, Table, samples_section};
+use driveline_report::{Fact, SAMPLES, Table, samples_table};
 
 #[derive(Serialize)]
 struct View {
@@ -74,9 +74,9 @@ impl Sections {
 
 /// The chosen drives on machines within their tolerances.
 fn real(survey: &Survey) -> Section {
-    let shown = samples_section(&survey.samples);
-    let section = Section::new(&shown.title, &shown.text);
-    if survey.samples.is_empty() { section } else { section.table("", "", &shown.table) }
+    let (text, table) = samples_table(&survey.samples);
+    let section = Section::new(SAMPLES, &text);
+    if survey.samples.is_empty() { section } else { section.table("", "", &table) }
 }
 
 /// The facts and tables of the page in Markdown, as a page of the book.

@@ -6,7 +6,8 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use cargo_driveline::campaign::run::{Drive, run};
+use cargo_driveline::campaign::drive::Drive;
+use cargo_driveline::campaign::run::run;
 use cargo_driveline::campaign::scenes::SCENES;
 use cargo_driveline::campaign::{
     Draw, Factor, Figure, PlainLoop, Tolerance, decay, noise_of_largest, quantile, rank_correlation,

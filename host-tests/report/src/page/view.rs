@@ -10,8 +10,7 @@ use super::thinning::fineness;
 use crate::chart;
 use crate::report::Report;
 use crate::results::{Fact, Variant};
-use crate::sample::{Sample, samples_section};
-use crate::sheet::Section;
+use crate::sample::{SAMPLES, Sample, samples_table};
 use crate::svg::MARKERS;
 use crate::sweep::Sweep;
 use crate::trajectory::Trajectory;
@@ -101,8 +100,13 @@ struct Sampled {
 
 impl Sampled {
     fn of(samples: &[Sample]) -> Self {
-        let Section { title, text, table } = samples_section(samples);
-        Self { title, text: text.replace('`', ""), headings: table.headings().to_vec(), rows: table.filled() }
+        let (text, table) = samples_table(samples);
+        Self {
+            title: SAMPLES.into(),
+            text: text.replace('`', ""),
+            headings: table.headings().to_vec(),
+            rows: table.filled(),
+        }
     }
 }
 

@@ -133,9 +133,9 @@ impl Plant {
         self.enter_mode();
     }
 
-    /// A rope has been wound up or paid out: stiffness, N m/rad, above zero, and damping, N m s/rad, zero or above, of a
-    /// shaft change. Its elastic torque stays: the wound part keeps its stretch on the drum. Bad input changes nothing
-    /// and counts as [`refused`](Self::refused).
+    /// A rope has been wound up or paid out: stiffness, N m/rad, above zero, and damping, N m s/rad, zero or above, of
+    /// a shaft change. Its elastic torque stays: the wound part keeps its stretch on the drum. Bad input changes
+    /// nothing and counts as [`refused`](Self::refused).
     pub fn set_shaft(&mut self, shaft: usize, stiffness: f64, damping: f64) {
         let Some(old) = self.chain.shafts.get(shaft).copied() else {
             self.refused += 1;

@@ -32,8 +32,8 @@ fn counted<N: Classed>(
     count.counts(config)
 }
 
-/// The rule as the standard has it, on a whole series: reversals first; then, of any four in a row, the middle two are a
-/// cycle where their range is not greater than the ranges on either side; they are taken out and the search begins
+/// The rule as the standard has it, on a whole series: reversals first; then, of any four in a row, the middle two are
+/// a cycle where their range is not greater than the ranges on either side; they are taken out and the search begins
 /// again.
 fn by_rule(series: &[u8]) -> ([u32; CLASSES], Vec<u8>) {
     let mut points: Vec<i32> = Vec::new();

@@ -10,8 +10,8 @@ pub(super) enum Step {
     Shaft { shaft: usize, stiffness: f64, damping: f64 },
 }
 
-/// A plant whose run is written down as it goes: held torques, ticks, changes of load, brake and shaft, and the result of
-/// every tick.
+/// A plant whose run is written down as it goes: held torques, ticks, changes of load, brake and shaft, and the result
+/// of every tick.
 #[derive(Debug, Clone)]
 pub struct Recording {
     pub(super) start: Plant,
