@@ -121,6 +121,8 @@ fn check(section: &Section, at: &Place, listings: &[Table], read: Reader) -> Vec
             "disturbance",
             "limits",
             "duty",
+            "actuator",
+            "tolerance",
         ]
     } else {
         &[]

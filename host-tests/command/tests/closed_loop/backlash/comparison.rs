@@ -47,6 +47,6 @@ fn the_command_prints_json_and_refuses_no_seconds() {
     assert_eq!((code, json["rows"].as_array().unwrap().len()), (0, Approach::ALL.len()));
     let (code, _, error) = driveline(&["backlash", "--seconds", "0"]);
     assert_eq!(code, 2);
-    assert!(error.contains("--seconds must be from 1 to 1000"));
+    assert!(error.contains("0 is not in 1..=1000"), "{error}");
     assert_eq!(driveline(&["backlash", "--help"]).0, 0);
 }
