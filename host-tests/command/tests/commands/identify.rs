@@ -237,7 +237,7 @@ fn useless_records_are_refused_with_their_reason() {
     let draws: Vec<f64> = rows.iter().map(|_| noise.normal()).collect();
     assert!(refused(&changed(&|index, row| row[2] = draws[index])).contains("no machine is identified"));
     for (from, to, words) in [
-        ("speed_rad_per_s", "speed_kg", "log.csv:1:17: found the heading `speed_kg` without a unit"),
+        ("speed_rad_per_s", "speed_kg", "log.csv:1:18: found the heading `speed_kg` without a unit"),
         ("torque_Nm", "torque", "found the heading `torque` without a unit"),
         ("torque_Nm", "current_A", "--torque-constant"),
     ] {
