@@ -52,6 +52,7 @@ mod link;
 mod mesh;
 mod modes;
 mod motion;
+mod rank;
 mod reading;
 mod series;
 mod signal;
