@@ -105,7 +105,7 @@ impl Motion {
             }
         }
         for (l, link) in self.train.links.iter().enumerate() {
-            if link.efficiency < 1.0 && self.mode.carries(&self.train, l) {
+            if link.is_lossy() && self.mode.carries(&self.train, l) {
                 let factor = f64::from(self.mode.flow[l]) * link.terms[0].1.signum();
                 add(Action::Flow(l), stretch.strain[l].guard(factor, 0.0));
             }
@@ -154,8 +154,7 @@ impl Motion {
                 // motoring, a gear needs 1/eta of the torque; overhauling, it passes eta of it
                 let link = &self.train.links[l];
                 let driving = side * self.mode.flow[l] > 0;
-                let factor = if driving { 1.0 / link.efficiency } else { link.efficiency };
-                let torque = f64::from(side) * (factor - 1.0) * link.terms[0].1;
+                let torque = f64::from(side) * (link.factor(driving) - 1.0) * link.terms[0].1;
                 let (values, rounding) = stretch.strain[l].guard(torque, 0.0);
                 add_to(&mut sum, &values, &rounding);
             }
