@@ -50,7 +50,10 @@ impl Motion {
             let next = if whole { end } else { self.now + step };
             lost = step - (next - self.now);
             self.now = next;
-            if let Some((_, action)) = found {
+            if self.state.speed.iter().any(|speed| !speed.is_finite()) {
+                // beyond the numbers: nothing is left to solve
+                self.now = end;
+            } else if let Some((_, action)) = found {
                 events += 1;
                 self.fire(action);
                 if events == MOST_EVENTS {
