@@ -1,5 +1,8 @@
 //! Greatest and least value of a quantity, with their times.
 
+/// Share by which the same extreme of two periods may differ, by the roundings of the run between them.
+const ALIKE: f64 = 1e-12;
+
 /// Greatest and least value since a watch began.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extremes {
@@ -19,12 +22,12 @@ impl Extremes {
         Self { peak: value, peak_time: time, least: value, least_time: time }
     }
 
-    /// With one value more.
+    /// With one value more. Of values that are alike to their roundings the first stays.
     pub(super) fn take(&mut self, value: f64, time: f64) {
-        if value > self.peak {
+        if value > self.peak + ALIKE * self.peak.abs() {
             (self.peak, self.peak_time) = (value, time);
         }
-        if value < self.least {
+        if value < self.least - ALIKE * self.least.abs() {
             (self.least, self.least_time) = (value, time);
         }
     }

@@ -13,7 +13,7 @@
 mod eigen;
 mod equivalent;
 pub mod holzer;
-mod jacobi;
+pub(in crate::plant) mod jacobi;
 mod system;
 pub mod transfer;
 

@@ -52,6 +52,7 @@ mod link;
 mod mesh;
 mod modes;
 mod motion;
+mod rank;
 mod reading;
 mod series;
 mod signal;
@@ -208,7 +209,7 @@ impl Train {
             self.validate_unbalance(unbalance)?;
         }
         let cranked = |at: usize| self.coordinates[at].crank.is_some();
-        let lossy = self.links.iter().filter(|link| link.efficiency < 1.0).map(|link| link.terms[0].0);
+        let lossy = self.links.iter().filter(|link| link.is_lossy()).map(|link| link.terms[0].0);
         let rubbing = self.frictions.iter().flat_map(|friction| friction.terms.iter().map(|term| term.0));
         match lossy.chain(rubbing).find(|&at| cranked(at)) {
             Some(at) => Err(PlantError::Parameter {
@@ -245,7 +246,7 @@ impl Train {
             unbalance.moment.abs() < most,
             "less than its inertias carry",
         )?;
-        let lossy = self.links.iter().filter(|link| link.efficiency < 1.0).map(|link| link.terms[0].0);
+        let lossy = self.links.iter().filter(|link| link.is_lossy()).map(|link| link.terms[0].0);
         let rubbing = self.frictions.iter().flat_map(|friction| friction.terms.iter().map(|term| term.0));
         let cranked = (0..n).filter(|&at| self.coordinates[at].crank.is_some());
         match lossy.chain(rubbing).chain(cranked).find(|&at| at == unbalance.turning || at == unbalance.way) {

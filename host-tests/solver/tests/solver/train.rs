@@ -6,6 +6,8 @@ mod against_chain;
 mod crank;
 mod gear_pair;
 mod linear;
+mod losses;
+mod modes;
 mod mover;
 mod proof;
 mod start;

@@ -46,10 +46,8 @@ impl TrainVibration {
     /// What the solver refuses.
     pub fn of(file: &TrainFile) -> Result<Self, Failure> {
         let modes = file.train.modes().map_err(|error| Failure::failed(error.to_string()))?;
-        // eigenvalues of rigid motions are rounding, 1e-16 of the largest; their roots 1e-8 of its root
-        let most = modes.omega.last().copied().unwrap_or(0.0);
         let inertia = file.train.inertias();
-        let elastic: Vec<usize> = (0..modes.omega.len()).filter(|&i| modes.omega[i] > 1e-6 * most).collect();
+        let elastic: Vec<usize> = (modes.rigid_motions()..modes.omega.len()).collect();
         let resonance = |&i: &usize| {
             let shape = &modes.shapes[i];
             let energy = shape.iter().zip(&inertia).map(|(q, j)| q.signum() * q * q * j).collect();
@@ -59,7 +57,7 @@ impl TrainVibration {
         Ok(Self {
             name: file.name.clone(),
             coordinates: file.coordinates.clone(),
-            rigid_motions: modes.omega.len() - elastic.len(),
+            rigid_motions: modes.rigid_motions(),
             resonances: elastic.iter().map(resonance).collect(),
             critical: critical_speeds(&frequencies, file.running.as_ref(), &file.excitations),
         })

@@ -24,36 +24,44 @@ impl System {
     }
 }
 
-/// Singular values of the matrix with these columns, in falling order. Columns are made orthogonal two by two, the
-/// longer one first (de Rijk); no sum of squares of different columns is ever formed.
-fn singular_values(mut columns: Vec<Vec<f64>>) -> Vec<f64> {
+/// Singular values of the matrix with these columns, in falling order.
+fn singular_values(columns: Vec<Vec<f64>>) -> Vec<f64> {
+    let rows = columns.first().map_or(0, Vec::len);
+    orthogonal(columns, rows).iter().map(|column| norm(column)).collect()
+}
+
+/// Turns columns until they are orthogonal, two by two and the longer one first (de Rijk), by the inner product of
+/// their first `rows` entries; the others are carried along. No sum of squares of different columns is ever formed.
+/// The longest comes first.
+pub(in crate::plant) fn orthogonal(mut columns: Vec<Vec<f64>>, rows: usize) -> Vec<Vec<f64>> {
     let n = columns.len();
+    let norm = |column: &[f64]| norm(&column[..rows]);
     for _ in 0..SWEEPS {
         let mut turned = false;
         for i in 0..n {
             let longest = (i..n).max_by(|&a, &b| norm(&columns[a]).total_cmp(&norm(&columns[b])));
             columns.swap(i, longest.unwrap_or(i));
             for j in i + 1..n {
-                turned |= orthogonalise(&mut columns, i, j);
+                turned |= orthogonalise(&mut columns, rows, i, j);
             }
         }
         if !turned {
             break;
         }
     }
-    let mut values: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
-    values.sort_by(|a, b| b.total_cmp(a));
-    values
+    columns.sort_by(|a, b| norm(b).total_cmp(&norm(a)));
+    columns
 }
 
 /// Turns two columns until they stand upright on each other; false if they do already.
-fn orthogonalise(columns: &mut [Vec<f64>], i: usize, j: usize) -> bool {
-    let (a, b) = (norm(&columns[i]), norm(&columns[j]));
+fn orthogonalise(columns: &mut [Vec<f64>], rows: usize, i: usize, j: usize) -> bool {
+    let (a, b) = (norm(&columns[i][..rows]), norm(&columns[j][..rows]));
     if a == 0.0 || b == 0.0 {
         return false;
     }
     // cosine of the angle between them, free of over- and underflow
-    let cosine: f64 = columns[i].iter().zip(&columns[j]).map(|(x, y)| (x / a) * (y / b)).sum();
+    let pairs = columns[i].iter().zip(&columns[j]).take(rows);
+    let cosine: f64 = pairs.map(|(x, y)| (x / a) * (y / b)).sum();
     if cosine.abs() <= f64::EPSILON {
         return false;
     }
@@ -69,7 +77,7 @@ fn orthogonalise(columns: &mut [Vec<f64>], i: usize, j: usize) -> bool {
     true
 }
 
-fn norm(column: &[f64]) -> f64 {
+pub(in crate::plant) fn norm(column: &[f64]) -> f64 {
     let largest = column.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if largest == 0.0 {
         return 0.0;

@@ -50,7 +50,10 @@ impl Motion {
             let next = if whole { end } else { self.now + step };
             lost = step - (next - self.now);
             self.now = next;
-            if let Some((_, action)) = found {
+            if self.state.speed.iter().any(|speed| !speed.is_finite()) {
+                // beyond the numbers: nothing is left to solve
+                self.now = end;
+            } else if let Some((_, action)) = found {
                 events += 1;
                 self.fire(action);
                 if events == MOST_EVENTS {
@@ -105,7 +108,7 @@ impl Motion {
             }
         }
         for (l, link) in self.train.links.iter().enumerate() {
-            if link.efficiency < 1.0 && self.mode.carries(&self.train, l) {
+            if link.is_lossy() && self.mode.carries(&self.train, l) {
                 let factor = f64::from(self.mode.flow[l]) * link.terms[0].1.signum();
                 add(Action::Flow(l), stretch.strain[l].guard(factor, 0.0));
             }
@@ -154,8 +157,7 @@ impl Motion {
                 // motoring, a gear needs 1/eta of the torque; overhauling, it passes eta of it
                 let link = &self.train.links[l];
                 let driving = side * self.mode.flow[l] > 0;
-                let factor = if driving { 1.0 / link.efficiency } else { link.efficiency };
-                let torque = f64::from(side) * (factor - 1.0) * link.terms[0].1;
+                let torque = f64::from(side) * (link.factor(driving) - 1.0) * link.terms[0].1;
                 let (values, rounding) = stretch.strain[l].guard(torque, 0.0);
                 add_to(&mut sum, &values, &rounding);
             }

@@ -15,6 +15,7 @@ pub struct Link {
     pub(super) rope: bool,
     pub(super) variation: Option<Variation>,
     pub(super) efficiency: f64,
+    pub(super) back_efficiency: f64,
     pub(super) elongation: f64,
 }
 
@@ -30,6 +31,7 @@ impl Link {
             rope: false,
             variation: None,
             efficiency: 1.0,
+            back_efficiency: 1.0,
             elongation: 0.0,
         }
     }
@@ -90,8 +92,25 @@ impl Link {
     /// carries `F/eta` when motoring and `eta F` when overhauling `[Wang 1989 §1-3]`.
     #[must_use]
     pub fn efficiency(mut self, efficiency: f64) -> Self {
-        self.efficiency = efficiency;
+        (self.efficiency, self.back_efficiency) = (efficiency, efficiency);
         self
+    }
+
+    /// The same with another efficiency when overhauling, up to 1: a worm's. At zero or below the gear locks itself.
+    #[must_use]
+    pub fn back_efficiency(mut self, efficiency: f64) -> Self {
+        self.back_efficiency = efficiency;
+        self
+    }
+
+    /// Whether its first coordinate carries another force than itself.
+    pub(super) fn is_lossy(&self) -> bool {
+        self.efficiency < 1.0 || self.back_efficiency < 1.0
+    }
+
+    /// Force on its first coordinate, as a multiple of its own, when that one drives or is driven.
+    pub(super) fn factor(&self, drives: bool) -> f64 {
+        if drives { 1.0 / self.efficiency } else { self.back_efficiency }
     }
 
     /// The same with this elongation at the start.
@@ -143,6 +162,8 @@ impl Link {
         not_negative(if self.rope { "slack" } else { "backlash" }, place, self.gap)?;
         let eta = self.efficiency;
         in_range("efficiency", place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
+        let back = self.back_efficiency;
+        in_range("efficiency when overhauling", place, back, back <= 1.0, "up to 1")?;
         in_range("elongation at the start", place, self.elongation, true, "a finite number")?;
         let Some(variation) = &self.variation else { return Ok(()) };
         if let Variation::Teeth(teeth) = variation

@@ -1,40 +1,74 @@
 //! Natural frequencies and shapes of a train with every link in contact at its mean stiffness.
 
-use nalgebra::{DMatrix, SymmetricEigen};
-
 use super::Train;
+use super::rank::Elimination;
 use crate::plant::error::PlantError;
+use crate::plant::modes::jacobi::{norm, orthogonal};
 
 /// Natural frequencies and shapes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrainModes {
-    /// rad/s, rising; near zero for a rigid motion.
+    /// rad/s, rising; exactly zero for a rigid motion.
     pub omega: Vec<f64>,
     /// Of each mode, the amplitude of every coordinate, scaled to `sum J q^2 = 1`.
     pub shapes: Vec<Vec<f64>>,
 }
 
+impl TrainModes {
+    /// Motions that strain no link.
+    #[must_use]
+    pub fn rigid_motions(&self) -> usize {
+        self.omega.iter().take_while(|&&omega| omega == 0.0).count()
+    }
+}
+
 impl Train {
-    /// Undamped modes from the eigenvalues of the mass-normalised stiffness, without what unbalances couple.
+    /// Undamped modes, without what unbalances couple. They are the singular values of the scaled incidence
+    /// `sqrt(k) B / sqrt(J)` by one-sided Jacobi rotations: the stiffness is never formed, and each frequency keeps its
+    /// digits whatever the ratios of inertia and stiffness. How many motions are rigid is the rank of `B` alone, which
+    /// has no stiffness in it.
     ///
     /// # Errors
     /// [`PlantError`] as [`build`](Self::build).
     pub fn modes(&self) -> Result<TrainModes, PlantError> {
         self.validate()?;
         let n = self.coordinates.len();
-        let inertia = self.inertias();
-        let mut incidence = DMatrix::zeros(self.links.len(), n);
-        for (l, link) in self.links.iter().enumerate() {
+        let root: Vec<f64> = self.inertias().iter().map(|inertia| inertia.sqrt()).collect();
+        let springs: Vec<_> = self.links.iter().filter(|link| link.mean_stiffness() > 0.0).collect();
+        let elimination = Elimination::of(springs.iter().map(|link| link.terms.as_slice()), n);
+        let elastic = elimination.rank();
+        let scaled = |link: &&super::Link| {
+            let mut row = vec![0.0; n];
             for &(at, share) in &link.terms {
-                incidence[(l, at)] = share * (link.mean_stiffness() / inertia[at]).sqrt();
+                row[at] = share * link.mean_stiffness().sqrt() / root[at];
             }
+            row
+        };
+        let rows: Vec<Vec<f64>> = springs.iter().map(scaled).collect();
+        // A column for each link where all are independent: it ends up as its frequency times its shape. Else a column
+        // for each coordinate, with the row of the unit matrix below it that becomes the shape.
+        let by_link = springs.len() == elastic;
+        let (columns, length) = if by_link {
+            (rows, n)
+        } else {
+            let column = |j: usize| {
+                let unit = (0..n).map(move |i| f64::from(u8::from(i == j)));
+                rows.iter().map(|row| row[j]).chain(unit).collect()
+            };
+            ((0..n).map(column).collect(), rows.len())
+        };
+        let mut modes: Vec<(f64, Vec<f64>)> = Vec::with_capacity(n);
+        for column in orthogonal(columns, length).into_iter().take(elastic) {
+            let omega = norm(&column[..length]);
+            let shape: Vec<f64> =
+                if by_link { column.iter().map(|x| x / omega).collect() } else { column[length..].to_vec() };
+            modes.push((omega, shape));
         }
-        let eigen = SymmetricEigen::new(incidence.transpose() * &incidence);
-        let mut order: Vec<usize> = (0..n).collect();
-        order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-        let omega = order.iter().map(|&i| eigen.eigenvalues[i].max(0.0).sqrt());
-        let shape = |&i: &usize| (0..n).map(|j| eigen.eigenvectors[(j, i)] / inertia[j].sqrt()).collect();
-        Ok(TrainModes { omega: omega.collect(), shapes: order.iter().map(shape).collect() })
+        modes.extend(elimination.free_motions(&root).into_iter().map(|shape| (0.0, shape)));
+        modes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (omega, scaled): (Vec<f64>, Vec<Vec<f64>>) = modes.into_iter().unzip();
+        let shape = |shape: Vec<f64>| shape.iter().zip(&root).map(|(x, root)| x / root).collect();
+        Ok(TrainModes { omega, shapes: scaled.into_iter().map(shape).collect() })
     }
 
     /// Inertia of every coordinate, kg m2 or kg, with what a crank adds at its starting angle.

@@ -45,7 +45,7 @@ impl Train {
     /// [`PlantError`] names the first parameter that is out of range; a link is called a shaft, a coordinate a node.
     pub fn build(mut self) -> Result<Motion, PlantError> {
         self.validate()?;
-        for (l, link) in self.links.iter().enumerate().filter(|(_, link)| link.efficiency < 1.0) {
+        for (l, link) in self.links.iter().enumerate().filter(|(_, link)| link.is_lossy()) {
             let front = [(link.terms[0].0, 1.0)];
             let same = |friction: &&mut Friction| friction.terms == front && friction.surface == 0.0;
             match self.frictions.iter_mut().find(same) {
@@ -218,7 +218,7 @@ fn fastest(train: &Train) -> f64 {
     let (mut k, mut d) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
     let mut swing = 0.0_f64;
     for link in &train.links {
-        let loss = 1.0 / link.efficiency;
+        let loss = (1.0 / link.efficiency).max(link.back_efficiency.abs());
         for &(a, one) in &link.terms {
             for &(b, other) in &link.terms {
                 let share = loss * one * other / (inertia[a] * inertia[b]);

@@ -41,15 +41,13 @@ impl Mode {
 
     /// Force on the first coordinate of a link, as a multiple of its own `[Wang 1989 §1-3]`.
     pub fn loss(&self, train: &Train, link: usize) -> f64 {
-        let efficiency = train.links[link].efficiency;
-        if efficiency == 1.0 {
+        if !train.links[link].is_lossy() {
             return 1.0;
         }
         let gear = train.frictions.iter().position(|friction| friction.losses.contains(&link));
         match gear.map_or(0, |s| self.slip[s]) * self.flow[link] {
-            1 => 1.0 / efficiency,
-            -1 => efficiency,
-            _ => 1.0,
+            0 => 1.0,
+            power => train.links[link].factor(power > 0),
         }
     }
 

@@ -183,15 +183,15 @@ impl<'a> Double<'a> {
     }
 
     fn loss(&self, l: usize) -> f64 {
-        let eta = self.train.links[l].efficiency;
+        let (eta, back) = (self.train.links[l].efficiency, self.train.links[l].back_efficiency);
         let gear = self.train.frictions.iter().position(|friction| friction.losses.contains(&l));
         let power = gear.map_or(0.0, |s| self.way[s]) * self.flow[l];
-        if eta == 1.0 || power == 0.0 {
+        if power == 0.0 {
             1.0
         } else if power > 0.0 {
             1.0 / eta
         } else {
-            eta
+            back
         }
     }
 
@@ -244,9 +244,9 @@ impl<'a> Double<'a> {
         let friction = &self.train.frictions[s];
         let mut room = friction.breakaway + side * force;
         for &l in &friction.losses {
-            let eta = self.train.links[l].efficiency;
+            let (eta, back) = (self.train.links[l].efficiency, self.train.links[l].back_efficiency);
             let torque = self.carried(t, y, l) * self.train.links[l].terms[0].1;
-            let factor = if side * self.flow[l] > 0.0 { 1.0 / eta } else { eta };
+            let factor = if side * self.flow[l] > 0.0 { 1.0 / eta } else { back };
             room += side * (factor - 1.0) * torque;
         }
         room
@@ -329,7 +329,7 @@ impl Hybrid for Double<'_> {
             let reach = if link.rope { link.gap } else { 0.5 * link.gap };
             let (x, size) = (y[l], reach.max(y[l].abs()));
             let pull = self.law(t, l).0 * size;
-            if link.efficiency < 1.0 && self.side[l].abs() == 1.0 {
+            if link.is_lossy() && self.side[l].abs() == 1.0 {
                 let toward = self.strain(t, y, l) * link.terms[0].1;
                 all.push((self.flow[l] * toward, pull, Change::Flow(l)));
             }
