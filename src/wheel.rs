@@ -27,15 +27,21 @@
 //!
 //! One pickup does not see the direction: the wheel counts upwards.
 
+mod angle;
 mod cam;
 mod check;
 mod cycle;
+mod description;
+mod phase;
 mod place;
+mod state;
 mod tooth;
 mod track;
 
-pub use cam::Cam;
+pub use angle::{SKIPPED, WheelAngle};
 pub use cycle::{CycleTimes, Record, ToothCycle};
+pub use description::{Tooth, ToothedWheelConfig};
+pub use phase::Cam;
 pub use place::Search;
 pub(crate) use place::{MOST, RATIOS, ratio_of};
-pub use tooth::{SKIPPED, Stage, Tooth, ToothedWheel, ToothedWheelConfig, WheelAngle};
+pub use state::{Stage, ToothedWheel};

@@ -1,36 +1,9 @@
 //! The phase of the cycle from a cam, and the zero of a wheel without a gap from an index.
 
 use super::cycle::Record;
-use super::tooth::{Stage, ToothedWheel, ToothedWheelConfig};
-
-/// A cam's edges, `EDGES` to the cycle. Made by [`crate::settings`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Cam<const EDGES: usize> {
-    /// Their places in the cycle [2^-32 cycle].
-    pub edges: [u32; EDGES],
-    /// How far an edge may be from its place, as a cam's drive may be stretched or shifted [2^-32 cycle].
-    pub tolerance: u32,
-}
-
-/// What the edges of cam and index have shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Phase {
-    /// Parts of the cycle, counted from the one assumed, that the wheel may be in.
-    left: u32,
-    /// Turns of an even wheel with all teeth between two edges of the index; none before its first edge.
-    turns: Option<u32>,
-}
-
-impl Phase {
-    pub const NEW: Phase = Phase { left: u32::MAX, turns: None };
-
-    /// Whether the index has shown all teeth of a turn.
-    pub fn counted(&self) -> bool {
-        self.turns.is_some_and(|turns| turns > 0)
-    }
-}
+use super::description::ToothedWheelConfig;
+use super::phase::Cam;
+use super::state::{Stage, ToothedWheel};
 
 impl<R: Record> ToothedWheel<R> {
     /// An edge of the cam; to be called from the interrupt of its capture. The parts of the cycle in which the cam has

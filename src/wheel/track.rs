@@ -1,6 +1,6 @@
 //! Smoothed passage and speed of the wheel.
 
-use super::tooth::Tooth;
+use super::description::Tooth;
 
 /// Corrections of the passage and of the time of a span by the error of a passage [2^-8], from the fastest to the
 /// smoothest: optimal for a speed that changes at random beside a jitter of the edges, for one ratio of the two each

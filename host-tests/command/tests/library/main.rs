@@ -13,6 +13,7 @@ mod learning;
 mod lift;
 mod logged;
 mod machine;
+mod recordings;
 #[path = "../references/mod.rs"]
 mod references;
 mod scheduling;

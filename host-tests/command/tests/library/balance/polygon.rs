@@ -2,18 +2,12 @@
 //! turn (hstarmans/rotorbalancer, GPL-3.0; not part of the project, read where they are).
 
 use std::f64::consts::TAU;
-use std::path::PathBuf;
 
 use driveline::angle::OncePerTurn;
 use driveline::balancing::{Balancer, Complex, Phasors, PhasorsConfig, ReadingFault};
 use driveline::settings::PhasorSettings;
 
-/// The folder `shared/real` beside the project, or one folder further up.
-fn folder() -> Option<PathBuf> {
-    let project = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    let places = project.ancestors().skip(3).take(3).map(|above| above.join("shared/real/polygon_rotor"));
-    places.into_iter().find(|place| place.is_dir())
-}
+use crate::recordings::recording;
 
 /// Acceleration, and whether the mark passed since the sample before.
 fn samples(path: &std::path::Path) -> Vec<(f64, bool)> {
@@ -56,10 +50,7 @@ fn least_squares(samples: &[(f64, bool)]) -> Complex<f64> {
 /// readings are refused with the uncertainty that they have.
 #[test]
 fn a_polygon_mirror_is_read() {
-    let Some(folder) = folder() else {
-        println!("skipped: no recordings");
-        return;
-    };
+    let Some(folder) = recording("polygon_rotor") else { return };
     let config = PhasorsConfig::<f32, 1>::new(&PhasorSettings::DIRECT, [32_768.0]);
     for number in 100..105 {
         for weight in ["without_weight", "weight"] {

@@ -26,9 +26,13 @@ pub fn seen<const TEETH: usize>(teeth: &Teeth<TEETH>, edges: &[f64]) -> [usize; 
 }
 
 macro_rules! seen_as {
-    ($edges:expr; gaps $(($places:literal, $missing:literal))*; without $(($left:literal, $n:literal, $gone:expr))*) => {
+    ($edges:expr; gaps $(($places:literal, $missing:literal))*;
+     without $(($left:literal, $n:literal, $gone:expr))*) => {
         [
-            $((concat!($places, "-", $missing), seen(&Teeth::<{ $places - $missing }>::gap($places, $missing), $edges)),)*
+            $((
+                concat!($places, "-", $missing),
+                seen(&Teeth::<{ $places - $missing }>::gap($places, $missing), $edges),
+            ),)*
             $((stringify!($n without $gone), seen(&Teeth::<$left>::without($n, &$gone), $edges)),)*
             ("12+1", seen(&Teeth::<13>::extra(12, 340.0), $edges)),
             ("12+1 backwards", seen(&Teeth::<13>::extra(12, 350.0), $edges)),
@@ -43,9 +47,10 @@ macro_rules! seen_as {
 #[track_caller]
 pub fn nothing_but(name: &str, edges: &[f64], right: &[&str]) {
     let all = seen_as!(edges;
-        gaps (36, 1) (36, 2) (36, 3) (36, 4) (35, 1) (35, 2) (34, 1) (37, 2) (37, 3) (33, 1) (60, 1) (60, 2) (60, 3) (59, 1)
-            (61, 3) (58, 1) (48, 2) (44, 2) (32, 2) (30, 1) (24, 1) (24, 2) (18, 1) (16, 2) (15, 2) (15, 3) (14, 1) (14, 2)
-            (13, 1) (12, 1) (12, 2) (12, 3) (10, 3) (9, 2) (8, 1) (8, 2) (7, 1) (6, 1) (6, 2) (5, 1) (4, 1);
+        gaps (36, 1) (36, 2) (36, 3) (36, 4) (35, 1) (35, 2) (34, 1) (37, 2) (37, 3) (33, 1) (60, 1) (60, 2) (60, 3)
+            (59, 1) (61, 3) (58, 1) (48, 2) (44, 2) (32, 2) (30, 1) (24, 1) (24, 2) (18, 1) (16, 2) (15, 2) (15, 3)
+            (14, 1) (14, 2) (13, 1) (12, 1) (12, 2) (12, 3) (10, 3) (9, 2) (8, 1) (8, 2) (7, 1) (6, 1) (6, 2)
+            (5, 1) (4, 1);
         without (33, 36, [17, 34, 35]) (33, 36, [16, 17, 34]) (33, 36, [10, 34, 35]) (34, 36, [17, 35])
             (30, 36, [13, 14, 17, 18, 34, 35]) (30, 36, [9, 10, 22, 23, 34, 35]) (30, 36, [8, 9, 17, 18, 34, 35])
             (30, 36, [10, 11, 22, 23, 34, 35]) (32, 36, [16, 17, 34, 35]));

@@ -1,8 +1,4 @@
 //! Recordings of real engines, read from where they are kept: they may not be copied here (GPL-3.0).
-//!
-//! Set `DRIVELINE_RECORDINGS` to the folder; a test of one that is not there says "skipped".
-
-use std::path::PathBuf;
 
 use driveline::fluctuation::{Ripple, ToothErrors, ToothWindow};
 use driveline::settings::{Teeth, ToothClock};
@@ -10,14 +6,11 @@ use driveline::wheel::{CycleTimes, ToothedWheel, ToothedWheelConfig};
 
 use super::edges::{CLOCK, TIMING, clock};
 use super::other_teeth::nothing_but;
+use crate::recordings::recording;
 
 /// Rising edges of a column \[s\], or all times of a list [ms].
 fn edges(file: &str, column: usize) -> Option<Vec<f64>> {
-    let folder = std::env::var_os("DRIVELINE_RECORDINGS").map_or("/work/shared/real/engines".into(), PathBuf::from);
-    let Ok(text) = std::fs::read_to_string(folder.join(file)) else {
-        println!("skipped: {file} is not there");
-        return None;
-    };
+    let text = std::fs::read_to_string(recording(&format!("engines/{file}"))?).unwrap();
     if file.ends_with("edges_ms") {
         return Some(text.split_whitespace().map(|time| time.parse::<f64>().unwrap() * 1e-3).collect());
     }

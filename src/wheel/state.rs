@@ -1,0 +1,97 @@
+//! The state of a wheel, and what is known of its place.
+
+use super::check::Check;
+use super::cycle::{CycleTimes, Record, ToothCycle};
+use super::phase::Phase;
+use super::place::Search;
+use super::track::Track;
+
+/// How much is known of the place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Stage {
+    /// Not known.
+    #[default]
+    Searching,
+    /// One place is left, and is being checked.
+    Checking,
+    /// Known.
+    Known,
+}
+
+/// A toothed wheel. Its angle is that of [`crate::settings::Teeth`]. `R` is what it records: nothing, or
+/// [`CycleTimes`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ToothedWheel<R = ()> {
+    /// The last edge that was taken, and the time from the one before; 0 where there is none.
+    pub(super) last: u32,
+    pub(super) interval: u32,
+    pub(super) search: Search,
+    pub(super) stage: Stage,
+    /// Good turns.
+    pub(super) trust: u32,
+    /// The last tooth, and its number in the cycle.
+    pub(super) place: u32,
+    pub(super) in_cycle: u32,
+    pub(super) track: Track,
+    /// Edges too many and teeth without an edge.
+    pub(super) doubts: u32,
+    /// An edge too many has come since the last tooth.
+    pub(super) extra: bool,
+    /// The last edge is a tooth, with no edge too many before it.
+    pub(super) firm: bool,
+    /// Good teeth in a row.
+    pub(super) good: u32,
+    pub(super) check: Check,
+    /// Span of the last tooth that was checked.
+    pub(super) span: u32,
+    pub(super) cam: Phase,
+    pub(super) record: R,
+}
+
+impl<R: Record + Default> Default for ToothedWheel<R> {
+    fn default() -> Self {
+        ToothedWheel {
+            last: 0,
+            interval: 0,
+            search: Search::NEW,
+            stage: Stage::Searching,
+            trust: 0,
+            place: 0,
+            in_cycle: 0,
+            track: Track::NEW,
+            doubts: 0,
+            extra: false,
+            firm: false,
+            good: 0,
+            check: Check::NEW,
+            span: 0,
+            cam: Phase::NEW,
+            record: R::default(),
+        }
+    }
+}
+
+impl<R: Record> ToothedWheel<R> {
+    /// The wheel stands, the capture has timed out, edges were missed: the place is looked for anew.
+    pub fn lose(&mut self) {
+        self.stage = Stage::Searching;
+        self.search = Search::NEW;
+        self.interval = 0;
+        self.record.lost();
+    }
+
+    /// Whether the place is known.
+    pub fn stage(&self) -> Stage {
+        self.stage
+    }
+}
+
+impl<const TEETH: usize> ToothedWheel<CycleTimes<TEETH>> {
+    /// Takes the last finished cycle; none where there is none that was not taken. To be called with the capture's
+    /// interrupt off, once a cycle at least: [`ToothCycle::number`] shows cycles that were missed.
+    pub fn take(&mut self) -> Option<ToothCycle<TEETH>> {
+        self.record.take()
+    }
+}
