@@ -119,7 +119,7 @@ pub use read::{LARGEST, not_toml, parse, read, text};
 pub use rotor::{RotorFile, parse_rotor, read_rotor};
 pub use source::{Source, printable};
 pub use table::{Item, Table};
-pub use train::{TrainFile, is_train, parse_train, read_train};
+pub use train::{TrainFile, is_train, parse_train, parse_train_for_modes, read_train};
 
 use class::Class;
 use driveline::machine::{Chain, Train};

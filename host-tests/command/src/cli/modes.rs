@@ -19,7 +19,7 @@ use train::TrainVibration;
 
 use super::results::{Destination, check};
 use super::{Failure, say, say_json};
-use crate::machine_file::{is_train, parse, parse_train, text};
+use crate::machine_file::{is_train, parse, parse_train_for_modes, text};
 use driveline_report::Section;
 
 /// Natural frequencies and shapes of a machine, its two-mass reductions, and the sensitivity to each part.
@@ -53,7 +53,7 @@ impl Modes {
         // read once: a pipe gives its text only once
         let (name, text) = text(&self.file, "a machine file")?;
         if is_train(&text) {
-            let file = parse_train(&name, &text)?;
+            let file = parse_train_for_modes(&name, &text)?;
             let vibration = TrainVibration::of(&file)?;
             return self.show(&file.slug(), || vibration.page(&file), &vibration, vibration.tables());
         }

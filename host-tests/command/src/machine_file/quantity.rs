@@ -63,6 +63,8 @@ impl Quantity {
     pub const RATIO: Self = Quantity { least: 1e-6, most: 1e6, ..positive("") };
     /// Share of the power that passes.
     pub const EFFICIENCY: Self = Quantity { least: 1e-3, most: 1.0, ..positive("") };
+    /// Share of the load's power that passes back; zero or below for a gear that locks itself.
+    pub const BACK_EFFICIENCY: Self = Quantity { least: -1e3, most: 1.0, ..positive("") };
     /// Falls of rope that carry the load.
     pub const FALLS: Self = Quantity { least: 1.0, most: 64.0, whole: true, ..positive("") };
     /// Whole angle of a gap between its two flanks; more than a turn is not a gap.

@@ -11,12 +11,18 @@ pub(super) struct Referred {
     pub links: Vec<(String, Link)>,
 }
 
-/// The masses and shafts of a machine. A gear's efficiency belongs to the shaft behind it; where a shaft ends in a
-/// gear, to that shaft. A rope only pulls; the weight of what is lifted pulls backwards on the last mass of its chain
-/// or branch.
-pub(super) fn referred(machine: &MachineFile) -> Referred {
+/// The masses and shafts of a machine. The losses of a gear, a worm or a planetary set belong to the shaft behind it;
+/// where a shaft ends in it, to that shaft; those of a belt to the belt. A rope only pulls; the weight of what is
+/// lifted pulls backwards on the last mass of its chain or branch.
+///
+/// # Errors
+/// The label of an element whose losses no shaft can carry.
+pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
     let (masses, shafts) = machine.names();
-    let (rope, efficiency) = machine.ropes_and_efficiencies();
+    let Carried { rope, efficiency, without_shaft } = machine.carried();
+    if let Some(label) = without_shaft {
+        return Err(label);
+    }
     let mut weight = vec![0.0; masses.len()];
     weight[machine.chain.masses().len() - 1] = machine.chain.gravity_torque();
     for branch in &machine.branches {
@@ -31,40 +37,35 @@ pub(super) fn referred(machine: &MachineFile) -> Referred {
         let bare = Link::shaft(joint.from, joint.to, shaft.stiffness)
             .damping(shaft.damping)
             .gap(shaft.gap)
-            .efficiency(efficiency[s]);
+            .efficiency(efficiency[s][0])
+            .back_efficiency(efficiency[s][1]);
         if rope[s] { bare.rope() } else { bare }
     };
-    Referred {
+    Ok(Referred {
         coordinates: masses.into_iter().zip(machine.masses().iter().zip(&weight).map(coordinate)).collect(),
         links: shafts.into_iter().zip(machine.joints().into_iter().enumerate().map(link)).collect(),
-    }
+    })
 }
 
 impl MachineFile {
-    /// Of each shaft: whether it is a rope, and the efficiency of the gear before it.
+    /// Of each shaft: whether it is a rope, and the efficiency that it carries while the motor drives.
     pub fn ropes_and_efficiencies(&self) -> (Vec<bool>, Vec<f64>) {
+        let carried = self.carried();
+        (carried.rope, carried.efficiency.iter().map(|[motoring, _]| *motoring).collect())
+    }
+
+    fn carried(&self) -> Carried {
         let shafts = self.joints().len();
-        let (mut rope, mut efficiency) = (vec![false; shafts], vec![1.0; shafts]);
-        let mut look = |elements: &[Part], stations: &[Station], at: &dyn Fn(usize) -> usize| {
-            for (part, Station { chain, .. }) in elements.iter().zip(stations) {
-                let last = chain.masses().len() - 1;
-                match part.element {
-                    Element::Rope { .. } => rope[at(last - 1)] = true,
-                    Element::Gear { efficiency: eta, .. } => {
-                        let ends_a_shaft = last > 0 && chain.masses()[last] == 0.0;
-                        if let Some(known) = efficiency.get_mut(at(if ends_a_shaft { last - 1 } else { last })) {
-                            *known *= eta;
-                        }
-                    }
-                    _ => {}
-                }
-            }
-        };
-        look(&self.elements, &stations(&self.elements), &|shaft| shaft);
+        let mut carried =
+            Carried { rope: vec![false; shafts], efficiency: vec![[1.0; 2]; shafts], without_shaft: None };
+        // behind the last mass of a chain or a branch there is no shaft
+        let own = self.chain.shafts().len();
+        carried.look(&self.elements, &|shaft| (shaft < own).then_some(shaft));
         for branch in &self.branches {
-            look(&branch.elements, &stations(&branch.elements), &|shaft| branch.shaft(shaft));
+            let own = branch.chain.shafts().len();
+            carried.look(&branch.elements, &|shaft| (shaft < own).then(|| branch.shaft(shaft)));
         }
-        (rope, efficiency)
+        carried
     }
 
     /// The machine as a plant that runs in lock-step: it hangs on its shafts, which carry its weight, with dry friction
@@ -90,5 +91,43 @@ impl MachineFile {
         }
         let start = Start::Given { twists, speeds: vec![0.0; masses.len()] };
         known.load(weight).coulomb(friction).start(start).build()
+    }
+}
+
+/// What each shaft carries beside its torque.
+struct Carried {
+    rope: Vec<bool>,
+    /// While the motor's side drives, and while it is driven.
+    efficiency: Vec<[f64; 2]>,
+    /// An element whose losses no shaft can carry.
+    without_shaft: Option<String>,
+}
+
+impl Carried {
+    /// Looks at the elements of a chain or a branch; `at` places its shafts in the whole machine.
+    fn look(&mut self, elements: &[Part], at: &dyn Fn(usize) -> Option<usize>) {
+        // inertia at the end of the elements before
+        let mut before = 0.0;
+        for (part, Station { chain, .. }) in elements.iter().zip(stations(elements)) {
+            let last = chain.masses().len() - 1;
+            let behind = if last > 0 && before == 0.0 { last - 1 } else { last };
+            before = chain.masses()[last];
+            let (shaft, losses) = match part.element {
+                Element::Rope { .. } => {
+                    let rope = last.checked_sub(1).and_then(at).and_then(|shaft| self.rope.get_mut(shaft));
+                    rope.into_iter().for_each(|rope| *rope = true);
+                    continue;
+                }
+                Element::Gear { efficiency, .. } | Element::Planetary { efficiency, .. } => (behind, [efficiency; 2]),
+                Element::Worm { efficiency, back_efficiency, .. } => (behind, [efficiency, back_efficiency]),
+                Element::Belt { efficiency, .. } => (last.saturating_sub(1), [efficiency; 2]),
+                _ => continue,
+            };
+            match at(shaft).and_then(|shaft| self.efficiency.get_mut(shaft)) {
+                Some(known) => *known = [known[0] * losses[0], known[1] * losses[1]],
+                None if losses != [1.0; 2] => self.without_shaft = Some(part.label.clone()),
+                None => {}
+            }
+        }
     }
 }

@@ -15,7 +15,8 @@
 //! [[link]]
 //! name = "pinion"
 //! between = ["motor", "ring"]
-//! ratio = 5.0              # speed of the first over speed of the second, 1 where it is left out
+//! ratio = 5.0              # speed of the first over speed of the second, 1 where it is left out; negative for an
+//!                          # external gear
 //! stiffness = 3.0e4        # N m/rad
 //! damping = 6.0            # N m s/rad
 //! gap = 0.02               # rad, the whole backlash
@@ -40,7 +41,7 @@
 //! | `[[coordinate]]` | `name`, `inertia`, (`speed`, `angle`, `viscous`), (`[coordinate.crank]` with `radius`, `rod`,
 //! `slider_mass`, (`rod_mass`, `rod_inertia`, `rod_centre`)) |
 //! | `[[link]]` | `name`, `stiffness`, and `between` with (`ratio`), or `ground`, or `terms` as `[[share, ...]]` in
-//! the order of `of`; (`damping`, `gap`, `rope`, `efficiency`, `elongation`, `static`) |
+//! the order of `of`; (`damping`, `gap`, `rope`, `efficiency`, `back_efficiency`, `elongation`, `static`) |
 //! | `[link.spur]` | `frequency` Hz, `contact_ratio`, `double`, `single` N/m, (`error` m) |
 //! | `[link.teeth]` | as `spur`, by the angle of the coordinate `of` with `count` teeth, instead of the frequency |
 //! | `[link.harmonics]` | `frequency` Hz, (`stiffness`, `error`) as rows of order, cosine, sine |
@@ -50,7 +51,7 @@
 //! `triangle`, `square`, `sawtooth up`, `sawtooth down`, `rectified` `height` `period` `terms`; `arc` `torque` `from`
 //! `to`; `orders` `harmonics` |
 //! | `[start]` | `kind`: `rest`, `slack`, or `pretensioned` with `held` |
-//! | `[run]` | `time` s, `step` s |
+//! | `[run]` | `time` s, `step` s, a whole number of which is the time; `modes` does without it |
 
 use std::path::Path;
 
@@ -59,7 +60,7 @@ use toml::de::DeTable;
 use super::diagnostic::Diagnostic;
 use super::excitation::{Excitation, Running, excitations};
 use super::quantity::Quantity;
-use super::read::{document, named, parse, text};
+use super::read::{self, document, named, text};
 use super::referred::referred;
 use super::source::Source;
 use super::table::Table;
@@ -128,11 +129,30 @@ pub fn read_train(path: &Path) -> Result<TrainFile, Diagnostic> {
     parse_train(&name, &text)
 }
 
+/// Reads a train from a text for its modes, which need no `[run]`.
+///
+/// # Errors
+/// As [`parse_train`].
+pub fn parse_train_for_modes(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
+    parse(name, text, Asked::Modes)
+}
+
+/// What a file is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Asked {
+    Run,
+    Modes,
+}
+
 /// Reads a train from a text; `name` is what messages call it.
 ///
 /// # Errors
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn parse_train(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
+    parse(name, text, Asked::Run)
+}
+
+fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> {
     let source = Source { name, text };
     let parsed = document(source, "a train: `name`, [[coordinate]], [[link]] and [[torque]] tables, and [run]")?;
     let table: &DeTable<'_> = parsed.get_ref();
@@ -144,15 +164,20 @@ pub fn parse_train(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
     // of elements, which become coordinates and links by their labels
     let (mut labels, mut element_places) = (Vec::new(), Vec::new());
     if root.has("element") {
-        let machine = parse(name, text)?;
+        let machine = read::parse(name, text)?;
         let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
         labels = machine.elements.iter().chain(branched).map(|part| part.label.clone()).collect();
-        let referred = referred(&machine);
         let mut tables = root.tables("element")?;
         for (_, mut branch) in root.tables_if("branch", "branch")? {
             tables.extend(branch.tables("element")?);
         }
         element_places = tables.into_iter().map(|(place, _)| place).collect();
+        let referred = referred(&machine).map_err(|label| {
+            let element = labels.iter().position(|one| *one == label);
+            let place = element.and_then(|at| element_places.get(at)).cloned().unwrap_or(0..0);
+            let expected = "a shaft, belt or rope behind it that carries its losses, or an efficiency of 1";
+            Diagnostic::at(source, place, label, "no shaft behind it", expected)
+        })?;
         root.pass(&["encoder", "control", "disturbance", "limits", "duty", "actuator", "tolerance"]);
         file.static_force = vec![None; referred.links.len()];
         (file.names, coordinates) = referred.coordinates.into_iter().unzip();
@@ -208,13 +233,24 @@ pub fn parse_train(name: &str, text: &str) -> Result<TrainFile, Diagnostic> {
         start.finish()?;
     }
     let (running, excitations) = excitations(&mut root)?;
-    let mut run = root.table("run")?;
-    let time = run.number("time", Quantity::TIME)?;
-    let step = run.number("step", Quantity::TIME)?;
-    if !(step <= time && time / step <= LINES) {
-        return Err(run.wrong("step", "a time no longer than the run, and at least a millionth of it"));
-    }
-    run.finish()?;
+    let (time, step) = if asked == Asked::Modes && !root.has("run") {
+        (0.0, 0.0)
+    } else {
+        let mut run = root.table("run")?;
+        let time = run.number("time", Quantity::TIME)?;
+        let step = run.number("step", Quantity::TIME)?;
+        if !(step <= time && time / step <= LINES) {
+            return Err(run.wrong("step", "a time no longer than the run, and at least a millionth of it"));
+        }
+        // two numbers of a file that stand for a whole ratio differ from it by their roundings
+        let lines = (time / step).round();
+        if (time / step - lines).abs() > 1e-9 * lines {
+            let near = time / lines;
+            return Err(run.wrong("step", format!("a time that divides the run into whole steps, such as {near}")));
+        }
+        run.finish()?;
+        (time, step)
+    };
     root.finish()?;
     let motion = train.clone().build().map_err(|error| refused(error, whole.clone()))?;
     let too_stiff = too_stiff(&motion, time).map(|(place, found, expected)| {
@@ -356,12 +392,19 @@ impl Reading {
             Link::new(&terms, stiffness)
         } else {
             let (one, other) = self.pair(&mut table)?;
-            Link::geared(one, other, table.number_or("ratio", Quantity::RATIO, 1.0)?, stiffness)
+            let ratio = table.number_or("ratio", Quantity::ANY, 1.0)?;
+            if !Quantity::RATIO.allows(ratio.abs()) {
+                let expected = "a number, 1e-6 to 1e6, negative where the two turn against each other";
+                return Err(table.wrong("ratio", expected));
+            }
+            Link::geared(one, other, ratio, stiffness)
         };
+        let efficiency = table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?;
         link = link
             .damping(table.number_or("damping", Quantity::DAMPER, 0.0)?)
             .gap(table.number_or("gap", Quantity::SIZE, 0.0)?)
-            .efficiency(table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?)
+            .efficiency(efficiency)
+            .back_efficiency(table.number_or("back_efficiency", Quantity::BACK_EFFICIENCY, efficiency)?)
             .elongated(table.number_or("elongation", Quantity::ANY, 0.0)?);
         if table.flag_or("rope", false)? {
             link = link.rope();

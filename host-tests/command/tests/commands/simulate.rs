@@ -41,7 +41,8 @@ fn the_dynamic_factor_of_a_step_is_two() {
     let peak = shaft["greatest_time"].as_f64().unwrap();
     let swings = (peak * omega / std::f64::consts::PI).round();
     // near the top an error in time of 1e-8 changes the torque by rounding only
-    assert!(swings % 2.0 == 1.0 && (peak - swings * std::f64::consts::PI / omega).abs() < 1e-6, "{peak}");
+    // of equal peaks the first is told
+    assert!(swings == 1.0 && (peak - swings * std::f64::consts::PI / omega).abs() < 1e-6, "{peak}");
     assert!(found["proof"][0].as_f64().unwrap() < 1e-8);
     let table = std::fs::read_to_string(csv).unwrap();
     let mut lines = table.lines();
@@ -197,4 +198,84 @@ fn what_is_stiff_but_not_too_stiff_is_solved_and_proven() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert!(found["proof"][0].as_f64().unwrap() < 1e-8);
+}
+
+/// A run that its steps do not divide would be another run: it is refused, with a step that does.
+#[test]
+fn a_time_that_is_no_multiple_of_the_step_is_refused() {
+    let text = STEP.replace("time = 0.5\n", "time = 0.5004\n");
+    let said = parse_train("step.toml", &text).unwrap_err().to_string();
+    assert!(said.contains("step") && said.contains("divides the run into whole steps"), "{said}");
+    // 0.3/1e-3 is 299.99999999999994 in floating point, and whole in the file
+    parse_train("step.toml", &STEP.replace("time = 0.5\n", "time = 0.3\n")).unwrap();
+}
+
+/// A motor whose torque rises with its speed runs away: the run ends, and says what has grown.
+#[test]
+fn a_run_that_grows_without_bound_is_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("runaway.toml");
+    let runaway = "kind = \"line\"\nstall = 100.0\nslope = -2000.0";
+    std::fs::write(&file, STEP.replace("kind = \"constant\"\ntorque = 100.0", runaway)).unwrap();
+    let output = simulate(&[file.to_str().unwrap(), "--json"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && said.contains("grows without bound"), "{said}");
+    assert!(said.contains("\"motor\"") || said.contains("\"shaft\""), "{said}");
+}
+
+/// An external gear turns what is behind it the other way: speeds in the ratio, once the shaft's swing is taken off by
+/// the momentum `J_1 w_1 + J_2 w_2/ratio`, which is the torque times the time.
+#[test]
+fn a_negative_ratio_is_an_external_gear() {
+    let text = STEP.replace("stiffness = 850.0", "stiffness = 850.0\nratio = -2.0");
+    let file = parse_train("step.toml", &text).unwrap();
+    let mut motion = file.motion.clone();
+    motion.advance(0.5);
+    let momentum = 1.2 * motion.speed(0) - 0.3 * motion.speed(1) / 2.0;
+    // roundings of the run
+    assert!((momentum / 50.0 - 1.0).abs() < 1e-11 && motion.speed(1) < 0.0, "{momentum}");
+    let said = parse_train("step.toml", &text.replace("-2.0", "0.0")).unwrap_err().to_string();
+    assert!(said.contains("negative where"), "{said}");
+}
+
+/// Motor, an element with losses, a shaft and a load that hangs on a drum of 0.4 m.
+fn hanging(element: &str) -> String {
+    format!(
+        "name = \"hanging\"\n[[element]]\nkind = \"motor\"\ninertia = 0.5\n{element}\
+         [[element]]\nkind = \"shaft\"\nstiffness = 9.0e4\n\
+         [[element]]\nkind = \"rotor\"\ninertia = 2.0\n\
+         [[element]]\nkind = \"drum\"\ndiameter = 0.4\n\
+         [[element]]\nkind = \"lifted\"\nmass = 100.0\n\
+         [run]\ntime = 0.2\nstep = 1e-3\n"
+    )
+}
+
+/// A load of 196 N m behind a ratio of 10 pulls its motor by eta' of 19.6 N m: once the swing is taken off, the motor's
+/// momentum and eta' times the load's are eta' times the weight's torque times the time.
+#[test]
+fn worms_planetary_sets_and_gears_lose_power_in_a_run() {
+    let worm = "[[element]]\nkind = \"worm\"\nratio = 10.0\nefficiency = 0.7\nback_efficiency = 0.5\n";
+    let gear = "[[element]]\nkind = \"gear\"\nratio = 10.0\nefficiency = 0.9\n";
+    for (element, back) in [(worm, 0.5), (gear, 0.9)] {
+        let file = parse_train("hanging.toml", &hanging(element)).unwrap();
+        let mut motion = file.motion.clone();
+        motion.advance(0.2);
+        // at the motor: rotor and mass over the ratio's square; the standard's gravity of the library
+        let load = (2.0 + 100.0 * 0.2 * 0.2) / 100.0;
+        let weight = 100.0 * 9.80665 * 0.2 / 10.0;
+        let momentum = 0.5 * motion.speed(0) + back * load * motion.speed(1);
+        // a swing that lets the power turn round for a moment would leave a share; it has none here
+        assert!((momentum / (-back * weight * 0.2) - 1.0).abs() < 1e-9, "{back}: {momentum}");
+    }
+}
+
+/// Losses that no shaft can carry are refused by the element's name.
+#[test]
+fn losses_without_a_shaft_are_refused_by_name() {
+    let text = "name = \"stiff\"\n[[element]]\nkind = \"motor\"\ninertia = 0.5\n\
+        [[element]]\nkind = \"gear\"\nlabel = \"gearbox\"\nratio = 10.0\nefficiency = 0.9\n\
+        [[element]]\nkind = \"rotor\"\ninertia = 2.0\n\
+        [run]\ntime = 0.2\nstep = 1e-3\n";
+    let said = parse_train("stiff.toml", text).unwrap_err().to_string();
+    assert!(said.contains("gearbox") && said.contains("no shaft behind it"), "{said}");
 }

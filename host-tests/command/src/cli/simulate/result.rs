@@ -11,6 +11,9 @@ use driveline_solver::plant::{EventKind, Place};
 /// Product of the fastest rate and the time between two looks at the progress, at most.
 const BETWEEN_LOOKS: f64 = 1e4;
 
+/// A speed or force that no machine reaches.
+const OVERFLOW: f64 = 1e30;
+
 /// A finished run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Simulation {
@@ -92,7 +95,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A train too stiff for the length of the run, with the parameter that makes it so. More than a thousand events
-    /// in one step: the machine rattles without end there.
+    /// in one step: the machine rattles without end there. A speed or force that grows without bound.
     pub fn of(file: &TrainFile, proven: bool) -> Result<Self, Failure> {
         if let Some(refusal) = &file.too_stiff {
             return Err(refusal.clone().into());
@@ -121,8 +124,21 @@ impl Simulation {
                     "more than a thousand events in the step that ends at {at} s: the run cannot be resolved"
                 )));
             }
+            let values = motion.read_all(&signals);
+            if let Some((signal, value)) = signals.iter().zip(&values).find(|(_, value)| !(value.abs() < OVERFLOW)) {
+                let name = match *signal {
+                    Signal::Speed(j) => format!("the speed of \"{}\"", file.coordinates[j]),
+                    Signal::Force(l) => format!("the force of \"{}\"", file.links[l]),
+                    _ => "the run".to_owned(),
+                };
+                return Err(Failure::failed(format!(
+                    "{name} grows without bound: {value:.1e} at {} s; expected torques, dampings and slopes that let \
+                     the machine settle, or a shorter run",
+                    motion.time()
+                )));
+            }
             times.push(motion.time());
-            rows.iter_mut().zip(motion.read_all(&signals)).for_each(|(row, value)| row.push(value));
+            rows.iter_mut().zip(values).for_each(|(row, value)| row.push(value));
         }
         progress.says("proving by the second integrator");
         let (proof, not_proven) = if proven {
