@@ -136,7 +136,8 @@ fn balanced(noise: &mut Noise, disturbed: Disturbance) -> (f64, f64, bool) {
     (end, highest.max(end), (head + wheel).norm() < G2_5 || end < 0.2)
 }
 
-/// 2,000 starts, 200 of each kind: none ends worse than 1.02 times what was there, none passes 1.3 times on the way. G2.5
+/// 2,000 starts, 200 of each kind: none ends worse than 1.02 times what was there, none passes 1.3 times on the way.
+/// G2.5
 /// is reached in nine of ten where the bearings hold still and the readings are good to 2 %.
 #[test]
 fn two_thousand_starts_end_no_worse() {
