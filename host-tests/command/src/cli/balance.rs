@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use driveline::balancing::{Aim, Complex, Correction, Error};
+use driveline::balancing::{Aim, Complex, Correction, Error, Influence};
 use serde::Serialize;
 
 use super::results::{Destination, check};
@@ -49,7 +49,8 @@ pub struct Balance {
 #[derive(Clone, Debug, Serialize)]
 struct Row {
     sensor: String,
-    rpm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rpm: Option<f64>,
     /// Whether it counts: a reading that is weighted with zero does not.
     counts: bool,
     baseline: Polar,
@@ -65,10 +66,27 @@ struct Plane {
     plane: String,
     /// The weight to add.
     weight: Polar,
+    /// All weight that is then in the plane: corrections, trial weights that stay, and this one.
+    total: Polar,
     #[serde(skip_serializing_if = "Option::is_none")]
     holes: Option<Vec<Hole>>,
+    /// The weight at two given angles; a negative one is to be taken off there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    split: Option<[Share; 2]>,
+    /// Largest vibration predicted without this plane.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    largest_without: Option<f64>,
+    /// Influence of a weight of one on each reading.
+    coefficients: Vec<Polar>,
     #[serde(skip_serializing_if = "Option::is_none")]
     left_out: Option<String>,
+}
+
+/// A share of a weight at a given angle.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct Share {
+    weight: f64,
+    degrees: f64,
 }
 
 /// All that comes out.
@@ -77,6 +95,8 @@ struct Outcome {
     name: String,
     unit: String,
     weight_unit: &'static str,
+    #[serde(skip)]
+    radians: bool,
     /// Corrections that are on already; what follows is then a trim.
     corrections: usize,
     condition: f64,
@@ -138,34 +158,78 @@ fn said(outcome: &Outcome) -> String {
     for fact in facts(outcome) {
         let _ = writeln!(said, "{}: {}", fact.name, fact.value);
     }
+    let _ = write!(said, "\nInfluence coefficients, for a file without trial runs:\n{}", coefficients(outcome));
     said.trim_end().to_owned()
 }
 
+/// The influence coefficients as a file takes them.
+fn coefficients(outcome: &Outcome) -> String {
+    let angle = |degrees: f64| if outcome.radians { degrees.to_radians() } else { degrees };
+    let pair = |polar: &Polar| format!("[{:.6e}, {:.4}]", polar.amplitude, angle(polar.degrees));
+    let table = |plane: &Plane| {
+        let pairs: Vec<String> = plane.coefficients.iter().map(pair).collect();
+        format!("[[influence]]\nplane = {:?}\ncoefficients = [{}]\n", plane.plane, pairs.join(", "))
+    };
+    outcome.planes.iter().map(table).collect()
+}
+
+/// A weight as two at given angles.
+fn split(weight: Complex<f64>, degrees: [f64; 2]) -> [Share; 2] {
+    let [a, b] = degrees.map(|degrees| Complex::from_polar(1.0, degrees.to_radians()));
+    let cross = |x: Complex<f64>, y: Complex<f64>| x.re * y.im - x.im * y.re;
+    let share = |weight: f64, degrees: f64| Share { weight, degrees };
+    [share(cross(weight, b) / cross(a, b), degrees[0]), share(cross(a, weight) / cross(a, b), degrees[1])]
+}
+
+/// The largest vibration that is left without a plane.
+fn without(
+    influence: &Influence<f64, ROWS, PLANES>,
+    last: &[Complex<f64>],
+    aim: &Aim<f64, ROWS, PLANES>,
+    plane: usize,
+) -> Option<f64> {
+    let mut fewer = Influence::<f64, ROWS, PLANES>::new(influence.rows(), influence.planes() - 1).ok()?;
+    let mut aim = *aim;
+    for (place, other) in (0..influence.planes()).filter(|other| *other != plane).enumerate() {
+        let column: Vec<_> = (0..influence.rows()).map(|row| influence.get(row, other)).collect::<Option<_>>()?;
+        fewer.set(place, &column).ok()?;
+        aim.limits[place] = aim.limits[other];
+    }
+    fewer.correct(last, &aim).ok().map(|correction| correction.largest)
+}
+
 fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
-    let Measured::Phasors { procedure, baseline, last, rpm, corrections } = &file.measured else {
+    let Measured::Phasors { procedure, baseline, last, rpm, on, corrections } = &file.measured else {
         return Err(Error::TooEarly.into());
     };
     let correction: Correction<f64, ROWS, PLANES> = procedure.correction()?;
     let influence = procedure.influence()?;
+    let weight = |z: Complex<f64>| Polar::of(file.angles.weight(z));
+    let reading = |z: Complex<f64>| Polar::of(file.angles.reading(z));
     let mut placed = correction.weights;
     let mut planes = Vec::new();
     for (plane, name) in file.planes.iter().enumerate() {
         let mut fitted = None;
         if let Some(holes) = file.holes.iter().find(|holes| holes.plane == plane) {
-            let (sum, used) = fill(holes, correction.weights[plane])?;
-            placed[plane] = sum;
+            let (sum, used) = fill(holes, file.angles.weight(correction.weights[plane]))?;
+            placed[plane] = file.angles.weight(sum);
             fitted = Some(used);
         }
         let out = correction.left_out.iter().find(|out| out.plane == plane);
         planes.push(Plane {
             plane: name.clone(),
-            weight: Polar::of(correction.weights[plane]),
+            weight: weight(correction.weights[plane]),
+            total: weight(on[plane] + placed[plane]),
+            split: (file.splits.iter().find(|(split, _)| *split == plane))
+                .map(|(_, angles)| split(file.angles.weight(correction.weights[plane]), *angles)),
+            largest_without: without(&influence, last, &procedure.plan().aim, plane),
+            coefficients: (0..file.sensors.len()).filter_map(|row| influence.get(row, plane).map(reading)).collect(),
             holes: fitted,
             left_out: out.map(|out| {
                 let like: Vec<String> = (file.planes.iter().zip(&out.like))
                     .filter(|(_, weight)| weight.norm() > 1e-3)
-                    .map(|(name, weight)| {
-                        let [amount, angle] = Polar::of(*weight).told();
+                    .map(|(name, like)| {
+                        let [amount, angle] = weight(*like).told();
                         format!("{amount} at {angle}° in {name}")
                     })
                     .collect();
@@ -183,15 +247,14 @@ fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
     let with_holes = (!file.holes.is_empty()).then(|| influence.predict(last, &placed)).transpose()?;
     // rounding of the largest reading counts as zero
     let most = last.iter().map(|value| value.norm()).fold(0.0, f64::max);
-    let left =
-        |value: Complex<f64>| Polar::of(if value.norm() < 1e-12 * most { Complex::new(0.0, 0.0) } else { value });
+    let left = |value: Complex<f64>| reading(if value.norm() < 1e-12 * most { Complex::new(0.0, 0.0) } else { value });
     let rows = (0..file.sensors.len())
         .map(|row| Row {
             sensor: file.sensors[row].clone(),
-            rpm: rpm[row],
+            rpm: rpm.get(row).copied(),
             counts: procedure.plan().aim.weighting[row] > 0.0,
-            baseline: Polar::of(baseline[row]),
-            now: Polar::of(last[row]),
+            baseline: reading(baseline[row]),
+            now: reading(last[row]),
             predicted: left(correction.residual[row]),
             predicted_with_holes: with_holes.map(|rows| left(rows[row])),
         })
@@ -200,6 +263,7 @@ fn outcome(file: &BalanceFile) -> Result<Outcome, Fault> {
         name: file.name.clone(),
         unit: file.unit.clone(),
         weight_unit: file.weight_unit.name(),
+        radians: file.angles.radians,
         corrections: *corrections,
         condition: correction.condition,
         rows,
@@ -229,24 +293,33 @@ fn facts(outcome: &Outcome) -> Vec<Fact> {
 
 /// The tables as title, explanation and table: for the terminal and the page alike.
 fn tables(outcome: &Outcome) -> Vec<Section> {
-    let mut weights = Table::new(["plane", &format!("add {}", outcome.weight_unit), "at °", "holes"]);
+    let columns =
+        ["plane", &format!("add {}", outcome.weight_unit), "at °", "in all", "at °", "largest without", "holes"];
+    let mut weights = Table::new(columns);
     for plane in &outcome.planes {
-        let holes = plane.left_out.clone().unwrap_or_else(|| told(plane.holes.as_deref()));
+        let halves = |shares: [Share; 2]| {
+            shares.map(|share| format!("{} at {}°", significant(share.weight), significant(share.degrees))).join(", ")
+        };
+        let holes = plane.split.map_or_else(|| told(plane.holes.as_deref()), halves);
+        let holes = plane.left_out.clone().unwrap_or(holes);
         let [amount, angle] = plane.weight.told();
-        weights.row([plane.plane.clone(), amount, angle, holes]);
+        let [total, total_angle] = plane.total.told();
+        let without = plane.largest_without.map_or_else(String::new, significant);
+        weights.row([plane.plane.clone(), amount, angle, total, total_angle, without, holes]);
     }
     let mut rows = Table::new(["reading", "rpm", "baseline", "°", "now", "°", "predicted", "°", "with holes", "°"]);
     for row in &outcome.rows {
         let fitted = row.predicted_with_holes.map_or_else(|| [String::new(), String::new()], Polar::told);
         let polar = [row.baseline, row.now, row.predicted].into_iter().flat_map(Polar::told);
         let name = if row.counts { row.sensor.clone() } else { format!("{} (left out)", row.sensor) };
-        rows.row([name, significant(row.rpm)].into_iter().chain(polar).chain(fitted));
+        rows.row([name, row.rpm.map_or_else(String::new, significant)].into_iter().chain(polar).chain(fitted));
     }
     let unit = if outcome.unit.is_empty() { String::new() } else { format!(" [{}]", outcome.unit) };
     vec![
         Section::new(
             "Weights",
-            "To be added to the weights now on the rotor; angles as those of the trial weights.",
+            "To be added to the weights now on the rotor, and all with them; angles as those of the trial weights. \
+             Beside it the largest vibration where the plane is left out.",
             weights,
         ),
         Section::new(format!("Vibration{unit}"), "As predicted from the influence of the trial weights.", rows),
@@ -257,7 +330,8 @@ fn page(outcome: &Outcome) -> Sheet {
     let vibration = |row: &Row| {
         let mut arrows = vec![arrow("s5", "baseline", row.baseline), arrow("s1", "now", row.now)];
         arrows.push(arrow("s2", "predicted", row.predicted_with_holes.unwrap_or(row.predicted)));
-        polar(&format!("{}, {} rpm", row.sensor, significant(row.rpm)), &outcome.unit, &arrows)
+        let rpm = row.rpm.map_or_else(String::new, |rpm| format!(", {} rpm", significant(rpm)));
+        polar(&format!("{}{rpm}", row.sensor), &outcome.unit, &arrows)
     };
     let weight = |plane: &Plane| {
         let arrows = arrows_of(plane.weight, plane.holes.as_deref());

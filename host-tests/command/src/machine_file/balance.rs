@@ -19,13 +19,19 @@
 //!
 //! | key | what (all may be left out) |
 //! |---|---|
-//! | `weight_unit` | `"g"` (as without it), `"kg"`, `"g mm"` or `"kg m"` |
+//! | `weight_unit` | `"g"` (as without it), `"kg"`, `"g mm"`, `"kg m"`, `"oz"`, `"oz in"` or `"lb"` |
+//! | `angle_unit` | `"degrees"` (as without it, but phases that look like radians are then refused) or `"radians"` |
+//! | `phase_sense` | `"lead"` (as without it) or `"lag"`: the sense in which phases of readings are counted |
+//! | `weight_sense` | `"with rotation"` (as without it) or `"against rotation"`: the sense in which angles of weights are counted |
+//! | `[run_out]` | `readings` of a slow roll, which are taken off every other reading |
+//! | `[[split]]` | `plane`, two `angles` that its weight is split between |
 //! | `trials` | `"removed"` before the next run (as without it), or `"stay"` |
 //! | `aim` | `"least squares"` (as without it) or `"min-max"` |
 //! | `good` | the largest residual that is good enough |
 //! | `independence` | the least share of a plane's effect that must be its own, 0.01 |
 //! | `weighting` | a number for each reading, zero for one that is left out |
-//! | `limits` | the largest weight of each plane, above zero |
+//! | `limits` | the largest weight of each plane, above zero, or `"none"` |
+//! | `rpm` of a run | may be left out: all runs are then of one speed |
 //! | `[[correction]]` | `weights` that were put on, an amount and an angle for each plane, then `rpm` and `readings` with them |
 //! | `[[influence]]` | `plane` and `coefficients`, an amplitude and phase for each reading, instead of a trial run |
 //! | `[[holes]]` | `plane`, `angles` or `count` (and `first`), `weights` to choose from, `removing = true` for drilling |
@@ -65,6 +71,8 @@ pub struct BalanceFile {
     pub unit: String,
     /// Unit of the weights.
     pub weight_unit: WeightUnit,
+    /// How angles are counted.
+    pub angles: AngleConvention,
     /// Names of the planes.
     pub planes: Vec<String>,
     /// Names of the readings.
@@ -73,6 +81,8 @@ pub struct BalanceFile {
     pub measured: Measured,
     /// Holes of the planes that have some.
     pub holes: Vec<PlaneHoles>,
+    /// Planes whose weight is split between two angles \[degrees\].
+    pub splits: Vec<(usize, [f64; 2])>,
     /// The rotor, for its grade.
     pub rotor: Option<Rotor>,
 }
@@ -88,8 +98,10 @@ pub enum Measured {
         baseline: Vec<Complex<f64>>,
         /// The last run.
         last: Vec<Complex<f64>>,
-        /// Speed of each reading \[rpm\].
+        /// Speed of each reading \[rpm\]; empty where none is given.
         rpm: Vec<f64>,
+        /// Weights on the rotor: corrections, and trial weights that stay.
+        on: Vec<Complex<f64>>,
         /// Corrections that were put on.
         corrections: usize,
     },
@@ -115,7 +127,51 @@ pub enum WeightUnit {
     GramMillimetre,
     /// kg m.
     KilogramMetre,
+    /// Avoirdupois ounce.
+    Ounce,
+    /// oz in.
+    OunceInch,
+    /// lb.
+    Pound,
 }
+
+/// How angles are counted in a file, and shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AngleConvention {
+    /// Whether the unit is named; if not, phases that look like radians are refused.
+    named: bool,
+    /// Radians and not degrees.
+    pub radians: bool,
+    /// Phases of readings lag.
+    lag: bool,
+    /// Angles of weights are counted against the rotation.
+    against: bool,
+}
+
+impl AngleConvention {
+    /// An angle of the file in degrees.
+    fn degrees(self, angle: f64) -> f64 {
+        if self.radians { angle.to_degrees() } else { angle }
+    }
+
+    /// A reading from the file, or for it: its own inverse.
+    pub fn reading(self, z: Complex<f64>) -> Complex<f64> {
+        if self.lag { z.conj() } else { z }
+    }
+
+    /// A weight from the file, or for it.
+    pub fn weight(self, z: Complex<f64>) -> Complex<f64> {
+        if self.against { z.conj() } else { z }
+    }
+
+    fn check(self, entry: &Entry) -> Result<(), Error> {
+        if self.named { Ok(()) } else { entry.check() }
+    }
+}
+
+/// kg of an ounce, and m of an inch, both by definition.
+const OUNCE: f64 = 0.028_349_523_125;
+const INCH: f64 = 0.025_4;
 
 impl WeightUnit {
     /// As it is written.
@@ -125,6 +181,9 @@ impl WeightUnit {
             Self::Kilogram => "kg",
             Self::GramMillimetre => "g mm",
             Self::KilogramMetre => "kg m",
+            Self::Ounce => "oz",
+            Self::OunceInch => "oz in",
+            Self::Pound => "lb",
         }
     }
 
@@ -135,6 +194,9 @@ impl WeightUnit {
             Self::Kilogram => radius,
             Self::GramMillimetre => Some(1e-6),
             Self::KilogramMetre => Some(1.0),
+            Self::Ounce => radius.map(|radius| radius * OUNCE),
+            Self::OunceInch => Some(OUNCE * INCH),
+            Self::Pound => radius.map(|radius| radius * 16.0 * OUNCE),
         }
     }
 }
@@ -212,25 +274,51 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
             ("kg", WeightUnit::Kilogram),
             ("g mm", WeightUnit::GramMillimetre),
             ("kg m", WeightUnit::KilogramMetre),
+            ("oz", WeightUnit::Ounce),
+            ("oz in", WeightUnit::OunceInch),
+            ("lb", WeightUnit::Pound),
         ],
     )?;
+    let convention = AngleConvention {
+        named: root.has("angle_unit"),
+        radians: choice(&mut root, "angle_unit", &[("degrees", false), ("radians", true)])?,
+        lag: choice(&mut root, "phase_sense", &[("lead", false), ("lag", true)])?,
+        against: choice(&mut root, "weight_sense", &[("with rotation", false), ("against rotation", true)])?,
+    };
     let planes = names(&mut root, "planes", PLANES)?;
     let mut file = BalanceFile {
         name: rotor_name,
         unit,
         weight_unit,
+        angles: convention,
         sensors: Vec::new(),
         measured: Measured::Nothing,
         holes: Vec::new(),
+        splits: Vec::new(),
         rotor: None,
         planes,
     };
     for mut table in root.optional_tables("holes")? {
-        let holes = holes(&mut table, &file.planes)?;
+        let holes = holes(&mut table, &file.planes, convention)?;
         if file.holes.iter().any(|known| known.plane == holes.plane) {
             return Err(table.wrong("plane", "a plane that has no [[holes]] yet: one table for all holes of a plane"));
         }
         file.holes.push(holes);
+        table.finish()?;
+    }
+    for mut table in root.optional_tables("split")? {
+        let plane = plane(&mut table, &file.planes)?;
+        let angles = list(&mut table, "angles", 2, Quantity::DEGREES)?;
+        let apart = |a: f64, b: f64| (convention.degrees(a) - convention.degrees(b)).to_radians().sin().abs();
+        let [a, b] = angles[..] else { return Err(table.wrong("angles", "a list of 2 numbers")) };
+        // within half a degree of one line
+        if apart(a, b) < 0.01 {
+            return Err(table.wrong("angles", "two angles that are neither alike nor opposite"));
+        }
+        if file.splits.iter().any(|known| known.0 == plane) || file.holes.iter().any(|known| known.plane == plane) {
+            return Err(table.wrong("plane", "a plane that has neither a [[split]] nor [[holes]] yet"));
+        }
+        file.splits.push((plane, [convention.degrees(a), convention.degrees(b)]));
         table.finish()?;
     }
     if root.has("rotor") {
@@ -254,6 +342,9 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
         if file.planes.len() > 1 {
             return Err(root.wrong("planes", "one plane: amplitudes without phases cannot separate two"));
         }
+        if !file.splits.is_empty() {
+            return Err(root.wrong("split", "no [[split]] beside [amplitudes]: [[holes]] at the two angles"));
+        }
         let mut table = root.table("amplitudes")?;
         let expected = "a list of two numbers, [angle in degrees, amplitude]";
         let runs = table.items("runs", expected)?;
@@ -266,8 +357,8 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
             angles.polar(1.0, *degrees);
         }
         let radians: Vec<(f64, f64)> =
-            runs.iter().map(|(degrees, amplitude)| (degrees.to_radians(), *amplitude)).collect();
-        let found = angles.check().and_then(|()| from_amplitudes(baseline, weight, &radians));
+            runs.iter().map(|(angle, amplitude)| (convention.degrees(*angle).to_radians(), *amplitude)).collect();
+        let found = convention.check(&angles).and_then(|()| from_amplitudes(baseline, weight, &radians));
         let found = found.map_err(|refusal| match refusal {
             Error::TrialWeightZero { .. } => table.wrong("weight", format!("a weight above zero ({refusal})")),
             Error::Reading { row: 0 } => table.wrong("baseline", "an amplitude above zero"),
@@ -280,14 +371,19 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
         table.finish()?;
     } else {
         file.sensors = names(&mut root, "sensors", ROWS)?;
-        file.measured = phasors(&mut root, &file.planes, file.sensors.len())?;
+        file.measured = phasors(&mut root, &file.planes, file.sensors.len(), convention)?;
     }
     root.finish()?;
     Ok(file)
 }
 
 /// The runs, given to the procedure one by one.
-fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measured, Diagnostic> {
+fn phasors(
+    root: &mut Table<'_>,
+    planes: &[String],
+    rows: usize,
+    convention: AngleConvention,
+) -> Result<Measured, Diagnostic> {
     let mut aim = Aim::<f64, ROWS, PLANES> {
         objective: choice(root, "aim", &[("least squares", Objective::LeastSquares), ("min-max", Objective::MinMax)])?,
         independence: root.number_or("independence", Quantity::SHARE, 0.01)?,
@@ -303,16 +399,24 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         let refusal = Error::MorePlanesThanReadings { planes: planes.len(), readings };
         return Err(root.wrong("weighting", format!("a reading above zero for each plane: {refusal}")));
     }
-    for (value, limit) in list(root, "limits", planes.len(), ABOVE_ZERO)?.into_iter().zip(&mut aim.limits) {
-        *limit = Some(value);
+    for (value, limit) in limits(root, planes.len())?.into_iter().zip(&mut aim.limits) {
+        *limit = value;
     }
     let plan = Plan { leave_trials, aim, ..Plan::usual(rows, planes.len(), good) };
     let mut procedure =
         Field::new(plan).map_err(|refusal| root.wrong("planes", format!("other settings: {refusal}")))?;
     let (mut entry, mut angles) = (Entry::new(), Entry::new());
+    let mut common = Common { rows, convention, run_out: vec![Complex::new(0.0, 0.0); rows], baseline: None };
+    let mut on = vec![Complex::new(0.0, 0.0); planes.len()];
+    if root.has("run_out") {
+        let mut table = root.table("run_out")?;
+        common.run_out = pairs(&mut table, "readings", rows, &mut entry, convention, AngleConvention::reading)?;
+        table.finish()?;
+    }
 
     let mut table = root.table("baseline")?;
-    let (run, baseline, rpm) = run(&mut table, rows, &mut entry)?;
+    let (run, baseline, rpm) = run(&mut table, &common, &mut entry)?;
+    common.baseline = Some(rpm.clone());
     procedure.baseline(&run).map_err(|refusal| refused(&table, refusal))?;
     table.finish()?;
     let mut last = baseline.clone();
@@ -327,8 +431,10 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
             if influence.get(0, plane).is_some() {
                 return Err(table.wrong("plane", "a plane that has no [[influence]] yet"));
             }
-            let column = pairs(&mut table, "coefficients", rows, &mut phases)?;
-            phases.check().map_err(|refusal| table.wrong("coefficients", format!("phases in degrees: {refusal}")))?;
+            let column = pairs(&mut table, "coefficients", rows, &mut phases, convention, AngleConvention::reading)?;
+            convention
+                .check(&phases)
+                .map_err(|refusal| table.wrong("coefficients", format!("phases in degrees: {refusal}")))?;
             influence.set(plane, &column).map_err(|refusal| table.wrong("coefficients", refusal.to_string()))?;
             table.finish()?;
         }
@@ -345,13 +451,16 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         if count == TRIALS {
             return Err(table.wrong("plane", format!("no more than {TRIALS} trial runs")));
         }
-        let [weight] = weights(&mut table, "weight", &mut angles)?;
-        angles.check().map_err(|refusal| table.wrong("weight", format!("an angle in degrees: {refusal}")))?;
-        let (run, readings, _) = self::run(&mut table, rows, &mut entry)?;
+        let weight = weight(&mut table, "weight", &mut angles, convention)?;
+        convention
+            .check(&angles)
+            .map_err(|refusal| table.wrong("weight", format!("an angle in degrees: {refusal}")))?;
+        let (run, readings, _) = self::run(&mut table, &common, &mut entry)?;
         // several of a plane all count: replacing one would lose an entry
         procedure.extra_trial(plane, weight, &run).map_err(|refusal| refused(&table, refusal))?;
         if leave_trials {
             last = readings;
+            on[plane] += weight;
         }
         table.finish()?;
     }
@@ -360,17 +469,21 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         if corrections == CORRECTIONS {
             return Err(table.wrong("weights", format!("no more than {CORRECTIONS} corrections")));
         }
-        let placed = pairs(&mut table, "weights", planes.len(), &mut Entry::new())?;
+        let placed =
+            pairs(&mut table, "weights", planes.len(), &mut Entry::new(), convention, AngleConvention::weight)?;
+        for (on, weight) in on.iter_mut().zip(&placed) {
+            *on += weight;
+        }
         let mut all = [Complex::new(0.0, 0.0); PLANES];
         all[..placed.len()].copy_from_slice(&placed);
         procedure.installed(&all).map_err(|refusal| table.wrong("weights", said(refusal, planes)))?;
-        let (run, readings, _) = self::run(&mut table, rows, &mut entry)?;
+        let (run, readings, _) = self::run(&mut table, &common, &mut entry)?;
         procedure.verified(&run).map_err(|refusal| refused(&table, refusal))?;
         last = readings;
         corrections += 1;
         table.finish()?;
     }
-    if let Err(refusal) = entry.check() {
+    if let Err(refusal) = convention.check(&entry) {
         let mut table = root.table("baseline")?;
         let _ = table.has("readings");
         return Err(table.wrong("readings", format!("phases in degrees: {refusal}")));
@@ -385,7 +498,7 @@ fn phasors(root: &mut Table<'_>, planes: &[String], rows: usize) -> Result<Measu
         let key = ["limits", "aim", "baseline"].into_iter().find(|key| root.has(key)).unwrap_or("planes");
         root.wrong(key, format!("readings with a solution: {}", said(refusal, planes)))
     })?;
-    Ok(Measured::Phasors { procedure: Box::new(procedure), baseline, last, rpm, corrections })
+    Ok(Measured::Phasors { procedure: Box::new(procedure), baseline, last, rpm, on, corrections })
 }
 
 /// A refusal with the planes by their names.
@@ -413,9 +526,32 @@ fn refused(table: &Table<'_>, refusal: Error) -> Diagnostic {
 /// A run, its readings, and the speed of each [rpm].
 type Typed = (Run<f64, ROWS>, Vec<Complex<f64>>, Vec<f64>);
 
-/// Readings and their speeds.
-fn run(table: &mut Table<'_>, rows: usize, entry: &mut Entry) -> Result<Typed, Diagnostic> {
-    let readings = pairs(table, "readings", rows, entry)?;
+/// What all runs of a file have in common.
+struct Common {
+    rows: usize,
+    convention: AngleConvention,
+    run_out: Vec<Complex<f64>>,
+    /// Speeds of the baseline \[rpm\], empty without any; none before it is read.
+    baseline: Option<Vec<f64>>,
+}
+
+/// Readings and their speeds: those of the baseline where none is given.
+fn run(table: &mut Table<'_>, common: &Common, entry: &mut Entry) -> Result<Typed, Diagnostic> {
+    let rows = common.rows;
+    let mut readings = pairs(table, "readings", rows, entry, common.convention, AngleConvention::reading)?;
+    for (reading, run_out) in readings.iter_mut().zip(&common.run_out) {
+        *reading -= run_out;
+    }
+    if !table.has("rpm") {
+        let rpm = common.baseline.clone().unwrap_or_default();
+        // any speed will do where all runs are of the same
+        let speeds = if rpm.is_empty() { vec![1.0; rows] } else { radians_per_second(&rpm) };
+        let run = Run::new(&readings, &speeds).map_err(|refusal| refused(table, refusal))?;
+        return Ok((run, readings, rpm));
+    }
+    if common.baseline.as_ref().is_some_and(Vec::is_empty) {
+        return Err(table.wrong("rpm", "no speed, as the baseline has none: give it to both, or to none"));
+    }
     // one speed for all, or one for each
     let rpm = match table.number("rpm", Quantity::RPM) {
         Ok(rpm) => vec![rpm; rows],
@@ -424,17 +560,22 @@ fn run(table: &mut Table<'_>, rows: usize, entry: &mut Entry) -> Result<Typed, D
             Err(_) => return Err(fault),
         },
     };
-    let speeds: Vec<f64> = rpm.iter().map(|rpm| rpm * std::f64::consts::TAU / 60.0).collect();
-    let run = Run::new(&readings, &speeds).map_err(|refusal| refused(table, refusal))?;
+    let run = Run::new(&readings, &radians_per_second(&rpm)).map_err(|refusal| refused(table, refusal))?;
     Ok((run, readings, rpm))
 }
 
-/// Pairs of amplitude and degrees, as many as there must be.
+fn radians_per_second(rpm: &[f64]) -> Vec<f64> {
+    rpm.iter().map(|rpm| rpm * std::f64::consts::TAU / 60.0).collect()
+}
+
+/// Pairs of amplitude and angle, as many as there must be.
 fn pairs(
     table: &mut Table<'_>,
     key: &'static str,
     count: usize,
     entry: &mut Entry,
+    convention: AngleConvention,
+    counted: fn(AngleConvention, Complex<f64>) -> Complex<f64>,
 ) -> Result<Vec<Complex<f64>>, Diagnostic> {
     let expected = format!("{count} pairs [amplitude, phase in degrees], one for each");
     let items = table.items(key, &expected)?;
@@ -446,19 +587,41 @@ fn pairs(
         return Err(items[count].wrong(&format!("only {count} pairs, one for each")));
     }
     let pair = |item: &Item<'_>| {
-        let (amplitude, degrees) = item.pair(Quantity::AMPLITUDE, Quantity::DEGREES, PAIR)?;
-        Ok(entry.polar(amplitude, degrees))
+        let (amplitude, angle) = item.pair(Quantity::AMPLITUDE, Quantity::DEGREES, PAIR)?;
+        Ok(counted(convention, entry.polar(amplitude, convention.degrees(angle))))
     };
     items.iter().map(pair).collect()
 }
 
 /// One weight: an amount and an angle.
-fn weights(table: &mut Table<'_>, key: &'static str, entry: &mut Entry) -> Result<[Complex<f64>; 1], Diagnostic> {
+fn weight(
+    table: &mut Table<'_>,
+    key: &'static str,
+    entry: &mut Entry,
+    convention: AngleConvention,
+) -> Result<Complex<f64>, Diagnostic> {
     let expected = "an amount and an angle in degrees, [2.5, 90]";
     let items = table.items(key, expected)?;
     let [amount, angle] = items.as_slice() else { return Err(table.wrong(key, expected)) };
     let (amount, angle) = (amount.number(Quantity::WEIGHT)?, angle.number(Quantity::DEGREES)?);
-    Ok([entry.polar(amount, angle)])
+    Ok(convention.weight(entry.polar(amount, convention.degrees(angle))))
+}
+
+/// The largest weight of each plane; `"none"` for a plane without a limit.
+fn limits(table: &mut Table<'_>, count: usize) -> Result<Vec<Option<f64>>, Diagnostic> {
+    if !table.has("limits") {
+        return Ok(Vec::new());
+    }
+    let expected = format!("a list of {count} numbers, or \"none\" for a plane without a limit");
+    let items = table.items("limits", &expected)?;
+    if items.len() != count {
+        return Err(table.wrong("limits", format!("{expected}, and not {}", items.len())));
+    }
+    let limit = |item: &Item<'_>| match item.text(&expected) {
+        Ok("none") => Ok(None),
+        _ => item.number(ABOVE_ZERO).map(Some),
+    };
+    items.iter().map(limit).collect()
 }
 
 /// Numbers, none or as many as there must be.
@@ -520,28 +683,28 @@ fn along(table: &mut Table<'_>, planes: usize) -> Result<Option<Along>, Diagnost
     Ok(Some(Along { span, centre, planes: list(table, "planes_at", planes, Quantity::PLACE)? }))
 }
 
-fn holes(table: &mut Table<'_>, planes: &[String]) -> Result<PlaneHoles, Diagnostic> {
+fn holes(table: &mut Table<'_>, planes: &[String], convention: AngleConvention) -> Result<PlaneHoles, Diagnostic> {
     let plane = plane(table, planes)?;
     let degrees = if table.has("angles") {
         let items = table.items("angles", "angles in degrees")?;
         let mut degrees: Vec<f64> = Vec::new();
         let mut entry = Entry::new();
         for item in &items {
-            let angle = item.number(Quantity::DEGREES)?;
+            let angle = convention.degrees(item.number(Quantity::DEGREES)?);
             entry.polar(1.0, angle);
             if degrees.iter().any(|known| (known - angle).rem_euclid(360.0) == 0.0) {
                 return Err(item.wrong("an angle of its own: a hole takes one weight"));
             }
             degrees.push(angle);
         }
-        entry.check().map_err(|refusal| table.wrong("angles", format!("angles in degrees: {refusal}")))?;
+        convention.check(&entry).map_err(|refusal| table.wrong("angles", format!("angles in degrees: {refusal}")))?;
         if degrees.is_empty() {
             return Err(table.wrong("angles", "one angle at least"));
         }
         degrees
     } else {
         let count = table.number("count", Quantity::COUNT)? as u32;
-        let first = table.number_or("first", Quantity::DEGREES, 0.0)?;
+        let first = convention.degrees(table.number_or("first", Quantity::DEGREES, 0.0)?);
         (0..count).map(|hole| first + 360.0 * f64::from(hole) / f64::from(count)).collect()
     };
     let items = table.items("weights", "weights to choose from")?;

@@ -390,3 +390,119 @@ fn amplitudes_alone_refuse_what_they_cannot_use() {
     let heavy = grinder("[[holes]]\nplane = \"wheel\"\ncount = 8\nweights = [0.1]\n", &[0.0, 120.0, 240.0]);
     refused_at(&heavy, "[0.1]", &["`holes[0].weights`", "more than its holes can take"]);
 }
+
+/// One plane, no speed: the weight of a reading of 10 that 2 g at zero raise to 14 is 5 g opposite.
+const PLAIN: &str = "name = \"plain\"\nplanes = [\"p\"]\nsensors = [\"a\"]\n[baseline]\nreadings = [[10, 0]]\n\
+                     [[trial]]\nplane = \"p\"\nweight = [2, 0]\nreadings = [[14, 0]]\n";
+
+#[test]
+fn a_file_needs_no_speed() {
+    let outcome = json(PLAIN);
+    near(&outcome["planes"][0]["weight"]["amplitude"], 5.0, 1e-12);
+    assert!(outcome["rows"][0].get("rpm").is_none());
+    let one = PLAIN.replacen("weight = [2, 0]", "weight = [2, 0]\nrpm = 1500", 1);
+    refused_at(&one, "1500", &["`trial[0].rpm`", "the baseline has none"]);
+    // and where the baseline has one, the others need none
+    near(&json(&PLAIN.replacen("[baseline]", "[baseline]\nrpm = 1500", 1))["rows"][0]["rpm"], 1500.0, 0.0);
+}
+
+/// 1 oz is 28.349523125 g, 1 in 25.4 mm, 1 lb 16 oz, by definition: the same 5 units at 0.1 m in each.
+#[test]
+fn ounces_and_pounds() {
+    let rotor = "[rotor]\nmass = 10\nrpm = 3000\ngrade = 2.5\nradius = 0.1\n";
+    for (unit, g_mm) in
+        [("oz", 5.0 * 28.349523125 * 100.0), ("oz in", 5.0 * 28.349523125 * 25.4), ("lb", 80.0 * 28.349523125 * 100.0)]
+    {
+        let text = PLAIN.replacen("planes", &format!("weight_unit = \"{unit}\"\nplanes"), 1) + rotor;
+        near(&json(&text)["grade"]["now_g_mm"], g_mm, 1e-9 * g_mm);
+    }
+}
+
+/// The fan with its phases counted as lag, its weights against the rotation, and both in radians: the published
+/// weights.
+#[test]
+fn angles_are_counted_as_the_file_says() {
+    let turn = |text: &str, from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        text.replacen(from, to, 1)
+    };
+    let mut lag = with("phase_sense = \"lag\"\nweight_sense = \"against rotation\"");
+    for (from, to) in [
+        ("[7.2, 238], [13.5, 296]", "[7.2, 122], [13.5, 64]"),
+        ("[4.9, 114], [9.2, 347]", "[4.9, 246], [9.2, 13]"),
+        ("[4.0, 79], [12.0, 292]", "[4.0, 281], [12.0, 68]"),
+    ] {
+        lag = turn(&lag, from, to);
+    }
+    let outcome = json(&lag);
+    near(&outcome["planes"][0]["weight"]["amplitude"], 2.9513806082910325, 3e-9);
+    near(&outcome["planes"][0]["weight"]["degrees"], 360.0 - 50.18891873739672, 1e-7);
+    near(&outcome["rows"][0]["now"]["degrees"], 122.0, 1e-9);
+    // the circle of holes is its own mirror image
+    near(&outcome["grade"]["predicted_g_mm"], json(FAN)["grade"]["predicted_g_mm"].as_f64().unwrap(), 1e-6);
+
+    let mut radians = with("angle_unit = \"radians\"");
+    for [amplitude, degrees] in
+        [[7.2, 238.0], [13.5, 296.0], [4.9, 114.0], [9.2, 347.0], [4.0, 79.0], [12.0, 292.0_f64]]
+    {
+        let amplitude = format!("{amplitude:.1}");
+        let from = format!("[{amplitude}, {degrees}]");
+        radians = turn(&radians, &from, &format!("[{amplitude}, {}]", degrees.to_radians()));
+    }
+    near(&json(&radians)["planes"][0]["weight"]["degrees"], 50.18891873739672, 1e-7);
+}
+
+/// 5 g at 180 degrees between blades at 150 and 210: each takes 5/(2 cos 30).
+#[test]
+fn a_weight_is_split_between_two_angles() {
+    let outcome = json(&format!("{PLAIN}[[split]]\nplane = \"p\"\nangles = [150, 210]\n"));
+    let share = 5.0 / (2.0 * 30_f64.to_radians().cos());
+    near(&outcome["planes"][0]["split"][0]["weight"], share, 1e-12);
+    near(&outcome["planes"][0]["split"][1]["weight"], share, 1e-12);
+    let alike = format!("{PLAIN}[[split]]\nplane = \"p\"\nangles = [30, 210]\n");
+    refused_at(&alike, "[30, 210]", &["`split[0].angles`", "neither alike nor opposite"]);
+}
+
+/// What is in the plane: a correction of 4 g, and 1 g more; a trial weight that stays counts, too.
+#[test]
+fn the_total_of_a_plane() {
+    let outcome = json(&format!("{PLAIN}[[correction]]\nweights = [[4, 180]]\nreadings = [[2, 0]]\n"));
+    near(&outcome["planes"][0]["weight"]["amplitude"], 1.0, 1e-12);
+    near(&outcome["planes"][0]["total"]["amplitude"], 5.0, 1e-12);
+    let outcome = json(&PLAIN.replacen("planes", "trials = \"stay\"\nplanes", 1));
+    near(&outcome["planes"][0]["weight"]["amplitude"], 7.0, 1e-12);
+    near(&outcome["planes"][0]["total"]["amplitude"], 5.0, 1e-12);
+}
+
+/// The coefficients that are printed are a file without trial runs: it gives the same weights to the six digits.
+#[test]
+fn the_coefficients_are_those_of_a_file() {
+    let said = String::from_utf8(balance(FAN, &[]).stdout).unwrap();
+    let start = said.find("[[influence]]").unwrap();
+    let end = said[start..].find("page:").map_or(said.len(), |end| start + end);
+    let known = format!("{}{}", &FAN[..FAN.find("[[trial]]").unwrap()], &said[start..end]);
+    near(&json(&known)["planes"][1]["weight"]["amplitude"], 2.8441376945975025, 1e-4);
+}
+
+/// Run-out of 1 in the readings of 10 and 14: 9 and 13, so 4.5 g.
+#[test]
+fn run_out_is_taken_off() {
+    let outcome = json(&format!("{PLAIN}[run_out]\nreadings = [[1, 0]]\n"));
+    near(&outcome["planes"][0]["weight"]["amplitude"], 4.5, 1e-12);
+}
+
+#[test]
+fn a_limit_for_some_planes_and_the_cost_of_leaving_one_out() {
+    let outcome = json(&with("limits = [2, \"none\"]"));
+    let weight = &outcome["planes"][0]["weight"]["amplitude"];
+    assert!(weight.as_f64().unwrap() <= 2.0, "{weight}");
+    assert!(outcome["planes"][1]["weight"]["amplitude"].as_f64().unwrap() > 2.0);
+    // one plane of the fan alone: least squares by hand, w = -sum conj(a) v / sum |a|^2
+    let outcome = json(FAN);
+    let z = |amplitude: f64, degrees: f64| Complex::from_polar(amplitude, degrees.to_radians());
+    let v = [z(7.2, 238.0), z(13.5, 296.0)];
+    let a = [(z(4.0, 79.0) - v[0]) / 2.5, (z(12.0, 292.0) - v[1]) / 2.5];
+    let w = -(a[0].conj() * v[0] + a[1].conj() * v[1]) / (a[0].norm_sqr() + a[1].norm_sqr());
+    let left = (v[0] + a[0] * w).norm().max((v[1] + a[1] * w).norm());
+    near(&outcome["planes"][0]["largest_without"], left, 1e-9);
+}

@@ -57,7 +57,7 @@ pub fn outcome(file: &BalanceFile, baseline: f64, found: &FromAmplitudes<f64>) -
             holes,
             // v0 + a w, where a = -v0/weight
             predicted: baseline * (1.0 - placed / weight).norm(),
-            grade: grade(file, &[weight], &[placed])?,
+            grade: grade(file, &[file.angles.weight(weight)], &[file.angles.weight(placed)])?,
         });
     }
     Ok(Outcome {

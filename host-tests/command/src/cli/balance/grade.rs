@@ -1,6 +1,6 @@
 //! The balance quality grade before and after, of the rotor and at each bearing.
 
-use driveline::balancing::{Complex, Error, Tolerance, two_planes};
+use driveline::balancing::{Complex, Error, Tolerance, degrees, two_planes};
 use serde::Serialize;
 
 use crate::machine_file::balance::{Along, BalanceFile};
@@ -32,10 +32,14 @@ pub struct Grade {
 pub struct Bearing {
     /// Permissible residual unbalance in the bearing's plane.
     pub permissible_g_mm: f64,
-    /// Unbalance now, resolved into the bearings' planes.
+    /// Unbalance now, resolved into the bearings' planes, and its angle.
     pub now_g_mm: f64,
+    /// Degrees.
+    pub now_degrees: f64,
     /// Unbalance as predicted, likewise.
     pub predicted_g_mm: f64,
+    /// Degrees.
+    pub predicted_degrees: f64,
     /// Whether what is predicted is within the tolerance.
     pub passed: bool,
 }
@@ -52,7 +56,7 @@ pub fn grade(file: &BalanceFile, wanted: &[Complex<f64>], placed: &[Complex<f64>
     let left: f64 = wanted.iter().zip(placed).map(|(wanted, placed)| (wanted - placed).norm() * unbalance).sum();
     let (before, after) = (tolerance.judge(now)?, tolerance.judge(left)?);
     let bearings = match &rotor.along {
-        Some(along) => Some(bearings(&tolerance, along, unbalance, wanted, placed)?),
+        Some(along) => Some(bearings(file, &tolerance, along, unbalance, wanted, placed)?),
         None => None,
     };
     Ok(Some(Grade {
@@ -68,6 +72,7 @@ pub fn grade(file: &BalanceFile, wanted: &[Complex<f64>], placed: &[Complex<f64>
 
 /// The tolerance split between the bearings, and the planes' unbalances resolved into them.
 fn bearings(
+    file: &BalanceFile,
     tolerance: &Tolerance<f64>,
     along: &Along,
     unbalance: f64,
@@ -79,10 +84,14 @@ fn bearings(
         two_planes(along.planes.iter().enumerate().map(|(plane, at)| (of(plane) * unbalance, *at)), 0.0, along.span)
     };
     let [now, left] = [resolved(&|plane| wanted[plane])?, resolved(&|plane| wanted[plane] - placed[plane])?];
+    // what the weights take away is opposite to them
+    let angle = |z: Complex<f64>| degrees(file.angles.weight(-z)).1;
     let bearing = |at: usize| Bearing {
         permissible_g_mm: shares[at] * 1e6,
         now_g_mm: now[at].norm() * 1e6,
+        now_degrees: angle(now[at]),
         predicted_g_mm: left[at].norm() * 1e6,
+        predicted_degrees: angle(left[at]),
         passed: left[at].norm() <= shares[at],
     };
     Ok([bearing(0), bearing(1)])
@@ -102,9 +111,11 @@ impl Grade {
         ];
         for (name, bearing) in ["A", "B"].into_iter().zip(self.bearings.iter().flatten()) {
             let value = format!(
-                "{} g mm now, {} predicted, {} permissible: {}",
+                "{} g mm at {:.0}° now, {} at {:.0}° predicted, {} permissible: {}",
                 significant(bearing.now_g_mm),
+                bearing.now_degrees,
                 significant(bearing.predicted_g_mm),
+                bearing.predicted_degrees,
                 significant(bearing.permissible_g_mm),
                 verdict(bearing.passed)
             );
