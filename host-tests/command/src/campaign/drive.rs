@@ -1,0 +1,98 @@
+//! A drive that a campaign runs.
+
+use driveline_firmware::Words;
+use driveline_firmware::scenes::{Row, find};
+
+use super::file::FileObserver;
+use super::plain::PlainLoop;
+use super::scenes::CampaignScene;
+use crate::closed_loop::ticks::{OnHost, Ticks};
+use crate::closed_loop::units::Units;
+use crate::drivetrains::scenario::Machine;
+
+/// A drive that a campaign runs.
+#[derive(Clone, Copy, Debug)]
+pub enum Drive {
+    /// A variant of the scene.
+    Variant(&'static Row),
+    /// A machine file's drive with an observer, at this many ticks a second.
+    File(FileObserver, u32),
+    /// The [`PlainLoop`] with the scene's gains, at this many ticks a second.
+    Plain(u32),
+}
+
+/// Name of the plain loop.
+const PLAIN: &str = "plain";
+
+impl Drive {
+    /// The design's choice in `f32`, the variant with this number, observer and rate, or `plain`. Of a machine file the
+    /// choice over its tolerances, `two-mass`, `rigid` or `plain`.
+    ///
+    /// # Errors
+    /// A sentence: no such variant.
+    pub fn named(scene: &CampaignScene, machine: &Machine, name: Option<&str>) -> Result<Self, String> {
+        let (observer, rate) = machine.chosen;
+        if scene.file().is_some() {
+            let name = name.unwrap_or(observer);
+            let found = FileObserver::ALL.into_iter().find(|observer| observer.name() == name);
+            return match found {
+                Some(observer) => Ok(Self::File(observer, rate)),
+                None if name == PLAIN => Ok(Self::Plain(rate)),
+                None => {
+                    Err(format!("there is no drive `{name}` for a machine file; expected two-mass, rigid or plain"))
+                }
+            };
+        }
+        let usual = format!("f32/{observer}/{rate}");
+        match name.unwrap_or(&usual) {
+            PLAIN => Ok(Self::Plain(rate)),
+            name => find(&format!("{}/{name}", machine.name)).map(Self::Variant).ok_or_else(|| {
+                format!(
+                    "`{}` has no drive `{name}`; expected NUMBER/OBSERVER/RATE, such as {usual}, or plain",
+                    machine.name
+                )
+            }),
+        }
+    }
+
+    /// Its name, after that of its scene.
+    pub fn name(&self, scene: &str) -> String {
+        match self {
+            Self::Variant(row) => row.name.to_owned(),
+            Self::File(observer, _) => format!("{scene}/{}", observer.name()),
+            Self::Plain(_) => format!("{scene}/{PLAIN}"),
+        }
+    }
+
+    /// Ticks a second.
+    pub const fn rate_hz(&self) -> u32 {
+        match self {
+            Self::Variant(row) => row.rate_hz,
+            Self::File(_, rate) | Self::Plain(rate) => *rate,
+        }
+    }
+
+    /// The units of its words.
+    pub fn units(&self, machine: &Machine) -> Units {
+        let words = match self {
+            Self::Variant(row) => row.words(),
+            Self::File(..) | Self::Plain(_) => Words::Single,
+        };
+        Units::new(words, machine.bases)
+    }
+
+    /// It at rest.
+    ///
+    /// # Errors
+    /// A sentence: constants that `f32` does not hold.
+    pub fn start(&self, scene: &CampaignScene, machine: &Machine) -> Result<Box<dyn Ticks>, String> {
+        match (self, scene.file()) {
+            (Self::Variant(row), _) => Ok(Box::new(OnHost(row.start()))),
+            (Self::File(observer, _), Some(file)) => file.start(*observer),
+            (Self::File(..), None) => Err(format!("`{}` is no machine file", scene.name)),
+            (Self::Plain(_), _) => {
+                Ok(Box::new(PlainLoop::new(scene.speed_loop, scene.torque_limit, scene.ramp, machine.bases)))
+            }
+        }
+    }
+}
