@@ -403,7 +403,7 @@ fn a_file_needs_no_speed() {
     let one = PLAIN.replacen("weight = [2, 0]", "weight = [2, 0]\nrpm = 1500", 1);
     refused_at(&one, "1500", &["`trial[0].rpm`", "the baseline has none"]);
     // and where the baseline has one, the others need none
-    near(&json(&PLAIN.replacen("[baseline]", "[baseline]\nrpm = 1500", 1))["rows"][0]["rpm"], 1500.0, 0.0);
+    near(&json(&PLAIN.replacen("[baseline]", "[baseline]\nrpm = 1500", 1))["rows"][0]["rpm"], 1500.0, 1e-9);
 }
 
 /// 1 oz is 28.349523125 g, 1 in 25.4 mm, 1 lb 16 oz, by definition: the same 5 units at 0.1 m in each.

@@ -151,6 +151,9 @@ pub const BENCHES: &[&str] = &[
     "bench/governor/core",
     "bench/governor/whole",
     "bench/telemetry/record",
+    "bench/wheel/tooth",
+    "bench/wheel/recorded",
+    "bench/wheel/angle",
 ];
 
 impl Cost {
