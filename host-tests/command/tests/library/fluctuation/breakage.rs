@@ -54,8 +54,10 @@ proptest! {
                 let estimate = Estimate { motor_speed: speed, load_speed: -speed, ..Estimate::default() };
                 parts.measure(&config, angle, torque, &estimate);
                 if let Some(window) = parts.1.take() {
-                    let finite = window.ripple(&config.1, 8).is_ok_and(|ripple| ripple.mean.is_finite());
-                    prop_assert!(finite || step.unsigned_abs() > 80_000_000);
+                    // or it is refused: too few ticks, a cycle too uneven
+                    if let Ok(ripple) = window.ripple(&config.1, 8) {
+                        prop_assert!(ripple.mean.is_finite(), "{ripple:?}");
+                    }
                 }
                 let Some(reading) = parts.0.reading(&cycle) else { continue };
                 prop_assert!(reading.mean.is_finite() && reading.duration > 0.0, "{reading:?}");
