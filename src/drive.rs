@@ -116,8 +116,7 @@ pub struct Drive<N, O, F = (), G = (), B = ()> {
     balancer: B,
     /// Substitute for an implausible torque.
     commanded: N,
-    /// Ticks without a usable angle, less those with one; from [`GAP`] on after a gap; while the angle is lost
-    /// [`NONE_YET`] or [`ONE`].
+    /// Ticks without a usable angle, less those with one; while the angle is lost [`NONE_YET`] or [`ONE`].
     coasted: i32,
 }
 
@@ -126,9 +125,6 @@ const NONE_YET: i32 = i32::MIN;
 
 /// The angle is lost, and one has been seen that differs from the last.
 const ONE: i32 = NONE_YET + 1;
-
-/// More ticks did not run than were made up: the next angle is taken over. Ticks without an angle count from here.
-const GAP: i32 = NONE_YET + 2;
 
 impl<N, O, F, G, B> Drive<N, O, F, G, B>
 where
@@ -308,19 +304,10 @@ where
     }
 
     /// The angle is lost: commands no torque, looks for two angles in a row that differ, and goes on from the second.
-    /// After a gap: the angle is taken over.
     // Out of line: it leaves the registers to the tick.
     #[cold]
     #[inline(never)]
     fn reacquire(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
-        if self.after_gap().is_some() {
-            let command = self.coast(config, sample.torque, sample.setpoint);
-            if let Some(coasted) = self.after_gap() {
-                self.coasted = coasted;
-                self.observer.resync(sample.angle);
-            }
-            return command;
-        }
         let limits = &config.limits;
         let mut faults = Faults::ANGLE_JUMP;
         let mut torque = sample.torque;

@@ -1,6 +1,6 @@
 //! Further ticks of a drive: one without an angle, ticks that did not run, and starting while the machine turns.
 
-use super::{ConfigOf, Drive, GAP, NONE_YET};
+use super::{ConfigOf, Drive, NONE_YET};
 use crate::balancing::Balancer;
 use crate::fault::Faults;
 use crate::fluctuation::Fluctuation;
@@ -26,8 +26,6 @@ where
     /// It raises [`Faults::ANGLE_MISSING`]; after more than the limit of such ticks also
     /// [`Faults::ANGLE_LOST`], and commands no torque. Torque and setpoint are screened as in [`Drive::tick`].
     pub fn coast(&mut self, config: &ConfigOf<Self>, torque: N, setpoint: N) -> Command<N> {
-        let after_gap = self.after_gap();
-        self.coasted = after_gap.unwrap_or(self.coasted);
         if self.coasted < 0 {
             // The search for two angles in a row begins anew.
             self.coasted = NONE_YET;
@@ -36,9 +34,6 @@ where
         }
         let sample = Sample { angle: self.observer.angle(), torque, setpoint };
         let (faults, _) = self.observe(config, &sample, false);
-        if let (Some(_), 0..) = (after_gap, self.coasted) {
-            self.coasted = GAP.saturating_add(self.coasted);
-        }
         let estimate = self.estimate(config);
         self.govern(config, &estimate, faults)
     }
@@ -52,14 +47,18 @@ where
         let mut faults = Faults::NONE;
         if missed != 0 {
             faults = self.make_up(config, sample.torque, missed);
+            if missed > MADE_UP {
+                let Command { torque, faults: found } = self.coast(config, sample.torque, sample.setpoint);
+                self.observer.resync(sample.angle);
+                return Command { torque, faults: faults | found };
+            }
         }
         let Command { torque, faults: found } = self.tick(config, sample);
         Command { torque, faults: faults | found }
     }
 
     /// Predicts so many ticks that did not run, at most [`MADE_UP`], under the torque that acted during them, and
-    /// returns [`Faults::TICK_MISSED`]. Call it before the next tick. After more than that the next angle is taken over
-    /// without a correction, whenever it comes.
+    /// returns [`Faults::TICK_MISSED`]. Call it before the next tick.
     ///
     /// The governor is left as it is: its ramp and its times stand still meanwhile. The measurement of the fluctuation
     /// and a balancing reading begin anew. More ticks than the limit of those without an angle lose the angle.
@@ -69,8 +68,6 @@ where
         let limits = &config.limits;
         self.fluctuation.disturb();
         self.balancer.missed(Faults::TICK_MISSED);
-        let after_gap = self.after_gap();
-        self.coasted = after_gap.unwrap_or(self.coasted);
         if self.coasted < 0 || missed > limits.max_coast {
             self.coasted = NONE_YET;
             return Faults::TICK_MISSED;
@@ -81,16 +78,7 @@ where
             let predicted = self.observer.predict(&config.observer, angle, torque);
             self.observer.coast(predicted, angle);
         }
-        if missed > MADE_UP || after_gap.is_some() {
-            self.coasted = GAP.saturating_add(self.coasted);
-        }
         Faults::TICK_MISSED
-    }
-
-    /// Ticks without an angle that are counted, where more ticks did not run than were made up and no angle has been
-    /// seen since.
-    pub(super) fn after_gap(&self) -> Option<i32> {
-        if (GAP..0).contains(&self.coasted) { Some(self.coasted.wrapping_sub(GAP)) } else { None }
     }
 
     /// The governor starts anew, from the speed that the machine has and no torque; its setpoint is zero. The estimates
@@ -103,6 +91,6 @@ where
 
     /// Whether the angle is lost: [`Faults::ANGLE_LOST`] was raised and no two angles in a row have been found since.
     pub fn is_lost(&self) -> bool {
-        self.coasted < GAP
+        self.coasted < 0
     }
 }
