@@ -36,7 +36,7 @@ pub fn paint() {
     }
 }
 
-/// Bytes that measured calls have used since the caller called [`paint`].
+/// Bytes that have been used below a measured call's frame since the last [`paint`].
 #[inline(always)]
 pub fn used() -> u32 {
     let lowest: u32;
@@ -58,6 +58,53 @@ pub fn used() -> u32 {
         );
     }
     AT_CALL.load(Ordering::Relaxed).saturating_sub(lowest)
+}
+
+/// Words below the deepest call that are looked at after each one.
+const WATCHED: u32 = 16;
+
+/// The most stack of measured calls, apart from deeper work between them.
+#[derive(Debug)]
+pub struct Deepest(u32);
+
+impl Deepest {
+    /// Paints the memory below the caller's frame.
+    #[inline(always)]
+    pub fn painted() -> Self {
+        paint();
+        Deepest(0)
+    }
+
+    /// After a measured call.
+    #[inline(always)]
+    pub fn after_call(&mut self) {
+        if self.is_exceeded() {
+            self.0 = self.0.max(used());
+        }
+    }
+
+    /// After work between the calls: paints anew where it went deeper.
+    #[inline(always)]
+    pub fn after_work(&mut self) {
+        if self.is_exceeded() {
+            paint();
+        }
+    }
+
+    /// Bytes of stack.
+    pub fn bytes(&self) -> u32 {
+        self.0
+    }
+
+    /// Whether there is something else than paint just below the deepest call.
+    #[inline(always)]
+    fn is_exceeded(&self) -> bool {
+        let deepest = AT_CALL.load(Ordering::Relaxed).wrapping_sub(self.0);
+        (1..=WATCHED).any(|word| {
+            // SAFETY: painted memory below the stack pointer at a call: nothing lives there, every word is initialised.
+            unsafe { ((deepest - 4 * word) as *const u32).read_volatile() != PAINT }
+        })
+    }
 }
 
 #[inline(always)]
