@@ -111,7 +111,7 @@ impl OncePerTurn {
         let place = (self.pulses as usize).min(MEMORY).saturating_sub(1);
         let [angle, speed] = GAINS.get(place).copied().unwrap_or([0, 0]);
         let error = -(past >> 32);
-        self.angle = self.angle.wrapping_add((error * angle << 16) as u64);
+        self.angle = self.angle.wrapping_add(((error * angle) << 16) as u64);
         // over the ticks of a turn, which is times the turns of a tick
         let step = ((self.step >> 32) as i64 * error) >> 16;
         self.step = self.step.wrapping_add((step * speed) as u64);

@@ -203,7 +203,7 @@ fn columns(
         let found = match named.iter().find(|(named, ..)| *named == index) {
             Some((_, quantity, Some(unit))) => Column::of(index, heading, *quantity, Some(unit), scales),
             Some((_, quantity, None)) => Column::of_heading(index, heading, scales)
-                .and_then(|column| Ok(Column { quantity: *quantity, ..column }))
+                .map(|column| Column { quantity: *quantity, ..column })
                 .or_else(|_| Column::of(index, heading, *quantity, None, scales)),
             None => Column::of_heading(index, heading, scales),
         };

@@ -44,6 +44,8 @@ pub struct Replayed {
 }
 
 /// The observer of a design.
+// one of it in a run
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug)]
 pub enum Design {
     /// Of two masses.

@@ -28,7 +28,7 @@ fn json(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-fn path<'p>(folder: &'p Path, name: &str) -> PathBuf {
+fn path(folder: &Path, name: &str) -> PathBuf {
     folder.join(name)
 }
 

@@ -29,6 +29,7 @@ fn problem(noise: &mut Noise, t: f64) -> (usize, Rows, Vec<Complex<f64>>) {
         .collect();
     let multipliers: Vec<f64> = (0..active).map(|_| 0.1 + noise.even()).collect();
     let last = active - 1;
+    #[allow(clippy::needless_range_loop)]
     for plane in 0..planes {
         let sum: Complex<f64> = (0..last).map(|row| residual[row].conj() * a[row][plane] * multipliers[row]).sum();
         a[last][plane] = -sum / (residual[last].conj() * multipliers[last]);

@@ -228,6 +228,7 @@ fn both(rate: f64, speed: f64, parts: &[Part]) -> [Result<Ripple, Unusable>; 2] 
     let mut count = (motion.phi / TAU * 60.0).floor() as i64 + 2;
     let mut tick = 1_u32;
     let mut taken = None;
+    #[allow(clippy::explicit_counter_loop)]
     for _ in 0..60 * 200 {
         let mut ahead = motion.clone();
         if count.rem_euclid(60) < 58 {

@@ -84,7 +84,7 @@ fn nonsense_changes_nothing() {
             feed.course(&[155.0, -155.0, 155.0, -155.0], |_, _, acceleration| 400.0 + 0.8 * acceleration);
         }),
         ("a load that changes with each run-up", |feed| {
-            let load = |time: f64| 300.0 + 100.0 * f64::from(u8::from((time / 3.5) as u32 % 2 == 0));
+            let load = |time: f64| 300.0 + 100.0 * f64::from(u8::from(((time / 3.5) as u32).is_multiple_of(2)));
             feed.course(&SPEEDS, |time, _, acceleration| load(time) + 0.8 * acceleration);
         }),
         ("a brake that drags on the ramps", |feed| {
