@@ -12,7 +12,7 @@
 //! | residue | reversals that close no cycle yet: ranges that grow, then shrink | |
 //! | range | largest less smallest torque of a cycle | N m |
 //! | Woehler line (S-N curve) | cycles to failure against the amplitude, half of the range | |
-//! | damage | cycles over cycles to failure, summed over all ranges [Miner]; failure at 1 | |
+//! | damage | cycles over cycles to failure, summed over all ranges (Miner); failure at 1 | |
 //! | torque amplification factor | largest torque over the rated torque | |
 //!
 //! ```

@@ -25,6 +25,8 @@ use crate::settings::{Bases, SpeedLoopSettings};
 /// would cost the compiler many times a drive. [`Machine::BASES`] must hold for all members: with the exact step a
 /// stiffness may change fourfold in fixed point.
 ///
+/// [`test_schedule`]: crate::configure::test_schedule
+///
 /// ```
 /// use driveline::configure::{Family, Machine, Rating};
 /// use driveline::machine::{Match, TwoMass};

@@ -128,7 +128,7 @@ impl<const TEETH: usize> Teeth<TEETH> {
 }
 
 impl<const TEETH: usize> Teeth<TEETH> {
-    /// Learns the teeth from the times of edges [clock] over three turns or more at a steady speed, each turn taken by
+    /// Learns the teeth from edges' times (clock counts) over three turns or more at a steady speed, each turn taken by
     /// its own length. The angle is 0 at the tooth behind the largest span. A ripple while learning is learnt as a
     /// displacement of the teeth: let the machine coast, without fuel and without load.
     ///

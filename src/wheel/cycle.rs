@@ -2,7 +2,7 @@
 
 /// What a wheel records of its teeth, on the interrupt.
 pub trait Record {
-    /// A tooth of the cycle passed at this time [clock].
+    /// A tooth of the cycle passed at this time (clock counts).
     fn tooth(&mut self, place: u32, time: u32);
     /// The place was lost: the cycle is not finished.
     fn lost(&mut self);
@@ -21,9 +21,9 @@ impl Record for () {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ToothCycle<const TEETH: usize> {
-    /// Passages [clock], wrapping; that of a tooth without an edge is before the first.
+    /// Passages (clock counts), wrapping; that of a tooth without an edge is before the first.
     pub(crate) times: [u32; TEETH],
-    /// Passage of the next cycle's first tooth [clock].
+    /// Passage of the next cycle's first tooth (clock counts).
     pub(crate) end: u32,
     /// Its number since the place was found.
     pub(crate) number: u32,
@@ -32,7 +32,7 @@ pub struct ToothCycle<const TEETH: usize> {
 impl<const TEETH: usize> ToothCycle<TEETH> {
     const EMPTY: Self = ToothCycle { times: [0; TEETH], end: 0, number: 0 };
 
-    /// Duration [clock].
+    /// Duration (clock counts).
     pub fn length(&self) -> u32 {
         self.end.wrapping_sub(self.times.first().copied().unwrap_or(self.end))
     }
@@ -42,7 +42,7 @@ impl<const TEETH: usize> ToothCycle<TEETH> {
         self.number
     }
 
-    /// From the cycle's first tooth to each [clock]; none for a tooth without an edge.
+    /// From the cycle's first tooth to each (clock counts); none for a tooth without an edge.
     pub fn since_first(&self) -> impl Iterator<Item = Option<u32>> + '_ {
         let first = self.times.first().copied().unwrap_or(0);
         let length = self.length();

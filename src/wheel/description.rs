@@ -28,7 +28,7 @@ pub struct ToothedWheelConfig<const TEETH: usize> {
     pub(crate) fitting: [Set; RATIOS],
     /// Turns to a cycle.
     pub turns: u32,
-    /// Longest time of a turn [clock]: below that speed there is no angle.
+    /// Longest time of a turn (clock counts): below that speed there is no angle.
     pub slowest: u32,
     /// Time of a count of the clock \[s\].
     pub period: f64,

@@ -19,9 +19,9 @@ const CHANGE: i32 = 160;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Track {
-    /// When the last tooth passed [clock], smoothed.
+    /// When the last tooth passed (clock counts), smoothed.
     pub passage: u32,
-    /// Time of a turn [clock], smoothed; 0 for none.
+    /// Time of a turn (clock counts), smoothed; 0 for none.
     pub turn: u32,
     /// Which of the gains.
     gain: u32,
@@ -72,8 +72,8 @@ impl Track {
         self.error = error;
     }
 
-    /// By how much an edge may be early and late to be a tooth, from half a pitch [clock]: five times the errors' mean
-    /// size, between 0.3 and 0.75 pitches. A late edge within half a pitch has no tooth nearer.
+    /// By how much an edge may be early and late to be a tooth, from half a pitch (clock counts): five times
+    /// the errors' mean size, between 0.3 and 0.75 pitches. A late edge within half a pitch has no tooth nearer.
     pub fn window(&self, half: i32) -> [i32; 2] {
         let size = (self.size >> 4).saturating_mul(5).min(i32::MAX as u32) as i32;
         let most = half.wrapping_add(half >> 1);
@@ -81,8 +81,8 @@ impl Track {
         [early, early.max(half)]
     }
 
-    /// Standard deviation of the angle as a time [clock]: 5/4 of the errors' mean size, as normal errors have it, and
-    /// the square root of the passage's gain of it.
+    /// Standard deviation of the angle as a time (clock counts): 5/4 of the errors' mean size, as normal errors
+    /// have it, and the square root of the passage's gain of it.
     pub fn deviation(&self) -> u32 {
         const ROOTS: [u32; 5] = [20, 17, 14, 10, 7];
         let root = ROOTS.get(self.gain as usize).copied().unwrap_or(20);
