@@ -54,7 +54,8 @@ fn a_project_is_built_for_the_boards_that_qemu_does_not_have() {
     for board in ["nucleo-g474re", "generic"] {
         ended_well(&new(place.path(), &[board, "--board", board]));
         let build = ["build", "--release", "--target", "thumbv7em-none-eabihf"];
-        ended_well(&in_project(&place.path().join(board), &build));
+        let said = ended_well(&in_project(&place.path().join(board), &build));
+        assert!(!said.contains("warning"), "{said}");
     }
 }
 
