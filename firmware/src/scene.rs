@@ -120,8 +120,17 @@ pub trait FromConfig: Scene {
 /// The variant of a scene for a machine, with the constants that follow from the machine.
 pub struct Of<M, S>(PhantomData<(M, S)>);
 
+/// A variant's drive at rest; generic for the reason given at [`Constants`].
+#[inline]
+pub fn at_rest<V: Constants>() -> V::Scene {
+    V::Scene::from_config(V::CONFIG)
+}
+
 /// The constants of a variant's drive.
-pub trait Constants: Variant<Scene: FromConfig> {
+///
+/// `Any` stands for nothing. The compiler evaluates what is generic where it is used: the designs of one variant for
+/// an image, not those of all variants in each check and each build of this crate.
+pub trait Constants<Any = ()>: Variant<Scene: FromConfig> {
     /// The constants.
     const CONFIG: &'static ConfigOf<<Self::Scene as FromConfig>::Drive>;
 }

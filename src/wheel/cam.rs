@@ -23,9 +23,11 @@ impl<R: Record> ToothedWheel<R> {
         if self.stage == Stage::Searching {
             return;
         }
-        let angle = tooth.angle.wrapping_add(self.track.scale().angle(elapsed));
         let share = |whole: u32, parts: u32| whole.checked_div(parts).unwrap_or(0);
-        let place = share(u32::MAX, config.turns).wrapping_mul(turn).wrapping_add(share(angle, config.turns));
+        // signed: an edge just before a turn's first tooth is in the turn before
+        let beyond = (self.track.scale().angle(elapsed) as i32).checked_div(config.turns as i32).unwrap_or(0);
+        let begin = share(u32::MAX, config.turns).wrapping_mul(turn);
+        let place = begin.wrapping_add(share(tooth.angle, config.turns)).wrapping_add(beyond as u32);
         let mut fitting = 0;
         for part in 0..parts {
             let here = place.wrapping_add(share(u32::MAX, parts).wrapping_mul(part));

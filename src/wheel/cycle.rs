@@ -90,6 +90,10 @@ impl<const TEETH: usize> Record for CycleTimes<TEETH> {
                 }
             }
             _ if place != 0 => {
+                // without its first tooth neither the cycle before nor this one is finished
+                if self.next.is_some() {
+                    self.number = self.number.wrapping_add(2);
+                }
                 self.next = None;
                 return;
             }
@@ -103,8 +107,13 @@ impl<const TEETH: usize> Record for CycleTimes<TEETH> {
                     if let Some(first) = other.times.first_mut() {
                         *first = time;
                     }
-                } else if let Some(first) = filled.times.first_mut() {
-                    *first = time;
+                } else {
+                    if begun.is_some() {
+                        self.number = self.number.wrapping_add(1);
+                    }
+                    if let Some(first) = filled.times.first_mut() {
+                        *first = time;
+                    }
                 }
             }
         }

@@ -138,22 +138,26 @@ macro_rules! variants {
             };
             const RATE_HZ: u32 = <$machine as driveline::configure::Machine>::RATE_HZ;
 
+            #[inline]
             fn start() -> Self::Scene {
-                $crate::scene::FromConfig::from_config(<Self as $crate::scene::Constants>::CONFIG)
+                $crate::scene::at_rest::<Self>()
             }
 
+            #[inline]
             fn expected() -> Option<$crate::scene::expected::Expected> {
                 <<$drive<$number> as $crate::scene::FromConfig>::Drive as
                     $crate::scene::expected::Expects<$machine>>::expected()
             }
         }
 
-        impl $crate::scene::Constants for $crate::scene::Of<$machine, $drive<$number>> {
+        impl<Any> $crate::scene::Constants<Any> for $crate::scene::Of<$machine, $drive<$number>> {
             const CONFIG: &'static driveline::drive::ConfigOf<<$drive<$number> as $crate::scene::FromConfig>::Drive> =
-                &<<$drive<$number> as $crate::scene::FromConfig>::Drive as driveline::configure::Configure<
-                    $machine,
-                    $number,
-                >>::CONFIG;
+                const {
+                    &<<$drive<$number> as $crate::scene::FromConfig>::Drive as driveline::configure::Configure<
+                        $machine,
+                        $number,
+                    >>::CONFIG
+                };
         }
     };
     ($($variant:ty),+ $(,)?) => {

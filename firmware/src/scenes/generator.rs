@@ -188,25 +188,13 @@ pub const TURBINE: Set = Set {
 /// Slope of the droop that may be switched to: 4 % at rated torque.
 pub const DROOP: f64 = 0.04;
 
-/// The designs of a set: governor with feed-forward, governor without, observer. Constants of their own, so that each
-/// is evaluated once.
+/// The designs of a set: governor with feed-forward, governor without, observer.
 pub struct Designs {
     /// With feed-forward, and without.
     pub governors: [GovernorDesign; 2],
     /// The observer.
     pub observer: TwoMassDesign,
 }
-
-const DIESEL_FED: GovernorDesign = DIESEL.governor(true);
-const DIESEL_PLAIN: GovernorDesign = DIESEL.governor(false);
-const TURBINE_FED: GovernorDesign = TURBINE.governor(true);
-const TURBINE_PLAIN: GovernorDesign = TURBINE.governor(false);
-
-/// The diesel's designs.
-pub const DIESEL_DESIGNS: Designs = Designs { governors: [DIESEL_FED, DIESEL_PLAIN], observer: DIESEL.observer() };
-
-/// The turbine's designs.
-pub const TURBINE_DESIGNS: Designs = Designs { governors: [TURBINE_FED, TURBINE_PLAIN], observer: TURBINE.observer() };
 
 impl Set {
     /// The governor, with feed-forward or without.
@@ -302,19 +290,18 @@ pub trait HasSet: 'static {
     /// The set.
     const SET: Set;
     /// Its designs.
-    const DESIGNS: Designs;
+    const DESIGNS: Designs =
+        Designs { governors: [Self::SET.governor(true), Self::SET.governor(false)], observer: Self::SET.observer() };
 }
 
 impl HasSet for DieselSet {
     const CHAIN: Chain = DIESEL_CHAIN;
     const SET: Set = DIESEL;
-    const DESIGNS: Designs = DIESEL_DESIGNS;
 }
 
 impl HasSet for TurbineSet {
     const CHAIN: Chain = TURBINE_CHAIN;
     const SET: Set = TURBINE;
-    const DESIGNS: Designs = TURBINE_DESIGNS;
 }
 
 /// Constants that the panel chooses: with feed-forward and isochronous.

@@ -65,7 +65,7 @@ impl Machine for PunchPress {
     const SPEED_LOOP: SpeedLoopDesign =
         SpeedLoopDesign { damping: 0.0, ..Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING) };
     /// On the speed without its ripple.
-    const GAINS: GainSource = GainSource::Governor(OVER_STROKE);
+    const GAINS: GainSource = GainSource::Governor(over_stroke());
     const RAMP: f64 = Self::RATING.speed / 2.0;
     /// The shaft carries five times the motor's largest torque, and the observer's gains want a base of this size.
     const BASES: Bases = Bases::rigid(10_000.0, 1.34 * Self::RATING.speed);
@@ -96,12 +96,14 @@ pub const LONGEST_STROKE: f64 = core::f64::consts::TAU * RATIO as f64 / (0.8 * P
 /// The governor on the speed without its ripple. That is renewed from a whole stroke: a gain of 1.5 J over the stroke's
 /// time crosses over at 1.5/T, where `(1 - e^-sT)(1/sT + 1/2)` has lost little, and the integral takes three strokes.
 /// `tests/governor` has the loop's margin.
-pub const OVER_STROKE: GovernorDesign = PunchPress::TWO_MASS.governor(
-    PunchPress::RATE,
-    Actuator { delay: 0.0, lag: LONGEST_STROKE / 6.75 },
-    4.5,
-    LoadFeedForward::NONE,
-);
+pub const fn over_stroke() -> GovernorDesign {
+    PunchPress::TWO_MASS.governor(
+        PunchPress::RATE,
+        Actuator { delay: 0.0, lag: LONGEST_STROKE / 6.75 },
+        4.5,
+        LoadFeedForward::NONE,
+    )
+}
 
 /// Segments of the stroke, at whose ends the mean is renewed.
 pub const SEGMENTS: usize = 64;
@@ -216,6 +218,7 @@ impl<N: Summed> Notes<N> {
         }
     }
 
+    #[inline(never)]
     fn advise(&mut self, config: &WaveformConfig, permissible: f64) -> u32 {
         let Some(window) = &self.window else { return panel::NOT_YET };
         let Ok(ripple) = window.ripple(config, HIGHEST) else { return panel::NONE };

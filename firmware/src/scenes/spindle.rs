@@ -7,7 +7,7 @@
 //! times.
 
 use driveline::configure::{Machine, Rating};
-use driveline::design::{Encoder, LoadCycle, ObserverChoice, ObserverSelection, Requirement, SpeedLoopTuning};
+use driveline::design::{Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus, stepped};
 use driveline::observer::{self, TwoMassObserver};
 use driveline::settings::{Bases, Screening};
@@ -52,20 +52,20 @@ pub const COUNTS: u32 = 524_288;
 
 /// Observer selection for a tool that hits the work within 3 ms, three times a second; twelve samples on a swing are
 /// too few for the semi-implicit step.
-pub const SELECTION: ObserverSelection = Spindle::TWO_MASS.select_observer(
-    &LoadCycle {
-        speed: Spindle::RATING.speed,
-        torque: 0.66 * Spindle::RATING.torque,
-        change: 0.64 * Spindle::RATING.torque,
-        rise: 0.003,
-        every: 0.3,
-        reverses: false,
-    },
-    &Requirement::USUAL,
-    Spindle::PERIOD,
-);
-
-const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::Exact));
+pub const fn selection() -> ObserverSelection {
+    Spindle::TWO_MASS.select_observer(
+        &LoadCycle {
+            speed: Spindle::RATING.speed,
+            torque: 0.66 * Spindle::RATING.torque,
+            change: 0.64 * Spindle::RATING.torque,
+            rise: 0.003,
+            every: 0.3,
+            reverses: false,
+        },
+        &Requirement::USUAL,
+        Spindle::PERIOD,
+    )
+}
 
 /// One mass.
 pub type Rigid<N> = Governed<N, observer::RigidObserver<N>>;

@@ -12,8 +12,8 @@
 
 use driveline::configure::{HasBarredSpeeds, Machine, Rating};
 use driveline::design::{
-    BarredSpeeds, Disturbance, Encoder, LoadCycle, ObserverChoice, ObserverSelection, Requirement, SpeedLoopDesign,
-    SpeedLoopTuning, USUAL_MARGIN,
+    BarredSpeeds, Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopDesign, SpeedLoopTuning,
+    USUAL_MARGIN,
 };
 use driveline::governor::{Barred, SpeedGovernor, SymmetricLimit};
 use driveline::machine::{Chain, Damping, Diameter, Inertia, Length, Section, ShearModulus};
@@ -87,20 +87,20 @@ pub const CRITICAL: [f64; 2] = {
 };
 
 /// Observer selection for the box's force: at speed `S^2 w^2/2M` either way, twice a turn.
-pub const SELECTION: ObserverSelection = VibratingScreen::TWO_MASS.select_observer(
-    &LoadCycle {
-        speed: VibratingScreen::RATING.speed,
-        torque: 2.0 * VibratingScreen::RATING.torque,
-        change: UNBALANCE * UNBALANCE * VibratingScreen::RATING.speed * VibratingScreen::RATING.speed / MASSES[0],
-        rise: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed,
-        every: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed,
-        reverses: true,
-    },
-    &Requirement::USUAL,
-    VibratingScreen::PERIOD,
-);
-
-const _: () = assert!(matches!(SELECTION.chosen, ObserverChoice::Exact));
+pub const fn selection() -> ObserverSelection {
+    VibratingScreen::TWO_MASS.select_observer(
+        &LoadCycle {
+            speed: VibratingScreen::RATING.speed,
+            torque: 2.0 * VibratingScreen::RATING.torque,
+            change: UNBALANCE * UNBALANCE * VibratingScreen::RATING.speed * VibratingScreen::RATING.speed / MASSES[0],
+            rise: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed,
+            every: 0.5 * core::f64::consts::PI / VibratingScreen::RATING.speed,
+            reverses: true,
+        },
+        &Requirement::USUAL,
+        VibratingScreen::PERIOD,
+    )
+}
 
 /// The resonances passed by a quick ramp.
 pub type Exact<N> = GovernedBy<N, TwoMassObserver<N>, SpeedGovernor<N, Barred<2>, (), SymmetricLimit>>;

@@ -12,7 +12,7 @@ macro_rules! parts {
             };
 
             /// Gains and ramp.
-            pub const GAINS: Gains<$number> = Gains::<$number>::new(&DIESEL_PLAIN, DIESEL.ramp, $bases);
+            pub const GAINS: Gains<$number> = Gains::<$number>::new(&DIESEL.governor(false), DIESEL.ramp, $bases);
             /// Droop.
             pub const DROOP: DroopConfig<$number> =
                 DroopConfig::<$number>::new(super::super::DROOP, RATED_SPEED, DIESEL_TORQUE, $bases);

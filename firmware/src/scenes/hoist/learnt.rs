@@ -44,11 +44,15 @@ const MOTOR_RANGE: [f32; 2] = [0.75, 1.25];
 /// From an empty hook behind the lightest motor to the largest load behind the heaviest.
 const RUN_UP: RunUpConfig = RunUpConfig::new(M::RATING.torque, M::RATING.speed, [0.7 * MOTOR, 2.1 * MOTOR], 0.01);
 /// Up to a tenth of a degree, from ten turns at rated speed.
-static ECCENTRICITY: EccentricityConfig = EccentricityConfig::of_placed(
-    &<M as driveline::configure::Family<5, 4>>::OBSERVERS[1][2],
-    0.1 * core::f64::consts::PI / 180.0,
-    0.4,
-);
+fn eccentricity<Any>() -> &'static EccentricityConfig {
+    const {
+        &EccentricityConfig::of_placed(
+            &<M as driveline::configure::Family<5, 4>>::OBSERVERS[1][2],
+            0.1 * core::f64::consts::PI / 180.0,
+            0.4,
+        )
+    }
+}
 /// Gravity \[m/s2\], the standard value of ISO 80000-3.
 const GRAVITY: f32 = 9.80665;
 
@@ -122,11 +126,16 @@ macro_rules! follower {
                 self.calibration = TorqueCalibration::new(self.torque.gain(), offset);
             }
 
+            /// As [`Constants::config`](crate::scene::Constants::config), `Any` stands for nothing.
+            fn schedule<Any>() -> &'static ScheduleOf<HoistDrive<$number>, 5, 4> {
+                const { &HoistDrive::<$number>::schedule::<M, 5, 4>() }
+            }
+
+            #[inline]
             fn follow(&mut self, drive: &mut HoistDrive<$number>, estimate: &Estimate<f32>) {
-                static SCHEDULE: ScheduleOf<HoistDrive<$number>, 5, 4> = HoistDrive::<$number>::schedule::<M, 5, 4>();
                 let mass = self.mass.update(&MASS, estimate.load_torque);
                 let length = self.rope.update(drive.angle(), estimate.motor_speed, 0.05);
-                drive.follow(&mut self.config, &SCHEDULE, 1e3 / mass, 1.0 / length.max(1.0));
+                drive.follow(&mut self.config, Self::schedule::<()>(), 1e3 / mass, 1.0 / length.max(1.0));
                 self.config.observer.friction = Magnitude::of(self.loss.friction());
                 let motor = &mut self.config.observer.observer.motor;
                 *motor = Magnitude::scaled(motor, 1.0 / self.motor);
@@ -192,6 +201,7 @@ macro_rules! follower {
                 output(&command, &drive.estimate(&self.config))
             }
 
+            #[inline]
             fn panel(
                 &mut self,
                 drive: &mut HoistDrive<$number>,
@@ -206,7 +216,7 @@ macro_rules! follower {
                         self.follow(drive, &estimate);
                     }
                     if self.ticks % ECCENTRICITY_TICKS == 0 {
-                        drive.observer_mut().learn(&ECCENTRICITY, estimate.motor_speed);
+                        drive.observer_mut().learn(eccentricity::<()>(), estimate.motor_speed);
                     }
                 }
                 self.answer(drive, asked)

@@ -5,7 +5,7 @@ use std::error::Error;
 use driveline::design::Margins;
 use driveline_firmware::scene::{Input, Output};
 use driveline_firmware::scenes::find;
-use driveline_firmware::scenes::generator::{DIESEL, DIESEL_DESIGNS, RATED_SPEED, TURBINE, TURBINE_DESIGNS};
+use driveline_firmware::scenes::generator::{DIESEL, DieselSet, HasSet, RATED_SPEED, TURBINE, TurbineSet};
 use serde::Serialize;
 
 use super::faults::{FAULTS, Outcome, PASSING, WIRES, outcome};
@@ -104,8 +104,8 @@ pub fn program(kind: Kind, way: Way) -> Program {
 /// The margins of a set's design.
 pub fn margins(kind: Kind, way: Way) -> Margins {
     let (designs, set) = match kind {
-        Kind::Diesel => (&DIESEL_DESIGNS, &DIESEL),
-        Kind::Turbine => (&TURBINE_DESIGNS, &TURBINE),
+        Kind::Diesel => (&DieselSet::DESIGNS, &DIESEL),
+        Kind::Turbine => (&TurbineSet::DESIGNS, &TURBINE),
     };
     designs.governors[way as usize].margins(&set.machine)
 }

@@ -56,12 +56,13 @@ pub fn build(
     held.lock().map_err(place(format!("locking {}", lock.display())))?;
 
     let firmware = target.join("firmware").join(board.target);
+    let of_core = if board.core == "m7" { ",m7" } else { "" };
     let arguments = [
         "build",
         "--package=driveline-firmware",
         "--profile=firmware",
-        &format!("--bin={}", program.name()),
-        &format!("--features={}", program.features()),
+        &format!("--{}={}", program.kind(), program.name()),
+        &format!("--features={}{of_core}", program.features()),
         &format!("--target={}", board.target),
     ];
     let command = format!(

@@ -59,8 +59,15 @@ impl Program {
         match self {
             Program::Log => "target,defmt",
             Program::Nucleo => "nucleo-g474re",
-            Program::Panics => "reachable_panic",
             _ => "target",
+        }
+    }
+
+    /// Its kind of cargo's targets.
+    const fn kind(self) -> &'static str {
+        match self {
+            Program::Panics => "example",
+            _ => "bin",
         }
     }
 }

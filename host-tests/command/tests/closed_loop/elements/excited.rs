@@ -103,7 +103,7 @@ fn the_teeth_excite_the_gear_drive() {
 /// Two masses for the one, and for the other, by what leaving out the shaft would cost.
 #[test]
 fn both_need_two_masses() {
-    for need in [vibrating_screen::SELECTION, gear_drive::SELECTION] {
+    for need in [vibrating_screen::selection(), gear_drive::selection()] {
         assert_eq!(need.chosen, ObserverChoice::Exact);
         assert!(need.without_shaft.shaft_torque > 0.02, "{need:?}");
     }

@@ -6,7 +6,11 @@ use cargo_driveline::drivetrains::SCENES;
 use cargo_driveline::drivetrains::figures::{deviations, peaks};
 use cargo_driveline::drivetrains::lockstep::{Trace, run};
 use cargo_driveline::drivetrains::scenario::Machine;
+use driveline::design::ObserverChoice;
 use driveline_firmware::scenes::{VARIANTS, find};
+use driveline_firmware::scenes::{
+    crane_travel, fan, gear_drive, planetary, skip_winch, spindle, strip_mill, vibrating_screen,
+};
 
 /// Runs every counted scenario of a machine with one variant.
 fn runs(machine: &Machine, variant: &str) -> Vec<Trace> {
@@ -128,5 +132,24 @@ fn runs_are_proven() {
         let variant = VARIANTS.iter().find(|variant| variant.starts_with(scene)).unwrap();
         let traces = runs(&machine, variant);
         traces[0].recording.prove().unwrap();
+    }
+}
+
+/// Each scene has the observer that its design selects, or overrules it in words; a change of the machine or of the
+/// selection shows here.
+#[test]
+fn the_design_selects_the_observers_of_the_scenes() {
+    let selected = [
+        (crane_travel::selection(), ObserverChoice::SemiImplicit),
+        (fan::selection(), ObserverChoice::Rigid),
+        (gear_drive::selection(), ObserverChoice::Exact),
+        (planetary::selection(), ObserverChoice::Rigid),
+        (skip_winch::selection(), ObserverChoice::SemiImplicit),
+        (spindle::selection(), ObserverChoice::Exact),
+        (strip_mill::selection(), ObserverChoice::SemiImplicit),
+        (vibrating_screen::selection(), ObserverChoice::Exact),
+    ];
+    for (at, (selection, expected)) in selected.iter().enumerate() {
+        assert_eq!(selection.chosen, *expected, "scene {at}: {selection:?}");
     }
 }

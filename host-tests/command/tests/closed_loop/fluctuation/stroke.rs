@@ -12,7 +12,7 @@ use cargo_driveline::drivetrains::scenario::{Law, Scenario};
 use driveline::configure::Machine as _;
 use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_firmware::scenes::find;
-use driveline_firmware::scenes::punch_press::{OVER_STROKE, PunchPress, panel};
+use driveline_firmware::scenes::punch_press::{PunchPress, over_stroke, panel};
 
 /// Asks the panel for an advice in the last ticks, and keeps the answers.
 struct Asking<S> {
@@ -154,7 +154,7 @@ fn the_same_in_fixed_point() {
 /// longest stroke to that at rated speed.
 #[test]
 fn the_loop_over_the_stroke_has_margins() {
-    let inertia = PunchPress::TWO_MASS.total_inertia();
+    let (inertia, governor) = (PunchPress::TWO_MASS.total_inertia(), over_stroke());
     for share in [0.8, 1.0] {
         let stroke = 14.0 * TAU / (share * PunchPress::RATING.speed);
         let mut nearest = f64::INFINITY;
@@ -167,7 +167,7 @@ fn the_loop_over_the_stroke_has_margins() {
             let mean = times(whole, [0.5, -1.0 / x]);
             let late = w * (stroke / 64.0 + 1.5e-4);
             let machine = times([0.0, -1.0 / (inertia * w)], [late.cos(), -late.sin()]);
-            let gains = [OVER_STROKE.proportional, -OVER_STROKE.integral / w];
+            let gains = [governor.proportional, -governor.integral / w];
             let open = times(times(gains, machine), mean);
             nearest = nearest.min((1.0 + open[0]).hypot(open[1]));
             w *= 1.002;
