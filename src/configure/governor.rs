@@ -76,7 +76,9 @@ where
     };
     const LOOP: LoopPart = match &M::GAINS {
         GainSource::SpeedLoop(design) => {
-            LoopPart::SpeedLoop(SpeedLoopDesign { damping: 0.0, ..*design }).and(&F::LOOP).and(&L::LOOP).and(&V::LOOP)
+            // the compensation brings the damping, and has no lag
+            let design = SpeedLoopDesign { damping: 0.0, damping_lag: 0.0, ..*design };
+            LoopPart::SpeedLoop(design).and(&F::LOOP).and(&L::LOOP).and(&V::LOOP)
         }
         GainSource::Governor(_) => LoopPart::Unknown,
     };

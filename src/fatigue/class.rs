@@ -32,11 +32,11 @@ impl<N: Classed> TorqueClasses<N> {
 
 /// Sorting into classes, beside the operations of [`Number`].
 pub trait Classed: Number {
-    /// Factor from a torque to its class.
+    /// Factor from a torque to quarters of a class.
     type Scale: Copy + PartialEq + core::fmt::Debug;
 
-    /// The torque in classes, rounded down; it may be beyond them.
-    fn classes(self, scale: Self::Scale) -> i32;
+    /// The torque in quarters of a class, rounded down; it may be beyond the classes.
+    fn quarters(self, scale: Self::Scale) -> i32;
 }
 
 const LIMIT: &str = "the limit of the torque's classes must be positive and finite (N m), in fixed point at least \
@@ -56,10 +56,10 @@ macro_rules! classed {
 
             // A cast saturates, and takes a NaN for zero.
             #[inline(always)]
-            fn classes(self, scale: $float) -> i32 {
-                let classes = self * scale;
-                let whole = classes as i32;
-                if (whole as $float) > classes { whole.wrapping_sub(1) } else { whole }
+            fn quarters(self, scale: $float) -> i32 {
+                let quarters = self * scale;
+                let whole = quarters as i32;
+                if (whole as $float) > quarters { whole.wrapping_sub(1) } else { whole }
             }
         }
 
@@ -73,7 +73,7 @@ macro_rules! classed {
             pub const fn new<const CLASSES: usize>(limit: f64) -> Self {
                 let width = checked(limit, CLASSES);
                 TorqueClasses {
-                    scale: (1.0 / width) as $float,
+                    scale: (4.0 / width) as $float,
                     middle: CLASSES as i32 / 2,
                     width,
                     base: 1.0,
@@ -87,14 +87,14 @@ macro_rules! classed {
 classed!(f32);
 classed!(f64);
 
-/// Binary places of the factor in fixed point: 2^28 are a base, and a class is some 2^22 of them at least.
-const PLACES: u32 = 44;
+/// Binary places of the factor to quarters of a class in fixed point; 2^28 are a base.
+const PLACES: u32 = 42;
 
 impl Classed for Fixed {
     type Scale = i32;
 
     #[inline(always)]
-    fn classes(self, scale: i32) -> i32 {
+    fn quarters(self, scale: i32) -> i32 {
         ((i64::from(self.to_bits()) * i64::from(scale)) >> 32) as i32 >> (PLACES - 32)
     }
 }

@@ -58,14 +58,14 @@ impl<const CLASSES: usize, const REVERSALS: usize> Counts<CLASSES, REVERSALS> {
     }
 
     /// Time in which the torque was beyond a limit \[N m\], either way, to the class \[s, or ticks\]: classes that
-    /// begin at the limit or beyond it.
+    /// begin at the limit or beyond it. The outermost classes hold all that is beyond them: no limit divides them.
     pub fn time_above(&self, limit: f64) -> f64 {
         let middle = CLASSES as f64 / 2.0;
+        let limit = limit.min((middle - 1.0) * self.width);
         let each = (0_u32..).zip(&self.ticks);
         let beyond = each.filter(|&(class, _)| {
             let low = f64::from(class) - middle;
             let nearest = if low < 0.0 { -(low + 1.0) } else { low };
-            // the outermost class has no end
             nearest * self.width >= limit
         });
         beyond.map(|(_, &ticks)| f64::from(ticks)).sum::<f64>() * self.period

@@ -10,7 +10,7 @@ const UNUSED: u32 = 2;
 /// Rainflow counting of the shaft torque in `CLASSES` classes. `REVERSALS` is a power of two with room for the longest
 /// residue: twice the classes and four.
 ///
-/// A tick does one step of the four-point method, and a reversal needs one and a half of them on the mean. So none is
+/// A tick does one step of the four-point method, and a reversal needs one and a half of them on average. So none is
 /// lost where reversals are two ticks apart; [`Counts::lost`] counts those that were.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -70,20 +70,20 @@ impl<N: Classed, const CLASSES: usize, const REVERSALS: usize> Fluctuation<N> fo
         if torque.exceeds(self.largest) {
             self.largest = torque.magnitude();
         }
-        let class = torque.classes(config.scale).wrapping_add(config.middle);
-        let top = const { CLASSES as i32 - 1 };
-        let class = if class < 0 {
+        let quarters = torque.quarters(config.scale).wrapping_add(config.middle << 2);
+        let top = const { 4 * CLASSES as i32 - 1 };
+        let quarters = if quarters < 0 {
             0
-        } else if class > top {
+        } else if quarters > top {
             top
         } else {
-            class
+            quarters
         };
-        if let Some(ticks) = self.ticks.get_mut(class as usize) {
+        if let Some(ticks) = self.ticks.get_mut((quarters >> 2) as usize) {
             *ticks = ticks.wrapping_add(1);
         }
         self.step();
-        self.follow(class);
+        self.follow(quarters);
     }
 
     /// The torque is an estimate by prediction then, and counts as such.
@@ -92,13 +92,16 @@ impl<N: Classed, const CLASSES: usize, const REVERSALS: usize> Fluctuation<N> fo
 }
 
 impl<N: Classed, const CLASSES: usize, const REVERSALS: usize> Rainflow<N, CLASSES, REVERSALS> {
-    /// Follows the torque to a class; where it turns round its last class is a reversal.
+    /// Follows the torque, in quarters of a class; where it turns round its last class is a reversal. It leaves a class
+    /// by a quarter: noise about a boundary between two classes is no reversal.
     #[inline(always)]
-    fn follow(&mut self, class: i32) {
+    fn follow(&mut self, quarters: i32) {
         let last = self.last;
-        if class == last {
+        // from a quarter below the last class to a quarter above it
+        if (quarters.wrapping_sub(last << 2).wrapping_add(1) as u32) < 6 && last >= 0 {
             return;
         }
+        let class = quarters >> 2;
         self.last = class;
         if last < 0 {
             return;

@@ -14,7 +14,7 @@ use core::f64::consts::TAU;
 
 use super::extremes::Fluctuations;
 use super::series::{Circle, Order, Series, circle};
-use super::{CycleConfig, Ripple, Summed, WaveformConfig, Window};
+use super::{Bin, CycleConfig, Ripple, Summed, WaveformConfig, Window};
 
 /// Two masses and their shaft, referred to the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,12 +49,16 @@ pub struct LoadSide {
 
 impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// The motor's torque over the angle of the cycle [N m], with orders up to `highest`: the mean of each bin over the
-    /// window.
+    /// window. A bin without a tick has the torque of the one before it.
     pub fn motor_torque(&self, config: &WaveformConfig, highest: usize) -> Series {
-        let torques = self
-            .bins
-            .iter()
-            .map(|bin| N::total_to_real(bin.torque) / f64::from(bin.ticks.max(1)) * config.cycle.torque);
+        let of = |bin: &Bin<N>| {
+            (bin.ticks > 0).then(|| N::total_to_real(bin.torque) / f64::from(bin.ticks) * config.cycle.torque)
+        };
+        let mut last = self.bins.iter().rev().find_map(of).unwrap_or(0.0);
+        let torques = self.bins.iter().map(|bin| {
+            last = of(bin).unwrap_or(last);
+            last
+        });
         let mut series = Series::sampled(torques, BINS, 0.5, highest);
         // A bin's mean is smaller than the value at its middle: sin(x)/x of half a bin.
         for (n, order) in (1_u32..).zip(&mut series.orders) {

@@ -70,11 +70,20 @@ fn place<const WHEEL: usize>(config: &ToothedWheelConfig<WHEEL>, tooth: usize) -
 }
 
 impl<const TEETH: usize> ToothWindow<TEETH> {
-    /// Adds a cycle, in the main loop. A tooth without an edge counts as late as its neighbours.
+    /// Adds a cycle, in the main loop; the same one a second time is left out, and an earlier one begins a window anew.
+    /// A tooth without an edge counts as late as its neighbours.
     pub fn add<const WHEEL: usize>(&mut self, config: &ToothedWheelConfig<WHEEL>, cycle: &ToothCycle<TEETH>) {
         let length = f64::from(cycle.length());
         if length <= 0.0 {
             return;
+        }
+        let steps = cycle.number().wrapping_sub(self.number);
+        if self.cycles > 0 && steps == 0 {
+            return;
+        }
+        // numbers that run backwards are those of a wheel that began anew
+        if self.cycles > 0 && steps > u32::MAX / 2 {
+            *self = ToothWindow::default();
         }
         let first = place(config, 0);
         let mut late = [None; TEETH];
@@ -98,7 +107,7 @@ impl<const TEETH: usize> ToothWindow<TEETH> {
         if self.cycles == 0 {
             self.opening = seconds;
         } else {
-            self.missed += cycle.number().wrapping_sub(self.number).wrapping_sub(1);
+            self.missed = self.missed.saturating_add(steps.wrapping_sub(1));
         }
         self.number = cycle.number();
         self.closing = seconds;
@@ -118,7 +127,7 @@ impl<const TEETH: usize> ToothWindow<TEETH> {
             return (0.0, 0.0);
         }
         // Cycles that were missed have passed all the same.
-        let between = f64::from(self.cycles - 1 + self.missed);
+        let between = f64::from(self.cycles - 1) + f64::from(self.missed);
         let rise = (ln(self.closing) - ln(self.opening)) / between;
         let mean = self.whole / f64::from(self.cycles);
         (rise, (angle / self.closing - angle / self.opening) / (between * mean))

@@ -115,7 +115,7 @@ impl RunUp {
         self.findings > 0
     }
 
-    /// The brake has closed, or the load may have changed.
+    /// The brake has closed under the same load. Another load needs [`RunUp::restart`].
     pub fn interrupt(&mut self) {
         (self.window, self.last, self.sum, self.count) = Default::default();
     }

@@ -68,6 +68,13 @@ impl<const TEETH: usize> Teeth<TEETH> {
 
     /// The first places that are not missing.
     const fn places(places: u32, missing: &[u32]) -> Self {
+        let mut next = 0;
+        while next < missing.len() {
+            if missing[next] >= places || (next > 0 && missing[next] <= missing[next - 1]) {
+                panic!("{}", PLACES);
+            }
+            next += 1;
+        }
         let mut angles = [0.0; TEETH];
         let (mut tooth, mut place, mut gone) = (0, 0, 0);
         while tooth < TEETH {

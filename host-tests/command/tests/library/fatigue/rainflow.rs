@@ -138,7 +138,7 @@ fn times_and_peaks() {
     }
     let counts = count.counts(&config);
     // counts of ticks times the period
-    for (limit, time) in [(20.0, 0.13), (25.0, 0.13), (26.0, 0.03), (28.0, 0.0), (3.0, 1.0)] {
+    for (limit, time) in [(20.0, 0.13), (25.0, 0.13), (26.0, 0.03), (28.0, 0.0), (3.0, 1.0), (99.0, 0.0)] {
         assert!((counts.time_above(limit) - time).abs() < 1e-12, "{limit}: {}", counts.time_above(limit));
     }
     assert_eq!((counts.largest(), counts.amplification(5.45)), (27.25, 5.0));
@@ -167,4 +167,23 @@ fn reversals_that_come_too_fast_are_reported() {
         count.measure(&SINGLE, 0, 0.0, &Estimate { shaft_torque, ..Estimate::default() });
     }
     assert!(count.counts(&SINGLE).lost() > 0);
+}
+
+/// Noise about a boundary between two classes is no cycle, and does not hide the swings that are: 100 of them.
+#[test]
+fn noise_about_a_boundary_is_no_cycle() {
+    let mut count = Count::<f32>::default();
+    let mut at_rest = Count::<f32>::default();
+    for tick in 0..100_000_u32 {
+        let noise = if tick % 2 == 0 { 0.01 } else { -0.01 };
+        let swing = if tick % 1_000 == 999 { 20.5 } else { 0.0 };
+        count.measure(&SINGLE, 0, 0.0, &Estimate { shaft_torque: noise + swing, ..Estimate::default() });
+        at_rest.measure(&SINGLE, 0, 0.0, &Estimate { shaft_torque: noise, ..Estimate::default() });
+    }
+    let counts = count.counts(&SINGLE);
+    // from class 29 or 30 at rest to 50; the last swing is the residue's
+    let swings: u32 = counts.cycles()[20..].iter().sum();
+    assert_eq!((counts.lost(), swings, counts.cycles()[..20].iter().sum::<u32>()), (0, 99, 0));
+    let counts = at_rest.counts(&SINGLE);
+    assert_eq!((counts.lost(), counts.cycles().iter().sum::<u32>()), (0, 0));
 }

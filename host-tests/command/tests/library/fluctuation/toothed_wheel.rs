@@ -156,6 +156,29 @@ fn a_tooth_too_few_or_too_many_costs_no_cycle() {
     }
 }
 
+/// Without the tooth that begins a cycle, or the one that ends it, cycles are not finished: the window counts them.
+#[test]
+fn cycles_that_are_not_finished_are_counted() {
+    let config = config(1);
+    // the first tooth of turn 8 belongs to two cycles, the last one to a single cycle
+    for (gone, missed) in [(480, 2), (480 + 57, 1)] {
+        let mut wheel = ToothedWheel::<CycleTimes<58>>::default();
+        let mut window = ToothWindow::default();
+        for tooth in (0..60_u32 * 20).filter(|tooth| tooth % 60 < 58 && *tooth != gone) {
+            wheel.tooth(&config, tooth * 1000);
+            if let Some(cycle) = wheel.take() {
+                window.add(&config, &cycle);
+                let cycles = window.cycles();
+                // the same one again is left out
+                window.add(&config, &cycle);
+                assert_eq!(window.cycles(), cycles);
+            }
+        }
+        let ripple = window.ripple(&config, &ToothErrors::NONE, 4).unwrap();
+        assert_eq!((ripple.quality.missed, window.cycles()), (missed, 17 - missed), "without {gone}: {ripple:?}");
+    }
+}
+
 /// The spread over cycles and the residue: an order that is not looked at is left over, and a speed that differs from
 /// cycle to cycle scatters.
 #[test]
