@@ -8,7 +8,8 @@ use super::{Counts, Rainflow, WoehlerLine};
 /// Damage and largest torque over the machine's life: a field of one's own
 /// [`Parameters`](crate::parameters::Parameters), or all of them.
 ///
-/// It holds the closed cycles of all counts that were added; the residue of the present count stays on the tick.
+/// It holds the closed cycles of all counts that were added. The residue of the present count stays on the tick until
+/// [`LifeRecord::close`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LifeRecord {
@@ -32,8 +33,27 @@ impl LifeRecord {
     ) {
         let taken: Counts<CLASSES, REVERSALS> = count.take(config);
         self.damage += taken.closed_damage(line);
-        self.time_above += taken.time_above(limit);
-        self.largest = if taken.largest() > self.largest { taken.largest() } else { self.largest };
+        self.add(&taken, limit);
+    }
+
+    /// Takes the whole count, each range of its residue as half a cycle, and the count begins anew: before the controller
+    /// is switched off, so that the cycle from start to stop counts.
+    pub fn close<N: Classed, const CLASSES: usize, const REVERSALS: usize>(
+        &mut self,
+        count: &mut Rainflow<N, CLASSES, REVERSALS>,
+        config: &TorqueClasses<N>,
+        line: &WoehlerLine,
+        limit: f64,
+    ) {
+        let all = count.counts(config);
+        *count = Rainflow::default();
+        self.damage += all.damage(line);
+        self.add(&all, limit);
+    }
+
+    fn add<const CLASSES: usize, const REVERSALS: usize>(&mut self, counts: &Counts<CLASSES, REVERSALS>, limit: f64) {
+        self.time_above += counts.time_above(limit);
+        self.largest = if counts.largest() > self.largest { counts.largest() } else { self.largest };
     }
 
     /// Share of the life that is left; none below zero.

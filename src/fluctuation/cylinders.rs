@@ -77,6 +77,7 @@ impl Ripple {
     /// mean torque of the engine's gases [N m]: that of the load, friction included.
     ///
     /// `teeth` is the number that a cycle was measured by: the deviation takes the scatter of its teeth as independent.
+    /// With fewer orders every cylinder is [`CylinderVerdict::Uncertain`], its deviation NaN.
     pub fn cylinders<const CYLINDERS: usize>(
         &self,
         engine: &Engine<CYLINDERS>,
@@ -116,7 +117,9 @@ impl Ripple {
         sorted.sort_unstable_by(f64::total_cmp);
         let at = |index: usize| sorted.get(index).copied().unwrap_or(0.0);
         let median = own + 0.5 * (at(half) + at((CYLINDERS.saturating_sub(1)) / 2));
-        let deviation = sqrt(variance) / median.abs();
+        // an order that is exactly zero was not among those of the ripple
+        let missing = self.speed.orders.iter().take(half).any(|order| order.cos == 0.0 && order.sin == 0.0);
+        let deviation = if missing { f64::NAN } else { sqrt(variance) / median.abs() };
         let largest = differences.iter().fold(0.0_f64, |most, difference| most.max(1.0 - (own + difference) / median));
         let mut cylinders =
             [Cylinder { number: 0, torque: 0.0, share: 0.0, deviation, verdict: CylinderVerdict::Good }; CYLINDERS];

@@ -1,6 +1,6 @@
 //! The tick's rainflow count against the four-point rule applied to whole series, and against ASTM E1049's example.
 
-use driveline::fatigue::{Classed, Counts, Rainflow, TorqueClasses, WoehlerLine};
+use driveline::fatigue::{Classed, Counts, LifeRecord, Rainflow, TorqueClasses, WoehlerLine};
 use driveline::fluctuation::Fluctuation;
 use driveline::number::Fixed;
 use driveline::sample::Estimate;
@@ -186,4 +186,25 @@ fn noise_about_a_boundary_is_no_cycle() {
     assert_eq!((counts.lost(), swings, counts.cycles()[..20].iter().sum::<u32>()), (0, 99, 0));
     let counts = at_rest.counts(&SINGLE);
     assert_eq!((counts.lost(), counts.cycles().iter().sum::<u32>()), (0, 0));
+}
+
+/// A start and a stop close no cycle while the controller runs; switched off, they are one, of 20 classes: an amplitude
+/// of 10 N m, four times that of the knee.
+#[test]
+fn a_start_and_a_stop_are_a_cycle_of_the_life() {
+    let line = WoehlerLine { knee: 2.5, cycles: 1e6, slope: 3.0, below: 5.0 };
+    let (mut life, mut count) = (LifeRecord::default(), Count::<f32>::default());
+    for power_on in 1..=3 {
+        for torque in [0.5, 20.5, 0.5] {
+            let estimate = Estimate { shaft_torque: torque, ..Estimate::default() };
+            (0..3).for_each(|_| count.measure(&SINGLE, 0, 0.0, &estimate));
+        }
+        let before = life;
+        life.take(&mut count, &SINGLE, &line, 25.0);
+        assert_eq!(life.damage, before.damage);
+        life.close(&mut count, &SINGLE, &line, 25.0);
+        // powers and sums of three, to an ulp each
+        assert!((life.damage / (f64::from(power_on) * 64.0 / 1e6) - 1.0).abs() < 1e-13, "{life:?}");
+    }
+    assert_eq!(life.largest, 20.5);
 }
