@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use cargo_driveline::identification::{Figures, identify};
-use cargo_driveline::recording::{Asked, read_recording};
+use cargo_driveline::recording::{Asked, Quantity, read_recording};
 use driveline::commissioning::Figure;
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::{Chain, Shaft};
@@ -245,3 +245,69 @@ fn useless_records_are_refused_with_their_reason() {
         assert!(sentence.contains(words), "{sentence}");
     }
 }
+
+/// What `identify` says of a file's bytes, and its exit code.
+fn answered(bytes: &[u8], options: &[&str]) -> (Option<i32>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(folder.path(), "log.csv");
+    std::fs::write(&file, bytes).unwrap();
+    let output = driveline(&[&["identify", file.to_str().unwrap(), "--json"], options].concat());
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+#[test]
+#[test]
+#[test]
+#[test]
+fn a_window_begins_and_ends_at_times() {
+    for (options, words) in [
+        (&["--from", "nan"][..], "--from must be zero or above and finite, not NaN"),
+        (&["--from", "-5"], "--from must be zero or above and finite, not -5.0"),
+        (&["--from", "2", "--to", "1"], "--from 2.0 must be before --to 1.0"),
+    ] {
+        let (code, sentence) = answered(b"", options);
+        assert!(code == Some(2) && sentence.contains(words), "{code:?}: {sentence}");
+    }
+}
+
+#[test]
+fn a_file_in_another_encoding_is_told_with_its_line_and_a_remedy() {
+    // a degree sign of ISO-8859-1 in the third line
+    let (code, sentence) = answered(b"time_s,torque_Nm\n0,1\n1,2 \xb0\n", &[]);
+    assert_eq!(code, Some(2));
+    for words in ["log.csv:3:5:", "the byte 0xb0, which is not UTF-8", "iconv -f ISO-8859-1 -t UTF-8"] {
+        assert!(sentence.contains(words), "{sentence}");
+    }
+    let wide =
+        |mark: &[u8]| [mark, &"time_s,torque_Nm\n".bytes().flat_map(|byte| [byte, 0]).collect::<Vec<_>>()].concat();
+    for mark in [&b"\xff\xfe"[..], b""] {
+        let (code, sentence) = answered(&wide(mark), &[]);
+        assert_eq!(code, Some(2));
+        assert!(sentence.contains("log.csv:1:1:") && sentence.contains("iconv -f UTF-16 -t UTF-8"), "{sentence}");
+    }
+}
+
+#[test]
+fn what_is_asked_of_a_machine_or_is_the_loads_is_not_the_motors() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(folder.path(), "log.csv");
+    let headings = "time_s,load_current_A,torque_setpoint_Nm,speed_setpoint_rad/s,load_acceleration [rad/s2],\
+                    speed_error_rpm,target_angle_rad,torque_command_Nm";
+    std::fs::write(&file, format!("{headings}\n0,1,2,3,4,5,6,7\n1,1,2,3,4,5,6,8\n")).unwrap();
+    let read = |columns: &[&str]| {
+        let columns = columns.iter().map(|&column| column.to_owned()).collect();
+        read_recording(&file, &Asked { columns, ..Asked::default() }).unwrap()
+    };
+    let recording = read(&[]);
+    let quantities: Vec<Quantity> = recording.columns.iter().map(|column| column.quantity).collect();
+    assert_eq!(quantities, [Quantity::Time]);
+    assert!(recording.torque(None).unwrap_err().expected.contains("--column torque=HEADING"));
+    // who names a command means it, in the unit of its heading
+    assert_eq!(read(&["torque=torque_command_Nm"]).torque(None).unwrap(), [7.0, 8.0]);
+}
+
+/// A recording of a motor, a gear of 80 % and a load that a weight of 10 N m pulls, always motoring; its machine file.
+#[test]
+#[test]
+#[test]
