@@ -256,9 +256,49 @@ fn answered(bytes: &[u8], options: &[&str]) -> (Option<i32>, String) {
 }
 
 #[test]
+fn a_single_tone_is_refused() {
+    let mut text = "time_s,torque_Nm,speed_rad_per_s\n".to_owned();
+    for row in 0..200 {
+        let turned = TAU * 10.0 * f64::from(row) / 200.0;
+        writeln!(text, "{},{},{}", f64::from(row) / 1000.0, turned.sin(), turned.cos()).unwrap();
+    }
+    // ten whole periods: one line of the spectrum carries all of the torque
+    let (code, sentence) = answered(text.as_bytes(), &[]);
+    assert!(code == Some(1) && sentence.contains("excites 1 frequencies at most"), "{code:?}: {sentence}");
+}
+
 #[test]
+fn values_beyond_all_machines_are_refused_at_their_place() {
+    let (_, good) = simulated(2);
+    let scaled = |by: f64| {
+        let mut text = "time_s,torque_Nm,speed_rad_per_s\n".to_owned();
+        rows(&good).iter().for_each(|row| writeln!(text, "{},{},{:e}", row[0], row[1], by * row[2]).unwrap());
+        text
+    };
+    let (code, sentence) = answered(scaled(1e300).as_bytes(), &[]);
+    assert!(code == Some(2) && sentence.contains("log.csv:2:"), "{code:?}: {sentence}");
+    assert!(sentence.contains("speed_rad_per_s") && sentence.contains("at most 1e100 in SI units"), "{sentence}");
+    // within the bound, yet its powers leave the numbers
+    let (code, sentence) = answered(scaled(1e95).as_bytes(), &[]);
+    assert!(code == Some(1) && sentence.contains("no machine is identified"), "{code:?}: {sentence}");
+}
+
 #[test]
+fn a_response_without_a_swing_gives_no_machine() {
+    let mut text = "frequency_Hz,magnitude,phase_deg\n".to_owned();
+    (1..100).for_each(|hertz| writeln!(text, "{hertz},1,0").unwrap());
+    // a brake of 1 N m s/rad without inertia
+    let (code, sentence) = answered(text.as_bytes(), &["--response", "speed"]);
+    assert!(code == Some(1) && sentence.contains("no machine is identified"), "{code:?}: {sentence}");
+}
+
 #[test]
+fn a_table_has_no_machine_file_and_says_so_first() {
+    // the file itself is not read
+    let (code, sentence) = answered(b"", &["--response", "speed", "--toml", "machine.toml"]);
+    assert!(code == Some(2) && sentence.contains("--toml needs a recording over time"), "{code:?}: {sentence}");
+}
+
 #[test]
 fn a_window_begins_and_ends_at_times() {
     for (options, words) in [
