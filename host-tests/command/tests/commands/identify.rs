@@ -348,6 +348,68 @@ fn what_is_asked_of_a_machine_or_is_the_loads_is_not_the_motors() {
 }
 
 /// A recording of a motor, a gear of 80 % and a load that a weight of 10 N m pulls, always motoring; its machine file.
+fn geared(folder: &Path, gap: &str) -> [PathBuf; 2] {
+    let shaft = Shaft::elastic(800.0).damping(0.1);
+    let mut plant = Chain::motor(0.02).efficiency(0.8).shaft(shaft, 0.05).load(10.0).build().unwrap();
+    let mut text = "time_s,torque_Nm,angle_rad,speed_rad_per_s,shaft_torque_Nm\n".to_owned();
+    for tick in 0..8000 {
+        let time = f64::from(tick) / 2000.0;
+        // up to about 20 rad/s, then about the balance of 10/0.8
+        let torque = if time < 0.5 { 16.0 } else { 12.5 + 4.0 * (TAU * 3.0 * time).sin() };
+        let (angle, speed, behind) = (plant.motor_angle(), plant.motor_speed(), plant.torque_behind_gear(0));
+        writeln!(text, "{time:.6},{torque:.6},{angle:.9},{speed:.9},{behind:.9}").unwrap();
+        plant.advance(torque, 1.0 / 2000.0);
+    }
+    let machine = format!(
+        "name = \"geared\"\n[[element]]\nkind = \"motor\"\ninertia = 0.02\n\
+         [[element]]\nkind = \"gear\"\nratio = 1.0\nefficiency = 0.8\n\
+         [[element]]\nkind = \"shaft\"\nstiffness = 800.0\ndamping = 0.1\n{gap}\
+         [[element]]\nkind = \"rotor\"\ninertia = 0.05\n\
+         [encoder]\nlines = 2048\n[control]\nrate_hz = 2000\n\
+         [disturbance]\ntorque_accuracy = 0.1\nload_torque_step = 5.0\nwithin = 1.0\n\
+         [limits]\ntorque = 40.0\nspeed = 100.0\n"
+    );
+    let files = ["geared.csv", "geared.toml"].map(|name| path(folder, name));
+    std::fs::write(&files[0], text).unwrap();
+    std::fs::write(&files[1], machine).unwrap();
+    files
+}
+
 #[test]
+fn a_replay_deducts_the_losses_of_the_gear() {
+    let folder = tempfile::tempdir().unwrap();
+    let [recording, machine] = geared(folder.path(), "").map(|file| file.to_str().unwrap().to_owned());
+    let replayed = json(&driveline(&["replay", &recording, "--machine", &machine, "--held", "--json"]));
+    assert_eq!(replayed["gear_efficiency"], 0.8);
+    for number in replayed["numbers"].as_array().unwrap() {
+        // the loss of 2.5 N m is 1.5 times the rms of the shaft torque's 2.3 N m of amplitude; what is left is the lag
+        let error = number["shaft_torque_error"].as_f64().unwrap();
+        assert!(error < 0.2, "{number}");
+    }
+}
+
 #[test]
+fn a_gap_that_a_replay_ignores_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let [recording, machine] = geared(folder.path(), "[[element]]\nkind = \"backlash\"\ngap = 0.01\n")
+        .map(|file| file.to_str().unwrap().to_owned());
+    let command = ["replay", &recording, "--machine", &machine, "--held", "--html", "/dev/null"];
+    let output = driveline(&command);
+    let said = String::from_utf8(output.stderr.clone()).unwrap();
+    assert!(said.contains("0.0100 rad at the motor, ignored"), "{said}");
+    let replayed = json(&driveline(&[&command[..5], &["--json"]].concat()));
+    assert_eq!(replayed["gap_ignored"], 0.01);
+}
+
 #[test]
+fn a_delay_is_shorter_than_its_recording() {
+    const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/axis.toml");
+    // the bench's record has 10 s; beyond 2^63 ticks a delay had no place in a number at all
+    for delay in ["100", "10", "3.7e15"] {
+        let options = ["--machine", AXIS, "--rate", "2500", "--torque-constant", "0.564", "--delay", delay];
+        let output = driveline(&[&["replay", BENCH], &options[..]].concat());
+        let sentence = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{sentence}");
+        assert!(sentence.contains("expected seconds below the recording's length of 10.0 s"), "{sentence}");
+    }
+}
