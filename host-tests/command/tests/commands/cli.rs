@@ -423,8 +423,20 @@ fn what_cannot_be_commissioned_is_said_before_anything_runs() {
     const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/axis.toml");
     refused(&["commissioning", SHIP], 2, &["ship.toml:20:1: `branch[0]`", "expected a chain"]);
     // The load that hangs takes more than half of a half of the largest torque.
-    refused(&["commissioning", HOIST], 2, &["hoist.toml: the largest torque of the shaft", "--rated 0.5"]);
-    refused(&["commissioning", AXIS, "--speed", "1e300"], 2, &["axis.toml: the test's speed", "--speed 1e300"]);
+    // 1350/4 N m; the load of 12 t on two falls and a drum of 0.4 m: 12000 9.80665 0.4/(2 31.5) = 747 N m
+    let words = ["hoist.toml: the largest torque of the shaft, 338 N m with --rated 0.5", "747 N m", "a lighter load"];
+    refused(&["commissioning", HOIST], 2, &words);
+    // a fifth of the load: 149 N m are a half of 0.221 of 1350 N m
+    let text = std::fs::read_to_string(HOIST).unwrap().replace("mass = 12000.0", "mass = 2400.0");
+    let lighter = tempfile::tempdir().unwrap();
+    let lighter = (lighter.path().join("light.toml"), lighter);
+    std::fs::write(&lighter.0, text).unwrap();
+    let file = lighter.0.to_str().unwrap();
+    refused(&["commissioning", file, "--rated", "0.2"], 2, &["135 N m", "149 N m", "give --rated above 0.221"]);
+    refused(&["commissioning", AXIS, "--speed", "1e-9"], 2, &["axis.toml: the test's speed", "--speed 1e-9"]);
+    refused(&["commissioning", AXIS, "--speed", "1e300"], 2, &["--speed is a share of the largest: at most 1"]);
+    refused(&["commissioning", AXIS, "--rated", "1.5"], 2, &["--rated is a share of the largest: at most 1, not 1.5"]);
+    refused(&["commissioning", AXIS, "--friction", "2"], 2, &["--friction is a share of the largest: at most 1"]);
     refused(&["commissioning", AXIS, "--friction", "nan"], 2, &["--friction must be zero or above"]);
     refused(&["commissioning", "spindle", "--speed", "0.5"], 2, &["--speed is for a file `NAME.toml`"]);
     let folder = env!("CARGO_TARGET_TMPDIR");
