@@ -233,6 +233,17 @@ fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
     assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
 }
 
+#[test]
+fn design_warns_of_a_weight_that_the_motor_does_not_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("weak.toml");
+    // the weight is 747 N m
+    let text = std::fs::read_to_string(HOIST).unwrap().replace("torque = 1350.0 ", "torque = 700.0 ");
+    std::fs::write(&file, text).unwrap();
+    let design = out(&driveline(&["design", file.to_str().unwrap()]));
+    assert!(design.contains("warning: the weight of 747 N m at the motor is not held by `limits.torque`, 700 N m"));
+}
+
 /// In a folder of nothing: what a file is needed for gets it from the program, what a clone is needed for says so.
 #[test]
 fn an_installed_command_works_in_any_folder() {
