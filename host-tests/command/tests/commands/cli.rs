@@ -244,6 +244,17 @@ fn design_warns_of_a_weight_that_the_motor_does_not_hold() {
     assert!(design.contains("warning: the weight of 747 N m at the motor is not held by `limits.torque`, 700 N m"));
 }
 
+#[test]
+fn a_word_of_c_is_no_name_of_a_drive_in_c() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("drive");
+    let command = ["export", "c", HOIST, "--core", "host", "--out", out.to_str().unwrap(), "--name", "int"];
+    let output = driveline(&command);
+    assert_eq!(output.status.code(), Some(2), "{}", err(&output));
+    assert!(err(&output).contains("`int` is a word of C or C++"), "{}", err(&output));
+    assert!(!out.exists());
+}
+
 /// In a folder of nothing: what a file is needed for gets it from the program, what a clone is needed for says so.
 #[test]
 fn an_installed_command_works_in_any_folder() {
