@@ -255,6 +255,13 @@ fn a_word_of_c_is_no_name_of_a_drive_in_c() {
     assert!(!out.exists());
 }
 
+#[test]
+fn an_image_that_is_no_elf_is_refused_before_qemu_starts() {
+    let output = driveline(&["qemu", "mps2-an386", HOIST]);
+    assert_eq!(output.status.code(), Some(2), "{}", err(&output));
+    assert!(err(&output).contains("hoist.toml is no ELF file"), "{}", err(&output));
+}
+
 /// In a folder of nothing: what a file is needed for gets it from the program, what a clone is needed for says so.
 #[test]
 fn an_installed_command_works_in_any_folder() {
