@@ -31,6 +31,6 @@ pub use crate::machine_file::factor::{Factor, Tolerance};
 pub use draw::Draw;
 pub use figure::{Figure, Outcome, decay};
 pub use plain::PlainLoop;
-pub use statistics::{noise_of_largest, quantile, rank_correlation};
+pub use statistics::{median_range, noise_of_largest, quantile, rank_correlation};
 pub use summary::Summary;
 pub use work::work;

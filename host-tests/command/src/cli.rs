@@ -160,9 +160,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match parsed {
         Ok(cli) => cli,
         Err(error) if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") => {
-            let message = error.to_string();
-            let sentence = message.lines().next().unwrap_or("wrong arguments").trim_start_matches("error: ");
-            return Failure::usage(sentence).report(true);
+            return Failure::usage(sentence(&error.to_string())).report(true);
         }
         Err(error) if error.use_stderr() => {
             eprintln!("{}", failure::visible(&error.render().to_string()));
@@ -186,4 +184,12 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(cli.command.json()),
     }
+}
+
+/// The parser's message as a sentence: its first line, and what it lists below in indented ones.
+fn sentence(message: &str) -> String {
+    let mut lines = message.lines();
+    let first = lines.next().unwrap_or("wrong arguments").trim_start_matches("error: ");
+    let listed: Vec<&str> = lines.take_while(|line| line.starts_with(' ')).map(str::trim).collect();
+    if listed.is_empty() { first.to_owned() } else { format!("{first} {}", listed.join(", ")) }
 }

@@ -63,13 +63,17 @@ type Done = (Settings, BTreeMap<u64, Outcome>);
 /// Compares two campaigns that are done.
 ///
 /// # Errors
-/// A sentence: they have other draws, or not all.
+/// A sentence: they have other draws, or not all; or they are of one drive.
 pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
     let [a, b] = [&first.0, &second.0];
     if (a.scene(), a.draws, a.seed, &a.tolerances) != (b.scene(), b.draws, b.seed, &b.tolerances) {
         return Err("the two files have other draws: expected one scene, one seed, one number of draws and the same \
                     tolerances, and two drives"
             .to_owned());
+    }
+    // another version of the drive has another nominal run
+    if a.variant == b.variant && a.nominal.is_same(&b.nominal) {
+        return Err(format!("both files are of one drive, {}: expected those of two drives", a.variant));
     }
     let ratio = |figure: Figure| {
         let pairs = first.1.iter().filter_map(|(number, one)| Some((*number, one, second.1.get(number)?)));

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::draw::Draw;
 use super::figure::{Figure, Outcome};
 use super::record::Settings;
-use super::statistics::{median_range, noise_of_largest, quantile, rank_correlation};
+use super::statistics::{FEWEST_OF_RANGE, median_range, noise_of_largest, quantile, rank_correlation};
 use crate::machine_file::factor::{Factor, Tolerance};
 use driveline_report::format::{percent, significant};
 use driveline_report::{Section, Table};
@@ -23,7 +23,7 @@ pub struct Distribution {
     pub nominal: f64,
     /// Median over the draws.
     pub median: f64,
-    /// Range of the median with 95 % confidence.
+    /// Range of the median with 95 % confidence; NaN of fewer than six draws.
     pub median_range: (f64, f64),
     /// Nine draws of ten are not worse.
     pub p90: f64,
@@ -158,7 +158,8 @@ impl Summary {
             let text = |value: f64| if d.unit.is_empty() { percent(value) } else { significant(value) };
             let name = if d.unit.is_empty() { d.name.to_owned() } else { format!("{}, {}", d.name, d.unit) };
             let (low, high) = d.median_range;
-            let range = format!("{} to {}", text(low), text(high));
+            let is_known = self.drawn.draws.len() >= FEWEST_OF_RANGE;
+            let range = if is_known { format!("{} to {}", text(low), text(high)) } else { "–".to_owned() };
             let draw = d.worst_draw.to_string();
             figures.row([name, text(d.nominal), text(d.median), range, text(d.p90), text(d.worst), draw]);
         }
@@ -180,7 +181,8 @@ impl Summary {
             unstable.row([u.draw.to_string(), significant(u.decay), percent(u.swing), values.join(", ")]);
         }
         let errors = "Torques of rated torque, speeds of rated speed, over the whole run. The median of all machines \
-                      lies in its range with 95 % confidence. For the decay, lower is worse.";
+                      lies in its range with 95 % confidence; fewer than six draws have none. For the decay, lower \
+                      is worse.";
         let strongest = format!(
             "The {SHOWN} strongest factors of each figure by Spearman's rank correlation: with the value itself, and \
              with the size of its departure from nominal. Where no factor matters, the largest of a figure's is below \

@@ -77,6 +77,9 @@ pub struct Campaign {
     pub json: bool,
 }
 
+/// Most draws of a campaign, of days of work.
+const MOST_DRAWS: u64 = 10_000_000;
+
 #[derive(Debug, Subcommand)]
 enum Further {
     /// Put the results of all shards together
@@ -150,6 +153,9 @@ impl Campaign {
         }
         if self.draws == 0 || self.threads == Some(0) {
             return Err(Failure::usage("--draws and --threads must be one or more"));
+        }
+        if self.draws > MOST_DRAWS {
+            return Err(Failure::usage(format!("--draws must be at most {MOST_DRAWS}, not {}", self.draws)));
         }
         let shard = self.shard.as_deref().map(Shard::parse).transpose().map_err(Failure::usage)?;
         let usual = match shard {

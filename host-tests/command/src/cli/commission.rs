@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use driveline::commissioning::TestConfig;
+use driveline::commissioning::{Error, TestConfig};
 use driveline_firmware::board::BOARDS;
 
 use super::results::{Destination, check};
@@ -12,6 +12,7 @@ use super::{Failure, Progress, say, say_json};
 use crate::commissioning::{Case, Trial, Verdict, in_qemu, named, of_file, on_host, verdict};
 use crate::machine_file::{Diagnostic, MachineFile, Source, parse, text};
 use driveline_qemu::setup::Need;
+use driveline_report::format::significant;
 
 /// Commission a machine: run the test that identifies its inertias, resonance, damping, friction, gap and encoder
 /// eccentricity against its full plant, and compare the result with the true values.
@@ -118,6 +119,9 @@ impl Commission {
             if option != "--friction" && !(value > 0.0 && value.is_finite()) {
                 return Err(Failure::usage(format!("{option} must be above zero and finite, not {value:?}")));
             }
+            if option != "--travel" && value > 1.0 {
+                return Err(Failure::usage(format!("{option} is a share of the largest: at most 1, not {value:?}")));
+            }
         }
         let path = PathBuf::from(&self.machine);
         let machine = read_chain(&path)?;
@@ -130,6 +134,9 @@ impl Commission {
         let case = of_file(&machine, trial).map_err(|error| Failure::usage(format!("{}: {error}", self.machine)))?;
         if let Err(reason) = TestConfig::try_new(&case.settings) {
             let Trial { speed, travel, rated, .. } = trial;
+            if reason == Error::ShaftTorque {
+                return Err(Failure::usage(format!("{}: {}", self.machine, too_heavy(&case, rated))));
+            }
             let tried = format!("with --speed {speed:?} --travel {travel:?} --rated {rated:?}");
             return Err(Failure::usage(format!("{}: {reason}, {tried}", self.machine)));
         }
@@ -151,6 +158,22 @@ impl Commission {
             None => Ok(()),
         }
     }
+}
+
+/// Why the shaft may not carry what holds the load, and what helps: the shaft of a file has half of rated torque.
+fn too_heavy(case: &Case, rated: f64) -> String {
+    let (most, held) = (case.settings.shaft_torque, case.settings.held.abs());
+    let needed = rated * held / most;
+    let remedy = if needed < 1.0 {
+        format!("give --rated above {}", significant(needed))
+    } else {
+        "a lighter load in the file is expected: no --rated up to 1 is enough".to_owned()
+    };
+    let [most, held] = [most, held].map(significant);
+    format!(
+        "the largest torque of the shaft, {most} N m with --rated {rated:?}, must be above the holding torque of the \
+         load, {held} N m; {remedy}"
+    )
 }
 
 /// A machine without branches: the plant of a test is a chain.

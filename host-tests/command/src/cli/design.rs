@@ -92,6 +92,15 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
     }
     fact("weight", machine.gravity_torque(), "N m");
     text.push_str(&format!("{facts}\n"));
+    let (weight, torque) = (machine.gravity_torque().abs(), machine.limits.torque);
+    if weight >= torque {
+        text.push_str(&format!(
+            "warning: the weight of {} N m at the motor is not held by `limits.torque`, {} N m: a larger torque or a \
+             lighter load is expected\n\n",
+            significant(weight),
+            significant(torque)
+        ));
+    }
     if let Some(shaft) = &plan.shaft {
         if shaft.reduction_error > super::controller::Shaft::LARGE_REDUCTION_ERROR {
             text.push_str(&format!(

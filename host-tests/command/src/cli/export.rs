@@ -11,7 +11,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use self::core::Core;
-use super::project::{Number, PartOptions, Project, is_free, write};
+use super::project::{Number, PartOptions, Project, is_free, name_of_c, write};
 use super::setup::install;
 use super::{Failure, say, say_json};
 use crate::machine_file::{parse, text};
@@ -81,6 +81,7 @@ impl Export {
         };
         let slug = machine.slug();
         let project = Project::of(&machine, self.name.as_deref().unwrap_or(&slug), number, &self.parts)?;
+        name_of_c(&project.krate)?;
         is_free(&self.out)?;
         install(&self.core.needs())?;
         let library = library::library(&project, &source, self.core)?;

@@ -51,6 +51,10 @@ impl Identify {
     /// A fault of the file; with exit code 1 a record that cannot tell.
     pub fn execute(&self) -> Result<(), Failure> {
         let asked = self.recorded.asked()?;
+        if self.toml.is_some() && self.response.is_some() {
+            let sentence = "--toml needs a recording over time: the table of --response has no rate and no limits";
+            return Err(Failure::usage(sentence));
+        }
         let name = slug(&self.file);
         let sheet = Destination::page_unless(self.json, self.html.as_deref(), &format!("{name}-identification"));
         let toml = self.toml.as_deref().map(|path| Destination::chosen("machine", path));
@@ -81,9 +85,6 @@ impl Identify {
         })?;
         self.show(&recording, &identified)?;
         if let Some(toml) = toml {
-            if torque.is_empty() {
-                return Err(Failure::usage("--toml needs a recording over time: a table has no rate and no limits"));
-            }
             let drive = Drive::of(&identified, &recording, &torque);
             toml.write_and_say(&machine_file(&name, &identified, &drive), self.json)?;
         }

@@ -1,5 +1,6 @@
 //! `cargo driveline qemu`: the runner of a project that `new` has written.
 
+use std::io::Read;
 use std::path::PathBuf;
 use std::process::Stdio;
 
@@ -35,6 +36,15 @@ impl Qemu {
     pub fn execute(&self) -> Result<(), Failure> {
         if !self.image.is_file() {
             return Err(Failure::usage(format!("there is no image {}", self.image.display())));
+        }
+        let mut magic = [0; 4];
+        let read = std::fs::File::open(&self.image).and_then(|mut file| file.read_exact(&mut magic));
+        if read.is_err() || magic != *b"\x7fELF" {
+            let image = self.image.display();
+            return Err(Failure::usage(format!(
+                "{image} is no ELF file: expected the image that `cargo build` writes, such as \
+                 target/thumbv7em-none-eabihf/release/NAME"
+            )));
         }
         install(&[Need::Qemu])?;
         let mut command = Emulator::find().unwrap_or(Emulator::Installed).command();

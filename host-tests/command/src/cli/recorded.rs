@@ -45,6 +45,12 @@ impl Recorded {
                 return Err(Failure::usage(format!("{option} must be above zero and finite, not {value:?}")));
             }
         }
+        if let Some(value) = self.from.filter(|value| !(*value >= 0.0 && value.is_finite())) {
+            return Err(Failure::usage(format!("--from must be zero or above and finite, not {value:?}")));
+        }
+        if let Some((from, to)) = self.from.zip(self.to).filter(|(from, to)| from >= to) {
+            return Err(Failure::usage(format!("--from {from:?} must be before --to {to:?}")));
+        }
         Ok(Asked {
             rate: self.rate,
             torque_constant: self.torque_constant,

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use clap::Args;
 use driveline::configure::Rating;
 use driveline::design::Rate;
+use driveline::settings::Gear;
 use serde_json::json;
 
 use super::identify::slug;
 use super::recorded::Recorded;
 use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
-use crate::machine_file::{MachineFile, read};
+use crate::machine_file::{MachineFile, printable, read};
 use crate::recording::{Recording, read_recording};
 use crate::replay::{Between, Design, Replayed, Signals, csv, page, replay, summaries, table};
 use driveline_report::Fact;
@@ -74,10 +75,21 @@ impl Replay {
             let found = format!("{} samples over time", recording.len());
             return Err(recording.fault(found, "at least 100").into());
         }
+        let length = recording.period * recording.len() as f64;
+        if !(self.delay < length) {
+            let (delay, length) = (self.delay, significant(length));
+            let sentence = format!("--delay {delay:?}: expected seconds below the recording's length of {length} s");
+            return Err(Failure::usage(sentence));
+        }
         let two = machine.two_masses();
         let constant = self.recorded.torque_constant;
         let between = if self.held { Between::Held } else { Between::Straight };
         let signals = Signals::of(&recording, two.as_ref(), constant, between, self.delay)?;
+        let gap: f64 = machine.chain.shafts().iter().map(|shaft| shaft.gap).sum();
+        if gap > 0.0 && !self.json {
+            let (file, gap) = (printable(&self.machine.display().to_string(), 200), significant(gap));
+            eprintln!("note: the observer of a replay knows no backlash: {file} has {gap} rad at the motor, ignored");
+        }
         let progress = Progress::of(2 * recording.len() as u64);
         progress.says("observing");
         let mut done = 0_u64;
@@ -96,6 +108,8 @@ impl Replay {
                 "machine": machine.name,
                 "samples": recording.len(),
                 "rate_hz": 1.0 / recording.period,
+                "gear_efficiency": machine.chain.efficiency(),
+                "gap_ignored": gap,
                 "settling": replayed.settling,
                 "predicted_innovation": predicted,
                 "numbers": summaries(&replayed),
@@ -129,17 +143,27 @@ impl Replay {
         };
         let (_, encoder, disturbance) = machine.tuning();
         let rate = Rate::every(recording.period);
-        let design = match machine.two_masses() {
-            Some(two) => Design::TwoMass(two.try_observer(rate, encoder, disturbance).map_err(refused)?),
+        let (design, inertia) = match machine.two_masses() {
+            Some(two) => {
+                (Design::TwoMass(two.try_observer(rate, encoder, disturbance).map_err(refused)?), two.motor_inertia)
+            }
             None => {
                 let rigid = machine.rigid().map_err(|error| refused(error.into()))?;
                 // without a shaft there is no load behind one
-                Design::Rigid(rigid.try_observer(rate, encoder, disturbance).map_err(refused)?, 0.0)
+                (Design::Rigid(rigid.try_observer(rate, encoder, disturbance).map_err(refused)?, 0.0), rigid.inertia)
             }
+        };
+        let efficiency = machine.chain.efficiency();
+        let gear = if efficiency < 1.0 {
+            // the gear sticks within a few counts, as in a campaign
+            let deadband = 8.0 * encoder.resolution().map_err(refused)?;
+            Some((Gear { efficiency, inertia, deadband }, recording.period))
+        } else {
+            None
         };
         let (torque, speed) = (machine.limits.torque, machine.limits.speed);
         let screening = Rating { torque, speed, torque_limit: torque }.screening(encoder, rate);
-        replay(signals, &design, &screening, [torque, speed], tick)
+        replay(signals, &design, gear.as_ref(), &screening, [torque, speed], tick)
             .map_err(|error| Failure::usage(format!("{}: {error}", self.machine.display())))
     }
 }

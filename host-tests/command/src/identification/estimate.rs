@@ -50,6 +50,8 @@ pub struct Estimate {
     pub unlikely: f64,
     /// The lines that were used.
     pub lines: usize,
+    /// Their lowest frequency and the highest \[rad/s\].
+    pub band: [f64; 2],
 }
 
 /// What is identified, in SI units at the motor.
@@ -257,11 +259,12 @@ pub fn estimate(lines: &[Line], start: Model, settings: &[Setting]) -> Option<(E
     let mut thinned: Vec<Line> = lines.iter().step_by(lines.len().div_ceil(MOST).max(1)).copied().collect();
     let (mut found, mut noise) = once(&thinned, start, *setting)?;
     for _ in 0..3 {
-        let count = thinned.len();
-        thinned.retain(|line| line.torque.norm_sqr() > CLEAR * noise);
-        if thinned.len() == count || thinned.len() < 2 * (MACHINE + TRANSIENTS) {
+        let clear: Vec<Line> = thinned.iter().filter(|line| line.torque.norm_sqr() > CLEAR * noise).copied().collect();
+        // likelihoods compare over the same lines alone: too few of them are not taken at all
+        if clear.len() == thinned.len() || clear.len() < 2 * (MACHINE + TRANSIENTS) {
             break;
         }
+        thinned = clear;
         (found, noise) = once(&thinned, start, *setting)?;
     }
     let other = |setting: &Setting| once(&thinned, start, *setting).map(|(estimate, _)| (estimate, *setting));
@@ -299,6 +302,10 @@ fn once(thinned: &[Line], start: Model, setting: Setting) -> Option<(Estimate, f
     let pairs = || errors.iter().zip(&variances);
     let unlikely = pairs().map(|([error, _], variance)| variance.ln() + error.norm_sqr() / variance).sum();
     let jacobian = problem.jacobian(&x, &deviations);
+    // singular values of what is not finite are searched for ever
+    if !jacobian.iter().all(|slope| slope.is_finite()) {
+        return None;
+    }
     let covariance = covariance(&jacobian, &problem.weighted(&x, &deviations))?;
     let torque: f64 = thinned.iter().map(|line| line.torque.norm_sqr()).sum();
     let missed: f64 = errors.iter().map(|[error, response]| error.norm_sqr() / response.norm_sqr()).sum();
@@ -310,6 +317,8 @@ fn once(thinned: &[Line], start: Model, setting: Setting) -> Option<(Estimate, f
         condition: condition(&jacobian),
         unlikely,
         lines: thinned.len(),
+        band: [f64::min as fn(f64, f64) -> f64, f64::max]
+            .map(|of| thinned.iter().map(|line| line.frequency).reduce(of).unwrap_or(f64::NAN)),
     };
     Some((estimate, parts[1]))
 }
@@ -385,5 +394,35 @@ fn figures(parameters: &Parameters, x: &DVector<f64>, covariance: &DMatrix<f64>)
         damping_ratio: figure(&Model::damping_ratio),
         swing_damping: figure(&Model::swing_damping),
         delay: figure(&|model| model.delay),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use driveline_solver::noise::Noise;
+
+    use super::*;
+
+    /// Of thirty lines ten hardly rise above the noise of their torque, and twenty are too few without them.
+    #[test]
+    fn settings_are_compared_over_the_same_lines() {
+        let start = Model { motor: 2e-5, load: 5e-5, stiffness: 0.8, damping: 1e-4, ..Model::default() };
+        let setting = Setting { motion: Motion::Speed, torque: Torque::Smooth, period: 1e-3 };
+        let mut noise = Noise::new(5);
+        let line = |index: u32| {
+            let frequency = 20.0 * 60_f64.powf(f64::from(index) / 29.0);
+            let torque = if index % 3 == 2 { 0.05 } else { 1.0 };
+            let motion = start.response(frequency, setting.motion, setting.torque, setting.period) * torque;
+            let torque = Complex::new(torque + 0.05 * noise.normal(), 0.05 * noise.normal());
+            Line { frequency, torque, motion, noise: 1.0 }
+        };
+        let lines: Vec<Line> = (0..30).map(line).collect();
+        let (all, noise) = once(&lines, start, setting).unwrap();
+        let clear: Vec<Line> = lines.iter().filter(|line| line.torque.norm_sqr() > CLEAR * noise).copied().collect();
+        assert_eq!(clear.len(), 20);
+        // a sum over fewer lines is smaller here, whatever the setting
+        assert!(once(&clear, start, setting).unwrap().0.unlikely < all.unlikely);
+        let (found, _) = estimate(&lines, start, &[setting, setting]).unwrap();
+        assert_eq!(found.lines, 30);
     }
 }

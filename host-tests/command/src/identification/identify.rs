@@ -20,6 +20,8 @@ pub struct Identified {
 
 /// Lines below which there are not enough: two for each parameter.
 const LINES: usize = 24;
+/// Lines, and bands of them, below which there is no first guess.
+const BANDS: usize = 8;
 
 /// Why there is no machine: a fault of the recording, or a reason why it cannot tell.
 #[derive(Debug, thiserror::Error)]
@@ -53,8 +55,11 @@ pub fn identify(recording: &Recording, torque_constant: Option<f64>) -> Result<I
         return Err(Refusal::Short(recording.len()).into());
     };
     let carrying = carriers(&all, [lowest, f64::INFINITY]);
+    if carrying.len() < BANDS {
+        return Err(Refusal::NotExcited(carrying.len()).into());
+    }
     let responses = smoothed(&carrying, motion);
-    if responses.len() < 8 {
+    if responses.len() < BANDS {
         return Err(Refusal::NotExcited(carrying.len().min(responses.len())).into());
     }
     let (start, fit) = guess(&responses).ok_or(Refusal::Unrelated)?;
@@ -72,7 +77,7 @@ pub fn identify(recording: &Recording, torque_constant: Option<f64>) -> Result<I
 
 /// An estimate that is of use; where it is not, and the first guess shows no resonance, that is the reason.
 fn judged(estimate: &Estimate, improvement: f64) -> Result<(), Refusal> {
-    refusal::figures(&estimate.model, &estimate.figures, estimate.unexplained, estimate.condition)
+    refusal::figures(estimate)
         .map_err(|refusal| if improvement < LEAST { Refusal::Rigid(improvement) } else { refusal })
 }
 

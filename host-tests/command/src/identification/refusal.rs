@@ -1,7 +1,8 @@
 //! Reasons why a recording cannot give a machine.
 
-use super::estimate::Figures;
-use super::model::Model;
+use std::f64::consts::TAU;
+
+use super::estimate::Estimate;
 use crate::recording::{Quantity, Recording};
 
 /// Samples below which there is nothing to identify.
@@ -59,6 +60,24 @@ pub enum Refusal {
     /// The estimate is no machine.
     #[error("the fit has {0}, which no machine has: check units and sign of torque and motion")]
     Impossible(&'static str),
+    /// The swing is none.
+    #[error(
+        "the fit has a damping ratio of {0:.3}, below 1 is expected: no swing shows in the record; check the units of \
+         torque and motion, and excite about the resonance"
+    )]
+    Overdamped(f64),
+    /// A frequency lies where nothing was measured.
+    #[error(
+        "the {0} of the fit, {1:.4} Hz, lies outside the lines that were used, {2:.4} to {3:.4} Hz: excite the machine \
+         below and above it, and sample fast enough"
+    )]
+    Outside(&'static str, f64, f64, f64),
+    /// A friction that drives.
+    #[error(
+        "the fit has a {0} of {1:.4e} N m s/rad, zero or above is expected: check the sign of torque and motion, and \
+         whether another torque drives the machine"
+    )]
+    Driving(&'static str, f64),
 }
 
 /// Ratio of variances from which a resonance is significant, as in commissioning.
@@ -121,10 +140,17 @@ fn agree(angle: &[f64], speed: &[f64], period: f64) -> Result<(), Refusal> {
     if (ratio - 1.0).abs() < AGREE { Ok(()) } else { Err(Refusal::Units(ratio)) }
 }
 
+/// Deviations by which a friction must be below zero to be no machine's.
+const BELOW: f64 = 5.0;
+
 /// Figures that are too vague, or no machine's.
-pub fn figures(model: &Model, figures: &Figures, unexplained: f64, condition: f64) -> Result<(), Refusal> {
+pub fn figures(estimate: &Estimate) -> Result<(), Refusal> {
+    let Estimate { model, figures, unexplained, condition, band, .. } = estimate;
     if !(model.damping_ratio() > -0.01) {
         return Err(Refusal::Impossible("a resonance that grows by itself"));
+    }
+    if !(model.damping_ratio() < 1.0) {
+        return Err(Refusal::Overdamped(model.damping_ratio()));
     }
     if !(model.delay.abs() * model.resonance() < 1.5) {
         return Err(Refusal::Impossible("a dead time of a quarter of the resonance's period"));
@@ -140,7 +166,19 @@ pub fn figures(model: &Model, figures: &Figures, unexplained: f64, condition: f6
     ];
     for (name, figure, most) in named {
         if !(figure.relative() < most) {
-            return Err(Refusal::Vague(name, 100.0 * figure.relative(), condition));
+            return Err(Refusal::Vague(name, 100.0 * figure.relative(), *condition));
+        }
+    }
+    for (name, figure) in [("resonance", figures.resonance), ("antiresonance", figures.antiresonance)] {
+        if !(band[0]..=band[1]).contains(&figure.value) {
+            return Err(Refusal::Outside(name, figure.value / TAU, band[0] / TAU, band[1] / TAU));
+        }
+    }
+    let frictions =
+        [("friction of the motor", figures.motor_friction), ("friction of the load", figures.load_friction)];
+    for (name, figure) in frictions {
+        if figure.value < -BELOW * figure.standard_deviation {
+            return Err(Refusal::Driving(name, figure.value));
         }
     }
     Ok(())

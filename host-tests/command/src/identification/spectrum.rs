@@ -93,6 +93,10 @@ pub fn carriers(lines: &[Line], between: [f64; 2]) -> Vec<Line> {
 #[must_use]
 pub fn smoothed(carriers: &[Line], motion: Motion) -> Vec<Response> {
     let (Some(first), Some(last)) = (carriers.first(), carriers.last()) else { return Vec::new() };
+    // a single tone has no bands: their edges would never pass it
+    if !(last.frequency > first.frequency) {
+        return Vec::new();
+    }
     let ratio = (last.frequency / first.frequency).powf(1.0 / BANDS as f64);
     let mut bands: Vec<&[Line]> = Vec::new();
     let (mut rest, mut edge) = (carriers, first.frequency);

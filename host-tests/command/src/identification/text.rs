@@ -77,18 +77,12 @@ impl Drive {
             (_, Some(angle)) => angle.windows(2).map(|pair| (pair[1] - pair[0]) / recording.period).collect(),
             _ => Vec::new(),
         };
-        let count = recording.signal(Quantity::Angle).map_or(f64::INFINITY, |angle| {
-            let steps = angle.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-            steps.filter(|step| *step > 1e-9).fold(f64::INFINITY, f64::min)
-        });
-        let lines =
-            if count.is_finite() { (TAU / (4.0 * count)).round().clamp(64.0, f64::from(1 << 22)) } else { 2048.0 };
         let two = |value: f64| {
             let unit = 10_f64.powf(value.abs().max(1e-9).log10().floor() - 1.0);
             (value / unit).round() * unit
         };
         Self {
-            encoder_lines: lines as u32,
+            encoder_lines: recording.signal(Quantity::Angle).and_then(encoder_lines).unwrap_or(2048),
             rate_hz: (1.0 / recording.period).round() as u32,
             torque_accuracy: two(identified.estimate.unexplained * rms(torque)).max(1e-9),
             load_torque_step: two(0.5 * rms(torque)).max(1e-9),
@@ -96,6 +90,24 @@ impl Drive {
             speed: two(1.2 * largest(&speed)).max(1e-9),
         }
     }
+}
+
+/// Lines of the encoder behind an angle \[rad\]: a line has four counts, and the smallest steps are of one count. The
+/// file rounds each of them, up or down, and their mean is right: where it is so uncertain, a power of two that near is
+/// meant, 20 % off at most.
+fn encoder_lines(angle: &[f64]) -> Option<u32> {
+    let steps = angle.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > 1e-9);
+    let mut steps: Vec<f64> = steps.collect();
+    steps.sort_by(f64::total_cmp);
+    let smallest = *steps.first()?;
+    // two counts are twice as much
+    let cluster = &steps[..steps.partition_point(|step| *step < 1.5 * smallest)];
+    let count = cluster.iter().sum::<f64>() / cluster.len() as f64;
+    let rounding = (0.5 * (cluster.last()? - smallest) / count).min(0.2);
+    let lines = TAU / (4.0 * count);
+    let power = lines.log2().round().exp2();
+    let lines = if (lines / power - 1.0).abs() <= rounding { power } else { lines.round() };
+    Some(lines.clamp(64.0, f64::from(1 << 22)) as u32)
 }
 
 /// The machine as a file that `design` and `replay` take.
@@ -127,7 +139,7 @@ label = \"load\"
 inertia = {:e}    # kg m2, standard deviation {}
 
 [encoder]
-lines = {}    # from the smallest step of the angle, 2048 without one
+lines = {}    # from the smallest steps of the angle, 2048 without one
 
 [control]
 rate_hz = {}
@@ -167,4 +179,26 @@ speed = {:e}    # rad/s, likewise
 /// A number to six digits.
 fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::encoder_lines;
+
+    /// An angle that creeps on in whole counts, zero to two of them a sample, as a file with this unit has it.
+    fn creeping(counts: f64, unit: f64) -> Vec<f64> {
+        let count = |sample: u32| (0.37 * f64::from(sample)).floor() + (0.9 * f64::from(sample)).floor();
+        (0..1000).map(|sample| (count(sample) * TAU / counts / unit).round() * unit).collect()
+    }
+
+    #[test]
+    fn the_encoder_is_that_whose_counts_a_file_has_rounded() {
+        // 2^20 counts of 6 urad, to the microradian: 5 urad at least, which were 314,159 lines
+        assert_eq!(encoder_lines(&creeping(1_048_576.0, 1e-6)), Some(262_144));
+        // 4000 counts are 1000 lines: the rounding of 1571 urad is no reason to take 1024
+        assert_eq!(encoder_lines(&creeping(4000.0, 1e-6)), Some(1000));
+        assert_eq!(encoder_lines(&[0.0; 10]), None);
+    }
 }

@@ -106,11 +106,12 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     })?;
     let limits = section(&mut root, "limits", |table| {
         let torque = table.number("torque", Quantity::TORQUE)?;
-        Ok(Limits {
-            torque,
-            speed: table.number("speed", Quantity::SPEED)?,
-            rated_torque: table.number_or("rated_torque", Quantity::TORQUE, 0.5 * torque)?,
-        })
+        let speed = table.number("speed", Quantity::SPEED)?;
+        let rated_torque = table.number_or("rated_torque", Quantity::TORQUE, 0.5 * torque)?;
+        if rated_torque > torque {
+            return Err(table.wrong("rated_torque", format!("at most `limits.torque`, {torque} N m")));
+        }
+        Ok(Limits { torque, speed, rated_torque })
     })?;
     let actuator = match root.table_if("actuator")? {
         Some(mut table) => {

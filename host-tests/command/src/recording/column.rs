@@ -123,6 +123,10 @@ impl Quantity {
 
     fn of_words(words: &[&str]) -> Option<Self> {
         let any = |list: &[&str]| words.iter().any(|word| list.contains(word));
+        // what was asked of the machine, or is left of it, is not what it did
+        if any(&["setpoint", "command", "ref", "target", "error"]) {
+            return None;
+        }
         let load = any(&["load", "l", "2", "second", "theta2", "omega2"]);
         if any(&["frequency", "freq", "f"]) {
             Some(Self::Frequency)
@@ -137,7 +141,8 @@ impl Quantity {
         } else if any(&["time", "t", "timestamp"]) {
             Some(Self::Time)
         } else if any(&["current", "iq", "i", "q"]) {
-            Some(Self::Current)
+            // another motor's
+            (!load).then_some(Self::Current)
         } else if any(&["torque", "tau", "moment"]) {
             Some(match (any(&["shaft", "coupling"]), load) {
                 (true, _) => Self::ShaftTorque,
@@ -149,7 +154,7 @@ impl Quantity {
         } else if any(&["speed", "omega", "velocity", "w", "n", "omega2"]) {
             Some(if load { Self::LoadSpeed } else { Self::Speed })
         } else if any(&["acceleration", "accel", "alpha"]) {
-            Some(Self::Acceleration)
+            (!load).then_some(Self::Acceleration)
         } else {
             None
         }
@@ -196,6 +201,21 @@ impl Column {
         let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
         let quantity = Quantity::of_words(&words).ok_or(Unusable::Unknown)?;
         Self::of(index, heading, quantity, unit.as_deref(), scales)
+    }
+
+    /// A column that the user names: its quantity, in the unit that the user gives, or else its heading.
+    ///
+    /// # Errors
+    /// [`Unusable::Fault`].
+    pub fn named(
+        index: usize,
+        heading: &str,
+        quantity: Quantity,
+        unit: Option<&str>,
+        scales: Scales,
+    ) -> Result<Self, Unusable> {
+        let own = parted(heading).1;
+        Self::of(index, heading, quantity, unit.or(own.as_deref()), scales)
     }
 
     /// A column of a quantity and a unit.

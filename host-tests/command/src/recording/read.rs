@@ -9,6 +9,8 @@ use crate::machine_file::{Diagnostic, Source, printable};
 
 /// Largest recording in bytes.
 const LARGEST: u64 = 1 << 30;
+/// Largest value in SI units, whose powers have room in a number.
+const HIGHEST: f64 = 1e100;
 
 /// What the user says of a recording beside its file.
 #[derive(Clone, Debug, Default)]
@@ -71,7 +73,11 @@ impl Recording {
             (Some(_), None) => {
                 Err(self.fault("a current without the torque that it makes", "--torque-constant [N m/A]"))
             }
-            (None, _) => Err(self.fault(self.found(), "a column of torque, such as `torque_Nm`, or of current")),
+            (None, _) => {
+                let expected = "a column of the motor's torque, such as `torque_Nm`, or of its current; --column \
+                                torque=HEADING names another";
+                Err(self.fault(self.found(), expected))
+            }
         }
     }
 
@@ -96,9 +102,36 @@ impl Recording {
 pub fn read_recording(path: &Path, asked: &Asked) -> Result<Recording, Diagnostic> {
     let name = printable(&path.display().to_string(), 200);
     let file = |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), "a CSV file");
-    let mut text = String::new();
-    File::open(path).and_then(|file| file.take(LARGEST).read_to_string(&mut text)).map_err(file)?;
-    parse(&name, &text, asked)
+    let mut bytes = Vec::new();
+    File::open(path).and_then(|file| file.take(LARGEST).read_to_end(&mut bytes)).map_err(file)?;
+    if bytes.iter().take(LEADING).any(|byte| *byte == 0) {
+        return Err(encoded(&name, &bytes, 0, "UTF-16"));
+    }
+    match String::from_utf8(bytes) {
+        Ok(text) => parse(&name, &text, asked),
+        Err(error) => {
+            let at = error.utf8_error().valid_up_to();
+            let bytes = error.into_bytes();
+            Err(encoded(&name, &bytes, at, "ISO-8859-1"))
+        }
+    }
+}
+
+/// Bytes among which a text of two bytes a letter shows.
+const LEADING: usize = 64;
+
+/// A file in another encoding: the place where that shows, and how to convert it.
+fn encoded(name: &str, bytes: &[u8], at: usize, encoding: &str) -> Diagnostic {
+    let text = String::from_utf8_lossy(bytes);
+    // up to the first bad byte the lossy text is the same as the bytes
+    let source = Source { name, text: &text };
+    let found = match encoding {
+        "UTF-16" => "a text of two bytes a letter".to_owned(),
+        _ => format!("the byte 0x{:02x}, which is not UTF-8", bytes[at]),
+    };
+    let expected = format!("a CSV file in UTF-8, as `iconv -f {encoding} -t UTF-8` makes it of {encoding}");
+    let end = text[at..].chars().next().map_or(at, |c| at + c.len_utf8());
+    Diagnostic::at(source, at..end, "", found, expected)
 }
 
 /// A row's place in the text and its line.
@@ -154,11 +187,16 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
         for (column, signal) in columns.iter().zip(&mut signals) {
             let field = &record[column.index];
             let number = field.parse().ok().map(|raw| column.value(raw)).filter(|value: &f64| value.is_finite());
+            let key = printable(&column.heading, 40);
             let Some(number) = number else {
                 let found = if field.is_empty() { "nothing".to_owned() } else { format!("`{}`", printable(field, 40)) };
-                let key = printable(&column.heading, 40);
                 return Err(Diagnostic::at(source, at(column.index), key, found, "a finite number"));
             };
+            if number.abs() > HIGHEST {
+                let found = format!("`{}`", printable(field, 40));
+                let expected = format!("at most {HIGHEST:e} in SI units; check the unit of the column");
+                return Err(Diagnostic::at(source, at(column.index), key, found, expected));
+            }
             signal.push(number);
         }
         lines.push(record.position().map_or(0, csv::Position::line));
@@ -201,10 +239,7 @@ fn columns(
     }
     for (index, heading) in headings.iter().enumerate() {
         let found = match named.iter().find(|(named, ..)| *named == index) {
-            Some((_, quantity, Some(unit))) => Column::of(index, heading, *quantity, Some(unit), scales),
-            Some((_, quantity, None)) => Column::of_heading(index, heading, scales)
-                .map(|column| Column { quantity: *quantity, ..column })
-                .or_else(|_| Column::of(index, heading, *quantity, None, scales)),
+            Some((_, quantity, unit)) => Column::named(index, heading, *quantity, *unit, scales),
             None => Column::of_heading(index, heading, scales),
         };
         match found {

@@ -4,9 +4,11 @@ use driveline::design::{RigidDesign, TwoMassDesign};
 use driveline::drive::{Config, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::number::{Fixed, Number};
-use driveline::observer::{Observer, RigidConfig, RigidObserver, TwoMassConfig, TwoMassObserver};
+use driveline::observer::{
+    GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, TwoMassConfig, TwoMassObserver,
+};
 use driveline::sample::Sample;
-use driveline::settings::{Bases, Error, Screening};
+use driveline::settings::{Bases, Error, Gear, Screening};
 
 use super::signals::{Signals, turned};
 
@@ -71,13 +73,15 @@ const UNIT: f64 = 268_435_456.0;
 /// Doublings of the bases of torque and speed, together.
 const DOUBLINGS: i32 = 12;
 
-/// Runs the observer over a recording, in `f32` and in fixed point. `tick` counts.
+/// Runs the observer over a recording, in `f32` and in fixed point, behind a gear with losses and the time between
+/// samples \[s\] where there is one. `tick` counts.
 ///
 /// # Errors
 /// The library's sentence, where constants do not fit.
 pub fn replay(
     signals: Signals,
     design: &Design,
+    gear: Option<&(Gear, f64)>,
     screening: &Screening,
     most: [f64; 2],
     mut tick: impl FnMut(),
@@ -85,26 +89,37 @@ pub fn replay(
     let single = Units { name: "f32", torque: 1.0, speed: 1.0, angle: STEP };
     let fixed = |bases: &Bases| Units { name: "fixed", torque: bases.torque, speed: bases.speed, angle: STEP * UNIT };
     let limits = Limits::<f32>::try_new(screening, Bases::SI)?;
+    macro_rules! course {
+        ($number:ty, $observer:ident, $config:expr, $bases:expr, $limits:expr, $units:expr) => {
+            match gear {
+                None => run::<$number, $observer<$number>>(&signals, $config, $limits, $units, &mut tick),
+                Some((gear, period)) => {
+                    let config = GearedConfig::<$number, _>::try_new($config, gear, *period, $bases)?;
+                    run::<$number, GearedObserver<$observer<$number>>>(&signals, config, $limits, $units, &mut tick)
+                }
+            }
+        };
+    }
     let (courses, predicted, radius) = match design {
         Design::TwoMass(design) => {
             let of = |torque: f64, speed: f64| Bases::of(design, torque, speed);
             let fits = |bases: &Bases| TwoMassConfig::<Fixed>::try_new(design, *bases).is_ok();
             let bases = fitting(of, fits, most);
             let config = TwoMassConfig::<f32>::try_new(design, Bases::SI)?;
-            let one = run::<f32, TwoMassObserver<f32>>(&signals, config, limits, single, &mut tick);
+            let one = course!(f32, TwoMassObserver, config, Bases::SI, limits, single);
             let config = TwoMassConfig::<Fixed>::try_new(design, bases)?;
             let limits = Limits::<Fixed>::try_new(screening, bases)?;
-            let other = run::<Fixed, TwoMassObserver<Fixed>>(&signals, config, limits, fixed(&bases), &mut tick);
+            let other = course!(Fixed, TwoMassObserver, config, bases, limits, fixed(&bases));
             ([one, other], design.innovation, design.spectral_radius)
         }
         Design::Rigid(design, share) => {
             let fits = |bases: &Bases| RigidConfig::<Fixed>::try_new(design, *share, *bases).is_ok();
             let bases = fitting(Bases::rigid, fits, most);
             let config = RigidConfig::<f32>::try_new(design, *share, Bases::SI)?;
-            let one = run::<f32, RigidObserver<f32>>(&signals, config, limits, single, &mut tick);
+            let one = course!(f32, RigidObserver, config, Bases::SI, limits, single);
             let config = RigidConfig::<Fixed>::try_new(design, *share, bases)?;
             let limits = Limits::<Fixed>::try_new(screening, bases)?;
-            let other = run::<Fixed, RigidObserver<Fixed>>(&signals, config, limits, fixed(&bases), &mut tick);
+            let other = course!(Fixed, RigidObserver, config, bases, limits, fixed(&bases));
             ([one, other], design.innovation, design.spectral_radius)
         }
     };

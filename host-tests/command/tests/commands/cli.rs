@@ -179,6 +179,10 @@ fn wrong_arguments_end_with_2() {
     let output = driveline(&["modes", "--json", "--loud"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(json(&err(&output))["error"].as_str().unwrap().contains("--loud"));
+    // what the parser lists below its first line
+    let output = driveline(&["export", "c", "--json"]);
+    let error = json(&err(&output))["error"].as_str().unwrap().to_owned();
+    assert_eq!(error, "the following required arguments were not provided: --core <CORE>, --out <FOLDER>, <FILE>");
 }
 
 /// Who names a variant or a source that is not there is shown what there is, in the words that the option takes.
@@ -231,6 +235,35 @@ fn design_warns_of_a_machine_that_two_masses_do_not_stand_for() {
     std::fs::write(&file, format!("name = \"three\"\n{motor}{stiff}{first}{soft}{second}{settings}")).unwrap();
     assert!(out(&driveline(&["design", file.to_str().unwrap()])).contains("warning: two masses are a poor model"));
     assert!(!out(&driveline(&["design", HOIST])).contains("warning"));
+}
+
+#[test]
+fn design_warns_of_a_weight_that_the_motor_does_not_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("weak.toml");
+    // the weight is 747 N m
+    let text = std::fs::read_to_string(HOIST).unwrap().replace("torque = 1350.0 ", "torque = 700.0 ");
+    std::fs::write(&file, text).unwrap();
+    let design = out(&driveline(&["design", file.to_str().unwrap()]));
+    assert!(design.contains("warning: the weight of 747 N m at the motor is not held by `limits.torque`, 700 N m"));
+}
+
+#[test]
+fn a_word_of_c_is_no_name_of_a_drive_in_c() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("drive");
+    let command = ["export", "c", HOIST, "--core", "host", "--out", out.to_str().unwrap(), "--name", "int"];
+    let output = driveline(&command);
+    assert_eq!(output.status.code(), Some(2), "{}", err(&output));
+    assert!(err(&output).contains("`int` is a word of C or C++"), "{}", err(&output));
+    assert!(!out.exists());
+}
+
+#[test]
+fn an_image_that_is_no_elf_is_refused_before_qemu_starts() {
+    let output = driveline(&["qemu", "mps2-an386", HOIST]);
+    assert_eq!(output.status.code(), Some(2), "{}", err(&output));
+    assert!(err(&output).contains("hoist.toml is no ELF file"), "{}", err(&output));
 }
 
 /// In a folder of nothing: what a file is needed for gets it from the program, what a clone is needed for says so.
@@ -423,8 +456,20 @@ fn what_cannot_be_commissioned_is_said_before_anything_runs() {
     const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/axis.toml");
     refused(&["commissioning", SHIP], 2, &["ship.toml:20:1: `branch[0]`", "expected a chain"]);
     // The load that hangs takes more than half of a half of the largest torque.
-    refused(&["commissioning", HOIST], 2, &["hoist.toml: the largest torque of the shaft", "--rated 0.5"]);
-    refused(&["commissioning", AXIS, "--speed", "1e300"], 2, &["axis.toml: the test's speed", "--speed 1e300"]);
+    // 1350/4 N m; the load of 12 t on two falls and a drum of 0.4 m: 12000 9.80665 0.4/(2 31.5) = 747 N m
+    let words = ["hoist.toml: the largest torque of the shaft, 338 N m with --rated 0.5", "747 N m", "a lighter load"];
+    refused(&["commissioning", HOIST], 2, &words);
+    // a fifth of the load: 149 N m are a half of 0.221 of 1350 N m
+    let text = std::fs::read_to_string(HOIST).unwrap().replace("mass = 12000.0", "mass = 2400.0");
+    let lighter = tempfile::tempdir().unwrap();
+    let lighter = (lighter.path().join("light.toml"), lighter);
+    std::fs::write(&lighter.0, text).unwrap();
+    let file = lighter.0.to_str().unwrap();
+    refused(&["commissioning", file, "--rated", "0.2"], 2, &["135 N m", "149 N m", "give --rated above 0.221"]);
+    refused(&["commissioning", AXIS, "--speed", "1e-9"], 2, &["axis.toml: the test's speed", "--speed 1e-9"]);
+    refused(&["commissioning", AXIS, "--speed", "1e300"], 2, &["--speed is a share of the largest: at most 1"]);
+    refused(&["commissioning", AXIS, "--rated", "1.5"], 2, &["--rated is a share of the largest: at most 1, not 1.5"]);
+    refused(&["commissioning", AXIS, "--friction", "2"], 2, &["--friction is a share of the largest: at most 1"]);
     refused(&["commissioning", AXIS, "--friction", "nan"], 2, &["--friction must be zero or above"]);
     refused(&["commissioning", "spindle", "--speed", "0.5"], 2, &["--speed is for a file `NAME.toml`"]);
     let folder = env!("CARGO_TARGET_TMPDIR");

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use cargo_driveline::identification::{Figures, identify};
-use cargo_driveline::recording::{Asked, read_recording};
+use cargo_driveline::recording::{Asked, Quantity, read_recording};
 use driveline::commissioning::Figure;
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::{Chain, Shaft};
@@ -243,5 +243,173 @@ fn useless_records_are_refused_with_their_reason() {
     ] {
         let sentence = refused(&good.replace(from, to));
         assert!(sentence.contains(words), "{sentence}");
+    }
+}
+
+/// What `identify` says of a file's bytes, and its exit code.
+fn answered(bytes: &[u8], options: &[&str]) -> (Option<i32>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(folder.path(), "log.csv");
+    std::fs::write(&file, bytes).unwrap();
+    let output = driveline(&[&["identify", file.to_str().unwrap(), "--json"], options].concat());
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn a_single_tone_is_refused() {
+    let mut text = "time_s,torque_Nm,speed_rad_per_s\n".to_owned();
+    for row in 0..200 {
+        let turned = TAU * 10.0 * f64::from(row) / 200.0;
+        writeln!(text, "{},{},{}", f64::from(row) / 1000.0, turned.sin(), turned.cos()).unwrap();
+    }
+    // ten whole periods: one line of the spectrum carries all of the torque
+    let (code, sentence) = answered(text.as_bytes(), &[]);
+    assert!(code == Some(1) && sentence.contains("excites 1 frequencies at most"), "{code:?}: {sentence}");
+}
+
+#[test]
+fn values_beyond_all_machines_are_refused_at_their_place() {
+    let (_, good) = simulated(2);
+    let scaled = |by: f64| {
+        let mut text = "time_s,torque_Nm,speed_rad_per_s\n".to_owned();
+        rows(&good).iter().for_each(|row| writeln!(text, "{},{},{:e}", row[0], row[1], by * row[2]).unwrap());
+        text
+    };
+    let (code, sentence) = answered(scaled(1e300).as_bytes(), &[]);
+    assert!(code == Some(2) && sentence.contains("log.csv:2:"), "{code:?}: {sentence}");
+    assert!(sentence.contains("speed_rad_per_s") && sentence.contains("at most 1e100 in SI units"), "{sentence}");
+    // within the bound, yet its powers leave the numbers
+    let (code, sentence) = answered(scaled(1e95).as_bytes(), &[]);
+    assert!(code == Some(1) && sentence.contains("no machine is identified"), "{code:?}: {sentence}");
+}
+
+#[test]
+fn a_response_without_a_swing_gives_no_machine() {
+    let mut text = "frequency_Hz,magnitude,phase_deg\n".to_owned();
+    (1..100).for_each(|hertz| writeln!(text, "{hertz},1,0").unwrap());
+    // a brake of 1 N m s/rad without inertia
+    let (code, sentence) = answered(text.as_bytes(), &["--response", "speed"]);
+    assert!(code == Some(1) && sentence.contains("no machine is identified"), "{code:?}: {sentence}");
+}
+
+#[test]
+fn a_table_has_no_machine_file_and_says_so_first() {
+    // the file itself is not read
+    let (code, sentence) = answered(b"", &["--response", "speed", "--toml", "machine.toml"]);
+    assert!(code == Some(2) && sentence.contains("--toml needs a recording over time"), "{code:?}: {sentence}");
+}
+
+#[test]
+fn a_window_begins_and_ends_at_times() {
+    for (options, words) in [
+        (&["--from", "nan"][..], "--from must be zero or above and finite, not NaN"),
+        (&["--from", "-5"], "--from must be zero or above and finite, not -5.0"),
+        (&["--from", "2", "--to", "1"], "--from 2.0 must be before --to 1.0"),
+    ] {
+        let (code, sentence) = answered(b"", options);
+        assert!(code == Some(2) && sentence.contains(words), "{code:?}: {sentence}");
+    }
+}
+
+#[test]
+fn a_file_in_another_encoding_is_told_with_its_line_and_a_remedy() {
+    // a degree sign of ISO-8859-1 in the third line
+    let (code, sentence) = answered(b"time_s,torque_Nm\n0,1\n1,2 \xb0\n", &[]);
+    assert_eq!(code, Some(2));
+    for words in ["log.csv:3:5:", "the byte 0xb0, which is not UTF-8", "iconv -f ISO-8859-1 -t UTF-8"] {
+        assert!(sentence.contains(words), "{sentence}");
+    }
+    let wide =
+        |mark: &[u8]| [mark, &"time_s,torque_Nm\n".bytes().flat_map(|byte| [byte, 0]).collect::<Vec<_>>()].concat();
+    for mark in [&b"\xff\xfe"[..], b""] {
+        let (code, sentence) = answered(&wide(mark), &[]);
+        assert_eq!(code, Some(2));
+        assert!(sentence.contains("log.csv:1:1:") && sentence.contains("iconv -f UTF-16 -t UTF-8"), "{sentence}");
+    }
+}
+
+#[test]
+fn what_is_asked_of_a_machine_or_is_the_loads_is_not_the_motors() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(folder.path(), "log.csv");
+    let headings = "time_s,load_current_A,torque_setpoint_Nm,speed_setpoint_rad/s,load_acceleration [rad/s2],\
+                    speed_error_rpm,target_angle_rad,torque_command_Nm";
+    std::fs::write(&file, format!("{headings}\n0,1,2,3,4,5,6,7\n1,1,2,3,4,5,6,8\n")).unwrap();
+    let read = |columns: &[&str]| {
+        let columns = columns.iter().map(|&column| column.to_owned()).collect();
+        read_recording(&file, &Asked { columns, ..Asked::default() }).unwrap()
+    };
+    let recording = read(&[]);
+    let quantities: Vec<Quantity> = recording.columns.iter().map(|column| column.quantity).collect();
+    assert_eq!(quantities, [Quantity::Time]);
+    assert!(recording.torque(None).unwrap_err().expected.contains("--column torque=HEADING"));
+    // who names a command means it, in the unit of its heading
+    assert_eq!(read(&["torque=torque_command_Nm"]).torque(None).unwrap(), [7.0, 8.0]);
+}
+
+/// A recording of a motor, a gear of 80 % and a load that a weight of 10 N m pulls, always motoring; its machine file.
+fn geared(folder: &Path, gap: &str) -> [PathBuf; 2] {
+    let shaft = Shaft::elastic(800.0).damping(0.1);
+    let mut plant = Chain::motor(0.02).efficiency(0.8).shaft(shaft, 0.05).load(10.0).build().unwrap();
+    let mut text = "time_s,torque_Nm,angle_rad,speed_rad_per_s,shaft_torque_Nm\n".to_owned();
+    for tick in 0..8000 {
+        let time = f64::from(tick) / 2000.0;
+        // up to about 20 rad/s, then about the balance of 10/0.8
+        let torque = if time < 0.5 { 16.0 } else { 12.5 + 4.0 * (TAU * 3.0 * time).sin() };
+        let (angle, speed, behind) = (plant.motor_angle(), plant.motor_speed(), plant.torque_behind_gear(0));
+        writeln!(text, "{time:.6},{torque:.6},{angle:.9},{speed:.9},{behind:.9}").unwrap();
+        plant.advance(torque, 1.0 / 2000.0);
+    }
+    let machine = format!(
+        "name = \"geared\"\n[[element]]\nkind = \"motor\"\ninertia = 0.02\n\
+         [[element]]\nkind = \"gear\"\nratio = 1.0\nefficiency = 0.8\n\
+         [[element]]\nkind = \"shaft\"\nstiffness = 800.0\ndamping = 0.1\n{gap}\
+         [[element]]\nkind = \"rotor\"\ninertia = 0.05\n\
+         [encoder]\nlines = 2048\n[control]\nrate_hz = 2000\n\
+         [disturbance]\ntorque_accuracy = 0.1\nload_torque_step = 5.0\nwithin = 1.0\n\
+         [limits]\ntorque = 40.0\nspeed = 100.0\n"
+    );
+    let files = ["geared.csv", "geared.toml"].map(|name| path(folder, name));
+    std::fs::write(&files[0], text).unwrap();
+    std::fs::write(&files[1], machine).unwrap();
+    files
+}
+
+#[test]
+fn a_replay_deducts_the_losses_of_the_gear() {
+    let folder = tempfile::tempdir().unwrap();
+    let [recording, machine] = geared(folder.path(), "").map(|file| file.to_str().unwrap().to_owned());
+    let replayed = json(&driveline(&["replay", &recording, "--machine", &machine, "--held", "--json"]));
+    assert_eq!(replayed["gear_efficiency"], 0.8);
+    for number in replayed["numbers"].as_array().unwrap() {
+        // the loss of 2.5 N m is 1.5 times the rms of the shaft torque's 2.3 N m of amplitude; what is left is the lag
+        let error = number["shaft_torque_error"].as_f64().unwrap();
+        assert!(error < 0.2, "{number}");
+    }
+}
+
+#[test]
+fn a_gap_that_a_replay_ignores_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let [recording, machine] = geared(folder.path(), "[[element]]\nkind = \"backlash\"\ngap = 0.01\n")
+        .map(|file| file.to_str().unwrap().to_owned());
+    let command = ["replay", &recording, "--machine", &machine, "--held", "--html", "/dev/null"];
+    let output = driveline(&command);
+    let said = String::from_utf8(output.stderr.clone()).unwrap();
+    assert!(said.contains("0.0100 rad at the motor, ignored"), "{said}");
+    let replayed = json(&driveline(&[&command[..5], &["--json"]].concat()));
+    assert_eq!(replayed["gap_ignored"], 0.01);
+}
+
+#[test]
+fn a_delay_is_shorter_than_its_recording() {
+    const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/axis.toml");
+    // the bench's record has 10 s; beyond 2^63 ticks a delay had no place in a number at all
+    for delay in ["100", "10", "3.7e15"] {
+        let options = ["--machine", AXIS, "--rate", "2500", "--torque-constant", "0.564", "--delay", delay];
+        let output = driveline(&[&["replay", BENCH], &options[..]].concat());
+        let sentence = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{sentence}");
+        assert!(sentence.contains("expected seconds below the recording's length of 10.0 s"), "{sentence}");
     }
 }

@@ -121,6 +121,13 @@ fn absurd_values_are_refused_at_their_key() {
 }
 
 #[test]
+fn a_rated_torque_is_not_above_the_largest() {
+    let fault = fault("torque = 1350.0 ", "rated_torque = 1400.0\ntorque = 1350.0 ");
+    assert_eq!((fault.key.as_str(), fault.found.as_str()), ("limits.rated_torque", "1400.0"));
+    assert_eq!(fault.expected, "at most `limits.torque`, 1350 N m");
+}
+
+#[test]
 fn missing_and_unknown_keys_are_named() {
     let missing = fault("diameter = 0.8", "");
     assert_eq!((missing.key.as_str(), missing.found.as_str()), ("element[4].diameter", "nothing"));

@@ -239,6 +239,31 @@ fn crate_name(name: &str) -> Result<String, Failure> {
     Ok(krate)
 }
 
+/// Keywords of C and C++, and the program itself.
+const WORDS_OF_C: &str = "
+    alignas alignof and and_eq asm atomic_cancel atomic_commit atomic_noexcept auto bitand bitor bool break
+    case catch char char16_t char32_t char8_t class co_await co_return co_yield compl concept const
+    const_cast consteval constexpr constinit continue contract_assert decltype default delete do double
+    dynamic_cast else enum explicit export extern false float for friend goto if inline int long mutable
+    namespace new noexcept not not_eq nullptr operator or or_eq private protected public reflexpr register
+    reinterpret_cast requires restrict return short signed sizeof static static_assert static_cast struct
+    switch synchronized template this thread_local throw true try typedef typeid typename typeof
+    typeof_unqual union unsigned using virtual void volatile wchar_t while xor xor_eq main
+";
+
+/// The name of a crate as a prefix in C and a namespace in C++, of which it must be no word.
+///
+/// # Errors
+/// A keyword, with what to do.
+pub fn name_of_c(krate: &str) -> Result<(), Failure> {
+    if WORDS_OF_C.split_whitespace().any(|word| word == krate) {
+        return Err(Failure::usage(format!(
+            "`{krate}` is a word of C or C++, and no prefix of its names; give another with --name"
+        )));
+    }
+    Ok(())
+}
+
 /// A type for the machine that is none of the words it is described with.
 fn type_name(krate: &str, words: &[&str]) -> String {
     let part = |part: &str| part[..1].to_ascii_uppercase() + &part[1..];
@@ -249,7 +274,7 @@ fn type_name(krate: &str, words: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{crate_name, type_name};
+    use super::{crate_name, name_of_c, type_name};
 
     #[test]
     fn a_name_is_that_of_a_crate_and_of_a_type() {
@@ -260,5 +285,7 @@ mod tests {
         for wrong in ["", "2fast", "a b", "../x", "match", "core", "driveline", "größe"] {
             assert!(crate_name(wrong).is_err(), "{wrong}");
         }
+        // `namespace int` is no C++, `int_state_t` is
+        assert!(name_of_c("int").is_err() && name_of_c("int_drive").is_ok());
     }
 }
