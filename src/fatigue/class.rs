@@ -87,7 +87,7 @@ macro_rules! classed {
 classed!(f32);
 classed!(f64);
 
-/// Binary places of the factor in fixed point: 2^28 are a base, and a class is some 2^22 of them at least.
+/// Binary places of the factor in fixed point: 2^28 are a base, and a class is 2^13 of them at least.
 const PLACES: u32 = 44;
 
 impl Classed for Fixed {
