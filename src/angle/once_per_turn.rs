@@ -64,7 +64,7 @@ impl OncePerTurn {
     /// stay away or come astray.
     ///
     /// `pulse` is how long before this tick the pulse came \[2^-32 tick\], by a capture timer. Where a level is sampled
-    /// that is half a tick on the mean: `1 << 31`.
+    /// that is half a tick on average: `1 << 31`.
     pub fn tick(&mut self, pulse: Option<u32>) -> Option<u32> {
         self.since = self.since.saturating_add(1);
         let (angle, wrapped) = self.angle.overflowing_add(self.step);

@@ -237,7 +237,7 @@ impl GovernorDesign {
         let nyquist = core::f64::consts::PI / self.period;
         let mut found = Margins::NONE;
         open.sweep(&mut found, 1e-2 * self.crossover(), nyquist, 300);
-        // Finer about the resonance, where a hardly damped shaft turns the response quickly.
+        // Finer about the resonance, where a lightly damped shaft turns the response quickly.
         let (from, to) = (0.8 * machine.antiresonance(), 1.25 * machine.resonance());
         if to < nyquist {
             open.sweep(&mut found, from, to, 300);

@@ -10,7 +10,7 @@ const UNUSED: u32 = 2;
 /// Rainflow counting of the shaft torque in `CLASSES` classes. `REVERSALS` is a power of two with room for the longest
 /// residue: twice the classes and four.
 ///
-/// A tick does one step of the four-point method, and a reversal needs one and a half of them on the mean. So none is
+/// A tick does one step of the four-point method, and a reversal needs one and a half of them on average. So none is
 /// lost where reversals are two ticks apart; [`Counts::lost`] counts those that were.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
