@@ -44,7 +44,7 @@ impl Actuator {
     /// become torque. A four-stroke engine fires `cylinders/2` times a turn.
     ///
     /// The form of the usual estimate of the literature on diesel governing. Torque that is delivered in pulses follows
-    /// the fuel sooner in the mean, by the pulse's centre alone; the rule leaves room for an unlucky phase.
+    /// the fuel sooner on average, by the pulse's centre alone; the rule leaves room for an unlucky phase.
     ///
     /// # Errors
     /// [`Error::Actuator`] for a speed that is not positive, or no cylinder.
@@ -217,7 +217,7 @@ impl TwoMass {
             return Err(Error::OptimumFactor);
         }
         let [share, inertia, estimate] = taken;
-        // The torque acts in the tick after its sample and is held for a tick: another half tick in the mean.
+        // The torque acts in the tick after its sample and is held for a tick: another half tick on average.
         let equivalent_delay = (delay + lag + 1.5 * period) / (1.0 + inertia);
         let proportional = self.total_inertia() / (optimum_factor * equivalent_delay);
         let integral = proportional / (optimum_factor * optimum_factor * equivalent_delay);
