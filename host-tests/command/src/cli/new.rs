@@ -178,7 +178,7 @@ fn is_outside(folder: &Path) -> Result<(), Failure> {
     let parent = whole.parent().and_then(|parent| parent.canonicalize().ok()).unwrap_or_default();
     match (clone::root(&parent), folder.file_name()) {
         (Some(root), Some(name)) => Err(Failure::usage(format!(
-            "{} lies in the clone of driveline at {}, whose cargo settings would stop the project; name a folder \
+            "{} would lie in the clone of driveline at {}, whose cargo settings would stop the project; name a folder \
              outside, such as ../{}",
             folder.display(),
             root.display(),
