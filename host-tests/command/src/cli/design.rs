@@ -11,7 +11,7 @@ use crate::machine_file::class::Class;
 use crate::machine_file::{MachineFile, read};
 use driveline::design::{Spread, Tolerance};
 use driveline_report::Table;
-use driveline_report::format::{percent, rate, significant};
+use driveline_report::format::{counted, percent, rate, significant};
 
 /// Design observer and governor of a machine: reduction, step, gains, poles, predicted deviations, margins.
 ///
@@ -200,7 +200,7 @@ fn within_tolerances(machine: &MachineFile, speed_loop: &SpeedLoop) -> String {
         range(load_inertia),
         range(stiffness),
         range(torque),
-        if late == 1.0 { "1 tick".to_owned() } else { format!("{late} ticks") },
+        counted(late.into(), "tick"),
     );
     let refused = speed_loop.not_robust.map_or_else(String::new, |why| format!("warning: {why}\n"));
     match &speed_loop.least_margins {
