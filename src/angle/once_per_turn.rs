@@ -2,8 +2,8 @@
 //!
 //! Between pulses the angle grows with the speed of the turns before. Each pulse corrects angle and speed with the
 //! gains of a straight line through the pulses so far, with a memory of twelve turns (alpha-beta filter of growing
-//! memory). So of the error of a pulse that is only known to a tick less is left in the angle, and next to none in the
-//! mean over the turns of a reading.
+//! memory). So of the error of a pulse that is only known to a tick less is left in the angle, and next to none on
+//! average over the turns of a reading.
 
 /// Turns of memory.
 const MEMORY: usize = 12;
@@ -64,7 +64,7 @@ impl OncePerTurn {
     /// stay away or come astray.
     ///
     /// `pulse` is how long before this tick the pulse came \[2^-32 tick\], by a capture timer. Where a level is sampled
-    /// that is half a tick on the mean: `1 << 31`.
+    /// that is half a tick on average: `1 << 31`.
     pub fn tick(&mut self, pulse: Option<u32>) -> Option<u32> {
         self.since = self.since.saturating_add(1);
         let (angle, wrapped) = self.angle.overflowing_add(self.step);

@@ -1,6 +1,6 @@
 //! Sine and cosine on the tick, from a table with the slope at each place.
 //!
-//! 128 places on a turn and the tangent there: the error is 1.5e-4 at most and zero on the mean, since the radius is
+//! 128 places on a turn and the tangent there: the error is 1.5e-4 at most and zero on average, since the radius is
 //! that of the mean. That is a thirtieth of a reading's tolerance, for 1 KiB of flash and the two multiplications of
 //! the slope.
 

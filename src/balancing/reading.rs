@@ -119,7 +119,7 @@ pub struct Reading {
     pub variance: f32,
     /// Turns, times the order.
     pub turns: u32,
-    /// Ticks on such a turn, on the mean.
+    /// Ticks on such a turn, on average.
     pub ticks: f32,
     /// Difference of the fastest and the slowest block's speed, over the mean speed.
     pub speed_spread: f32,

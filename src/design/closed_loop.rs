@@ -241,7 +241,7 @@ impl ClosedLoop {
         let nyquist = core::f64::consts::PI / self.period;
         let mut found = Margins::NONE;
         open.sweep(&mut found, 1e-2 * self.slowest, nyquist, 1000);
-        // Finer about each resonance, where a hardly damped shaft turns the response quickly.
+        // Finer about each resonance, where a lightly damped shaft turns the response quickly.
         let mut k = 0;
         while k < plant.count {
             let frequency = sqrt(plant.vibration[k].square);
@@ -257,8 +257,8 @@ impl ClosedLoop {
         Ok(found)
     }
 
-    /// By which factors motor inertia, load inertia and stiffness of two masses may differ, each alone, from the most
-    /// to the least that the loop bears; 0 and infinity where it bears a hundredth and a hundred times.
+    /// By which factors motor inertia, load inertia and stiffness of two masses may differ, one at a time, from the
+    /// most to the least that the loop tolerates; 0 and infinity where it tolerates a hundredth and a hundred times.
     #[must_use]
     pub const fn ranges(&self, machine: &TwoMass) -> Ranges {
         let mut range = [[1.0; 2]; 3];
@@ -301,7 +301,7 @@ impl Mapped {
     }
 }
 
-/// Factors that a loop bears, down and up.
+/// Factors that a loop tolerates, down and up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Ranges {

@@ -11,7 +11,7 @@ sentences! {
     LoadTorqueStep => "load_torque_step of the disturbance must be positive and finite (N m)",
     Within => "within of the disturbance must be positive and finite (s)",
     Unobservable => "the load is unobservable from the motor's angle: the stiffness between the two masses is zero",
-    SampleRate => "the sample rate cannot follow the shaft: its resonance lies above half the rate and is hardly \
+    SampleRate => "the sample rate cannot follow the shaft: its resonance lies above half the rate and is lightly \
         damped",
     NotConverged => "the observer's gain was not found: the Riccati equation has no stabilising solution for these \
         disturbances",

@@ -44,7 +44,7 @@ impl Actuator {
     /// become torque. A four-stroke engine fires `cylinders/2` times a turn.
     ///
     /// The form of the usual estimate of the literature on diesel governing. Torque that is delivered in pulses follows
-    /// the fuel sooner in the mean, by the pulse's centre alone; the rule leaves room for an unlucky phase.
+    /// the fuel sooner on average, by the pulse's centre alone; the rule leaves room for an unlucky phase.
     ///
     /// # Errors
     /// [`Error::Actuator`] for a speed that is not positive, or no cylinder.
@@ -217,7 +217,7 @@ impl TwoMass {
             return Err(Error::OptimumFactor);
         }
         let [share, inertia, estimate] = taken;
-        // The torque acts in the tick after its sample and is held for a tick: another half tick in the mean.
+        // The torque acts in the tick after its sample and is held for a tick: another half tick on average.
         let equivalent_delay = (delay + lag + 1.5 * period) / (1.0 + inertia);
         let proportional = self.total_inertia() / (optimum_factor * equivalent_delay);
         let integral = proportional / (optimum_factor * optimum_factor * equivalent_delay);
@@ -237,7 +237,7 @@ impl GovernorDesign {
         let nyquist = core::f64::consts::PI / self.period;
         let mut found = Margins::NONE;
         open.sweep(&mut found, 1e-2 * self.crossover(), nyquist, 300);
-        // Finer about the resonance, where a hardly damped shaft turns the response quickly.
+        // Finer about the resonance, where a lightly damped shaft turns the response quickly.
         let (from, to) = (0.8 * machine.antiresonance(), 1.25 * machine.resonance());
         if to < nyquist {
             open.sweep(&mut found, from, to, 300);

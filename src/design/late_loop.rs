@@ -76,7 +76,7 @@ impl LateLoop {
     pub(super) const fn is_stable(&self, bandwidth: f64) -> bool {
         let nyquist = core::f64::consts::PI / self.period;
         let (ws, wr) = (self.machine.antiresonance(), self.machine.resonance());
-        // Finer about the resonance, where a hardly damped shaft turns the response quickly.
+        // Finer about the resonance, where a lightly damped shaft turns the response quickly.
         let edges = [1e-3 * bandwidth, 0.8 * ws, 0.99 * wr, 1.01 * wr, 1.25 * wr, nyquist];
         let mut turned = 0.0;
         let mut low = edges[0];

@@ -87,7 +87,8 @@ macro_rules! classed {
 classed!(f32);
 classed!(f64);
 
-/// Binary places of the factor to quarters of a class in fixed point; 2^28 are a base.
+/// Binary places of the factor to quarters of a class in fixed point; 2^28 are a base, and a class is 2^13 of them at
+/// least.
 const PLACES: u32 = 42;
 
 impl Classed for Fixed {

@@ -1,8 +1,8 @@
-//! Woehler lines: cycles to failure against the torque's amplitude.
+//! S-N (Wöhler) curves: cycles to failure against the torque's amplitude.
 
 use crate::math::{exp, ln};
 
-/// A Woehler line, straight on logarithmic scales with a knee.
+/// An S-N (Wöhler) curve, straight on logarithmic scales with a knee.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WoehlerLine {
@@ -10,7 +10,7 @@ pub struct WoehlerLine {
     pub knee: f64,
     /// Cycles to failure there.
     pub cycles: f64,
-    /// Slope k above the knee: half the amplitude lasts 2^k times longer.
+    /// Slope k above the knee: half the amplitude lasts 2^k times as long.
     pub slope: f64,
     /// Slope below it: the same for Miner's elementary rule, `2 k - 1` for Haibach's; infinite where nothing below the
     /// knee does damage.
@@ -18,7 +18,7 @@ pub struct WoehlerLine {
 }
 
 impl WoehlerLine {
-    /// Damage of a cycle of this amplitude \[N m\]; NaN for a line whose numbers are none.
+    /// Damage of a cycle of this amplitude \[N m\]; NaN for a curve whose numbers are none.
     #[must_use]
     pub const fn damage(&self, amplitude: f64) -> f64 {
         let share = amplitude / self.knee;

@@ -14,7 +14,7 @@
 //! one division in integers, the same bits in every number; nothing is summed up, so nothing drifts.
 //!
 //! There is none before a first whole cycle, nor after the angle was lost or the direction has changed, nor while the
-//! machine takes more than four times as long for a segment as it did in the mean: then a governor has to act on the
+//! machine takes more than four times as long for a segment as it did on average: then a governor has to act on the
 //! speed as it is.
 
 use super::position::{Crossing, Position};

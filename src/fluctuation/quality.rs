@@ -27,7 +27,7 @@ pub enum Unusable {
     Teeth,
     /// The speed changes by more than a tenth from one cycle to the next.
     Trend,
-    /// There are too few ticks to a cycle: less than 12 to a quarter of a turn, or to the segment that the cycle is in.
+    /// Too few ticks to a cycle: fewer than 12 to a quarter of a turn, or to the segment that the cycle is in.
     Ticks,
 }
 
@@ -48,7 +48,7 @@ impl Unusable {
                 "the speed changes by more than a tenth in a cycle: hold it, or take fewer turns to a cycle"
             }
             Unusable::Ticks => {
-                "a quarter of a turn has less than 12 ticks: raise the rate of the ticks, or take the times of \
+                "a quarter of a turn has fewer than 12 ticks: raise the rate of the ticks, or take the times of \
                 teeth"
             }
         }

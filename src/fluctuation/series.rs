@@ -147,8 +147,8 @@ impl Series {
         circle.map(|(cos, sin)| self.along(cos, sin))
     }
 
-    /// Where a stationary value near `theta` is, by Newton's method; `theta` itself where that leads further than half
-    /// a period of the highest order.
+    /// Where a stationary value near `theta` is, by Newton's method; `theta` itself where that leads further than an
+    /// eighth of a period of the highest order.
     pub(super) fn stationary(&self, theta: f64) -> f64 {
         let (slope, curvature) = (self.derivative(), self.derivative().derivative());
         let mut found = theta;

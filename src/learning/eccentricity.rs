@@ -203,7 +203,7 @@ impl<N: Correction, O> EccentricityObserver<N, O> {
             self.begin(if speed.is_finite() { speed } else { 0.0 });
             return Finding::None;
         }
-        // Whole turns, nearly: an offset of the innovation leaves less than a tenth of itself after three.
+        // Whole turns, nearly: an offset of the innovation leaves less than a fifth of itself after three.
         let turns = f64::from(self.ticks) * f64::from(speed.abs()) * config.period / core::f64::consts::TAU;
         if self.ticks < config.block || turns < 3.0 {
             return Finding::None;

@@ -140,7 +140,7 @@ impl<const TEETH: usize> Teeth<TEETH> {
     /// displacement of the teeth: let the machine coast, without fuel and without load.
     ///
     /// # Errors
-    /// [`Error::Value`] for less than three turns, or edges that differ from turn to turn by a tenth of a span.
+    /// [`Error::Value`] for fewer than three turns, or edges that differ from turn to turn by a tenth of a span.
     pub fn learnt(times: &[u32]) -> Result<Self, Error> {
         let at = |index: usize| times.get(index).copied().unwrap_or(0);
         let turns = times.len().saturating_sub(1).checked_div(TEETH).unwrap_or(0);
@@ -217,8 +217,8 @@ impl<const TEETH: usize> ToothedWheelConfig<TEETH> {
     /// The constants of a wheel.
     ///
     /// # Errors
-    /// [`Error::Value`] for less than two teeth, angles that do not rise, more than 128 teeth of which no part repeats,
-    /// a cycle of no turns or more than 8, or a clock or a speed that is not positive.
+    /// [`Error::Value`] for fewer than two teeth, angles that do not rise, more than 128 teeth of which no part
+    /// repeats, a cycle of no turns or more than 8, or a clock or a speed that is not positive.
     pub const fn try_new(teeth: &Teeth<TEETH>, timing: ToothClock) -> Result<Self, Error> {
         let ToothClock { turns, clock, lowest_speed } = timing;
         if TEETH < 2 || TEETH > 10_000 {

@@ -37,7 +37,7 @@ pub const UNBALANCE: f64 = 40.0;
 pub const EXCITER: f64 = 8.5;
 
 /// The motor, the cardan shaft, and the exciter. The box swings freely at speed and takes `S^2/2M` off its inertia on
-/// the mean over a turn.
+/// average over a turn.
 pub struct VibratingScreen;
 
 impl Machine for VibratingScreen {

@@ -21,8 +21,8 @@ pub fn workspace() -> Result<&'static Path, NoClone> {
     FOUND.get_or_init(|| root(&env::current_dir().ok()?)).as_deref().ok_or(NoClone)
 }
 
-/// The nearest root at or above a folder.
-fn root(folder: &Path) -> Option<PathBuf> {
+/// The root of the nearest clone that a folder is, or lies in.
+pub fn root(folder: &Path) -> Option<PathBuf> {
     folder.ancestors().find(|folder| ROOT.iter().all(|file| folder.join(file).is_file())).map(Path::to_owned)
 }
 

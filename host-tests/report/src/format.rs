@@ -51,7 +51,7 @@ pub fn percent(fraction: f64) -> String {
 /// A whole number with a thin space between thousands.
 pub fn grouped(value: i64) -> String {
     let digits = value.unsigned_abs().to_string();
-    let mut text = String::from(if value < 0 { "−" } else { "" });
+    let mut text = String::from(if value < 0 { "-" } else { "" });
     for (place, digit) in digits.chars().enumerate() {
         if place > 0 && (digits.len() - place).is_multiple_of(3) {
             text.push('\u{202f}');
@@ -59,6 +59,11 @@ pub fn grouped(value: i64) -> String {
         text.push(digit);
     }
     text
+}
+
+/// A number of things: `1 draw`, `60 draws`.
+pub fn counted(count: u64, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
 /// A rate: `10 kHz`, `500 Hz`.
@@ -117,6 +122,8 @@ mod tests {
         assert_eq!(power(-12), "10⁻¹²");
         assert_eq!(power(2), "100");
         assert_eq!(tick(-0.25, 0.05), "−0.25");
-        assert_eq!(grouped(-1_234_567), "−1\u{202f}234\u{202f}567");
+        // in tables beside numbers that are not grouped
+        assert_eq!(grouped(-1_234_567), "-1\u{202f}234\u{202f}567");
+        assert_eq!([counted(1, "draw"), counted(60, "draw")], ["1 draw", "60 draws"]);
     }
 }

@@ -33,7 +33,7 @@ pub struct Scene {
 /// Cost of a variant on a controller.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Cost {
-    /// Instructions of a tick at most, and on the mean.
+    /// Instructions of a tick at most, and on average.
     pub instructions: (u32, f64),
     /// Most stack of a tick [bytes].
     pub stack: u32,

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::figure::{Figure, Outcome};
 use super::record::Settings;
 use super::statistics::quantile;
-use driveline_report::format::{percent, significant};
+use driveline_report::format::{counted, percent, significant};
 use driveline_report::{Section, Table};
 
 /// A figure of a first drive over that of a second, draw by draw.
@@ -142,7 +142,7 @@ impl Comparison {
             let draw = r.worst_draw.to_string();
             table.row([r.name.to_owned(), first, second, median, p90, worst, draw, percent(r.not_worse)]);
         }
-        let title = format!("{} over {}, {} draws", self.first, self.second, self.draws);
+        let title = format!("{} over {}, {}", self.first, self.second, counted(self.draws, "draw"));
         Section::new(title, "Ratios of the same draw. For the decay, lower is worse.", table)
     }
 }

@@ -94,7 +94,7 @@ fn outcome(text: &str) -> Option<Outcome> {
 /// The settings and the draws of a file's text, and how many bytes of it are whole lines.
 fn parse(path: &Path, text: &str) -> Result<(Settings, BTreeMap<u64, Outcome>, usize), String> {
     let name = path.display();
-    let no_campaign = || format!("{name} is no file of a campaign by this version; name another with --results");
+    let no_campaign = || format!("{name} is not a campaign file of this version; name another with --results");
     let settings = Settings::parse(text).ok_or_else(no_campaign)?;
     let begin = settings.text();
     // the settings are as this version writes them

@@ -9,7 +9,7 @@ use super::figure::{Figure, Outcome};
 use super::record::Settings;
 use super::statistics::{FEWEST_OF_RANGE, median_range, noise_of_largest, quantile, rank_correlation};
 use crate::machine_file::factor::{Factor, Tolerance};
-use driveline_report::format::{percent, significant};
+use driveline_report::format::{counted, percent, significant};
 use driveline_report::{Section, Table};
 
 /// A figure over the draws.
@@ -182,12 +182,13 @@ impl Summary {
         }
         let errors = "Torques of rated torque, speeds of rated speed, over the whole run. The median of all machines \
                       lies in its range with 95 % confidence; fewer than six draws have none. For the decay, lower \
-                      is worse.";
+                      is worse; below zero it may be that of noise, where no swing is sustained by the loop.";
         let strongest = format!(
             "The {SHOWN} strongest factors of each figure by Spearman's rank correlation: with the value itself, and \
              with the size of its departure from nominal. Where no factor matters, the largest of a figure's is below \
-             {:.2} in 19 of 20 campaigns of {} draws; what is below that is left out.",
-            self.noise, self.draws
+             {:.2} in 19 of 20 campaigns of {}; what is below that is left out.",
+            self.noise,
+            counted(self.draws, "draw")
         );
         let count = self.unstable.len();
         let listed = format!(

@@ -9,7 +9,7 @@ use super::{Failure, Progress, say, say_json};
 use crate::backlash::Comparison;
 use crate::backlash::backlash_page;
 
-/// Compares approaches to an observer with backlash, over random reversals of six machines with the full solver.
+/// Compare approaches to an observer with backlash, over random reversals of six machines with the full solver.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline backlash

@@ -24,8 +24,8 @@ use grade::{Grade, grade};
 pub use weight::Polar;
 use weight::{Hole, arrow, arrows_of, fill, told};
 
-/// Correction weights from the readings of a rotor's runs, the predicted residual, and the grade; the page has polar
-/// plots.
+/// Find correction weights from the readings of a rotor's runs, the predicted residual, and the grade; the page has
+/// polar plots.
 ///
 /// The file has the planes, the sensors, a baseline and a trial run for each plane, with phases in degrees.
 #[derive(Debug, Args)]

@@ -18,7 +18,7 @@ use crate::campaign::{Draw, Figure, Outcome, Summary, Tolerance, work};
 use crate::drivetrains::departure::Departure;
 use crate::machine_file::read;
 use driveline_report::Table;
-use driveline_report::format::{percent, significant};
+use driveline_report::format::{counted, percent, significant};
 
 /// Run a scene's drive in closed loop with many machines drawn from its tolerances.
 ///
@@ -296,7 +296,7 @@ fn show(summary: &Summary, page: Option<&Destination>, json: bool) -> Result<(),
     if json {
         say_json(summary)?;
     } else {
-        say(format_args!("{}, {} draws, seed {}", summary.variant, summary.draws, summary.seed));
+        say(format_args!("{}, {}, seed {}", summary.variant, counted(summary.draws, "draw"), summary.seed));
         summary.tables().into_iter().for_each(say);
     }
     page.map_or(Ok(()), |page| page.write_and_say(&summary.page(), json))

@@ -224,7 +224,7 @@ pub struct Margins {
     pub delay: Option<f64>,
     /// Smallest distance of the response from -1.
     pub modulus: f64,
-    /// Factors of the motor side's inertia that the loop of two masses bears, from and to; `null` where any.
+    /// Factors of the motor side's inertia that the loop of two masses tolerates, from and to; `null` where any.
     pub motor_inertia: [Option<f64>; 2],
     /// The same for the load side's inertia.
     pub load_inertia: [Option<f64>; 2],

@@ -11,9 +11,9 @@ use crate::machine_file::class::Class;
 use crate::machine_file::{MachineFile, read};
 use driveline::design::{Spread, Tolerance};
 use driveline_report::Table;
-use driveline_report::format::{percent, rate, significant};
+use driveline_report::format::{counted, percent, rate, significant};
 
-/// Observer and governor of a machine: reduction, step, gains, poles, predicted deviations, margins.
+/// Design observer and governor of a machine: reduction, step, gains, poles, predicted deviations, margins.
 ///
 /// The same functions design a firmware's constants at compile time; with --emit rust they are printed to paste.
 #[derive(Debug, Args)]
@@ -115,7 +115,8 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
             None => "unstable".to_owned(),
         };
         let limit = percent(shaft.semi_implicit_threshold);
-        text.push_str(&format!("step: {}, for the semi-implicit one is {bound} (taken up to {limit})\n\n", shaft.step));
+        let it = if shaft.step == "exact" { "the semi-implicit one" } else { "it" };
+        text.push_str(&format!("step: {}, because {it} is {bound} (taken up to {limit})\n\n", shaft.step));
     }
     if let Some(need) = &plan.need {
         let missed = |[torque, speed]: [f64; 2]| {
@@ -203,11 +204,12 @@ fn within_tolerances(machine: &MachineFile, speed_loop: &SpeedLoop) -> String {
     let control =
         if lag > 0.0 { format!(", current control of {} Hz", significant(1.0 / (TAU * lag))) } else { String::new() };
     let within = format!(
-        "margins within tolerances (motor side {}, load side {}, stiffness {}, torque {}, {late} ticks late{control})",
+        "margins within tolerances (motor side {}, load side {}, stiffness {}, torque {}, {} late{control})",
         range(motor_inertia),
         range(load_inertia),
         range(stiffness),
         range(torque),
+        counted(late.into(), "tick"),
     );
     let refused = speed_loop.not_robust.map_or_else(String::new, |why| format!("warning: {why}\n"));
     match &speed_loop.least_margins {
@@ -246,7 +248,7 @@ fn margins(margins: &Margins) -> String {
     };
     format!(
         "margins: gain up {}, gain down {}, phase {}, delay {}, distance from -1 {}\n\
-         bears, each alone: motor inertia {}, load inertia {}, stiffness {}\n",
+         tolerates, one at a time: motor inertia {}, load inertia {}, stiffness {}\n",
         factor(margins.gain_up),
         significant(margins.gain_down),
         angle(margins.phase),

@@ -22,7 +22,7 @@ use super::{Failure, say, say_json};
 use crate::machine_file::{is_train, parse, parse_train_for_modes, text};
 use driveline_report::Section;
 
-/// Natural frequencies and shapes of a machine, its two-mass reductions, and the sensitivity to each part.
+/// Find natural frequencies and shapes of a machine, its two-mass reductions, and the sensitivity to each part.
 ///
 /// A chain of elements, with its branches, is referred to the motor's shaft; a train of coordinates and links stays as
 /// it is. With `[running]` and `[[excitation]]` in the file, critical speeds are listed and drawn, and those within 10

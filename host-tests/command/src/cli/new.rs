@@ -1,6 +1,6 @@
 //! `cargo driveline new`: a firmware crate of the user's own.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -11,6 +11,7 @@ use super::setup::install;
 use super::{Failure, say, say_json};
 use crate::machine_file::{parse, text};
 use driveline_firmware::board::{Facts, mps2_an385, mps2_an386, nucleo_g474re};
+use driveline_qemu::clone;
 use driveline_qemu::setup::Need;
 
 /// The machine where none is named.
@@ -19,12 +20,12 @@ const ROLL: &str = include_str!("../../machines/roll.toml");
 /// Write a firmware crate of your own: a machine, its drive, a board, a test against the full solver.
 ///
 /// `cargo run` in it starts the firmware in QEMU, `cargo test` runs it on the host. The folder must not exist, or be
-/// empty.
+/// empty, and lie outside a clone of driveline.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  cargo driveline new roll && cd roll && cargo run
-  cargo driveline new crane --machine hoist.toml --board qemu-m3
-  cargo driveline new fan --board nucleo-g474re --parts fluctuation")]
+  cargo driveline new ../roll && cd ../roll && cargo run
+  cargo driveline new ../crane --machine hoist.toml --board qemu-m3
+  cargo driveline new ../fan --board nucleo-g474re --parts fluctuation")]
 pub struct New {
     /// The folder; its last part is the crate's name
     name: PathBuf,
@@ -100,7 +101,8 @@ impl New {
     /// Installs the compiler's target, then writes the folder.
     ///
     /// # Errors
-    /// A wrong name, a folder that is not empty, a machine that no drive can be made of. Nothing is left then.
+    /// A wrong name, a folder that is not empty or lies in a clone, a machine that no drive can be made of. Nothing is
+    /// left then.
     pub fn execute(&self) -> Result<(), Failure> {
         let name = self.name.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         let (place, source) = match &self.machine {
@@ -110,6 +112,7 @@ impl New {
         let machine = parse(&place, &source)?;
         let project = Project::of(&machine, name, self.board.number(), &self.parts)?;
         is_free(&self.name)?;
+        is_outside(&self.name)?;
         let facts = self.board.facts();
         install(&Need::to_build([&facts]))?;
         let observer = project.observer().to_owned();
@@ -165,6 +168,23 @@ impl New {
             self.name.display(),
         ));
         Ok(())
+    }
+}
+
+/// Whether a folder lies outside every clone of driveline: cargo takes the settings of all folders above a project, and
+/// those of a clone contradict the project's own.
+fn is_outside(folder: &Path) -> Result<(), Failure> {
+    let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.into());
+    let parent = whole.parent().and_then(|parent| parent.canonicalize().ok()).unwrap_or_default();
+    match (clone::root(&parent), folder.file_name()) {
+        (Some(root), Some(name)) => Err(Failure::usage(format!(
+            "{} would lie in the clone of driveline at {}, whose cargo settings would stop the project; name a folder \
+             outside, such as ../{}",
+            folder.display(),
+            root.display(),
+            Path::new(name).display(),
+        ))),
+        _ => Ok(()),
     }
 }
 

@@ -14,7 +14,7 @@ use driveline_report::format::{percent, significant};
 use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
 use driveline_solver::rotor::{Critical, Modal, Natural, Polar, RotorError, WhirlSense};
 
-/// Critical speeds of a rotor, its natural whirls over the speed, and its vibration by unbalance.
+/// Find critical speeds of a rotor, its natural whirls over the speed, and its vibration by unbalance.
 ///
 /// The page with the Campbell diagram opens in any browser.
 #[derive(Debug, Args)]

@@ -19,7 +19,7 @@ const EVENTS: usize = 40;
 /// Lines of a plot; there are no more colours.
 const DRAWN: usize = 6;
 
-/// Runs a machine of any shape by the full solver: forces, speeds, events, dynamic factors.
+/// Run a machine of any shape by the full solver: forces, speeds, events, dynamic factors.
 ///
 /// The file names coordinates and the links between them, or elements from the motor to the load; torques, friction,
 /// the start and the run. Every run is done again by a second integrator; one that does not agree to 1e-8 of its

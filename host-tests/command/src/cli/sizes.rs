@@ -8,7 +8,7 @@ use super::{Failure, Progress, say, say_json};
 use driveline_qemu::image::{Footprint, footprints};
 use driveline_qemu::setup::Need;
 
-/// Builds an image for each board and shows what it takes of flash and RAM, by section.
+/// Build an image for each board and show what it takes of flash and RAM, by section.
 ///
 /// The hoist for QEMU's boards, start-up, link and measuring included, and the test rig for the board with a motor,
 /// balancing, telemetry and registers included. The stack is not in it.

@@ -211,12 +211,12 @@ impl Watch {
 fn nothing(name: &str, decoder: &Decoder) -> String {
     let Decoder { bytes, damaged, unknown, .. } = decoder;
     let why = match (bytes, unknown) {
-        (0, _) => "it gave not a byte".into(),
+        (0, _) => "the source sent nothing".into(),
         _ if decoder.describes(1) => "its channels described themselves, and none was recorded".into(),
         (_, 0) => format!("{bytes} bytes came, and {damaged} damaged frames: no telemetry, or the wrong baud rate"),
         _ => format!("{unknown} frames of an unknown kind: the firmware is newer than this program"),
     };
-    format!("{name}: no record; {why}")
+    format!("{name}: no record: {why}")
 }
 
 /// Records on their way into a file.

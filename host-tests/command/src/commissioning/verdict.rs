@@ -187,7 +187,7 @@ impl Verdict {
             let [least, mean, most] = target.instructions;
             let [flash, ram, stack] = target.bytes;
             said.push(format!(
-                "in QEMU: {least} to {most} instructions a tick, {mean} in the mean; {flash} bytes of \
+                "in QEMU: {least} to {most} instructions a tick, {mean} on average; {flash} bytes of \
                 flash, {ram} of static memory, {stack} of stack, the solving included"
             ));
             said.push(format!("the host's bits: {}", if target.bit_exact { "yes, every tick" } else { "NO" }));

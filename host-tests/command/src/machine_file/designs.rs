@@ -144,7 +144,7 @@ impl MachineFile {
         LoadCycle { speed: self.limits.speed, torque: self.limits.torque, change, rise, every, reverses }
     }
 
-    /// The conditions that errors are predicted for: the weight or half of rated torque, half of the ramp in the mean,
+    /// The conditions that errors are predicted for: the weight or half of rated torque, half of the ramp on average,
     /// the largest speed.
     fn operation(&self, two: &TwoMass, ramp: f64) -> Operation {
         let rated_torque = self.limits.rated_torque;

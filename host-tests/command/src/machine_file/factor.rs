@@ -74,9 +74,9 @@ factors! {
 }
 
 impl Factor {
-    /// The factor of a name.
+    /// The factor of a name, or of its key in a machine file.
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|factor| factor.name() == name)
+        Self::ALL.iter().copied().find(|factor| factor.name() == name || factor.key() == name)
     }
 }
 

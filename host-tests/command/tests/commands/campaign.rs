@@ -189,6 +189,8 @@ fn a_draw_depends_on_its_number_alone() {
     assert_eq!(draw, Draw::new(&all, 5, 17));
     assert_ne!(draw.values, Draw::new(&all, 5, 18).values);
     assert_ne!(draw.values, Draw::new(&all, 6, 17).values);
+    // as on the command line, and as in a machine file
+    assert_eq!(Tolerance::parse("load_inertia=0.9..1.1"), Tolerance::parse("load-inertia=0.9..1.1"));
     let one = [Tolerance::parse("load=0.5..1").unwrap()];
     let loads: Vec<f64> = (0..1000).map(|number| Draw::new(&one, 5, number).value(Factor::Load)).collect();
     let other = [Tolerance::new(Factor::Rope, 0.9, 1.1), one[0]];

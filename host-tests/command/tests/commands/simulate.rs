@@ -79,7 +79,7 @@ fn a_run_that_cannot_be_confirmed_is_refused_with_a_sentence() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("rattle.toml");
     let text = std::fs::read_to_string(machine("gear-pair")).unwrap();
-    // hardly damped and hardly loaded, between both flanks, for a long time: chaos
+    // lightly damped and lightly loaded, between both flanks, for a long time: chaos
     let text = text
         .replace("damping = 3561.695654463696", "damping = 10.0")
         .replace("gap = 1.6e-4", "gap = 4e-6")

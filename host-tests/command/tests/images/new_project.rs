@@ -6,6 +6,8 @@ use std::process::{Command, Output};
 use driveline_qemu::clone::target_directory;
 use driveline_qemu::setup::cargo;
 
+/// A folder in the clone, whose cargo settings contradict a project's own.
+const INSIDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/../crane");
 const HOIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/hoist.toml");
 
 fn new(folder: &Path, arguments: &[&str]) -> Output {
@@ -66,8 +68,9 @@ fn a_project_that_cannot_be_is_refused_and_leaves_nothing() {
     let ship = HOIST.replace("hoist", "ship");
     for (arguments, word) in [
         (&["2fast"][..], "is no name of a project"),
-        (&["match"], "is a word of Rust"),
+        (&["match"], "is a reserved word"),
         (&["none/roll"], "make that first"),
+        (&[INSIDE], "name a folder outside, such as ../crane"),
         (&["ship", "--machine", &ship], "it has branches"),
         (&["roll", "--machine", "no.toml"], "no.toml"),
         (&["roll", "--parts", "phasors"], "--vibration-limit"),
@@ -79,6 +82,7 @@ fn a_project_that_cannot_be_is_refused_and_leaves_nothing() {
         assert!(ended.status.code() == Some(2) && said.contains(word), "{arguments:?}: {said}");
         assert_eq!(std::fs::read_dir(&place).unwrap().count(), 0, "{arguments:?}");
     }
+    assert!(!Path::new(INSIDE).exists());
     std::fs::create_dir(place.path().join("roll")).unwrap();
     std::fs::write(place.path().join("roll/mine"), "kept").unwrap();
     let said = String::from_utf8(new(place.path(), &["roll"]).stderr).unwrap();

@@ -8,7 +8,7 @@ use super::taylor::Stretch;
 
 impl Plant {
     /// Begins to watch the extremes of [`shaft_torque`](Self::shaft_torque) of every shaft. Ticks take some ten times
-    /// longer while watched.
+    /// as long while watched.
     pub fn watch_extremes(&mut self) {
         let time = self.clock.0;
         let now = (0..self.chain.shafts.len()).map(|s| Extremes::of(self.shaft_torque(s), time));

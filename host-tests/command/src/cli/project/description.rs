@@ -234,7 +234,9 @@ fn crate_name(name: &str) -> Result<String, Failure> {
         )));
     }
     if taken.contains(&krate.as_str()) || reserved.contains(&krate.as_str()) {
-        return Err(Failure::usage(format!("`{name}` is a word of Rust or cargo; name the project otherwise")));
+        return Err(Failure::usage(format!(
+            "`{name}` is a reserved word of Rust or cargo; name the project otherwise"
+        )));
     }
     Ok(krate)
 }

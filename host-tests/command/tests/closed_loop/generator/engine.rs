@@ -51,7 +51,7 @@ fn the_engine_gives_the_torque_of_its_rack() {
     }
 }
 
-/// The torque of a rack that jumps comes as late in the mean, over all phases of the jump, as the observer is told; the
+/// On average over all phases of the jump, the torque of a rack comes as late as the observer is told; the
 /// governor allows for more. Late is what an engine that has always had the fuel gives more.
 #[test]
 fn the_engine_is_as_late_as_the_observer_is_told() {

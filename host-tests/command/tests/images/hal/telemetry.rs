@@ -244,7 +244,7 @@ fn what_is_no_telemetry_is_said_to_be_none_and_the_last_recording_stays() {
     let directory = folder.path().join("directory");
     std::fs::create_dir(&directory).unwrap();
     for (source, said) in [
-        (file("empty.bin", &[]), "empty.bin: no record; it gave not a byte"),
+        (file("empty.bin", &[]), "empty.bin: no record: the source sent nothing"),
         (file("garbage.bin", &garbage), "bytes came, and"),
         (file("endless.bin", &[1; 300_000]), "300000 bytes came, and 0 damaged frames"),
         (directory, "directory: Is a directory"),

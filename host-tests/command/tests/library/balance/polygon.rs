@@ -58,7 +58,7 @@ fn a_polygon_mirror_is_read() {
             let mut tacho = OncePerTurn::new();
             let mut phasors = Phasors::<f32, 1, 6>::default();
             for (v, mark) in &samples {
-                // seen by sampling: half a sample ago on the mean
+                // seen by sampling: half a sample ago on average
                 if let Some(angle) = tacho.tick(mark.then_some(1 << 31)) {
                     phasors.measure(&config, angle, &[*v as f32]);
                 }

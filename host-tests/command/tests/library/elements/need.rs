@@ -41,7 +41,7 @@ fn solved(duty: &LoadCycle, damping: f64) -> [f64; 2] {
 }
 
 /// A step and a ramp of half a period, after which the bound `2/(w r)` is reached. The formula has whole swings, 2 %,
-/// and takes the ramp as undamped: during it a swing loses `zeta w r` at the most, half of that on the mean.
+/// and takes the ramp as undamped: during it a swing loses `zeta w r` at the most, half of that on average.
 #[test]
 fn the_shaft_left_out() {
     for damping in [0.0, 0.3, 1.2] {

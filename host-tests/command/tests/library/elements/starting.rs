@@ -55,7 +55,7 @@ fn impact_and_locked_rotor() {
 #[test]
 fn starting_times() {
     let machine = Rigid::new(Inertia(2.0));
-    // 2 kg m2 to 150 rad/s with 300 - 100 N m on the mean.
+    // 2 kg m2 to 150 rad/s with 300 - 100 N m on average.
     close(StartingLaw::Hard { torque: 300.0 }.time_to(&machine, Torque(100.0), 150.0), 1.5, 1e-14);
     for (law, mean) in [
         (StartingLaw::Medium { torque: 300.0, time: 1.0 }, 200.0),

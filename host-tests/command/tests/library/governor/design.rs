@@ -182,7 +182,7 @@ fn what_cannot_work_is_refused_with_a_sentence() {
     assert_eq!(refused(late, f64::INFINITY, none), Error::OptimumFactor);
     assert_eq!(refused(late, 2.0, LoadFeedForward { share: 1.1, lag: 0.0 }), Error::FeedForward);
     assert_eq!(refused(late, 2.0, LoadFeedForward { share: 0.5, lag: -0.1 }), Error::FeedForward);
-    // A loop brisker than its lateness allows, and one that meets the hardly damped shaft.
+    // A loop brisker than its lateness allows, and one that meets the lightly damped shaft.
     assert_eq!(refused(late, 1.05, none), Error::GovernorUnstable);
     let soft = TwoMass::new(Inertia(4.4), Inertia(8.0), Stiffness(2.0e3), Damping(0.5));
     assert_eq!(soft.try_governor(rate, late, 2.0, none), Err(Error::GovernorUnstable));

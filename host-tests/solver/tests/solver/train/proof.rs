@@ -141,7 +141,7 @@ fn a_lossy_gear_that_drives_holds_and_is_driven_back() {
 
 #[test]
 fn a_run_that_chaos_takes_apart_is_refused() {
-    // hardly damped rattling: a difference in the last digit grows with every impact until the two runs have nothing
+    // lightly damped rattling: a difference in the last digit grows with every impact until the two runs have nothing
     // in common
     let mut run = Recording::new(rattling(5.0, 20.0));
     for _ in 0..2000 {
