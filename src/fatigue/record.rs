@@ -36,8 +36,8 @@ impl LifeRecord {
         self.add(&taken, limit);
     }
 
-    /// Takes the whole count, each range of its residue as half a cycle, and the count begins anew: before the controller
-    /// is switched off, so that the cycle from start to stop counts.
+    /// Takes the whole count, each range of its residue as half a cycle, and the count begins anew: before the
+    /// controller is switched off, so that the cycle from start to stop counts.
     pub fn close<N: Classed, const CLASSES: usize, const REVERSALS: usize>(
         &mut self,
         count: &mut Rainflow<N, CLASSES, REVERSALS>,
