@@ -44,6 +44,9 @@ const MOTOR_RANGE: [f32; 2] = [0.75, 1.25];
 /// From an empty hook behind the lightest motor to the largest load behind the heaviest.
 const RUN_UP: RunUpConfig = RunUpConfig::new(M::RATING.torque, M::RATING.speed, [0.7 * MOTOR, 2.1 * MOTOR], 0.01);
 /// Up to a tenth of a degree, from ten turns at rated speed.
+///
+/// As in [`Constants`](crate::scene::Constants), `Any` stands for nothing.
+#[expect(clippy::extra_unused_type_parameters, reason = "what is generic is evaluated where it is used")]
 fn eccentricity<Any>() -> &'static EccentricityConfig {
     const {
         &EccentricityConfig::of_placed(
@@ -126,7 +129,8 @@ macro_rules! follower {
                 self.calibration = TorqueCalibration::new(self.torque.gain(), offset);
             }
 
-            /// As [`Constants::config`](crate::scene::Constants::config), `Any` stands for nothing.
+            /// As in [`Constants`](crate::scene::Constants), `Any` stands for nothing.
+            #[expect(clippy::extra_unused_type_parameters, reason = "what is generic is evaluated where it is used")]
             fn schedule<Any>() -> &'static ScheduleOf<HoistDrive<$number>, 5, 4> {
                 const { &HoistDrive::<$number>::schedule::<M, 5, 4>() }
             }
