@@ -66,7 +66,7 @@
 //! Torque and travel stay within the [`TestSettings`], and so does the shaft, with the exceptions under Limits.
 //! Before the multisine, while it is not known whether the load is free, the torque takes half of the shaft's room at
 //! most, and the first run-up is gentle.
-//! A motor that lags too far ([`Error::NotFollowed`]), a torque that goes from bound to bound
+//! A motor that lags too far ([`Error::NotFollowed`]), a shaft that swings, a torque that goes from bound to bound
 //! ([`Error::Unsteady`]), an angle jump or an exceeded travel ends the test without torque: the brake must hold the
 //! load. Where data do not support an answer the test ends holding the load, with its [`Error`].
 //!
@@ -78,8 +78,9 @@
 //! - Friction is taken as weight, Coulomb and viscous friction over the two speeds of its test.
 //! - The servo takes damping from the swing: with its frequency w, a sixth of the band's lower end, and the resonance
 //!   w_r a damping ratio of about `45 (w/w_r)^3 J_l/J_m`: with equal masses 1.3 % for a band that begins at 0.4 w_r,
-//!   and 0.2 % for one that begins at 0.2 w_r. A shaft that has less is driven into a swing that grows until the torque
-//!   meets its bounds; the shaft may carry more than `shaft_torque` by then: begin the band low.
+//!   and 0.2 % for one that begins at 0.2 w_r. A shaft that has less is driven into a swing that grows. The test ends
+//!   when the motor shows it ([`Error::Unsteady`]); a resonance at two fifths of the band's upper end is then at about
+//!   twice `shaft_torque`: begin the band low.
 //! - All gaps are identified as one, no wider than a tenth of a turn of the motor.
 //! - The gap is identified only where friction holds the load and no weight closes the gap; otherwise
 //!   [`Error::LoadNotHeld`] or [`Error::Preloaded`].
@@ -106,6 +107,7 @@ mod sequence;
 mod servo;
 mod settings;
 mod stage;
+mod swing;
 
 pub use eccentricity::Eccentricity;
 pub use error::Error;

@@ -20,8 +20,8 @@ sentences! {
         connected?",
     NotFollowed => "the motor does not follow the test's torque: more torque, a load that is free, the right first \
         guess of the inertia and the right sign of the angle are expected",
-    Unsteady => "the torque swings from bound to bound: begin the band lower (the shaft has little damping), or give \
-        a smaller first guess of the inertia",
+    Unsteady => "the shaft swings: begin the band lower (the shaft has little damping), or give a smaller first \
+        guess of the inertia",
     TravelExceeded => "the motor left the travel: the load that is held, the first guess of the inertia, or the sign \
         of the torque is wrong",
     TravelTooShort => "the travel is too short for a record that tells the resonance: more travel, less speed, or a \

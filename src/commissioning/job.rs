@@ -81,6 +81,11 @@ impl<const L: usize> Known<L> {
             level: 0.0,
         }
     }
+
+    /// Inertia on the motor's side \[kg m2\], as far as it is known.
+    pub(crate) fn motor_inertia(&self, config: &TestConfig) -> f64 {
+        self.last.map_or(config.settings.inertia, |fit| fit.derived().motor)
+    }
 }
 
 /// The data of a stage, to be solved outside the tick.

@@ -8,6 +8,7 @@ use super::multisine::{Line, Window};
 use super::reference::Reference;
 use super::result::CommissioningResult;
 use super::servo::{Deviation, Servo};
+use super::swing::SwingWatch;
 use super::{Error, Stage, TestConfig};
 use crate::angle::Synchronous;
 
@@ -70,6 +71,7 @@ pub struct Commissioning<const L: usize> {
     taken: f32,
     servo: Servo,
     deviation: Deviation,
+    swing: SwingWatch,
     reference: Reference,
     window: Window,
     lines: [Line; L],
@@ -92,6 +94,7 @@ impl<const L: usize> Commissioning<L> {
     #[must_use]
     pub fn new(config: &TestConfig) -> Self {
         let held = config.settings.held as f32;
+        let deviation = Deviation { disturbance: -held, ..Deviation::default() };
         Self {
             stage: Stage::Holding,
             phase: Phase::Settles,
@@ -112,7 +115,8 @@ impl<const L: usize> Commissioning<L> {
             eccentric: [0.0; 2],
             taken: 0.0,
             servo: Servo::new(config, config.settings.inertia),
-            deviation: Deviation { disturbance: -held, ..Deviation::default() },
+            deviation,
+            swing: SwingWatch::new(config, config.settings.inertia, deviation),
             reference: Reference::default(),
             window: Window::NONE,
             lines: [Line::NONE; L],
@@ -182,6 +186,7 @@ impl<const L: usize> Commissioning<L> {
         self.known = findings.known;
         self.next = findings.next;
         self.servo = findings.servo;
+        self.swing = SwingWatch::new(config, self.known.motor_inertia(config), self.deviation);
         self.eccentric = self.known.eccentric.map(|part| part as f32);
         self.begin(config);
     }
@@ -288,6 +293,12 @@ impl<const L: usize> Commissioning<L> {
         // Written so that a value that is not a number is not followed either.
         if !(self.deviation.angle.abs() <= config.lag) {
             self.refuse(Error::NotFollowed);
+            return;
+        }
+        let swings = self.swing.observe(config, measured, self.torque, self.reference.acceleration);
+        // in a gap the motor swings without the shaft
+        if swings && self.stage != Stage::Backlash {
+            self.refuse(Error::Unsteady);
             return;
         }
         let measures = self.phase == Phase::Measures;

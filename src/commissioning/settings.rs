@@ -43,6 +43,13 @@ const LAG: f64 = 0.5;
 /// Longest run-up \[s\], and longest time for the eight turns that the encoder's test needs.
 const LONGEST: [f64; 2] = [1_800.0, 3_600.0];
 
+/// The most that the swing's watch takes for an acceleration, per radian of error and block^2: the sum of the sizes of
+/// its impulse response.
+const RINGING: f64 = 0.043;
+
+/// Largest eccentricity of an encoder \[rad\]: half a degree.
+const ECCENTRIC: f64 = 0.01;
+
 /// Blocks in a period of the band's upper end, at least.
 const BLOCKS: f64 = 12.0;
 
@@ -79,6 +86,8 @@ pub struct TestConfig {
     pub(crate) servo: f64,
     /// Rate of change of the speed \[rad/s2\].
     pub(crate) acceleration: f64,
+    /// Shaft torque beyond which it swings \[N m\]: the largest one, and what the encoder may seem to add.
+    pub(crate) swing: f32,
 }
 
 /// Finite in `f32` too, since the tick uses `f32`.
@@ -151,6 +160,7 @@ impl TestConfig {
         let turn = 4_294_967_296.0;
         // the largest turn in a tick: three times the speed, and eight counts
         let jump = (3.0 * settings.speed * period + 8.0 * resolution) / TAU * turn;
+        let seeming = RINGING * 0.5 * resolution / (block * block) + ECCENTRIC * settings.speed * settings.speed;
         Ok(Self {
             settings: *settings,
             period,
@@ -166,6 +176,7 @@ impl TestConfig {
             resolution,
             servo,
             acceleration,
+            swing: (settings.shaft_torque + settings.inertia * seeming) as f32,
         })
     }
 

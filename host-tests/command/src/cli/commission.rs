@@ -46,6 +46,9 @@ pub struct Commission {
     /// For a file: rated torque, of the largest torque [default: 0.5]
     #[arg(long, value_name = "SHARE")]
     rated: Option<f64>,
+    /// For a file: where the resonance is looked for [Hz] [default: 0.2 of the antiresonance to 2.5 of the resonance]
+    #[arg(long, value_name = "HZ", num_args = 2, value_names = ["LOW", "HIGH"])]
+    band: Option<Vec<f64>>,
     /// File of the page [default: report/NAME-commissioning.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
@@ -101,6 +104,7 @@ impl Commission {
             ("--travel", self.travel),
             ("--friction", self.friction),
             ("--rated", self.rated),
+            ("--band", self.band.as_ref().map(|_| 1.0)),
         ];
         if !self.machine.ends_with(".toml") {
             if let Some((option, _)) = options.iter().find(|(_, value)| value.is_some()) {
@@ -125,11 +129,13 @@ impl Commission {
         }
         let path = PathBuf::from(&self.machine);
         let machine = read_chain(&path)?;
+        let band = self.band.as_deref().and_then(|band| band.try_into().ok());
         let trial = Trial {
             speed: self.speed.unwrap_or(0.2),
             travel: self.travel.unwrap_or(1.0e4),
             friction: self.friction.unwrap_or(0.0),
             rated: self.rated.unwrap_or(0.5),
+            band,
         };
         let case = of_file(&machine, trial).map_err(|error| Failure::usage(format!("{}: {error}", self.machine)))?;
         if let Err(reason) = TestConfig::try_new(&case.settings) {
@@ -137,7 +143,8 @@ impl Commission {
             if reason == Error::ShaftTorque {
                 return Err(Failure::usage(format!("{}: {}", self.machine, too_heavy(&case, rated))));
             }
-            let tried = format!("with --speed {speed:?} --travel {travel:?} --rated {rated:?}");
+            let [low, high] = case.settings.band.map(significant);
+            let tried = format!("with --speed {speed:?} --travel {travel:?} --rated {rated:?} --band {low} {high}");
             return Err(Failure::usage(format!("{}: {reason}, {tried}", self.machine)));
         }
         Ok(case)

@@ -166,10 +166,13 @@ pub struct Trial {
     pub friction: f64,
     /// Rated torque, of the file's largest.
     pub rated: f64,
+    /// Where the resonance is looked for \[Hz\]; else from a fifth of the antiresonance to two and a half times the
+    /// resonance.
+    pub band: Option<[f64; 2]>,
 }
 
 /// A machine from a file: its plant by its chain, without the losses of its gears. The test's data are the motor's own
-/// inertia, the weight, and a band from two fifths of the antiresonance to two and a half times the resonance.
+/// inertia, the weight and the band.
 ///
 /// # Errors
 /// A sentence: a machine with fewer than two masses, or what the plant refuses.
@@ -205,7 +208,7 @@ pub fn of_file(machine: &MachineFile, trial: Trial) -> Result<Case, String> {
             travel: trial.travel,
             held: chain.gravity_torque(),
             inertia: *motor,
-            band: [0.4 * antiresonance, (2.5 * resonance).min(0.1 * rate)],
+            band: trial.band.unwrap_or([0.2 * antiresonance, (2.5 * resonance).min(0.1 * rate)]),
             torque_accuracy: machine.disturbance.torque_accuracy,
             delay: 0.0,
         },

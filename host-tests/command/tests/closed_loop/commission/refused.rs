@@ -1,6 +1,7 @@
 //! What the data do not support is refused, with the reason.
 
-use cargo_driveline::commissioning::{Case, Course, named, on_host, verdict};
+use cargo_driveline::commissioning::{Case, Course, Trial, named, of_file, on_host, verdict};
+use cargo_driveline::machine_file::parse;
 use driveline::commissioning::{Commissioning, Error, Stage, TestConfig, TestSettings};
 use driveline::design::{Encoder, Rate};
 use driveline_firmware::scenes::commission::{SPINDLE, reason};
@@ -21,6 +22,25 @@ fn refused(case: &Case) -> Option<Error> {
     // Bounded all the same: within half of rated.
     assert!(course.peak < 0.5 * case.rated_torque, "{}", course.peak);
     reason(course.reasons[0])
+}
+
+#[test]
+fn a_shaft_that_the_servo_swings() {
+    // The README's machine, with a damping ratio of 0.4 %: a band that begins at 0.4 of its antiresonance takes 0.5 %.
+    let roll = "[[element]]\nkind = \"motor\"\ninertia = 0.35\n\
+        [[element]]\nkind = \"shaft\"\nlabel = \"coupling\"\nstiffness = 2.0e4\ndamping = 0.5\n\
+        [[element]]\nkind = \"rotor\"\nlabel = \"roll\"\ninertia = 0.48\n\
+        [encoder]\nlines = 2048\n[control]\nrate_hz = 10000\n\
+        [disturbance]\ntorque_accuracy = 3.0\nload_torque_step = 150.0\nwithin = 10.0\n\
+        [limits]\ntorque = 550.0\nspeed = 150.0\n";
+    let machine = parse("roll.toml", roll).unwrap();
+    let trial = |band| Trial { speed: 0.2, travel: 1.0e4, friction: 0.0, rated: 0.5, band };
+    let course = run(&of_file(&machine, trial(Some([13.0, 125.0]))).unwrap());
+    assert_eq!(reason(course.reasons[0]), Some(Error::Unsteady));
+    // The bound is half of rated; the watch sees this resonance at half of its size, and the encoder's counts add 12 %.
+    assert!(course.peak < 1.2 * 275.0, "{}", course.peak);
+    let low = run(&of_file(&machine, trial(None)).unwrap());
+    assert!(low.figures.is_some() && low.peak < 0.5 * 275.0, "{}", low.peak);
 }
 
 #[test]
