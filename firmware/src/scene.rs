@@ -120,7 +120,8 @@ pub trait FromConfig: Scene {
 /// The variant of a scene for a machine, with the constants that follow from the machine.
 pub struct Of<M, S>(PhantomData<(M, S)>);
 
-/// A variant's drive at rest; generic for the reason given at [`Constants`].
+/// A variant's drive at rest; generic for the reason given at [`Constants`], and called through a constant pointer for
+/// the same: inlined, it would be evaluated for all variants.
 #[inline]
 pub fn at_rest<V: Constants>() -> V::Scene {
     V::Scene::from_config(V::CONFIG)

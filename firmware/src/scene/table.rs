@@ -140,7 +140,8 @@ macro_rules! variants {
 
             #[inline]
             fn start() -> Self::Scene {
-                $crate::scene::at_rest::<Self>()
+                let at_rest: fn() -> Self::Scene = const { $crate::scene::at_rest::<Self> };
+                at_rest()
             }
 
             #[inline]

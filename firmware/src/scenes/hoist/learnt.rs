@@ -5,7 +5,7 @@
 //! The torque constant and the motor's inertia are learnt while the panel has named the load: with the empty hook and
 //! a test weight, up and down at rated speed and with steps of the speed.
 
-use driveline::configure::{Machine, ScheduleOf, Units};
+use driveline::configure::{Family, Machine, ScheduleOf, Units};
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::learning::{
@@ -45,16 +45,9 @@ const MOTOR_RANGE: [f32; 2] = [0.75, 1.25];
 const RUN_UP: RunUpConfig = RunUpConfig::new(M::RATING.torque, M::RATING.speed, [0.7 * MOTOR, 2.1 * MOTOR], 0.01);
 /// Up to a tenth of a degree, from ten turns at rated speed.
 ///
-/// As in [`Constants`](crate::scene::Constants), `Any` stands for nothing.
-#[expect(clippy::extra_unused_type_parameters, reason = "what is generic is evaluated where it is used")]
-fn eccentricity<Any>() -> &'static EccentricityConfig {
-    const {
-        &EccentricityConfig::of_placed(
-            &<M as driveline::configure::Family<5, 4>>::OBSERVERS[1][2],
-            0.1 * core::f64::consts::PI / 180.0,
-            0.4,
-        )
-    }
+/// Generic and called through a constant pointer for the reason given at [`at_rest`](crate::scene::at_rest).
+fn eccentricity<F: Family<5, 4>>() -> &'static EccentricityConfig {
+    const { &EccentricityConfig::of_placed(&F::OBSERVERS[1][2], 0.1 * core::f64::consts::PI / 180.0, 0.4) }
 }
 /// Gravity \[m/s2\], the standard value of ISO 80000-3.
 const GRAVITY: f32 = 9.80665;
@@ -129,17 +122,18 @@ macro_rules! follower {
                 self.calibration = TorqueCalibration::new(self.torque.gain(), offset);
             }
 
-            /// As in [`Constants`](crate::scene::Constants), `Any` stands for nothing.
-            #[expect(clippy::extra_unused_type_parameters, reason = "what is generic is evaluated where it is used")]
-            fn schedule<Any>() -> &'static ScheduleOf<HoistDrive<$number>, 5, 4> {
-                const { &HoistDrive::<$number>::schedule::<M, 5, 4>() }
+            /// Generic and called through a constant pointer for the reason given at
+            /// [`at_rest`](crate::scene::at_rest).
+            fn schedule<F: Family<5, 4>>() -> &'static ScheduleOf<HoistDrive<$number>, 5, 4> {
+                const { &HoistDrive::<$number>::schedule::<F, 5, 4>() }
             }
 
             #[inline]
             fn follow(&mut self, drive: &mut HoistDrive<$number>, estimate: &Estimate<f32>) {
                 let mass = self.mass.update(&MASS, estimate.load_torque);
                 let length = self.rope.update(drive.angle(), estimate.motor_speed, 0.05);
-                drive.follow(&mut self.config, Self::schedule::<()>(), 1e3 / mass, 1.0 / length.max(1.0));
+                let schedule: fn() -> &'static ScheduleOf<HoistDrive<$number>, 5, 4> = const { Self::schedule::<M> };
+                drive.follow(&mut self.config, schedule(), 1e3 / mass, 1.0 / length.max(1.0));
                 self.config.observer.friction = Magnitude::of(self.loss.friction());
                 let motor = &mut self.config.observer.observer.motor;
                 *motor = Magnitude::scaled(motor, 1.0 / self.motor);
@@ -220,7 +214,8 @@ macro_rules! follower {
                         self.follow(drive, &estimate);
                     }
                     if self.ticks % ECCENTRICITY_TICKS == 0 {
-                        drive.observer_mut().learn(eccentricity::<()>(), estimate.motor_speed);
+                        let eccentricity: fn() -> &'static EccentricityConfig = const { eccentricity::<M> };
+                        drive.observer_mut().learn(eccentricity(), estimate.motor_speed);
                     }
                 }
                 self.answer(drive, asked)
