@@ -118,8 +118,8 @@ fn an_observer_brings_nothing_of_another() {
     }
 }
 
-/// A drive of nothing but an observer is an observer that is called by hand with the same screening: the same RAM and
-/// constants to the byte. The code is the same but for how often the compiler repeats what is done with a bad angle: 20
+/// A drive of nothing but an observer is an observer that is called by hand with the same screening: the same RAM to
+/// the byte, and the same constants but for a letter of the variant's name and its alignment to a word. The code is the same but for how often the compiler repeats what is done with a bad angle: 20
 /// bytes of 648 more on M4F, 90 of 816 on M3. An eighth is what that may be; a part that is not left out takes more.
 #[test]
 fn a_drive_of_an_observer_alone_is_that_observer() {
@@ -129,7 +129,7 @@ fn a_drive_of_an_observer_alone_is_that_observer() {
         let what =
             format!("{core}: {:?} {} and {:?} {}", drive.sizes, drive.tick_code, by_hand.sizes, by_hand.tick_code);
         assert_eq!(drive.sizes.ram(), by_hand.sizes.ram(), "{what}");
-        assert_eq!(drive.sizes.constants, by_hand.sizes.constants, "{what}");
+        assert!(drive.sizes.constants.abs_diff(by_hand.sizes.constants) <= 4, "{what}");
         let allowed = by_hand.tick_code / 8 + ALIGNMENT;
         assert!(drive.tick_code <= by_hand.tick_code + allowed, "{what}");
         assert!(drive.sizes.text <= by_hand.sizes.text + allowed, "{what}");
