@@ -150,6 +150,8 @@ impl RunUp {
             return Finding::None;
         }
         if (now.torque - last.torque).abs() > SAME_TORQUE * config.torque {
+            // another load: nothing confirms what was found under the last one
+            self.unconfirmed = None;
             return Finding::Rejected;
         }
         let steady = 0.5 * (now.torque + last.torque) * count as f32;

@@ -146,8 +146,10 @@ impl Record {
     pub fn open(path: &Path, settings: &Settings) -> Result<Self, String> {
         let name = path.display();
         let system = |error: std::io::Error| format!("{name}: {error}");
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(system)?;
+        if path.metadata().is_ok_and(|there| !there.is_file()) {
+            return Err(format!(
+                "{name} is not a file, which a campaign could go on from; name another with --results"
+            ));
         }
         let mut file =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).map_err(system)?;
@@ -158,9 +160,10 @@ impl Record {
         if Settings::parse(&text).is_some_and(|fewer| settings.extends(&fewer)) {
             // beside it first: a kill loses nothing
             let (_, outcomes, _) = parse(path, &text)?;
-            let beside = path.with_extension("extended");
-            std::fs::write(&beside, settings.file(&outcomes)).map_err(system)?;
-            std::fs::rename(&beside, path).map_err(system)?;
+            let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+            let mut beside = tempfile::NamedTempFile::new_in(folder).map_err(system)?;
+            beside.write_all(settings.file(&outcomes).as_bytes()).map_err(system)?;
+            beside.persist(path).map_err(|error| system(error.error))?;
             drop(file);
             return Self::open(path, settings);
         }

@@ -164,7 +164,9 @@ impl Campaign {
         };
         let path = self.results.clone().unwrap_or_else(|| PathBuf::from(usual));
         let page = Destination::page_unless(self.json || shard.is_some(), self.html.as_deref(), &page_name(name));
-        check(&[&path], &page)?;
+        let results = Destination::chosen("results", &path);
+        check(&[], [&results].into_iter().chain(&page))?;
+        results.make_folder()?;
         let nominal = run(scene, &drive, &Draw::nominal()).map_err(Failure::failed)?;
         let settings =
             Settings { variant: drive.name(scene.name), draws: self.draws, seed: self.seed, tolerances, nominal };
@@ -177,7 +179,7 @@ impl Campaign {
             say(format_args!("shard {which} of {of}: {}", path.display()));
             return Ok(());
         }
-        Destination::chosen("results", &path).write(&settings.file(&record.outcomes))?;
+        results.write(&settings.file(&record.outcomes))?;
         show(&Summary::of(&settings, &record.outcomes), page.as_ref(), self.json)
     }
 

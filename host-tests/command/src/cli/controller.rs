@@ -5,6 +5,7 @@ use driveline::design::{
     RigidDesign, Robustness, SpeedLoopDesign, StepChoice, TwoMassDesign,
 };
 use driveline::machine::TwoMass;
+use driveline_report::format::{percent, significant};
 use serde::Serialize;
 
 use crate::machine_file::MachineFile;
@@ -37,6 +38,8 @@ pub struct Plan {
     pub need: Option<Needed>,
     /// Errors over the tolerances, for two masses.
     pub predicted: Option<Predicted>,
+    /// Reasons why the design may not do for this machine.
+    pub warnings: Vec<String>,
 }
 
 /// Selection of an observer.
@@ -293,10 +296,32 @@ impl Plan {
             Some(two) => {
                 let designs = Designs::of(machine, &two)?;
                 let speed_loop = SpeedLoop::of(machine, &two, &designs.two_masses, &designs.speed_loop)?;
-                Ok(Self::two_mass(machine, &designs, speed_loop))
+                Ok(Self::two_mass(machine, &designs, speed_loop).warned(machine))
             }
-            None => Ok(Self::rigid(machine, &machine.rigid()?.try_observer(rate, encoder, disturbance)?)),
+            None => {
+                Ok(Self::rigid(machine, &machine.rigid()?.try_observer(rate, encoder, disturbance)?).warned(machine))
+            }
         }
+    }
+
+    fn warned(mut self, machine: &MachineFile) -> Self {
+        let (weight, torque) = (machine.gravity_torque().abs(), machine.limits.torque);
+        if weight >= torque {
+            self.warnings.push(format!(
+                "the weight of {} N m at the motor is not held by `limits.torque`, {} N m: a larger torque or a \
+                 lighter load is expected",
+                significant(weight),
+                significant(torque)
+            ));
+        }
+        if let Some(shaft) = self.shaft.as_ref().filter(|shaft| shaft.reduction_error > Shaft::LARGE_REDUCTION_ERROR) {
+            self.warnings.push(format!(
+                "two masses are a poor model of this machine: the neglected modes may be {} of a step of the motor's \
+                 speed; see the modes with `cargo driveline modes`",
+                percent(shaft.reduction_error)
+            ));
+        }
+        self
     }
 
     fn two_mass(machine: &MachineFile, designs: &Designs, speed_loop: SpeedLoop) -> Self {
@@ -319,6 +344,7 @@ impl Plan {
         Self {
             name: machine.name.clone(),
             need: machine.duty.map(|_| needed(&designs.nominal)),
+            warnings: Vec::new(),
             predicted: Some(Predicted::of(machine, designs)),
             observer: "two-mass",
             rate_hz: machine.control.rate_hz,
@@ -349,6 +375,7 @@ impl Plan {
             name: machine.name.clone(),
             need: None,
             predicted: None,
+            warnings: Vec::new(),
             observer: "rigid",
             rate_hz: machine.control.rate_hz,
             inertias: vec![observer.machine.inertia],

@@ -92,24 +92,10 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
     }
     fact("weight", machine.gravity_torque(), "N m");
     text.push_str(&format!("{facts}\n"));
-    let (weight, torque) = (machine.gravity_torque().abs(), machine.limits.torque);
-    if weight >= torque {
-        text.push_str(&format!(
-            "warning: the weight of {} N m at the motor is not held by `limits.torque`, {} N m: a larger torque or a \
-             lighter load is expected\n\n",
-            significant(weight),
-            significant(torque)
-        ));
+    for warning in &plan.warnings {
+        text.push_str(&format!("warning: {warning}\n\n"));
     }
     if let Some(shaft) = &plan.shaft {
-        if shaft.reduction_error > super::controller::Shaft::LARGE_REDUCTION_ERROR {
-            text.push_str(&format!(
-                "warning: two masses are a poor model of this machine: the neglected modes may be {} of a step of the \
-                    motor's speed; \
-                 see the modes with `cargo driveline modes`\n\n",
-                percent(shaft.reduction_error)
-            ));
-        }
         let bound = match shaft.semi_implicit_error {
             Some(error) => format!("off by {} over a period of the resonance", percent(error)),
             None => "unstable".to_owned(),

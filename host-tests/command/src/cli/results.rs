@@ -62,6 +62,15 @@ impl Destination {
         Ok(())
     }
 
+    /// Makes its folder, where that is made.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn make_folder(&self) -> Result<(), Failure> {
+        let made = if self.makes_folder { fs::create_dir_all(folder_of(&self.path)) } else { Ok(()) };
+        made.map_err(|error| self.unwritable(&error))
+    }
+
     fn put(&self, text: &str) -> io::Result<()> {
         let there = fs::metadata(&self.path).ok();
         if there.as_ref().is_some_and(|there| !there.is_file()) {

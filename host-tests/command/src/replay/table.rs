@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use driveline::fault::Faults;
 use driveline_report::Table;
-use driveline_report::format::{percent, significant};
+use driveline_report::format::{counted, percent, significant};
 use serde::Serialize;
 
 use super::run::{Course, Replayed};
@@ -44,7 +44,8 @@ fn summary(replayed: &Replayed, course: &Course) -> Summary {
         (size > 0.0).then(|| rms(&errors, floating) / size)
     };
     let innovation = rms(course.innovation.get(skip..).unwrap_or_default(), false);
-    let ticks = |fault: Faults| course.faults.iter().skip(skip).filter(|faults| faults.contains(fault)).count();
+    // of the whole recording: a flag of the first ticks is one, too
+    let ticks = |fault: Faults| course.faults.iter().filter(|faults| faults.contains(fault)).count();
     let faults = Faults::NAMES.iter().map(|(fault, name)| (*name, ticks(*fault))).filter(|(_, count)| *count > 0);
     Summary {
         number: course.number,
@@ -77,8 +78,11 @@ pub fn table(replayed: &Replayed) -> Table {
     ]);
     for summary in summaries(replayed) {
         let share = |error: Option<f64>| error.map_or_else(|| "not measured".to_owned(), percent);
-        let flags: Vec<String> =
-            summary.faults.iter().map(|(name, count)| format!("{name} in {count} ticks")).collect();
+        let flags: Vec<String> = summary
+            .faults
+            .iter()
+            .map(|(name, count)| format!("{name} in {}", counted(*count as u64, "tick")))
+            .collect();
         table.row([
             summary.number.to_owned(),
             significant(summary.innovation),

@@ -87,8 +87,10 @@ fn a_campaign_goes_on_to_more_draws() {
     let folder = tempfile::tempdir().unwrap();
     let whole = spindle(folder.path(), "6", "whole", &[]);
     spindle(folder.path(), "3", "grown", &[]);
+    fs::write(folder.path().join("grown.extended"), "kept").unwrap();
     assert_eq!(spindle(folder.path(), "6", "grown", &[]).stdout, whole.stdout);
     assert_eq!(fs::read(folder.path().join("grown")).unwrap(), fs::read(folder.path().join("whole")).unwrap());
+    assert_eq!(fs::read_to_string(folder.path().join("grown.extended")).unwrap(), "kept");
     // not back to fewer
     let fewer = campaign(folder.path(), &["spindle", "--draws", "3", "--results", "grown"]);
     assert!(String::from_utf8_lossy(&fewer.stderr).contains("it has `draws 6`, this one `draws 3`"));
@@ -323,6 +325,19 @@ fn a_drive_with_learners_finds_its_machine_before_the_run() {
         assert!(better, "draw {number}: shaft torque {torque:?}, load speed {speed:?}");
         assert_eq!((learnt.of(Figure::Flagged), learnt.is_unstable()), (0.0, false));
     }
+}
+
+#[test]
+fn results_that_no_campaign_could_go_on_from_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (results, why) in
+        [("/dev/full", "is not a file"), ("resluts/all", "there is no folder resluts"), (".", "is a folder")]
+    {
+        let output = campaign(folder.path(), &["spindle", "--draws", "2", "--results", results]);
+        let sentence = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && sentence.contains(why), "{results}: {sentence}");
+    }
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
 }
 
 #[test]
