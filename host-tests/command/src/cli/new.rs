@@ -87,7 +87,8 @@ impl Board {
 struct Values {
     #[serde(flatten)]
     project: Project,
-    c: bool,
+    /// To other languages or programs: none.
+    interface: &'static str,
     board: String,
     board_name: &'static str,
     target: &'static str,
@@ -110,7 +111,7 @@ impl New {
             None => ("roll.toml".to_owned(), ROLL.to_owned()),
         };
         let machine = parse(&place, &source)?;
-        let project = Project::of(&machine, name, self.board.number(), &self.parts)?;
+        let project = Project::of(&machine, name, self.board.number(), &self.parts)?.robust()?;
         is_free(&self.name)?;
         is_outside(&self.name)?;
         let facts = self.board.facts();
@@ -118,7 +119,7 @@ impl New {
         let observer = project.observer().to_owned();
         let values = Values {
             project,
-            c: false,
+            interface: "",
             board: self.board.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default(),
             board_name: match self.board {
                 Board::QemuM4f => "a Cortex-M4F in QEMU",

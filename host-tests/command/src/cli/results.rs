@@ -46,16 +46,16 @@ impl Destination {
     ///
     /// # Errors
     /// What the file system says; what stood there is left as it was.
-    pub fn write(&self, text: &str) -> Result<(), Failure> {
-        self.put(text).map_err(|error| self.unwritable(&error))
+    pub fn write(&self, bytes: &(impl AsRef<[u8]> + ?Sized)) -> Result<(), Failure> {
+        self.put(bytes.as_ref()).map_err(|error| self.unwritable(&error))
     }
 
     /// Writes it, and says where it is unless there is JSON on standard output.
     ///
     /// # Errors
     /// As [`write`](Self::write).
-    pub fn write_and_say(&self, text: &str, json: bool) -> Result<(), Failure> {
-        self.write(text)?;
+    pub fn write_and_say(&self, bytes: &(impl AsRef<[u8]> + ?Sized), json: bool) -> Result<(), Failure> {
+        self.write(bytes)?;
         if !json {
             say(printable(&format!("{}: {}", self.what, self.name()), usize::MAX));
         }
@@ -71,11 +71,11 @@ impl Destination {
         made.map_err(|error| self.unwritable(&error))
     }
 
-    fn put(&self, text: &str) -> io::Result<()> {
+    fn put(&self, bytes: &[u8]) -> io::Result<()> {
         let there = fs::metadata(&self.path).ok();
         if there.as_ref().is_some_and(|there| !there.is_file()) {
             // a terminal, a pipe: nothing to rename
-            return OpenOptions::new().write(true).open(&self.path)?.write_all(text.as_bytes());
+            return OpenOptions::new().write(true).open(&self.path)?.write_all(bytes);
         }
         // through a symbolic link to the file that it leads to
         let path = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
@@ -85,7 +85,7 @@ impl Destination {
         }
         let permissions = there.map_or_else(|| fs::Permissions::from_mode(0o666), |there| there.permissions());
         let mut beside = tempfile::Builder::new().prefix(".driveline-").permissions(permissions).tempfile_in(folder)?;
-        beside.write_all(text.as_bytes())?;
+        beside.write_all(bytes)?;
         // a disk that is full may say so only here
         beside.as_file().sync_all()?;
         beside.persist(path)?;

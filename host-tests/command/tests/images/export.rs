@@ -27,7 +27,7 @@ use tempfile::TempDir;
 
 #[rustfmt::skip]
 #[path = "export/hoist.rs"]
-mod hoist;
+pub mod hoist;
 
 type HoistDrive<N> = Drive<N, GearedObserver<SemiImplicitObserver<N>>, (), SpeedLoop<N>>;
 

@@ -2,6 +2,7 @@
 
 mod balance;
 mod export;
+mod fmu;
 mod hal;
 mod image;
 mod leave_out;

@@ -1,25 +1,21 @@
 //! The library for C: written as a crate, compiled, and handed over with its header.
 
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Stdio};
-
 use serde::Serialize;
 
 use super::archive::DriveObject;
+use super::build::build;
 use super::core::Core;
 use super::interface::{Fault, REFUSALS, Refusal, faults, version};
 use crate::cli::Failure;
 use crate::cli::project::{Project, fill};
-use driveline_qemu::children::{Folder, Running};
-use driveline_qemu::setup::cargo;
 
 /// Inputs of the templates. What the compiler decides is zero in those of the crate.
 #[derive(Debug, Serialize)]
 struct Values<'p> {
     #[serde(flatten)]
     project: &'p Project,
-    c: bool,
+    interface: &'static str,
+    of: &'static str,
     core: String,
     core_name: &'static str,
     flags: &'static str,
@@ -51,7 +47,8 @@ pub struct Library {
 pub fn library(project: &Project, source: &str, core: Core) -> Result<Library, Failure> {
     let mut values = Values {
         project,
-        c: true,
+        interface: "c",
+        of: "controller",
         core: core.key(),
         core_name: core.name(),
         flags: core.flags(),
@@ -75,7 +72,8 @@ pub fn library(project: &Project, source: &str, core: Core) -> Result<Library, F
     ]
     .map(|(path, template)| (format!("rust/{path}"), fill(template, &values).into_bytes()))
     .into();
-    let object = compiled(&files, &project.krate, core)?;
+    let archive = build(&files, core.target(), &format!("lib{}.a", project.krate), false)?;
+    let object = DriveObject::find(&archive, &project.krate).map_err(Failure::failed)?;
     let reachable = format!("{}_panic_is_reachable", project.krate);
     if object.undefined.contains(&reachable) {
         return Err(Failure::failed("the drive of this machine could panic, and is not handed over: please report it"));
@@ -98,39 +96,4 @@ pub fn library(project: &Project, source: &str, core: Core) -> Result<Library, F
     files.push((format!("lib{krate}.a"), object.archive()));
     files.push(("machine.toml".to_owned(), source.into()));
     Ok(Library { files, state: size, undefined: object.undefined })
-}
-
-/// Compiles the crate in a temporary folder.
-fn compiled(files: &[(String, Vec<u8>)], krate: &str, core: Core) -> Result<DriveObject, Failure> {
-    let failed = |error: std::io::Error| Failure::failed(format!("the library cannot be built: {error}"));
-    let folder = Folder::make().map_err(failed)?;
-    for (path, bytes) in files {
-        let path = folder.path().join(path);
-        fs::create_dir_all(path.parent().unwrap_or(folder.path())).map_err(failed)?;
-        fs::write(path, bytes).map_err(failed)?;
-    }
-    let mut command = Command::new(cargo());
-    command
-        .args(["build", "--release", "--quiet", "--target-dir"])
-        .arg(folder.path().join("target"))
-        .args(core.target().iter().flat_map(|target| ["--target", target]))
-        .current_dir(folder.path().join("rust"))
-        // flags for the caller's own crates
-        .env_remove("RUSTFLAGS")
-        .env_remove("CARGO_ENCODED_RUSTFLAGS")
-        .env_remove("CARGO_BUILD_TARGET")
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped());
-    let mut child = Running::start(&mut command).map_err(failed)?;
-    let mut said = String::new();
-    if let Some(mut stderr) = child.stderr.take() {
-        std::io::Read::read_to_string(&mut stderr, &mut said).map_err(failed)?;
-    }
-    if !child.wait().map_err(failed)?.success() {
-        return Err(Failure::failed(format!("the compiler refused the drive of this machine:\n{}", said.trim_end())));
-    }
-    let built = core.target().map_or_else(|| "target".into(), |target| Path::new("target").join(target));
-    let archive = folder.path().join(built).join("release").join(format!("lib{krate}.a"));
-    DriveObject::find(&fs::read(archive).map_err(failed)?, krate).map_err(Failure::failed)
 }

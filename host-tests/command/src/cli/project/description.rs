@@ -30,7 +30,7 @@ impl Number {
 }
 
 /// A machine and its drive, in the words of Rust.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Debug, Serialize)]
 pub struct Project {
     /// The package: `feed-axis`.
     pub name: String,
@@ -49,7 +49,8 @@ pub struct Project {
     encoder: String,
     torque: String,
     speed: String,
-    rate_hz: u32,
+    /// Ticks a second.
+    pub rate_hz: u32,
     torque_accuracy: String,
     load_torque_step: String,
     within: String,
@@ -68,6 +69,9 @@ pub struct Project {
     driveline: String,
     solver: String,
     firmware: String,
+    /// Why there is no drive.
+    #[serde(skip)]
+    not_robust: Option<Failure>,
 }
 
 /// A mass of the machine, and the shaft before it, at the motor.
@@ -111,9 +115,6 @@ impl Project {
             return Err(refused("it has no shaft, and a drive needs one between motor and load"));
         };
         let plan = Plan::of(machine).map_err(|error| refused(error.message()))?;
-        if let Some(why) = plan.speed_loop.as_ref().and_then(|design| design.not_robust) {
-            return Err(refused(why));
-        }
         let observers = observers(machine, &plan);
         let words = words(machine);
         let float = |value: f64| format!("{value:?}");
@@ -168,7 +169,16 @@ impl Project {
             driveline: Source::find().dependency(""),
             solver: Source::find().dependency("host-tests/solver"),
             firmware: Source::find().dependency("firmware"),
+            not_robust: plan.speed_loop.as_ref().and_then(|design| design.not_robust).map(refused),
         })
+    }
+
+    /// Itself, if its drive is robust; the machine alone needs none.
+    ///
+    /// # Errors
+    /// A speed loop without the margins that a drive must have.
+    pub fn robust(mut self) -> Result<Self, Failure> {
+        self.not_robust.take().map_or(Ok(self), Err)
     }
 
     /// The observer as a type.

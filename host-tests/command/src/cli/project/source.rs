@@ -31,6 +31,14 @@ impl Source {
         }
     }
 
+    /// The clone's `Cargo.lock`: the versions that it was tested with.
+    pub fn lock(&self) -> Option<Vec<u8>> {
+        match self {
+            Source::Clone(root) => std::fs::read(root.join("Cargo.lock")).ok(),
+            Source::Published(_) => None,
+        }
+    }
+
     /// The comment above the dependencies.
     pub fn note(&self) -> &'static str {
         match self {
