@@ -115,6 +115,7 @@ fn check(section: &Section, at: &Place, listings: &[Table], read: Reader) -> Vec
             "start",
             "run",
             "element",
+            "engine",
             "branch",
             "encoder",
             "control",

@@ -6,6 +6,7 @@ mod cli;
 mod cli_emit;
 mod critical;
 mod elements;
+mod engine;
 mod identify;
 mod machine_file;
 #[path = "../references/mod.rs"]
