@@ -1,6 +1,7 @@
 //! The elements of machines against textbooks, published machines and closed forms.
 
 mod crank;
+mod damper;
 mod engine;
 mod need;
 mod prime_mover;
