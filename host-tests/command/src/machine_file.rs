@@ -90,13 +90,15 @@
 //! For a diagram of critical speeds, `[running]` gives the speeds `least` and `greatest` of the motor \[rad/s\], and
 //! each
 //! `[[excitation]]` its `name`, its `orders`, and the `ratio` of the motor's speed over that of the shaft that
-//! excites (1 where it is left out). `[engine]` describes a piston engine on masses of the machine. For `simulate` see [`train`].
+//! excites (1 where it is left out). `[engine]` describes a piston engine on masses of the machine, `[[damper]]` a
+//! damper that `modes` sizes. For `simulate` see [`train`].
 //!
 //! Every element may have a `label`, which tables and plots then use. Quantities stand on their own shaft, as a data
 //! sheet gives them; the library refers them to the motor.
 
 pub mod balance;
 pub mod class;
+mod damper;
 pub mod designs;
 mod diagnostic;
 mod element;
@@ -112,6 +114,7 @@ pub(crate) mod station;
 mod table;
 pub mod train;
 
+pub use damper::DamperRing;
 pub use diagnostic::{Diagnostic, Fault};
 pub use element::Element;
 pub use engine::Engine;
@@ -157,6 +160,9 @@ pub struct MachineFile {
     /// Its piston engine, whose excitation is the last of them.
     #[serde(skip)]
     pub engine: Option<Engine>,
+    /// Its dampers.
+    #[serde(skip)]
+    pub dampers: Vec<DamperRing>,
     /// How the machine is shaken, if the file says.
     pub duty: Option<Duty>,
     /// The elements as the library's chain, referred to the motor.

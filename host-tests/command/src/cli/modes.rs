@@ -2,6 +2,7 @@
 
 mod campbell;
 mod chain;
+mod damper;
 mod engine;
 mod figures;
 mod page;

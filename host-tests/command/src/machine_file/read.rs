@@ -10,6 +10,7 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use super::class::Class;
+use super::damper::DamperRing;
 use super::diagnostic::Diagnostic;
 use super::engine::{self, Engine, Turning};
 use super::excitation::excitations;
@@ -134,6 +135,8 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         }
         excitations.push(engine.excitation());
     }
+    let modes = train.as_ref().map_or(chain.masses().len(), |train| train.masses().len()) - 1;
+    let dampers = DamperRing::read_all(&mut root, &masses, modes)?;
     // what a run of it needs is read by `read_train`
     root.pass(&["link", "torque", "friction", "start", "run"]);
     let duty = match root.table_if("duty")? {
@@ -162,6 +165,7 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         running,
         excitations,
         engine,
+        dampers,
         duty,
         chain,
         branches,

@@ -116,6 +116,7 @@ fn check(section: &Section, at: &Place, listings: &[Table], read: Reader) -> Vec
             "run",
             "element",
             "engine",
+            "damper",
             "branch",
             "encoder",
             "control",

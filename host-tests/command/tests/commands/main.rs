@@ -5,6 +5,7 @@ mod campaign;
 mod cli;
 mod cli_emit;
 mod critical;
+mod damper;
 mod elements;
 mod engine;
 mod identify;

@@ -6,6 +6,7 @@ use driveline::machine::{Element, Joint, Match};
 use serde::Serialize;
 
 use super::campbell::{Critical, critical_speeds};
+use super::damper::{Damped, dampers};
 use super::engine::{FreeForces, excite, free};
 use crate::machine_file::MachineFile;
 
@@ -31,6 +32,8 @@ pub struct Vibration {
     pub critical: Vec<Critical>,
     /// Free forces and moments of the engine; `null` without one.
     pub engine: Option<FreeForces>,
+    /// The dampers, each alone.
+    pub dampers: Vec<Damped>,
     /// Changes without each part of a chain, the smallest first.
     pub worth: Vec<Leaving>,
 }
@@ -165,6 +168,7 @@ impl Vibration {
             name: machine.name.clone(),
             critical,
             engine: free(machine),
+            dampers: dampers(machine, modes.resonances()),
             resonances: modes.resonances().iter().map(resonance).collect(),
             antiresonances: modes.antiresonances().to_vec(),
             reductions: reductions(machine, &shafts),

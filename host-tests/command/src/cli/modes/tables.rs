@@ -7,7 +7,7 @@ use driveline_report::{Section, Table};
 
 use super::campbell::critical;
 use super::chain::{Leaving, Reduction, Vibration, WORTH};
-use super::engine;
+use super::{damper, engine};
 
 /// The tables as title, explanation and table: for the terminal and the page alike.
 pub fn tables(vibration: &Vibration) -> Vec<Section> {
@@ -40,6 +40,7 @@ pub fn tables(vibration: &Vibration) -> Vec<Section> {
     all.push(Section::new("Frequencies and shapes", text, modes));
     all.extend(critical(&vibration.critical));
     all.extend(vibration.engine.as_ref().map(engine::table));
+    all.extend(damper::table(&vibration.dampers));
     all.push(reductions(&vibration.reductions));
     if !vibration.worth.is_empty() {
         all.push(worth(&vibration.worth));
