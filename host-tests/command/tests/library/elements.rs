@@ -2,6 +2,7 @@
 
 mod crank;
 mod damper;
+mod dynamic_factor;
 mod engine;
 mod need;
 mod prime_mover;
