@@ -2,6 +2,8 @@
 
 use driveline::machine::{CrankSlider, Cylinder, Diameter, Harmonic, Indicator, Inertia, Length, Mass, WorkingCycle};
 
+use driveline_solver::plant::train;
+
 use super::diagnostic::Diagnostic;
 use super::excitation::Excitation;
 use super::quantity::Quantity;
@@ -100,6 +102,25 @@ impl Engine {
             torque.sine += self.crank.mass_torque::<ORDERS>(speed)[at(order)];
         }
         torque
+    }
+
+    /// The gas torque of the cylinders for a run: the mean and the orders that count, each on its mass and at the motor.
+    /// All crank angles count from the masses' start.
+    pub(super) fn sources(&self) -> impl Iterator<Item = (usize, train::Source)> {
+        let lowest = self.cycle.lowest_order();
+        self.cylinders.iter().zip(&self.at).map(move |(cylinder, &mass)| {
+            let harmonic = |order: f64| {
+                let Harmonic { cosine, sine } = self.gas[(order / lowest).round() as usize];
+                let (turned, upright) = f64::sin_cos(order * cylinder.firing);
+                train::Harmonic {
+                    order: order / self.ratio,
+                    cosine: (cosine * upright - sine * turned) / self.ratio,
+                    sine: (cosine * turned + sine * upright) / self.ratio,
+                }
+            };
+            let orders = [0.0].iter().chain(&self.orders);
+            (mass, train::Source::Orders(orders.map(|&order| harmonic(order)).collect()))
+        })
     }
 }
 

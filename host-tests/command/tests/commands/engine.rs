@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use cargo_driveline::machine_file::parse;
+use cargo_driveline::machine_file::{parse, parse_train};
 use serde_json::Value;
 
 use super::critical::modes;
@@ -136,4 +136,35 @@ fn wrong_engines_are_refused_at_their_place() {
     let typical = right.split("pressure").next().unwrap().to_owned() + "compression = 17\npeak_pressure = 1e6\n";
     let fault = parse("six", &six(&typical)).unwrap_err();
     assert!(fault.key == "engine.peak_pressure" && fault.expected.contains("above that"), "{}", fault.explained());
+}
+
+/// Kinetic and strain energy of a run are the work of the gas, as the integral of its closed form.
+#[test]
+fn the_gas_torque_does_its_work_in_a_run() {
+    // p (1 + sin phi): T = p A r (1/2 + sin phi + lambda/4 cos phi) in the orders 0 and 1
+    let diagram = (0..24).map(|j| PRESSURE * (1.0 + (f64::from(j) * TAU / 24.0).sin()));
+    let diagram: Vec<String> = diagram.map(|p| format!("{p:.9}")).collect();
+    let text = format!(
+        "[[element]]\nkind = \"motor\"\ninertia = 0.4\n[[element]]\nkind = \"shaft\"\nstiffness = 2e4\n[[element]]\n\
+         kind = \"gear\"\nratio = 2\n[[element]]\nkind = \"rotor\"\nlabel = \"crank\"\ninertia = 2.0\n[encoder]\n\
+         lines = 2048\n[control]\nrate_hz = 10000\n[disturbance]\ntorque_accuracy = 1.0\nload_torque_step = 1.0\n\
+         within = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n[engine]\nstrokes = 2\ncranks = [0, 200]\n\
+         at = [\"crank\", \"crank\"]\nradius = 0.05\nrod = 50.0\nreciprocating = 1e-9\nbore = 0.2\norders = [1]\n\
+         pressure = [{}]\n[run]\ntime = 0.4\nstep = 0.4\n",
+        diagram.join(", ")
+    );
+    let mut run = parse_train("work", &text).unwrap();
+    run.motion.advance(0.4);
+    let unit = PRESSURE * PI * 0.01 * 0.05;
+    // the crankshaft turns half as fast as its mass at the motor
+    let phi = 0.5 * run.motion.angle(1);
+    let work = |firing: f64| {
+        0.5 * phi + (firing.cos() - (phi - firing).cos()) + 0.25e-3 * ((phi - firing).sin() + firing.sin())
+    };
+    let work = unit * (work(0.0) + work((-200f64).to_radians()));
+    let kinetic = 0.5 * (0.4 * run.motion.speed(0).powi(2) + 0.5 * run.motion.speed(1).powi(2));
+    let energy = kinetic + 0.5 * 2e4 * run.motion.elongation(0).powi(2);
+    // the next power of lambda, nine digits of the diagram, and the solver's 1e-10
+    assert!((energy / work - 1.0).abs() < 1e-7, "{energy} {work} {phi}");
+    assert!(phi > TAU, "{phi}");
 }
