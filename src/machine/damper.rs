@@ -1,8 +1,8 @@
 //! Dampers and absorbers of torsional vibration, with their best sizes [derived; heading: Pfützner 1980 §1.5].
 //!
-//! A damper is a ring beside one of the machine's masses. Near a natural frequency the machine is one mass on one spring
-//! there, a [`Resonance`], and the ring's inertia over that of the resonance is the mass ratio mu. Amplitudes are over
-//! the static angle, torque over stiffness.
+//! A damper is a ring beside one of the machine's masses. Near a natural frequency the machine is one mass on one
+//! spring there, a [`Resonance`], and the ring's inertia over that of the resonance is the mass ratio mu. Amplitudes
+//! are over the static angle, torque over stiffness.
 //!
 //! | damper | best size | largest amplitude |
 //! |---|---|---|
@@ -67,8 +67,8 @@ impl Damper {
     }
 
     /// Torque that it takes per angle of the mass it is attached to, as real and imaginary part \[N m/rad\], at a
-    /// frequency \[rad/s\]: `-J_d omega^2 (k + i d omega)/(k - J_d omega^2 + i d omega)`; infinite at the frequency of an
-    /// absorber.
+    /// frequency \[rad/s\]: `-J_d omega^2 (k + i d omega)/(k - J_d omega^2 + i d omega)`; infinite at the frequency of
+    /// an absorber.
     #[must_use]
     pub const fn dynamic_stiffness(&self, frequency: f64) -> [f64; 2] {
         let inertial = self.inertia * frequency * frequency;
@@ -97,8 +97,8 @@ impl Resonance {
         self.inertia * self.frequency * self.frequency
     }
 
-    /// The tuned damper of a ring: both fixed points equally high, and the mean square of the two damping ratios with which
-    /// the response is level in one of them.
+    /// The tuned damper of a ring: both fixed points equally high, and the mean square of the two damping ratios with
+    /// which the response is level in one of them.
     #[must_use]
     pub const fn tuned_damper(&self, ring: Inertia) -> Damper {
         let mu = ring.0 / self.inertia;

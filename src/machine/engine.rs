@@ -1,8 +1,8 @@
 //! Piston engines: cylinders about a crankshaft, their free forces and moments, and their torque by orders.
 //!
-//! A cylinder's crank angle from its top dead centre is `phi_j = phi + throw_j - bank_j`. Everything is a phasor sum over
-//! these angles: free forces and moments over the mass force of each cylinder, the excitation of a mode over its torque
-//! [derived; heading: Pfützner 1980 ch. 2].
+//! A cylinder's crank angle from its top dead centre is `phi_j = phi + throw_j - bank_j`. Everything is a phasor sum
+//! over these angles: free forces and moments over the mass force of each cylinder, the excitation of a mode over its
+//! torque [derived; heading: Pfützner 1980 ch. 2].
 //!
 //! | term | meaning | unit |
 //! |---|---|---|

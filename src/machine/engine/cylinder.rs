@@ -13,9 +13,9 @@ const SAME: f64 = 1e-6;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum WorkingCycle {
-    /// One turn; orders 1, 2, 3 ... [Pfützner 1980 §1.2].
+    /// One turn; orders 1, 2, 3 ... [Pfützner 1980 ch. 1].
     TwoStroke,
-    /// Two turns; orders 1/2, 1, 3/2 ... [Pfützner 1980 §1.2].
+    /// Two turns; orders 1/2, 1, 3/2 ... [Pfützner 1980 ch. 1].
     FourStroke,
 }
 
@@ -96,8 +96,8 @@ impl Cylinder {
         all
     }
 
-    /// A star (radial engine): all cylinders on one throw, evenly spread. Every connecting rod counts as one on the pin;
-    /// the articulated rods of a master rod are not modelled.
+    /// A star (radial engine): all cylinders on one throw, evenly spread. Every connecting rod counts as one on the
+    /// pin; the articulated rods of a master rod are not modelled.
     #[must_use]
     pub const fn star<const N: usize>() -> [Self; N] {
         let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];

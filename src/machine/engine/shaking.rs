@@ -48,8 +48,8 @@ impl Shaking {
     }
 }
 
-/// Free force of an order, 1 or 2, in units of [`force_orders`](crate::machine::CrankSlider::force_orders): `m r omega^2`
-/// of the first, `lambda m r omega^2` of the second.
+/// Free force of an order, 1 or 2, in units of [`force_orders`](crate::machine::CrankSlider::force_orders):
+/// `m r omega^2` of the first, `lambda m r omega^2` of the second.
 ///
 /// Rotating masses at the throws, one for each cylinder, give twice the forward part of the first order, in units of
 /// their own `m r omega^2`.
@@ -58,8 +58,8 @@ pub const fn free_forces(cylinders: &[Cylinder], order: u32) -> Shaking {
     sum(cylinders, order, None)
 }
 
-/// Free moment of an order about a place on the crankshaft \[m\], in metres times the unit of [`free_forces`]. Its x and
-/// y are those of the forces that make it.
+/// Free moment of an order about a place on the crankshaft \[m\], in metres times the unit of [`free_forces`]. Its x
+/// and y are those of the forces that make it.
 #[must_use]
 pub const fn free_moments(cylinders: &[Cylinder], order: u32, about: f64) -> Shaking {
     sum(cylinders, order, Some(about))

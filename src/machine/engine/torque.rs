@@ -31,8 +31,9 @@ impl CrankSlider {
     /// Torque of the masses at the crank at a steady speed \[rad/s\]: the sine amplitudes \[N m\] of the orders 0, 1, 2
     /// ..., `N` of them; `-J'(phi) omega^2/2` [Pfützner 1980 (1.2a)-(1.2c); the connecting rod: derived].
     ///
-    /// These are all powers of lambda: the second order of a massless rod is `-m r^2 omega^2 (1/2 + lambda^4/32 + ...)`.
-    /// By 256 equidistant angles, which is exact to rounding for orders below 64 up to lambda 0.9.
+    /// These are all powers of lambda: the second order of a massless rod is
+    /// `-m r^2 omega^2 (1/2 + lambda^4/32 + ...)`. By 256 equidistant angles, which is exact to rounding for orders
+    /// below 64 up to lambda 0.9.
     #[must_use]
     pub const fn mass_torque<const N: usize>(&self, speed: f64) -> [f64; N] {
         let mut sines = [0.0; N];

@@ -2,8 +2,8 @@
 //!
 //! The shaft of two masses answers a change of the motor's torque as one undamped vibration at the resonance omega. The
 //! factor is the largest change of the shaft's torque over
-//! [`accelerating_torque`](crate::machine::TwoMass::accelerating_torque) of the change alone; a step has 2 (mills: torque
-//! amplification factor) [derived; headings: Huang 1987 ch. 3 to 7].
+//! [`accelerating_torque`](crate::machine::TwoMass::accelerating_torque) of the change alone; a step has 2 (mills:
+//! torque amplification factor) [derived; headings: Huang 1987 ch. 3 to 7].
 
 use core::f64::consts::PI;
 
@@ -19,7 +19,8 @@ impl TwoMass {
         if half > 0.0 { 1.0 + (sin_cos(half).0 / half).abs() } else { 2.0 }
     }
 
-    /// Factor of a constant torque that lasts for `time` \[s\]: `2 sin(omega T/2)` up to half a period, 2 from there on.
+    /// Factor of a constant torque that lasts for `time` \[s\]: `2 sin(omega T/2)` up to half a period, 2 from there
+    /// on.
     #[must_use]
     pub const fn pulse_factor(&self, time: f64) -> f64 {
         let half = 0.5 * self.resonance() * time;
@@ -29,8 +30,8 @@ impl TwoMass {
     /// Factor of a starting law, of its torque at the start.
     ///
     /// With `a = omega T` a soft start has `2 (1 - atan(a)/a)` where that peak lies within T, as a medium one
-    /// `(1 + 2/a^2)(1 - cos theta) - theta^2/a^2` with `(a^2 + 2) sin theta = 2 theta`; a shorter start has the amplitude
-    /// that it leaves. Within 1e-12 from a = 1e-3 on.
+    /// `(1 + 2/a^2)(1 - cos theta) - theta^2/a^2` with `(a^2 + 2) sin theta = 2 theta`; a shorter start has the
+    /// amplitude that it leaves. Within 1e-12 from a = 1e-3 on.
     #[must_use]
     pub const fn law_factor(&self, law: &StartingLaw) -> f64 {
         match *law {
@@ -76,8 +77,8 @@ impl TwoMass {
     /// back within the gap.
     ///
     /// With the new accelerating torque tau_e, whatever side `before` is on:
-    /// `tau_e - sqrt((tau_e - before)^2 - 2 k tau_e gap)` on the other flank of a positive one, `2 tau_e - before` where
-    /// the flanks stay together. Over `before` it is the dynamic factor.
+    /// `tau_e - sqrt((tau_e - before)^2 - 2 k tau_e gap)` on the other flank of a positive one, `2 tau_e - before`
+    /// where the flanks stay together. Over `before` it is the dynamic factor.
     #[must_use]
     pub const fn reversal_torque(&self, before: Torque, motor: Torque, load: Torque) -> Torque {
         let side = if before.0 < 0.0 { -1.0 } else { 1.0 };
