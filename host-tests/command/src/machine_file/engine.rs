@@ -104,7 +104,7 @@ impl Engine {
         torque
     }
 
-    /// The gas torque of the cylinders for a run: the mean and the orders that count, each on its mass and at the motor.
+    /// The gas torque of the cylinders for a run: the mean and the orders that count, each on its mass, at the motor.
     /// All crank angles count from the masses' start.
     pub(super) fn sources(&self) -> impl Iterator<Item = (usize, train::Source)> {
         let lowest = self.cycle.lowest_order();

@@ -14,9 +14,10 @@ const RING: f64 = 0.8;
 /// A motor, a shaft and a gear of two, a load with a ring.
 fn machine(damper: &str) -> String {
     format!(
-        "name = \"damped\"\n[[element]]\nkind = \"motor\"\ninertia = {MOTOR}\n[[element]]\nkind = \"shaft\"\nstiffness = \
-         {STIFFNESS}\n[[element]]\nkind = \"gear\"\nratio = 2\n[[element]]\nkind = \"rotor\"\nlabel = \"load\"\ninertia = \
-         {LOAD}\n[encoder]\nlines = 2048\n[control]\nrate_hz = 10000\n[disturbance]\ntorque_accuracy = 1.0\n\
+        "name = \"damped\"\n[[element]]\nkind = \"motor\"\ninertia = {MOTOR}\n[[element]]\nkind = \"shaft\"\n\
+         stiffness = {STIFFNESS}\n[[element]]\nkind = \"gear\"\nratio = 2\n[[element]]\nkind = \"rotor\"\n\
+         label = \"load\"\ninertia = {LOAD}\n[encoder]\nlines = 2048\n[control]\nrate_hz = 10000\n\
+         [disturbance]\ntorque_accuracy = 1.0\n\
          load_torque_step = 1.0\nwithin = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n[[damper]]\nat = \"load\"\n\
          inertia = {RING}\n{damper}"
     )

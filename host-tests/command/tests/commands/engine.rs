@@ -80,6 +80,11 @@ fn critical_speeds_of_a_six_in_line_with_their_phasor_sums() {
         assert!((number(&row["shaft_torque"]) - shaft).abs() < 1e-8 * shaft + 1e-5 * gas, "{row} {shaft}");
     }
     assert!(page.contains("phasor sum") && page.contains("Free forces and moments of the engine"));
+    for (angle, third) in found["engine"]["firing"].as_array().unwrap().iter().zip(firing) {
+        // a few additions
+        assert!((number(angle) - third.to_degrees()).abs() < 1e-11, "{angle} {third}");
+    }
+    assert!(page.contains("fire at 0, 480, 240, 600, 120, 360 degrees"));
     // six in line have none
     for order in found["engine"]["orders"].as_array().unwrap() {
         for part in ["force_forward", "force_backward", "moment_forward", "moment_backward"] {

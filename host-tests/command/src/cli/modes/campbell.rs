@@ -103,10 +103,11 @@ pub fn critical(speeds: &[Critical]) -> Option<Section> {
     }
     let text = if engine {
         "Speeds of the motor at which an order meets a natural frequency, and how far they lie outside the running \
-         range. Of the engine: its phasor sum, the torque of one cylinder, and the largest torque of a damped shaft, at \
-         the motor, while the machine dwells there."
+         range. Of the engine: its phasor sum, the torque of one cylinder, and the largest torque of a damped shaft, \
+         at the motor, while the machine dwells there."
     } else {
-        "Speeds of the motor at which an order meets a natural frequency, and how far they lie outside the running range."
+        "Speeds of the motor at which an order meets a natural frequency, and how far they lie outside the running \
+         range."
     };
     Some(Section::new("Critical speeds", text, table))
 }

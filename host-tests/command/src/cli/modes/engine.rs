@@ -13,6 +13,8 @@ use driveline_report::{Section, Table};
 pub struct FreeForces {
     /// Speed of the crankshaft \[rad/s\].
     pub speed: f64,
+    /// Firing angle of each cylinder \[degrees\].
+    pub firing: Vec<f64>,
     /// First and second order.
     pub orders: [Order; 2],
 }
@@ -48,7 +50,8 @@ pub fn free(machine: &MachineFile) -> Option<FreeForces> {
         let [moment_forward, moment_backward] = [0, 1].map(|part| moment.map(|moment| moment[part]));
         Order { order, force_forward, force_backward, moment_forward, moment_backward }
     };
-    Some(FreeForces { speed, orders: [order(1, units[0]), order(2, units[1])] })
+    let firing = engine.cylinders.iter().map(|cylinder| cylinder.firing.to_degrees()).collect();
+    Some(FreeForces { speed, firing, orders: [order(1, units[0]), order(2, units[1])] })
 }
 
 /// The table of free forces and moments.
@@ -64,10 +67,11 @@ pub fn table(free: &FreeForces) -> Section {
         );
     }
     let text = format!(
-        "Of the reciprocating masses at {} rad/s of the crankshaft: parts that rotate with the crank and against it, at \
-         `order` times its speed. Their sum is the largest force. Counterweights balance the first part of the first \
-         order; the others need balance shafts.",
-        significant(free.speed)
+        "Of the reciprocating masses at {} rad/s of the crankshaft: parts that rotate with the crank and against it, \
+         at `order` times its speed. Their sum is the largest force. Counterweights balance the first part of the \
+         first order; the others need balance shafts. The cylinders fire at {} degrees.",
+        significant(free.speed),
+        free.firing.iter().map(|angle| format!("{angle:.0}")).collect::<Vec<_>>().join(", ")
     );
     Section::new("Free forces and moments of the engine", text, table)
 }

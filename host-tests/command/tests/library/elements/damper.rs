@@ -41,8 +41,8 @@ fn the_tuned_damper_has_two_fixed_points_of_one_height() {
                 close(MAIN.amplitude(&damper, frequency), height, 1e-9);
             }
         }
-        // level in either point with the ratios c/(2 J_d omega): mu (3 -+ sqrt(mu/(mu + 2)))/(8 (1 + mu)^3) squared, which
-        // the slopes confirm; the best is their mean square
+        // level in either point where (d/(2 J_d omega))^2 is mu (3 -+ sqrt(mu/(mu + 2)))/(8 (1 + mu)^3), which the
+        // slopes confirm; the best is the mean of the squares
         let apart = (mu / (mu + 2.0)).sqrt();
         let squares = [-1.0, 1.0].map(|side| mu * (3.0 + side * apart) / (8.0 * (1.0 + mu).powi(3)));
         for (frequency, square) in MAIN.tuned_fixed_points(mu).into_iter().zip(squares) {
@@ -206,7 +206,7 @@ fn the_full_solver_has_the_same_amplitudes() {
         for ratio in [0.5, 0.8, 0.97, 1.1, 1.7] {
             let frequency = ratio * MAIN.frequency;
             // twenty periods of rounding, the extremes located
-            close(steady(&damper, frequency), MAIN.amplitude(&damper, frequency), 1e-6);
+            close(steady(&damper, frequency), MAIN.amplitude(&damper, frequency), 1e-9);
         }
     }
 }

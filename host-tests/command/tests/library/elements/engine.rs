@@ -48,7 +48,7 @@ fn first_and_second_order_of_fourteen_arrangements() {
         (
             "five in line, 1-2-4-5-3",
             &Cylinder::in_line([0.0, 3.0 * fifth, 2.0 * fifth, fifth, 4.0 * fifth], pitch),
-            // -2 + (exp 72 - exp 216) + 2 exp 288: real sqrt 5 - 5/2, imaginary sin 36 - sin 72; the double angles alike
+            // -2 + (exp 72 - exp 216) + 2 exp 288: real sqrt 5 - 5/2, imaginary sin 36 - sin 72; double angles alike
             [none, none, five(-1.0), five(1.0)],
         ),
         (

@@ -48,8 +48,8 @@ proptest! {
     }
 }
 
-/// Six throws of equal inertia on equal shafts, omega = 2 sqrt(k/J) sin(m pi/12): of the orders 3/2 and 3 the first mode,
-/// odd about the middle, answers to 3/2 alone and the second, even, to neither.
+/// Six throws of equal inertia on equal shafts, omega = 2 sqrt(k/J) sin(m pi/12). Of the orders 3/2 and 3 the first
+/// mode, odd about the middle, answers to 3/2 alone; the second, even, to neither.
 #[test]
 fn an_engine_bars_where_its_phasor_sum_is_large() {
     const THIRD: f64 = std::f64::consts::TAU / 3.0;
