@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use driveline::machine::{
     CentrifugalPendulum, Chain, Damper, Damping, FrictionDamper, Inertia, Length, Mass, Resonance, Stiffness,
 };
-use driveline_solver::plant::train::{Coordinate, Harmonic, Link, Signal, Source, Train, Waveform};
+use driveline_solver::plant::train::{Coordinate, Friction, Harmonic, Link, Signal, Source, Train, Waveform};
 use nalgebra::{Complex, Matrix2, Vector2};
 
 use crate::references::close;
@@ -208,6 +208,31 @@ fn the_full_solver_has_the_same_amplitudes() {
             // twenty periods of rounding, the extremes located
             close(steady(&damper, frequency), MAIN.amplitude(&damper, frequency), 1e-9);
         }
+    }
+}
+
+/// A hub a million times heavier than its ring, free on its spring, the ring in its steady slip.
+#[test]
+fn a_friction_damper_in_the_full_solver_takes_the_same_work() {
+    let (swing, k) = (0.01, MAIN.inertia * MAIN.frequency * MAIN.frequency);
+    for share in [0.5, 1.0, 1.15] {
+        let best = FrictionDamper::best(Inertia(1e-6 * MAIN.inertia), swing, MAIN.frequency);
+        let damper = FrictionDamper { torque: share * best.torque, ..best };
+        // the ring turns round where the hub has its speed: cos p = -x, which is 1/sqrt 2 of the best torque
+        let p = (share / f64::sqrt(2.0)).acos() - PI;
+        let speed = swing * MAIN.frequency * p.cos();
+        let mut motion = Train::new()
+            .coordinate(Coordinate::new(MAIN.inertia).speed(speed))
+            .coordinate(Coordinate::new(damper.inertia).speed(speed))
+            .link(Link::ground(0, k).elongated(swing * p.sin()))
+            .friction(Friction::between(0, 1, damper.torque))
+            .build()
+            .unwrap();
+        motion.advance(TAU / MAIN.frequency);
+        let left = 0.5 * (MAIN.inertia * motion.speed(0).powi(2) + k * motion.elongation(0).powi(2));
+        let lost = 0.5 * k * swing * swing - left;
+        // the mass ratio, a few times; rounding of the energy over the millionth that is lost
+        close(lost, damper.energy(swing, MAIN.frequency), 1e-5);
     }
 }
 

@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI, SQRT_2, TAU};
 
 use driveline::machine::{
-    CrankSlider, Cylinder, Diameter, Error, Indicator, Inertia, Length, Mass, WorkingCycle, free_forces, free_moments,
-    phasor_sum,
+    CrankSlider, Cylinder, Diameter, Error, Harmonic, Indicator, Inertia, Length, Mass, WorkingCycle, free_forces,
+    free_moments, phasor_sum,
 };
 
 /// A third of a turn.
@@ -165,8 +165,8 @@ fn mass_torque_by_the_series_in_lambda() {
 
 #[test]
 fn gas_torque_of_a_constant_pressure_and_of_a_whole_diagram() {
-    let crank = CrankSlider::massless_rod(Length(0.05), Length(0.16), Inertia(0.1), Mass(1.0));
-    let (bore, four) = (Diameter(0.1), WorkingCycle::FourStroke);
+    const CRANK: CrankSlider = CrankSlider::massless_rod(Length(0.05), Length(0.16), Inertia(0.1), Mass(1.0));
+    let (crank, bore, four) = (CRANK, Diameter(0.1), WorkingCycle::FourStroke);
     let area = PI * 0.01 / 4.0;
     let even = crank.gas_torque::<6>(bore, &[2e5; 720], four);
     // s' of a turn has r sin phi and even orders only: derived
@@ -179,6 +179,10 @@ fn gas_torque_of_a_constant_pressure_and_of_a_whole_diagram() {
     assert_eq!(DIESEL.check(), Ok(()));
     let pressure = DIESEL.sample::<1440>(&crank, four);
     let orders = crank.gas_torque::<25>(bore, &pressure, four);
+    // the compiler has the same bits
+    const PRESSURE: [f64; 1440] = DIESEL.sample(&CRANK, WorkingCycle::FourStroke);
+    const ORDERS: [Harmonic; 25] = CRANK.gas_torque(Diameter(0.1), &PRESSURE, WorkingCycle::FourStroke);
+    assert_eq!(orders, ORDERS);
     // the work between two polytropes, derived: (p_peak - p_0 eps^n) V_c (1 - eps^(1-n))/(n - 1)
     let clearance = area * 0.1 / 16.0;
     let work = (1.2e7 - 1.6e5 * 17f64.powf(1.3)) * clearance * (1.0 - 17f64.powf(-0.3)) / 0.3;
