@@ -1,6 +1,7 @@
 //! Speeds that a machine must not dwell at: where an order of its excitation meets a torsional frequency.
 
 use super::Error;
+use crate::machine::{Cylinder, Modes, phasor_sum};
 
 /// Margin to a critical speed, either side, within which a machine should not dwell: 10 %.
 pub const USUAL_MARGIN: f64 = 0.1;
@@ -56,6 +57,72 @@ impl<const K: usize> BarredSpeeds<K> {
                 o += 1;
             }
             f += 1;
+        }
+        Ok(barred)
+    }
+
+    /// The ranges about the critical speeds of a piston engine whose phasor sum is at least `least`, of the shape's
+    /// amplitude where it is largest. Cylinder `j` works on the mass `at[j]`, counted from 0 at the motor, and the
+    /// crankshaft turns at the motor's speed.
+    ///
+    /// # Panics
+    /// At compile time in a constant, as [`new`](Self::new).
+    #[must_use]
+    pub const fn of_engine<const N: usize>(
+        modes: &Modes,
+        (cylinders, at): (&[Cylinder; N], [usize; N]),
+        orders: &[f64],
+        least: f64,
+        margin: f64,
+        up_to: f64,
+    ) -> Self {
+        match Self::try_of_engine(modes, (cylinders, at), orders, least, margin, up_to) {
+            Ok(ranges) => ranges,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`of_engine`](Self::of_engine), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// As [`try_new`](Self::try_new); [`Error::Barred`] for a mass that there is not.
+    pub const fn try_of_engine<const N: usize>(
+        modes: &Modes,
+        (cylinders, at): (&[Cylinder; N], [usize; N]),
+        orders: &[f64],
+        least: f64,
+        margin: f64,
+        up_to: f64,
+    ) -> Result<Self, Error> {
+        let mut barred = BarredSpeeds { ranges: [[0.0; 2]; K], count: 0 };
+        let mut m = 0;
+        while m < modes.resonances().len() {
+            let mode = &modes.resonances()[m];
+            let (mut throws, mut largest, mut j) = ([0.0; N], 0.0, 0);
+            while j < N {
+                if at[j] > modes.resonances().len() {
+                    return Err(Error::Barred);
+                }
+                throws[j] = mode.shape[at[j]];
+                j += 1;
+            }
+            j = 0;
+            while j < mode.shape.len() {
+                largest = max(largest, mode.shape[j].abs());
+                j += 1;
+            }
+            let mut o = 0;
+            while o < orders.len() {
+                if phasor_sum(cylinders, &throws, orders[o]) >= least * largest {
+                    match Self::try_new(&[mode.frequency], &[orders[o]], margin, up_to) {
+                        Ok(one) if one.count == 0 || barred.take(one.ranges[0]) => {}
+                        Ok(_) => return Err(Error::BarredCount),
+                        Err(error) => return Err(error),
+                    }
+                }
+                o += 1;
+            }
+            m += 1;
         }
         Ok(barred)
     }

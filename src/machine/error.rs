@@ -58,6 +58,10 @@ sentences! {
         (V, ohm, V s or H)",
     CombustionEngine => "rated torque and speeds of the combustion engine must be positive and finite, rising from \
         idle over rated to no load",
+    FiringOrder => "firing order must name every cylinder once, counted from 1, and fit into two turns of the \
+        crankshaft",
+    Indicator => "compression ratio and polytropic exponent must be above 1, charge pressure positive, and peak \
+        pressure finite and above that of the compression (Pa, absolute)",
     StartingTime => "starting time must be positive and finite, the starting torque finite (s, N m)",
 }
 

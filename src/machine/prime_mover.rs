@@ -24,6 +24,7 @@
 mod combustion;
 mod curve;
 mod direct_current;
+mod dynamic_factor;
 mod induction;
 mod starting;
 

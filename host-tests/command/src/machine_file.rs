@@ -90,16 +90,19 @@
 //! For a diagram of critical speeds, `[running]` gives the speeds `least` and `greatest` of the motor \[rad/s\], and
 //! each
 //! `[[excitation]]` its `name`, its `orders`, and the `ratio` of the motor's speed over that of the shaft that
-//! excites (1 where it is left out). For `simulate` see [`train`].
+//! excites (1 where it is left out). `[engine]` describes a piston engine on masses of the machine, `[[damper]]` a
+//! damper that `modes` sizes. For `simulate` see [`train`].
 //!
 //! Every element may have a `label`, which tables and plots then use. Quantities stand on their own shaft, as a data
 //! sheet gives them; the library refers them to the motor.
 
 pub mod balance;
 pub mod class;
+mod damper;
 pub mod designs;
 mod diagnostic;
 mod element;
+pub(crate) mod engine;
 mod excitation;
 pub mod factor;
 mod quantity;
@@ -111,8 +114,10 @@ pub(crate) mod station;
 mod table;
 pub mod train;
 
+pub use damper::DamperRing;
 pub use diagnostic::{Diagnostic, Fault};
 pub use element::Element;
+pub use engine::Engine;
 pub use excitation::{Excitation, Running};
 pub use quantity::Quantity;
 pub use read::{LARGEST, not_toml, parse, read, text};
@@ -152,6 +157,12 @@ pub struct MachineFile {
     pub running: Option<Running>,
     /// Its excitations.
     pub excitations: Vec<Excitation>,
+    /// Its piston engine, whose excitation is the last of them.
+    #[serde(skip)]
+    pub engine: Option<Engine>,
+    /// Its dampers.
+    #[serde(skip)]
+    pub dampers: Vec<DamperRing>,
     /// How the machine is shaken, if the file says.
     pub duty: Option<Duty>,
     /// The elements as the library's chain, referred to the motor.

@@ -2,6 +2,8 @@
 
 mod campbell;
 mod chain;
+mod damper;
+mod engine;
 mod figures;
 mod page;
 mod tables;

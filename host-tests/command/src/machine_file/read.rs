@@ -10,7 +10,9 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use super::class::Class;
+use super::damper::DamperRing;
 use super::diagnostic::Diagnostic;
+use super::engine::{self, Engine, Turning};
 use super::excitation::excitations;
 use super::factor::{Factor, Tolerance};
 use super::quantity::Quantity;
@@ -82,7 +84,7 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
 
     let machine_name = named(source, &mut root)?;
     let (elements, chain) = elements(source, &mut root, "", &[])?;
-    let (branches, train) = branches(source, &mut root, chain, &elements)?;
+    let (branches, train, masses) = branches(source, &mut root, chain, &elements)?;
     let encoder = section(&mut root, "encoder", |table| {
         // `LINES` and `RATE` allow whole numbers within `u32` only.
         let lines = table.number("lines", Quantity::LINES)?;
@@ -125,7 +127,16 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let lossy = chain.efficiency() < 1.0;
     let gap = chain.shafts().iter().any(|shaft| shaft.gap > 0.0);
     let (class, tolerances) = tolerances(&mut root, encoder.accuracy, lossy, gap)?;
-    let (running, excitations) = excitations(&mut root)?;
+    let (running, mut excitations) = excitations(&mut root)?;
+    let engine = root.table_if("engine")?.map(|table| Engine::read(table, &masses)).transpose()?;
+    if let Some(engine) = &engine {
+        if excitations.iter().any(|excitation| excitation.name == engine::NAME) {
+            return Err(root.wrong("engine", "no [[excitation]] of the name \"engine\" beside it"));
+        }
+        excitations.push(engine.excitation());
+    }
+    let modes = train.as_ref().map_or(chain.masses().len(), |train| train.masses().len()) - 1;
+    let dampers = DamperRing::read_all(&mut root, &masses, modes)?;
     // what a run of it needs is read by `read_train`
     root.pass(&["link", "torque", "friction", "start", "run"]);
     let duty = match root.table_if("duty")? {
@@ -153,6 +164,8 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         tolerances,
         running,
         excitations,
+        engine,
+        dampers,
         duty,
         chain,
         branches,
@@ -310,10 +323,10 @@ fn branches(
     root: &mut Table<'_>,
     chain: Chain,
     main: &[Part],
-) -> Result<(Vec<Branch>, Option<Train>), Diagnostic> {
+) -> Result<(Vec<Branch>, Option<Train>, Vec<Turning>), Diagnostic> {
     let mut branches: Vec<Branch> = Vec::new();
-    // masses that can carry a branch: label, mass, and the motor's speed over that of the mass
-    let mut masses: Vec<(String, usize, f64)> = Vec::new();
+    // masses that can carry a branch
+    let mut masses: Vec<Turning> = Vec::new();
     let turning = |part: &Part, station: &Station| {
         let turns = matches!(
             part.element,
@@ -361,7 +374,7 @@ fn branches(
         parts.extend(branch.elements.iter().cloned());
         branches.push(branch);
     }
-    Ok((branches, train))
+    Ok((branches, train, masses))
 }
 
 /// An element's label, if it has one.

@@ -58,6 +58,7 @@ use std::path::Path;
 use toml::de::DeTable;
 
 use super::diagnostic::Diagnostic;
+use super::engine::Engine;
 use super::excitation::{Excitation, Running, excitations};
 use super::quantity::Quantity;
 use super::read::{self, document, named, text};
@@ -178,10 +179,23 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             let expected = "a shaft, belt or rope behind it that carries its losses, or an efficiency of 1";
             Diagnostic::at(source, place, label, "no shaft behind it", expected)
         })?;
-        root.pass(&["encoder", "control", "disturbance", "limits", "duty", "actuator", "tolerance"]);
+        root.pass(&[
+            "encoder",
+            "control",
+            "disturbance",
+            "limits",
+            "duty",
+            "actuator",
+            "tolerance",
+            "engine",
+            "damper",
+        ]);
         file.static_force = vec![None; referred.links.len()];
         (file.names, coordinates) = referred.coordinates.into_iter().unzip();
         (file.links, links) = referred.links.into_iter().unzip();
+        for (on, torque) in machine.engine.iter().flat_map(Engine::sources) {
+            coordinates[on] = coordinates[on].clone().source(torque);
+        }
     } else {
         for (place, table) in root.tables("coordinate")? {
             coordinates.push(file.coordinate(table)?);

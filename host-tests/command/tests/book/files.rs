@@ -115,6 +115,8 @@ fn check(section: &Section, at: &Place, listings: &[Table], read: Reader) -> Vec
             "start",
             "run",
             "element",
+            "engine",
+            "damper",
             "branch",
             "encoder",
             "control",

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-fn modes(text: &str, html: bool) -> (serde_json::Value, String) {
+pub fn modes(text: &str, html: bool) -> (serde_json::Value, String) {
     let folder = tempfile::tempdir().unwrap();
     let (file, page) = (folder.path().join("machine.toml"), folder.path().join("page.html"));
     std::fs::write(&file, text).unwrap();

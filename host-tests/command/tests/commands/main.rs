@@ -5,7 +5,9 @@ mod campaign;
 mod cli;
 mod cli_emit;
 mod critical;
+mod damper;
 mod elements;
+mod engine;
 mod identify;
 mod machine_file;
 #[path = "../references/mod.rs"]

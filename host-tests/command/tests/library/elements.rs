@@ -1,6 +1,9 @@
 //! The elements of machines against textbooks, published machines and closed forms.
 
 mod crank;
+mod damper;
+mod dynamic_factor;
+mod engine;
 mod need;
 mod prime_mover;
 mod section;

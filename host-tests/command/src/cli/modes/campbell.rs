@@ -30,6 +30,13 @@ pub struct Critical {
     pub margin: Option<f64>,
     /// Whether it lies in the running range or within 10 % of it.
     pub flagged: bool,
+    /// Phasor sum of an engine's order over the shape, the largest amplitude 1; `null` of other excitations.
+    pub phasor_sum: Option<f64>,
+    /// Torque of one cylinder of this order \[N m\]; `null` likewise.
+    pub torque: Option<f64>,
+    /// Largest torque of a shaft while the machine dwells there \[N m at the motor\]; `null` likewise, or without
+    /// damping.
+    pub shaft_torque: Option<f64>,
 }
 
 /// All critical speeds of natural frequencies \[rad/s\], the lowest first.
@@ -52,6 +59,9 @@ pub fn critical_speeds(natural: &[f64], running: Option<&Running>, excitations: 
                     speed,
                     margin,
                     flagged: margin.is_some_and(|margin| margin <= NEAR),
+                    phasor_sum: None,
+                    torque: None,
+                    shaft_torque: None,
                 });
             }
         }
@@ -65,8 +75,10 @@ pub fn critical(speeds: &[Critical]) -> Option<Section> {
     if speeds.is_empty() {
         return None;
     }
-    let mut table =
-        Table::new(["excitation", "order", "mode", "Hz", "critical rad/s", "r/min", "off the range", "verdict"]);
+    let headings = ["excitation", "order", "mode", "Hz", "critical rad/s", "r/min", "off the range", "verdict"];
+    let engine = speeds.iter().any(|critical| critical.phasor_sum.is_some());
+    let excited = if engine { &["phasor sum", "cylinder N m", "shaft N m"][..] } else { &[] };
+    let mut table = Table::new(headings.iter().chain(excited).copied());
     for critical in speeds {
         let verdict = match critical.margin {
             None => "no range given",
@@ -75,7 +87,7 @@ pub fn critical(speeds: &[Critical]) -> Option<Section> {
             Some(_) => "clear",
         };
         let off = critical.margin.map_or_else(String::new, percent);
-        table.row([
+        let row = [
             critical.excitation.clone(),
             significant(critical.order),
             critical.mode.to_string(),
@@ -84,11 +96,25 @@ pub fn critical(speeds: &[Critical]) -> Option<Section> {
             significant(critical.speed * 60.0 / TAU),
             off,
             verdict.to_owned(),
-        ]);
+        ];
+        let of_engine = [critical.phasor_sum, critical.torque, critical.shaft_torque];
+        let of_engine = of_engine.map(|value| value.map_or_else(String::new, shown));
+        table.row(row.into_iter().chain(of_engine.into_iter().take(excited.len())));
     }
-    let text = "Speeds of the motor at which an order meets a natural frequency, and how far they lie outside the \
-                running range.";
+    let text = if engine {
+        "Speeds of the motor at which an order meets a natural frequency, and how far they lie outside the running \
+         range. Of the engine: its phasor sum, the torque of one cylinder, and the largest torque of a damped shaft, \
+         at the motor, while the machine dwells there."
+    } else {
+        "Speeds of the motor at which an order meets a natural frequency, and how far they lie outside the running \
+         range."
+    };
     Some(Section::new("Critical speeds", text, table))
+}
+
+/// A number, and zero for what rounding leaves of a sum.
+fn shown(value: f64) -> String {
+    if value < 1e-9 { "0".to_owned() } else { significant(value) }
 }
 
 /// The Campbell diagram; none where nothing excites. Natural frequencies in Hz.

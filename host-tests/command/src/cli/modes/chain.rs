@@ -6,6 +6,8 @@ use driveline::machine::{Element, Joint, Match};
 use serde::Serialize;
 
 use super::campbell::{Critical, critical_speeds};
+use super::damper::{Damped, dampers};
+use super::engine::{FreeForces, excite, free};
 use crate::machine_file::MachineFile;
 
 /// Change below which a part can be left out: 1 %, less than the accuracy of any stiffness.
@@ -28,6 +30,10 @@ pub struct Vibration {
     pub reductions: Vec<Reduction>,
     /// Speeds of the motor at which an excitation meets a natural frequency, the lowest first.
     pub critical: Vec<Critical>,
+    /// Free forces and moments of the engine; `null` without one.
+    pub engine: Option<FreeForces>,
+    /// The dampers, each alone.
+    pub dampers: Vec<Damped>,
     /// Changes without each part of a chain, the smallest first.
     pub worth: Vec<Leaving>,
 }
@@ -154,9 +160,15 @@ impl Vibration {
             worth_keeping: part.worst() >= WORTH,
         };
         let frequencies: Vec<f64> = modes.resonances().iter().map(|mode| mode.frequency).collect();
+        let mut critical = critical_speeds(&frequencies, machine.running.as_ref(), &machine.excitations);
+        if let Some(engine) = &machine.engine {
+            excite(&mut critical, engine, modes.resonances(), &joints);
+        }
         Self {
             name: machine.name.clone(),
-            critical: critical_speeds(&frequencies, machine.running.as_ref(), &machine.excitations),
+            critical,
+            engine: free(machine),
+            dampers: dampers(machine, modes.resonances()),
             resonances: modes.resonances().iter().map(resonance).collect(),
             antiresonances: modes.antiresonances().to_vec(),
             reductions: reductions(machine, &shafts),

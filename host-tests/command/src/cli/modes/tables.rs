@@ -7,6 +7,7 @@ use driveline_report::{Section, Table};
 
 use super::campbell::critical;
 use super::chain::{Leaving, Reduction, Vibration, WORTH};
+use super::{damper, engine};
 
 /// The tables as title, explanation and table: for the terminal and the page alike.
 pub fn tables(vibration: &Vibration) -> Vec<Section> {
@@ -38,6 +39,8 @@ pub fn tables(vibration: &Vibration) -> Vec<Section> {
     let text = "Frequencies of the free machine, and with the motor locked; amplitudes of the masses, the largest 1.";
     all.push(Section::new("Frequencies and shapes", text, modes));
     all.extend(critical(&vibration.critical));
+    all.extend(vibration.engine.as_ref().map(engine::table));
+    all.extend(damper::table(&vibration.dampers));
     all.push(reductions(&vibration.reductions));
     if !vibration.worth.is_empty() {
         all.push(worth(&vibration.worth));

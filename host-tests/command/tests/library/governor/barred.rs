@@ -4,7 +4,7 @@ use driveline::design::{Actuator, BarredSpeeds, Error, LoadFeedForward, Rate, US
 use driveline::governor::{
     Barred, BarredConfig, Gains, Governor, SpeedGovernor, SpeedGovernorConfig, SymmetricLimitConfig,
 };
-use driveline::machine::{Chain, Damping, Inertia, Stiffness};
+use driveline::machine::{Chain, Cylinder, Damping, Inertia, Length, Stiffness};
 use driveline::sample::Estimate;
 use driveline::settings::Bases;
 use proptest::prelude::*;
@@ -46,6 +46,42 @@ proptest! {
             prop_assert!(critical == inside || at_an_edge, "{speed} {critical} {inside}");
         }
     }
+}
+
+/// Six throws of equal inertia on equal shafts, omega = 2 sqrt(k/J) sin(m pi/12). Of the orders 3/2 and 3 the first
+/// mode, odd about the middle, answers to 3/2 alone; the second, even, to neither.
+#[test]
+fn an_engine_bars_where_its_phasor_sum_is_large() {
+    const THIRD: f64 = std::f64::consts::TAU / 3.0;
+    const SIX: [Cylinder; 6] = Cylinder::fired(
+        Cylinder::in_line([0.0, 2.0 * THIRD, THIRD, THIRD, 2.0 * THIRD, 0.0], Length(0.1)),
+        [1, 5, 3, 6, 2, 4],
+    );
+    let (shaft, throw) = ((Stiffness(9.0e5), Damping(0.0)), Inertia(0.4));
+    let mut chain = Chain::motor(throw);
+    for _ in 1..6 {
+        chain = chain.shaft(shaft.0, shaft.1).rotor(throw);
+    }
+    let first = 2.0 * f64::sqrt(9.0e5 / 0.4) * (std::f64::consts::PI / 12.0).sin();
+    let of = |orders: &[f64], least: f64| {
+        let at = [0, 1, 2, 3, 4, 5];
+        BarredSpeeds::<8>::try_of_engine(&chain.modes(), (&SIX, at), orders, least, USUAL_MARGIN, 0.8 * first)
+    };
+    let ranges = of(&[1.5, 3.0], 1.0).unwrap();
+    assert_eq!(ranges.ranges().len(), 1, "{ranges:?}");
+    for (edge, share) in ranges.ranges()[0].iter().zip([0.9, 1.1]) {
+        // modes to rounding
+        assert!((edge / (share * first / 1.5) - 1.0).abs() < 1e-12, "{edge}");
+    }
+    // 1, 3, 2 against 5, 6, 4: twice (cos 15 + cos 45 + cos 75) = 4 cos 15 degrees
+    assert_eq!(of(&[1.5], 3.99).unwrap().ranges().len(), 1);
+    assert!(of(&[1.5], 4.01).unwrap().ranges().is_empty());
+    assert_eq!(of(&[0.0], 0.0), Err(Error::Barred));
+    let beyond = (&SIX, [0, 1, 2, 3, 4, 6]);
+    assert_eq!(
+        BarredSpeeds::<8>::try_of_engine(&chain.modes(), beyond, &[1.5], 1.0, USUAL_MARGIN, first),
+        Err(Error::Barred)
+    );
 }
 
 #[test]

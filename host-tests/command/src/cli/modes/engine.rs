@@ -1,0 +1,96 @@
+//! A piston engine: free forces and moments, and how strongly it excites each mode.
+
+use driveline::machine::{Joint, Mode, Shaking, free_forces, free_moments, phasor_sum};
+use serde::Serialize;
+
+use super::campbell::Critical;
+use crate::machine_file::{Engine, MachineFile, engine};
+use driveline_report::format::significant;
+use driveline_report::{Section, Table};
+
+/// Free forces and moments of an engine.
+#[derive(Clone, Debug, Serialize)]
+pub struct FreeForces {
+    /// Speed of the crankshaft \[rad/s\].
+    pub speed: f64,
+    /// Firing angle of each cylinder \[degrees\].
+    pub firing: Vec<f64>,
+    /// First and second order.
+    pub orders: [Order; 2],
+}
+
+/// Free force and moment of one order.
+#[derive(Clone, Debug, Serialize)]
+pub struct Order {
+    /// Order.
+    pub order: u32,
+    /// Force that rotates with the crank \[N\].
+    pub force_forward: f64,
+    /// Force that rotates against it \[N\].
+    pub force_backward: f64,
+    /// Moment about the middle of the cylinders \[N m\], alike; `null` without positions.
+    pub moment_forward: Option<f64>,
+    /// Moment that rotates against the crank.
+    pub moment_backward: Option<f64>,
+}
+
+/// Free forces of a machine's engine at its highest speed; none without an engine.
+pub fn free(machine: &MachineFile) -> Option<FreeForces> {
+    let engine = machine.engine.as_ref()?;
+    let speed = machine.running.as_ref().map_or(machine.limits.speed, |range| range.greatest) / engine.ratio;
+    let units = engine.crank.force_orders(speed);
+    let positions = engine.cylinders.iter().map(|cylinder| cylinder.position);
+    let middle = positions.sum::<f64>() / engine.cylinders.len() as f64;
+    let order = |order: u32, unit: f64| {
+        // the rounding of a sum that is none, of forces of 1 and arms of a few metres
+        let exact = |size: f64| if size < 1e-12 { 0.0 } else { unit * size };
+        let parts = |shaking: Shaking| [shaking.forward, shaking.backward].map(|[x, y]| exact(f64::hypot(x, y)));
+        let [force_forward, force_backward] = parts(free_forces(&engine.cylinders, order));
+        let moment = engine.placed.then(|| parts(free_moments(&engine.cylinders, order, middle)));
+        let [moment_forward, moment_backward] = [0, 1].map(|part| moment.map(|moment| moment[part]));
+        Order { order, force_forward, force_backward, moment_forward, moment_backward }
+    };
+    let firing = engine.cylinders.iter().map(|cylinder| cylinder.firing.to_degrees()).collect();
+    Some(FreeForces { speed, firing, orders: [order(1, units[0]), order(2, units[1])] })
+}
+
+/// The table of free forces and moments.
+pub fn table(free: &FreeForces) -> Section {
+    let mut table =
+        Table::new(["order", "force with the crank N", "against it N", "moment with the crank N m", "against it N m"]);
+    for order in &free.orders {
+        let moments = [order.moment_forward, order.moment_backward];
+        table.row(
+            [order.order.to_string(), significant(order.force_forward), significant(order.force_backward)]
+                .into_iter()
+                .chain(moments.map(|moment| moment.map_or_else(String::new, significant))),
+        );
+    }
+    let text = format!(
+        "Of the reciprocating masses at {} rad/s of the crankshaft: parts that rotate with the crank and against it, \
+         at `order` times its speed. Their sum is the largest force. Counterweights balance the first part of the \
+         first order; the others need balance shafts. The cylinders fire at {} degrees.",
+        significant(free.speed),
+        free.firing.iter().map(|angle| format!("{angle:.0}")).collect::<Vec<_>>().join(", ")
+    );
+    Section::new("Free forces and moments of the engine", text, table)
+}
+
+/// Adds to the engine's critical speeds what excites them.
+pub fn excite(critical: &mut [Critical], engine: &Engine, modes: &[Mode], joints: &[Joint]) {
+    for critical in critical.iter_mut().filter(|critical| critical.excitation == engine::NAME) {
+        let mode = &modes[critical.mode - 1];
+        let throws: Vec<f64> = engine.at.iter().map(|&mass| mode.shape[mass]).collect();
+        let largest = mode.shape.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let sum = phasor_sum(&engine.cylinders, &throws, critical.order);
+        let torque = engine.torque(critical.order, critical.speed / engine.ratio).amplitude();
+        critical.phasor_sum = Some(sum / largest);
+        critical.torque = Some(torque);
+        // damping alone limits the mode: q = (torque/ratio) sum/(damping omega)
+        if mode.damping > 0.0 {
+            let swing = torque / engine.ratio * sum / (mode.damping * mode.frequency);
+            let twist = |joint: &Joint| joint.shaft.stiffness * (mode.shape[joint.from] - mode.shape[joint.to]).abs();
+            critical.shaft_torque = Some(swing * joints.iter().map(twist).fold(0.0, f64::max));
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Dampers in a machine file: their sizes, and the machine's response with and without them.
+
+use cargo_driveline::machine_file::parse;
+use nalgebra::{Complex, Matrix3, Vector3};
+use serde_json::Value;
+
+use super::critical::modes;
+
+const MOTOR: f64 = 2.0;
+const LOAD: f64 = 12.0;
+const STIFFNESS: f64 = 4.0e4;
+const RING: f64 = 0.8;
+
+/// A motor, a shaft and a gear of two, a load with a ring.
+fn machine(damper: &str) -> String {
+    format!(
+        "name = \"damped\"\n[[element]]\nkind = \"motor\"\ninertia = {MOTOR}\n[[element]]\nkind = \"shaft\"\n\
+         stiffness = {STIFFNESS}\n[[element]]\nkind = \"gear\"\nratio = 2\n[[element]]\nkind = \"rotor\"\n\
+         label = \"load\"\ninertia = {LOAD}\n[encoder]\nlines = 2048\n[control]\nrate_hz = 10000\n\
+         [disturbance]\ntorque_accuracy = 1.0\n\
+         load_torque_step = 1.0\nwithin = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n[[damper]]\nat = \"load\"\n\
+         inertia = {RING}\n{damper}"
+    )
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Angle of the load per torque on it, each on its own shaft, by the three equations of motion.
+fn angle(stiffness: f64, damping: f64, omega: f64) -> f64 {
+    let s = Complex::new(0.0, omega);
+    let (coupling, inertia) = (damping * s + stiffness, |j: f64| s * s * j);
+    let zero = Complex::from(0.0);
+    // the shaft's twist is the motor's angle less twice the load's
+    let matrix = Matrix3::new(
+        inertia(MOTOR) + STIFFNESS,
+        Complex::from(-2.0 * STIFFNESS),
+        zero,
+        Complex::from(-2.0 * STIFFNESS),
+        inertia(LOAD) + 4.0 * STIFFNESS + coupling,
+        -coupling,
+        zero,
+        -coupling,
+        inertia(RING) + coupling,
+    );
+    matrix.lu().solve(&Vector3::new(zero, Complex::from(1.0), zero)).expect("damped")[1].norm()
+}
+
+#[test]
+fn dampers_have_their_best_size_and_the_response_of_the_whole_machine() {
+    // two masses at the motor, 2 and 3: omega^2 = k 5/6, and the mode at the second is 3 x 5/2
+    let omega = f64::sqrt(STIFFNESS * 5.0 / 6.0);
+    let mu = RING / 4.0 / 7.5;
+    let tuned = omega / (1.0 + mu);
+    let den_hartog = (RING * tuned * tuned, 2.0 * RING * tuned * f64::sqrt(3.0 * mu / (8.0 * (1.0 + mu))));
+    let lanchester = (0.0, 2.0 * RING * omega / f64::sqrt(2.0 * (1.0 + mu) * (2.0 + mu)));
+    for (keys, (stiffness, damping), fixed) in [
+        ("kind = \"tuned\"\n", den_hartog, (1.0 + 2.0 / mu).sqrt()),
+        ("kind = \"viscous\"\nmode = 1\n", lanchester, (2.0 + mu) / mu),
+        ("kind = \"tuned\"\nstiffness = 20000\ndamping = 30\n", (2.0e4, 30.0), (1.0 + 2.0 / mu).sqrt()),
+    ] {
+        let (found, page) = modes(&machine(keys), true);
+        let damper = &found["dampers"][0];
+        for (key, expected) in
+            [("mass_ratio", mu), ("stiffness", stiffness), ("damping", damping), ("fixed_amplitude", fixed)]
+        {
+            // modes to rounding
+            assert!((number(&damper[key]) - expected).abs() <= 1e-12 * expected, "{key}: {damper} {expected}");
+        }
+        assert!(damper["without"].is_null() && page.contains("Dampers"), "{damper}");
+        // torque and angle at the motor: four times
+        let largest = (0..60_000)
+            .map(|j| 4.0 * angle(stiffness, damping, omega * (0.5 + 1.5 * f64::from(j) / 6e4)))
+            .fold(0.0, f64::max);
+        // the peak lies between two of the command's 8000 points, 2e-4 apart: half of that over a half-width of 2 % or
+        // more, squared
+        assert!((number(&damper["with"]) / largest - 1.0).abs() < 1e-4, "{damper} {largest}");
+    }
+}
+
+#[test]
+fn damping_of_the_machine_limits_its_response_without_a_damper() {
+    let damped = machine("kind = \"tuned\"\n").replace("stiffness = 40000\n", "stiffness = 40000\ndamping = 3\n");
+    let (found, _) = modes(&damped, false);
+    let omega = f64::sqrt(STIFFNESS * 5.0 / 6.0);
+    // psi^2/(D omega) with D = d omega^2/k, less the rigid turning at a right angle
+    let peak = f64::hypot(1.0 / (7.5 * 3.0 / STIFFNESS * omega.powi(3)), 1.0 / (5.0 * omega * omega));
+    let without = number(&found["dampers"][0]["without"]);
+    // the true peak lies a damping ratio squared beside the natural frequency
+    assert!((without / peak - 1.0).abs() < 1e-3, "{without} {peak}");
+    // a quality of k/(d omega) = 73 without, fixed points of 8.7 with
+    assert!(number(&found["dampers"][0]["with"]) < 0.2 * without);
+}
+
+#[test]
+fn wrong_dampers_are_refused_at_their_place() {
+    for (keys, key, expected) in [
+        ("kind = \"friction\"\n", "damper[0].kind", "\"viscous\""),
+        ("kind = \"tuned\"\nmode = 2\n", "damper[0].mode", "1 modes"),
+        ("kind = \"viscous\"\nstiffness = 3\n", "damper[0].stiffness", "only"),
+    ] {
+        let fault = parse("damped", &machine(keys)).unwrap_err();
+        assert!(fault.key == key && fault.expected.contains(expected), "{}", fault.explained());
+    }
+    let fault = parse("damped", &machine("kind = \"tuned\"\n").replace("at = \"load\"", "at = \"ring\"")).unwrap_err();
+    assert!(fault.key == "damper[0].at" && fault.expected.contains("\"load\""), "{}", fault.explained());
+}

@@ -1,0 +1,175 @@
+//! A piston engine in a machine file: critical speeds with their phasor sums, free forces and moments.
+
+use std::f64::consts::{PI, TAU};
+
+use cargo_driveline::machine_file::{parse, parse_train};
+use serde_json::Value;
+
+use super::critical::modes;
+
+const INERTIA: f64 = 0.4;
+const STIFFNESS: f64 = 9.0e5;
+const DAMPING: f64 = 25.0;
+const PRESSURE: f64 = 3.0e5;
+
+/// Six equal masses on equal shafts, each a throw; the diagram is `p (1 + cos 3/2 phi)`.
+fn six(engine: &str) -> String {
+    let throw =
+        |kind: &str, j: usize| format!("[[element]]\nkind = \"{kind}\"\nlabel = \"{j}\"\ninertia = {INERTIA}\n");
+    let shaft = format!("[[element]]\nkind = \"shaft\"\nstiffness = {STIFFNESS}\ndamping = {DAMPING}\n");
+    let rest: String = (2..=6).map(|j| format!("{shaft}{}", throw("rotor", j))).collect();
+    format!(
+        "name = \"six\"\n{}{rest}[encoder]\nlines = 2048\n[control]\nrate_hz = 10000\n[disturbance]\ntorque_accuracy = \
+         1.0\nload_torque_step = 1.0\nwithin = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n[engine]\n{engine}",
+        throw("motor", 1)
+    )
+}
+
+/// A crank so small against its rod that lambda is 1e-3, and next to no mass.
+fn engine() -> String {
+    let diagram = (0..48).map(|j| PRESSURE * (1.0 + (1.5 * f64::from(j) * 2.0 * TAU / 48.0).cos()));
+    let diagram: Vec<String> = diagram.map(|p| format!("{p:.6}")).collect();
+    format!(
+        "strokes = 4\ncranks = [0, 240, 120, 120, 240, 0]\nfiring_order = [1, 5, 3, 6, 2, 4]\n\
+         at = [\"1\", \"2\", \"3\", \"4\", \"5\", \"6\"]\npositions = [0, 0.1, 0.2, 0.3, 0.4, 0.5]\nradius = 0.05\n\
+         rod = 50.0\nreciprocating = 1e-9\nbore = 0.2\norders = [0.5, 1.0, 1.5, 2.5, 3.0]\npressure = [{}]\n",
+        diagram.join(", ")
+    )
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[test]
+fn critical_speeds_of_a_six_in_line_with_their_phasor_sums() {
+    let (found, page) = modes(&six(&engine()), true);
+    let critical = found["critical"].as_array().unwrap();
+    assert_eq!(critical.len(), 5 * 5);
+    // firing angles in thirds of a turn
+    let firing = [0.0, 4.0, 2.0, 5.0, 1.0, 3.0].map(|third| third * TAU / 3.0);
+    let gas = PRESSURE * PI * 0.01 * 0.05;
+    for row in critical {
+        // equal masses in a free chain: omega = 2 sqrt(k/J) sin(m pi/12), shape cos(m pi (2 j - 1)/12)
+        let m = number(&row["mode"]);
+        let omega = 2.0 * f64::sqrt(STIFFNESS / INERTIA) * (m * PI / 12.0).sin();
+        let order = number(&row["order"]);
+        // eigenvalues of six masses, to rounding
+        assert!((number(&row["speed"]) / (omega / order) - 1.0).abs() < 1e-12, "{row}");
+        let shape: Vec<f64> = (0..6).map(|j| (m * PI * f64::from(2 * j + 1) / 12.0).cos()).collect();
+        let most = shape.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let part = |f: fn(f64) -> f64| shape.iter().zip(firing).map(|(x, a)| x * f(order * a)).sum::<f64>();
+        let sum = f64::hypot(part(f64::cos), part(f64::sin));
+        // shapes to rounding
+        assert!((number(&row["phasor_sum"]) - sum / most).abs() < 1e-12, "{row} {}", sum / most);
+        // sin phi (1 + cos 3/2 phi) = sin phi + (sin 5/2 phi - sin 1/2 phi)/2, and lambda/4 of sin 1/2 phi
+        let torque = gas
+            * match order {
+                0.5 => 0.5 - 0.25e-3,
+                1.0 => 1.0,
+                2.5 => 0.5,
+                _ => 0.0,
+            };
+        // the next power of lambda, and six digits of the diagram
+        assert!((number(&row["torque"]) - torque).abs() < 1e-8 * gas, "{row} {torque}");
+        // modal damping d omega^2/k; of a mass-normalised shape sqrt(2/(6 J)) cos
+        let twist = shape.windows(2).fold(0.0, |most: f64, pair| most.max((pair[0] - pair[1]).abs()));
+        let swing = torque * sum / (6.0 * INERTIA / 2.0 * DAMPING * omega.powi(3) / STIFFNESS);
+        let shaft = STIFFNESS * twist * swing;
+        // as the torque, of which it is up to a hundred times
+        assert!((number(&row["shaft_torque"]) - shaft).abs() < 1e-8 * shaft + 1e-5 * gas, "{row} {shaft}");
+    }
+    assert!(page.contains("phasor sum") && page.contains("Free forces and moments of the engine"));
+    for (angle, third) in found["engine"]["firing"].as_array().unwrap().iter().zip(firing) {
+        // a few additions
+        assert!((number(angle) - third.to_degrees()).abs() < 1e-11, "{angle} {third}");
+    }
+    assert!(page.contains("fire at 0, 480, 240, 600, 120, 360 degrees"));
+    // six in line have none
+    for order in found["engine"]["orders"].as_array().unwrap() {
+        for part in ["force_forward", "force_backward", "moment_forward", "moment_backward"] {
+            assert_eq!(number(&order[part]), 0.0, "{order}");
+        }
+    }
+}
+
+#[test]
+fn free_forces_of_one_cylinder_behind_a_gear() {
+    let [one, behind] = [
+        "strokes = 2\ncranks = [30]\npositions = [0]\nat = [\"6\"]\nradius = 0.05\nrod = 0.2\nreciprocating = 0.5\n\
+         bore = 0.08\ncompression = 9\npeak_pressure = 4e6\norders = [1, 2]\n",
+        "[[branch]]\nat = \"6\"\n[[branch.element]]\nkind = \"gear\"\nratio = 4\n[[branch.element]]\nkind = \"shaft\"\n\
+         stiffness = 1e4\n[[branch.element]]\nkind = \"rotor\"\nlabel = \"slow\"\ninertia = 3\n",
+    ];
+    let (found, _) =
+        modes(&six(&one.replace("\"6\"", "\"slow\"")).replace("[encoder]", &format!("{behind}[encoder]")), false);
+    // 200 rad/s of the motor are 50 rad/s of the crankshaft
+    assert_eq!(number(&found["engine"]["speed"]), 50.0);
+    let first = 0.5 * 0.05 * 2500.0;
+    for (order, force) in [first, first * 0.25].into_iter().enumerate() {
+        for part in ["force_forward", "force_backward"] {
+            // half of it each way, a few products
+            assert!((number(&found["engine"]["orders"][order][part]) - 0.5 * force).abs() < 1e-12, "{found}");
+        }
+    }
+    let (low, high) = (&found["critical"][0], found["critical"].as_array().unwrap().last().unwrap());
+    assert!(number(&low["speed"]) < number(&high["speed"]));
+    let omega = TAU * number(&low["hz"]);
+    // four turns of the motor for one of the crankshaft
+    assert!((number(&low["speed"]) / (4.0 * omega / number(&low["order"])) - 1.0).abs() < 1e-13, "{low}");
+}
+
+#[test]
+fn wrong_engines_are_refused_at_their_place() {
+    let right = engine();
+    let cases = [
+        ("strokes = 4", "strokes = 3", "engine.strokes", "2 or 4"),
+        ("[1, 5, 3, 6, 2, 4]", "[1, 2, 3, 4, 5, 6]", "engine.firing_order", "two turns"),
+        ("at = [\"1\"", "at = [\"7\"", "engine.at", "\"6\""),
+        ("positions = [0, 0.1,", "positions = [", "engine.positions", "6 numbers"),
+        ("rod = 50.0", "rod = 0.05", "engine.radius", "below the rod's"),
+        ("orders = [0.5", "orders = [0.7", "engine.orders", "multiples of 0.5"),
+        ("orders = [0.5", "orders = [12.0", "engine.orders", "up to 11.5"),
+    ];
+    for (old, new, key, expected) in cases {
+        let fault = parse("six", &six(&right.replace(old, new))).unwrap_err();
+        assert!(fault.key == key && fault.expected.contains(expected), "{new}: {}", fault.explained());
+    }
+    let both = format!("{}[[excitation]]\nname = \"engine\"\norders = [1]\n", six(&right));
+    let fault = parse("six", &both).unwrap_err();
+    assert!(fault.key == "engine" && fault.expected.contains("no [[excitation]]"), "{}", fault.explained());
+    let typical = right.split("pressure").next().unwrap().to_owned() + "compression = 17\npeak_pressure = 1e6\n";
+    let fault = parse("six", &six(&typical)).unwrap_err();
+    assert!(fault.key == "engine.peak_pressure" && fault.expected.contains("above that"), "{}", fault.explained());
+}
+
+/// Kinetic and strain energy of a run are the work of the gas, as the integral of its closed form.
+#[test]
+fn the_gas_torque_does_its_work_in_a_run() {
+    // p (1 + sin phi): T = p A r (1/2 + sin phi + lambda/4 cos phi) in the orders 0 and 1
+    let diagram = (0..24).map(|j| PRESSURE * (1.0 + (f64::from(j) * TAU / 24.0).sin()));
+    let diagram: Vec<String> = diagram.map(|p| format!("{p:.9}")).collect();
+    let text = format!(
+        "[[element]]\nkind = \"motor\"\ninertia = 0.4\n[[element]]\nkind = \"shaft\"\nstiffness = 2e4\n[[element]]\n\
+         kind = \"gear\"\nratio = 2\n[[element]]\nkind = \"rotor\"\nlabel = \"crank\"\ninertia = 2.0\n[encoder]\n\
+         lines = 2048\n[control]\nrate_hz = 10000\n[disturbance]\ntorque_accuracy = 1.0\nload_torque_step = 1.0\n\
+         within = 1.0\n[limits]\ntorque = 100.0\nspeed = 200.0\n[engine]\nstrokes = 2\ncranks = [0, 200]\n\
+         at = [\"crank\", \"crank\"]\nradius = 0.05\nrod = 50.0\nreciprocating = 1e-9\nbore = 0.2\norders = [1]\n\
+         pressure = [{}]\n[run]\ntime = 0.4\nstep = 0.4\n",
+        diagram.join(", ")
+    );
+    let mut run = parse_train("work", &text).unwrap();
+    run.motion.advance(0.4);
+    let unit = PRESSURE * PI * 0.01 * 0.05;
+    // the crankshaft turns half as fast as its mass at the motor
+    let phi = 0.5 * run.motion.angle(1);
+    let work = |firing: f64| {
+        0.5 * phi + (firing.cos() - (phi - firing).cos()) + 0.25e-3 * ((phi - firing).sin() + firing.sin())
+    };
+    let work = unit * (work(0.0) + work((-200f64).to_radians()));
+    let kinetic = 0.5 * (0.4 * run.motion.speed(0).powi(2) + 0.5 * run.motion.speed(1).powi(2));
+    let energy = kinetic + 0.5 * 2e4 * run.motion.elongation(0).powi(2);
+    // the next power of lambda, nine digits of the diagram, and the solver's 1e-10
+    assert!((energy / work - 1.0).abs() < 1e-7, "{energy} {work} {phi}");
+    assert!(phi > TAU, "{phi}");
+}

@@ -1,0 +1,259 @@
+//! Piston engines: free forces, moments and torques against closed forms.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI, SQRT_2, TAU};
+
+use driveline::machine::{
+    CrankSlider, Cylinder, Diameter, Error, Harmonic, Indicator, Inertia, Length, Mass, WorkingCycle, free_forces,
+    free_moments, phasor_sum,
+};
+
+/// A third of a turn.
+const THIRD: f64 = TAU / 3.0;
+/// Distance of two throws \[m\].
+const PITCH: f64 = 0.13;
+
+/// An arrangement, and the largest and smallest value of its first and second order: forces in units of one cylinder's,
+/// moments about the middle in units of one cylinder's times the pitch.
+type Arrangement<'c> = (&'static str, &'c [Cylinder], [[f64; 2]; 4]);
+
+/// Two equal and opposite parts swing along a line.
+const fn line(amplitude: f64) -> [f64; 2] {
+    [amplitude, 0.0]
+}
+
+/// A vector that only rotates.
+const fn circle(amplitude: f64) -> [f64; 2] {
+    [amplitude, amplitude]
+}
+
+/// The closed forms are sums of two or three vectors, done by hand.
+#[test]
+fn first_and_second_order_of_fourteen_arrangements() {
+    let pitch = Length(PITCH);
+    let none = line(0.0);
+    let five = |sign: f64| line((12.5 + sign * 5.5 * 5f64.sqrt()).sqrt());
+    let [turned, quarter] = [PI, FRAC_PI_2];
+    let fifth = TAU / 5.0;
+    let arrangements: [Arrangement; 14] = [
+        ("one", &Cylinder::in_line([0.0], pitch), [line(1.0), line(1.0), none, none]),
+        ("two in line, 180", &Cylinder::in_line([0.0, turned], pitch), [none, line(2.0), line(1.0), none]),
+        ("two in line, 360", &Cylinder::in_line([0.0; 2], pitch), [line(2.0), line(2.0), none, none]),
+        (
+            "three in line",
+            &Cylinder::in_line([0.0, THIRD, 2.0 * THIRD], pitch),
+            // -1 and exp(i 240 degrees), which are 120 degrees from opposite
+            [none, none, line(3f64.sqrt()), line(3f64.sqrt())],
+        ),
+        ("four in line", &Cylinder::in_line([0.0, turned, turned, 0.0], pitch), [none, line(4.0), none, none]),
+        (
+            "five in line, 1-2-4-5-3",
+            &Cylinder::in_line([0.0, 3.0 * fifth, 2.0 * fifth, fifth, 4.0 * fifth], pitch),
+            // -2 + (exp 72 - exp 216) + 2 exp 288: real sqrt 5 - 5/2, imaginary sin 36 - sin 72; double angles alike
+            [none, none, five(-1.0), five(1.0)],
+        ),
+        (
+            "six in line",
+            &Cylinder::in_line([0.0, 2.0 * THIRD, THIRD, THIRD, 2.0 * THIRD, 0.0], pitch),
+            [none, none, none, none],
+        ),
+        // second order: along the bisector 2 cos 45 cos 90, across it 2 sin 45 sin 90
+        ("V2, 90 degrees", &Cylinder::vee([0.0; 2], quarter, pitch), [circle(1.0), line(SQRT_2), none, none]),
+        // first order: 2 cos^2 30 and 2 sin^2 30; second: 2 cos 30 cos 60 and 2 sin 30 sin 60
+        (
+            "V2, 60 degrees",
+            &Cylinder::vee([0.0; 2], FRAC_PI_3, pitch),
+            [[1.5, 0.5], circle(0.75f64.sqrt()), none, none],
+        ),
+        // the pairs of the V2, at -3/2, -1/2, 1/2, 3/2: -3/2 - i/2 - i/2 - 3/2; the second orders are + - - +
+        (
+            "V8, 90 degrees, cross plane",
+            &Cylinder::vee([0.0, 0.0, quarter, quarter, -quarter, -quarter, turned, turned], quarter, pitch),
+            [none, none, circle(10f64.sqrt()), none],
+        ),
+        ("boxer, two", &Cylinder::boxer([0.0, turned], pitch), [none, none, line(1.0), line(1.0)]),
+        // second order + - + -: -3/2 + 1/2 + 1/2 - 3/2
+        ("boxer, four", &Cylinder::boxer([0.0, turned, turned, 0.0], pitch), [none, none, none, line(2.0)]),
+        // the backward parts are 120 degrees apart in the first order, together in the second
+        ("star, three", &Cylinder::star::<3>(), [circle(1.5), circle(1.5), none, none]),
+        ("star, five", &Cylinder::star::<5>(), [circle(2.5), none, none, none]),
+    ];
+    for (name, cylinders, expected) in arrangements {
+        let middle = cylinders.iter().map(|cylinder| cylinder.position).sum::<f64>() / cylinders.len() as f64;
+        for (order, [forces, moments]) in [[expected[0], expected[2]], [expected[1], expected[3]]]
+            .into_iter()
+            .enumerate()
+            .map(|(j, e)| (j as u32 + 1, e))
+        {
+            let (force, moment) = (free_forces(cylinders, order), free_moments(cylinders, order, middle));
+            let found = [force.largest(), force.smallest(), moment.largest() / PITCH, moment.smallest() / PITCH];
+            for (found, expected) in found.into_iter().zip([forces[0], forces[1], moments[0], moments[1]]) {
+                // eight sines at most, each rounded
+                assert!((found - expected).abs() < 1e-12, "{name}, order {order}: {found} {expected}");
+            }
+        }
+    }
+}
+
+/// The whole force of a slider in line of every cylinder, by its travel, against first and second order.
+#[test]
+fn the_orders_are_those_of_the_whole_force() {
+    let crank = CrankSlider::massless_rod(Length(0.05), Length(0.5), Inertia(0.1), Mass(0.8));
+    let (speed, vee) = (150.0, Cylinder::vee([0.3, 0.3, 1.9, 1.9], 1.1, Length(0.1)));
+    let unit = crank.force_orders(speed);
+    let orders = [1, 2].map(|order| free_forces(&vee, order));
+    for step in 0..50 {
+        let phi = f64::from(step) * 0.13;
+        let whole = vee.iter().fold([0.0; 2], |sum, cylinder| {
+            let force = crank.mass_force(phi + cylinder.throw - cylinder.bank, speed, 0.0);
+            [sum[0] + force * cylinder.bank.cos(), sum[1] + force * cylinder.bank.sin()]
+        });
+        let mut sum = [0.0; 2];
+        for ((order, shaking), unit) in [1.0, 2.0].into_iter().zip(orders).zip(unit) {
+            let (sine, cosine) = f64::sin_cos(order * phi);
+            let [f, b] = [shaking.forward, shaking.backward];
+            sum[0] += unit * (cosine * (f[0] + b[0]) - sine * (f[1] - b[1]));
+            sum[1] += unit * (cosine * (f[1] + b[1]) + sine * (f[0] - b[0]));
+        }
+        // left out, as in `force_orders`: 0.6 lambda^3 of each cylinder's first order
+        let off = f64::hypot(whole[0] - sum[0], whole[1] - sum[1]);
+        assert!(off < 4.0 * 0.6 * crank.lambda().powi(3) * unit[0], "{phi}: {off}");
+    }
+}
+
+#[test]
+fn counterweights_and_balance_shafts_take_their_share() {
+    let [one, pair] = [Cylinder::in_line([0.0], Length(0.1)), [Cylinder::new(0.0, 0.0, Length(0.0)); 1]];
+    let single = free_forces(&one, 1);
+    // half of the reciprocating mass leaves half of the force, turning against the crank; all of it turns it across
+    let half = single.counterweighted(0.5);
+    assert_eq!((half.largest(), half.smallest()), (0.5, 0.5));
+    let whole = single.counterweighted(1.0);
+    assert_eq!((whole.largest(), whole.forward), (1.0, [-0.5, 0.0]));
+    assert_eq!(half.with_balance_shafts(0.0, 1.0).largest(), 0.0);
+    assert_eq!(free_forces(&pair, 1), single);
+    // a 90 degree V2 by its counterweight alone
+    let vee = free_forces(&Cylinder::vee([0.4; 2], FRAC_PI_2, Length(0.0)), 1);
+    // sums of two sines
+    assert!(vee.counterweighted(0.5).largest() < 1e-15, "{vee:?}");
+    // a four in line by two shafts at twice the speed
+    let four = free_forces(&Cylinder::in_line([0.0, PI, PI, 0.0], Length(0.1)), 2);
+    assert_eq!(four.with_balance_shafts(1.0, 1.0).largest(), 0.0);
+}
+
+#[test]
+fn mass_torque_by_the_series_in_lambda() {
+    // derived: -s' s'' of s = r (1 - cos phi) + l (1 - sqrt(1 - lambda^2 sin^2 phi)), expanded to lambda^6
+    let series = |l: f64| {
+        [
+            0.0,
+            l / 4.0 + l.powi(3) / 16.0 + 15.0 * l.powi(5) / 512.0,
+            -0.5 - l.powi(4) / 32.0 - l.powi(6) / 32.0,
+            -0.75 * l - 9.0 * l.powi(3) / 32.0 - 81.0 * l.powi(5) / 512.0,
+            -l * l / 4.0 - l.powi(4) / 8.0 - l.powi(6) / 16.0,
+        ]
+    };
+    for (rod, least) in [(3.0, 2e-15), (0.3, 0.0)] {
+        let crank = CrankSlider::massless_rod(Length(0.06), Length(rod), Inertia(0.7), Mass(1.5));
+        let unit = 1.5 * 0.06 * 0.06 * 200.0 * 200.0;
+        for (found, expected) in crank.mass_torque::<5>(200.0).into_iter().zip(series(crank.lambda())) {
+            // the next power of lambda, or the rounding of 256 terms
+            let off = (found / unit - expected).abs();
+            assert!(off < least + crank.lambda().powi(7) / 4.0, "{rod}: {found} {expected} {off:e}");
+        }
+    }
+}
+
+#[test]
+fn gas_torque_of_a_constant_pressure_and_of_a_whole_diagram() {
+    const CRANK: CrankSlider = CrankSlider::massless_rod(Length(0.05), Length(0.16), Inertia(0.1), Mass(1.0));
+    let (crank, bore, four) = (CRANK, Diameter(0.1), WorkingCycle::FourStroke);
+    let area = PI * 0.01 / 4.0;
+    let even = crank.gas_torque::<6>(bore, &[2e5; 720], four);
+    // s' of a turn has r sin phi and even orders only: derived
+    for (index, harmonic) in even.into_iter().enumerate() {
+        let expected = if index == 2 { 2e5 * area * 0.05 } else { harmonic.sine * f64::from(index == 4) };
+        // 720 terms of 80 N m, each rounded
+        assert!((harmonic.sine - expected).abs() < 1e-11 && harmonic.cosine.abs() < 1e-11, "{index}: {harmonic:?}");
+    }
+    const DIESEL: Indicator = Indicator { compression: 17.0, exponent: 1.3, charge: 1.6e5, peak: 1.2e7 };
+    assert_eq!(DIESEL.check(), Ok(()));
+    let pressure = DIESEL.sample::<1440>(&crank, four);
+    let orders = crank.gas_torque::<25>(bore, &pressure, four);
+    // the compiler has the same bits
+    const PRESSURE: [f64; 1440] = DIESEL.sample(&CRANK, WorkingCycle::FourStroke);
+    const ORDERS: [Harmonic; 25] = CRANK.gas_torque(Diameter(0.1), &PRESSURE, WorkingCycle::FourStroke);
+    assert_eq!(orders, ORDERS);
+    // the work between two polytropes, derived: (p_peak - p_0 eps^n) V_c (1 - eps^(1-n))/(n - 1)
+    let clearance = area * 0.1 / 16.0;
+    let work = (1.2e7 - 1.6e5 * 17f64.powf(1.3)) * clearance * (1.0 - 17f64.powf(-0.3)) / 0.3;
+    // the trapezoidal rule: h^2/12 times the kink of the torque at the firing dead centre, a tenth more for the other
+    // terms
+    let kink = (1.2e7 - 1.6e5 * 17f64.powf(1.3)) * area * 0.05 * (1.0 + crank.lambda());
+    let step = 2.0 * TAU / 1440.0;
+    let off = 1.1 * step * step / 12.0 * kink / (2.0 * TAU);
+    assert!((orders[0].cosine - work / (2.0 * TAU)).abs() < off, "{:?} {work} {off}", orders[0]);
+    // an order by the integral itself, over many more angles in the middle of their steps
+    let many = 100_000;
+    let mut whole = [0.0; 2];
+    for step in 0..many {
+        let phi = 2.0 * TAU * (f64::from(step) + 0.5) / f64::from(many);
+        let volume = 1.0 + 16.0 * crank.travel(phi).travel / 0.1;
+        let pressure = match phi {
+            phi if phi < PI => 1.2e7 * volume.powf(-1.3),
+            phi if phi > 3.0 * PI => 1.6e5 * (17.0 / volume).powf(1.3),
+            _ => 1.6e5,
+        };
+        let torque = (pressure - 101_325.0) * area * crank.travel(phi).first * 2.0 / f64::from(many);
+        whole = [whole[0] + torque * (1.5 * phi).cos(), whole[1] + torque * (1.5 * phi).sin()];
+    }
+    // the same kink, twice for an amplitude
+    assert!(f64::hypot(whole[0] - orders[3].cosine, whole[1] - orders[3].sine) < 2.0 * off, "{whole:?}");
+    let wrong = |indicator: Indicator| assert_eq!(indicator.check(), Err(Error::Indicator));
+    wrong(Indicator { compression: 1.0, ..DIESEL });
+    wrong(Indicator { peak: 1.6e5 * 17f64.powf(1.3) * 0.999, ..DIESEL });
+    wrong(Indicator { charge: f64::NAN, ..DIESEL });
+    wrong(Indicator { compression: f64::INFINITY, ..DIESEL });
+}
+
+#[test]
+fn phasor_sums_by_order_and_shape() {
+    const SIX: [Cylinder; 6] = Cylinder::fired(
+        Cylinder::in_line([0.0, 2.0 * THIRD, THIRD, THIRD, 2.0 * THIRD, 0.0], Length(0.1)),
+        [1, 5, 3, 6, 2, 4],
+    );
+    // they fire every 120 degrees
+    for (cylinder, firing) in SIX.iter().zip([0.0, 4.0, 2.0, 5.0, 1.0, 3.0]) {
+        // half a dozen additions of a third of a turn
+        assert!((cylinder.firing - firing * THIRD).abs() < 1e-14, "{cylinder:?}");
+    }
+    let (rigid, twisted) = ([1.0; 6], [1.0, 0.6, 0.2, -0.2, -0.6, -1.0]);
+    for (order, stiff, elastic) in [
+        (3.0, 6.0, 0.0),            // all together
+        (1.5, 0.0, 3.6),            // 1, 3, 2 against 5, 6, 4
+        (0.5, 0.0, 1.92f64.sqrt()), // 60 degrees apart: 2 - 1.2 exp 60 + 0.4 exp 120
+        (6.0, 6.0, 0.0),
+        (4.5, 0.0, 3.6),
+    ] {
+        // six sines of up to nine turns, each rounded
+        assert!((phasor_sum(&SIX, &rigid, order) - stiff).abs() < 1e-13, "{order}");
+        assert!((phasor_sum(&SIX, &twisted, order) - elastic).abs() < 1e-13, "{order}");
+    }
+    // a star of five on two turns, every second cylinder
+    let star = Cylinder::fired(Cylinder::star::<5>(), [1, 3, 5, 2, 4]);
+    let mut firing = star.map(|cylinder| cylinder.firing);
+    firing.sort_by(f64::total_cmp);
+    assert!(firing.iter().enumerate().all(|(j, angle)| (angle - 0.4 * j as f64 * TAU).abs() < 1e-14), "{firing:?}");
+    // two cylinders at their dead centre at the same time fire one turn apart
+    let twin = Cylinder::fired(Cylinder::in_line([0.0; 2], Length(0.1)), [1, 2]);
+    assert_eq!(twin.map(|cylinder| cylinder.firing), [0.0, TAU]);
+}
+
+#[test]
+fn wrong_firing_orders_are_refused() {
+    let six = Cylinder::in_line([0.0, 2.0 * THIRD, THIRD, THIRD, 2.0 * THIRD, 0.0], Length(0.1));
+    let wrong: [&[usize]; 5] =
+        [&[1, 5, 3, 6, 2], &[1, 5, 3, 6, 2, 2], &[0, 5, 3, 6, 2, 4], &[1, 5, 3, 6, 2, 7], &[1, 2, 3, 4, 5, 6]];
+    for order in wrong {
+        assert_eq!(Cylinder::try_fire(&mut six.clone(), order), Err(Error::FiringOrder), "{order:?}");
+    }
+}

@@ -1,0 +1,185 @@
+//! Where the cylinders stand and when they fire.
+
+use core::f64::consts::{PI, TAU};
+
+use crate::machine::{Error, Length};
+use crate::math::{hypot, sin_cos};
+
+/// Crank angles that are nearer to each other than this are the same \[rad\]: far above their rounding, far below the
+/// distance of two throws.
+const SAME: f64 = 1e-6;
+
+/// The working cycle of an engine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum WorkingCycle {
+    /// One turn; orders 1, 2, 3 ... [Pfützner 1980 ch. 1].
+    TwoStroke,
+    /// Two turns; orders 1/2, 1, 3/2 ... [Pfützner 1980 ch. 1].
+    FourStroke,
+}
+
+impl WorkingCycle {
+    /// Crank angle of a cycle \[rad\].
+    #[must_use]
+    pub const fn angle(self) -> f64 {
+        match self {
+            Self::TwoStroke => TAU,
+            Self::FourStroke => 2.0 * TAU,
+        }
+    }
+
+    /// Lowest order, of which all others are multiples.
+    #[must_use]
+    pub const fn lowest_order(self) -> f64 {
+        TAU / self.angle()
+    }
+}
+
+/// A cylinder of an engine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Cylinder {
+    /// Angle of its throw on the crankshaft \[rad\], in the sense of rotation.
+    pub throw: f64,
+    /// Direction of its axis about the crankshaft \[rad\], in the sense of rotation.
+    pub bank: f64,
+    /// Place along the crankshaft \[m\].
+    pub position: f64,
+    /// Angle of the crankshaft at which it fires \[rad\], a top dead centre.
+    pub firing: f64,
+}
+
+impl Cylinder {
+    /// A cylinder that fires at its first top dead centre, as every one of a two-stroke engine.
+    #[must_use]
+    pub const fn new(throw: f64, bank: f64, position: Length) -> Self {
+        Self { throw, bank, position: position.0, firing: within_a_turn(bank - throw) }
+    }
+
+    /// Cylinders in line, `pitch` apart, by their throws \[rad\].
+    #[must_use]
+    pub const fn in_line<const N: usize>(throws: [f64; N], pitch: Length) -> [Self; N] {
+        let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
+        let mut j = 0;
+        while j < N {
+            all[j] = Self::new(throws[j], 0.0, Length(pitch.0 * j as f64));
+            j += 1;
+        }
+        all
+    }
+
+    /// Cylinders in two banks at an angle \[rad\] to each other: a pair for each throw, side by side on it, the throws
+    /// `pitch` apart. Cylinders 1, 3, 5 ... are of the first bank; `throws` has one angle \[rad\] for each cylinder.
+    #[must_use]
+    pub const fn vee<const N: usize>(throws: [f64; N], angle: f64, pitch: Length) -> [Self; N] {
+        let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
+        let mut j = 0;
+        while j < N {
+            let bank = if j % 2 == 0 { -0.5 * angle } else { 0.5 * angle };
+            all[j] = Self::new(throws[j], bank, Length(pitch.0 * (j / 2) as f64));
+            j += 1;
+        }
+        all
+    }
+
+    /// Opposed cylinders, each on a throw of its own, `pitch` apart, by their throws \[rad\].
+    #[must_use]
+    pub const fn boxer<const N: usize>(throws: [f64; N], pitch: Length) -> [Self; N] {
+        let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
+        let mut j = 0;
+        while j < N {
+            let bank = if j % 2 == 0 { 0.0 } else { PI };
+            all[j] = Self::new(throws[j], bank, Length(pitch.0 * j as f64));
+            j += 1;
+        }
+        all
+    }
+
+    /// A star (radial engine): all cylinders on one throw, evenly spread. Every connecting rod counts as one on the
+    /// pin; the articulated rods of a master rod are not modelled.
+    #[must_use]
+    pub const fn star<const N: usize>() -> [Self; N] {
+        let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
+        let mut j = 0;
+        while j < N {
+            all[j] = Self::new(0.0, TAU * j as f64 / N as f64, Length(0.0));
+            j += 1;
+        }
+        all
+    }
+
+    /// The cylinders of a four-stroke engine with their firing angles, by the firing order, cylinders counted from 1.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of [`Error::FiringOrder`].
+    #[must_use]
+    pub const fn fired<const N: usize>(mut cylinders: [Self; N], order: [usize; N]) -> [Self; N] {
+        match Self::try_fire(&mut cylinders, &order) {
+            Ok(()) => cylinders,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// Sets the firing angles of a four-stroke engine: each cylinder fires at its first top dead centre after the one
+    /// before it in the order.
+    ///
+    /// # Errors
+    /// [`Error::FiringOrder`] where the order does not name every cylinder once, counted from 1, or does not fit into
+    /// two turns.
+    pub const fn try_fire(cylinders: &mut [Self], order: &[usize]) -> Result<(), Error> {
+        if order.len() != cylinders.len() {
+            return Err(Error::FiringOrder);
+        }
+        let (mut j, mut begin, mut last) = (0, 0.0, 0.0);
+        while j < order.len() {
+            let mut before = 0;
+            while before < j {
+                if order[before] == order[j] {
+                    return Err(Error::FiringOrder);
+                }
+                before += 1;
+            }
+            if order[j] == 0 || order[j] > cylinders.len() {
+                return Err(Error::FiringOrder);
+            }
+            let cylinder = &mut cylinders[order[j] - 1];
+            let dead_centre = within_a_turn(cylinder.bank - cylinder.throw);
+            if j == 0 {
+                begin = dead_centre;
+                last = dead_centre;
+            } else {
+                let step = within_a_turn(dead_centre - last);
+                last += if step < SAME { step + TAU } else { step };
+            }
+            if !(last - begin < WorkingCycle::FourStroke.angle() - SAME) {
+                return Err(Error::FiringOrder);
+            }
+            cylinder.firing = last;
+            j += 1;
+        }
+        Ok(())
+    }
+}
+
+/// Phasor sum of an order over a mode's `shape` at each cylinder's throw: `|sum psi_j exp(-i nu alpha_j)|` with the
+/// firing angles alpha \[derived; excitation by orders: Pfützner 1980 (1.2a)-(1.2c)\].
+///
+/// Torque of the order times this sum is the mode's excitation. Cylinders beyond the shape's length do not count.
+#[must_use]
+pub const fn phasor_sum(cylinders: &[Cylinder], shape: &[f64], order: f64) -> f64 {
+    let (mut re, mut im, mut j) = (0.0, 0.0, 0);
+    while j < cylinders.len() && j < shape.len() {
+        let (sine, cosine) = sin_cos(order * cylinders[j].firing);
+        re += shape[j] * cosine;
+        im -= shape[j] * sine;
+        j += 1;
+    }
+    hypot(re, im)
+}
+
+/// The same angle from zero to a turn.
+const fn within_a_turn(angle: f64) -> f64 {
+    let rest = angle % TAU;
+    if rest < -SAME { rest + TAU } else { rest }
+}
