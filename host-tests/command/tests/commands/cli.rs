@@ -182,7 +182,7 @@ fn wrong_arguments_end_with_2() {
     // what the parser lists below its first line
     let output = driveline(&["export", "c", "--json"]);
     let error = json(&err(&output))["error"].as_str().unwrap().to_owned();
-    assert_eq!(error, "the following required arguments were not provided: --core <CORE>, --out <FOLDER>, <FILE>");
+    assert_eq!(error, "the following required arguments were not provided: --out <PATH>, --core <CORE>, <FILE>");
 }
 
 /// Who names a variant or a source that is not there is shown what there is, in the words that the option takes.
