@@ -119,8 +119,9 @@ fn an_observer_brings_nothing_of_another() {
 }
 
 /// A drive of nothing but an observer is an observer that is called by hand with the same screening: the same RAM to
-/// the byte, and the same constants but for a letter of the variant's name and its alignment to a word. The code is the same but for how often the compiler repeats what is done with a bad angle: 20
-/// bytes of 648 more on M4F, 90 of 816 on M3. An eighth is what that may be; a part that is not left out takes more.
+/// the byte, and the same constants but for a letter of the variant's name and its alignment to a word. The code is
+/// the same but for how often the compiler repeats what is done with a bad angle: 20 bytes of 648 more on M4F, 90 of
+/// 816 on M3. An eighth is what that may be; a part that is not left out takes more.
 #[test]
 fn a_drive_of_an_observer_alone_is_that_observer() {
     for (number, core) in CORES {
