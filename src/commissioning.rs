@@ -79,8 +79,8 @@
 //! - The servo takes damping from the swing: with its frequency w, a sixth of the band's lower end, and the resonance
 //!   w_r a damping ratio of about `45 (w/w_r)^3 J_l/J_m`: with equal masses 1.3 % for a band that begins at 0.4 w_r,
 //!   and 0.2 % for one that begins at 0.2 w_r. A shaft that has less is driven into a swing that grows. The test ends
-//!   when the motor shows it ([`Error::Unsteady`]); a resonance at two fifths of the band's upper end is then at about
-//!   twice `shaft_torque`: begin the band low.
+//!   when the motor shows it ([`Error::Unsteady`]). A resonance at two fifths of the band's upper end is then at about
+//!   twice `shaft_torque`, where the first guess is not below the motor's inertia: begin the band low.
 //! - All gaps are identified as one, no wider than a tenth of a turn of the motor.
 //! - The gap is identified only where friction holds the load and no weight closes the gap; otherwise
 //!   [`Error::LoadNotHeld`] or [`Error::Preloaded`].

@@ -43,8 +43,8 @@ impl Servo {
         Self::of(config, inertia, config.servo / 3.0)
     }
 
-    /// A quick one, whose observer's poles are at half of the frequency that a block resolves in twelve: for the swing
-    /// of the shaft. A resonance at two fifths of the band's upper end is seen at half of its size.
+    /// A quick one, for the swing of the shaft: its observer's poles are at half of the band's upper end, of whose
+    /// period a block is a twelfth. A resonance at two fifths of that end is seen at half of its size.
     pub(crate) fn quick(config: &TestConfig, inertia: f64) -> Self {
         Self::of(config, inertia, core::f64::consts::TAU / (72.0 * config.block))
     }

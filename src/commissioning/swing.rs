@@ -9,24 +9,36 @@ use super::servo::{Deviation, Servo};
 pub(crate) struct SwingWatch {
     observer: Servo,
     state: Deviation,
-    /// Blocks until it has settled.
+    /// Blocks until the observer has settled.
     settles: u32,
-    /// Shaft torque when it last came beyond the limit on another side than before, and how often it did.
-    side: f32,
-    sides: u32,
+    /// Shaft torque \[N m\] when it last passed the limit on the other side than before.
+    passed: f32,
+    /// How often it did without a pause, and the blocks since.
+    passes: u32,
+    since: u32,
+    /// Blocks in a period of the band's lower end: the pause after which a swing is another one.
+    pause: u32,
 }
 
-/// Sides of a swing of two periods. A jump of the speed, as of an angle that freezes, has two.
-const SIDES: u32 = 3;
+/// Passes of a swing of two periods. A jump of the speed, as of an angle that freezes, has two.
+const PASSES: u32 = 4;
 
-/// Blocks in which the observer forgets what it began from: to the part 3e-4 of it, with its poles at a quarter of a
-/// block each.
+/// Blocks in which the observer forgets its initial state down to 3e-4, with its poles at a quarter of a block each.
 const SETTLES: u32 = 48;
 
 impl SwingWatch {
     /// For a motor of this inertia \[kg m2\], from this state; a greater inertia finds a swing earlier.
     pub(crate) fn new(config: &TestConfig, inertia: f64, state: Deviation) -> Self {
-        Self { observer: Servo::quick(config, inertia), state, settles: SETTLES, side: 0.0, sides: 0 }
+        let [low, _] = config.settings.band;
+        Self {
+            observer: Servo::quick(config, inertia),
+            state,
+            settles: SETTLES,
+            passed: 0.0,
+            passes: 0,
+            since: 0,
+            pause: config.blocks(1.0 / low),
+        }
     }
 
     /// One block: the measurement under `torque`, while the reference accelerated. Whether the shaft swings: its torque
@@ -35,12 +47,17 @@ impl SwingWatch {
     pub(crate) fn observe(&mut self, config: &TestConfig, measured: f32, torque: f32, acceleration: f32) -> bool {
         self.observer.observe(&mut self.state, config.block_f32, measured, torque, acceleration);
         self.settles = self.settles.saturating_sub(1);
+        self.since = self.since.saturating_add(1);
+        if self.since > self.pause {
+            (self.passed, self.passes) = (0.0, 0);
+        }
         let shaft = self.state.disturbance;
         // Written so that a value that is not a number counts as beyond.
-        if self.settles == 0 && !(shaft.abs() <= config.swing) && !(shaft * self.side > 0.0) {
-            self.side = shaft;
-            self.sides = self.sides.saturating_add(1);
+        if self.settles == 0 && !(shaft.abs() <= config.swing) && !(shaft * self.passed > 0.0) {
+            self.passed = shaft;
+            self.passes = self.passes.saturating_add(1);
+            self.since = 0;
         }
-        self.sides > SIDES
+        self.passes >= PASSES
     }
 }

@@ -160,12 +160,15 @@ impl Record {
         if Settings::parse(&text).is_some_and(|fewer| settings.extends(&fewer)) {
             // beside it first: a kill loses nothing
             let (_, outcomes, _) = parse(path, &text)?;
-            let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-            let mut beside = tempfile::NamedTempFile::new_in(folder).map_err(system)?;
+            // where a link leads, with the rights of what stands there
+            let path = path.canonicalize().map_err(system)?;
+            let permissions = file.metadata().map_err(system)?.permissions();
+            let folder = path.parent().unwrap_or(Path::new("/"));
+            let mut beside = tempfile::Builder::new().permissions(permissions).tempfile_in(folder).map_err(system)?;
             beside.write_all(settings.file(&outcomes).as_bytes()).map_err(system)?;
-            beside.persist(path).map_err(|error| system(error.error))?;
+            beside.persist(&path).map_err(|error| system(error.error))?;
             drop(file);
-            return Self::open(path, settings);
+            return Self::open(&path, settings);
         }
         let outcomes = if begin.starts_with(&text) {
             // killed before the first draw, at the latest

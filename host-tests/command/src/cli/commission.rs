@@ -46,7 +46,8 @@ pub struct Commission {
     /// For a file: rated torque, of the largest torque [default: 0.5]
     #[arg(long, value_name = "SHARE")]
     rated: Option<f64>,
-    /// For a file: where the resonance is looked for [Hz] [default: 0.2 of the antiresonance to 2.5 of the resonance]
+    /// For a file: where the resonance is looked for [Hz] [default: 0.2 of the antiresonance to 2.5 of the resonance,
+    /// at most a tenth of the rate]
     #[arg(long, value_name = "HZ", num_args = 2, value_names = ["LOW", "HIGH"])]
     band: Option<Vec<f64>>,
     /// File of the page [default: report/NAME-commissioning.html]
@@ -143,8 +144,8 @@ impl Commission {
             if reason == Error::ShaftTorque {
                 return Err(Failure::usage(format!("{}: {}", self.machine, too_heavy(&case, rated))));
             }
-            let [low, high] = case.settings.band.map(significant);
-            let tried = format!("with --speed {speed:?} --travel {travel:?} --rated {rated:?} --band {low} {high}");
+            let [low, high] = case.settings.band;
+            let tried = format!("with --speed {speed:?} --travel {travel:?} --rated {rated:?} --band {low:?} {high:?}");
             return Err(Failure::usage(format!("{}: {reason}, {tried}", self.machine)));
         }
         Ok(case)

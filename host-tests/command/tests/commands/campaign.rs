@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::fs;
+use std::os::unix::fs::{PermissionsExt as _, symlink};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -88,7 +89,11 @@ fn a_campaign_goes_on_to_more_draws() {
     let whole = spindle(folder.path(), "6", "whole", &[]);
     spindle(folder.path(), "3", "grown", &[]);
     fs::write(folder.path().join("grown.extended"), "kept").unwrap();
-    assert_eq!(spindle(folder.path(), "6", "grown", &[]).stdout, whole.stdout);
+    symlink("grown", folder.path().join("link")).unwrap();
+    fs::set_permissions(folder.path().join("grown"), fs::Permissions::from_mode(0o640)).unwrap();
+    assert_eq!(spindle(folder.path(), "6", "link", &[]).stdout, whole.stdout);
+    assert!(folder.path().join("link").is_symlink());
+    assert_eq!(fs::metadata(folder.path().join("grown")).unwrap().permissions().mode() & 0o777, 0o640);
     assert_eq!(fs::read(folder.path().join("grown")).unwrap(), fs::read(folder.path().join("whole")).unwrap());
     assert_eq!(fs::read_to_string(folder.path().join("grown.extended")).unwrap(), "kept");
     // not back to fewer
