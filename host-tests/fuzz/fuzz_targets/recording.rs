@@ -1,0 +1,24 @@
+//! A recording of any bytes is read or refused.
+#![no_main]
+
+use std::cell::OnceCell;
+use std::fs;
+
+use cargo_driveline::recording::{Asked, read_recording};
+use tempfile::TempPath;
+
+thread_local! {
+    static FILE: OnceCell<TempPath> = const { OnceCell::new() };
+}
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    FILE.with(|file| {
+        let path = file.get_or_init(|| tempfile::NamedTempFile::new().expect("a temporary file").into_temp_path());
+        fs::write(path, bytes).expect("a temporary file");
+        for rate in [None, Some(1e3)] {
+            let asked =
+                Asked { rate, torque_constant: Some(1.0), counts: Some(4096.0), columns: vec![], window: [None; 2] };
+            let _ = read_recording(path, &asked);
+        }
+    });
+});
