@@ -113,6 +113,7 @@
 //!
 //! Generic code asks for `D: Composition + Configure<M, D::Number, Config = ConfigOf<D>>` and takes `D::CONFIG`.
 
+mod bases;
 mod family;
 mod fluctuation;
 mod gain_source;

@@ -5,11 +5,8 @@ use crate::design::{
     Actuator, BacklashDesign, BacklashTuning, Disturbance, Encoder, Rate, RigidDesign, Robustness, SpeedLoopDesign,
     SpeedLoopTuning, Tolerance, TwoMassDesign,
 };
-use crate::governor::SpeedLoopConfig;
 use crate::machine::{Chain, Match, TwoMass};
-use crate::number::Fixed;
-use crate::observer::TwoMassConfig;
-use crate::settings::{Bases, Cycle, Gear, Screening, SpeedLoopSettings};
+use crate::settings::{Bases, Cycle, Gear, Screening};
 
 /// Rating of the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,26 +54,6 @@ impl Rating {
     pub const fn ramp(&self, inertia: f64) -> f64 {
         let (usual, possible) = (self.speed / 2.0, 0.5 * self.torque_limit / inertia);
         if usual < possible { usual } else { possible }
-    }
-
-    /// Bases of fixed point: twice the torque limit, since the shaft swings by as much as the motor gives, and a third
-    /// over rated speed.
-    ///
-    /// The base of the torque is doubled until the gains of observer and speed loop fit, at most twelve times: a fine
-    /// encoder or a stiff shaft makes them large. Each doubling takes a bit of the torque's 28.
-    #[must_use]
-    pub const fn bases(&self, observer: &TwoMassDesign, speed_loop: &SpeedLoopDesign) -> Bases {
-        let settings = SpeedLoopSettings { torque_limit: self.torque_limit, ramp: self.speed };
-        let mut bases = Bases::of(observer, 2.0 * self.torque_limit, 1.34 * self.speed);
-        let mut doubled = 0;
-        while doubled < 12
-            && (TwoMassConfig::<Fixed>::try_new(observer, bases).is_err()
-                || SpeedLoopConfig::<Fixed>::try_new(speed_loop, settings, bases).is_err())
-        {
-            bases = Bases::of(observer, 2.0 * bases.torque, bases.speed);
-            doubled += 1;
-        }
-        bases
     }
 }
 
@@ -156,11 +133,11 @@ pub trait Machine {
     /// Torque and setpoint are kept by 15 of 19, the innovation by 16 of 19. With an encoder of more than 2^17 counts
     /// a smaller one is found out sooner.
     const SCREENING: Screening = Self::RATING.screening(Self::ENCODER, Self::RATE);
-    /// Bases of fixed point: [`Rating::bases`] with observer and speed loop.
+    /// Bases of fixed point: [`Rating::bases`] with observers, gear and speed loop.
     ///
-    /// A machine with a fine encoder or a soft governor names larger ones, or leaves more room for the speed. A machine
-    /// of one mass, or one whose shaft no observer can follow, names [`Bases::rigid`] or [`Bases::new`].
-    const BASES: Bases = Self::RATING.bases(&Self::OBSERVER, &Self::SPEED_LOOP);
+    /// A machine with a soft governor names larger ones. A machine of one mass, or one whose shaft no observer can
+    /// follow, names [`Rating::rigid_bases`], [`Bases::rigid`] or [`Bases::new`].
+    const BASES: Bases = Self::RATING.bases(&Self::OBSERVER, &Self::RIGID_OBSERVER, &Self::GEAR, &Self::SPEED_LOOP);
 
     /// The cycle, for the measurement of the speed's fluctuation: a turn of the motor.
     const CYCLE: Cycle = Cycle::TURN;

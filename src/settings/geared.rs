@@ -28,6 +28,14 @@ pub struct Gear {
 }
 
 impl Gear {
+    /// Whether fixed point, whose stiction gain follows from its bases, brings the gear to rest in ticks of this period
+    /// \[s\].
+    ///
+    /// Twice the firmness that is held within two ticks would swing, four times would grow.
+    pub(crate) const fn holds(&self, period: f64, bases: Bases) -> bool {
+        STICTION_GAIN * (bases.torque / bases.speed) <= self.inertia / period
+    }
+
     /// Friction per shaft torque, stiction gain \[N m s/rad\] that stops the motor within two ticks, and the deadband
     /// \[2^-32 turn\].
     const fn losses(&self, period: f64) -> Result<[f64; 3], Error> {
@@ -99,10 +107,9 @@ impl<C: Copy> GearedConfig<Fixed, C> {
     /// [`Error::Coefficient`] for an efficiency below 0.62.
     pub const fn try_new(observer: C, gear: &Gear, period: f64, bases: Bases) -> Result<Self, Error> {
         get!(bases.check());
-        let [friction, stiction_gain, deadband] = get!(gear.losses(period));
+        let [friction, _, deadband] = get!(gear.losses(period));
         let [friction] = get!(fixed([friction], FIXED));
-        // Twice the firmness that is held within two ticks would swing, four times would grow.
-        if !(STICTION_GAIN * (bases.torque / bases.speed) <= 2.0 * stiction_gain) {
+        if !gear.holds(period, bases) {
             return Err(Error::Value(LIGHT));
         }
         Ok(GearedConfig { observer, friction, stiction_gain: (), deadband: Fixed::from_bits(deadband as i32) })

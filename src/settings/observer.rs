@@ -10,8 +10,10 @@ use crate::observer::{RigidConfig, SemiImplicitConfig, TwoMassConfig};
 const STEP: &str = "a coefficient of the observer's step is beyond the range of its number: the machine is too soft, \
     too light or too strongly damped for its bases at this rate";
 const SHARE: &str = "the load's share of the inertia must be at least 0 and at most 1";
-const GAIN: &str = "a gain of the observer is beyond the range of its number: the disturbances are too large for the \
-    machine's bases, or the rate is too low";
+const GAIN: &str = "a gain of the observer is beyond the range of its number (a fine encoder, large disturbances, a \
+    low rate): raise the bases of torque and speed, or state the accuracy of the encoder";
+const TWIST: &str = "the base of the twist is too large for the exact step: take SemiImplicitObserver if the design \
+    chose its step, lower the base of the torque, or state the accuracy of a fine encoder";
 const COARSE: &str = "the semi-implicit step is too coarse for this machine at this rate: take TwoMassObserver, which \
     has the exact step the design chose, or overrule the design by with_step(StepChoice::SemiImplicit)";
 
@@ -125,7 +127,7 @@ constants! {
             twist: [n11, n12, g1],
             twist_rate: [n21, n22, g2],
             acceleration,
-            turn: get!(To::coefficients(c.turn, STEP)),
+            turn: [get!(To::coefficient(c.turn[0], STEP)), get!(To::coefficient(c.turn[1], TWIST))],
             correction: get!(To::coefficients(c.correction, GAIN)),
             angle_correction,
             speed,

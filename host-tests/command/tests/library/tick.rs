@@ -1,9 +1,10 @@
-//! The tick of the hoist's drives: bad samples, garbage, angles that wrap, momentum, the speed loop, and the same bits
-//! however the constants were made.
+//! The tick of the hoist's drives: bad samples, garbage, angles that wrap, momentum, the speed loop, fine encoders, and
+//! the same bits however the constants were made.
 
 mod angle;
 mod constants;
 mod faults;
+mod fine_encoders;
 mod fixed;
 mod garbage;
 mod missed;
