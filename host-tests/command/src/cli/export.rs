@@ -49,7 +49,7 @@ pub struct Export {
     /// Prefix of functions and types, the FMU's identifier; else the machine's name
     #[arg(long)]
     name: Option<String>,
-    /// Number of the drive; else f32 on a core with an FPU and in an FMU, fixed on a core without
+    /// Number of the drive, not of a plant; else f32 on a core with an FPU and in an FMU, fixed on a core without
     #[arg(long)]
     number: Option<NumberName>,
     #[command(flatten)]
@@ -85,6 +85,10 @@ impl Export {
     pub fn execute(&self) -> Result<(), Failure> {
         let (place, source) = text(&self.file, "a machine file")?;
         let machine = parse(&place, &source)?;
+        self.options_fit()?;
+        if self.form == Form::Fmu && self.of() == Of::Plant {
+            fmu::is_a_plant(&machine, &source)?;
+        }
         let core = self.core.unwrap_or(Core::Host);
         let number = match self.number {
             None => core.number(),
@@ -104,14 +108,27 @@ impl Export {
         }
     }
 
+    fn options_fit(&self) -> Result<(), Failure> {
+        match self.form {
+            Form::C if self.of.is_some() => Err(Failure::usage("--of is for `fmu`: a library for C is the controller")),
+            Form::Fmu
+                if self.core.is_some() || !self.parts.parts.is_empty() || self.parts.vibration_limit.is_some() =>
+            {
+                let why = "an FMU is for this computer, without parts";
+                Err(Failure::usage(format!("--core, --parts and --vibration-limit are for `c`: {why}")))
+            }
+            Form::Fmu if self.of() == Of::Plant && self.number.is_some() => {
+                Err(Failure::usage("--number is for a controller: a plant is in double precision"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn of(&self) -> Of {
         self.of.unwrap_or(Of::Controller)
     }
 
     fn library(&self, project: &Project, source: &str, core: Core, number: Number) -> Result<(), Failure> {
-        if self.of.is_some() {
-            return Err(Failure::usage("--of is for `fmu`: a library for C is the controller"));
-        }
         is_free(&self.out)?;
         install(&core.needs())?;
         let library = library::library(project, source, core)?;
@@ -137,9 +154,6 @@ impl Export {
     }
 
     fn fmu(&self, project: &Project, source: &str) -> Result<(), Failure> {
-        if self.core.is_some() || !self.parts.parts.is_empty() {
-            return Err(Failure::usage("--core and --parts are for `c`: an FMU is for this computer, without parts"));
-        }
         let file = Destination::chosen("FMU", &self.out);
         check(&[&self.file], [&file])?;
         let (fmu, token) = fmu::fmu(project, source, self.of())?;

@@ -54,6 +54,17 @@ impl MachineFile {
         (carried.rope, carried.efficiency.iter().map(|[motoring, _]| *motoring).collect())
     }
 
+    /// The label of an element whose losses no chain carries: no shaft is behind it, or they are others with the load
+    /// driving.
+    pub fn losses_of_no_chain(&self) -> Option<String> {
+        let differ = |part: &&Part| match part.element {
+            Element::Worm { efficiency, back_efficiency, .. } => efficiency != back_efficiency,
+            _ => false,
+        };
+        let worm = self.elements.iter().find(differ).map(|part| part.label.clone());
+        worm.or_else(|| self.carried().without_shaft)
+    }
+
     fn carried(&self) -> Carried {
         let shafts = self.joints().len();
         let mut carried =

@@ -233,8 +233,10 @@ fn options_of_the_other_form_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     for (arguments, word) in [
-        (&["fmu", MACHINE, "--core", "host"][..], "--core and --parts are for `c`"),
-        (&["fmu", MACHINE, "--parts", "fluctuation"], "--core and --parts are for `c`"),
+        (&["fmu", MACHINE, "--core", "host"][..], "are for `c`"),
+        (&["fmu", MACHINE, "--parts", "fluctuation"], "are for `c`"),
+        (&["fmu", MACHINE, "--vibration-limit", "3"], "are for `c`"),
+        (&["fmu", MACHINE, "--of", "plant", "--number", "fixed"], "--number is for a controller"),
         (&["c", MACHINE, "--core", "host", "--of", "plant"], "--of is for `fmu`"),
         (&["c", MACHINE], "--core"),
         (&["fmu", MACHINE, "--name", "2fast"], "is no name of a project"),
@@ -245,4 +247,30 @@ fn options_of_the_other_form_are_refused() {
     }
     assert!(String::from_utf8(export(&["fmu", MACHINE], folder.path()).stderr).unwrap().contains("is a folder"));
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+/// The hoist with another line or part, and the plants of it that are refused, before anything is compiled.
+#[test]
+fn a_machine_that_no_plant_is_true_of_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, out) = (folder.path().join("machine.toml"), folder.path().join("out"));
+    let hoist = fs::read_to_string(MACHINE).unwrap();
+    let worm = "[[element]]\nkind = \"worm\"\nlabel = \"drive\"\nratio = 1.0\nefficiency = 0.8\n\
+                back_efficiency = 0.7\n\n[[element]]\nkind = \"shaft\"";
+    for (machine, word) in [
+        (format!("{hoist}\n[[friction]]\non = \"motor\"\ntorque = 3.0\n"), "it has `friction`"),
+        (format!("{hoist}\n[[torque]]\non = \"motor\"\nkind = \"constant\"\ntorque = 3.0\n"), "it has `torque`"),
+        (hoist.replacen("[[element]]\nkind = \"shaft\"", worm, 1), "the losses of `drive`"),
+    ] {
+        assert_ne!(machine, hoist, "{word}");
+        fs::write(&file, machine).unwrap();
+        let ended = export(&["fmu", file.to_str().unwrap(), "--of", "plant"], &out);
+        let said = String::from_utf8(ended.stderr).unwrap();
+        assert!(ended.status.code() == Some(2) && said.contains(word), "{said}");
+    }
+    // ten ticks a second are too few for a drive of it; the plant has no rate
+    fs::write(&file, hoist.replace("rate_hz = 10000", "rate_hz = 10")).unwrap();
+    let file = file.to_str().unwrap();
+    assert_eq!(export(&["fmu", file], &out).status.code(), Some(2));
+    ended_well(&export(&["fmu", file, "--of", "plant"], &out));
 }

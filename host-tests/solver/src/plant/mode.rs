@@ -119,11 +119,27 @@ impl Hold {
 
     /// The gear's reaction while held, N m: the gear takes what it can, friction the rest.
     pub fn gear_torque(&self) -> f64 {
-        self.push.clamp(self.reaction.0, self.reaction.1)
+        // `clamp` panics where a run that overflowed has made the band NaN
+        self.push.max(self.reaction.0).min(self.reaction.1)
     }
 
     /// Dry friction while held, N m, positive against positive motion.
     pub fn friction(&self) -> f64 {
-        (self.push - self.gear_torque()).clamp(-self.coulomb, self.coulomb)
+        (self.push - self.gear_torque()).max(-self.coulomb).min(self.coulomb)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Hold;
+
+    /// Without a panic, which would end the program of a simulation tool.
+    #[test]
+    fn a_band_that_overflowed_gives_no_number() {
+        let hold = Hold { push: 1.0, reaction: (f64::INFINITY, f64::NEG_INFINITY), coulomb: 0.0 };
+        assert!(!hold.gear_torque().is_finite());
+        let hold = Hold { push: f64::NAN, reaction: (f64::NAN, f64::NAN), coulomb: 0.0 };
+        assert!(hold.gear_torque().is_nan());
+        assert_eq!(hold.direction(), 0);
     }
 }

@@ -70,6 +70,10 @@ impl Search<'_> {
         let h = b - a;
         let (at_a, at_b) = (value(self.poly, a), value(self.poly, b));
         let bound = value(&self.bend.iter().map(|c| c.abs()).collect::<Vec<_>>(), b);
+        // of a run that overflowed: halving would go on for ever
+        if !(at_a + at_b + bound).is_finite() {
+            return None;
+        }
         let (slope_a, slope_b) = (value(self.slope, a), value(self.slope, b));
         let falling = slope_a + bound * h <= 0.0 || slope_b + bound * h <= 0.0;
         if at_a >= 0.0 && at_b >= 0.0 {
@@ -138,6 +142,9 @@ mod tests {
     fn a_start_at_zero_is_judged_by_where_it_goes() {
         assert_eq!(first_fall(&[0.0, -1.0], &NONE, 1e-15), Some(0.0));
         assert_eq!(first_fall(&[0.0, 0.0, 1.0], &NONE, 1e-15), None);
+        // of numbers that overflowed nothing is found, and soon
+        assert_eq!(first_fall(&[f64::NAN, -1.0, 1.0], &[f64::NAN; 3], 1e-15), None);
+        assert_eq!(first_fall(&[1.0, -1e308, f64::INFINITY], &NONE, 1e-15), None);
         // s (1/2 - s): rises, comes back at one half
         let back = first_fall(&[0.0, 0.5, -1.0], &NONE, 1e-15).unwrap();
         // simple root, slope 1/2: rounding and tolerance only

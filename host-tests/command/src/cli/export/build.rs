@@ -50,7 +50,7 @@ pub fn build(files: &[(String, Vec<u8>)], target: Option<&str>, library: &str, k
         stderr.read_to_string(&mut said).map_err(failed)?;
     }
     if !child.wait().map_err(failed)?.success() {
-        return Err(Failure::failed(format!("the compiler refused the drive of this machine:\n{}", said.trim_end())));
+        return Err(Failure::failed(format!("the compiler refused the code of this machine:\n{}", said.trim_end())));
     }
     let built = target.map_or_else(|| "target".into(), |target| Path::new("target").join(target));
     fs::read(folder.join(built).join("release").join(library)).map_err(failed)

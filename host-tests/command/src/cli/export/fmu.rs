@@ -5,6 +5,7 @@ use std::io::{Cursor, Write};
 
 use clap::ValueEnum;
 use serde::Serialize;
+use toml::de::DeTable;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -12,6 +13,7 @@ use super::build::build;
 use super::interface::{Fault, faults};
 use crate::cli::Failure;
 use crate::cli::project::{Project, Source, fill};
+use crate::machine_file::MachineFile;
 
 /// Simulated part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
@@ -30,6 +32,31 @@ impl Of {
             Of::Controller => "controller",
             Of::Plant => "plant",
         }
+    }
+}
+
+/// Tables of a machine file that change its motion and that the plant does not have.
+const NOT_OF_THE_PLANT: [&str; 5] = ["engine", "damper", "link", "torque", "friction"];
+
+/// Whether a plant has all that moves the machine of a file with this text.
+///
+/// # Errors
+/// The part that it does not have.
+pub fn is_a_plant(machine: &MachineFile, source: &str) -> Result<(), Failure> {
+    let refused = |part: String| {
+        let name = &machine.name;
+        Err(Failure::usage(format!("`{name}`: no plant can be made: {part}; leave it out of a copy of the file")))
+    };
+    if !machine.branches.is_empty() {
+        return refused("it has branches, and the plant is a chain".into());
+    }
+    let tables = DeTable::parse(source).map(|table| table.into_inner()).unwrap_or_default();
+    if let Some(table) = NOT_OF_THE_PLANT.iter().find(|table| tables.contains_key(**table)) {
+        return refused(format!("it has `{table}`, which the plant does not have"));
+    }
+    match machine.losses_of_no_chain() {
+        Some(label) => refused(format!("the losses of `{label}` need a shaft behind it, and one efficiency both ways")),
+        None => Ok(()),
     }
 }
 
@@ -88,7 +115,7 @@ pub fn fmu(project: &Project, source: &str, of: Of) -> Result<(Vec<u8>, String),
     Ok((packed, values.token))
 }
 
-/// What stands for the token in a library that has just been compiled.
+/// Placeholder of the token in a library that has just been compiled.
 const PLACE: &[u8; 32] = b"DRIVELINE-INSTANTIATION-TOKEN---";
 
 /// Puts the token in its place: a hash of the library (FNV-1a, 128 bit), since a saved state is good for no other.

@@ -71,7 +71,7 @@ pub struct Project {
     firmware: String,
     /// Why there is no drive.
     #[serde(skip)]
-    not_robust: Option<Failure>,
+    no_drive: Option<Failure>,
 }
 
 /// A mass of the machine, and the shaft before it, at the motor.
@@ -103,7 +103,7 @@ impl Project {
     /// A drive of the machine in a file, under a name.
     ///
     /// # Errors
-    /// A name that is no crate's, a machine that no drive can be made of, options that contradict each other.
+    /// A name that is no crate's, a machine with branches or without a shaft, options that contradict each other.
     pub fn of(machine: &MachineFile, name: &str, number: Number, options: &PartOptions) -> Result<Self, Failure> {
         let krate = crate_name(name)?;
         let limit = options.vibration_limit()?;
@@ -114,8 +114,8 @@ impl Project {
         let Some(two) = machine.two_masses() else {
             return Err(refused("it has no shaft, and a drive needs one between motor and load"));
         };
-        let plan = Plan::of(machine).map_err(|error| refused(error.message()))?;
-        let observers = observers(machine, &plan);
+        let plan = Plan::of(machine);
+        let observers = plan.as_ref().map_or_else(|_| Vec::new(), |plan| observers(machine, plan));
         let words = words(machine);
         let float = |value: f64| format!("{value:?}");
         let weight = machine.chain.gravity_torque();
@@ -169,16 +169,20 @@ impl Project {
             driveline: Source::find().dependency(""),
             solver: Source::find().dependency("host-tests/solver"),
             firmware: Source::find().dependency("firmware"),
-            not_robust: plan.speed_loop.as_ref().and_then(|design| design.not_robust).map(refused),
+            no_drive: match &plan {
+                Err(error) => Some(error.message()),
+                Ok(plan) => plan.speed_loop.as_ref().and_then(|design| design.not_robust),
+            }
+            .map(refused),
         })
     }
 
     /// Itself, if its drive is robust; the machine alone needs none.
     ///
     /// # Errors
-    /// A speed loop without the margins that a drive must have.
+    /// A drive that cannot be designed, or a speed loop without the margins that it must have.
     pub fn robust(mut self) -> Result<Self, Failure> {
-        self.not_robust.take().map_or(Ok(self), Err)
+        self.no_drive.take().map_or(Ok(self), Err)
     }
 
     /// The observer as a type.
