@@ -97,7 +97,7 @@ fn damping_of_the_machine_limits_its_response_without_a_damper() {
 fn wrong_dampers_are_refused_at_their_place() {
     for (keys, key, expected) in [
         ("kind = \"friction\"\n", "damper[0].kind", "\"viscous\""),
-        ("kind = \"tuned\"\nmode = 2\n", "damper[0].mode", "1 modes"),
+        ("kind = \"tuned\"\nmode = 2\n", "damper[0].mode", "mode of the machine, 1 to 1"),
         ("kind = \"viscous\"\nstiffness = 3\n", "damper[0].stiffness", "only"),
     ] {
         let fault = parse("damped", &machine(keys)).unwrap_err();

@@ -126,10 +126,11 @@ fn wrong_engines_are_refused_at_their_place() {
         ("strokes = 4", "strokes = 3", "engine.strokes", "2 or 4"),
         ("[1, 5, 3, 6, 2, 4]", "[1, 2, 3, 4, 5, 6]", "engine.firing_order", "two turns"),
         ("at = [\"1\"", "at = [\"7\"", "engine.at", "\"6\""),
-        ("positions = [0, 0.1,", "positions = [", "engine.positions", "6 numbers"),
+        ("positions = [0, 0.1,", "positions = [", "engine.positions", "as many numbers as `cranks`, 6"),
         ("rod = 50.0", "rod = 0.05", "engine.radius", "below the rod's"),
         ("orders = [0.5", "orders = [0.7", "engine.orders", "multiples of 0.5"),
         ("orders = [0.5", "orders = [12.0", "engine.orders", "up to 11.5"),
+        ("orders = [0.5", "orders = [24.5", "engine.orders[0]", "0.5 to 24"),
     ];
     for (old, new, key, expected) in cases {
         let fault = parse("six", &six(&right.replace(old, new))).unwrap_err();
@@ -137,10 +138,16 @@ fn wrong_engines_are_refused_at_their_place() {
     }
     let both = format!("{}[[excitation]]\nname = \"engine\"\norders = [1]\n", six(&right));
     let fault = parse("six", &both).unwrap_err();
-    assert!(fault.key == "engine" && fault.expected.contains("no [[excitation]]"), "{}", fault.explained());
+    assert!(fault.key == "excitation[0].name" && fault.expected.contains("`[engine]`"), "{}", fault.explained());
     let typical = right.split("pressure").next().unwrap().to_owned() + "compression = 17\npeak_pressure = 1e6\n";
     let fault = parse("six", &six(&typical)).unwrap_err();
     assert!(fault.key == "engine.peak_pressure" && fault.expected.contains("above that"), "{}", fault.explained());
+    for (new, key) in
+        [("compression = 1.0", "engine.compression"), ("compression = 9\nexponent = 1.0", "engine.exponent")]
+    {
+        let fault = parse("six", &six(&typical.replace("compression = 17", new))).unwrap_err();
+        assert!(fault.key == key && fault.expected.contains("1.001 to"), "{}", fault.explained());
+    }
 }
 
 /// Kinetic and strain energy of a run are the work of the gas, as the integral of its closed form.
