@@ -85,7 +85,8 @@ impl<const K: usize> BarredSpeeds<K> {
     /// [`of_engine`](Self::of_engine), with an error instead of a panic.
     ///
     /// # Errors
-    /// As [`try_new`](Self::try_new); [`Error::Barred`] for a mass that there is not.
+    /// As [`try_new`](Self::try_new); [`Error::Barred`] for a mass that there is not, or a `least` that is not zero or
+    /// above and finite.
     pub const fn try_of_engine<const N: usize>(
         modes: &Modes,
         (cylinders, at): (&[Cylinder; N], [usize; N]),
@@ -94,7 +95,14 @@ impl<const K: usize> BarredSpeeds<K> {
         margin: f64,
         up_to: f64,
     ) -> Result<Self, Error> {
-        let mut barred = BarredSpeeds { ranges: [[0.0; 2]; K], count: 0 };
+        if !(least >= 0.0 && least.is_finite()) {
+            return Err(Error::Barred);
+        }
+        // no range begins below zero: only the errors
+        let mut barred = match Self::try_new(&[1.0], orders, margin, 0.0) {
+            Ok(none) => none,
+            Err(error) => return Err(error),
+        };
         let mut m = 0;
         while m < modes.resonances().len() {
             let mode = &modes.resonances()[m];

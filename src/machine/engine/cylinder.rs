@@ -122,7 +122,10 @@ impl Cylinder {
     }
 
     /// Sets the firing angles of a four-stroke engine: each cylinder fires at its first top dead centre after the one
-    /// before it in the order.
+    /// before it in the order. The first named begins, at its first one; what is left of two turns follows the last.
+    ///
+    /// An order that begins elsewhere in the same sequence can be another engine. Two cylinders on one pin, 45 degrees
+    /// apart, fire at 0 and 45 degrees as `[1, 2]`, at 45 and 360 as `[2, 1]`.
     ///
     /// # Errors
     /// [`Error::FiringOrder`] where the order does not name every cylinder once, counted from 1, or does not fit into
@@ -181,5 +184,11 @@ pub const fn phasor_sum(cylinders: &[Cylinder], shape: &[f64], order: f64) -> f6
 /// The same angle from zero to a turn.
 const fn within_a_turn(angle: f64) -> f64 {
     let rest = angle % TAU;
-    if rest < -SAME { rest + TAU } else { rest }
+    if rest < -SAME {
+        rest + TAU
+    } else if rest > 0.0 {
+        rest
+    } else {
+        0.0
+    }
 }

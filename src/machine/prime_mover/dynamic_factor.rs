@@ -12,7 +12,8 @@ use crate::machine::{Torque, TwoMass};
 use crate::math::{atan2, hypot, sin_cos, sqrt};
 
 impl TwoMass {
-    /// Factor of a torque that rises evenly within `time` \[s\] and stays: `1 + |sin(omega T/2)|/(omega T/2)`.
+    /// Factor of a torque that rises evenly within `time` \[s\] and stays: `1 + |sin(omega T/2)|/(omega T/2)`,
+    /// 2 at zero or below.
     #[must_use]
     pub const fn ramp_factor(&self, time: f64) -> f64 {
         let half = 0.5 * self.resonance() * time;
@@ -20,22 +21,23 @@ impl TwoMass {
     }
 
     /// Factor of a constant torque that lasts for `time` \[s\]: `2 sin(omega T/2)` up to half a period, 2 from there
-    /// on.
+    /// on, 0 at zero or below.
     #[must_use]
     pub const fn pulse_factor(&self, time: f64) -> f64 {
         let half = 0.5 * self.resonance() * time;
-        if half < 0.5 * PI { 2.0 * sin_cos(half).0 } else { 2.0 }
+        if half < 0.5 * PI { 2.0 * sin_cos(half.max(0.0)).0 } else { 2.0 }
     }
 
     /// Factor of a starting law, of its torque at the start.
     ///
     /// With `a = omega T` a soft start has `2 (1 - atan(a)/a)` where that peak lies within T, as a medium one
     /// `(1 + 2/a^2)(1 - cos theta) - theta^2/a^2` with `(a^2 + 2) sin theta = 2 theta`; a shorter start has the
-    /// amplitude that it leaves. Within 1e-12 from a = 1e-3 on.
+    /// amplitude that it leaves, 0 at a time of zero or below. Within 1e-12 from a = 1e-3 on.
     #[must_use]
     pub const fn law_factor(&self, law: &StartingLaw) -> f64 {
         match *law {
             StartingLaw::Hard { .. } => 2.0,
+            StartingLaw::Soft { time, .. } | StartingLaw::Medium { time, .. } if time <= 0.0 => 0.0,
             StartingLaw::Soft { time, .. } => {
                 let a = self.resonance() * time;
                 let peak = atan2(a, 1.0);
@@ -58,7 +60,7 @@ impl TwoMass {
     }
 
     /// Torque per time \[N m/s\] at which a change of the motor's torque \[N m\] has at most this factor, between 1 and
-    /// 2: `change omega (factor - 1)/2`, from the envelope `1 + 2/(omega T)` of all ramps. The constant
+    /// 2; 0 for a factor of 1 or below: `change omega (factor - 1)/2`, from the envelope `1 + 2/(omega T)` of all ramps. The constant
     /// [`HasSlew::SLEW`](crate::configure::HasSlew::SLEW) of a governor.
     ///
     /// ```
@@ -69,7 +71,7 @@ impl TwoMass {
     /// ```
     #[must_use]
     pub const fn slew_for_factor(&self, change: Torque, factor: f64) -> f64 {
-        0.5 * change.0.abs() * self.resonance() * (factor - 1.0)
+        0.5 * change.0.abs() * self.resonance() * (factor - 1.0).max(0.0)
     }
 
     /// Torque that the shaft first turns to \[N m\] after motor and load torque have changed at once, from the torque

@@ -6,6 +6,7 @@ mod damper;
 mod engine;
 mod figures;
 mod page;
+mod response;
 mod tables;
 mod train;
 

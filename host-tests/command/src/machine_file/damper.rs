@@ -50,7 +50,7 @@ impl DamperRing {
         // `COUNT` allows whole numbers up to 360 only
         let mode = table.number_or("mode", Quantity::COUNT, 1.0)? as usize;
         if mode > modes {
-            return Err(table.wrong("mode", format!("one of the machine's {modes} modes")));
+            return Err(table.wrong("mode", format!("a mode of the machine, 1 to {modes}")));
         }
         let ring = Self {
             at,

@@ -12,7 +12,7 @@ use super::table::Table;
 /// Name of the engine's excitation in the diagram of critical speeds.
 pub const NAME: &str = "engine";
 
-/// Highest index of an order that a torque is resolved to: the order 24 of a four-stroke engine.
+/// Highest index of an order that a torque is resolved to: the order 24 of a four-stroke engine, 48 of a two-stroke one.
 const ORDERS: usize = 49;
 
 /// Angles of a cycle that the typical indicator diagram is taken at.
@@ -67,7 +67,8 @@ impl Engine {
             let order = table.numbers("firing_order", Quantity::COUNT)?;
             let order: Vec<usize> = order.into_iter().map(|number| number as usize).collect();
             Cylinder::try_fire(&mut cylinders, &order).map_err(|error| {
-                table.wrong("firing_order", format!("the {count} cylinders in the order they fire ({error})"))
+                table
+                    .wrong("firing_order", format!("every cylinder from 1 to {count} in the order they fire ({error})"))
             })?;
         }
         let (at, ratio) = places(&mut table, count, masses)?;
@@ -77,8 +78,9 @@ impl Engine {
         crank.check().map_err(|_| table.wrong("radius", format!("a radius below the rod's {rod} m")))?;
         let bore = Diameter(table.number("bore", Quantity::DIAMETER)?);
         let pressure = pressure(&mut table, &crank, cycle)?;
-        let orders = table.numbers("orders", Quantity::ORDER)?;
         let lowest = cycle.lowest_order();
+        let most = lowest * (ORDERS - 1) as f64;
+        let orders = table.numbers("orders", Quantity { least: lowest, most, ..Quantity::ORDER })?;
         let highest = lowest * (ORDERS.min(pressure.len() / 2) - 1) as f64;
         if orders.iter().any(|order| (order / lowest).fract() != 0.0 || *order > highest) {
             return Err(table.wrong("orders", format!("multiples of {lowest} up to {highest}")));
@@ -138,14 +140,14 @@ fn list(
     if numbers.len() == count {
         Ok(Some(numbers))
     } else {
-        Err(table.wrong(key, format!("{count} numbers, as `cranks`")))
+        Err(table.wrong(key, format!("as many numbers as `cranks`, {count}")))
     }
 }
 
 /// The masses that the cylinders work on, and the motor's speed over theirs.
 fn places(table: &mut Table<'_>, count: usize, masses: &[Turning]) -> Result<(Vec<usize>, f64), Diagnostic> {
     let known = masses.iter().map(|(label, ..)| format!("\"{label}\"")).collect::<Vec<_>>().join(", ");
-    let expected = format!("{count} labels, as `cranks`, of masses that turn at one speed: {known}");
+    let expected = format!("as many labels as `cranks`, {count}, of masses that turn at one speed: {known}");
     let labels = table.texts("at", count, &expected)?;
     let found: Option<Vec<&Turning>> = labels
         .iter()
@@ -169,9 +171,10 @@ fn pressure(table: &mut Table<'_>, crank: &CrankSlider, cycle: WorkingCycle) -> 
         return if pressure.len() >= 8 { Ok(pressure) } else { Err(table.wrong("pressure", "8 numbers or more")) };
     }
     let pascal = Quantity { unit: "Pa", ..Quantity::TORQUE };
+    let above_one = |most: f64| Quantity { least: 1.001, most, ..Quantity::RATIO };
     let indicator = Indicator {
-        compression: table.number("compression", Quantity { least: 1.0, most: 100.0, ..Quantity::RATIO })?,
-        exponent: table.number_or("exponent", Quantity { least: 1.0, most: 2.0, ..Quantity::RATIO }, 1.3)?,
+        compression: table.number("compression", above_one(100.0))?,
+        exponent: table.number_or("exponent", above_one(2.0), 1.3)?,
         charge: table.number_or("charge_pressure", pascal, 101_325.0)?,
         peak: table.number("peak_pressure", pascal)?,
     };

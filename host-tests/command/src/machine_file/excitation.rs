@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::diagnostic::Diagnostic;
+use super::engine;
 use super::quantity::Quantity;
 use super::table::Table;
 
@@ -46,6 +47,9 @@ pub(super) fn excitations(root: &mut Table<'_>) -> Result<(Option<Running>, Vec<
         let name = table.text("name", NAME)?;
         if name.trim().is_empty() || name.chars().count() > 24 || name.chars().any(char::is_control) {
             return Err(table.wrong("name", NAME));
+        }
+        if name == engine::NAME && root.has("engine") {
+            return Err(table.wrong("name", "another name than \"engine\", that of the orders of `[engine]`"));
         }
         all.push(Excitation {
             name: name.to_owned(),

@@ -12,7 +12,7 @@ use toml::de::DeTable;
 use super::class::Class;
 use super::damper::DamperRing;
 use super::diagnostic::Diagnostic;
-use super::engine::{self, Engine, Turning};
+use super::engine::{Engine, Turning};
 use super::excitation::excitations;
 use super::factor::{Factor, Tolerance};
 use super::quantity::Quantity;
@@ -130,9 +130,6 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     let (running, mut excitations) = excitations(&mut root)?;
     let engine = root.table_if("engine")?.map(|table| Engine::read(table, &masses)).transpose()?;
     if let Some(engine) = &engine {
-        if excitations.iter().any(|excitation| excitation.name == engine::NAME) {
-            return Err(root.wrong("engine", "no [[excitation]] of the name \"engine\" beside it"));
-        }
         excitations.push(engine.excitation());
     }
     let modes = train.as_ref().map_or(chain.masses().len(), |train| train.masses().len()) - 1;

@@ -73,10 +73,60 @@ fn dampers_have_their_best_size_and_the_response_of_the_whole_machine() {
         let largest = (0..60_000)
             .map(|j| 4.0 * angle(stiffness, damping, omega * (0.5 + 1.5 * f64::from(j) / 6e4)))
             .fold(0.0, f64::max);
-        // the peak lies between two of the command's 8000 points, 2e-4 apart: half of that over a half-width of 2 % or
-        // more, squared
-        assert!((number(&damper["with"]) / largest - 1.0).abs() < 1e-4, "{damper} {largest}");
+        // the peak lies between two of these points, 2.5e-5 apart: half of that over a half-width of 2 % or more, squared
+        assert!((number(&damper["with"]) / largest - 1.0).abs() < 1e-6, "{damper} {largest}");
     }
+}
+
+#[test]
+fn the_sharp_peaks_of_a_weakly_damped_ring_are_found() {
+    let (stiffness, damping) = (2.0e4, 1e-3);
+    let (found, _) =
+        modes(&machine(&format!("kind = \"tuned\"\nstiffness = {stiffness}\ndamping = {damping}\n")), false);
+    // three masses in a row, at the motor: omega^4 - b omega^2 + c = 0
+    let ([one, two, three], [first, second]) = ([MOTOR, LOAD / 4.0, RING / 4.0], [STIFFNESS, stiffness / 4.0]);
+    let b = first * (1.0 / one + 1.0 / two) + second * (1.0 / two + 1.0 / three);
+    let c = first * second * (one + two + three) / (one * two * three);
+    let root = (b * b - 4.0 * c).sqrt();
+    let near = |omega: f64| {
+        (-20_000..20_000).map(move |j| 4.0 * angle(stiffness, damping, omega * (1.0 + f64::from(j) * 1e-9)))
+    };
+    let largest = [b - root, b + root].into_iter().flat_map(|double| near((0.5 * double).sqrt())).fold(0.0, f64::max);
+    let with = number(&found["dampers"][0]["with"]);
+    // half a step over the half-width d omega/(2 k) = 4e-6, of which a mode has a tenth or more, squared
+    assert!((with / largest - 1.0).abs() < 1e-5, "{with} {largest}");
+    let (found, page) = modes(&machine("kind = \"tuned\"\ndamping = 0\n"), true);
+    assert!(found["dampers"][0]["with"].is_null() && page.contains("undamped"), "{found}");
+}
+
+/// Two equal masses beside the ring's swing against each other without it: a node.
+#[test]
+fn an_undamped_mode_with_a_node_at_the_ring_does_not_count() {
+    let end = format!("inertia = {MOTOR}\n[[element]]\nkind = \"shaft\"\nstiffness = {STIFFNESS}\n[[element]]\n");
+    let text = format!(
+        "{}[[element]]\nkind = \"shaft\"\nstiffness = {STIFFNESS}\n[[element]]\nkind = \"rotor\"\nlabel = \"end\"\n\
+         inertia = {MOTOR}\n[encoder]{}",
+        machine("").split("[encoder]").next().unwrap().replace("kind = \"gear\"\nratio = 2\n[[element]]\n", ""),
+        machine("kind = \"viscous\"\nmode = 2\n").split("[encoder]").nth(1).unwrap()
+    );
+    assert!(text.contains(&end), "{text}");
+    let (found, _) = modes(&text, false);
+    let damper = &found["dampers"][0];
+    // the mode at sqrt(k/J) lies between half and twice that of the damper, sqrt(k (1/J + 2/J_load))
+    let (node, mode) = (STIFFNESS / MOTOR, STIFFNESS * (1.0 / MOTOR + 2.0 / LOAD));
+    assert!(node < mode && node > 0.25 * mode);
+    let omega = mode.sqrt();
+    // both ends are one of twice the inertia on twice the stiffness
+    let ring = |omega: f64| {
+        let s = Complex::new(0.0, omega);
+        let ends = 2.0 * STIFFNESS * 2.0 * MOTOR * s * s / (2.0 * MOTOR * s * s + 2.0 * STIFFNESS);
+        let coupling = number(&damper["damping"]) * s;
+        let held = coupling * RING * s * s / (RING * s * s + coupling);
+        1.0 / (ends + held + LOAD * s * s).norm()
+    };
+    let largest = (0..60_000).map(|j| ring(omega * (0.5 + 1.5 * f64::from(j) / 6e4))).fold(0.0, f64::max);
+    // points as above, half of 2.5e-5 over the half-width of a quality of 121, squared
+    assert!((number(&damper["with"]) / largest - 1.0).abs() < 1e-5, "{damper} {largest}");
 }
 
 #[test]
@@ -97,7 +147,7 @@ fn damping_of_the_machine_limits_its_response_without_a_damper() {
 fn wrong_dampers_are_refused_at_their_place() {
     for (keys, key, expected) in [
         ("kind = \"friction\"\n", "damper[0].kind", "\"viscous\""),
-        ("kind = \"tuned\"\nmode = 2\n", "damper[0].mode", "1 modes"),
+        ("kind = \"tuned\"\nmode = 2\n", "damper[0].mode", "mode of the machine, 1 to 1"),
         ("kind = \"viscous\"\nstiffness = 3\n", "damper[0].stiffness", "only"),
     ] {
         let fault = parse("damped", &machine(keys)).unwrap_err();

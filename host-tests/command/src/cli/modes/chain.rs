@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::campbell::{Critical, critical_speeds};
 use super::damper::{Damped, dampers};
 use super::engine::{FreeForces, excite, free};
+use super::response::Response;
 use crate::machine_file::MachineFile;
 
 /// Change below which a part can be left out: 1 %, less than the accuracy of any stiffness.
@@ -161,14 +162,15 @@ impl Vibration {
         };
         let frequencies: Vec<f64> = modes.resonances().iter().map(|mode| mode.frequency).collect();
         let mut critical = critical_speeds(&frequencies, machine.running.as_ref(), &machine.excitations);
+        let response = Response::of(machine);
         if let Some(engine) = &machine.engine {
-            excite(&mut critical, engine, modes.resonances(), &joints);
+            excite(&mut critical, engine, modes.resonances(), &response);
         }
         Self {
             name: machine.name.clone(),
             critical,
             engine: free(machine),
-            dampers: dampers(machine, modes.resonances()),
+            dampers: dampers(machine, modes.resonances(), &response),
             resonances: modes.resonances().iter().map(resonance).collect(),
             antiresonances: modes.antiresonances().to_vec(),
             reductions: reductions(machine, &shafts),

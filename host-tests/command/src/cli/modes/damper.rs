@@ -2,16 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use driveline::machine::{Damper, Mode, Resonance};
-use nalgebra::Complex;
+use driveline::machine::{Mode, Resonance};
 use serde::Serialize;
 
+use super::response::Response;
 use crate::machine_file::{DamperRing, MachineFile};
 use driveline_report::format::significant;
 use driveline_report::{Section, Table};
-
-/// Points of a response between half and twice the mode's frequency.
-const POINTS: usize = 8_000;
 
 /// A damper and what it does, alone.
 #[derive(Clone, Debug, Serialize)]
@@ -33,27 +30,23 @@ pub struct Damped {
     /// Amplitude over the static angle in the fixed points, of one mass with the best damper.
     pub fixed_amplitude: f64,
     /// Largest angle of the mass per torque on it, from half to twice the frequency, both at the motor
-    /// \[rad/(N m)\]; `null` for an undamped machine.
+    /// \[rad/(N m)\]; `null` where no damping limits it.
     pub without: Option<f64>,
     /// The same with the damper.
-    pub with: f64,
+    pub with: Option<f64>,
 }
 
 /// The machine's dampers, each alone.
-pub fn dampers(machine: &MachineFile, modes: &[Mode]) -> Vec<Damped> {
-    let total: f64 = machine.masses().iter().sum();
-    machine.dampers.iter().map(|ring| damped(ring, modes, total)).collect()
+pub fn dampers(machine: &MachineFile, modes: &[Mode], response: &Response) -> Vec<Damped> {
+    machine.dampers.iter().map(|ring| damped(ring, modes, response)).collect()
 }
 
-fn damped(ring: &DamperRing, modes: &[Mode], total: f64) -> Damped {
+fn damped(ring: &DamperRing, modes: &[Mode], response: &Response) -> Damped {
     let main = Resonance::of(&modes[ring.mode], ring.mass);
     let damper = ring.sized(&main);
     let mass_ratio = damper.inertia / main.inertia;
     let square = ring.ratio * ring.ratio;
-    let even = |point: usize| main.frequency * 4f64.powf(point as f64 / (POINTS - 1) as f64 - 0.5);
-    let angle =
-        |omega: f64, damper: Option<&Damper>| with(receptance(omega, ring.mass, modes, total), damper, omega).norm();
-    let largest = |damper: Option<&Damper>| (0..POINTS).map(|point| angle(even(point), damper)).fold(0.0, f64::max);
+    let range = [0.5, 2.0].map(|part| part * main.frequency);
     let fixed = if ring.tuned { Resonance::tuned_amplitude } else { Resonance::viscous_amplitude };
     Damped {
         at: ring.at.clone(),
@@ -64,26 +57,9 @@ fn damped(ring: &DamperRing, modes: &[Mode], total: f64) -> Damped {
         stiffness: damper.stiffness * square,
         damping: damper.damping * square,
         fixed_amplitude: fixed(mass_ratio),
-        // the resonance itself lies between two points
-        without: (modes[ring.mode].damping > 0.0).then(|| largest(None).max(angle(main.frequency, None))),
-        with: largest(Some(&damper)),
+        without: response.largest(ring.mass, range),
+        with: response.with(ring.mass, &damper).largest(ring.mass, range),
     }
-}
-
-/// Angle of a mass per torque on it: `sum psi^2/(omega_i^2 - omega^2 + i D omega) - 1/(J omega^2)`.
-fn receptance(omega: f64, mass: usize, modes: &[Mode], total: f64) -> Complex<f64> {
-    let of = |mode: &Mode| {
-        let psi = mode.shape[mass];
-        psi * psi / Complex::new(mode.frequency * mode.frequency - omega * omega, mode.damping * omega)
-    };
-    modes.iter().map(of).sum::<Complex<f64>>() - 1.0 / (total * omega * omega)
-}
-
-/// The receptance with a damper on the same mass.
-fn with(receptance: Complex<f64>, damper: Option<&Damper>, omega: f64) -> Complex<f64> {
-    let Some(damper) = damper else { return receptance };
-    let [real, imaginary] = damper.dynamic_stiffness(omega);
-    receptance / (receptance * Complex::new(real, imaginary) + 1.0)
 }
 
 /// The table; none without dampers.
@@ -105,12 +81,13 @@ pub fn table(dampers: &[Damped]) -> Option<Section> {
     ]);
     for damped in dampers {
         let sizes = [damped.hz, damped.mass_ratio, damped.stiffness, damped.damping, damped.fixed_amplitude];
-        let without = damped.without.map_or_else(|| "undamped".to_owned(), significant);
+        let largest = [damped.without, damped.with];
+        let largest = largest.map(|angle| angle.map_or_else(|| "undamped".to_owned(), significant));
         table.row(
             [damped.at.clone(), damped.kind.to_owned(), damped.mode.to_string()]
                 .into_iter()
                 .chain(sizes.map(significant))
-                .chain([without, significant(damped.with)]),
+                .chain(largest),
         );
     }
     let text = "Each damper alone, its stiffness and damping on its own shaft; the best ones where the file has none. \

@@ -1,9 +1,11 @@
 //! A piston engine: free forces and moments, and how strongly it excites each mode.
 
-use driveline::machine::{Joint, Mode, Shaking, free_forces, free_moments, phasor_sum};
+use driveline::machine::{Mode, Shaking, free_forces, free_moments, phasor_sum};
+use nalgebra::Complex;
 use serde::Serialize;
 
 use super::campbell::Critical;
+use super::response::Response;
 use crate::machine_file::{Engine, MachineFile, engine};
 use driveline_report::format::significant;
 use driveline_report::{Section, Table};
@@ -71,13 +73,13 @@ pub fn table(free: &FreeForces) -> Section {
          at `order` times its speed. Their sum is the largest force. Counterweights balance the first part of the \
          first order; the others need balance shafts. The cylinders fire at {} degrees.",
         significant(free.speed),
-        free.firing.iter().map(|angle| format!("{angle:.0}")).collect::<Vec<_>>().join(", ")
+        free.firing.iter().map(|angle| ((angle * 100.0).round() / 100.0).to_string()).collect::<Vec<_>>().join(", ")
     );
     Section::new("Free forces and moments of the engine", text, table)
 }
 
 /// Adds to the engine's critical speeds what excites them.
-pub fn excite(critical: &mut [Critical], engine: &Engine, modes: &[Mode], joints: &[Joint]) {
+pub fn excite(critical: &mut [Critical], engine: &Engine, modes: &[Mode], response: &Response) {
     for critical in critical.iter_mut().filter(|critical| critical.excitation == engine::NAME) {
         let mode = &modes[critical.mode - 1];
         let throws: Vec<f64> = engine.at.iter().map(|&mass| mode.shape[mass]).collect();
@@ -86,11 +88,13 @@ pub fn excite(critical: &mut [Critical], engine: &Engine, modes: &[Mode], joints
         let torque = engine.torque(critical.order, critical.speed / engine.ratio).amplitude();
         critical.phasor_sum = Some(sum / largest);
         critical.torque = Some(torque);
-        // damping alone limits the mode: q = (torque/ratio) sum/(damping omega)
+        // damping alone limits the mode
         if mode.damping > 0.0 {
-            let swing = torque / engine.ratio * sum / (mode.damping * mode.frequency);
-            let twist = |joint: &Joint| joint.shaft.stiffness * (mode.shape[joint.from] - mode.shape[joint.to]).abs();
-            critical.shaft_torque = Some(swing * joints.iter().map(twist).fold(0.0, f64::max));
+            let mut torques = vec![Complex::from(0.0); modes.len() + 1];
+            for (cylinder, &mass) in engine.cylinders.iter().zip(&engine.at) {
+                torques[mass] += Complex::from_polar(torque / engine.ratio, -critical.order * cylinder.firing);
+            }
+            critical.shaft_torque = response.shaft_torque(mode.frequency, &torques);
         }
     }
 }

@@ -53,6 +53,13 @@ fn ramps_pulses_and_starting_laws() {
     // whole periods of a ramp excite nothing: the sine of pi is left
     close(MILL.ramp_factor(3.0 * period), 1.0, 1e-15);
     assert_eq!(MILL.ramp_factor(0.0), 2.0);
+    // no torque acts
+    for time in [0.0, -0.1 * period] {
+        for law in [StartingLaw::Soft { torque: 100.0, time }, StartingLaw::Medium { torque: 100.0, time }] {
+            assert_eq!([MILL.pulse_factor(time), MILL.law_factor(&law)], [0.0; 2], "{time}");
+        }
+    }
+    assert_eq!(MILL.slew_for_factor(Torque(100.0), 0.9), 0.0);
 }
 
 #[test]

@@ -246,6 +246,12 @@ fn phasor_sums_by_order_and_shape() {
     // two cylinders at their dead centre at the same time fire one turn apart
     let twin = Cylinder::fired(Cylinder::in_line([0.0; 2], Length(0.1)), [1, 2]);
     assert_eq!(twin.map(|cylinder| cylinder.firing), [0.0, TAU]);
+    // the second fires an eighth of a turn after the first, or the first seven eighths after the second
+    for (order, firing) in [([1, 2], [0.0, 0.125]), ([2, 1], [1.0, 0.125])] {
+        let mut vee = [0.0, 0.125].map(|turn| Cylinder::new(0.0, turn * TAU, Length(0.0)));
+        Cylinder::try_fire(&mut vee, &order).unwrap();
+        assert_eq!(vee.map(|cylinder| cylinder.firing / TAU), firing);
+    }
 }
 
 #[test]

@@ -76,7 +76,12 @@ fn an_engine_bars_where_its_phasor_sum_is_large() {
     // 1, 3, 2 against 5, 6, 4: twice (cos 15 + cos 45 + cos 75) = 4 cos 15 degrees
     assert_eq!(of(&[1.5], 3.99).unwrap().ranges().len(), 1);
     assert!(of(&[1.5], 4.01).unwrap().ranges().is_empty());
-    assert_eq!(of(&[0.0], 0.0), Err(Error::Barred));
+    // whether or not a sum passes
+    for (orders, least) in [([0.0], 0.0), ([0.0], 9.0), ([f64::NAN], 9.0), ([1.5], f64::NAN), ([1.5], -1.0)] {
+        assert_eq!(of(&orders, least), Err(Error::Barred), "{orders:?} {least}");
+    }
+    let margin = BarredSpeeds::<8>::try_of_engine(&chain.modes(), (&SIX, [0; 6]), &[1.5], 9.0, 1.0, first);
+    assert_eq!(margin, Err(Error::Barred));
     let beyond = (&SIX, [0, 1, 2, 3, 4, 6]);
     assert_eq!(
         BarredSpeeds::<8>::try_of_engine(&chain.modes(), beyond, &[1.5], 1.0, USUAL_MARGIN, first),
