@@ -10,7 +10,7 @@ use super::excitation::Excitation;
 use super::quantity::Quantity;
 use super::table::Table;
 
-/// Highest index of an order that a torque is resolved to: the order 24 of a four-stroke engine, 48 of a two-stroke one.
+/// Highest index of an order that a torque is resolved to: the order 24 with four strokes, 48 with two.
 const ORDERS: usize = 49;
 
 /// Angles of a cycle that the typical indicator diagram is taken at.
