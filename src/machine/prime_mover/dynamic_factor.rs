@@ -59,9 +59,9 @@ impl TwoMass {
         }
     }
 
-    /// Torque per time \[N m/s\] at which a change of the motor's torque \[N m\] has at most this factor, between 1 and
-    /// 2; 0 for a factor of 1 or below: `change omega (factor - 1)/2`, from the envelope `1 + 2/(omega T)` of all ramps. The constant
-    /// [`HasSlew::SLEW`](crate::configure::HasSlew::SLEW) of a governor.
+    /// Torque per time \[N m/s\] at which a change of the motor's torque \[N m\] has at most this factor, between 1
+    /// and 2: `change omega (factor - 1)/2`, from the envelope `1 + 2/(omega T)` of all ramps; 0 for a factor of 1 or
+    /// below. The constant [`HasSlew::SLEW`](crate::configure::HasSlew::SLEW) of a governor.
     ///
     /// ```
     /// # use driveline::machine::{Damping, Inertia, Stiffness, Torque, TwoMass};

@@ -5,14 +5,12 @@ use driveline::machine::{CrankSlider, Cylinder, Diameter, Harmonic, Indicator, I
 use driveline_solver::plant::train;
 
 use super::diagnostic::Diagnostic;
+pub use super::excitation::ENGINE as NAME;
 use super::excitation::Excitation;
 use super::quantity::Quantity;
 use super::table::Table;
 
-/// Name of the engine's excitation in the diagram of critical speeds.
-pub const NAME: &str = "engine";
-
-/// Highest index of an order that a torque is resolved to: the order 24 of a four-stroke engine, 48 of a two-stroke one.
+/// Highest index of an order that a torque is resolved to: the order 24 with four strokes, 48 with two.
 const ORDERS: usize = 49;
 
 /// Angles of a cycle that the typical indicator diagram is taken at.

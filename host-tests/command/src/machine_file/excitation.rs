@@ -3,9 +3,11 @@
 use serde::Serialize;
 
 use super::diagnostic::Diagnostic;
-use super::engine;
 use super::quantity::Quantity;
 use super::table::Table;
+
+/// Name of the engine's excitation in the diagram of critical speeds.
+pub const ENGINE: &str = "engine";
 
 /// The running range, speeds of the motor \[rad/s\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -48,7 +50,7 @@ pub(super) fn excitations(root: &mut Table<'_>) -> Result<(Option<Running>, Vec<
         if name.trim().is_empty() || name.chars().count() > 24 || name.chars().any(char::is_control) {
             return Err(table.wrong("name", NAME));
         }
-        if name == engine::NAME && root.has("engine") {
+        if name == ENGINE && root.has("engine") {
             return Err(table.wrong("name", "another name than \"engine\", that of the orders of `[engine]`"));
         }
         all.push(Excitation {

@@ -73,7 +73,7 @@ fn dampers_have_their_best_size_and_the_response_of_the_whole_machine() {
         let largest = (0..60_000)
             .map(|j| 4.0 * angle(stiffness, damping, omega * (0.5 + 1.5 * f64::from(j) / 6e4)))
             .fold(0.0, f64::max);
-        // the peak lies between two of these points, 2.5e-5 apart: half of that over a half-width of 2 % or more, squared
+        // the peak lies between two of these points, 2.5e-5 apart: half of that over a half-width of 2 %, squared
         assert!((number(&damper["with"]) / largest - 1.0).abs() < 1e-6, "{damper} {largest}");
     }
 }
