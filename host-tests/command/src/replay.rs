@@ -6,6 +6,6 @@ mod signals;
 mod table;
 
 pub use page::page;
-pub use run::{Course, Design, Replayed, replay};
+pub use run::{Course, Design, OfReal, Replayed, replay};
 pub use signals::{Between, Signals};
 pub use table::{Summary, csv, summaries, table};

@@ -3,6 +3,7 @@
 
 use core::f64::consts::TAU;
 
+use cargo_driveline::replay::OfReal;
 use driveline::configure::{Machine as _, Rating};
 use driveline::design::{Encoder, Rate, RigidDesign, SpeedLoopTuning, StepChoice, TwoMassDesign};
 use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness};
@@ -25,23 +26,6 @@ const WORSE: f64 = 1.1;
 
 /// Ticks a second.
 const RATES: [u32; 4] = [250, 1_000, 4_000, 10_000];
-
-/// A number from its value in the SI unit or per unit of its base.
-trait OfValue: Number {
-    fn of_value(value: f64) -> Self;
-}
-
-impl OfValue for f32 {
-    fn of_value(value: f64) -> Self {
-        value as f32
-    }
-}
-
-impl OfValue for Fixed {
-    fn of_value(value: f64) -> Self {
-        Fixed::from_f64(value)
-    }
-}
 
 /// A machine with its drive's figures.
 struct Case {
@@ -148,11 +132,11 @@ struct Tick {
 }
 
 /// Root mean square of the errors of shaft torque, load speed and load torque, without the first fifth.
-fn errors<N: OfValue, O: Observer<N>>(ticks: &[Tick], config: &O::Config, bases: Bases) -> [f64; 3] {
+fn errors<N: Number + OfReal, O: Observer<N>>(ticks: &[Tick], config: &O::Config, bases: Bases) -> [f64; 3] {
     let mut observer = O::steady(config, ticks[0].angle, N::ZERO, N::ZERO);
     let (mut squares, settled) = ([0.0; 3], ticks.len() / 5);
     for (k, tick) in ticks.iter().enumerate() {
-        let predicted = observer.predict(config, tick.angle, N::of_value(tick.torque / bases.torque));
+        let predicted = observer.predict(config, tick.angle, N::of_real(tick.torque / bases.torque));
         observer.correct(config, predicted, tick.angle);
         if k >= settled {
             let estimate = observer.estimate(config);
