@@ -1,27 +1,29 @@
 //! What an image logs through `defmt` in QEMU, decoded on the host.
 
-use std::fs;
+use std::fs::{self, File};
+use std::process::Command;
 use std::time::Duration;
 
-use defmt_decoder::Table;
 use driveline_firmware::board::BOARDS;
+use driveline_qemu::clone::workspace;
 use driveline_qemu::image::{Program, build};
 use driveline_qemu::link;
 
 #[test]
 fn logged_frames_are_decoded_with_the_image_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let frames = folder.path().join("frames");
     for &board in BOARDS {
         let image = build("hoist/f32/rigid/10000", board, Program::Log, |_| {}).unwrap();
         // ten thousand ticks take a fraction of a second
-        let log = link::run(&image, Duration::from_secs(60)).unwrap().log;
-        let table = Table::parse(&fs::read(&image.path).unwrap()).unwrap().unwrap();
-        let mut decoder = table.new_stream_decoder();
-        decoder.received(&log);
-        let mut messages = Vec::new();
-        while let Ok(frame) = decoder.decode() {
-            messages.push(frame.display_message().to_string());
-        }
-        assert_eq!(messages.first(), Some(&format!("hoist/f32/rigid/10000 on {}", board.name)));
-        assert_eq!(messages.last().map(String::as_str), Some("10000 ticks"));
+        fs::write(&frames, link::run(&image, Duration::from_secs(60)).unwrap().log).unwrap();
+        let mut decoder = Command::new(env!("CARGO"));
+        decoder.args(["run", "--quiet", "--package=driveline-defmt-log", "--"]).arg(&image.path);
+        let decoder = decoder.current_dir(workspace().unwrap()).stdin(File::open(&frames).unwrap());
+        let output = decoder.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let log = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(log.lines().next(), Some(format!("hoist/f32/rigid/10000 on {}", board.name).as_str()));
+        assert_eq!(log.lines().last(), Some("10000 ticks"));
     }
 }

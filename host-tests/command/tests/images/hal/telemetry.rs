@@ -1,5 +1,7 @@
 //! Records through the ring, the frames and the host's decoder, which was written from their description.
 
+use std::convert::Infallible;
+use std::ops::{Deref, DerefMut};
 use std::thread;
 
 use cargo_driveline::telemetry::{Decoder, Told};
@@ -11,6 +13,40 @@ use driveline_firmware::self_test::fingerprint::SEED;
 use driveline_firmware::self_test::inputs::Program as Inputs;
 use driveline_qemu::image::{Program, board, build};
 use driveline_qemu::link::Telling;
+use embedded_io::{ErrorType, Write};
+
+/// What was written: that `embedded-io` writes to a `Vec` is a feature, which the command does without.
+#[derive(Default)]
+struct Wire(Vec<u8>);
+
+impl ErrorType for Wire {
+    type Error = Infallible;
+}
+
+impl Write for Wire {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize, Infallible> {
+        self.0.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+}
+
+impl Deref for Wire {
+    type Target = Vec<u8>;
+
+    fn deref(&self) -> &Vec<u8> {
+        &self.0
+    }
+}
+
+impl DerefMut for Wire {
+    fn deref_mut(&mut self) -> &mut Vec<u8> {
+        &mut self.0
+    }
+}
 
 fn decoded(bytes: &[u8]) -> (Vec<Told>, Decoder) {
     let (mut records, mut decoder) = (Vec::new(), Decoder::default());
@@ -26,7 +62,7 @@ fn awkward(tick: u32) -> [u32; 3] {
 #[test]
 fn what_is_recorded_arrives() {
     let ring = Ring::<3, 16>::new();
-    let mut bytes = Vec::new();
+    let mut bytes = Wire::default();
     for tick in 0..10_000 {
         ring.record(&awkward(tick));
         if tick % 10 == 9 {
@@ -61,7 +97,7 @@ fn channels_describe_themselves() {
         Channel { name: "motor speed", unit: "rad/s", kind: Kind::Single },
         Channel { name: "angle", unit: "turn", kind: Kind::Integer(1.0 / 4_294_967_296.0) },
     ];
-    let mut bytes = Vec::new();
+    let mut bytes = Wire::default();
     Channel::send(&channels, &mut bytes).unwrap();
     let (_, decoder) = decoded(&bytes);
     let [speed, angle] = [decoder.channel(0), decoder.channel(1)];
@@ -98,13 +134,13 @@ fn whatever_a_channel_is_called_the_table_has_its_columns_and_the_terminal_its_p
         Channel { name: "two\r\nlines", unit: "", kind: Kind::Integer(1.0) },
     ];
     let ring = Ring::<3, 16>::new();
-    let mut bytes = Vec::new();
+    let mut bytes = Wire::default();
     Channel::send(&channels, &mut bytes).unwrap();
     ring.record(&[1, 2, 3]);
     ring.send(&mut bytes).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let [recorded, csv] = ["recorded.bin", "run.csv"].map(|name| folder.path().join(name));
-    std::fs::write(&recorded, &bytes).unwrap();
+    std::fs::write(&recorded, &bytes.0).unwrap();
     let output = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"))
         .args(["watch", recorded.to_str().unwrap(), "--csv", csv.to_str().unwrap()])
         .output()
@@ -127,7 +163,7 @@ fn whatever_a_channel_is_called_the_table_has_its_columns_and_the_terminal_its_p
 #[test]
 fn no_damaged_byte_makes_a_record_that_was_not_sent() {
     let ring = Ring::<3, 8>::new();
-    let mut bytes = Vec::new();
+    let mut bytes = Wire::default();
     (0..5).for_each(|tick| ring.record(&awkward(tick + 100)));
     ring.send(&mut bytes).unwrap();
     let (sound, _) = decoded(&bytes);
@@ -147,7 +183,7 @@ fn no_damaged_byte_makes_a_record_that_was_not_sent() {
 #[test]
 fn a_listener_that_comes_late_begins_with_the_next_frame() {
     let ring = Ring::<3, 8>::new();
-    let mut bytes = Vec::new();
+    let mut bytes = Wire::default();
     (0..5).for_each(|tick| ring.record(&awkward(tick)));
     ring.send(&mut bytes).unwrap();
     let (records, decoder) = decoded(&bytes[10..]);
@@ -204,7 +240,7 @@ fn a_recorded_file_becomes_csv() {
     let directory = tempfile::tempdir().unwrap();
     let (recorded, csv) = (directory.path().join("recorded.bin"), directory.path().join("run.csv"));
     let ring = Ring::<2, 8>::new();
-    let mut bytes = Vec::new();
+    let mut bytes = Wire::default();
     // a record that comes before its columns have names waits for them
     ring.record(&[2.5_f32.to_bits(), 1 << 31]);
     ring.send(&mut bytes).unwrap();
@@ -214,7 +250,7 @@ fn a_recorded_file_becomes_csv() {
     Channel::send(&channels, &mut bytes).unwrap();
     ring.record(&[(-0.125_f32).to_bits(), 1 << 30]);
     ring.send(&mut bytes).unwrap();
-    std::fs::write(&recorded, &bytes).unwrap();
+    std::fs::write(&recorded, &bytes.0).unwrap();
     let arguments = ["driveline", "watch", recorded.to_str().unwrap(), "--json", "--csv", csv.to_str().unwrap()];
     cargo_driveline::cli::main(arguments.map(Into::into));
     let written = std::fs::read_to_string(csv).unwrap();
@@ -266,7 +302,7 @@ fn a_path_need_not_be_unicode_and_a_recording_may_be_cut_off() {
 
     let folder = tempfile::tempdir().unwrap();
     let ring = Ring::<3, 8>::new();
-    let mut bytes = Vec::new();
+    let mut bytes = Wire::default();
     (0..5).for_each(|tick| ring.record(&awkward(tick)));
     ring.send(&mut bytes).unwrap();
     let path = folder.path().join(std::ffi::OsStr::from_bytes(b"run\xff.bin"));
