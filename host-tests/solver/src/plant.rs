@@ -12,7 +12,7 @@
 //! | slack | how far a rope must be wound before it pulls | rad |
 //! | Coulomb torque | friction that holds a node at rest up to this torque | N m |
 //! | load torque | torque against positive speed, whatever the speed (gravity) | N m |
-//! | efficiency | of a gear at a node, towards the shaft behind it; the driving side pays | 1 |
+//! | efficiency | of a gear at a node, towards the shaft behind it; the driving side pays, the shaft at its own | 1 |
 //!
 //! Equations: `J_j w_j' = T_(j-1) - m_j T_j - c_j w_j - friction_j - load_j` `[Pfützner 1980 (1.6)]`, with the shaft
 //! torque `T_s = k (theta - G/2) + d dw` for `theta > G/2`, `k (theta + G/2) + d dw` for `theta < -G/2` and zero in

@@ -68,10 +68,13 @@ impl FileCase {
     /// A machine that a campaign can be run of.
     ///
     /// # Errors
-    /// A sentence: it has branches or no shaft, or cannot be designed.
+    /// A sentence: it has branches or no shaft, losses that no shaft carries, or cannot be designed.
     pub fn of(machine: MachineFile) -> Result<Self, String> {
         if !machine.branches.is_empty() {
             return Err("a campaign runs a chain of elements; this machine has branches".to_owned());
+        }
+        if let Some(label) = machine.losses_of_no_chain() {
+            return Err(format!("the losses of `{label}` need a shaft behind it; leave it out of a copy of the file"));
         }
         let two = machine.two_masses().ok_or("a campaign needs a machine with a shaft; this one is rigid")?;
         let designs = Designs::of(&machine, &two).map_err(|error| format!("no controller can be designed: {error}"))?;
@@ -204,8 +207,9 @@ fn plant(machine: &MachineFile, load: LoadProgram, by: &Departure) -> Result<Pla
         let of = if rope[s] { Shaft::rope(stiffness) } else { Shaft::elastic(stiffness) };
         let flank = if weight > 0.0 && !rope[s] { 0.5 * gap } else { 0.0 };
         twists.push(flank + weight / stiffness);
-        if efficiency[s] < 1.0 {
-            known = known.efficiency((efficiency[s] + by.efficiency).min(1.0));
+        if efficiency[s] != [1.0; 2] {
+            let [ahead, back] = efficiency[s].map(|efficiency| (efficiency + by.efficiency).min(1.0));
+            known = known.efficiency(ahead).back_efficiency(back);
         }
         known = known.shaft(of.damping(shaft.damping).gap(gap), loaded(s + 1, *inertia));
     }

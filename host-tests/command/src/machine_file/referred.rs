@@ -48,21 +48,16 @@ pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
 }
 
 impl MachineFile {
-    /// Of each shaft: whether it is a rope, and the efficiency that it carries while the motor drives.
-    pub fn ropes_and_efficiencies(&self) -> (Vec<bool>, Vec<f64>) {
+    /// Of each shaft: whether it is a rope, and the efficiencies that it carries while the motor drives and while the
+    /// load does.
+    pub fn ropes_and_efficiencies(&self) -> (Vec<bool>, Vec<[f64; 2]>) {
         let carried = self.carried();
-        (carried.rope, carried.efficiency.iter().map(|[motoring, _]| *motoring).collect())
+        (carried.rope, carried.efficiency)
     }
 
-    /// The label of an element whose losses no chain carries: no shaft is behind it, or they are others with the load
-    /// driving.
+    /// The label of an element whose losses no chain carries: no shaft is behind it.
     pub fn losses_of_no_chain(&self) -> Option<String> {
-        let differ = |part: &&Part| match part.element {
-            Element::Worm { efficiency, back_efficiency, .. } => efficiency != back_efficiency,
-            _ => false,
-        };
-        let worm = self.elements.iter().find(differ).map(|part| part.label.clone());
-        worm.or_else(|| self.carried().without_shaft)
+        self.carried().without_shaft
     }
 
     fn carried(&self) -> Carried {

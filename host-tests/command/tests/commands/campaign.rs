@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use cargo_driveline::campaign::drive::Drive;
 use cargo_driveline::campaign::run::run;
-use cargo_driveline::campaign::scenes::SCENES;
+use cargo_driveline::campaign::scenes::{CampaignScene, SCENES};
 use cargo_driveline::campaign::{
     Draw, Factor, Figure, PlainLoop, Tolerance, decay, median_range, noise_of_largest, quantile, rank_correlation,
 };
@@ -18,6 +18,7 @@ use cargo_driveline::closed_loop::encoder_errors::EncoderErrors;
 use cargo_driveline::closed_loop::ticks::Ticks;
 use cargo_driveline::drivetrains::departure::Departure;
 use cargo_driveline::drivetrains::lockstep::follow;
+use cargo_driveline::machine_file::parse;
 use driveline_firmware::scene::Input;
 
 /// The spindle is the shortest run.
@@ -129,6 +130,39 @@ fn a_machine_file_has_campaigns() {
     }
     let refused = campaign(folder.path(), &["axis.toml", "--drive", "f32/rigid/10000"]);
     assert!(String::from_utf8_lossy(&refused.stderr).contains("expected two-mass, rigid or plain"));
+    // a worm behind the last mass, whose losses no shaft carries
+    let worm =
+        "[[element]]\nkind = \"worm\"\nlabel = \"drive\"\nratio = 2.0\nefficiency = 0.8\nback_efficiency = 0.7\n";
+    let hoist = include_str!("../../machines/hoist.toml");
+    let [(head, _), (_, tail)] = ["[[element]]\nkind = \"gear\"", "[encoder]"].map(|at| hoist.split_once(at).unwrap());
+    fs::write(folder.path().join("axis.toml"), format!("{head}{worm}\n[encoder]{tail}")).unwrap();
+    let refused = campaign(folder.path(), &["axis.toml"]);
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("the losses of `drive` need a shaft behind it"));
+}
+
+/// A motor that holds four fifths of the weight: behind a worm that keeps 0.7 of the power backwards the load stays,
+/// behind one that keeps 0.9 it sinks [Wang 1989 §1-3].
+#[test]
+fn losses_backwards_reach_the_plant_of_a_file() {
+    let text = include_str!("../../machines/hoist.toml");
+    let gear = "kind = \"gear\"\nratio = 31.5            # motor speed over drum speed\nefficiency = 0.94\n";
+    assert!(text.contains(gear));
+    for (back, stays) in [(0.7, true), (0.9, false)] {
+        let worm = format!("kind = \"worm\"\nratio = 31.5\nefficiency = 0.94\nback_efficiency = {back}\n");
+        let machine = parse("hoist", &text.replace(gear, &worm)).unwrap();
+        let weight = machine.chain.gravity_torque();
+        let machine = CampaignScene::of_file(machine).unwrap().departing(&Departure::NONE).unwrap();
+        let mut plant = machine.scenarios[0].plant.clone();
+        let mut turned = || {
+            (0..1000).for_each(|_| plant.advance(0.8 * weight, 1e-3));
+            plant.motor_angle()
+        };
+        let (second, later) = (turned(), turned());
+        // what the motor shaft of 5e4 N m/rad gives is a fifth of the weight, as the motor rings on it
+        let given = 0.2 * weight / 5.0e4;
+        assert_eq!((later - second).abs() < given, stays, "{back}: {second} rad, {later} rad");
+        assert!(stays || later < second - 1.0, "{back}: {second} rad, {later} rad");
+    }
 }
 
 #[test]

@@ -51,10 +51,10 @@ struct Fmu {
 }
 
 impl Fmu {
-    fn new(of: &str) -> Self {
+    fn new(machine: &str, of: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("one.fmu");
-        ended_well(&export(&["fmu", MACHINE, "--of", of], &file));
+        ended_well(&export(&["fmu", machine, "--of", of], &file));
         ZipArchive::new(File::open(file).unwrap()).unwrap().extract(folder.path()).unwrap();
         let text = fs::read_to_string(folder.path().join("modelDescription.xml")).unwrap();
         // no text holds a bracket or a quote
@@ -183,7 +183,7 @@ fn on_the_host(mut plant: Plant, weight: f64) -> Vec<[f64; 13]> {
 /// Every wrong call, saving and restoring are in `loop.c`.
 #[test]
 fn the_fmus_in_closed_loop_give_the_bits_of_the_host() {
-    let [controller, plant] = ["controller", "plant"].map(Fmu::new);
+    let [controller, plant] = ["controller", "plant"].map(|of| Fmu::new(MACHINE, of));
     [&controller, &plant].into_iter().for_each(is_described_as_the_standard_wants);
     // the machine of the plant is that of the file, referred to the motor by the library
     let chain = Hoist::CHAIN;
@@ -255,12 +255,18 @@ fn a_machine_that_no_plant_is_true_of_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let (file, out) = (folder.path().join("machine.toml"), folder.path().join("out"));
     let hoist = fs::read_to_string(MACHINE).unwrap();
+    // behind the last mass
     let worm = "[[element]]\nkind = \"worm\"\nlabel = \"drive\"\nratio = 1.0\nefficiency = 0.8\n\
-                back_efficiency = 0.7\n\n[[element]]\nkind = \"shaft\"";
+                back_efficiency = 0.7\n";
+    let [(start, limits), (head, _), (motor, _)] =
+        ["[encoder]", "[[element]]\nkind = \"gear\"", "[[element]]\nkind = \"shaft\""]
+            .map(|at| hoist.split_once(at).unwrap());
+    assert!(start.starts_with(head) && head.starts_with(motor));
     for (machine, word) in [
         (format!("{hoist}\n[[friction]]\non = \"motor\"\ntorque = 3.0\n"), "it has `friction`"),
         (format!("{hoist}\n[[torque]]\non = \"motor\"\nkind = \"constant\"\ntorque = 3.0\n"), "it has `torque`"),
-        (hoist.replacen("[[element]]\nkind = \"shaft\"", worm, 1), "the losses of `drive`"),
+        (format!("{head}{worm}\n[encoder]{limits}"), "the losses of `drive`"),
+        (format!("{motor}[encoder]{limits}"), "it has no shaft"),
     ] {
         assert_ne!(machine, hoist, "{word}");
         fs::write(&file, machine).unwrap();
@@ -268,9 +274,14 @@ fn a_machine_that_no_plant_is_true_of_is_refused() {
         let said = String::from_utf8(ended.stderr).unwrap();
         assert!(ended.status.code() == Some(2) && said.contains(word), "{said}");
     }
-    // ten ticks a second are too few for a drive of it; the plant has no rate
-    fs::write(&file, hoist.replace("rate_hz = 10000", "rate_hz = 10")).unwrap();
+    // ten ticks a second are too few for a drive of it; the plant has no rate, and its worm keeps less backwards
+    let gear = "kind = \"gear\"\nratio = 31.5            # motor speed over drum speed\nefficiency = 0.94\n";
+    let worm = "kind = \"worm\"\nratio = 31.5\nefficiency = 0.94\nback_efficiency = 0.7\n";
+    assert!(hoist.contains(gear));
+    fs::write(&file, hoist.replace("rate_hz = 10000", "rate_hz = 10").replace(gear, worm)).unwrap();
     let file = file.to_str().unwrap();
     assert_eq!(export(&["fmu", file], &out).status.code(), Some(2));
-    ended_well(&export(&["fmu", file, "--of", "plant"], &out));
+    let plant = Fmu::new(file, "plant");
+    let efficiencies = ["efficiency[2]", "back_efficiency[2]", "efficiency[1]", "back_efficiency[1]"];
+    assert_eq!(efficiencies.map(|name| plant.start(name)), [0.94, 0.7, 1.0, 1.0]);
 }

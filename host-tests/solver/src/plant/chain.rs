@@ -14,12 +14,18 @@ pub(super) struct Node {
     pub coulomb: f64,
     pub load: f64,
     pub efficiency: f64,
+    /// With the shaft behind driving.
+    pub back_efficiency: f64,
     pub program: Option<LoadProgram>,
 }
 
 impl Node {
     fn new(inertia: f64) -> Self {
-        Self { inertia, viscous: 0.0, coulomb: 0.0, load: 0.0, efficiency: 1.0, program: None }
+        Self { inertia, viscous: 0.0, coulomb: 0.0, load: 0.0, efficiency: 1.0, back_efficiency: 1.0, program: None }
+    }
+
+    pub fn is_lossy(&self) -> bool {
+        self.efficiency < 1.0 || self.back_efficiency < 1.0
     }
 }
 
@@ -87,7 +93,14 @@ impl Chain {
     /// Refused at the end of the chain, where no shaft follows.
     #[must_use]
     pub fn efficiency(self, efficiency: f64) -> Self {
-        self.last(|node| node.efficiency = efficiency)
+        self.last(|node| (node.efficiency, node.back_efficiency) = (efficiency, efficiency))
+    }
+
+    /// Efficiency, above 0 and up to 1, of the last node's gear while the shaft behind it drives: a worm keeps less of
+    /// the power backwards. Call it after [`Self::efficiency`], which sets both.
+    #[must_use]
+    pub fn back_efficiency(self, efficiency: f64) -> Self {
+        self.last(|node| node.back_efficiency = efficiency)
     }
 
     /// How the plant starts; at rest without twist if not said.
@@ -124,10 +137,11 @@ impl Chain {
             not_negative("viscous friction", place, node.viscous)?;
             not_negative("Coulomb friction", place, node.coulomb)?;
             finite("load torque", place, node.load)?;
-            let eta = node.efficiency;
-            in_range("efficiency", place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
             let has_shaft = j < self.shafts.len();
-            in_range("efficiency", place, eta, has_shaft || eta == 1.0, "a shaft behind the gear")?;
+            for (name, eta) in [("efficiency", node.efficiency), ("back efficiency", node.back_efficiency)] {
+                in_range(name, place, eta, eta > 0.0 && eta <= 1.0, "above 0 and up to 1")?;
+                in_range(name, place, eta, has_shaft || eta == 1.0, "a shaft behind the gear")?;
+            }
             if let Some(program) = &node.program {
                 program.validate(place)?;
             }
@@ -227,7 +241,7 @@ fn carried_torques(chain: &Chain, speed: f64) -> Vec<f64> {
         let program = node.program.as_ref().map_or(0.0, |program| program.at(0.0).0);
         let through = match direction * behind {
             power if power > 0.0 => behind / node.efficiency,
-            power if power < 0.0 => behind * node.efficiency,
+            power if power < 0.0 => behind * node.back_efficiency,
             _ => behind,
         };
         behind = through + node.load + program + node.viscous * speed + node.coulomb * direction;

@@ -132,7 +132,7 @@ pub(super) fn guards(chain: &Chain, mode: &Mode, regime: &Regime, coulomb: &[f64
         }
     }
     for s in 0..chain.shafts.len() {
-        if chain.nodes[s].efficiency < 1.0 && mode.carries(chain, s) {
+        if chain.nodes[s].is_lossy() && mode.carries(chain, s) {
             let (row, constant) = elastic_torque(chain, mode, s);
             let sign = f64::from(mode.flow[s]);
             add(Action::Flow(s), row.iter().map(|v| v * sign).collect(), idle(), constant * sign);
@@ -155,9 +155,9 @@ fn hold(chain: &Chain, mode: &Mode, node: usize, side: f64) -> (Vec<f64>, Vec<f6
     }
     if node < chain.shafts.len() {
         let (behind, offset) = elastic_torque(chain, mode, node);
-        let eta = chain.nodes[node].efficiency;
+        let gear = &chain.nodes[node];
         let driving = side * f64::from(mode.flow[node]) > 0.0;
-        let factor = if driving { 1.0 / eta } else { eta };
+        let factor = if driving { 1.0 / gear.efficiency } else { gear.back_efficiency };
         row.iter_mut().zip(behind).for_each(|(r, b)| *r += side * factor * b);
         constant += side * factor * offset;
     }

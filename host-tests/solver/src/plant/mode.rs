@@ -32,11 +32,10 @@ impl Mode {
 
     /// Torque on the node before the shaft, as a multiple of the shaft's `[Wang 1989 §1-3]`.
     pub fn loss(&self, chain: &Chain, shaft: usize) -> f64 {
-        let efficiency = chain.nodes[shaft].efficiency;
+        let gear = &chain.nodes[shaft];
         match self.motion[shaft] * self.flow[shaft] {
-            _ if efficiency == 1.0 => 1.0,
-            1 => 1.0 / efficiency,
-            -1 => efficiency,
+            1 => 1.0 / gear.efficiency,
+            -1 => gear.back_efficiency,
             _ => 1.0,
         }
     }
@@ -44,7 +43,7 @@ impl Mode {
     /// Part of the mode that determines the matrices.
     pub fn key(&self, chain: &Chain) -> Vec<i8> {
         let shafts = (0..chain.shafts.len()).map(|s| {
-            let lossy = chain.nodes[s].efficiency < 1.0 && self.carries(chain, s);
+            let lossy = chain.nodes[s].is_lossy() && self.carries(chain, s);
             i8::from(self.carries(chain, s))
                 + if lossy && !self.is_held(s) { 4 * self.motion[s] * self.flow[s] } else { 0 }
         });
@@ -101,8 +100,8 @@ impl Hold {
         };
         let before = if node > 0 { torque(node - 1) } else { 0.0 };
         let behind = if node < chain.shafts.len() { torque(node) } else { 0.0 };
-        let eta = chain.nodes[node].efficiency;
-        let (one, other) = (behind * eta, behind / eta);
+        let gear = &chain.nodes[node];
+        let (one, other) = (behind * gear.back_efficiency, behind / gear.efficiency);
         Self { push: outer[node] + before, reaction: (one.min(other), one.max(other)), coulomb: coulomb[node] }
     }
 

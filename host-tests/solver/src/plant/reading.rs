@@ -48,7 +48,7 @@ impl Plant {
         if shaft >= self.chain.shafts.len() {
             return f64::NAN;
         }
-        if self.mode.is_held(shaft) && self.chain.nodes[shaft].efficiency < 1.0 {
+        if self.mode.is_held(shaft) && self.chain.nodes[shaft].is_lossy() {
             return self.hold(shaft).gear_torque();
         }
         self.mode.loss(&self.chain, shaft) * self.elastic(shaft)

@@ -184,7 +184,7 @@ impl Plant {
     }
 
     pub(super) fn is_dry(&self, node: usize) -> bool {
-        self.coulomb[node] > 0.0 || self.chain.nodes[node].efficiency < 1.0
+        self.coulomb[node] > 0.0 || self.chain.nodes[node].is_lossy()
     }
 
     pub(super) fn hold(&self, node: usize) -> Hold {

@@ -43,10 +43,11 @@ const NOT_OF_THE_PLANT: [&str; 5] = ["engine", "damper", "link", "torque", "fric
 /// # Errors
 /// The part that it does not have.
 pub fn is_a_plant(machine: &MachineFile, source: &str) -> Result<(), Failure> {
-    let refused = |part: String| {
-        let name = &machine.name;
-        Err(Failure::usage(format!("`{name}`: no plant can be made: {part}; leave it out of a copy of the file")))
-    };
+    let no_plant = |why: String| Err(Failure::usage(format!("`{}`: no plant can be made: {why}", machine.name)));
+    let refused = |part: String| no_plant(format!("{part}; leave it out of a copy of the file"));
+    if machine.chain.shafts().is_empty() {
+        return no_plant("it has no shaft; the plant has at least one between motor and load".into());
+    }
     if !machine.branches.is_empty() {
         return refused("it has branches, and the plant is a chain".into());
     }
@@ -55,7 +56,7 @@ pub fn is_a_plant(machine: &MachineFile, source: &str) -> Result<(), Failure> {
         return refused(format!("it has `{table}`, which the plant does not have"));
     }
     match machine.losses_of_no_chain() {
-        Some(label) => refused(format!("the losses of `{label}` need a shaft behind it, and one efficiency both ways")),
+        Some(label) => refused(format!("the losses of `{label}` need a shaft behind it")),
         None => Ok(()),
     }
 }

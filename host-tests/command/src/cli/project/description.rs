@@ -80,6 +80,8 @@ struct Node {
     inertia: String,
     /// Of the gear between it and the next shaft; empty for 1.
     efficiency: String,
+    /// With the load driving, where it is another.
+    back_efficiency: String,
     kind: &'static str,
     stiffness: String,
     damping: String,
@@ -217,10 +219,12 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
             shaft.map_or([1.0, 0.0, 0.0], |shaft| [shaft.stiffness, shaft.damping, shaft.gap]);
         // the weight keeps a gap on its flank
         let flank = if weight > 0.0 { 0.5 * gap } else { 0.0 };
+        let [ahead, back] = efficiencies.get(at).copied().unwrap_or([1.0; 2]);
         let is_rope = before.and_then(|before| ropes.get(before)).is_some_and(|&rope| rope);
         Node {
             inertia: format!("{inertia:?}"),
-            efficiency: unless(1.0, efficiencies.get(at).copied().unwrap_or(1.0)),
+            efficiency: unless(1.0, ahead),
+            back_efficiency: unless(ahead, back),
             kind: if is_rope { "rope" } else { "elastic" },
             stiffness: format!("{stiffness:?}"),
             damping: format!("{damping:?}"),

@@ -136,14 +136,14 @@ impl Machine {
             return 0.0;
         }
         let torque = self.torque(y, node);
-        let eta = self.chain.nodes[node].efficiency;
+        let gear = &self.chain.nodes[node];
         match self.motion[node] {
             Motion::Smooth => torque,
             Motion::Sliding(way) => {
                 if self.flow[node] * way > 0.0 {
-                    torque / eta
+                    torque / gear.efficiency
                 } else {
-                    torque * eta
+                    torque * gear.back_efficiency
                 }
             }
             Motion::Held => {
@@ -159,13 +159,14 @@ impl Machine {
             return (0.0, 0.0);
         }
         let torque = self.torque(y, node);
-        let eta = self.chain.nodes[node].efficiency;
-        ((torque * eta).min(torque / eta), (torque * eta).max(torque / eta))
+        let gear = &self.chain.nodes[node];
+        let (one, other) = (torque * gear.back_efficiency, torque / gear.efficiency);
+        (one.min(other), one.max(other))
     }
 
     /// Sets a node with dry friction or a lossy gear moving, or holds it.
     pub fn judge(&mut self, t: f64, y: &[f64], node: usize) {
-        if self.dry[node] == 0.0 && self.chain.nodes[node].efficiency == 1.0 {
+        if self.dry[node] == 0.0 && !self.chain.nodes[node].is_lossy() {
             self.motion[node] = Motion::Smooth;
             return;
         }
@@ -233,7 +234,7 @@ impl Hybrid for Machine {
         }
         for (s, shaft) in self.chain.shafts.iter().enumerate() {
             let in_contact = self.side[s].abs() == 1.0;
-            if self.chain.nodes[s].efficiency < 1.0 && in_contact {
+            if self.chain.nodes[s].is_lossy() && in_contact {
                 let size = shaft.stiffness * y[s].abs();
                 all.push((self.flow[s] * self.torque(y, s), size, Change::Flow(s)));
             }

@@ -106,10 +106,19 @@ fn momentum_and_energy_stay_through_thousands_of_impacts() {
 #[test]
 fn a_lossy_gear_drives_at_its_efficiency_holds_and_is_driven_at_it() {
     // a mass on a gear of eta = 0.8 with 100 N m behind it: it rises above 125, stays between 80 and 125, sinks below
-    let eta = 0.8;
+    lossy(0.8, 0.8, [140.0, 124.0, 81.0, 60.0]);
+    // a worm keeps less backwards, 0.6: it sinks below 60
+    lossy(0.8, 0.6, [140.0, 124.0, 61.0, 40.0]);
+    // and this one takes its loss backwards alone
+    lossy(1.0, 0.6, [140.0, 99.0, 61.0, 40.0]);
+}
+
+/// A mass on a gear with 100 N m behind it, under torques at which it rises, holds twice, and sinks.
+fn lossy(eta: f64, back: f64, [rises, holds, holds_too, sinks]: [f64; 4]) {
     let build = || {
         Chain::motor(1.0)
             .efficiency(eta)
+            .back_efficiency(back)
             .shaft(Shaft::elastic(1.0e4).damping(60.0), 2.0)
             .load(100.0)
             .start(Start::Pretensioned { speed: 0.0 })
@@ -117,11 +126,11 @@ fn a_lossy_gear_drives_at_its_efficiency_holds_and_is_driven_at_it() {
             .unwrap()
     };
     for (torque, acceleration) in [
-        // at rest behind a well damped shaft: J1 + J2/eta, or J1 + J2 eta [Wang 1989 §1-3]
-        (140.0, (140.0 - 100.0 / eta) / (1.0 + 2.0 / eta)),
-        (124.0, 0.0),
-        (81.0, 0.0),
-        (60.0, (60.0 - 100.0 * eta) / (1.0 + 2.0 * eta)),
+        // at rest behind a well damped shaft: J1 + J2/eta, or J1 + J2 eta backwards [Wang 1989 §1-3]
+        (rises, (rises - 100.0 / eta) / (1.0 + 2.0 / eta)),
+        (holds, 0.0),
+        (holds_too, 0.0),
+        (sinks, (sinks - 100.0 * back) / (1.0 + 2.0 * back)),
     ] {
         let mut plant = build();
         run(&mut plant, torque, 1e-3, 4000);

@@ -51,7 +51,7 @@ fn chain(dice: &mut Dice) -> Chain {
         }
         if s < shafts {
             if dice.often(0.3) {
-                chain = chain.efficiency(dice.between(0.6, 0.99));
+                chain = chain.efficiency(dice.between(0.6, 0.99)).back_efficiency(dice.between(0.4, 0.99));
             }
             let (link, inertia) = (shaft(dice), dice.between(0.05, 2.0));
             chain = chain.shaft(link, inertia);

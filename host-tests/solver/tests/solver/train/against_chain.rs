@@ -75,8 +75,16 @@ fn a_rope_and_dry_friction_and_a_load_program() {
 
 #[test]
 fn a_lossy_gear_that_drives_brakes_and_holds() {
+    for back in [0.8, 0.5] {
+        lossy(back);
+    }
+}
+
+/// A worm where it keeps another share of the power backwards.
+fn lossy(back: f64) {
     let plant = Chain::motor(0.4)
         .efficiency(0.8)
+        .back_efficiency(back)
         .shaft(Shaft::elastic(900.0).damping(0.8), 0.3)
         .coulomb(3.0)
         .shaft(Shaft::elastic(400.0).damping(0.1), 0.5)
@@ -87,7 +95,7 @@ fn a_lossy_gear_that_drives_brakes_and_holds() {
         .coordinate(Coordinate::new(0.4))
         .coordinate(Coordinate::new(0.3))
         .coordinate(Coordinate::new(0.5).source(Source::Constant(-5.0)))
-        .link(Link::shaft(0, 1, 900.0).damping(0.8).efficiency(0.8))
+        .link(Link::shaft(0, 1, 900.0).damping(0.8).efficiency(0.8).back_efficiency(back))
         .link(Link::shaft(1, 2, 400.0).damping(0.1))
         .friction(Friction::ground(1, 3.0));
     difference("lossy", plant, train, 900);
