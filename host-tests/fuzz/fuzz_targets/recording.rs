@@ -15,9 +15,9 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     FILE.with(|file| {
         let path = file.get_or_init(|| tempfile::NamedTempFile::new().expect("a temporary file").into_temp_path());
         fs::write(path, bytes).expect("a temporary file");
-        for rate in [None, Some(1e3)] {
-            let asked =
-                Asked { rate, torque_constant: Some(1.0), counts: Some(4096.0), columns: vec![], window: [None; 2] };
+        for (rate, uneven) in [(None, false), (Some(1e3), false), (None, true)] {
+            let (torque_constant, counts) = (Some(1.0), Some(4096.0));
+            let asked = Asked { rate, torque_constant, counts, columns: vec![], window: [None; 2], uneven };
             let _ = read_recording(path, &asked);
         }
     });

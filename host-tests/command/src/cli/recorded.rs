@@ -57,6 +57,7 @@ impl Recorded {
             counts: self.counts,
             columns: self.columns.clone(),
             window: [self.from, self.to],
+            uneven: false,
         })
     }
 }

@@ -1,6 +1,10 @@
-//! `cargo driveline replay`: the observer over a recording.
+//! `cargo driveline replay`: the observer, the toothed wheel or the phasors over a recording.
 
-use std::path::PathBuf;
+mod phasors;
+mod shown;
+mod wheel;
+
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use driveline::configure::Rating;
@@ -8,43 +12,60 @@ use driveline::design::Rate;
 use driveline::settings::Gear;
 use serde_json::json;
 
+use self::phasors::PhasorOptions;
+use self::shown::Shown;
+use self::wheel::WheelOptions;
 use super::identify::slug;
 use super::recorded::Recorded;
 use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
 use crate::machine_file::{MachineFile, printable, read};
-use crate::recording::{Recording, read_recording};
+use crate::recording::{Asked, Recording, read_recording};
 use crate::replay::{Between, Design, Replayed, Signals, csv, page, replay, summaries, table};
 use driveline_report::Fact;
 use driveline_report::format::significant;
 
-/// Replay a recording through the observer of a machine: estimates, innovation, flags, and errors where the load was
-/// measured.
+/// Replay a recording through the library: the observer of a machine, a toothed wheel, or the phasors of a vibration.
 ///
-/// The library's own code runs as on the drive, in `f32` and in fixed point, designed from the machine file at the
-/// recording's rate. Columns are found by quantity and unit: torque or current and angle or speed of the motor;
-/// `load_angle`, `load_speed`, `shaft_torque` and `load_torque`, at the motor's shaft, are what the estimates are
-/// compared with.
+/// The library's own code runs as on the drive. With `--machine` that is the observer, in `f32` and in fixed point,
+/// designed from the machine file at the recording's rate: estimates, innovation, flags, and errors where the load was
+/// measured. Columns are found by quantity and unit: torque or current and angle or speed of the motor; `load_angle`,
+/// `load_speed`, `shaft_torque` and `load_torque`, at the motor's shaft, are what the estimates are compared with.
+///
+/// With `--teeth` it is the toothed wheel: speed and ripple from the times of its edges, in a column of `time` and one
+/// of the pickup's level (`crank`, `teeth`), or with a row for each edge.
+///
+/// With `--phasors` it is the vibration at the rotor's speed: a column of `vibration`, and the rotor's `angle` or a
+/// `mark` once a turn.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline example bench-log > bench.csv
   cargo driveline identify bench.csv --rate 2500 --torque-constant 0.564 --to 5 --toml bench.toml
-  cargo driveline replay bench.csv --machine bench.toml --rate 2500 --torque-constant 0.564 --delay 1.2e-4 --from 5")]
+  cargo driveline replay bench.csv --machine bench.toml --rate 2500 --torque-constant 0.564 --delay 1.2e-4 --from 5
+  cargo driveline replay crank.csv --teeth 60-2 --cycle 2
+  cargo driveline replay rotor.csv --phasors --rate 952")]
 pub struct Replay {
     /// The recording: a CSV file
     file: PathBuf,
     /// The machine: a TOML file of elements from the motor to the load
-    #[arg(long, value_name = "FILE")]
-    machine: PathBuf,
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["teeth", "phasors"])]
+    machine: Option<PathBuf>,
+    #[command(flatten)]
+    wheel: WheelOptions,
+    #[command(flatten)]
+    phasors: PhasorOptions,
+    /// Take the edges, or the mark, where the level falls
+    #[arg(long, conflicts_with = "machine")]
+    falling: bool,
     #[command(flatten)]
     recorded: Recorded,
     /// Keep the torque from each sample to the next, as of a command; a measured one runs straight
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["teeth", "phasors"])]
     held: bool,
     /// Time by which the torque acts after its sample [s]
-    #[arg(long, value_name = "S", default_value_t = 0.0)]
+    #[arg(long, value_name = "S", default_value_t = 0.0, conflicts_with_all = ["teeth", "phasors"])]
     delay: f64,
-    /// Write the estimates of every tick as a table
+    /// Write the estimates of every tick, the windows or the readings as a table
     #[arg(long, value_name = "PATH")]
     csv: Option<PathBuf>,
     /// File of the page [default: report/NAME-replay.html]
@@ -56,11 +77,34 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// Reads recording and machine, runs the observer and shows its estimates.
+    /// Reads the recording, runs the library's part and shows what it says.
     ///
     /// # Errors
-    /// A fault of a file; a machine that no observer follows at the recording's rate.
+    /// A fault of a file; a machine that no observer follows at the recording's rate, a wheel that there is not.
     pub fn execute(&self) -> Result<(), Failure> {
+        match (&self.machine, &self.wheel.teeth) {
+            (Some(machine), _) => self.observer(machine),
+            (None, Some(teeth)) => self.show(|asked| self.wheel.shown(teeth, &self.file, asked, self.falling)),
+            (None, None) => self.show(|asked| self.phasors.shown(&self.file, asked, self.falling)),
+        }
+    }
+
+    /// Results of a wheel or a vibration.
+    fn show(&self, shown: impl Fn(Asked) -> Result<Shown, Failure>) -> Result<(), Failure> {
+        let sheet = Destination::page_unless(self.json, self.html.as_deref(), &format!("{}-replay", slug(&self.file)));
+        let table = self.csv.as_deref().map(|path| Destination::chosen("table", path));
+        check(&[&self.file], table.iter().chain(&sheet))?;
+        let Shown { text, json, csv, sheet: page } = shown(self.recorded.asked()?)?;
+        if self.json {
+            say_json(&json)?
+        } else {
+            say(text)
+        }
+        table.map_or(Ok(()), |table| table.write_and_say(&csv, self.json))?;
+        sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page.page(), self.json))
+    }
+
+    fn observer(&self, path: &Path) -> Result<(), Failure> {
         let asked = self.recorded.asked()?;
         if !(self.delay >= 0.0 && self.delay.is_finite()) {
             return Err(Failure::usage(format!("--delay must be zero or above and finite, not {:?}", self.delay)));
@@ -68,8 +112,8 @@ impl Replay {
         let name = slug(&self.file);
         let sheet = Destination::page_unless(self.json, self.html.as_deref(), &format!("{name}-replay"));
         let destination = self.csv.as_deref().map(|path| Destination::chosen("table", path));
-        check(&[&self.file, &self.machine], destination.iter().chain(&sheet))?;
-        let machine = read(&self.machine)?;
+        check(&[&self.file, path], destination.iter().chain(&sheet))?;
+        let machine = read(path)?;
         let recording = read_recording(&self.file, &asked)?;
         if recording.len() < 100 || !recording.period.is_finite() {
             let found = format!("{} samples over time", recording.len());
@@ -87,7 +131,7 @@ impl Replay {
         let signals = Signals::of(&recording, two.as_ref(), constant, between, self.delay)?;
         let gap: f64 = machine.chain.shafts().iter().map(|shaft| shaft.gap).sum();
         if gap > 0.0 && !self.json {
-            let (file, gap) = (printable(&self.machine.display().to_string(), 200), significant(gap));
+            let (file, gap) = (printable(&path.display().to_string(), 200), significant(gap));
             eprintln!("note: the observer of a replay knows no backlash: {file} has {gap} rad at the motor, ignored");
         }
         let progress = Progress::of(2 * recording.len() as u64);
@@ -99,7 +143,7 @@ impl Replay {
                 progress.at(done);
             }
         };
-        let replayed = self.run(&machine, &recording, signals, tick)?;
+        let replayed = self.run(path, &machine, &recording, signals, tick)?;
         drop(progress);
         if self.json {
             let predicted = replayed.predicted;
@@ -132,13 +176,14 @@ impl Replay {
 
     fn run(
         &self,
+        path: &Path,
         machine: &MachineFile,
         recording: &Recording,
         signals: Signals,
         tick: impl FnMut(),
     ) -> Result<Replayed, Failure> {
         let refused = |error: driveline::design::Error| {
-            let file = self.machine.display();
+            let file = path.display();
             Failure::usage(format!("{file}: no observer can be designed at the recording's rate: {error}"))
         };
         let (_, encoder, disturbance) = machine.tuning();
@@ -164,6 +209,6 @@ impl Replay {
         let (torque, speed) = (machine.limits.torque, machine.limits.speed);
         let screening = Rating { torque, speed, torque_limit: torque }.screening(encoder, rate);
         replay(signals, &design, gear.as_ref(), &screening, [torque, speed], tick)
-            .map_err(|error| Failure::usage(format!("{}: {error}", self.machine.display())))
+            .map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
     }
 }

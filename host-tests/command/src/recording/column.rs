@@ -27,6 +27,12 @@ pub enum Quantity {
     ShaftTorque,
     /// Load torque, at the motor \[N m\].
     LoadTorque,
+    /// Level of a pickup at a toothed wheel, of which the edges count.
+    Teeth,
+    /// Level of a pickup at a mark that passes once a turn.
+    Mark,
+    /// Vibration, in the unit of its column.
+    Vibration,
     /// Frequency of a response \[rad/s\].
     Frequency,
     /// Size of a response in SI units.
@@ -40,7 +46,7 @@ pub enum Quantity {
 }
 
 /// Names, as `--column` takes them.
-const NAMES: [(&str, Quantity); 15] = [
+const NAMES: [(&str, Quantity); 18] = [
     ("time", Quantity::Time),
     ("torque", Quantity::Torque),
     ("current", Quantity::Current),
@@ -51,6 +57,9 @@ const NAMES: [(&str, Quantity); 15] = [
     ("load-speed", Quantity::LoadSpeed),
     ("shaft-torque", Quantity::ShaftTorque),
     ("load-torque", Quantity::LoadTorque),
+    ("teeth", Quantity::Teeth),
+    ("mark", Quantity::Mark),
+    ("vibration", Quantity::Vibration),
     ("frequency", Quantity::Frequency),
     ("magnitude", Quantity::Magnitude),
     ("phase", Quantity::Phase),
@@ -89,6 +98,19 @@ const FREQUENCY: Units = &[("hz", TAU), ("rad/s", 1.0), ("khz", 1e3 * TAU)];
 const PHASE: Units = &[("rad", 1.0), ("deg", TAU / 360.0), ("°", TAU / 360.0)];
 const SIZE: Units = &[("si", 1.0), ("db", f64::NAN)];
 const PART: Units = &[("si", 1.0)];
+const LEVEL: Units = &[("0/1", 1.0), ("v", 1.0), ("mv", 1.0)];
+/// A sensor's units differ in kind: none is converted.
+const VIBRATION: Units = &[
+    ("mm/s", 1.0),
+    ("m/s2", 1.0),
+    ("g", 1.0),
+    ("mg", 1.0),
+    ("um", 1.0),
+    ("µm", 1.0),
+    ("v", 1.0),
+    ("mv", 1.0),
+    ("counts", 1.0),
+];
 
 impl Quantity {
     /// Its name.
@@ -113,12 +135,16 @@ impl Quantity {
             Self::Phase => PHASE,
             Self::Magnitude => SIZE,
             Self::Real | Self::Imaginary => PART,
+            Self::Teeth | Self::Mark => LEVEL,
+            Self::Vibration => VIBRATION,
         }
     }
 
-    /// Whether a heading without a unit is taken as in SI units: quantities that have hardly another one.
+    /// Whether a heading without a unit is taken as in SI units: quantities that have hardly another one, and those
+    /// that are not converted.
     fn has_default(self) -> bool {
-        matches!(self, Self::Time | Self::Magnitude | Self::Real | Self::Imaginary)
+        use Quantity::{Imaginary, Magnitude, Mark, Real, Teeth, Time, Vibration};
+        matches!(self, Time | Magnitude | Real | Imaginary | Teeth | Mark | Vibration)
     }
 
     fn of_words(words: &[&str]) -> Option<Self> {
@@ -153,6 +179,12 @@ impl Quantity {
             Some(if load { Self::LoadAngle } else { Self::Angle })
         } else if any(&["speed", "omega", "velocity", "w", "n", "omega2"]) {
             Some(if load { Self::LoadSpeed } else { Self::Speed })
+        } else if any(&["teeth", "tooth", "crank"]) {
+            Some(Self::Teeth)
+        } else if any(&["mark", "keyphasor"]) {
+            Some(Self::Mark)
+        } else if any(&["vibration"]) {
+            Some(Self::Vibration)
         } else if any(&["acceleration", "accel", "alpha"]) {
             (!load).then_some(Self::Acceleration)
         } else {

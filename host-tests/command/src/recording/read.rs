@@ -25,6 +25,8 @@ pub struct Asked {
     pub columns: Vec<String>,
     /// The part that is used \[s\].
     pub window: [Option<f64>; 2],
+    /// Rows come when something happens, not at a rate.
+    pub uneven: bool,
 }
 
 /// Signals of a machine, sampled together.
@@ -86,6 +88,17 @@ impl Recording {
         let names: Vec<String> = self.columns.iter().map(Column::to_string).collect();
         let unused: Vec<String> = self.unused.iter().map(|name| format!("`{name}` (unknown)")).collect();
         format!("the columns {}", [names, unused].concat().join(", "))
+    }
+
+    /// The rows at which a level rises, or falls, through the middle of its range; none where it does not move.
+    pub fn edges(&self, quantity: Quantity, falling: bool) -> Option<Vec<usize>> {
+        let level = self.signal(quantity)?;
+        let sign = if falling { -1.0 } else { 1.0 };
+        let least = level.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = level.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let middle = least + 0.5 * (most - least);
+        let is_up = |level: f64| sign * (level - middle) > 0.0;
+        Some((1..level.len()).filter(|&row| is_up(level[row]) && !is_up(level[row - 1])).collect())
     }
 
     /// A fault of the recording as a whole.
@@ -204,7 +217,7 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
     let mut recording = Recording { name: name.to_owned(), period: f64::NAN, columns, unused, lines, signals };
     if recording.signal(Quantity::Frequency).is_none() {
         cut(&mut recording, asked);
-        recording.period = period(&recording, asked)?;
+        recording.period = if asked.uneven { rising(&recording)? } else { period(&recording, asked)? };
     }
     Ok(recording)
 }
@@ -267,6 +280,20 @@ fn columns(
         }
     }
     Ok((columns, unused))
+}
+
+/// No time between samples, but times that do not fall: two edges may have one time, rounded.
+fn rising(recording: &Recording) -> Result<f64, Diagnostic> {
+    let Some(time) = recording.signal(Quantity::Time) else {
+        return Err(recording.fault(recording.found(), "a column of time, such as `time_s`"));
+    };
+    match time.windows(2).position(|pair| !(pair[1] >= pair[0])) {
+        Some(at) => {
+            let found = format!("a time that falls, at line {}", recording.lines[at + 1]);
+            Err(recording.fault(found, "rows in the order of their times"))
+        }
+        None => Ok(f64::NAN),
+    }
 }
 
 /// The time between samples: by the column of time, which must be even, or by the rate.

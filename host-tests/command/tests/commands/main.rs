@@ -12,6 +12,7 @@ mod identify;
 mod machine_file;
 #[path = "../references/mod.rs"]
 mod references;
+mod replay;
 mod rotor;
 #[path = "../../../report/tests/report/sample.rs"]
 mod sample;

@@ -1,0 +1,167 @@
+//! `cargo driveline replay --phasors`: the vibration at the rotor's speed.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use clap::Args;
+use driveline::settings::PhasorSettings;
+use driveline_report::chart::{Arrow, polar};
+use driveline_report::format::significant;
+use driveline_report::{Fact, Figure, Section, Sheet, Table};
+use serde_json::{Value, json};
+
+use super::super::Failure;
+use super::shown::Shown;
+use crate::recording::{Asked, Quantity, Recording, read_recording};
+use crate::replay::phasors::{Taken, Turning, mean, readings};
+
+/// Readings in a printed table at most.
+const PRINTED: usize = 20;
+
+/// How a vibration is read.
+#[derive(Debug, Args)]
+pub struct PhasorOptions {
+    /// The phasors of a vibration instead
+    #[arg(long, conflicts_with = "machine")]
+    phasors: bool,
+    /// Periods of the vibration on a turn
+    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with_all = ["machine", "teeth"])]
+    order: u32,
+    /// Turns to a block; a reading has five
+    #[arg(long, value_name = "TURNS", default_value_t = 8, conflicts_with_all = ["machine", "teeth"])]
+    turns: u32,
+    /// End of the sensor's range: a sample beyond it is clipped [unit of the column]
+    #[arg(long, value_name = "VALUE", conflicts_with_all = ["machine", "teeth"])]
+    range: Option<f64>,
+}
+
+impl PhasorOptions {
+    /// Measures the phasors.
+    ///
+    /// # Errors
+    /// A fault of the recording, settings that the library refuses.
+    pub fn shown(&self, file: &Path, asked: Asked, falling: bool) -> Result<Shown, Failure> {
+        let recording = read_recording(file, &asked)?;
+        let Some(vibration) = recording.signal(Quantity::Vibration) else {
+            let expected =
+                "a column of the vibration, such as `vibration_mm_per_s`; --column vibration=HEADING names one";
+            return Err(recording.fault(recording.found(), expected).into());
+        };
+        if vibration.len() < 2 {
+            return Err(recording.fault(format!("{} samples", vibration.len()), "a recording of some turns").into());
+        }
+        let marks = recording.edges(Quantity::Mark, falling);
+        let turning = match (recording.signal(Quantity::Angle), &marks) {
+            (Some(angle), _) => Turning::Angle(angle),
+            (None, Some(marks)) => Turning::Marks(marks),
+            (None, None) => {
+                let expected = "a column of the rotor's `angle`, or of a `mark` that passes once a turn";
+                return Err(recording.fault(recording.found(), expected).into());
+            }
+        };
+        let settings = PhasorSettings { order: self.order, turns: self.turns, ..PhasorSettings::DIRECT };
+        let most = vibration.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let range = self.range.unwrap_or(2.0 * most.max(f64::from(f32::MIN_POSITIVE)));
+        let taken = readings(vibration, turning, &settings, range)
+            .map_err(|error| Failure::usage(format!("{}: {}", recording.name, error.message())))?;
+        let mut text = table(&recording, &taken).to_string();
+        let total = mean(&taken);
+        match total {
+            Some((mean, apart)) => {
+                let (amplitude, phase) = (significant(mean.norm()), mean.arg().to_degrees());
+                let apart = significant(apart);
+                let _ =
+                    write!(text, "mean of those to be used: {amplitude} at {phase:.1} deg, none further than {apart}");
+            }
+            None => text.push_str("no reading is to be used"),
+        }
+        let facts = vec![Fact { name: "readings".to_owned(), value: taken.len().to_string() }];
+        Ok(Shown {
+            text,
+            json: json!({
+                "file": recording.name,
+                "rate_hz": 1.0 / recording.period,
+                "order": self.order,
+                "readings": taken.iter().map(|taken| as_json(&recording, taken)).collect::<Vec<_>>(),
+                "mean": total.map(|(mean, apart)| {
+                    json!({ "amplitude": mean.norm(), "phase": mean.arg(), "largest_distance": apart })
+                }),
+            }),
+            csv: csv(&recording, &taken),
+            sheet: Sheet {
+                name: recording.name.clone(),
+                kicker: "Phasors".to_owned(),
+                summary: "Vibration at the rotor's speed by the library, over the recording.".to_owned(),
+                facts,
+                figures: arrows(&taken),
+                tables: vec![Section::new("Readings", "The last ones of the recording.", table(&recording, &taken))],
+            },
+        })
+    }
+}
+
+fn table(recording: &Recording, taken: &[Taken]) -> Table {
+    let mut table = Table::new(["until s", "turn/s", "amplitude", "phase deg", "standard deviation", "use"]);
+    for taken in &taken[taken.len().saturating_sub(PRINTED)..] {
+        let until = format!("{:.3}", taken.until as f64 * recording.period);
+        let usable = taken.refused.map_or_else(|| "yes".to_owned(), |fault| format!("no: {fault}"));
+        let cells = match &taken.measured {
+            Ok(reading) => [
+                significant(1.0 / (f64::from(reading.ticks) * recording.period)),
+                significant(f64::from(reading.phasor.amplitude())),
+                format!("{:.1}", f64::from(reading.phasor.im).atan2(f64::from(reading.phasor.re)).to_degrees()),
+                significant(f64::from(reading.variance).sqrt()),
+            ],
+            Err(_) => [const { String::new() }; 4].map(|_| "none".to_owned()),
+        };
+        let [speed, amplitude, phase, deviation] = cells;
+        table.row([until, speed, amplitude, phase, deviation, usable]);
+    }
+    table
+}
+
+fn as_json(recording: &Recording, taken: &Taken) -> Value {
+    let reading = taken.measured.as_ref().ok();
+    json!({
+        "until": taken.until as f64 * recording.period,
+        "turns_a_second": reading.map(|reading| 1.0 / (f64::from(reading.ticks) * recording.period)),
+        "phasor": reading.map(|reading| [reading.phasor.re, reading.phasor.im]),
+        "variance": reading.map(|reading| reading.variance),
+        "refused": taken.refused.map(|fault| fault.to_string()),
+    })
+}
+
+fn csv(recording: &Recording, taken: &[Taken]) -> String {
+    let mut text = String::from("until_s,re,im,variance,refused\n");
+    for taken in taken {
+        let until = taken.until as f64 * recording.period;
+        let used = u8::from(taken.refused.is_some());
+        // writing to a string cannot fail
+        let _ = match &taken.measured {
+            Ok(reading) => {
+                let [re, im] = [reading.phasor.re, reading.phasor.im];
+                writeln!(text, "{until:.6},{re:.6e},{im:.6e},{:.6e},{used}", reading.variance)
+            }
+            Err(_) => writeln!(text, "{until:.6},,,,{used}"),
+        };
+    }
+    text
+}
+
+fn arrows(taken: &[Taken]) -> Vec<Figure> {
+    let readings = taken.iter().enumerate().filter_map(|(number, taken)| {
+        let phasor = taken.phasor()?;
+        let (amplitude, degrees) = (phasor.norm(), phasor.arg().to_degrees());
+        Some(Arrow { class: "s0", name: format!("reading {}", number + 1), amplitude, degrees })
+    });
+    let arrows: Vec<Arrow> = readings.collect();
+    if arrows.is_empty() {
+        return Vec::new();
+    }
+    vec![Figure {
+        title: "Phasors".to_owned(),
+        text: "The readings that are to be used, by how far the vibration leads the rotor's zero.".to_owned(),
+        plots: vec![polar("vibration", "", &arrows)],
+        ..Figure::default()
+    }]
+}

@@ -1,0 +1,180 @@
+//! `cargo driveline replay` of a toothed wheel and of a vibration, on recordings with closed forms.
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn replay(folder: &Path, arguments: &[&str]) -> Output {
+    let command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    { command }.arg("replay").args(arguments).current_dir(folder).output().unwrap()
+}
+
+fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let output = replay(folder, &[arguments, &["--json"]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = replay(folder, arguments);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+/// Speed of the wheels [rad/s].
+const SPEED: f64 = 80.0;
+
+/// Ripple of the slowness.
+const RIPPLE: f64 = 0.01;
+
+/// When an angle passes whose slowness is `(1 + h cos(n theta))/w`.
+fn passes(theta: f64, order: f64) -> f64 {
+    (theta + RIPPLE / order * (order * theta).sin()) / SPEED
+}
+
+/// Levels of a pickup: each tooth is as wide as half a place of `places`.
+fn levels(places: u32, has_tooth: impl Fn(u32) -> bool, turns: u32, order: f64) -> String {
+    let mut text = String::from("time_s,crank\n0,0\n");
+    for turn in 0..turns {
+        for place in (0..places).filter(|place| has_tooth(*place)) {
+            let theta = TAU * (f64::from(turn) + f64::from(place) / f64::from(places));
+            let (rises, falls) = (passes(theta, order), passes(theta + 0.5 * TAU / f64::from(places), order));
+            writeln!(text, "{:.9},1\n{:.9},0", 0.5 + rises, 0.5 + falls).unwrap();
+        }
+    }
+    text
+}
+
+/// Speed 80 rad/s, extremes w/(1 - h) and w/(1 + h): delta is 2 h/(1 - h2), and the order of the speed h to h2.
+#[test]
+fn a_wheels_edges_give_its_speed_and_ripple() {
+    let folder = tempfile::tempdir().unwrap();
+    let delta = 2.0 * RIPPLE / (1.0 - RIPPLE * RIPPLE);
+    let three_gaps = [10, 11, 22, 23, 34, 35];
+    let wheels: [(&str, u32, &[u32]); 3] =
+        [("60-2", 60, &[58, 59]), ("36:10,11,22,23,34,35", 36, &three_gaps), ("36:17,34,35", 36, &[17, 34, 35])];
+    for (wheel, places, missing) in wheels {
+        // rising edges, then falling ones, which come half a place later
+        fs::write(folder.path().join("log.csv"), levels(places, |place| !missing.contains(&place), 60, 2.0)).unwrap();
+        for edge in [&[][..], &["--falling"]] {
+            let found = json(folder.path(), &[&["log.csv", "--teeth", wheel, "--cycles", "4"], edge].concat());
+            let windows = found["windows"].as_array().unwrap();
+            assert!(windows.len() > 10, "{wheel}: {} windows", windows.len());
+            for window in windows {
+                let of = |name: &str| window[name].as_f64().unwrap();
+                // the clock's count is 1e-7 s of 0.0785 s; a window of whole cycles
+                assert!((of("speed_by_time") / SPEED - 1.0).abs() < 1e-5, "{wheel}: {window}");
+                // a count of each tooth, of 2e-3 s, is 5e-5, and there are four cycles and 30 teeth
+                assert!((of("delta") - delta).abs() < 1e-4, "{wheel}: {window}");
+                let second = window["orders"][1]["amplitude"].as_f64().unwrap();
+                // the series of 1/(1 + h cos) has h/(1 - h2/4 ..) in front
+                assert!((second - RIPPLE).abs() < 1e-4, "{wheel}: {window}");
+            }
+        }
+    }
+    // a row for each edge, and the fourth order of a cycle of two turns
+    let rows: String = levels(60, |place| place < 58, 60, 2.0)
+        .lines()
+        .filter(|line| line.ends_with(",1"))
+        .map(|line| format!("{}\n", line.trim_end_matches(",1")))
+        .collect();
+    fs::write(folder.path().join("edges.csv"), format!("time_s\n{rows}")).unwrap();
+    let found = json(folder.path(), &["edges.csv", "--teeth", "60-2", "--cycle", "2"]);
+    let fourth = found["windows"][1]["orders"][3]["amplitude"].as_f64().unwrap();
+    assert!((fourth - RIPPLE).abs() < 1e-4, "{fourth}");
+    // an index of time needs no page where none is asked for, and the table has a line for each window
+    let output = replay(folder.path(), &["edges.csv", "--teeth", "60-2", "--csv", "table.csv", "--html", "page.html"]);
+    assert!(output.status.success());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("764") && text.contains("2: 1.00 %"), "{text}");
+    let table = fs::read_to_string(folder.path().join("table.csv")).unwrap();
+    assert!(table.starts_with("until_s,") && table.lines().count() > 5, "{table}");
+    assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().contains("Fluctuation"));
+}
+
+#[test]
+fn another_wheel_gives_nothing_and_is_said_to() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("log.csv"), levels(60, |place| place < 58, 30, 2.0)).unwrap();
+    for wheel in ["36-2", "60-1", "36:17,34,35", "12+1@340", "8-1"] {
+        let found = json(folder.path(), &["log.csv", "--teeth", wheel]);
+        assert_eq!(found["edges_with_place"], 0, "{wheel}");
+        assert_eq!(found["windows"].as_array().unwrap().len(), 0, "{wheel}");
+        let text = replay(folder.path(), &["log.csv", "--teeth", wheel, "--html", "page.html"]).stdout;
+        assert!(String::from_utf8(text).unwrap().contains("is the wheel the one described"), "{wheel}");
+    }
+    for (wheel, word) in [
+        ("60-2x", "expected a wheel such as"),
+        ("5:9", "expected places from 0 to 4"),
+        ("0,400", "expected a wheel such as"),
+        ("90,0,180", "must rise"),
+        ("9999-2", "this command has 3, 4, 7"),
+        ("", "expected a wheel such as"),
+    ] {
+        let said = refused(folder.path(), &["log.csv", "--teeth", wheel]);
+        assert!(said.contains(word), "{wheel}: {said}");
+    }
+    fs::write(folder.path().join("back.csv"), "time_s\n1\n2\n1.5\n3\n").unwrap();
+    assert!(refused(folder.path(), &["back.csv", "--teeth", "8-1"]).contains("a time that falls, at line 4"));
+    fs::write(folder.path().join("flat.csv"), "time_s,crank\n1,0\n2,0\n3,0\n").unwrap();
+    assert!(refused(folder.path(), &["flat.csv", "--teeth", "8-1"]).contains("found 0 edges"));
+    for arguments in [
+        &["log.csv", "--teeth", "60-2", "--held"][..],
+        &["log.csv", "--teeth", "60-2", "--turns", "3"],
+        &["log.csv", "--phasors", "--cycles", "3"],
+        &["log.csv", "--phasors", "--teeth", "60-2"],
+        &["log.csv", "--teeth", "60-2", "--machine", "m.toml"],
+    ] {
+        assert!(refused(folder.path(), arguments).contains("cannot be used with"), "{arguments:?}");
+    }
+    assert!(refused(folder.path(), &["log.csv", "--teeth", "60-2", "--csv", "log.csv"]).contains("its own input"));
+}
+
+/// `v = 3 cos(theta + 0.5)` beside an offset and the second order, at 20.3 turns a second and 1,000 samples a second.
+#[test]
+fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
+    let folder = tempfile::tempdir().unwrap();
+    let turns = |at: u32| 20.3e-3 * f64::from(at);
+    let mut text = String::from("angle_turns,mark,vibration_mm_per_s\n");
+    for at in 0..9_000 {
+        let theta = TAU * turns(at);
+        let v = 0.7 + 3.0 * (theta + 0.5).cos() + (2.0 * theta + 1.0).cos();
+        // the mark is a twentieth of a turn wide
+        writeln!(text, "{:.9},{},{v:.9}", turns(at), u8::from(turns(at).fract() < 0.05)).unwrap();
+    }
+    fs::write(folder.path().join("both.csv"), &text).unwrap();
+    let without_angle: String = text.lines().map(|line| format!("{}\n", line.split_once(',').unwrap().1)).collect();
+    fs::write(folder.path().join("mark.csv"), without_angle).unwrap();
+    // by the angle: single precision, and the samples at a block's ends, of 49 on a turn and 400 on a block; by the
+    // mark an error of the pulse of up to half a sample, 0.064 rad, of which the filter leaves a fifth
+    for (file, order, amplitude, phase, tolerance) in
+        [("both.csv", "1", 3.0, 0.5, 5e-3), ("both.csv", "2", 1.0, 1.0, 5e-3), ("mark.csv", "1", 3.0, 0.5, 0.013)]
+    {
+        let found = json(folder.path(), &[file, "--phasors", "--rate", "1000", "--order", order]);
+        let readings = found["readings"].as_array().unwrap();
+        assert!(readings.len() >= 3, "{file}: {}", readings.len());
+        assert!(readings.iter().all(|reading| reading["refused"].is_null()), "{file}: {readings:?}");
+        let [size, angle] = ["amplitude", "phase"].map(|of| found["mean"][of].as_f64().unwrap());
+        assert!((size / amplitude - 1.0).abs() < tolerance, "{file}, order {order}: {size}");
+        assert!((angle - phase).abs() < tolerance, "{file}, order {order}: {angle}");
+    }
+    // beyond the sensor's range no reading is to be used
+    let found = json(folder.path(), &["both.csv", "--phasors", "--rate", "1000", "--range", "2.0"]);
+    assert!(found["mean"].is_null() && found["readings"][0]["refused"].as_str().unwrap().contains("range"), "{found}");
+    // too short for one
+    let short: String = text.lines().take(300).map(|line| format!("{line}\n")).collect();
+    fs::write(folder.path().join("short.csv"), short).unwrap();
+    let output = replay(folder.path(), &["short.csv", "--phasors", "--rate", "1000", "--html", "page.html"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success() && said.contains("no reading is to be used") && said.contains("turns"), "{said}");
+    fs::write(folder.path().join("none.csv"), "angle_rad,vibration_g\n").unwrap();
+    assert!(refused(folder.path(), &["none.csv", "--phasors", "--rate", "1000"]).contains("found 0 samples"));
+    assert!(refused(folder.path(), &["both.csv", "--phasors", "--rate", "1000", "--order", "0"]).contains("turns"));
+    let no_mark: String = text.lines().map(|line| format!("{}\n", line.rsplit_once(',').unwrap().1)).collect();
+    fs::write(folder.path().join("alone.csv"), no_mark).unwrap();
+    assert!(refused(folder.path(), &["alone.csv", "--phasors", "--rate", "1000"]).contains("a `mark` that passes"));
+}
