@@ -15,6 +15,7 @@
 mod error;
 mod fan;
 mod flexible;
+mod in_run;
 mod machine;
 mod operator;
 mod outcome;
@@ -25,6 +26,7 @@ mod scenes;
 mod spindle;
 
 pub use error::BalancingError;
+pub use in_run::Course;
 pub use machine::{Drivetrain, Machine};
 pub use operator::{Hand, Operator};
 pub use outcome::{Claim, Outcome, Stage, Vector};
@@ -32,4 +34,4 @@ pub use page::{page, tables};
 pub use power_cut::PowerCuts;
 pub use scene::{Cost, Ran, Scene};
 pub use scenes::scenes;
-pub use spindle::{Course, SpindleStart, spindle};
+pub use spindle::{SpindleStart, spindle};
