@@ -15,6 +15,7 @@
 mod error;
 mod fan;
 mod flexible;
+mod grinder;
 mod in_run;
 mod machine;
 mod operator;
@@ -26,8 +27,9 @@ mod scenes;
 mod spindle;
 
 pub use error::BalancingError;
+pub use grinder::{GrinderStart, grinder};
 pub use in_run::Course;
-pub use machine::{Drivetrain, Machine};
+pub use machine::{Drivetrain, Machine, Seen};
 pub use operator::{Hand, Operator};
 pub use outcome::{Claim, Outcome, Stage, Vector};
 pub use page::{page, tables};
