@@ -19,7 +19,7 @@ use driveline::balancing::{InRunConfig, Steadiness};
 use driveline::configure::{HasVibration, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::drive::ConfigOf;
-use driveline::fluctuation::{Drivetrain, Extremes, Ranked, Summed, Waveform};
+use driveline::fluctuation::{Drivetrain, Interleaved, Ranked, Summed};
 use driveline::governor::{SpeedGovernor, SymmetricLimit};
 use driveline::machine::{Chain, Damping, Inertia, Stiffness};
 use driveline::observer::SemiImplicitObserver;
@@ -97,7 +97,7 @@ impl Head for TheHead {
 }
 
 /// The measurement of the fluctuation over a turn: each turn's extremes, and the mean waveform of 32 turns.
-pub type TurnFluctuation<N> = (Waveform<N, BINS>, Extremes<N>);
+pub type TurnFluctuation<N> = Interleaved<N, BINS>;
 /// The governor, composed of parts.
 pub type TheGovernor<N> = SpeedGovernor<N, (), (), SymmetricLimit>;
 /// The drive with all four parts.
@@ -175,7 +175,7 @@ impl<N: SensorUnit + Summed + Ranked> Beside<WholeDrive<N>> for Desk {
     ) -> u32 {
         let [key, value] = asked;
         let [cosine, sine] = self.orders.get(value.wrapping_sub(1) as usize).copied().unwrap_or_default();
-        let extremes = || drive.fluctuation().1.reading(&config.fluctuation.1);
+        let extremes = || drive.fluctuation().extremes().reading(&config.fluctuation.cycle);
         let number = match key {
             panel::TAKE => return self.take(drive, config),
             panel::MOTOR_DELTA => self.deltas[0],
@@ -197,8 +197,8 @@ impl Desk {
         drive: &mut WholeDrive<N>,
         config: &ConfigOf<WholeDrive<N>>,
     ) -> u32 {
-        let config = &config.fluctuation.0;
-        let Some(window) = drive.fluctuation_mut().0.take() else { return panel::NOT_YET };
+        let config = &config.fluctuation;
+        let Some(window) = drive.fluctuation_mut().waveform_mut().take() else { return panel::NOT_YET };
         let Ok(ripple) = window.ripple(config, HIGHEST) else { return panel::NOT_YET };
         let load = ripple.load_side(&config.cycle, &DRIVETRAIN, &window.motor_torque(config, HIGHEST)).load;
         self.deltas = [ripple.motor.delta as f32, load.delta as f32];
