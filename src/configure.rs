@@ -48,7 +48,7 @@
 //! | `ActiveDamping` | [`Machine::SPEED_LOOP`] | |
 //! | `Sequencer` | [`HasSequencer::SEQUENCER`] | [`HasSequencer`] |
 //! | `MovingAverage`, `CycleAverage` | none | |
-//! | `Extremes`, `Waveform`, `CycleMean` | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
+//! | `Extremes`, `Waveform`, `Interleaved`, `CycleMean` | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
 //! | `Phasors` | [`HasVibration::PHASORS`] | [`HasVibration`] |
 //!
 //! A part of one's own implements [`Configure`] for itself and any machine; a part of the library that a machine uses

@@ -10,6 +10,7 @@
 //! | [`Waveform`] | counts itself in the bin of its angle | every few cycles: the mean waveform, orders, delta, torque, energy |
 //! | [`CycleMean`] | nothing but at the ends of segments | several times a cycle: the speed without its ripple, for a governor |
 //! | a pair of any | both | both |
+//! | [`Interleaved`] | the waveform's and the extremes' work by turns | both, at less than the cost of the pair |
 //!
 //! [`ToothWindow`] takes the times of a [toothed wheel](crate::wheel)'s teeth instead of the angles of ticks and gives
 //! the same [`Ripple`]. From a ripple and the machine's constants follow speed and torque of the load
@@ -64,6 +65,7 @@ mod cycle_mean;
 mod cylinders;
 mod extremes;
 mod flywheel;
+mod interleaved;
 mod load_side;
 mod position;
 mod quality;
@@ -77,6 +79,7 @@ pub use cycle_mean::{CycleMean, CycleMeanConfig};
 pub use cylinders::{Cylinder, CylinderVerdict, Engine};
 pub use extremes::{Extreme, Extremes, Fluctuations, Ranked, Reading};
 pub use flywheel::{Balance, Flywheel, MachineClass, Remedy};
+pub use interleaved::Interleaved;
 pub use load_side::{Drivetrain, LoadSide};
 pub use position::{CycleConfig, Edge};
 pub use quality::{Quality, Unusable};

@@ -43,6 +43,7 @@ macro_rules! others {
             balanced_fan
             flexible
             grinding_spindle
+            surface_grinder
             commission
             test_rig
         }

@@ -1,7 +1,7 @@
 //! Measurements of the speed's fluctuation for a machine.
 
 use super::{Configure, Machine};
-use crate::fluctuation::{CycleConfig, CycleMean, CycleMeanConfig, Extremes, Waveform, WaveformConfig};
+use crate::fluctuation::{CycleConfig, CycleMean, CycleMeanConfig, Extremes, Interleaved, Waveform, WaveformConfig};
 use crate::number::Fixed;
 use crate::settings::Bases;
 
@@ -16,6 +16,11 @@ macro_rules! measurements {
             type Config = WaveformConfig;
             const CONFIG: WaveformConfig =
                 WaveformConfig::new::<BINS>(CycleConfig::new(M::CYCLE, M::PERIOD, $bases), M::CYCLES);
+        }
+
+        impl<M: Machine, const BINS: usize> Configure<M, $number> for Interleaved<$number, BINS> {
+            type Config = WaveformConfig;
+            const CONFIG: WaveformConfig = <Waveform<$number, BINS> as Configure<M, $number>>::CONFIG;
         }
 
         impl<M: Machine, const SEGMENTS: usize> Configure<M, $number> for CycleMean<$number, SEGMENTS> {

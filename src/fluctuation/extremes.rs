@@ -191,9 +191,27 @@ impl<N: Ranked> Fluctuation<N> for Extremes<N> {
 }
 
 impl<N: Ranked> Extremes<N> {
+    /// Looks at the speed of the load, or of the motor.
+    #[inline(always)]
+    pub(super) fn look(&mut self, load: bool, angle: u32, estimate: &Estimate<N>) {
+        let segment = self.position.segment;
+        let (speed, value) = if load {
+            (&mut self.load, estimate.load_speed.rank())
+        } else {
+            (&mut self.motor, estimate.motor_speed.rank())
+        };
+        speed.follow(value, || place(angle, segment));
+    }
+
+    /// Whether a finished cycle's extremes are being taken, in every other tick.
+    #[inline(always)]
+    pub(super) fn is_taking(&self) -> bool {
+        self.slice as u8 >= Slice::Direction as u8
+    }
+
     /// One slice of the work at the end of a segment or of a cycle.
     #[inline(always)]
-    fn slice(&mut self, config: &CycleConfig, angle: u32, tick: u32, estimate: &Estimate<N>) {
+    pub(super) fn slice(&mut self, config: &CycleConfig, angle: u32, tick: u32, estimate: &Estimate<N>) {
         let position = &mut self.position;
         self.slice = match self.slice {
             Slice::Watch => {

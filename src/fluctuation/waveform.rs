@@ -118,14 +118,11 @@ impl<N: Summed, const BINS: usize> Fluctuation<N> for Waveform<N, BINS> {
 
     #[inline(always)]
     fn measure(&mut self, config: &WaveformConfig, angle: u32, torque: N, estimate: &Estimate<N>) {
-        let tick = self.tick.wrapping_add(1);
-        self.tick = tick;
+        let tick = self.next_tick();
         if tick & 1 != 0 {
             self.slice(config, angle, tick, estimate);
         }
-        if self.stage == Stage::Filling {
-            self.count(config, self.position.within(angle), torque);
-        }
+        self.fill(config, angle, torque);
     }
 
     fn disturb(&mut self) {
@@ -149,6 +146,27 @@ impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
         }
     }
 
+    /// The number of the tick that begins.
+    #[inline(always)]
+    pub(super) fn next_tick(&mut self) -> u32 {
+        self.tick = self.tick.wrapping_add(1);
+        self.tick
+    }
+
+    /// Counts a tick, while a window is being filled.
+    #[inline(always)]
+    pub(super) fn fill(&mut self, config: &WaveformConfig, angle: u32, torque: N) {
+        if self.stage == Stage::Filling {
+            self.count(config, self.position.within(angle), torque);
+        }
+    }
+
+    /// Whether no end of a segment is being dealt with.
+    #[inline(always)]
+    pub(super) fn is_watching(&self) -> bool {
+        self.slice == Slice::Watch
+    }
+
     /// A tick so far from the segment's start [2^-32 turn], a little before it or beyond its end included.
     #[inline(always)]
     fn count(&mut self, config: &WaveformConfig, within: u32, torque: N) {
@@ -167,7 +185,7 @@ impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
 
     /// One slice of the work at the end of a segment or of a cycle.
     #[inline(always)]
-    fn slice(&mut self, config: &WaveformConfig, angle: u32, tick: u32, estimate: &Estimate<N>) {
+    pub(super) fn slice(&mut self, config: &WaveformConfig, angle: u32, tick: u32, estimate: &Estimate<N>) {
         let cycle = &config.cycle;
         let position = &mut self.position;
         self.slice = match self.slice {

@@ -6,7 +6,8 @@ use driveline::angle::Synchronous;
 use driveline::balancing::{Phasors, PhasorsConfig, Reading, ReadingFault};
 use driveline::configure::HasVibration;
 use driveline::drive::{ConfigOf, Drive};
-use driveline::governor::SpeedLoop;
+use driveline::fluctuation::Fluctuation;
+use driveline::governor::{Governor, SpeedLoop};
 use driveline::number::Fixed;
 use driveline::observer::Observer;
 
@@ -23,8 +24,8 @@ pub const EDGES: usize = 9;
 /// The measurement of a balanced scene.
 pub type Measurement<N> = Phasors<N, CHANNELS, EDGES>;
 
-/// The drive of a balanced scene.
-pub type BalancedDrive<N, O> = Drive<N, O, (), SpeedLoop<N>, Measurement<N>>;
+/// The drive of a balanced scene: a speed loop and no measurement of the fluctuation, unless it names others.
+pub type BalancedDrive<N, O, F = (), G = SpeedLoop<N>> = Drive<N, O, F, G, Measurement<N>>;
 
 /// A scene whose rotor is balanced: the machine, the number, the observer, and what its panel does with readings.
 pub type Balanced<M, N, O, A> = Composed<BalancedDrive<N, O>, Panel<M, A>>;
@@ -65,39 +66,66 @@ pub trait Adviser {
     fn ask(&mut self, key: Key, value: u32, measured: Option<Measured>) -> u32;
 }
 
-/// The panel of a scene that is balanced.
-pub struct Panel<M, A> {
-    adviser: A,
-    machine: PhantomData<M>,
-}
+/// A tick with its vibration, and no panel.
+pub struct Sampled;
 
-impl<M, N, O, A> Beside<BalancedDrive<N, O>> for Panel<M, A>
+impl<N, O, F, G> Beside<BalancedDrive<N, O, F, G>> for Sampled
 where
-    M: HasVibration,
     N: SensorUnit,
     O: Observer<N>,
-    A: Adviser,
+    F: Fluctuation<N>,
+    G: Governor<N>,
 {
-    fn start(_: &mut BalancedDrive<N, O>, _: &ConfigOf<BalancedDrive<N, O>>) -> Self {
-        Panel { adviser: A::new(), machine: PhantomData }
+    fn start(_: &mut BalancedDrive<N, O, F, G>, _: &ConfigOf<BalancedDrive<N, O, F, G>>) -> Self {
+        Sampled
     }
 
     #[inline(always)]
     fn tick(
         &mut self,
-        drive: &mut BalancedDrive<N, O>,
-        config: &ConfigOf<BalancedDrive<N, O>>,
+        drive: &mut BalancedDrive<N, O, F, G>,
+        config: &ConfigOf<BalancedDrive<N, O, F, G>>,
         input: &Input,
     ) -> Output {
         let output = drive.advance(config, input);
         drive.vibration(config, &input.vibration.map(N::from_word));
         output
     }
+}
+
+/// The panel of a scene that is balanced.
+pub struct Panel<M, A> {
+    adviser: A,
+    machine: PhantomData<M>,
+}
+
+impl<M, N, O, F, G, A> Beside<BalancedDrive<N, O, F, G>> for Panel<M, A>
+where
+    M: HasVibration,
+    N: SensorUnit,
+    O: Observer<N>,
+    F: Fluctuation<N>,
+    G: Governor<N>,
+    A: Adviser,
+{
+    fn start(_: &mut BalancedDrive<N, O, F, G>, _: &ConfigOf<BalancedDrive<N, O, F, G>>) -> Self {
+        Panel { adviser: A::new(), machine: PhantomData }
+    }
+
+    #[inline(always)]
+    fn tick(
+        &mut self,
+        drive: &mut BalancedDrive<N, O, F, G>,
+        config: &ConfigOf<BalancedDrive<N, O, F, G>>,
+        input: &Input,
+    ) -> Output {
+        Sampled.tick(drive, config, input)
+    }
 
     fn panel(
         &mut self,
-        drive: &mut BalancedDrive<N, O>,
-        config: &mut &'static ConfigOf<BalancedDrive<N, O>>,
+        drive: &mut BalancedDrive<N, O, F, G>,
+        config: &mut &'static ConfigOf<BalancedDrive<N, O, F, G>>,
         asked: [u32; 2],
     ) -> u32 {
         let [key, value] = asked;

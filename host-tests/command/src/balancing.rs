@@ -15,6 +15,8 @@
 mod error;
 mod fan;
 mod flexible;
+mod grinder;
+mod in_run;
 mod machine;
 mod operator;
 mod outcome;
@@ -25,11 +27,13 @@ mod scenes;
 mod spindle;
 
 pub use error::BalancingError;
-pub use machine::{Drivetrain, Machine};
+pub use grinder::{GrinderStart, grinder};
+pub use in_run::Course;
+pub use machine::{Drivetrain, Machine, Seen};
 pub use operator::{Hand, Operator};
 pub use outcome::{Claim, Outcome, Stage, Vector};
 pub use page::{page, tables};
 pub use power_cut::PowerCuts;
 pub use scene::{Cost, Ran, Scene};
 pub use scenes::scenes;
-pub use spindle::{Course, SpindleStart, spindle};
+pub use spindle::{SpindleStart, spindle};

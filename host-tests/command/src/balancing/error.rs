@@ -41,4 +41,10 @@ pub enum BalancingError {
         /// The panel's answer to each.
         doubts: String,
     },
+    /// No window of turns was finished.
+    #[error("no waveform of the speed within {time} s")]
+    NoWaveform {
+        /// How long it was waited for.
+        time: f64,
+    },
 }

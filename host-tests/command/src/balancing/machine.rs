@@ -45,6 +45,21 @@ pub struct Machine {
     fingerprint: Fingerprint,
     /// Most instructions of a tick, and the sum of all.
     instructions: (u32, u64),
+    /// Every tick, where they are kept.
+    seen: Option<Vec<Seen>>,
+}
+
+/// A tick, as the plant has it and as the drive estimates it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// Angle of the motor \[rad\].
+    pub angle: f64,
+    /// Speed of motor and rotor [rad/s] and torque of the first shaft [N m].
+    pub truth: [f64; 3],
+    /// The same by the drive.
+    pub estimate: [f64; 3],
+    /// Fault flags.
+    pub faults: u32,
 }
 
 impl Machine {
@@ -66,7 +81,36 @@ impl Machine {
             ticks: 0,
             fingerprint: Fingerprint::new(),
             instructions: (0, 0),
+            seen: None,
         }
+    }
+
+    /// The same with an encoder of so many counts a turn.
+    #[must_use]
+    pub fn with_encoder(self, counts: u32) -> Self {
+        Machine { encoder: Encoder::new(counts), ..self }
+    }
+
+    /// The same with another seed of the torque's noise.
+    #[must_use]
+    pub fn with_noise(self, seed: u64) -> Self {
+        Machine { noise: Noise::new(seed), ..self }
+    }
+
+    /// Keeps every tick from now on.
+    pub fn keep(&mut self) {
+        self.seen.get_or_insert_default();
+    }
+
+    /// The ticks that were kept.
+    #[must_use]
+    pub fn seen(&self) -> &[Seen] {
+        self.seen.as_deref().unwrap_or_default()
+    }
+
+    /// Changes the load per square of the speed [N m s2] and its ripple.
+    pub fn set_load(&mut self, load: f64, ripple: Vec<(f64, f64)>) {
+        (self.drivetrain.load, self.drivetrain.ripple) = (load, ripple);
     }
 
     /// Gives the drive its setpoint [rad/s] and releases it.
@@ -137,6 +181,19 @@ impl Machine {
         };
         let output = drive.tick(&input)?;
         self.note(&output);
+        if let Some(seen) = &mut self.seen {
+            let plant = &self.drivetrain.plant;
+            seen.push(Seen {
+                angle: plant.motor_angle(),
+                truth: [plant.motor_speed(), speed, plant.shaft_torque(0)],
+                estimate: [
+                    self.units.speed(output.motor_speed),
+                    self.units.speed(output.load_speed),
+                    self.units.torque(output.shaft_torque),
+                ],
+                faults: output.faults,
+            });
+        }
         self.applied = self.units.torque(output.torque);
         self.advance(angle, speed);
         Ok(output)

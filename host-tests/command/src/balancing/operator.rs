@@ -37,7 +37,15 @@ impl<'a> Operator<'a> {
     /// # Errors
     /// What the link says.
     pub fn ask(&mut self, key: Key, value: u32) -> Result<u32, BalancingError> {
-        Ok(self.machine.tick(self.drive, [key as u32, value])?.answer)
+        self.ask_word(key as u32, value)
+    }
+
+    /// Sends a request to the panel by the number of its key.
+    ///
+    /// # Errors
+    /// What the link says.
+    pub fn ask_word(&mut self, key: u32, value: u32) -> Result<u32, BalancingError> {
+        Ok(self.machine.tick(self.drive, [key, value])?.answer)
     }
 
     /// Requests an action of the panel.

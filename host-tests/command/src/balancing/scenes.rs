@@ -1,11 +1,11 @@
 //! The scenes by name.
 
 use super::scene::Scene;
-use super::{fan, flexible, spindle};
+use super::{fan, flexible, grinder, spindle};
 
 /// The scenes.
 #[must_use]
-pub const fn scenes() -> [Scene; 3] {
+pub const fn scenes() -> [Scene; 4] {
     [
         Scene {
             name: "balanced-fan",
@@ -27,6 +27,12 @@ pub const fn scenes() -> [Scene; 3] {
             summary: "A grinding spindle with a balancing head that moves two masses while it turns at 3000 r/min: \
                 balanced in-run, without prior data.",
             balance: spindle::run,
+        },
+        Scene {
+            name: "surface-grinder",
+            summary: "A surface grinder whose drive has all four parts: it observes belt and wheel, measures the \
+                fluctuation that a wheel out of round makes, governs, and balances the wheel while it cuts.",
+            balance: grinder::run,
         },
     ]
 }

@@ -3,23 +3,21 @@
 use driveline::configure::HasVibration as _;
 use driveline::configure::Machine as _;
 use driveline_firmware::Words;
-use driveline_firmware::scene::panel_keys::Key;
 use driveline_firmware::scenes::grinding_spindle::{self as scene, GrindingSpindle};
 use nalgebra::Complex;
 use serde::Serialize;
 
 use super::error::BalancingError;
+use super::in_run::{Course, HeadRun};
 use super::machine::{Drivetrain, Machine};
 use super::operator::Operator;
-use super::outcome::{Claim, Outcome, Stage, Vector};
+use super::outcome::{Outcome, Vector};
 use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::{Chain, Shaft};
 use driveline_solver::rotor::{Bearing, Direction, Faulty, Modal, Model, Polar, RigidRotor, Transducer, Whirl};
 
-/// Steps that the head is given.
-const STEPS: usize = 8;
 /// Rate at which the head moves its correction [kg m/s]: its whole capacity in a second.
 const RATE: f64 = scene::CAPACITY;
 /// Time for speed and whirl to settle at first, and for the whirl after the head has moved [s].
@@ -79,16 +77,6 @@ impl SpindleStart {
     }
 }
 
-/// How the vibration went, step by step.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Course {
-    /// Root mean square of the sensors' steady vibration at each step over that of the start, by the full solver: the
-    /// start first.
-    pub left: Vec<f64>,
-    /// The largest of them, on the way from step to step as well.
-    pub worst: f64,
-}
-
 /// Balances a spindle from a start with a drive.
 ///
 /// # Errors
@@ -97,58 +85,20 @@ pub fn spindle(words: Words, drive: &mut dyn Ticks, start: &SpindleStart) -> Res
     let model = start.model()?;
     let found = Polar::degrees(start.unbalance.size, start.unbalance.angle);
     let mut operator = Operator::new(machine(words, &model, found, start)?, drive);
-    let size = |unbalance: Complex<f64>| -> Result<f64, BalancingError> {
-        let vibration = model.response(GrindingSpindle::RATING.speed, &[unbalance])?;
-        Ok(vibration.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt())
-    };
-    let first = size(found)?;
-    let (mut now, mut left, mut stages) = (found, vec![1.0], Vec::new());
-
     operator.bring_to(GrindingSpindle::RATING.speed, SETTLE[0])?;
-    for step in 0..=STEPS {
-        operator.read()?;
-        let pressed = operator.press(Key::Step, 0);
-        stages.push(stage(step, &mut operator, &model, now, size(now)? / first)?);
-        if step == STEPS {
-            break;
-        }
-        pressed?;
-        let head = operator.complex([Key::HeadRe, Key::HeadIm], 0)?;
-        operator.move_to(&mut now, found + head)?;
-        left.push(size(now)? / first);
-    }
-    // The head moves its correction along a straight line, on which a vibration is nowhere larger than at both of its
-    // ends.
-    let worst = left.iter().copied().fold(0.0, f64::max);
-    let last = left.last().copied().unwrap_or(f64::NAN);
-    let claims = vec![
-        Claim { name: "vibration left after eight steps, as a share".to_owned(), measured: last, limit: 0.05 },
-        Claim { name: "largest vibration at a step, as a share of the first".to_owned(), measured: worst, limit: 1.3 },
-    ];
+    let run = HeadRun { model: &model, speed: GrindingSpindle::RATING.speed, rate: RATE, settle: SETTLE[1] };
+    let (course, stages) = run.balance(&mut operator, found)?;
+    let claims = course.claims();
     let rows = ["front bearing", "rear bearing"].map(str::to_owned).to_vec();
     let measure = "share of the vibration that is left";
     let highest = 1.25 * GrindingSpindle::RATING.speed;
     let outcome = super::scene::outcome("grinding-spindle", measure, rows, stages, claims, operator, &model, highest)?;
-    Ok((Course { left, worst }, outcome))
+    Ok((course, outcome))
 }
 
 /// The same from the start that `seed` gives.
 pub(super) fn run(words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outcome, BalancingError> {
     Ok(spindle(words, drive, &SpindleStart::random(seed))?.1)
-}
-
-impl Operator<'_> {
-    /// Moves the head, so that the unbalance goes along a straight line, and lets the whirl settle.
-    fn move_to(&mut self, now: &mut Complex<f64>, target: Complex<f64>) -> Result<(), BalancingError> {
-        let ticks = ((target - *now).norm() / RATE / self.machine.period()).ceil().max(1.0);
-        let from = *now;
-        for tick in 1..=ticks as u64 {
-            *now = from + (target - from) * (tick as f64 / ticks);
-            self.machine.whirl().set_unbalance(&[*now])?;
-            self.wait(self.machine.period())?;
-        }
-        self.wait(SETTLE[1])
-    }
 }
 
 fn machine(words: Words, model: &Model, found: Complex<f64>, start: &SpindleStart) -> Result<Machine, BalancingError> {
@@ -182,25 +132,4 @@ fn machine(words: Words, model: &Model, found: Complex<f64>, start: &SpindleStar
         Units::new(words, GrindingSpindle::BASES),
         GrindingSpindle::VIBRATION_BASE,
     ))
-}
-
-fn stage(
-    step: usize,
-    operator: &mut Operator<'_>,
-    model: &Model,
-    unbalance: Complex<f64>,
-    measure: f64,
-) -> Result<Stage, BalancingError> {
-    let mut read = Vec::new();
-    for row in 0..2 {
-        read.push(Vector::of(operator.complex([Key::RowRe, Key::RowIm], row)?));
-    }
-    Ok(Stage {
-        name: if step == 0 { "as found".to_owned() } else { format!("step {step}") },
-        unbalance: vec![Vector::of(unbalance)],
-        vibration: model.response(GrindingSpindle::RATING.speed, &[unbalance])?.into_iter().map(Vector::of).collect(),
-        read,
-        measure,
-        time: operator.machine.time(),
-    })
 }

@@ -1,4 +1,5 @@
-//! `cargo driveline run balanced-fan`, `flexible`, `grinding-spindle`: a rotor balanced by its firmware in QEMU.
+//! `cargo driveline run balanced-fan`, `flexible`, `grinding-spindle`, `surface-grinder`: a rotor balanced by its
+//! firmware in QEMU.
 
 use std::path::Path;
 

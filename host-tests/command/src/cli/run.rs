@@ -33,7 +33,8 @@ use driveline_report::{SAMPLES, Sample, Variant, samples_table, variants_table};
   cargo driveline run balanced-fan
   cargo driveline run --json > hoist.json")]
 pub struct Run {
-    /// The scene: hoist or another drivetrain; or balanced-fan, flexible, grinding-spindle, whose rotors are balanced
+    /// The scene: hoist or another drivetrain; or one whose rotor is balanced: balanced-fan, flexible,
+    /// grinding-spindle, surface-grinder
     #[arg(default_value = "hoist")]
     scene: String,
     /// The scene, as an option

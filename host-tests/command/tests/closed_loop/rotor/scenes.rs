@@ -1,6 +1,6 @@
 //! Scenes that are balanced: by their firmware on the host, and in QEMU.
 
-use cargo_driveline::balancing::{Outcome, Scene, SpindleStart, spindle};
+use cargo_driveline::balancing::{GrinderStart, Outcome, Scene, SpindleStart, grinder, spindle};
 use cargo_driveline::closed_loop::ticks::OnHost;
 use driveline_firmware::scenes::find;
 use driveline_qemu::image::{Contents, Program, board, build};
@@ -70,6 +70,35 @@ fn a_spindle_is_balanced_in_eight_steps_from_nothing() {
         let row = find(variant).unwrap();
         let course = spindle(row.words(), &mut OnHost(row.start()), &start).unwrap().0;
         assert!(course.left[8] <= 0.05 && course.worst <= 1.3, "{start:?} {course:?}");
+    }
+}
+
+/// A drive with all four parts: the scene claims something of each.
+#[test]
+fn a_grinder_with_all_four_parts_keeps_every_claim() {
+    for number in 1..=12 {
+        let variant =
+            if number % 2 == 0 { "surface-grinder/f32/whole/10000" } else { "surface-grinder/fixed/whole/10000" };
+        let row = find(variant).unwrap();
+        let (course, outcome) = grinder(row.words(), &mut OnHost(row.start()), &GrinderStart::random(number)).unwrap();
+        assert!(course.worst <= 1.3);
+        println!(
+            "{variant} {number}: {}",
+            outcome.claims.iter().map(|c| format!("{:.5} ", c.measured)).collect::<String>()
+        );
+        for claim in &outcome.claims {
+            assert!(claim.holds(), "{variant} from {number}: {claim:?}");
+        }
+    }
+}
+
+#[test]
+fn a_grinder_keeps_every_claim_in_qemu_with_the_host_s_bits() {
+    for (core, variant) in [("m4f", "surface-grinder/f32/whole/10000"), ("m3", "surface-grinder/fixed/whole/10000")] {
+        let scene = Scene::named("surface-grinder").unwrap();
+        let ran = scene.in_qemu(variant, board(core).unwrap(), 1, &|_| {}).unwrap();
+        assert!(ran.same_on_host, "{variant}");
+        assert!(ran.outcome.claims.iter().all(|claim| claim.holds()), "{variant}: {:?}", ran.outcome.claims);
     }
 }
 

@@ -13,7 +13,7 @@ use driveline::machine::{Chain, Damping, Inertia, Stiffness, TwoMass};
 use driveline_firmware::scene::FromConfig;
 use driveline_firmware::scenes::{
     balanced_fan, belt_conveyor, blooming_mill, converter, crane_travel, fan, flexible, gear_drive, grinding_spindle,
-    hoist, planetary, skip_winch, spindle, strip_mill, test_rig, vibrating_screen,
+    hoist, planetary, skip_winch, spindle, strip_mill, surface_grinder, test_rig, vibrating_screen,
 };
 
 /// xorshift64* [Marsaglia 2003, J. Stat. Softw. 8(14)].
@@ -163,6 +163,7 @@ fn a_thousand_machines_within_each_scene_s_tolerances_are_stable_with_6_db_to_sp
         balanced_fan TwoMass balanced_fan::BalancedFan;
         flexible TwoMass flexible::Flexible;
         grinding_spindle TwoMass grinding_spindle::GrindingSpindle;
+        surface_grinder Tick surface_grinder::SurfaceGrinder;
         test_rig TwoMass test_rig::TestRig;
     };
     for scene in scenes {

@@ -1,0 +1,105 @@
+//! Waveform and extremes together, their work spread so that no tick does that of both.
+//!
+//! In a pair each part takes its slice of work in the same ticks. Here of four ticks two look at the speeds, one does a
+//! slice of the waveform's work, and one a slice of the extremes'. Each end of a cycle takes twice as long: a cycle,
+//! and a turn of a longer one, must have 256 ticks.
+
+use super::{Extremes, Fluctuation, Ranked, Summed, Waveform, WaveformConfig};
+use crate::sample::Estimate;
+
+/// [`Waveform`] and [`Extremes`] of the same cycle, at less than the cost of the pair.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Interleaved<N: Summed + Ranked, const BINS: usize> {
+    waveform: Waveform<N, BINS>,
+    extremes: Extremes<N>,
+}
+
+impl<N: Summed + Ranked, const BINS: usize> Fluctuation<N> for Interleaved<N, BINS> {
+    type Config = WaveformConfig;
+
+    #[inline(always)]
+    fn measure(&mut self, config: &WaveformConfig, angle: u32, torque: N, estimate: &Estimate<N>) {
+        let tick = self.waveform.next_tick();
+        if tick & 1 == 0 {
+            self.extremes.look(tick & 2 != 0, angle, estimate);
+        } else if tick & 2 != 0 && !(self.extremes.is_taking() && self.waveform.is_watching()) {
+            self.waveform.slice(config, angle, tick, estimate);
+        } else {
+            self.extremes.slice(&config.cycle, angle, tick, estimate);
+        }
+        self.waveform.fill(config, angle, torque);
+    }
+
+    fn disturb(&mut self) {
+        self.waveform.disturb();
+        self.extremes.disturb();
+    }
+}
+
+impl<N: Summed + Ranked, const BINS: usize> Interleaved<N, BINS> {
+    /// The waveform.
+    pub fn waveform(&self) -> &Waveform<N, BINS> {
+        &self.waveform
+    }
+
+    /// The waveform, to take its finished windows.
+    pub fn waveform_mut(&mut self) -> &mut Waveform<N, BINS> {
+        &mut self.waveform
+    }
+
+    /// The extremes; their constants are those of the waveform's cycle.
+    pub fn extremes(&self) -> &Extremes<N> {
+        &self.extremes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fluctuation, Interleaved, WaveformConfig};
+    use crate::fluctuation::CycleConfig;
+    use crate::sample::Estimate;
+    use crate::settings::{Bases, Cycle};
+
+    const CYCLE: CycleConfig = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
+    const CONFIG: WaveformConfig = WaveformConfig::new::<32>(CYCLE, 16);
+
+    /// A motor at 2 % from peak to peak twice a turn, its load at half of it: closed forms. 419 ticks on a turn.
+    /// Windows that are asked for in every tick, an angle that is lost for a while, and both directions.
+    #[test]
+    fn waveform_and_extremes_are_those_of_the_speed() {
+        for sign in [1.0, -1.0] {
+            let mut both = Interleaved::<f32, 32>::default();
+            let (mut phi, mut windows) = (0.0_f64, 0);
+            for tick in 0..40_000 {
+                let speed = |share: f64| sign * 150.0 * (1.0 + share * (2.0 * phi).cos());
+                let estimate = Estimate {
+                    motor_speed: speed(0.01) as f32,
+                    load_speed: speed(0.005) as f32,
+                    ..Estimate::default()
+                };
+                phi += 1e-4 * speed(0.01);
+                let angle = (phi / core::f64::consts::TAU).rem_euclid(1.0) * 4_294_967_296.0;
+                if (9_000..9_100).contains(&tick) {
+                    both.disturb();
+                    continue;
+                }
+                both.measure(&CONFIG, angle as u32, 0.0, &estimate);
+                if let Some(window) = both.waveform_mut().take() {
+                    windows += 1;
+                    let ripple = window.ripple(&CONFIG, 4).unwrap();
+                    // As the waveform alone, whose figures are in the text of `fluctuation`.
+                    assert!((ripple.motor.delta - 0.02).abs() < 1e-4, "{}", ripple.motor.delta);
+                    assert!((ripple.speed.order(2).amplitude() - 1.5).abs() < 0.01);
+                }
+            }
+            // 94 turns: 21 before the angle is lost, 72 after it. Windows of 16 begin a turn after the last.
+            assert_eq!(windows, 1 + 4);
+            let turn = both.extremes().reading(&CYCLE).unwrap();
+            // The vertex of the parabola: 0.06 % of the amplitude with 64 ticks to a period, here 209.
+            assert!((turn.motor.delta - 0.02).abs() < 2e-5, "{turn:?}");
+            assert!((turn.load.delta - 0.01).abs() < 2e-5, "{turn:?}");
+            assert!((turn.mean - sign * 150.0).abs() < 0.05, "{turn:?}");
+        }
+    }
+}
