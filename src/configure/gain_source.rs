@@ -13,6 +13,14 @@ pub enum GainSource {
 }
 
 impl GainSource {
+    /// The proportional gain \[N m s/rad\].
+    pub(super) const fn proportional(&self) -> f64 {
+        match self {
+            GainSource::SpeedLoop(design) => design.proportional,
+            GainSource::Governor(design) => design.proportional,
+        }
+    }
+
     pub(super) const fn governor(&self) -> &GovernorDesign {
         match self {
             GainSource::Governor(design) => design,

@@ -172,8 +172,12 @@ macro_rules! governors {
             L: Limit<$number, Config: Copy> + Configure<M, $number, Config = <L as Limit<$number>>::Config>,
         {
             type Config = BacklashTakeUpConfig<$number, <L as Limit<$number>>::Config>;
-            const CONFIG: Self::Config =
-                BacklashTakeUpConfig::<$number, _>::new(&M::TAKE_UP, <L as Configure<M, $number>>::CONFIG, $bases);
+            const CONFIG: Self::Config = BacklashTakeUpConfig::<$number, _>::new(
+                &M::TAKE_UP,
+                M::GAINS.proportional(),
+                <L as Configure<M, $number>>::CONFIG,
+                $bases,
+            );
             const LOOP: LoopPart = LoopPart::Damping(M::TAKE_UP.damping).and(&<L as Configure<M, $number>>::LOOP);
         }
     };

@@ -13,8 +13,11 @@ pub struct BacklashTakeUpTuning {
     pub impact: f64,
     /// Largest torque while the gap is open [N m], above 0.
     pub torque: f64,
-    /// By how much the largest torque rises in a period of the resonance once the gap has closed [N m], above 0.
+    /// By how much the largest torque rises in a period of the resonance on the driven flank [N m], above 0.
     pub rise: f64,
+    /// By how much it falls in a period of the resonance in the gap and on the other flank [N m], above 0; at once if
+    /// infinite.
+    pub fall: f64,
     /// Final limit [N m]: the largest torque of the motor, above 0.
     pub max_torque: f64,
     /// Damping ratio that the motor adds to the shaft; not negative.
@@ -33,8 +36,10 @@ pub struct BacklashTakeUpDesign {
     pub torque: f64,
     /// Damping of the twist rate while the gap is open [N m s/rad]: torque over approach speed.
     pub braking: f64,
-    /// Rate at which the largest torque rises once the gap has closed [N m/s].
+    /// Rate at which the largest torque rises on the driven flank [N m/s].
     pub slew: f64,
+    /// Rate at which it falls in the gap and on the other flank [N m/s], at most to the least within a tick.
+    pub fall: f64,
     /// Largest torque of the motor [N m].
     pub max_torque: f64,
     /// Active damping in contact [N m s/rad].
@@ -73,8 +78,9 @@ impl TwoMass {
         if self.stiffness == 0.0 {
             return Err(Error::Unobservable);
         }
-        let BacklashTakeUpTuning { impact, torque, rise, max_torque, damping } = tuning;
+        let BacklashTakeUpTuning { impact, torque, rise, fall, max_torque, damping } = tuning;
         let w = self.resonance();
+        let (falling, at_once) = (fall * w / core::f64::consts::TAU, max_torque / period);
         let approach_speed = impact / sqrt(self.stiffness * self.reduced_inertia());
         let design = BacklashTakeUpDesign {
             period,
@@ -82,10 +88,11 @@ impl TwoMass {
             torque,
             braking: torque / approach_speed,
             slew: rise * w / core::f64::consts::TAU,
+            fall: if falling < at_once { falling } else { at_once },
             max_torque,
             damping: 2.0 * damping * w * self.motor_inertia,
         };
-        let positive = impact > 0.0 && torque > 0.0 && rise > 0.0 && max_torque > 0.0 && damping >= 0.0;
+        let positive = impact > 0.0 && torque > 0.0 && rise > 0.0 && fall > 0.0 && max_torque > 0.0 && damping >= 0.0;
         let sum = design.approach_speed + design.braking + design.torque + design.slew + max_torque + design.damping;
         if positive && sum.is_finite() { Ok(design) } else { Err(Error::Slack) }
     }

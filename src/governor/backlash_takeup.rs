@@ -1,19 +1,25 @@
-//! Backlash take-up: a limit around another one that closes an open gap at the approach speed, then ramps the torque
-//! up, and damps the shaft.
+//! Backlash take-up: a limit around another one that closes an open gap with little torque, ramps the torque up on the
+//! flank that it drives, and damps the shaft.
 //!
 //! A motor that accelerates freely through a gap meets the load at a relative speed delta omega, and the impact adds
 //! `delta omega sqrt(k J_m J_l/(J_m + J_l))` to the shaft's torque [Huang 1987 part 2]; a torque applied at once adds
 //! its share of the load's inertia a second time. So
 //!
-//! - while the gap is open, the governor's torque is limited to a small value, less a damping of the twist rate: the
-//!   gap closes at the approach speed, torque over damping, at most;
-//! - once it has closed, the limit rises from there by a step per tick, so that the governor's torque builds up over
-//!   part of a period of the resonance; a shaft in contact for longer is not limited;
+//! - the reach, the largest torque of the governor, rises by a step a tick while the shaft is on the flank that the
+//!   governor's torque drives. Then the torque builds up over part of a period of the resonance, and a shaft in contact
+//!   for longer is not limited;
+//! - in the gap and on the other flank the reach falls, down to a small torque;
+//! - in the gap a damping of the twist rate brakes: the gap closes at about the approach speed, torque over damping, at
+//!   most;
 //! - in contact, `-k_d (omega_m - omega_l)` damps the shaft.
 //!
 //! The gap counts as open where the estimated shaft torque is exactly zero, as in
-//! [`BacklashObserver`](crate::observer::BacklashObserver). The limit does not wind up the integral of its
-//! [`SpeedGovernor`](super::SpeedGovernor).
+//! [`BacklashObserver`](crate::observer::BacklashObserver). An observer of a motor that is heavier than described finds
+//! contact too early, mostly on the flank that the motor leaves: there the torque must not build up.
+//!
+//! The limit does not wind up the integral of its [`SpeedGovernor`](super::SpeedGovernor), and its ramp tracks: while
+//! the reach withholds torque, the ramped setpoint waits. Otherwise the error grows through the gap, and the motor
+//! meets the flank under its largest torque.
 
 use super::Limit;
 use crate::number::Number;
@@ -23,21 +29,25 @@ use crate::sample::Estimate;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTakeUpConfig<N: Number, L> {
-    /// Largest torque while the gap is open [N m].
+    /// Least reach: largest torque in the gap and on the flank that is not driven [N m].
     pub torque: N,
     /// Damping of the twist rate while the gap is open [N m s/rad], negative.
     pub braking: N::Coefficient,
-    /// Rise of the limit per tick once the gap has closed [N m].
+    /// Rise of the reach per tick on the driven flank [N m].
     pub step: N,
+    /// Fall of the reach per tick in the gap and on the other flank [N m], negative.
+    pub fall: N,
     /// The final limit [N m].
     pub max_torque: N,
     /// Active damping -k_d [N m s/rad], on the twist rate, in contact.
     pub damping: N::Coefficient,
+    /// Ramp tracking: setpoint per torque withheld, 1/k_p [rad/(s N m)].
+    pub tracking: N::Coefficient,
     /// Constants of the other limit.
     pub limit: L,
 }
 
-/// Another limit, and an open gap is closed at the approach speed.
+/// Another limit, and an open gap is closed with little torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTakeUp<N, L> {
@@ -51,14 +61,25 @@ impl<N: Number, L: Limit<N>> Limit<N> for BacklashTakeUp<N, L> {
     #[inline(always)]
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N {
         let twist_rate = (estimate.motor_speed - estimate.load_speed).gain_operand();
-        let allowed = if estimate.shaft_torque == N::ZERO {
-            self.reach = config.torque;
-            (wanted.limited(config.torque) + twist_rate.times(config.braking)).limited(config.torque)
+        // positive where the torque drives the flank that the shaft is on
+        let driven = estimate.shaft_torque.scaled(wanted);
+        let (reach, damping) = if driven > N::ZERO {
+            let reach = self.reach + config.step;
+            (if reach < config.max_torque { reach } else { config.max_torque }, config.damping)
         } else {
-            self.reach = (self.reach + config.step).limited(config.max_torque);
-            (wanted.limited(self.reach) + twist_rate.times(config.damping)).saturated()
+            let reach = self.reach + config.fall;
+            let damping = if estimate.shaft_torque == N::ZERO { config.braking } else { config.damping };
+            (if reach > config.torque { reach } else { config.torque }, damping)
         };
+        self.reach = reach;
+        let allowed = (wanted.limited(self.reach) + twist_rate.times(damping)).saturated();
         self.limit.limit(&config.limit, estimate, allowed)
+    }
+
+    #[inline(always)]
+    fn track(&self, config: &Self::Config, setpoint: N, wanted: N) -> N {
+        // at most twice the base in fixed point, as is what the governor wants
+        setpoint + (wanted.limited(self.reach) - wanted).widened().times(config.tracking)
     }
 
     #[inline(always)]

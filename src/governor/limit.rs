@@ -11,6 +11,13 @@ pub trait Limit<N: Number>: Default {
     /// The permitted torque nearest to `wanted`.
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N;
 
+    /// Ramp tracking: the ramped setpoint [rad/s] after a tick in which the governor wanted this torque, moved back by
+    /// the torque that the limit withheld over the proportional gain. Without tracking the setpoint stays.
+    #[inline(always)]
+    fn track(&self, _config: &Self::Config, setpoint: N, _wanted: N) -> N {
+        setpoint
+    }
+
     /// Starts from this torque.
     #[inline(always)]
     fn start(&mut self, _torque: N) {}

@@ -6,6 +6,7 @@
 //! ```
 //!
 //! Anti-windup by back-calculation at the integral's own rate, for every part of the limit: torque, power or slew.
+//! [`BacklashTakeUp`](super::BacklashTakeUp) moves the ramped setpoint back as well.
 //!
 //! | parameter | parts |
 //! |---|---|
@@ -197,6 +198,7 @@ where
         let integral = self.integral.accumulate(&mut carry, [config.gains.integral], [error]);
         let wanted = self.wanted(config, estimate, integral, error).saturated();
         let torque = self.limit.limit(&config.limit, estimate, wanted);
+        self.ramped = self.limit.track(&config.limit, self.ramped, wanted);
         let excess = torque - wanted;
         self.integral = integral.accumulate(&mut carry, [config.gains.anti_windup], [excess]).saturated();
         torque

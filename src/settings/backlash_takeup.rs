@@ -1,7 +1,7 @@
 //! Constants of backlash take-up.
 
 use super::constants::constants;
-use super::convert::get;
+use super::convert::{get, positive};
 use super::{Bases, Error, Format};
 use crate::design::BacklashTakeUpDesign;
 use crate::governor::BacklashTakeUpConfig;
@@ -12,35 +12,41 @@ const TORQUE: &str = "torque, rise and largest torque of the backlash take-up mu
     twice \
     the base of the torque in fixed point";
 
-/// Torque, step, most, braking and damping, scaled to a format.
-const fn take_up(design: &BacklashTakeUpDesign, format: &Format) -> [f64; 5] {
+/// Torque, step, fall, most, braking, damping and tracking, scaled to a format.
+const fn take_up(design: &BacklashTakeUpDesign, proportional: f64, format: &Format) -> [f64; 7] {
     let Bases { torque, speed, .. } = format.bases;
     let scale = speed / (torque * format.gain);
     [
         design.torque / torque,
         design.slew * design.period / torque,
+        design.fall * design.period / torque,
         design.max_torque / torque,
         -design.braking * scale,
         -design.damping * scale,
+        torque / (speed * proportional * format.widened),
     ]
 }
 
 constants! {
     /// [`Error::Coefficient`] for a gain beyond the range of fixed point, [`Error::Value`] for a figure that is not
-    /// positive and finite, or beyond its base.
-    impl[L: Copy] BacklashTakeUpConfig[, L], new, try_new(design: &BacklashTakeUpDesign, limit: L), |format| {
-        let [torque, step, max_torque, braking, damping] = take_up(design, &format);
+    /// positive and finite, or beyond its base. `proportional` is the governor's gain k_p [N m s/rad], for the tracking
+    /// of its ramp.
+    impl[L: Copy] BacklashTakeUpConfig[, L], new,
+    try_new(design: &BacklashTakeUpDesign, proportional: f64, limit: L), |format| {
+        let [torque, step, fall, max_torque, braking, damping, tracking] = take_up(design, proportional, &format);
         // Operands are held within 8 bases: with a torque of twice its base beside them the sum must stay within 8.
         if format.unit != 1.0 && (8.0 * -braking > 5.99 || 8.0 * -damping > 5.99) {
             return Err(Error::Coefficient(GAIN));
         }
-        let [braking, damping] = get!(To::coefficients([braking, damping], GAIN));
+        let [braking, damping, tracking] = get!(To::coefficients([braking, damping, tracking], GAIN));
         Ok(BacklashTakeUpConfig {
             torque: get!(To::positive(torque, TORQUE)),
             braking,
             step: get!(To::positive(step, TORQUE)),
+            fall: get!(To::number(-get!(positive(fall, TORQUE)), TORQUE)),
             max_torque: get!(To::positive(max_torque, TORQUE)),
             damping,
+            tracking,
             limit,
         })
     }

@@ -69,6 +69,7 @@ impl HasBacklash for Converter {
         impact: 0.2 * Self::RATING.torque,
         torque: 0.1 * Self::RATING.torque,
         rise: 0.25 * Self::RATING.torque,
+        fall: f64::INFINITY,
         max_torque: Self::RATING.torque_limit,
         damping: 0.03,
     };

@@ -119,6 +119,7 @@ impl HasBacklash for SkipOnRope {
         impact: 0.2 * Self::RATING.torque,
         torque: Self::RATING.torque,
         rise: Self::RATING.torque,
+        fall: f64::INFINITY,
         max_torque: Self::RATING.torque_limit,
         damping: 0.25,
     };

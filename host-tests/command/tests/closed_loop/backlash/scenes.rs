@@ -10,8 +10,12 @@ use cargo_driveline::drivetrains::{blooming_mill as mill, converter};
 use driveline::configure::HasBacklash as _;
 use driveline::configure::Machine as _;
 use driveline::design::{BacklashTakeUpTuning, Error, Rate};
-use driveline::governor::{BacklashTakeUpConfig, SymmetricLimitConfig};
+use driveline::governor::{
+    BacklashTakeUp, BacklashTakeUpConfig, Gains, Governor, Limit, SpeedGovernor, SpeedGovernorConfig, SymmetricLimit,
+    SymmetricLimitConfig,
+};
 use driveline::number::Fixed;
+use driveline::sample::Estimate;
 use driveline::settings::Bases;
 use driveline_firmware::scenes::blooming_mill::BloomingMill;
 use driveline_firmware::scenes::find;
@@ -88,6 +92,7 @@ fn a_taking_up_that_cannot_be_is_refused() {
         BacklashTakeUpTuning { impact: 0.0, ..tuning },
         BacklashTakeUpTuning { torque: -1.0, ..tuning },
         BacklashTakeUpTuning { rise: f64::NAN, ..tuning },
+        BacklashTakeUpTuning { fall: 0.0, ..tuning },
         BacklashTakeUpTuning { max_torque: 0.0, ..tuning },
         BacklashTakeUpTuning { damping: -0.1, ..tuning },
     ] {
@@ -100,5 +105,53 @@ fn a_taking_up_that_cannot_be_is_refused() {
     assert_eq!(design.braking, design.torque / design.approach_speed);
     let small = Bases { torque: 1e5, ..BloomingMill::BASES };
     let limit = SymmetricLimitConfig { torque: Fixed::ONE };
-    assert!(BacklashTakeUpConfig::<Fixed, _>::try_new(&design, limit, small).is_err());
+    assert!(BacklashTakeUpConfig::<Fixed, _>::try_new(&design, 1.0, limit, small).is_err());
+}
+
+/// Constants with round figures: a least reach of 10 N m, a rise of 2 and a fall of 4 N m a tick, 100 N m at most, no
+/// damping, a proportional gain of 50 N m s/rad.
+const ROUND: BacklashTakeUpConfig<f64, SymmetricLimitConfig<f64>> = BacklashTakeUpConfig {
+    torque: 10.0,
+    braking: 0.0,
+    step: 2.0,
+    fall: -4.0,
+    max_torque: 100.0,
+    damping: 0.0,
+    tracking: 1.0 / 50.0,
+    limit: SymmetricLimitConfig { torque: 100.0 },
+};
+
+/// A shaft torque \[N m\], everything at rest.
+fn carrying(shaft_torque: f64) -> Estimate<f64> {
+    Estimate { shaft_torque, ..Estimate::default() }
+}
+
+#[test]
+fn the_torque_builds_up_on_the_driven_flank_alone() {
+    let mut limit = BacklashTakeUp::<f64, SymmetricLimit>::default();
+    let mut torque = |shaft_torque: f64, wanted: f64| limit.limit(&ROUND, &carrying(shaft_torque), wanted);
+    // from the gap, 2 N m a tick on either flank that is driven
+    assert_eq!(torque(0.0, 500.0), 10.0);
+    assert_eq!([1.0; 3].map(|shaft| torque(shaft, 500.0)), [12.0, 14.0, 16.0]);
+    assert_eq!([-1.0; 2].map(|shaft| torque(shaft, -500.0)), [-18.0, -20.0]);
+    // 4 N m a tick back in the gap and on the other flank, down to the least
+    assert_eq!([0.0, 1.0, 1.0].map(|shaft| torque(shaft, -500.0)), [-16.0, -12.0, -10.0]);
+    // up to the largest
+    assert_eq!((0..60).map(|_| torque(1.0, 500.0)).last(), Some(100.0));
+}
+
+/// While the gap withholds torque, the ramped setpoint stays ahead of the speed by the least reach over the
+/// proportional gain: 10 over 50.
+#[test]
+fn the_ramp_waits_for_the_take_up() {
+    let gains = Gains { proportional: 50.0, integral: 0.0, anti_windup: 0.0, ramp: 0.01 };
+    let config = SpeedGovernorConfig { gains, shape: (), compensation: (), limit: ROUND, sequence: (), filter: () };
+    let mut governor = SpeedGovernor::<f64, (), (), BacklashTakeUp<f64, SymmetricLimit>>::default();
+    governor.start(&config, &carrying(0.0), 0.0);
+    governor.set_setpoint(5.0);
+    for _ in 0..1000 {
+        assert!(governor.command(&config, &carrying(0.0)) <= 10.0);
+    }
+    // rounding of a few sums
+    assert!((governor.ramped_setpoint() - 0.2).abs() < 1e-12, "{}", governor.ramped_setpoint());
 }

@@ -33,9 +33,9 @@ impl<const WHAT: u32> Machine for Stated<WHAT> {
     const CHAIN: Chain = Spindle::CHAIN;
     const RATING: Rating = Spindle::RATING;
     const ENCODER: Encoder = match WHAT {
-        0 => Spindle::ENCODER,
-        1 => Spindle::ENCODER.interpolation(PERIODS, ONE_PERCENT),
-        _ => Spindle::ENCODER.jitter(ONE_PERCENT * Spindle::PERIOD, Spindle::RATING.speed),
+        0 => Encoder::lines(COUNTS / 4),
+        1 => Encoder::lines(COUNTS / 4).interpolation(PERIODS, ONE_PERCENT),
+        _ => Encoder::lines(COUNTS / 4).jitter(ONE_PERCENT * Spindle::PERIOD, Spindle::RATING.speed),
     };
     const RATE_HZ: u32 = Spindle::RATE_HZ;
     const TUNING: SpeedLoopTuning = Spindle::TUNING;
