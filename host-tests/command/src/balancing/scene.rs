@@ -64,6 +64,8 @@ impl Scene {
         all.filter(|(variant, board)| {
             variant.split('/').next() == Some(self.name)
                 && belongs(variant, board)
+                // a drive whose ticks alone are measured: without a panel there is nobody to balance
+                && variant.split('/').nth(2) != Some("tick")
                 && filter.is_none_or(|filter| key(variant, board).contains(filter))
         })
         .collect()

@@ -61,6 +61,9 @@ pub struct FileCase {
 /// When the governor is released [s].
 const RELEASE: f64 = 0.1;
 
+/// Least efficiency of a draw, as of a file.
+const LEAST_EFFICIENCY: f64 = 1e-3;
+
 /// Longest run [s].
 const LONGEST: f64 = 600.0;
 
@@ -73,10 +76,10 @@ impl FileCase {
         if !machine.branches.is_empty() {
             return Err("a campaign runs a chain of elements; this machine has branches".to_owned());
         }
+        let two = machine.two_masses().ok_or("a campaign needs a machine with a shaft; this one is rigid")?;
         if let Some(label) = machine.losses_of_no_chain() {
             return Err(format!("the losses of `{label}` need a shaft behind it; leave it out of a copy of the file"));
         }
-        let two = machine.two_masses().ok_or("a campaign needs a machine with a shaft; this one is rigid")?;
         let designs = Designs::of(&machine, &two).map_err(|error| format!("no controller can be designed: {error}"))?;
         let cycle = machine.cycle(two.gravity_torque);
         let ramp = machine.limits.speed / designs.ramp;
@@ -208,7 +211,8 @@ fn plant(machine: &MachineFile, load: LoadProgram, by: &Departure) -> Result<Pla
         let flank = if weight > 0.0 && !rope[s] { 0.5 * gap } else { 0.0 };
         twists.push(flank + weight / stiffness);
         if efficiency[s] != [1.0; 2] {
-            let [ahead, back] = efficiency[s].map(|efficiency| (efficiency + by.efficiency).min(1.0));
+            let [ahead, back] =
+                efficiency[s].map(|efficiency| (efficiency + by.efficiency).clamp(LEAST_EFFICIENCY, 1.0));
             known = known.efficiency(ahead).back_efficiency(back);
         }
         known = known.shaft(of.damping(shaft.damping).gap(gap), loaded(s + 1, *inertia));

@@ -124,7 +124,7 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         }
         None => Actuator::default(),
     };
-    let lossy = chain.efficiency() < 1.0;
+    let lossy = chain.efficiency() < 1.0 || chain.back_efficiency() < 1.0;
     let gap = chain.shafts().iter().any(|shaft| shaft.gap > 0.0);
     let (class, tolerances) = tolerances(&mut root, encoder.accuracy, lossy, gap)?;
     let (running, mut excitations) = excitations(&mut root)?;

@@ -90,15 +90,27 @@ impl Recording {
         format!("the columns {}", [names, unused].concat().join(", "))
     }
 
-    /// The rows at which a level rises, or falls, through the middle of its range; none where it does not move.
-    pub fn edges(&self, quantity: Quantity, falling: bool) -> Option<Vec<usize>> {
+    /// The rows at which a level has risen, or fallen, through the middle of its range, with how long before the row
+    /// that was, as a part of the step: 0 where the level has two values only, as in a log of its changes. A level must
+    /// have come from an eighth of its range beyond the middle. `None` without such a column.
+    pub fn edges(&self, quantity: Quantity, falling: bool) -> Option<Vec<(usize, f64)>> {
         let level = self.signal(quantity)?;
         let sign = if falling { -1.0 } else { 1.0 };
         let least = level.iter().copied().fold(f64::INFINITY, f64::min);
         let most = level.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let middle = least + 0.5 * (most - least);
-        let is_up = |level: f64| sign * (level - middle) > 0.0;
-        Some((1..level.len()).filter(|&row| is_up(level[row]) && !is_up(level[row - 1])).collect())
+        let (middle, eighth) = (least + 0.5 * (most - least), 0.125 * (most - least));
+        let is_digital = level.iter().all(|value| *value == least || *value == most);
+        let height = |row: usize| sign * (level[row] - middle);
+        let (mut is_armed, mut edges) = (!level.is_empty() && height(0) < -eighth, Vec::new());
+        for row in 1..level.len() {
+            if is_armed && height(row) > 0.0 {
+                let since = height(row) / (height(row) - height(row - 1));
+                edges.push((row, if is_digital { 0.0 } else { since }));
+                is_armed = false;
+            }
+            is_armed |= height(row) < -eighth;
+        }
+        Some(edges)
     }
 
     /// A fault of the recording as a whole.
@@ -217,7 +229,7 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
     let mut recording = Recording { name: name.to_owned(), period: f64::NAN, columns, unused, lines, signals };
     if recording.signal(Quantity::Frequency).is_none() {
         cut(&mut recording, asked);
-        recording.period = if asked.uneven { rising(&recording)? } else { period(&recording, asked)? };
+        recording.period = if asked.uneven { rising(&recording, asked)? } else { period(&recording, asked)? };
     }
     Ok(recording)
 }
@@ -282,10 +294,11 @@ fn columns(
     Ok((columns, unused))
 }
 
-/// No time between samples, but times that do not fall: two edges may have one time, rounded.
-fn rising(recording: &Recording) -> Result<f64, Diagnostic> {
+/// No time between samples, but times that do not fall: two edges may have one time, rounded. Without a column of time
+/// the samples come at the rate.
+fn rising(recording: &Recording, asked: &Asked) -> Result<f64, Diagnostic> {
     let Some(time) = recording.signal(Quantity::Time) else {
-        return Err(recording.fault(recording.found(), "a column of time, such as `time_s`"));
+        return period(recording, asked);
     };
     match time.windows(2).position(|pair| !(pair[1] >= pair[0])) {
         Some(at) => {

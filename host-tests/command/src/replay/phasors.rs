@@ -1,11 +1,11 @@
 //! The library's phasors over a recorded vibration: reading after reading.
 
-use std::f64::consts::TAU;
-
 use driveline::angle::OncePerTurn;
 use driveline::balancing::{Balancer, Phasors, PhasorsConfig, Reading, ReadingFault};
 use driveline::settings::{PhasorError, PhasorSettings};
 use nalgebra::Complex;
+
+use super::signals::turned;
 
 /// Blocks of a reading, and one edge more.
 const EDGES: usize = 6;
@@ -13,17 +13,19 @@ const EDGES: usize = 6;
 /// What tells the rotor's angle.
 #[derive(Clone, Copy, Debug)]
 pub enum Turning<'r> {
-    /// Its angle \[rad\].
-    Angle(&'r [f64]),
-    /// The samples that first show a mark.
-    Marks(&'r [usize]),
+    /// Its angle \[rad\], and where its zero is.
+    Angle(&'r [f64], f64),
+    /// The samples that first show a mark, and how long before each that passed \[step\].
+    Marks(&'r [(usize, f64)]),
 }
 
 /// A reading with its place in the recording.
 #[derive(Clone, Debug)]
 pub struct Taken {
-    /// Sample that ends it.
-    pub until: usize,
+    /// When it ends \[s\].
+    pub until: f64,
+    /// Turns of the rotor a second; none where nothing was measured.
+    pub speed: Option<f64>,
     /// As it was measured.
     pub measured: Result<Reading, ReadingFault>,
     /// Why it is not to be used.
@@ -37,7 +39,8 @@ impl Taken {
     }
 }
 
-/// All readings, and the last one that the recording's end cut off, refused as incomplete where there is no other.
+/// All readings of samples from `start` \[s\] on, a `period` apart; the one that the recording's end cut off is there,
+/// refused as incomplete, where there is no other.
 ///
 /// # Errors
 /// Settings that the library refuses.
@@ -46,40 +49,51 @@ pub fn readings(
     turning: Turning<'_>,
     settings: &PhasorSettings,
     range: f64,
+    [start, period]: [f64; 2],
 ) -> Result<Vec<Taken>, PhasorError> {
     let config = PhasorsConfig::<f32, 1>::try_new(settings, [range])?;
     let mut phasors = Phasors::<f32, 1, EDGES>::default();
     let (mut tacho, mut taken, mut marks) = (OncePerTurn::new(), Vec::new(), 0);
-    let mut was_lost = false;
+    let mut was_lost = true;
     for (at, &value) in vibration.iter().enumerate() {
         let angle = match turning {
-            Turning::Angle(angle) => Some(((angle[at] / TAU).rem_euclid(1.0) * 4_294_967_296.0) as u64 as u32),
+            Turning::Angle(angle, zero) => Some(turned(angle[at] - zero)),
             Turning::Marks(rows) => {
-                let passes = rows.get(marks) == Some(&at);
-                marks += usize::from(passes);
-                // between two samples: half a tick ago on average
-                tacho.tick(passes.then_some(1 << 31))
+                let passes = rows.get(marks).filter(|(row, _)| *row == at);
+                marks += usize::from(passes.is_some());
+                tacho.tick(passes.map(|(_, since)| (since * 4_294_967_296.0) as u32))
             }
         };
         let Some(angle) = angle else {
             was_lost = true;
             continue;
         };
+        // where the angle begins is no motion
         if std::mem::take(&mut was_lost) {
-            phasors.begin();
+            phasors.align(&config, angle, angle);
         }
         phasors.measure(&config, angle, &[value as f32]);
         if phasors.is_complete() {
-            let refused = phasors.reading(&config, 0).err();
-            taken.push(Taken { until: at, measured: phasors.unjudged(&config, 0), refused });
+            let (refused, measured) = (phasors.reading(&config, 0).err(), phasors.unjudged(&config, 0));
+            // the ticks are those of a period of the order
+            let turn = |reading: &Reading| f64::from(reading.ticks) * f64::from(settings.order) * period;
+            let speed = measured.as_ref().ok().map(|reading| 1.0 / turn(reading));
+            taken.push(Taken { until: start + at as f64 * period, speed, measured, refused });
             phasors.begin();
         }
     }
     if taken.is_empty() {
         let fault = phasors.reading(&config, 0).err();
-        taken.extend(fault.map(|fault| Taken { until: vibration.len(), measured: Err(fault), refused: Some(fault) }));
+        let until = start + vibration.len() as f64 * period;
+        taken.extend(fault.map(|fault| Taken { until, speed: None, measured: Err(fault), refused: Some(fault) }));
     }
     Ok(taken)
+}
+
+/// Where the angle \[rad\] stands as the mark passes, on average.
+pub fn zero(angle: &[f64], marks: &[(usize, f64)]) -> f64 {
+    let at = |(row, since): &(usize, f64)| angle[*row] - since * (angle[*row] - angle[row - 1]);
+    marks.iter().map(at).map(|angle| Complex::from_polar(1.0, angle)).sum::<Complex<f64>>().arg()
 }
 
 /// Mean of the readings that are to be used, and the largest distance of one from it.

@@ -6,10 +6,10 @@ use driveline::fluctuation::{Ripple, ToothErrors, ToothWindow, Unusable};
 use driveline::settings::{Error, Teeth, ToothClock};
 use driveline::wheel::{CycleTimes, Stage, ToothedWheel, ToothedWheelConfig};
 
-/// Clock that the edges are timed with \[Hz\]: a turn at the lowest speed takes a thirtieth of its range.
+/// Clock that the edges are timed with \[Hz\]: a turn at the lowest speed takes a hundredth of its range.
 const CLOCK: f64 = 1e7;
 
-/// Lowest speed of an angle [rad/s]: 19 r/min, as an engine is cranked.
+/// Lowest speed of an angle [rad/s]: 19 r/min, far below an engine's cranking.
 const LOWEST: f64 = 2.0;
 
 /// Angles of a wheel's teeth \[turn\].
@@ -22,8 +22,8 @@ impl FromStr for Wheel {
     fn from_str(text: &str) -> Result<Self, String> {
         let expected = || {
             format!(
-                "`{text}`: expected a wheel such as `60-2`, `36:10,11,22,23,34,35` (36 places, those without a tooth), \
-                 `12+1@340` (12 teeth and one at 340 degrees) or `0,70,180,250` (the angles in degrees)"
+                "`{text}`: expected a wheel such as `60-2`, `36:10,11,22,23,34,35` (36 places, the missing ones from \
+                 0), `12+1@340` (12 teeth and one at 340 degrees) or `0,70,180,250` (the angles in degrees)"
             )
         };
         let number = |text: &str| text.trim().parse::<u32>().ok().filter(|number| *number <= 10_000);
@@ -52,6 +52,12 @@ impl FromStr for Wheel {
             let angles = text.split(',').map(degrees).collect::<Option<Vec<_>>>().ok_or_else(expected)?;
             angles.into_iter().map(|angle| angle / 360.0).collect()
         };
+        let spans = angles.windows(2).map(|pair| pair[1] - pair[0]);
+        let last = angles.first().zip(angles.last()).map_or(0.0, |(first, last)| 1.0 + first - last);
+        // as even as the places are calculated
+        if angles.len() >= 2 && spans.clone().all(|span| (span - last).abs() < 1e-9) {
+            return Err(format!("`{text}`: expected a gap or a tooth more: among even teeth no place can be told"));
+        }
         if angles.len() < 2 { Err(expected()) } else { Ok(Wheel(angles)) }
     }
 }
@@ -103,7 +109,8 @@ pub fn turn(wheel: &Wheel, windows: Windows, edges: &[f64]) -> Result<Turned, St
                 $($(($teeth, $turns) => run::<$teeth, $cycle>(wheel, windows, edges).map_err(|e| e.to_string()),)*
                 (other, $turns) => {
                     let (turns, known) = ($turns, [$(stringify!($teeth)),*].join(", "));
-                    Err(format!("a wheel with {other} teeth; at {turns} to the cycle this command has {known}"))
+                    let s = if turns == 1 { "" } else { "s" };
+                    Err(format!("{other} teeth, expected one of {known} with {turns} turn{s} to the cycle"))
                 })*
                 (_, turns) => Err(format!("{turns} turns to a cycle, expected 1 or 2")),
             }
@@ -111,7 +118,7 @@ pub fn turn(wheel: &Wheel, windows: Windows, edges: &[f64]) -> Result<Turned, St
     }
     by_teeth! {
         1: 3 3, 4 4, 7 7, 10 10, 11 11, 13 13, 22 22, 23 23, 30 30, 33 33, 34 34, 35 35, 58 58, 59 59;
-        2: 4 8, 13 26, 30 60, 33 66, 34 68, 35 70, 58 116;
+        2: 4 8, 7 14, 11 22, 13 26, 23 46, 30 60, 33 66, 34 68, 35 70, 58 116;
     }
 }
 
@@ -145,7 +152,9 @@ fn run<const TEETH: usize, const CYCLE: usize>(
             window.add(&config, &cycle);
             until = edge;
         }
-        if window.cycles() == cycles {
+        // a lost place is found again at another phase of the cycle
+        let is_lost = wheel.stage() != Stage::Known && window.cycles() > 0;
+        if window.cycles() == cycles || is_lost {
             close(&mut window, until);
         }
     }

@@ -86,7 +86,7 @@ fn a_wheels_edges_give_its_speed_and_ripple() {
     let found = json(folder.path(), &["edges.csv", "--teeth", "60-2", "--cycle", "2"]);
     let fourth = found["windows"][1]["orders"][3]["amplitude"].as_f64().unwrap();
     assert!((fourth - RIPPLE).abs() < 1e-4, "{fourth}");
-    // an index of time needs no page where none is asked for, and the table has a line for each window
+    // the table has a line for each window, the page its plots
     let output = replay(folder.path(), &["edges.csv", "--teeth", "60-2", "--csv", "table.csv", "--html", "page.html"]);
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).unwrap();
@@ -94,6 +94,66 @@ fn a_wheels_edges_give_its_speed_and_ripple() {
     let table = fs::read_to_string(folder.path().join("table.csv")).unwrap();
     assert!(table.starts_with("until_s,") && table.lines().count() > 5, "{table}");
     assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().contains("Fluctuation"));
+}
+
+/// After a stop the phase of a cycle of two turns is another, and so may be the speed: no window has cycles of both.
+#[test]
+fn a_window_ends_where_the_wheel_stops() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut text, mut begin) = (String::from("time_s\n"), 0.0);
+    // half orders of the turn, begun a turn later after each stop of four seconds, and half the speed at the end
+    for (run, slower) in [1.0, 1.0, 1.0, 2.0].into_iter().enumerate() {
+        for turn in run..run + 13 {
+            for place in 0..58 {
+                let theta = TAU * (turn as f64 + f64::from(place) / 60.0);
+                writeln!(text, "{:.9}", begin + slower * (passes(theta, 0.5) - TAU * run as f64 / SPEED)).unwrap();
+            }
+        }
+        begin += slower * 13.0 * TAU / SPEED + 4.0;
+    }
+    fs::write(folder.path().join("log.csv"), text).unwrap();
+    let found = json(folder.path(), &["log.csv", "--teeth", "60-2", "--cycle", "2", "--cycles", "100"]);
+    let windows = found["windows"].as_array().unwrap();
+    assert_eq!(windows.len(), 4, "{found}");
+    for (window, speed) in windows.iter().zip([SPEED, SPEED, SPEED, 0.5 * SPEED]) {
+        let of = |name: &str| window[name].as_f64().unwrap();
+        assert!((of("speed_by_time") / speed - 1.0).abs() < 1e-5, "{window}");
+        // as in the test above
+        assert!((of("delta") - 2.0 * RIPPLE / (1.0 - RIPPLE * RIPPLE)).abs() < 1e-4, "{window}");
+        assert_eq!(window["doubtful"], false);
+    }
+}
+
+/// A trapezium sampled at 10 kHz with noise: the crossing is interpolated, and noise about the middle is no edge.
+#[test]
+fn an_analog_level_gives_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut text, mut noise) = (String::from("crank_V\n"), 1_u32);
+    for sample in 0..20_000 {
+        // by theta = w t - h/2 sin 2 theta, to a place in 1e-12 after eight rounds
+        let at = f64::from(sample) * 1e-4 * SPEED;
+        let theta = (0..8).fold(at, |theta, _| at - RIPPLE / 2.0 * (2.0 * theta).sin());
+        let place = 60.0 * (theta / TAU).fract();
+        let has_tooth = !(57.5..=59.5).contains(&place);
+        let height = 2.0 * (0.25 - ((place + 0.25).fract() - 0.5).abs());
+        noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let jitter = 0.02 * (f64::from(noise >> 8) / 8_388_608.0 - 1.0);
+        writeln!(text, "{:.6}", if has_tooth { height } else { -0.5 } + jitter).unwrap();
+    }
+    fs::write(folder.path().join("log.csv"), text).unwrap();
+    let arguments = ["log.csv", "--teeth", "60-2", "--orders", "4", "--rate", "10000", "--cycles", "4"];
+    let found = json(folder.path(), &arguments);
+    let windows = found["windows"].as_array().unwrap();
+    assert!(windows.len() >= 4, "{found}");
+    for window in windows {
+        let delta = window["delta"].as_f64().unwrap();
+        // a flank of half a place has 6 samples of a height of 1: the noise is 1 % of it, a place 1/60 of a turn, and
+        // four cycles of 58 teeth average it; whole samples, not interpolated, give 0.026 for 0.020
+        assert!((delta - 2.0 * RIPPLE).abs() < 1e-3, "{window}");
+    }
+    // a heading that says nothing is not passed over
+    fs::write(folder.path().join("ckp.csv"), "time_s,CKP\n1,0\n2,1\n3,0\n").unwrap();
+    assert!(refused(folder.path(), &["ckp.csv", "--teeth", "12-1"]).contains("--column teeth=HEADING"));
 }
 
 #[test]
@@ -112,7 +172,9 @@ fn another_wheel_gives_nothing_and_is_said_to() {
         ("5:9", "expected places from 0 to 4"),
         ("0,400", "expected a wheel such as"),
         ("90,0,180", "must rise"),
-        ("9999-2", "this command has 3, 4, 7"),
+        ("9999-2", "expected one of 3, 4, 7"),
+        ("0,120,240", "among even teeth"),
+        ("36-0", "among even teeth"),
         ("", "expected a wheel such as"),
     ] {
         let said = refused(folder.path(), &["log.csv", "--teeth", wheel]);
@@ -160,6 +222,9 @@ fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
         assert!(readings.iter().all(|reading| reading["refused"].is_null()), "{file}: {readings:?}");
         let [size, angle] = ["amplitude", "phase"].map(|of| found["mean"][of].as_f64().unwrap());
         assert!((size / amplitude - 1.0).abs() < tolerance, "{file}, order {order}: {size}");
+        let speed = found["readings"][0]["turns_a_second"].as_f64().unwrap();
+        // by whole ticks over 40 turns of 49
+        assert!((speed / 20.3 - 1.0).abs() < 1e-3, "{file}, order {order}: {speed}");
         assert!((angle - phase).abs() < tolerance, "{file}, order {order}: {angle}");
     }
     // beyond the sensor's range no reading is to be used
@@ -173,8 +238,8 @@ fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
     assert!(output.status.success() && said.contains("no reading is to be used") && said.contains("turns"), "{said}");
     fs::write(folder.path().join("none.csv"), "angle_rad,vibration_g\n").unwrap();
     assert!(refused(folder.path(), &["none.csv", "--phasors", "--rate", "1000"]).contains("found 0 samples"));
-    assert!(refused(folder.path(), &["both.csv", "--phasors", "--rate", "1000", "--order", "0"]).contains("turns"));
+    assert!(refused(folder.path(), &["both.csv", "--phasors", "--rate", "1000", "--order", "0"]).contains("1..=15"));
     let no_mark: String = text.lines().map(|line| format!("{}\n", line.rsplit_once(',').unwrap().1)).collect();
     fs::write(folder.path().join("alone.csv"), no_mark).unwrap();
-    assert!(refused(folder.path(), &["alone.csv", "--phasors", "--rate", "1000"]).contains("a `mark` that passes"));
+    assert!(refused(folder.path(), &["alone.csv", "--phasors", "--rate", "1000"]).contains("a `mark` once a turn"));
 }

@@ -80,7 +80,7 @@ struct Node {
     inertia: String,
     /// Of the gear between it and the next shaft; empty for 1.
     efficiency: String,
-    /// With the load driving, where it is another.
+    /// With the load driving, where it differs.
     back_efficiency: String,
     kind: &'static str,
     stiffness: String,

@@ -12,8 +12,11 @@ use serde_json::{Value, json};
 
 use super::super::Failure;
 use super::shown::Shown;
-use crate::recording::{Asked, Quantity, Recording, read_recording};
-use crate::replay::phasors::{Taken, Turning, mean, readings};
+use crate::recording::{Asked, Quantity, read_recording};
+use crate::replay::phasors::{Taken, Turning, mean, readings, zero};
+
+/// Largest vibration, whose square is far within single precision.
+const HIGHEST: f64 = 1e15;
 
 /// Readings in a printed table at most.
 const PRINTED: usize = 20;
@@ -24,11 +27,13 @@ pub struct PhasorOptions {
     /// The phasors of a vibration instead
     #[arg(long, conflicts_with = "machine")]
     phasors: bool,
-    /// Periods of the vibration on a turn
-    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with_all = ["machine", "teeth"])]
+    /// Order of the running speed: 1x, 2x and on
+    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with_all = ["machine", "teeth"],
+        value_parser = clap::value_parser!(u32).range(1..=15))]
     order: u32,
-    /// Turns to a block; a reading has five
-    #[arg(long, value_name = "TURNS", default_value_t = 8, conflicts_with_all = ["machine", "teeth"])]
+    /// Turns to a block; a reading has five blocks
+    #[arg(long, value_name = "TURNS", default_value_t = 8, conflicts_with_all = ["machine", "teeth"],
+        value_parser = clap::value_parser!(u32).range(1..=100))]
     turns: u32,
     /// End of the sensor's range: a sample beyond it is clipped [unit of the column]
     #[arg(long, value_name = "VALUE", conflicts_with_all = ["machine", "teeth"])]
@@ -50,30 +55,47 @@ impl PhasorOptions {
         if vibration.len() < 2 {
             return Err(recording.fault(format!("{} samples", vibration.len()), "a recording of some turns").into());
         }
-        let marks = recording.edges(Quantity::Mark, falling);
-        let turning = match (recording.signal(Quantity::Angle), &marks) {
-            (Some(angle), _) => Turning::Angle(angle),
-            (None, Some(marks)) => Turning::Marks(marks),
+        let mut marks = recording.edges(Quantity::Mark, falling);
+        for (_, since) in marks.iter_mut().flatten() {
+            // of two values: half a step ago on average
+            *since = if *since == 0.0 { 0.5 } else { *since };
+        }
+        let (turning, origin) = match (recording.signal(Quantity::Angle), &marks) {
+            (Some(angle), None) => (Turning::Angle(angle, 0.0), "the angle's"),
+            (Some(angle), Some(marks)) => (Turning::Angle(angle, zero(angle, marks)), "the mark, by the angle"),
+            (None, Some(marks)) => (Turning::Marks(marks), "the mark"),
             (None, None) => {
-                let expected = "a column of the rotor's `angle`, or of a `mark` that passes once a turn";
+                let expected =
+                    "a column of the rotor's `angle`, or of a `mark` once a turn; --column mark=HEADING names one";
                 return Err(recording.fault(recording.found(), expected).into());
             }
         };
         let settings = PhasorSettings { order: self.order, turns: self.turns, ..PhasorSettings::DIRECT };
         let most = vibration.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let range = self.range.unwrap_or(2.0 * most.max(f64::from(f32::MIN_POSITIVE)));
-        let taken = readings(vibration, turning, &settings, range)
-            .map_err(|error| Failure::usage(format!("{}: {}", recording.name, error.message())))?;
-        let mut text = table(&recording, &taken).to_string();
+        if let Some(range) = self.range.filter(|range| !(*range > 0.0 && *range <= HIGHEST)) {
+            return Err(Failure::usage(format!("--range {range:?}: expected above zero and at most {HIGHEST:e}")));
+        }
+        if most > HIGHEST {
+            let found = format!("a vibration of {most:e}");
+            return Err(recording.fault(found, format!("at most {HIGHEST:e}, as single precision squares it")).into());
+        }
+        let start = recording.signal(Quantity::Time).and_then(|time| time.first().copied()).unwrap_or(0.0);
+        let taken = readings(vibration, turning, &settings, range, [start, recording.period])
+            .map_err(|error| Failure::usage(format!("--turns, --order: {}", error.message())))?;
+        let mut text = table(&taken).to_string();
         let total = mean(&taken);
         match total {
             Some((mean, apart)) => {
                 let (amplitude, phase) = (significant(mean.norm()), mean.arg().to_degrees());
                 let apart = significant(apart);
-                let _ =
-                    write!(text, "mean of those to be used: {amplitude} at {phase:.1} deg, none further than {apart}");
+                let _ = write!(text, "mean: {amplitude} at {phase:.1} deg, largest deviation from it {apart}");
             }
             None => text.push_str("no reading is to be used"),
+        }
+        let _ = write!(text, "; zero of the phase: {origin}");
+        if taken.len() > PRINTED {
+            let _ = write!(text, "; the last {PRINTED} of {} readings", taken.len());
         }
         let facts = vec![Fact { name: "readings".to_owned(), value: taken.len().to_string() }];
         Ok(Shown {
@@ -82,33 +104,33 @@ impl PhasorOptions {
                 "file": recording.name,
                 "rate_hz": 1.0 / recording.period,
                 "order": self.order,
-                "readings": taken.iter().map(|taken| as_json(&recording, taken)).collect::<Vec<_>>(),
+                "readings": taken.iter().map(as_json).collect::<Vec<_>>(),
                 "mean": total.map(|(mean, apart)| {
                     json!({ "amplitude": mean.norm(), "phase": mean.arg(), "largest_distance": apart })
                 }),
             }),
-            csv: csv(&recording, &taken),
+            csv: csv(&taken),
             sheet: Sheet {
                 name: recording.name.clone(),
                 kicker: "Phasors".to_owned(),
                 summary: "Vibration at the rotor's speed by the library, over the recording.".to_owned(),
                 facts,
                 figures: arrows(&taken),
-                tables: vec![Section::new("Readings", "The last ones of the recording.", table(&recording, &taken))],
+                tables: vec![Section::new("Readings", "The last ones of the recording.", table(&taken))],
             },
         })
     }
 }
 
-fn table(recording: &Recording, taken: &[Taken]) -> Table {
+fn table(taken: &[Taken]) -> Table {
     let mut table = Table::new(["until s", "turn/s", "amplitude", "phase deg", "standard deviation", "use"]);
     for taken in &taken[taken.len().saturating_sub(PRINTED)..] {
-        let until = format!("{:.3}", taken.until as f64 * recording.period);
+        let until = format!("{:.3}", taken.until);
         let usable = taken.refused.map_or_else(|| "yes".to_owned(), |fault| format!("no: {fault}"));
         let cells = match &taken.measured {
             Ok(reading) => [
-                significant(1.0 / (f64::from(reading.ticks) * recording.period)),
-                significant(f64::from(reading.phasor.amplitude())),
+                taken.speed.map_or_else(|| "none".to_owned(), significant),
+                significant(f64::from(reading.phasor.re).hypot(f64::from(reading.phasor.im))),
                 format!("{:.1}", f64::from(reading.phasor.im).atan2(f64::from(reading.phasor.re)).to_degrees()),
                 significant(f64::from(reading.variance).sqrt()),
             ],
@@ -120,29 +142,29 @@ fn table(recording: &Recording, taken: &[Taken]) -> Table {
     table
 }
 
-fn as_json(recording: &Recording, taken: &Taken) -> Value {
+fn as_json(taken: &Taken) -> Value {
     let reading = taken.measured.as_ref().ok();
     json!({
-        "until": taken.until as f64 * recording.period,
-        "turns_a_second": reading.map(|reading| 1.0 / (f64::from(reading.ticks) * recording.period)),
+        "until": taken.until,
+        "turns_a_second": taken.speed,
         "phasor": reading.map(|reading| [reading.phasor.re, reading.phasor.im]),
         "variance": reading.map(|reading| reading.variance),
         "refused": taken.refused.map(|fault| fault.to_string()),
     })
 }
 
-fn csv(recording: &Recording, taken: &[Taken]) -> String {
+fn csv(taken: &[Taken]) -> String {
     let mut text = String::from("until_s,re,im,variance,refused\n");
     for taken in taken {
-        let until = taken.until as f64 * recording.period;
-        let used = u8::from(taken.refused.is_some());
+        let until = taken.until;
+        let refused = u8::from(taken.refused.is_some());
         // writing to a string cannot fail
         let _ = match &taken.measured {
             Ok(reading) => {
                 let [re, im] = [reading.phasor.re, reading.phasor.im];
-                writeln!(text, "{until:.6},{re:.6e},{im:.6e},{:.6e},{used}", reading.variance)
+                writeln!(text, "{until:.6},{re:.6e},{im:.6e},{:.6e},{refused}", reading.variance)
             }
-            Err(_) => writeln!(text, "{until:.6},,,,{used}"),
+            Err(_) => writeln!(text, "{until:.6},,,,{refused}"),
         };
     }
     text

@@ -25,7 +25,7 @@ const POINTS: usize = 361;
 /// How a wheel is described and read.
 #[derive(Debug, Args)]
 pub struct WheelOptions {
-    /// A wheel instead: `60-2`; `36:10,11,22,23,34,35`, places without a tooth; `12+1@340`; `0,70,180,250`, degrees
+    /// A wheel instead: `60-2`; `36:10,11,22,23,34,35`, positions of missing teeth; `12+1@340`; `0,70,180,250`, degrees
     #[arg(long, value_name = "WHEEL", conflicts_with_all = ["machine", "phasors"])]
     pub teeth: Option<String>,
     /// Turns of the wheel to a cycle, 2 of a four-stroke engine
@@ -36,9 +36,10 @@ pub struct WheelOptions {
     #[arg(long, value_name = "N", default_value_t = 8, conflicts_with_all = ["machine", "phasors"],
         value_parser = clap::value_parser!(u32).range(1..=100_000))]
     cycles: u32,
-    /// Highest order of the cycle, at most 16 and a quarter of the teeth; no more than the machine has
-    #[arg(long, value_name = "N", default_value_t = 8, conflicts_with_all = ["machine", "phasors"])]
-    orders: usize,
+    /// Highest order that is fitted, at most a quarter of the teeth in a cycle; no more than the machine excites
+    #[arg(long, value_name = "N", default_value_t = 8, conflicts_with_all = ["machine", "phasors"],
+        value_parser = clap::value_parser!(u8).range(1..=16))]
+    orders: u8,
 }
 
 impl WheelOptions {
@@ -48,17 +49,24 @@ impl WheelOptions {
     /// A wheel or windows that are refused, a fault of the recording.
     pub fn shown(&self, wheel: &str, file: &Path, mut asked: Asked, falling: bool) -> Result<Shown, Failure> {
         let wheel: Wheel = wheel.parse().map_err(|error| Failure::usage(format!("--teeth {error}")))?;
-        let windows = Windows { turns: self.cycle, cycles: self.cycles, orders: self.orders };
+        let windows = Windows { turns: self.cycle, cycles: self.cycles, orders: usize::from(self.orders) };
         asked.uneven = true;
         let recording = read_recording(file, &asked)?;
         let times = edges(&recording, falling)?;
         let turned = turn(&wheel, windows, &times).map_err(|error| Failure::usage(format!("--teeth: {error}")))?;
         let known = format!("{} of {} edges", turned.known, turned.edges);
+        let fitted = turned.windows.iter().filter_map(|window| Some(fitted(window.ripple.as_ref().ok()?).len())).max();
         let mut text = String::new();
         if !turned.windows.is_empty() {
             text = table(&turned).to_string();
         }
-        let _ = write!(text, "place known after {known}");
+        let _ = write!(text, "synchronised at {known}");
+        if let Some(highest) = fitted {
+            let _ = write!(text, "; orders 1 to {highest} of the cycle fitted");
+        }
+        if turned.windows.len() > PRINTED {
+            let _ = write!(text, "; the last {PRINTED} of {} windows", turned.windows.len());
+        }
         if turned.windows.is_empty() {
             let _ = write!(text, "; no cycle: is the wheel the one described, and does it turn above 19 r/min?");
         }
@@ -79,10 +87,19 @@ impl WheelOptions {
 
 /// Times of the edges: of a column of levels, or every row.
 fn edges(recording: &Recording, falling: bool) -> Result<Vec<f64>, Failure> {
-    let time = recording.signal(Quantity::Time).unwrap_or_default();
+    let time = |row: usize| match recording.signal(Quantity::Time) {
+        Some(time) => time[row],
+        None => row as f64 * recording.period,
+    };
+    let at = |(row, since): (usize, f64)| time(row) - since * (time(row) - time(row - 1));
     let times: Vec<f64> = match recording.edges(Quantity::Teeth, falling) {
-        Some(rows) => rows.into_iter().map(|row| time[row]).collect(),
-        None => time.to_vec(),
+        Some(rows) => rows.into_iter().map(at).collect(),
+        // a row is an edge where there is nothing else in it
+        None if recording.columns.len() == 1 && recording.unused.is_empty() => (0..recording.len()).map(time).collect(),
+        None => {
+            let expected = "a column of the pickup's level, such as `crank`; --column teeth=HEADING names one";
+            return Err(recording.fault(recording.found(), expected).into());
+        }
     };
     if times.len() < 2 {
         let found = format!("{} in {}", counted(times.len() as u64, "edge"), recording.found());
@@ -99,6 +116,13 @@ fn largest(ripple: &Ripple) -> (usize, f64) {
     (1..).zip(amplitudes).max_by(|(_, a), (_, b)| a.total_cmp(b)).unwrap_or_default()
 }
 
+/// Whether the orders leave more of the angle than they explain: the machine turns evenly, or has other orders.
+fn is_doubtful(ripple: &Ripple) -> bool {
+    let angle = |(n, order): (usize, &Order)| order.amplitude() / ripple.speed.mean / (n + 1) as f64;
+    let square: f64 = ripple.speed.orders.iter().enumerate().map(angle).map(|angle| 0.5 * angle * angle).sum();
+    ripple.quality.residue > square.sqrt()
+}
+
 /// The orders without those that were not asked for, which are 0.
 fn fitted(ripple: &Ripple) -> &[Order] {
     let orders = &ripple.speed.orders;
@@ -112,8 +136,7 @@ fn per_minute(ripple: &Ripple) -> f64 {
 }
 
 fn table(turned: &Turned) -> Table {
-    let mut table =
-        Table::new(["until s", "cycles", "speed r/min", "delta", "largest order", "unexplained deg", "use"]);
+    let mut table = Table::new(["until s", "cycles", "speed r/min", "delta", "dominant order", "residual deg", "use"]);
     let skipped = turned.windows.len().saturating_sub(PRINTED);
     for Windowed { until, cycles, ripple } in turned.windows.iter().skip(skipped) {
         let (until, cycles) = (format!("{until:.3}"), cycles.to_string());
@@ -127,7 +150,8 @@ fn table(turned: &Turned) -> Table {
                     significant(ripple.motor.delta),
                     format!("{order}: {}", percent(amplitude)),
                     significant(ripple.quality.residue.to_degrees()),
-                    "yes".to_owned(),
+                    if is_doubtful(ripple) { "doubtful: more is left than the orders explain" } else { "yes" }
+                        .to_owned(),
                 ]);
             }
             Err(unusable) => {
@@ -152,6 +176,7 @@ fn as_json(window: &Windowed) -> Value {
                 json!({ "amplitude": order.amplitude() / ripple.speed.mean, "phase": order.phase() })
             }).collect::<Vec<_>>(),
             "residue": ripple.quality.residue,
+            "doubtful": is_doubtful(ripple),
             "spread": ripple.quality.spread,
             "missed": ripple.quality.missed,
         }),
@@ -224,7 +249,7 @@ fn sheet(turned: &Turned, file: &str, known: String) -> Sheet {
         name: file.to_owned(),
         kicker: "Toothed wheel".to_owned(),
         summary: "Speed and ripple by the library's wheel, over the recorded edges.".to_owned(),
-        facts: vec![Fact { name: "place known after".to_owned(), value: known }],
+        facts: vec![Fact { name: "synchronised at".to_owned(), value: known }],
         figures,
         tables: vec![Section::new("Windows", "The last ones of the recording.", table(turned))],
     }
