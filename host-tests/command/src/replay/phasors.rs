@@ -1,5 +1,7 @@
 //! The library's phasors over a recorded vibration: reading after reading.
 
+use std::f64::consts::{PI, TAU};
+
 use driveline::angle::OncePerTurn;
 use driveline::balancing::{Balancer, Phasors, PhasorsConfig, Reading, ReadingFault};
 use driveline::settings::{PhasorError, PhasorSettings};
@@ -90,9 +92,10 @@ pub fn readings(
     Ok(taken)
 }
 
-/// Where the angle \[rad\] stands as the mark passes, on average.
+/// Where the angle \[rad\] stands as the mark passes, on average, whether or not it comes round between two samples.
 pub fn zero(angle: &[f64], marks: &[(usize, f64)]) -> f64 {
-    let at = |(row, since): &(usize, f64)| angle[*row] - since * (angle[*row] - angle[row - 1]);
+    let step = |row: usize| (angle[row] - angle[row - 1] + PI).rem_euclid(TAU) - PI;
+    let at = |(row, since): &(usize, f64)| angle[*row] - since * step(*row);
     marks.iter().map(at).map(|angle| Complex::from_polar(1.0, angle)).sum::<Complex<f64>>().arg()
 }
 

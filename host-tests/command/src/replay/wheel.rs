@@ -52,13 +52,16 @@ impl FromStr for Wheel {
             let angles = text.split(',').map(degrees).collect::<Option<Vec<_>>>().ok_or_else(expected)?;
             angles.into_iter().map(|angle| angle / 360.0).collect()
         };
-        let spans = angles.windows(2).map(|pair| pair[1] - pair[0]);
+        if angles.len() < 2 {
+            return Err(expected());
+        }
+        let mut spans = angles.windows(2).map(|pair| pair[1] - pair[0]);
         let last = angles.first().zip(angles.last()).map_or(0.0, |(first, last)| 1.0 + first - last);
         // as even as the places are calculated
-        if angles.len() >= 2 && spans.clone().all(|span| (span - last).abs() < 1e-9) {
+        if spans.all(|span| (span - last).abs() < 1e-9) {
             return Err(format!("`{text}`: expected a gap or a tooth more: among even teeth no place can be told"));
         }
-        if angles.len() < 2 { Err(expected()) } else { Ok(Wheel(angles)) }
+        Ok(Wheel(angles))
     }
 }
 

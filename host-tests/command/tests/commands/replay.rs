@@ -211,11 +211,25 @@ fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
     fs::write(folder.path().join("both.csv"), &text).unwrap();
     let without_angle: String = text.lines().map(|line| format!("{}\n", line.split_once(',').unwrap().1)).collect();
     fs::write(folder.path().join("mark.csv"), without_angle).unwrap();
+    // an angle that comes round as the mark passes, and whose zero is a third of a turn behind the mark
+    for (file, zero) in [("wrapped.csv", 0.0), ("third.csv", 1.0 / 3.0)] {
+        let lines = text
+            .lines()
+            .skip(1)
+            .zip(0..)
+            .map(|(line, at)| format!("{:.9},{}\n", (turns(at) + zero).fract(), line.split_once(',').unwrap().1));
+        let wrapped = format!("angle_turns,mark,vibration_mm_per_s\n{}", lines.collect::<String>());
+        fs::write(folder.path().join(file), wrapped).unwrap();
+    }
     // by the angle: single precision, and the samples at a block's ends, of 49 on a turn and 400 on a block; by the
     // mark an error of the pulse of up to half a sample, 0.064 rad, of which the filter leaves a fifth
-    for (file, order, amplitude, phase, tolerance) in
-        [("both.csv", "1", 3.0, 0.5, 5e-3), ("both.csv", "2", 1.0, 1.0, 5e-3), ("mark.csv", "1", 3.0, 0.5, 0.013)]
-    {
+    for (file, order, amplitude, phase, tolerance) in [
+        ("both.csv", "1", 3.0, 0.5, 5e-3),
+        ("both.csv", "2", 1.0, 1.0, 5e-3),
+        ("wrapped.csv", "1", 3.0, 0.5, 5e-3),
+        ("third.csv", "1", 3.0, 0.5, 5e-3),
+        ("mark.csv", "1", 3.0, 0.5, 0.013),
+    ] {
         let found = json(folder.path(), &[file, "--phasors", "--rate", "1000", "--order", order]);
         let readings = found["readings"].as_array().unwrap();
         assert!(readings.len() >= 3, "{file}: {}", readings.len());

@@ -55,7 +55,7 @@ impl PhasorOptions {
         if vibration.len() < 2 {
             return Err(recording.fault(format!("{} samples", vibration.len()), "a recording of some turns").into());
         }
-        let mut marks = recording.edges(Quantity::Mark, falling);
+        let mut marks = recording.edges(Quantity::Mark, falling).filter(|marks| !marks.is_empty());
         for (_, since) in marks.iter_mut().flatten() {
             // of two values: half a step ago on average
             *since = if *since == 0.0 { 0.5 } else { *since };
