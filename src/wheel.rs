@@ -39,6 +39,7 @@ mod tooth;
 mod track;
 
 pub use angle::{SKIPPED, WheelAngle};
+pub(crate) use cycle::LOST;
 pub use cycle::{CycleTimes, Record, ToothCycle};
 pub use description::{Tooth, ToothedWheelConfig};
 pub use phase::Cam;

@@ -11,7 +11,7 @@ use super::quality::{Quality, Unusable};
 use super::series::{Order, Series};
 use super::{MAX_ORDER, Ripple};
 use crate::math::{ln, sin_cos, sqrt};
-use crate::wheel::{ToothCycle, ToothedWheelConfig};
+use crate::wheel::{LOST, ToothCycle, ToothedWheelConfig};
 
 /// The cycles of a wheel's teeth, `TEETH` of them to a cycle: 58 of a 60-2 wheel that turns once in it, 116 where it
 /// turns twice.
@@ -70,8 +70,8 @@ fn place<const WHEEL: usize>(config: &ToothedWheelConfig<WHEEL>, tooth: usize) -
 }
 
 impl<const TEETH: usize> ToothWindow<TEETH> {
-    /// Adds a cycle, in the main loop; the same one a second time is left out, and an earlier one begins a window anew.
-    /// A tooth without an edge counts as late as its neighbours.
+    /// Adds a cycle, in the main loop; the same one a second time is left out. One from after a lost place begins the
+    /// window anew: it may have another phase. A tooth without an edge counts as late as its neighbours.
     pub fn add<const WHEEL: usize>(&mut self, config: &ToothedWheelConfig<WHEEL>, cycle: &ToothCycle<TEETH>) {
         let length = f64::from(cycle.length());
         if length <= 0.0 {
@@ -81,8 +81,8 @@ impl<const TEETH: usize> ToothWindow<TEETH> {
         if self.cycles > 0 && steps == 0 {
             return;
         }
-        // numbers that run backwards are those of a wheel that began anew
-        if self.cycles > 0 && steps > u32::MAX / 2 {
+        // forwards the place was lost, backwards the wheel itself began anew
+        if self.cycles > 0 && steps >= LOST {
             *self = ToothWindow::default();
         }
         let first = place(config, 0);

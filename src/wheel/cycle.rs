@@ -17,6 +17,9 @@ impl Record for () {
     fn lost(&mut self) {}
 }
 
+/// Step of the cycles' numbers where the place was lost: more than are ever missed while it is known.
+pub(crate) const LOST: u32 = 1 << 16;
+
 /// A finished cycle: the passages of its `TEETH` teeth, of all turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -25,7 +28,7 @@ pub struct ToothCycle<const TEETH: usize> {
     pub(crate) times: [u32; TEETH],
     /// Passage of the next cycle's first tooth (clock counts).
     pub(crate) end: u32,
-    /// Its number since the place was found.
+    /// Its number, which goes on by [`LOST`] where the place was lost.
     pub(crate) number: u32,
 }
 
@@ -37,7 +40,7 @@ impl<const TEETH: usize> ToothCycle<TEETH> {
         self.end.wrapping_sub(self.times.first().copied().unwrap_or(self.end))
     }
 
-    /// Its number since the place was found: consecutive where none was missed.
+    /// Its number: consecutive where none was missed, and 65,536 further where the place was lost between.
     pub fn number(&self) -> u32 {
         self.number
     }
@@ -122,7 +125,7 @@ impl<const TEETH: usize> Record for CycleTimes<TEETH> {
 
     fn lost(&mut self) {
         self.next = None;
-        self.number = self.number.wrapping_add(1);
+        self.number = self.number.wrapping_add(LOST);
     }
 }
 

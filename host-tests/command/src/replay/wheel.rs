@@ -152,12 +152,15 @@ fn run<const TEETH: usize, const CYCLE: usize>(
         wheel.tooth(&config, ((edge - first) * CLOCK) as u64 as u32);
         known += usize::from(wheel.stage() == Stage::Known);
         if let Some(cycle) = wheel.take() {
+            let mut before = window;
             window.add(&config, &cycle);
+            // it began anew after a lost place: what came before is a window of its own
+            if window.cycles() <= before.cycles() {
+                close(&mut before, until);
+            }
             until = edge;
         }
-        // a lost place is found again at another phase of the cycle
-        let is_lost = wheel.stage() != Stage::Known && window.cycles() > 0;
-        if window.cycles() == cycles || is_lost {
+        if window.cycles() == cycles {
             close(&mut window, until);
         }
     }

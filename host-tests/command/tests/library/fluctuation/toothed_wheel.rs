@@ -180,6 +180,34 @@ fn cycles_that_are_not_finished_are_counted() {
     }
 }
 
+/// Cycles from before a lost place are not of the window: the speed there was half, and its sector another.
+#[test]
+fn a_lost_place_begins_the_window_anew() {
+    let config = config(1);
+    let mut wheel = ToothedWheel::<CycleTimes<58>>::default();
+    let (mut window, mut time, mut most) = (ToothWindow::default(), 0_u32, 0);
+    for tooth in 0..60_u32 * 20 {
+        let turn = tooth / 60;
+        time += if turn < 10 { 2000 } else { 1000 };
+        if tooth == 10 * 60 + 30 {
+            wheel.lose();
+        }
+        if tooth % 60 < 58 {
+            wheel.tooth(&config, time);
+        }
+        if let Some(cycle) = wheel.take() {
+            window.add(&config, &cycle);
+            most = most.max(window.cycles());
+        }
+    }
+    let ripple = window.ripple(&config, &ToothErrors::NONE, 4).unwrap();
+    // a count in a turn of 60,000
+    assert!((ripple.mean / (TAU * CLOCK / 60_000.0) - 1.0).abs() < 2e-5, "{ripple:?}");
+    // turn 10 has no end, and the gap at the end of turn 10 or 11 finds the place again
+    assert!(most >= 8 && (7..=9).contains(&ripple.cycles), "{most} cycles, then {ripple:?}");
+    assert_eq!((ripple.quality.missed, ripple.acceleration), (0, 0.0));
+}
+
 /// The spread over cycles and the residue: an order that is not looked at is left over, and a speed that differs from
 /// cycle to cycle scatters.
 #[test]
