@@ -7,7 +7,8 @@ use crate::settings::PhasorSettings;
 
 /// A machine whose rotor's vibration is measured.
 pub trait HasVibration: Machine {
-    /// The rotor that is measured, and how: the motor's shaft, eight turns a block.
+    /// The rotor that is measured, and how: the motor's shaft, eight turns a block. Its
+    /// [`floor`](crate::balancing::Steadiness::floor) is in the unit of the sensors, whatever the number.
     const PHASORS: PhasorSettings = PhasorSettings::DIRECT;
     /// The largest sample of each channel that is not clipped \[unit of the sensors\].
     const VIBRATION_LIMIT: f64;
@@ -15,17 +16,26 @@ pub trait HasVibration: Machine {
     const VIBRATION_BASE: f64 = 2.0 * Self::VIBRATION_LIMIT;
 }
 
+/// How a channel is measured whose samples are per unit of this base.
+const fn per_unit(mut measured: PhasorSettings, base: f64) -> PhasorSettings {
+    measured.steadiness.floor = (measured.steadiness.floor as f64 / base) as f32;
+    measured
+}
+
 macro_rules! phasors {
-    ($number:ident, $limit:expr) => {
+    ($number:ident, $base:expr) => {
         impl<M: HasVibration, const CHANNELS: usize, const EDGES: usize> Configure<M, $number>
             for Phasors<$number, CHANNELS, EDGES>
         {
             type Config = PhasorsConfig<$number, CHANNELS>;
-            const CONFIG: Self::Config = PhasorsConfig::<$number, CHANNELS>::new(&M::PHASORS, [$limit; CHANNELS]);
+            const CONFIG: Self::Config = PhasorsConfig::<$number, CHANNELS>::new(
+                &per_unit(M::PHASORS, $base),
+                [M::VIBRATION_LIMIT / $base; CHANNELS],
+            );
         }
     };
 }
 
-phasors!(f32, M::VIBRATION_LIMIT);
-phasors!(f64, M::VIBRATION_LIMIT);
-phasors!(Fixed, M::VIBRATION_LIMIT / M::VIBRATION_BASE);
+phasors!(f32, 1.0);
+phasors!(f64, 1.0);
+phasors!(Fixed, M::VIBRATION_BASE);

@@ -6,6 +6,9 @@ use driveline::angle::{OncePerTurn, Synchronous};
 use driveline::balancing::{
     Balancer, Motion, Phasor, Phasors, PhasorsConfig, Reading, ReadingFault, Sensor, Steadiness,
 };
+use driveline::configure::{Configure, HasVibration, Machine, Rating};
+use driveline::design::Encoder;
+use driveline::machine::{Chain, Damping, Inertia, Stiffness};
 use driveline::number::{Fixed, Number};
 use driveline::settings::{PhasorError, PhasorSettings};
 
@@ -227,6 +230,65 @@ fn blocks_that_differ_are_a_reading_where_their_mean_is_certain() {
         taken += 1;
     }
     assert_eq!(taken, 20);
+}
+
+/// The floor of a machine is in the unit of its sensors in every number: a vibration of a fifth of it scatters by less
+/// than the limit, since the floor is its reference, and one of four times the floor by more.
+#[test]
+fn the_floor_of_a_machine_is_the_same_in_every_number() {
+    const SCATTER: f32 = 0.1;
+    struct Above;
+    struct Below;
+    macro_rules! machine {
+        ($name:ident, $floor:literal) => {
+            impl Machine for $name {
+                const CHAIN: Chain = Chain::motor(Inertia(0.5)).shaft(Stiffness(5e3), Damping(4.0)).rotor(Inertia(2.0));
+                const RATING: Rating = Rating { torque: 286.0, speed: 77.0, torque_limit: 572.0 };
+                const ENCODER: Encoder = Encoder::counts(4096);
+                const RATE_HZ: u32 = 10_000;
+            }
+            impl HasVibration for $name {
+                const PHASORS: PhasorSettings = PhasorSettings {
+                    steadiness: Steadiness { scatter: SCATTER, floor: $floor, ..Steadiness::USUAL },
+                    ..PhasorSettings::DIRECT
+                };
+                const VIBRATION_LIMIT: f64 = 20.0;
+            }
+        };
+    }
+    machine!(Above, 1.0);
+    machine!(Below, 0.05);
+    type One<N> = Phasors<N, 1, 9>;
+    // a block of 400 samples has noise of 1.6 sqrt(2/400) sqrt(2) = 0.16, the mean of eight 0.057: 28 % of 0.2, 6 % of 1
+    let signal = |theta: f64, noise: &mut Noise| 0.2 * theta.cos() + 1.6 * noise.normal();
+    for seed in 0..10 {
+        let rig = || Rig { noise: Noise::new(2000 + seed), ..Rig::new(50.0) };
+        let base = Above::VIBRATION_BASE;
+        let both = [
+            [
+                run::<f32, 9>(&<One<f32> as Configure<Above, f32>>::CONFIG, &mut rig(), |v| v as f32, signal),
+                run::<f32, 9>(&<One<f32> as Configure<Below, f32>>::CONFIG, &mut rig(), |v| v as f32, signal),
+            ],
+            [
+                run::<Fixed, 9>(
+                    &<One<Fixed> as Configure<Above, Fixed>>::CONFIG,
+                    &mut rig(),
+                    |v| Fixed::from_f64(v / base),
+                    signal,
+                ),
+                run::<Fixed, 9>(
+                    &<One<Fixed> as Configure<Below, Fixed>>::CONFIG,
+                    &mut rig(),
+                    |v| Fixed::from_f64(v / base),
+                    signal,
+                ),
+            ],
+        ];
+        for [above, below] in both {
+            assert!(above.is_ok(), "{seed}: {above:?}");
+            assert!(matches!(below, Err(ReadingFault::Scattered { .. })), "{seed}: {below:?}");
+        }
+    }
 }
 
 /// Hum at 50 Hz beside a rotor at 48 turns a second, as large as the vibration: blocks of 24 turns, 25 periods of it.
