@@ -24,7 +24,20 @@ impl Progress {
     pub fn of(steps: u64) -> Self {
         let style = ProgressStyle::with_template("{bar:32} {pos}/{len}  {elapsed}, {eta} left  {msg}")
             .expect("the template of the progress bar is well-formed");
-        let bar = ProgressBar::new(steps).with_style(style);
+        Self::moving(ProgressBar::new(steps).with_style(style))
+    }
+
+    /// Work of which nobody knows how many steps it has.
+    ///
+    /// # Panics
+    /// Never, as above.
+    pub fn open() -> Self {
+        let style = ProgressStyle::with_template("{spinner} {elapsed}  {msg}")
+            .expect("the template of the progress line is well-formed");
+        Self::moving(ProgressBar::new_spinner().with_style(style))
+    }
+
+    fn moving(bar: ProgressBar) -> Self {
         // Elapsed time moves on through a long step.
         bar.enable_steady_tick(Duration::from_millis(200));
         Self { bar, said: Mutex::new(Instant::now()) }
@@ -76,5 +89,6 @@ mod tests {
         assert_eq!(bar.bar.position(), 1);
         bar.at(2);
         assert_eq!(bar.bar.position(), 2);
+        Progress::open().says("once");
     }
 }

@@ -1,11 +1,12 @@
 //! A written crate, compiled in a temporary folder.
 
 use std::fs::{self, File};
-use std::io::{Error, Read};
+use std::io::{BufRead, BufReader, Error};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::cli::Failure;
+use crate::cli::progress::Progress;
 use driveline_qemu::children::{Folder, Running};
 use driveline_qemu::clone::target_directory;
 use driveline_qemu::setup::cargo;
@@ -33,7 +34,7 @@ pub fn build(files: &[(String, Vec<u8>)], target: Option<&str>, library: &str, k
     }
     let mut command = Command::new(cargo());
     command
-        .args(["build", "--release", "--quiet", "--target-dir"])
+        .args(["build", "--release", "--target-dir"])
         .arg(folder.join("target"))
         .args(target.iter().flat_map(|target| ["--target", target]))
         .current_dir(folder.join("rust"))
@@ -45,10 +46,17 @@ pub fn build(files: &[(String, Vec<u8>)], target: Option<&str>, library: &str, k
         .stdout(Stdio::null())
         .stderr(Stdio::piped());
     let mut child = Running::start(&mut command).map_err(failed)?;
-    let mut said = String::new();
-    if let Some(mut stderr) = child.stderr.take() {
-        stderr.read_to_string(&mut said).map_err(failed)?;
+    let (progress, mut said) = (Progress::open(), String::new());
+    for line in child.stderr.take().into_iter().flat_map(|stderr| BufReader::new(stderr).lines()) {
+        let line = line.map_err(failed)?;
+        // cargo's own lines have their verb at the right of twelve columns; an error begins at the left
+        match line.strip_prefix("   ").map(str::trim_start) {
+            Some(step) if step.starts_with("Finished") => {}
+            Some(step) if step.starts_with(char::is_uppercase) => progress.says(step),
+            _ => said += &format!("{line}\n"),
+        }
     }
+    drop(progress);
     if !child.wait().map_err(failed)?.success() {
         return Err(Failure::failed(format!("the compiler refused the code of this machine:\n{}", said.trim_end())));
     }
