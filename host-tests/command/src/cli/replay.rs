@@ -1,8 +1,10 @@
-//! `cargo driveline replay`: the observer, the toothed wheel or the phasors over a recording.
+//! `cargo driveline replay`: the observer, the fluctuation, the toothed wheel or the phasors over a recording.
 
+mod fluctuation;
 mod phasors;
 mod shown;
 mod wheel;
+mod windows;
 
 use std::path::{Path, PathBuf};
 
@@ -12,9 +14,11 @@ use driveline::design::Rate;
 use driveline::settings::Gear;
 use serde_json::json;
 
+use self::fluctuation::FluctuationOptions;
 use self::phasors::PhasorOptions;
 use self::shown::Shown;
 use self::wheel::WheelOptions;
+use self::windows::WindowOptions;
 use super::identify::slug;
 use super::recorded::Recorded;
 use super::results::{Destination, check};
@@ -25,7 +29,7 @@ use crate::replay::{Between, Design, Replayed, Signals, csv, page, replay, summa
 use driveline_report::Fact;
 use driveline_report::format::significant;
 
-/// Replay a recording through the library: the observer of a machine, a toothed wheel, or the phasors of a vibration.
+/// Replay a recording through the library: a machine's observer, the speed's fluctuation, a toothed wheel, or phasors.
 ///
 /// The library's own code runs as on the drive. With `--machine` that is the observer, in `f32` and in fixed point,
 /// designed from the machine file at the recording's rate: estimates, innovation, flags, and errors where the load was
@@ -35,6 +39,8 @@ use driveline_report::format::significant;
 /// With `--teeth` it is the toothed wheel: speed and ripple from the times of its edges, in a column of `time` and one
 /// of the pickup's level (`crank`, `teeth`), or with a row for each edge.
 ///
+/// With `--fluctuation` it is the speed's fluctuation over a cycle of a recorded `angle`, as a drive measures it.
+///
 /// With `--phasors` it is the vibration at the rotor's speed: a column of `vibration`, and the rotor's `angle` or a
 /// `mark` once a turn.
 #[derive(Debug, Args)]
@@ -43,27 +49,32 @@ use driveline_report::format::significant;
   cargo driveline identify bench.csv --rate 2500 --torque-constant 0.564 --to 5 --toml bench.toml
   cargo driveline replay bench.csv --machine bench.toml --rate 2500 --torque-constant 0.564 --delay 1.2e-4 --from 5
   cargo driveline replay crank.csv --teeth 60-2 --cycle 2
+  cargo driveline replay press.csv --fluctuation --cycles 4
   cargo driveline replay rotor.csv --phasors --rate 952")]
 pub struct Replay {
     /// The recording: a CSV file
     file: PathBuf,
     /// The machine: a TOML file of elements from the motor to the load
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["teeth", "phasors"])]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["teeth", "fluctuation", "phasors"])]
     machine: Option<PathBuf>,
     #[command(flatten)]
     wheel: WheelOptions,
     #[command(flatten)]
+    fluctuation: FluctuationOptions,
+    #[command(flatten)]
+    windows: WindowOptions,
+    #[command(flatten)]
     phasors: PhasorOptions,
     /// Take the edges, or the mark, where the level falls
-    #[arg(long, conflicts_with = "machine")]
+    #[arg(long, conflicts_with_all = ["machine", "fluctuation"])]
     falling: bool,
     #[command(flatten)]
     recorded: Recorded,
     /// Keep the torque from each sample to the next, as of a command; a measured one runs straight
-    #[arg(long, conflicts_with_all = ["teeth", "phasors"])]
+    #[arg(long, conflicts_with_all = ["teeth", "fluctuation", "phasors"])]
     held: bool,
     /// Time by which the torque acts after its sample [s]
-    #[arg(long, value_name = "S", default_value_t = 0.0, conflicts_with_all = ["teeth", "phasors"])]
+    #[arg(long, value_name = "S", default_value_t = 0.0, conflicts_with_all = ["teeth", "fluctuation", "phasors"])]
     delay: f64,
     /// Write the estimates of every tick, the windows or the readings as a table
     #[arg(long, value_name = "PATH")]
@@ -84,7 +95,13 @@ impl Replay {
     pub fn execute(&self) -> Result<(), Failure> {
         match (&self.machine, &self.wheel.teeth) {
             (Some(machine), _) => self.observer(machine),
-            (None, Some(teeth)) => self.show(|asked| self.wheel.shown(teeth, &self.file, asked, self.falling)),
+            (None, Some(teeth)) => {
+                let windows = self.windows.windows();
+                self.show(|asked| self.wheel.shown(teeth, windows, &self.file, asked, self.falling))
+            }
+            (None, None) if self.fluctuation.fluctuation => {
+                self.show(|asked| FluctuationOptions::shown(self.windows.windows(), &self.file, asked))
+            }
             (None, None) => self.show(|asked| self.phasors.shown(&self.file, asked, self.falling)),
         }
     }

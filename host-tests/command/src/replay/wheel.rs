@@ -2,9 +2,11 @@
 
 use std::str::FromStr;
 
-use driveline::fluctuation::{Ripple, ToothErrors, ToothWindow, Unusable};
+use driveline::fluctuation::{ToothErrors, ToothWindow};
 use driveline::settings::{Error, Teeth, ToothClock};
 use driveline::wheel::{CycleTimes, Stage, ToothedWheel, ToothedWheelConfig};
+
+use super::window::{Windowed, Windows};
 
 /// Clock that the edges are timed with \[Hz\]: a turn at the lowest speed takes a hundredth of its range.
 const CLOCK: f64 = 1e7;
@@ -63,28 +65,6 @@ impl FromStr for Wheel {
         }
         Ok(Wheel(angles))
     }
-}
-
-/// How the edges are taken.
-#[derive(Clone, Copy, Debug)]
-pub struct Windows {
-    /// Turns of the wheel to a cycle: 1, or 2 of a four-stroke engine.
-    pub turns: u32,
-    /// Cycles to a window.
-    pub cycles: u32,
-    /// Highest order of the cycle.
-    pub orders: usize,
-}
-
-/// A window of cycles.
-#[derive(Clone, Debug)]
-pub struct Windowed {
-    /// Time of its last edge \[s\].
-    pub until: f64,
-    /// Its cycles.
-    pub cycles: u32,
-    /// Speed and ripple, or why there is none.
-    pub ripple: Result<Ripple, Unusable>,
 }
 
 /// What came of the edges.

@@ -196,6 +196,61 @@ fn another_wheel_gives_nothing_and_is_said_to() {
     assert!(refused(folder.path(), &["log.csv", "--teeth", "60-2", "--csv", "log.csv"]).contains("its own input"));
 }
 
+/// The motion of the wheels as an encoder shows it, sampled by ticks: the same speed, delta and orders as by the teeth,
+/// forwards and backwards, at one turn and two to the cycle.
+#[test]
+fn an_angles_fluctuation_is_that_of_its_motion() {
+    let folder = tempfile::tempdir().unwrap();
+    for (rate, counts, sign) in [(10_000.0, 16_384.0, 1.0), (10_000.0, 16_384.0, -1.0), (2_000.0, 1e9, 1.0)] {
+        let mut text = String::from("time_s,angle_rad\n");
+        let mut theta = 0.0;
+        for sample in 0..(5.0 * rate) as u32 {
+            let time = f64::from(sample) / rate;
+            // each step of this is closer by a hundredth
+            for _ in 0..6 {
+                theta += SPEED * (time - passes(theta, 2.0));
+            }
+            let shown = sign * (theta / TAU * counts).floor() / counts * TAU;
+            writeln!(text, "{time:.9},{shown:.9}").unwrap();
+        }
+        fs::write(folder.path().join("log.csv"), text).unwrap();
+        for (turns, order) in [("1", 2), ("2", 4)] {
+            let found = json(folder.path(), &["log.csv", "--fluctuation", "--cycle", turns, "--cycles", "4"]);
+            let windows = found["windows"].as_array().unwrap();
+            assert!(windows.len() >= 6, "{rate}: {} windows", windows.len());
+            for window in windows {
+                let of = |name: &str| window[name].as_f64().unwrap();
+                // both ends of a window of 25 rad lie between samples up to 0.04 rad apart, placed to 3 % of that
+                assert!((of("speed_by_time") / (sign * SPEED) - 1.0).abs() < 1e-4, "{rate} Hz: {window}");
+                // what is promised of ticks: 3 % of this delta
+                assert!((of("delta") - 2.0 * RIPPLE / (1.0 - RIPPLE * RIPPLE)).abs() < 6e-4, "{rate} Hz: {window}");
+                let amplitude = window["orders"][order - 1]["amplitude"].as_f64().unwrap();
+                assert!((amplitude - RIPPLE).abs() < 3e-4, "{rate} Hz: {window}");
+            }
+        }
+    }
+    // fewer orders; then a motion to and fro, one too fast for its samples, no angle at all
+    let found = json(folder.path(), &["log.csv", "--fluctuation", "--cycles", "1", "--from", "4", "--orders", "3"]);
+    assert!(found["windows"][0]["orders"].as_array().unwrap().len() <= 3, "{found}");
+    let samples = |angle: fn(f64) -> f64| -> String { (0..2000).map(|at| format!("{}\n", angle(at.into()))).collect() };
+    fs::write(folder.path().join("swing.csv"), format!("angle_rad\n{}", samples(|at| 9.0 * (0.01 * at).sin())))
+        .unwrap();
+    fs::write(folder.path().join("fast.csv"), format!("angle_rad\n{}", samples(|at| 0.4 * at))).unwrap();
+    for file in ["swing.csv", "fast.csv"] {
+        let output = replay(folder.path(), &[file, "--fluctuation", "--rate", "1000", "--html", "page.html"]);
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && said.contains("no window of 8 cycles of 1 turn"), "{file}: {said}");
+    }
+    fs::write(folder.path().join("speed.csv"), "speed_rad_per_s\n1\n2\n").unwrap();
+    assert!(
+        refused(folder.path(), &["speed.csv", "--fluctuation", "--rate", "1000"]).contains("--column angle=HEADING")
+    );
+    for other in ["--machine", "--teeth"] {
+        let said = refused(folder.path(), &["log.csv", "--fluctuation", other, "60-2"]);
+        assert!(said.contains("cannot be used with"), "{said}");
+    }
+}
+
 /// `v = 3 cos(theta + 0.5)` beside an offset and the second order, at 20.3 turns a second and 1,000 samples a second.
 #[test]
 fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
