@@ -1,15 +1,31 @@
 //! Measurements of the speed's fluctuation for a machine.
 
+use core::f64::consts::TAU;
+
 use super::{Configure, Machine};
 use crate::fluctuation::{CycleConfig, CycleMean, CycleMeanConfig, Extremes, Interleaved, Waveform, WaveformConfig};
 use crate::number::Fixed;
 use crate::settings::Bases;
 
+/// Stops a constant where a cycle, or a turn of a longer one, has fewer ticks at rated speed.
+const fn has_ticks<M: Machine>(least: f64) {
+    let turns = M::CYCLE.turns as f64 / M::CYCLE.cycles as f64;
+    let ticks = turns.min(1.0) * TAU / (M::RATING.speed * M::PERIOD);
+    assert!(
+        !(ticks < least),
+        "at rated speed a cycle has fewer than 64 ticks, or 256 beside a waveform, the least for its extremes: raise the \
+        rate, or measure the waveform alone"
+    );
+}
+
 macro_rules! measurements {
     ($number:ident, $bases:expr) => {
         impl<M: Machine> Configure<M, $number> for Extremes<$number> {
             type Config = CycleConfig;
-            const CONFIG: CycleConfig = CycleConfig::new(M::CYCLE, M::PERIOD, $bases);
+            const CONFIG: CycleConfig = {
+                has_ticks::<M>(64.0);
+                CycleConfig::new(M::CYCLE, M::PERIOD, $bases)
+            };
         }
 
         impl<M: Machine, const BINS: usize> Configure<M, $number> for Waveform<$number, BINS> {
@@ -20,7 +36,10 @@ macro_rules! measurements {
 
         impl<M: Machine, const BINS: usize> Configure<M, $number> for Interleaved<$number, BINS> {
             type Config = WaveformConfig;
-            const CONFIG: WaveformConfig = <Waveform<$number, BINS> as Configure<M, $number>>::CONFIG;
+            const CONFIG: WaveformConfig = {
+                has_ticks::<M>(256.0);
+                <Waveform<$number, BINS> as Configure<M, $number>>::CONFIG
+            };
         }
 
         impl<M: Machine, const SEGMENTS: usize> Configure<M, $number> for CycleMean<$number, SEGMENTS> {

@@ -187,6 +187,10 @@ impl<N: Ranked> Fluctuation<N> for Extremes<N> {
     fn disturb(&mut self) {
         self.position.unsure = true;
         self.good = 0;
+        // an end of a segment that was noticed before is not that of the next angle
+        if (Slice::Ahead as u8..=Slice::Beyond as u8).contains(&(self.slice as u8)) {
+            self.slice = Slice::Watch;
+        }
     }
 }
 

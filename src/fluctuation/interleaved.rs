@@ -64,6 +64,68 @@ mod tests {
     const CYCLE: CycleConfig = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
     const CONFIG: WaveformConfig = WaveformConfig::new::<32>(CYCLE, 16);
 
+    /// From rest anywhere, in both directions: no window and no reading before a whole turn, and each of them right.
+    #[test]
+    fn the_first_turn_may_begin_anywhere() {
+        for (start, sign) in (0..64).flat_map(|start| [(start, 1.0), (start, -1.0)]) {
+            let mut both = Interleaved::<f32, 32>::default();
+            let (begin, mut windows) = (core::f64::consts::TAU * (f64::from(start) + 0.7) / 64.0, 0);
+            let (mut phi, mut mean) = (begin, 0.0_f64);
+            for tick in 0..30_000 {
+                // at rest for a while, then up to its speed in 0.2 s
+                mean = if tick < 123 { 0.0 } else { (mean + 150.0 / 2000.0).min(150.0) };
+                let speed = sign * mean * (1.0 + 0.01 * (2.0 * phi).cos());
+                let estimate = Estimate { motor_speed: speed as f32, load_speed: speed as f32, ..Estimate::default() };
+                phi += 1e-4 * speed;
+                let angle = (phi / core::f64::consts::TAU).rem_euclid(1.0) * 4_294_967_296.0;
+                both.measure(&CONFIG, angle as u32, 0.0, &estimate);
+                let has_turned = (phi - begin).abs() / core::f64::consts::TAU;
+                if let Some(turn) = both.extremes().reading(&CYCLE) {
+                    assert!(has_turned > 1.0, "{start}, {sign}: {turn:?} after {has_turned} turns");
+                    // a turn of the run-up has a mean between rest and 150 rad/s
+                    assert!(turn.mean * sign > 0.0 && turn.mean * sign < 150.1, "{start}, {sign}: {turn:?}");
+                }
+                if let Some(window) = both.waveform_mut().take() {
+                    windows += 1;
+                    let Ok(ripple) = window.ripple(&CONFIG, 4) else {
+                        // a window with a run-up in it
+                        assert_eq!(windows, 1);
+                        continue;
+                    };
+                    assert!(ripple.mean * sign > 0.0 && ripple.mean * sign < 150.1, "{start}, {sign}: {ripple:?}");
+                    if windows > 1 {
+                        assert!((ripple.motor.delta - 0.02).abs() < 1e-4, "{start}, {sign}: {ripple:?}");
+                    }
+                }
+            }
+            assert!(windows >= 2, "{start}, {sign}: {windows}");
+        }
+    }
+
+    /// An angle that is lost as the end of a segment is being dealt with: no turn of it is a reading.
+    #[test]
+    fn a_turn_with_a_gap_is_none() {
+        for (begin, gap) in (2_000..2_420).flat_map(|begin| [110, 150, 190, 260].map(|gap| (begin, gap))) {
+            let mut both = Interleaved::<f32, 32>::default();
+            for tick in 0..4_000_u32 {
+                let phi = 0.015 * f64::from(tick);
+                let angle = (phi / core::f64::consts::TAU).fract() * 4_294_967_296.0;
+                // a quarter of a turn to 0.6
+                if (begin..begin + gap).contains(&tick) {
+                    both.disturb();
+                    continue;
+                }
+                let estimate = Estimate { motor_speed: 150.0, load_speed: 150.0, ..Estimate::default() };
+                both.measure(&CONFIG, angle as u32, 0.0, &estimate);
+                if let Some(turn) = both.extremes().reading(&CYCLE) {
+                    // single precision of a sum of ticks
+                    assert!((turn.mean - 150.0).abs() < 1e-3, "{begin}, {gap}, {tick}: {turn:?}");
+                }
+            }
+            assert!(both.extremes().reading(&CYCLE).is_some(), "{begin}, {gap}");
+        }
+    }
+
     /// A motor at 2 % from peak to peak twice a turn, its load at half of it: closed forms. 419 ticks on a turn.
     /// Windows that are asked for in every tick, an angle that is lost for a while, and both directions.
     #[test]

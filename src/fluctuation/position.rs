@@ -67,7 +67,7 @@ impl<N: Number> Edge<N> {
 pub(super) const RADIANS: f64 = TAU / 4_294_967_296.0;
 
 /// The motor's place in its cycle. Each of its methods is a slice's work.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Position {
     /// Where the segment begins [2^-32 turn].
@@ -80,6 +80,13 @@ pub(super) struct Position {
     extra: u32,
     /// A tick was left out: the next passage may have taken more than one tick.
     pub unsure: bool,
+}
+
+impl Default for Position {
+    /// Unsure: the motor may stand anywhere, and the first segment that it leaves is no passage from angle 0.
+    fn default() -> Self {
+        Position { start: 0, segment: 0, carry: 0, extra: 0, unsure: true }
+    }
 }
 
 /// Passage of a tick that does all slices at once.
