@@ -13,12 +13,13 @@ pub struct BacklashTakeUpTuning {
     pub impact: f64,
     /// Largest torque while the gap is open [N m], above 0.
     pub torque: f64,
-    /// By how much the largest torque rises in a period of the resonance on the driven flank [N m], above 0.
+    /// Rise of the torque limit per period of the resonance, on the driven flank [N m], above 0.
     pub rise: f64,
-    /// By how much it falls in a period of the resonance in the gap and on the other flank [N m], above 0; at once if
-    /// infinite.
+    /// Fall of the torque limit per period of the resonance, in the gap and on the other flank [N m], above 0; at once
+    /// if infinite.
     pub fall: f64,
-    /// Final limit [N m]: the largest torque of the motor, above 0.
+    /// Largest torque that the limit rises to [N m], the motor's; at least [`torque`](Self::torque). Active damping is
+    /// added to it, so that the limit behind the take-up is the final one.
     pub max_torque: f64,
     /// Damping ratio that the motor adds to the shaft; not negative.
     pub damping: f64,
@@ -92,7 +93,8 @@ impl TwoMass {
             max_torque,
             damping: 2.0 * damping * w * self.motor_inertia,
         };
-        let positive = impact > 0.0 && torque > 0.0 && rise > 0.0 && fall > 0.0 && max_torque > 0.0 && damping >= 0.0;
+        let positive =
+            impact > 0.0 && torque > 0.0 && rise > 0.0 && fall > 0.0 && max_torque >= torque && damping >= 0.0;
         let sum = design.approach_speed + design.braking + design.torque + design.slew + max_torque + design.damping;
         if positive && sum.is_finite() { Ok(design) } else { Err(Error::Slack) }
     }

@@ -22,8 +22,8 @@ sentences! {
     NoGap => "the machine has no backlash: take the observer of two masses",
     Wander => "the wander of the backlash's tuning must be above zero and finite (share of the gap)",
     Hold => "the hold of the backlash's tuning must not be negative, and within 2^32 ticks (periods of the resonance)",
-    Slack => "impact, torque, rise and largest torque of the backlash take-up must be positive and finite, its damping \
-        zero or above (N m, N m, N m, N m, 1)",
+    Slack => "impact, torque, rise and largest torque of the backlash take-up must be positive and finite, the largest \
+        torque no less than that in the gap, its damping zero or above (N m, N m, N m, N m, 1)",
     Noise => "the measurement noise must have a positive definite covariance",
     Bandwidth => "the bandwidth of the speed loop must be above zero and below the antiresonance of the machine",
     DampingRatio => "the damping ratios of the speed loop must be above zero and finite",

@@ -37,7 +37,7 @@ pub struct BacklashTakeUpConfig<N: Number, L> {
     pub step: N,
     /// Fall of the reach per tick in the gap and on the other flank [N m], negative.
     pub fall: N,
-    /// The final limit [N m].
+    /// Largest reach [N m].
     pub max_torque: N,
     /// Active damping -k_d [N m s/rad], on the twist rate, in contact.
     pub damping: N::Coefficient,

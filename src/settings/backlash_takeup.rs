@@ -9,8 +9,9 @@ use crate::governor::BacklashTakeUpConfig;
 const GAIN: &str = "a gain of the backlash take-up is beyond the range of its number: let its impact be larger, \
     damp less, or raise the base of the torque";
 const TORQUE: &str = "torque, rise and largest torque of the backlash take-up must be positive and finite, and at most \
-    twice \
-    the base of the torque in fixed point";
+    twice the base of the torque in fixed point";
+const PROPORTIONAL: &str = "the proportional gain of the governor with a backlash take-up must be positive and finite: \
+    its ramp is held back by torque over this gain";
 
 /// Torque, step, fall, most, braking, damping and tracking, scaled to a format.
 const fn take_up(design: &BacklashTakeUpDesign, proportional: f64, format: &Format) -> [f64; 7] {
@@ -33,6 +34,7 @@ constants! {
     /// of its ramp.
     impl[L: Copy] BacklashTakeUpConfig[, L], new,
     try_new(design: &BacklashTakeUpDesign, proportional: f64, limit: L), |format| {
+        get!(positive(proportional, PROPORTIONAL));
         let [torque, step, fall, max_torque, braking, damping, tracking] = take_up(design, proportional, &format);
         // Operands are held within 8 bases: with a torque of twice its base beside them the sum must stay within 8.
         if format.unit != 1.0 && (8.0 * -braking > 5.99 || 8.0 * -damping > 5.99) {

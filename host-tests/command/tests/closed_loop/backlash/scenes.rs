@@ -85,7 +85,7 @@ fn the_gentle_loop_reaches_its_speed() {
 }
 
 #[test]
-fn a_taking_up_that_cannot_be_is_refused() {
+fn an_invalid_take_up_is_refused() {
     let machine = BloomingMill::TWO_MASS;
     let tuning = BloomingMill::TAKING_UP;
     for wrong in [
@@ -94,6 +94,7 @@ fn a_taking_up_that_cannot_be_is_refused() {
         BacklashTakeUpTuning { rise: f64::NAN, ..tuning },
         BacklashTakeUpTuning { fall: 0.0, ..tuning },
         BacklashTakeUpTuning { max_torque: 0.0, ..tuning },
+        BacklashTakeUpTuning { max_torque: 0.5 * tuning.torque, ..tuning },
         BacklashTakeUpTuning { damping: -0.1, ..tuning },
     ] {
         assert_eq!(machine.try_take_up(Rate::hz(10_000), wrong), Err(Error::Slack));
@@ -106,6 +107,12 @@ fn a_taking_up_that_cannot_be_is_refused() {
     let small = Bases { torque: 1e5, ..BloomingMill::BASES };
     let limit = SymmetricLimitConfig { torque: Fixed::ONE };
     assert!(BacklashTakeUpConfig::<Fixed, _>::try_new(&design, 1.0, limit, small).is_err());
+    // the ramp is held back by torque over the gain
+    let single = SymmetricLimitConfig { torque: 1.0_f32 };
+    for gain in [0.0, -3e6, f64::INFINITY, f64::NAN] {
+        let error = BacklashTakeUpConfig::<f32, _>::try_new(&design, gain, single, Bases::SI).unwrap_err();
+        assert!(error.message().contains("the proportional gain"), "{gain}: {error:?}");
+    }
 }
 
 /// Constants with round figures: a least reach of 10 N m, a rise of 2 and a fall of 4 N m a tick, 100 N m at most, no
