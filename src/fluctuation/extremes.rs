@@ -185,7 +185,7 @@ impl<N: Ranked> Fluctuation<N> for Extremes<N> {
     }
 
     fn disturb(&mut self) {
-        self.position.unsure = true;
+        self.position.is_sure = false;
         self.good = 0;
         // an end of a segment that was noticed before is not that of the next angle
         if (Slice::Ahead as u8..=Slice::Beyond as u8).contains(&(self.slice as u8)) {
@@ -231,7 +231,7 @@ impl<N: Ranked> Extremes<N> {
                 position.measure(config);
                 Slice::Watch
             }
-            Slice::Ahead if position.unsure => Slice::Away,
+            Slice::Ahead if !position.is_sure => Slice::Away,
             Slice::Ahead => match position.ahead(config, self.edge.beyond) {
                 Way::Segment => Slice::Advance,
                 Way::Cycle => Slice::Beyond,
@@ -305,7 +305,7 @@ impl<N: Ranked> Extremes<N> {
                 Slice::TakeMotorMax
             }
             Slice::ReadingFault => {
-                position.unsure = false;
+                position.is_sure = true;
                 self.good = 0;
                 Slice::Watch
             }

@@ -67,7 +67,7 @@ impl<N: Number> Edge<N> {
 pub(super) const RADIANS: f64 = TAU / 4_294_967_296.0;
 
 /// The motor's place in its cycle. Each of its methods is a slice's work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Position {
     /// Where the segment begins [2^-32 turn].
@@ -78,15 +78,9 @@ pub(super) struct Position {
     carry: u32,
     /// Excess of the cycle over its segments [2^-32 turn].
     extra: u32,
-    /// A tick was left out: the next passage may have taken more than one tick.
-    pub unsure: bool,
-}
-
-impl Default for Position {
-    /// Unsure: the motor may stand anywhere, and the first segment that it leaves is no passage from angle 0.
-    fn default() -> Self {
-        Position { start: 0, segment: 0, carry: 0, extra: 0, unsure: true }
-    }
+    /// No tick was left out since the last passage: the next one takes one tick. Not so at first, when the motor may
+    /// stand anywhere.
+    pub is_sure: bool,
 }
 
 /// Passage of a tick that does all slices at once.
@@ -222,7 +216,7 @@ impl Position {
 
     /// Goes to the segment of `angle` at once, for a tick that has the time.
     pub fn pass(&mut self, cycle: &CycleConfig, angle: u32) -> Crossing {
-        let unsure = core::mem::replace(&mut self.unsure, false);
+        let is_sure = core::mem::replace(&mut self.is_sure, true);
         let within = self.within(angle);
         let beyond = within.wrapping_sub(cycle.length);
         self.measure(cycle);
@@ -252,7 +246,7 @@ impl Position {
                 return Crossing::Lost;
             }
         }
-        if unsure { Crossing::Lost } else { Crossing::Passed }
+        if is_sure { Crossing::Passed } else { Crossing::Lost }
     }
 }
 

@@ -126,7 +126,7 @@ impl<N: Summed, const BINS: usize> Fluctuation<N> for Waveform<N, BINS> {
     }
 
     fn disturb(&mut self) {
-        self.position.unsure = true;
+        self.position.is_sure = false;
         self.give_up();
     }
 }
@@ -199,7 +199,7 @@ impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
                 position.measure(cycle);
                 Slice::Watch
             }
-            Slice::Ahead if position.unsure => Slice::Away,
+            Slice::Ahead if !position.is_sure => Slice::Away,
             Slice::Ahead => match position.ahead(cycle, position.within(angle).wrapping_sub(cycle.length)) {
                 Way::Segment => Slice::Advance,
                 Way::Cycle => Slice::Beyond,
@@ -266,7 +266,7 @@ impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
                 Slice::Decide
             }
             Slice::ReadingFault => {
-                position.unsure = false;
+                position.is_sure = true;
                 if self.stage == Stage::Filling {
                     self.stage = Stage::Void;
                 }

@@ -120,13 +120,17 @@ impl Graph {
                 let table = at + size;
                 let end = code.constants_at(table).filter(|end| *end <= self.function.end).ok_or_else(none)?;
                 let entry = if wide { 2 } else { 1 };
+                let mut targets = Vec::new();
                 for place in (table..end).step_by(entry) {
                     let bytes = code.data(place, entry).ok_or_else(none)?;
                     let forward = bytes.iter().rev().fold(0, |sum, byte| sum << 8 | u32::from(*byte));
-                    // the last byte of a table of bytes only fills the halfword
-                    let fills = !wide && forward == 0 && place + 1 == end;
-                    open.extend((!fills).then_some((table + 2 * forward, 0, after)));
+                    targets.push(table + 2 * forward);
                 }
+                // zeros behind the last entry only fill up to where the code goes on: at the table there is none
+                while targets.last() == Some(&table) {
+                    targets.pop();
+                }
+                open.extend(targets.into_iter().map(|target| (target, 0, after)));
             }
             Flow::Unknown => return Err(Refusal::Indirect { function, at }),
         }
