@@ -1,20 +1,39 @@
 //! Prints what an image logged through `defmt`, a message a line: the image as the argument, its frames on the input.
 
 use std::io::{Error, Read, stdin};
+use std::path::Path;
+use std::process::ExitCode;
 use std::{env, fs};
 
-use defmt_decoder::Table;
+use defmt_decoder::{DecodeError, Table};
 
-fn main() -> Result<(), Error> {
-    let image = env::args_os().nth(1).ok_or_else(|| Error::other("an image is expected as the argument"))?;
+fn print(image: &Path) -> Result<(), Error> {
     let table = Table::parse(&fs::read(image)?).map_err(Error::other)?;
     let table = table.ok_or_else(|| Error::other("the image logs nothing"))?;
     let mut log = Vec::new();
     stdin().read_to_end(&mut log)?;
     let mut decoder = table.new_stream_decoder();
     decoder.received(&log);
-    while let Ok(frame) = decoder.decode() {
-        println!("{}", frame.display_message());
+    loop {
+        match decoder.decode() {
+            Ok(frame) => println!("{}", frame.display_message()),
+            Err(DecodeError::UnexpectedEof) => return Ok(()),
+            Err(DecodeError::Malformed) if table.encoding().can_recover() => println!("(a damaged message)"),
+            Err(DecodeError::Malformed) => return Err(Error::other("the log is damaged, or another image's")),
+        }
     }
-    Ok(())
+}
+
+fn main() -> ExitCode {
+    let Some(image) = env::args_os().nth(1) else {
+        eprintln!("usage: driveline-defmt-log IMAGE < FRAMES");
+        return ExitCode::from(2);
+    };
+    match print(Path::new(&image)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{}: {error}", Path::new(&image).display());
+            ExitCode::FAILURE
+        }
+    }
 }

@@ -8,7 +8,7 @@ mod windows;
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 use driveline::configure::Rating;
 use driveline::design::Rate;
 use driveline::settings::Gear;
@@ -44,6 +44,7 @@ use driveline_report::format::significant;
 /// With `--phasors` it is the vibration at the rotor's speed: a column of `vibration`, and the rotor's `angle` or a
 /// `mark` once a turn.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("part").required(true).args(["machine", "teeth", "fluctuation", "phasors"]))]
 #[command(after_help = "Examples:
   cargo driveline example bench-log > bench.csv
   cargo driveline identify bench.csv --rate 2500 --torque-constant 0.564 --to 5 --toml bench.toml
@@ -55,7 +56,7 @@ pub struct Replay {
     /// The recording: a CSV file
     file: PathBuf,
     /// The machine: a TOML file of elements from the motor to the load
-    #[arg(long, value_name = "FILE", required_unless_present_any = ["teeth", "fluctuation", "phasors"])]
+    #[arg(long, value_name = "FILE")]
     machine: Option<PathBuf>,
     #[command(flatten)]
     wheel: WheelOptions,

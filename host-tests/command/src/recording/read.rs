@@ -91,24 +91,48 @@ impl Recording {
     }
 
     /// The rows at which a level has risen, or fallen, through the middle of its range, with how long before the row
-    /// that was, as a part of the step: 0 where the level has two values only, as in a log of its changes. A level must
-    /// have come from an eighth of its range beyond the middle. `None` without such a column.
+    /// that was, as a part of the step: 0 where the level has two values only, as in a log of its changes. `None`
+    /// without such a column.
+    ///
+    /// Beyond the middle on either side a level must come to a quarter of its swing there before, and to a hundredth of
+    /// its range: the swing of a magnetic pickup grows with the speed. Where edges stay away, the swing before counts
+    /// half as much after each time of eight edges.
     pub fn edges(&self, quantity: Quantity, falling: bool) -> Option<Vec<(usize, f64)>> {
         let level = self.signal(quantity)?;
         let sign = if falling { -1.0 } else { 1.0 };
         let least = level.iter().copied().fold(f64::INFINITY, f64::min);
         let most = level.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let (middle, eighth) = (least + 0.5 * (most - least), 0.125 * (most - least));
+        let (middle, range) = (least + 0.5 * (most - least), most - least);
         let is_digital = level.iter().all(|value| *value == least || *value == most);
         let height = |row: usize| sign * (level[row] - middle);
-        let (mut is_armed, mut edges) = (!level.is_empty() && height(0) < -eighth, Vec::new());
-        for row in 1..level.len() {
-            if is_armed && height(row) > 0.0 {
-                let since = height(row) / (height(row) - height(row - 1));
-                edges.push((row, if is_digital { 0.0 } else { since }));
-                is_armed = false;
+        // of the halves below and above the middle: the largest distance from it in the last one and in the present one
+        let (mut swing, mut now) = ([0.0_f64; 2], [0.0_f64; 2]);
+        let (mut is_armed, mut crossed, mut edges) = (false, None, Vec::new());
+        let (mut last, mut interval) = (0, level.len());
+        for row in 0..level.len() {
+            let at = height(row);
+            if at > 0.0 && row > 0 && height(row - 1) <= 0.0 {
+                crossed = Some((row, if is_digital { 0.0 } else { at / (at - height(row - 1)) }));
             }
-            is_armed |= height(row) < -eighth;
+            if row - last > 8 * interval {
+                swing = swing.map(|swing| 0.5 * swing);
+                last = row;
+            }
+            let side = usize::from(at > 0.0);
+            now[side] = now[side].max(at.abs());
+            let is_far = at.abs() > (0.25 * swing[side]).max(0.01 * range);
+            if is_far && side == 0 && !is_armed {
+                is_armed = true;
+                swing[1] = now[1];
+                now = [at.abs(), 0.0];
+            }
+            if is_far && side == 1 && is_armed {
+                edges.extend(crossed);
+                is_armed = false;
+                swing[0] = now[0];
+                now[1] = at;
+                (interval, last) = (row - last, row);
+            }
         }
         Some(edges)
     }
@@ -128,7 +152,10 @@ pub fn read_recording(path: &Path, asked: &Asked) -> Result<Recording, Diagnosti
     let name = printable(&path.display().to_string(), 200);
     let file = |error: std::io::Error| Diagnostic::of_file(&name, format!("no readable file ({error})"), "a CSV file");
     let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(LARGEST).read_to_end(&mut bytes)).map_err(file)?;
+    File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes)).map_err(file)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(Diagnostic::of_file(&name, "more than 1 GiB", "at most 1 GiB: a part of the recording"));
+    }
     if bytes.iter().take(LEADING).any(|byte| *byte == 0) {
         return Err(encoded(&name, &bytes, 0, "UTF-16"));
     }

@@ -25,7 +25,9 @@ pub fn measure(angle: &[f64], [start, period]: [f64; 2], windows: Windows) -> Re
         waveform.measure(&config, turned(angle), 0.0, &estimate);
         if let Some(window) = waveform.take() {
             let ripple = window.ripple(&config, windows.orders);
-            found.push(Windowed { until: start + sample as f64 * period, cycles: windows.cycles, ripple });
+            let (until, cycles) = (start + sample as f64 * period, windows.cycles);
+            // what whole ticks leave over is no doubt
+            found.push(Windowed { until, cycles, ripple, doubt: None });
         }
     }
     Ok(found)

@@ -51,7 +51,7 @@ impl Signals {
         let period = recording.period;
         let torque = recording.torque(torque_constant)?;
         let angle = match (recording.signal(Quantity::Angle), recording.signal(Quantity::Speed)) {
-            (Some(angle), _) => angle.to_vec(),
+            (Some(angle), _) => unwrapped(angle),
             (None, Some(speed)) => integral(speed, period),
             (None, None) => {
                 return Err(recording.fault(recording.found(), "a column of the motor's angle or speed"));
@@ -59,7 +59,7 @@ impl Signals {
         };
         let measured = |quantity| recording.signal(quantity).map(<[f64]>::to_vec);
         let motor_speed = measured(Quantity::Speed).unwrap_or_else(|| derivative(&angle, period));
-        let load_angle = measured(Quantity::LoadAngle);
+        let load_angle = recording.signal(Quantity::LoadAngle).map(unwrapped);
         let load_speed =
             measured(Quantity::LoadSpeed).or_else(|| load_angle.as_ref().map(|angle| derivative(angle, period)));
         let sensor = measured(Quantity::ShaftTorque);
@@ -85,6 +85,17 @@ impl Signals {
 pub fn turned(angle: f64) -> u32 {
     // the remainder is below one, the product below 2^32 but for rounding, which the cast saturates
     ((angle / TAU).rem_euclid(1.0) * 4_294_967_296.0) as u32
+}
+
+/// An angle that comes round after a turn, as it goes on: no step is beyond half a turn.
+fn unwrapped(angle: &[f64]) -> Vec<f64> {
+    let (mut turns, mut last) = (0.0, angle.first().copied().unwrap_or(0.0));
+    let step = |&angle: &f64| {
+        turns -= ((angle - last) / TAU).round();
+        last = angle;
+        angle + turns * TAU
+    };
+    angle.iter().map(step).collect()
 }
 
 fn integral(speed: &[f64], period: f64) -> Vec<f64> {

@@ -6,7 +6,7 @@ use driveline::fluctuation::{ToothErrors, ToothWindow};
 use driveline::settings::{Error, Teeth, ToothClock};
 use driveline::wheel::{CycleTimes, Stage, ToothedWheel, ToothedWheelConfig};
 
-use super::window::{Windowed, Windows};
+use super::window::{Windowed, Windows, doubt};
 
 /// Clock that the edges are timed with \[Hz\]: a turn at the lowest speed takes a hundredth of its range.
 const CLOCK: f64 = 1e7;
@@ -119,7 +119,8 @@ fn run<const TEETH: usize, const CYCLE: usize>(
     let mut window = ToothWindow::default();
     let mut close = |window: &mut ToothWindow<CYCLE>, until: f64| {
         let ripple = window.ripple(&config, &ToothErrors::NONE, orders);
-        turned.windows.push(Windowed { until, cycles: window.cycles(), ripple });
+        let doubt = ripple.as_ref().ok().and_then(|ripple| doubt(ripple, turns));
+        turned.windows.push(Windowed { until, cycles: window.cycles(), ripple, doubt });
         *window = ToothWindow::default();
     };
     let (mut known, mut last, mut until) = (0, first, first);

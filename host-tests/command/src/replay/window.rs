@@ -1,6 +1,6 @@
 //! Windows of cycles, whatever they are measured by.
 
-use driveline::fluctuation::{Ripple, Unusable};
+use driveline::fluctuation::{Order, Ripple, Unusable};
 
 /// Which cycles make a window.
 #[derive(Clone, Copy, Debug)]
@@ -22,4 +22,24 @@ pub struct Windowed {
     pub cycles: u32,
     /// Speed and ripple, or why there is none.
     pub ripple: Result<Ripple, Unusable>,
+    /// Why they are not to be relied on.
+    pub doubt: Option<&'static str>,
+}
+
+/// Angle by which a good wheel's teeth are out of place \[rad\]: a tenth of a degree, 0.2 mm at a radius of 100 mm.
+const TEETH: f64 = 1.75e-3;
+
+/// What speaks against a ripple by the times of teeth, over a cycle of so many turns: its orders explain angles of their
+/// own size.
+pub fn doubt(ripple: &Ripple, turns: u32) -> Option<&'static str> {
+    let angle = |(n, order): (usize, &Order)| order.amplitude() / ripple.speed.mean / (n + 1) as f64;
+    let square: f64 = ripple.speed.orders.iter().enumerate().map(angle).map(|angle| 0.5 * angle * angle).sum();
+    let explained = (f64::from(turns) * square.sqrt()).max(TEETH);
+    if ripple.quality.residue > explained {
+        Some("more is left than the orders explain")
+    } else if ripple.quality.spread > explained {
+        Some("the cycles differ by more than their ripple: a stop, a reversal, another load")
+    } else {
+        None
+    }
 }

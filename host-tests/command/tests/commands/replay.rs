@@ -196,6 +196,67 @@ fn another_wheel_gives_nothing_and_is_said_to() {
     assert!(refused(folder.path(), &["log.csv", "--teeth", "60-2", "--csv", "log.csv"]).contains("its own input"));
 }
 
+/// A magnetic pickup: its level swings with the speed and rests at the middle over the gap, so that only the steep edge
+/// of a tooth is one. An even speed, first at a tenth; noise of a fiftieth of the largest swing.
+#[test]
+fn a_magnetic_pickups_steep_edge_is_found_at_every_speed() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut seed = 1_u32;
+    let mut text = String::from("crank\n");
+    let (mut turn, mut time) = (0.0_f64, 0.0_f64);
+    while time < 4.0 {
+        let speed = if time < 2.0 { 4.0 } else { (4.0 + 72.0 * (time - 2.0)).min(40.0) };
+        time += 5e-5;
+        turn += 5e-5 * speed;
+        let place = 60.0 * turn.fract();
+        // a pulse up, then one down, about each tooth but those of the gap
+        let from = place - place.round();
+        let pulse = if place.round() % 60.0 < 58.0 { -from * (-20.0 * from * from).exp() } else { 0.0 };
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let noise = f64::from(seed >> 16) / 65_536.0 - 0.5;
+        writeln!(text, "{:.5}", speed * pulse + 0.02 * 40.0 * 0.1 * noise).unwrap();
+    }
+    fs::write(folder.path().join("log.csv"), text).unwrap();
+    let arguments = ["log.csv", "--teeth", "60-2", "--rate", "20000", "--cycles", "4", "--orders", "4"];
+    let found = json(folder.path(), &[&arguments[..], &["--falling"]].concat());
+    let windows = found["windows"].as_array().unwrap();
+    // 8 turns at the low speed, 12 on the way up, 60 at the high one: one turn is spent on finding the place
+    assert!(windows.len() >= 17, "{}", windows.len());
+    let [first, last] = [&windows[0], windows.last().unwrap()];
+    for (window, speed) in [(first, 4.0), (last, 40.0)] {
+        let of = |name: &str| window[name].as_f64().unwrap();
+        assert!((of("speed") / (TAU * speed) - 1.0).abs() < 1e-3, "{window}");
+        // noise of 0.023 rms on a slope of 4 a place is 6e-4 rad a tooth, over 232 teeth n times 6e-5 in the order n:
+        // from peak to peak twice the root of the squares of four, 6e-4, and more for the tail
+        assert!(of("delta") < 1e-3 && window["doubtful"] == false, "{window}");
+    }
+    // the other edge of a tooth is spread over the gap, which the command sees
+    let output = replay(folder.path(), &[&arguments[..], &["--html", "page.html"]].concat());
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.contains("with --falling the other edges leave"), "{said}");
+}
+
+/// A short stop between two turns of a machine without any ripple: the window that has it is doubted.
+#[test]
+fn a_stop_within_a_window_is_doubted() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = String::from("time_s\n");
+    for turn in 0..24 {
+        for place in 0..58 {
+            let late = if turn >= 12 { 0.3 } else { 0.0 };
+            writeln!(text, "{:.9}", late + TAU / SPEED * (f64::from(turn) + f64::from(place) / 60.0)).unwrap();
+        }
+    }
+    fs::write(folder.path().join("log.csv"), text).unwrap();
+    let found = json(folder.path(), &["log.csv", "--teeth", "60-2", "--cycles", "20"]);
+    let window = &found["windows"][0];
+    assert!(window["doubtful"] == true || window["unusable"].is_string(), "{window}");
+    let found = json(folder.path(), &["log.csv", "--teeth", "60-2", "--cycles", "8"]);
+    // turns 1 to 8 know nothing of it, and are as even as the clock
+    let window = &found["windows"][0];
+    assert!(window["doubtful"] == false && window["delta"].as_f64().unwrap() < 1e-4, "{window}");
+}
+
 /// The motion of the wheels as an encoder shows it, sampled by ticks: the same speed, delta and orders as by the teeth,
 /// forwards and backwards, at one turn and two to the cycle.
 #[test]
@@ -296,6 +357,15 @@ fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
         assert!((speed / 20.3 - 1.0).abs() < 1e-3, "{file}, order {order}: {speed}");
         assert!((angle - phase).abs() < tolerance, "{file}, order {order}: {angle}");
     }
+    // a mark twice a turn tells no zero
+    let twice: String =
+        text.lines().skip(1).zip(0..).fold(String::from("angle_turns,mark,vibration_mm_per_s\n"), |all, (line, at)| {
+            let mark = u8::from((2.0 * turns(at)).fract() < 0.1);
+            all + &format!("{:.9},{mark},{}\n", turns(at), line.rsplit_once(',').unwrap().1)
+        });
+    fs::write(folder.path().join("twice.csv"), twice).unwrap();
+    let said = refused(folder.path(), &["twice.csv", "--phasors", "--rate", "1000"]);
+    assert!(said.contains("marks at different angles"), "{said}");
     // beyond the sensor's range no reading is to be used
     let found = json(folder.path(), &["both.csv", "--phasors", "--rate", "1000", "--range", "2.0"]);
     assert!(found["mean"].is_null() && found["readings"][0]["refused"].as_str().unwrap().contains("range"), "{found}");

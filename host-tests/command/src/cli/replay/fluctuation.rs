@@ -18,7 +18,7 @@ use crate::replay::window::Windows;
 #[derive(Debug, Args)]
 pub struct FluctuationOptions {
     /// The fluctuation of the speed instead, from a recorded angle
-    #[arg(long, conflicts_with_all = ["machine", "phasors"])]
+    #[arg(long)]
     pub fluctuation: bool,
 }
 

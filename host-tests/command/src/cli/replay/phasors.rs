@@ -6,7 +6,7 @@ use std::path::Path;
 use clap::Args;
 use driveline::settings::PhasorSettings;
 use driveline_report::chart::{Arrow, polar};
-use driveline_report::format::significant;
+use driveline_report::format::{counted, significant};
 use driveline_report::{Fact, Figure, Section, Sheet, Table};
 use serde_json::{Value, json};
 
@@ -25,7 +25,7 @@ const PRINTED: usize = 20;
 #[derive(Debug, Args)]
 pub struct PhasorOptions {
     /// The phasors of a vibration instead
-    #[arg(long, conflicts_with = "machine")]
+    #[arg(long)]
     phasors: bool,
     /// Order of the running speed: 1x, 2x and on
     #[arg(long, value_name = "N", default_value_t = 1, conflicts_with_all = ["machine", "teeth"],
@@ -62,7 +62,15 @@ impl PhasorOptions {
         }
         let (turning, origin) = match (recording.signal(Quantity::Angle), &marks) {
             (Some(angle), None) => (Turning::Angle(angle, 0.0), "the angle's"),
-            (Some(angle), Some(marks)) => (Turning::Angle(angle, zero(angle, marks)), "the mark, by the angle"),
+            (Some(angle), Some(marks)) => {
+                let Some(zero) = zero(angle, marks) else {
+                    let found = format!("{} at different angles", counted(marks.len() as u64, "mark"));
+                    return Err(recording
+                        .fault(found, "a mark at one angle of the rotor, whose angle is recorded")
+                        .into());
+                };
+                (Turning::Angle(angle, zero), "the mark, by the angle")
+            }
             (None, Some(marks)) => (Turning::Marks(marks), "the mark"),
             (None, None) => {
                 let expected =

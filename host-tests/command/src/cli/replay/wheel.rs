@@ -5,21 +5,21 @@ use std::path::Path;
 
 use clap::Args;
 use driveline_report::Fact;
-use driveline_report::format::counted;
+use driveline_report::format::{counted, significant};
 use serde_json::json;
 
 use super::super::Failure;
 use super::shown::Shown;
 use super::windows::{PRINTED, as_json, csv, highest, sheet, table};
 use crate::recording::{Asked, Quantity, Recording, read_recording};
-use crate::replay::wheel::{Wheel, turn};
+use crate::replay::wheel::{Turned, Wheel, turn};
 use crate::replay::window::Windows;
 
 /// How a wheel is described.
 #[derive(Debug, Args)]
 pub struct WheelOptions {
     /// A wheel instead: `60-2`; `36:10,11,22,23,34,35`, positions of missing teeth; `12+1@340`; `0,70,180,250`, degrees
-    #[arg(long, value_name = "WHEEL", conflicts_with_all = ["machine", "fluctuation", "phasors"])]
+    #[arg(long, value_name = "WHEEL")]
     pub teeth: Option<String>,
 }
 
@@ -53,6 +53,15 @@ impl WheelOptions {
         if turned.windows.len() > PRINTED {
             let _ = write!(text, "; the last {PRINTED} of {} windows", turned.windows.len());
         }
+        // the other edge of a pickup may be the one that its teeth pass at
+        let other = edges(&recording, !falling).ok().and_then(|times| turn(&wheel, windows, &times).ok());
+        let here = unexplained(&turned);
+        if let Some(there) = other.as_ref().and_then(unexplained)
+            && here.is_none_or(|here| there < 0.3 * here)
+        {
+            let (option, there) = (if falling { "without" } else { "with" }, significant(there.to_degrees()));
+            let _ = write!(text, "; {option} --falling the other edges leave a residual of {there} deg");
+        }
         if turned.windows.is_empty() {
             let _ = write!(text, "; no cycle: is the wheel the one described, and does it turn above 19 r/min?");
         }
@@ -70,6 +79,12 @@ impl WheelOptions {
             sheet: sheet(&turned.windows, &recording.name, "Toothed wheel", vec![fact]),
         })
     }
+}
+
+/// Least residue of the windows that are to be used \[rad\].
+fn unexplained(turned: &Turned) -> Option<f64> {
+    let residues = turned.windows.iter().filter_map(|window| Some(window.ripple.as_ref().ok()?.quality.residue));
+    residues.min_by(f64::total_cmp)
 }
 
 /// Times of the edges: of a column of levels, or every row.

@@ -48,13 +48,6 @@ fn largest(ripple: &Ripple) -> (usize, f64) {
     (1..).zip(amplitudes).max_by(|(_, a), (_, b)| a.total_cmp(b)).unwrap_or_default()
 }
 
-/// Whether the orders leave more of the angle than they explain: the machine turns evenly, or has other orders.
-fn is_doubtful(ripple: &Ripple) -> bool {
-    let angle = |(n, order): (usize, &Order)| order.amplitude() / ripple.speed.mean / (n + 1) as f64;
-    let square: f64 = ripple.speed.orders.iter().enumerate().map(angle).map(|angle| 0.5 * angle * angle).sum();
-    ripple.quality.residue > square.sqrt()
-}
-
 /// How many orders were fitted; none where no window is to be used.
 pub fn highest(windows: &[Windowed]) -> Option<usize> {
     windows.iter().filter_map(|window| Some(fitted(window.ripple.as_ref().ok()?).len())).max()
@@ -73,9 +66,18 @@ fn per_minute(ripple: &Ripple) -> f64 {
 }
 
 pub fn table(windows: &[Windowed]) -> Table {
-    let mut table = Table::new(["until s", "cycles", "speed r/min", "delta", "dominant order", "residual deg", "use"]);
+    let mut table = Table::new([
+        "until s",
+        "cycles",
+        "speed r/min",
+        "delta",
+        "dominant order",
+        "residual deg",
+        "spread deg",
+        "use",
+    ]);
     let skipped = windows.len().saturating_sub(PRINTED);
-    for Windowed { until, cycles, ripple } in windows.iter().skip(skipped) {
+    for Windowed { until, cycles, ripple, doubt } in windows.iter().skip(skipped) {
         let (until, cycles) = (format!("{until:.3}"), cycles.to_string());
         match ripple {
             Ok(ripple) => {
@@ -87,13 +89,13 @@ pub fn table(windows: &[Windowed]) -> Table {
                     significant(ripple.motor.delta),
                     format!("{order}: {}", percent(amplitude)),
                     significant(ripple.quality.residue.to_degrees()),
-                    if is_doubtful(ripple) { "doubtful: more is left than the orders explain" } else { "yes" }
-                        .to_owned(),
+                    significant(ripple.quality.spread.to_degrees()),
+                    doubt.map_or_else(|| "yes".to_owned(), |doubt| format!("doubtful: {doubt}")),
                 ]);
             }
             Err(unusable) => {
                 let none = || "none".to_owned();
-                table.row([until, cycles, none(), none(), none(), none(), format!("no: {unusable}")]);
+                table.row([until, cycles, none(), none(), none(), none(), none(), format!("no: {unusable}")]);
             }
         }
     }
@@ -113,7 +115,7 @@ pub fn as_json(window: &Windowed) -> Value {
                 json!({ "amplitude": order.amplitude() / ripple.speed.mean.abs(), "phase": order.phase() })
             }).collect::<Vec<_>>(),
             "residue": ripple.quality.residue,
-            "doubtful": is_doubtful(ripple),
+            "doubtful": window.doubt.is_some(),
             "spread": ripple.quality.spread,
             "missed": ripple.quality.missed,
         }),
@@ -122,16 +124,22 @@ pub fn as_json(window: &Windowed) -> Value {
 }
 
 pub fn csv(windows: &[Windowed]) -> String {
-    let mut text = String::from("until_s,cycles,speed_rad_s,acceleration_rad_s2,delta,residue_rad,spread_rad\n");
-    for Windowed { until, cycles, ripple } in windows {
+    let mut text =
+        String::from("until_s,cycles,speed_rad_s,acceleration_rad_s2,delta,residue_rad,spread_rad,doubtful\n");
+    for Windowed { until, cycles, ripple, doubt } in windows {
         // writing to a string cannot fail
         let _ = write!(text, "{until:.6},{cycles}");
         let _ = match ripple {
             Ok(Ripple { speed, acceleration, motor, quality, .. }) => {
                 let (delta, residue, spread) = (motor.delta, quality.residue, quality.spread);
-                writeln!(text, ",{:.6e},{acceleration:.6e},{delta:.6e},{residue:.6e},{spread:.6e}", speed.mean)
+                let doubtful = u8::from(doubt.is_some());
+                writeln!(
+                    text,
+                    ",{:.6e},{acceleration:.6e},{delta:.6e},{residue:.6e},{spread:.6e},{doubtful}",
+                    speed.mean
+                )
             }
-            Err(_) => writeln!(text, ",,,,,"),
+            Err(_) => writeln!(text, ",,,,,,"),
         };
     }
     text
