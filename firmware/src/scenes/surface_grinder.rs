@@ -1,13 +1,14 @@
 //! A surface grinder whose drive has all four parts: it observes, measures the fluctuation, governs and balances.
 //!
 //! A 22 kW, eight-pole motor at 735 r/min (286 N m; makers' tables give 0.5 kg m2 for frame size 225) turns a vertical
-//! spindle with a wheel of segments, 500 mm in diameter, over a flat belt of 1 to 1. Pulleys of 280 mm (0.02 kg m2) and
-//! spans of 1 m of a polyamide belt with 1.25 kN at 1 % of strain give 4.9 kN m/rad. Chuck, segments and spindle have
-//! 1.9 kg m2. The motor's encoder has 2048 sine periods on a turn, each interpolated to 64 counts. The figures are of
-//! the size that makers give; they are not those of one machine.
+//! spindle with a wheel of segments, 500 mm in diameter, through a soft rubber coupling of 400 N m. Its half at the motor
+//! has 0.02 kg m2; 4.9 kN m/rad and a relative damping of a half are assumed. Chuck, segments and spindle have 1.9 kg
+//! m2. The motor's encoder has 2048 sine periods on a turn, each interpolated to 64 counts. The figures are of the size
+//! of such machines; they are not those of one.
 //!
 //! One segment stands proud of the others: the torque of the cut swings once and twice a turn, on either side of the
-//! belt's resonance of 17 Hz. Segments wear unevenly, so the wheel is out of balance. A balancing head in the spindle
+//! coupling's resonance of 17 Hz. The cut acts as a torque alone. A force of it on the spindle once a turn would be
+//! balanced with the wheel, and be missing after the cut: a real machine is balanced while it idles. Segments wear unevenly, so the wheel is out of balance. A balancing head in the spindle
 //! moves two masses round the axis; two velocity sensors stand on the bearing housings.
 //!
 //! | variant | has |
@@ -31,7 +32,7 @@ use crate::scene::composed::{Beside, Composed};
 use crate::scene::table::variants;
 use crate::scene::{Input, Output};
 
-/// Motor, belt, spindle with its wheel.
+/// Motor, coupling, spindle with its wheel.
 pub struct SurfaceGrinder;
 
 impl Machine for SurfaceGrinder {
@@ -46,7 +47,8 @@ impl Machine for SurfaceGrinder {
     const DISTURBANCE: Disturbance =
         Disturbance { load_torque_step: Self::RATING.torque, within: 0.2, ..Self::RATING.disturbance() };
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.2, damping: 1.0, shaft_damping: 0.03 };
-    /// Without active damping: the belt's own is enough, and an observer that follows the cut would feed it noise.
+    /// Without active damping: the coupling's own is enough, and an observer that follows the cut would feed noise
+    /// into it.
     const SPEED_LOOP: SpeedLoopDesign =
         SpeedLoopDesign { damping: 0.0, ..Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING) };
     /// In 30 ms the motor turns by less than half a turn.
@@ -72,7 +74,7 @@ pub const COUNTS: u32 = 2048 * 64;
 /// and do not average out: with 16 bins the second order is off by 0.5 % of the first, with 32 by 0.1 %.
 pub const BINS: usize = 32;
 
-/// Highest order of the waveform: the cut swings once and twice a turn, and through the belt an error of a higher order
+/// Highest order of the waveform: the cut swings once and twice a turn, and through the coupling an error of a higher order
 /// would grow with its square.
 pub const HIGHEST: usize = 2;
 
@@ -120,7 +122,7 @@ pub mod panel {
     pub const TAKE: u32 = 64;
     /// Delta of the motor by the waveform that was kept.
     pub const MOTOR_DELTA: u32 = 65;
-    /// Delta of the wheel by the same, through the belt.
+    /// Delta of the wheel by the same, through the coupling.
     pub const LOAD_DELTA: u32 = 66;
     /// Cosine of the motor's order `value`, from 1 on \[rad/s\].
     pub const COSINE: u32 = 67;
@@ -137,7 +139,7 @@ pub mod panel {
     pub const NOT_YET: u32 = 2;
 }
 
-/// Belt and masses, for the load side of the waveform.
+/// Coupling and masses, for the load side of the waveform.
 const DRIVETRAIN: Drivetrain = {
     let machine = SurfaceGrinder::TWO_MASS;
     Drivetrain {

@@ -6,6 +6,9 @@ use crate::code::{Code, Function};
 use crate::instruction::{Flow, Instruction, Stack};
 use crate::refusal::Refusal;
 
+/// `nop`, A7.7.88, as an entry of a jump table.
+const NOP: u32 = 0xbf00;
+
 /// An instruction that execution can reach.
 #[derive(Clone, Debug)]
 pub struct Node {
@@ -126,8 +129,10 @@ impl Graph {
                     let forward = bytes.iter().rev().fold(0, |sum, byte| sum << 8 | u32::from(*byte));
                     targets.push(table + 2 * forward);
                 }
-                // zeros behind the last entry only fill up to where the code goes on: at the table there is none
-                while targets.last() == Some(&table) {
+                // zeros and `nop`s behind the last entry fill up to where the code goes on: as entries they would lead
+                // to the table itself, and far behind the function
+                let nop = table + 2 * NOP;
+                while targets.last().is_some_and(|last| *last == table || *last == nop && nop >= self.function.end) {
                     targets.pop();
                 }
                 open.extend(targets.into_iter().map(|target| (target, 0, after)));

@@ -98,9 +98,11 @@ fn every_entry_of_a_jump_table_is_followed() {
     // tbh [pc, r0, lsl #1]; .short to 6, 7; 6: bx lr; 7: nop; bx lr
     let code = [0xe8df, 0xf010, 2, 3, 0x4770, 0xbf00, 0x4770];
     assert_eq!(bound(&code, &[], &[(START + 4, START + 8)]).unwrap().instructions, 3);
-    // the same with zeros up to where a loop is aligned; one between the entries is none of these
-    let code = [0xe8df, 0xf010, 4, 5, 0, 0, 0x4770, 0xbf00, 0x4770];
-    assert_eq!(bound(&code, &[], &[(START + 4, START + 12)]).unwrap().instructions, 3);
+    // the same with zeros and nops up to where a loop is aligned; one between the entries is none of these
+    for filled in [[0, 0], [0xbf00, 0], [0xbf00, 0xbf00]] {
+        let code = [&[0xe8df, 0xf010, 4, 5][..], &filled, &[0x4770, 0xbf00, 0x4770]].concat();
+        assert_eq!(bound(&code, &[], &[(START + 4, START + 12)]).unwrap().instructions, 3);
+    }
     let code = [0xe8df, 0xf010, 4, 0, 5, 0, 0x4770, 0xbf00, 0x4770];
     let refused = bound(&code, &[], &[(START + 4, START + 12)]);
     assert_eq!(refused, Err(Refusal::NoCode { function: "f".into(), at: START + 4 }));

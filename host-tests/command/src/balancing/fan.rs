@@ -59,6 +59,7 @@ fn machine(words: Words, model: &Model, found: &[Complex<f64>], seed: u64) -> Re
         rotor: 1,
         load: 0.9 * BalancedFan::RATING.torque / BalancedFan::RATING.speed.powi(2),
         // ten blades, and a misaligned coupling
+        torque: 0.0,
         ripple: vec![(10.0, 40.0), (2.0, 30.0)],
         rated: BalancedFan::RATING.speed,
         torque_noise: 0.01 * BalancedFan::RATING.torque,

@@ -55,6 +55,7 @@ fn machine(words: Words, model: &Model, found: &[Complex<f64>], seed: u64) -> Re
         plant,
         rotor: 1,
         load: 0.0,
+        torque: 0.0,
         ripple: vec![(1.0, 2.0), (6.0, 4.0)],
         rated: Flexible::RATING.speed,
         torque_noise: 0.01 * Flexible::RATING.torque,

@@ -40,8 +40,9 @@ const WHEEL: f64 = 0.25;
 /// Longest wait for a window of turns [s]: three windows.
 const PATIENCE: f64 = 3.0 * 32.0 * TAU / SPEED;
 
-/// Stiffness of the belt at the motor [N m/rad]: both spans of 1 m, 125 kN for a strain of one, on pulleys of 0.28 m.
-const BELT: f64 = 2.0 * 125e3 / 1.0 * 0.14 * 0.14;
+/// Stiffness of the coupling [N m/rad]; with its damping of 3.6 N m s/rad half of the energy of a swing at the
+/// resonance of 110 rad/s is lost in each, by 2 pi c omega/k.
+const COUPLING: f64 = 4.9e3;
 
 /// Random: the rotor, its unbalance, its sensors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -104,7 +105,7 @@ pub fn grinder(words: Words, drive: &mut dyn Ticks, start: &GrinderStart) -> Res
     operator.bring_to(SPEED, SETTLE[0])?;
     let begun = operator.machine.seen().len();
     let swing = |share: f64| share * CUT;
-    operator.machine.set_load((IDLE + CUT) / (SPEED * SPEED), vec![(1.0, swing(SWING[0])), (2.0, swing(SWING[1]))]);
+    operator.machine.set_torque(CUT, vec![(1.0, swing(SWING[0])), (2.0, swing(SWING[1]))]);
     operator.wait(SETTLE[1])?;
 
     let told = Told::ask(&mut operator)?;
@@ -114,7 +115,7 @@ pub fn grinder(words: Words, drive: &mut dyn Ticks, start: &GrinderStart) -> Res
     let seen = operator.machine.seen();
     let window = &seen[told.from..told.to];
     let mut claims = observed(seen);
-    claims.extend(told.claims(&whole_turns(window), deviations(window)));
+    claims.extend(told.claims(&whole_turns(window)));
     claims.extend(governed(&seen[begun..told.from], &whole_turns(window)));
     claims.extend(course.claims());
     let rows = ["front bearing", "rear bearing"].map(str::to_owned).to_vec();
@@ -130,11 +131,12 @@ pub(super) fn run(words: Words, drive: &mut dyn Ticks, seed: u64) -> Result<Outc
 }
 
 fn machine(words: Words, model: &Model, found: Complex<f64>, start: &GrinderStart) -> Result<Machine, BalancingError> {
-    let plant = Chain::motor(0.5 + 0.02).shaft(Shaft::elastic(BELT).damping(3.6), 1.9).build()?;
+    let plant = Chain::motor(0.5 + 0.02).shaft(Shaft::elastic(COUPLING).damping(3.6), 1.9).build()?;
     let drivetrain = Drivetrain {
         plant,
         rotor: 1,
         load: IDLE / (SPEED * SPEED),
+        torque: 0.0,
         ripple: Vec::new(),
         rated: SPEED,
         torque_noise: 0.01 * SurfaceGrinder::RATING.torque,
@@ -186,10 +188,12 @@ fn mean(ticks: &[Seen], which: usize) -> f64 {
 /// What is claimed of the observer, over the whole run. The limits are those that the report holds every drivetrain
 /// with a tight shaft to.
 fn observed(seen: &[Seen]) -> Vec<Claim> {
-    let [_, load_speed, shaft_torque] = deviations(seen);
+    let [motor_speed, load_speed, shaft_torque] = deviations(seen);
     let peak = seen.iter().map(|tick| tick.truth[2].abs()).fold(0.0, f64::max);
     let faults = seen.iter().filter(|tick| tick.faults != 0).count();
     vec![
+        // so that a turn's extremes show its delta to 6 %
+        claim("error of the motor speed, rms, as a share of rated", motor_speed / SPEED, 2e-4),
         claim("error of the shaft torque, rms, as a share of its peak", shaft_torque / peak, 0.02),
         claim("error of the load speed, rms, as a share of rated", load_speed / SPEED, 0.003),
         claim("ticks with a fault", faults as f64, 0.0),
@@ -202,12 +206,12 @@ fn governed(after: &[Seen], turns: &[&[Seen]]) -> Vec<Claim> {
     let held = turns.iter().map(|turn| mean(turn, 1)).sum::<f64>() / turns.len() as f64;
     let least = whole_turns(after).iter().map(|turn| mean(turn, 0)).fold(f64::INFINITY, f64::min);
     // J s^2 + k_p s + k_i with a double pole at w dips by T/(J w e) under a step T of the load.
-    let bandwidth = 0.2 * (BELT / 1.9).sqrt();
+    let bandwidth = 0.2 * (COUPLING / 1.9).sqrt();
     let dip = CUT / ((0.52 + 1.9) * bandwidth * E);
     vec![
         // The integral leaves nothing; a turn in the mean begins and ends within a tick, of 816.
         claim("mean speed off its setpoint while it cuts, as a share", (held / SPEED - 1.0).abs(), 1e-4),
-        // A tenth for the belt, which the closed form leaves out.
+        // A tenth for the coupling, which the closed form leaves out.
         claim("dip of the speed as the cut begins, over that of a rigid machine", (SPEED - least) / dip, 1.1),
     ]
 }
@@ -255,8 +259,8 @@ impl Told {
         Ok(())
     }
 
-    /// What is claimed of it, against the plant in these turns, with these deviations of the estimates.
-    fn claims(&self, turns: &[&[Seen]], deviations: [f64; 3]) -> Vec<Claim> {
+    /// What is claimed of it, against the plant in these turns.
+    fn claims(&self, turns: &[&[Seen]]) -> Vec<Claim> {
         let period = 1.0 / f64::from(SurfaceGrinder::RATE_HZ);
         let order = |n: f64| {
             // over the angle, as the waveform: d phi = omega dt
@@ -277,7 +281,6 @@ impl Told {
         let ([motor, load], [first, second]) = ([delta(0), delta(1)], [order(1.0), order(2.0)]);
         let [waveform, extremes] = self.deltas;
         let off = |told: f64, truth: f64| (told / truth - 1.0).abs();
-        let noise = |told: f64, truth: f64, deviation: f64| (told - truth).abs() * SPEED / deviation;
         vec![
             // As the punch press's delta.
             claim("delta of the motor by the waveform, off as a share", off(waveform[0], motor), 0.01),
@@ -285,18 +288,11 @@ impl Told {
             claim("delta of the wheel by the waveform, off as a share", off(waveform[1], load), 0.027),
             claim("first order, off as a share", (self.orders[0] - first).norm() / first.norm(), 0.01),
             claim("second order, off as a share of the first", (self.orders[1] - second).norm() / first.norm(), 0.01),
-            // The noise of the estimate makes the largest speed too large and the least too small. Of the 204 samples
-            // of a turn one beyond four deviations is improbable, 0.6 %.
-            claim(
-                "delta of the motor by a turn's extremes, off in deviations of the estimate",
-                noise(extremes[0], motor, deviations[0]),
-                8.0,
-            ),
-            claim(
-                "delta of the wheel by a turn's extremes, off in deviations of the estimate",
-                noise(extremes[1], load, deviations[1]),
-                8.0,
-            ),
+            // The noise of the estimate makes the largest speed too large and the least too small: of the 204 samples of
+            // a turn by 2.75 deviations each on average, were they independent. Both deltas are 1.9 %. The motor's speed
+            // deviates by at most 0.02 % of rated, as claimed, the wheel's by 0.13 %.
+            claim("delta of the motor by a turn's extremes, off as a share", off(extremes[0], motor), 0.06),
+            claim("delta of the wheel by a turn's extremes, off as a share", off(extremes[1], load), 0.42),
         ]
     }
 }

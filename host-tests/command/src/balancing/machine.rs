@@ -20,6 +20,8 @@ pub struct Drivetrain {
     pub rotor: usize,
     /// Load torque per square of the speed [N m s2].
     pub load: f64,
+    /// Load torque at any speed [N m].
+    pub torque: f64,
     /// Ripple of the load: waves a turn and amplitude [N m] at the rated speed, where it is largest.
     pub ripple: Vec<(f64, f64)>,
     /// The rated speed [rad/s].
@@ -108,9 +110,9 @@ impl Machine {
         self.seen.as_deref().unwrap_or_default()
     }
 
-    /// Changes the load per square of the speed [N m s2] and its ripple.
-    pub fn set_load(&mut self, load: f64, ripple: Vec<(f64, f64)>) {
-        (self.drivetrain.load, self.drivetrain.ripple) = (load, ripple);
+    /// Changes the load torque at any speed [N m], and the ripple.
+    pub fn set_torque(&mut self, torque: f64, ripple: Vec<(f64, f64)>) {
+        (self.drivetrain.torque, self.drivetrain.ripple) = (torque, ripple);
     }
 
     /// Gives the drive its setpoint [rad/s] and releases it.
@@ -205,10 +207,10 @@ impl Machine {
 
     fn advance(&mut self, angle: f64, speed: f64) {
         let period = self.whirl.tick();
-        let Drivetrain { plant, rotor, load, ripple, rated, .. } = &mut self.drivetrain;
+        let Drivetrain { plant, rotor, load, torque, ripple, rated, .. } = &mut self.drivetrain;
         let share = (speed / *rated).powi(2);
         let waves: f64 = ripple.iter().map(|(order, size)| size * (order * angle).cos()).sum();
-        plant.set_load_torque(*rotor, *load * speed * speed.abs() + share * waves);
+        plant.set_load_torque(*rotor, *load * speed * speed.abs() + *torque + share * waves);
         plant.advance(self.applied, period);
         let (end_angle, end_speed) = (plant.angle(*rotor), plant.speed(*rotor));
         self.whirl.advance(&Turn { angle, speed, end_angle, end_speed, duration: period });

@@ -30,7 +30,7 @@ pub const fn scenes() -> [Scene; 4] {
         },
         Scene {
             name: "surface-grinder",
-            summary: "A surface grinder whose drive has all four parts: it observes belt and wheel, measures the \
+            summary: "A surface grinder whose drive has all four parts: it observes coupling and wheel, measures the \
                 fluctuation that a wheel out of round makes, governs, and balances the wheel while it cuts.",
             balance: grinder::run,
         },

@@ -107,6 +107,7 @@ fn machine(words: Words, model: &Model, found: Complex<f64>, start: &SpindleStar
         plant,
         rotor: 1,
         load: 0.5 * GrindingSpindle::RATING.torque / GrindingSpindle::RATING.speed.powi(2),
+        torque: 0.0,
         ripple: vec![(1.0, start.ripple), (4.0, 1.0)],
         rated: GrindingSpindle::RATING.speed,
         torque_noise: 0.01 * GrindingSpindle::RATING.torque,

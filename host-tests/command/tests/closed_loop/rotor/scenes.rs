@@ -82,10 +82,6 @@ fn a_grinder_with_all_four_parts_keeps_every_claim() {
         let row = find(variant).unwrap();
         let (course, outcome) = grinder(row.words(), &mut OnHost(row.start()), &GrinderStart::random(number)).unwrap();
         assert!(course.worst <= 1.3);
-        println!(
-            "{variant} {number}: {}",
-            outcome.claims.iter().map(|c| format!("{:.5} ", c.measured)).collect::<String>()
-        );
         for claim in &outcome.claims {
             assert!(claim.holds(), "{variant} from {number}: {claim:?}");
         }
