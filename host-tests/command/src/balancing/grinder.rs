@@ -288,9 +288,9 @@ impl Told {
             claim("delta of the wheel by the waveform, off as a share", off(waveform[1], load), 0.027),
             claim("first order, off as a share", (self.orders[0] - first).norm() / first.norm(), 0.01),
             claim("second order, off as a share of the first", (self.orders[1] - second).norm() / first.norm(), 0.01),
-            // The noise of the estimate makes the largest speed too large and the least too small: of the 204 samples of
-            // a turn by 2.75 deviations each on average, were they independent. Both deltas are 1.9 %. The motor's speed
-            // deviates by at most 0.02 % of rated, as claimed, the wheel's by 0.13 %.
+            // The noise of the estimate makes the largest speed too large and the least too small: of the 204 samples
+            // of a turn by 2.75 deviations each on average, were they independent. Both deltas are 1.9 %. The motor's
+            // speed deviates by at most 0.02 % of rated, as claimed, the wheel's by 0.13 %.
             claim("delta of the motor by a turn's extremes, off as a share", off(extremes[0], motor), 0.06),
             claim("delta of the wheel by a turn's extremes, off as a share", off(extremes[1], load), 0.42),
         ]

@@ -140,7 +140,21 @@ fn over_ticks(torque: &[f64], between: Between, late: f64) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Between, over_ticks};
+    use std::f64::consts::TAU;
+
+    use super::{Between, over_ticks, unwrapped};
+
+    #[test]
+    fn an_angle_that_comes_round_goes_on() {
+        for step in [1.7, -1.7, 3.0] {
+            let angle = |at: i32| 3.0 + step * f64::from(at);
+            let wrapped: Vec<f64> = (0..50).map(|at| angle(at).rem_euclid(TAU)).collect();
+            for (at, found) in (0..).zip(unwrapped(&wrapped)) {
+                // rounding of sums of 150
+                assert!((found - angle(at)).abs() < 1e-12, "{at}: {found}");
+            }
+        }
+    }
 
     #[test]
     fn the_mean_of_a_ramp_lags_by_half_a_tick_and_its_delay() {

@@ -29,8 +29,8 @@ pub struct Windowed {
 /// Angle by which a good wheel's teeth are out of place \[rad\]: a tenth of a degree, 0.2 mm at a radius of 100 mm.
 const TEETH: f64 = 1.75e-3;
 
-/// What speaks against a ripple by the times of teeth, over a cycle of so many turns: its orders explain angles of their
-/// own size.
+/// What speaks against a ripple by the times of teeth, over a cycle of so many turns: its orders explain angles of
+/// their own size.
 pub fn doubt(ripple: &Ripple, turns: u32) -> Option<&'static str> {
     let angle = |(n, order): (usize, &Order)| order.amplitude() / ripple.speed.mean / (n + 1) as f64;
     let square: f64 = ripple.speed.orders.iter().enumerate().map(angle).map(|angle| 0.5 * angle * angle).sum();

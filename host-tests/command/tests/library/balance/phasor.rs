@@ -259,7 +259,8 @@ fn the_floor_of_a_machine_is_the_same_in_every_number() {
     machine!(Above, 1.0);
     machine!(Below, 0.05);
     type One<N> = Phasors<N, 1, 9>;
-    // a block of 400 samples has noise of 1.6 sqrt(2/400) sqrt(2) = 0.16, the mean of eight 0.057: 28 % of 0.2, 6 % of 1
+    // a block of 400 samples has noise of 1.6 sqrt(2/400) sqrt(2) = 0.16, the mean of eight 0.057: 28 % of 0.2, 6 % of
+    // the floor of 1
     let signal = |theta: f64, noise: &mut Noise| 0.2 * theta.cos() + 1.6 * noise.normal();
     for seed in 0..10 {
         let rig = || Rig { noise: Noise::new(2000 + seed), ..Rig::new(50.0) };
