@@ -7,6 +7,7 @@
 pub mod balanced;
 pub mod composed;
 pub mod expected;
+pub mod no_load;
 pub mod on_axis;
 pub mod panel_keys;
 pub mod table;

@@ -4,11 +4,12 @@
 //! inertia:
 //!
 //! ```text
-//! J = integral(tau - tau_steady) dt / (omega_2 - omega_1)
+//! J = integral(tau - tau_steady) dt / (omega_2 - omega_1 - integral(alpha_steady) dt)
 //! ```
 //!
-//! tau_steady is the mean torque of the two speeds. It is the change of the load torque's estimate per acceleration,
-//! without the observer's lag. Behind a gear with losses the load's share of J is larger by the friction per shaft
+//! tau_steady is the mean torque of the two speeds, and alpha_steady the mean acceleration that is left there: a slow
+//! loop creeps into its setpoint. It is the change of the load torque's estimate per acceleration, without the
+//! observer's lag. Behind a gear with losses the load's share of J is larger by the friction per shaft
 //! torque. Where the load's inertia is known by its weight, the rest is the motor's.
 //!
 //! Only speeds of one direction count, with equal torques: otherwise the load has changed. A finding while the motor
@@ -145,7 +146,7 @@ impl RunUp {
         }
         self.last = Some(now);
         let Some(last) = last else { return Finding::None };
-        let change = now.speed - last.speed;
+        let change = now.end - last.end;
         if count > config.pause || last.speed * now.speed <= 0.0 || change.abs() < config.least_change {
             return Finding::None;
         }
@@ -154,8 +155,11 @@ impl RunUp {
             self.unconfirmed = None;
             return Finding::Rejected;
         }
-        let steady = 0.5 * (now.torque + last.torque) * count as f32;
-        self.confirm(config, (sum - steady) * config.every / change, change * now.speed > 0.0)
+        // the windows' own torque and change of the speed, for as long as this motion
+        let windows = count as f32 / (2 * config.window) as f32;
+        let steady = (now.torque + last.torque) * windows * config.window as f32;
+        let beyond = change - (now.change + last.change) * windows;
+        self.confirm(config, (sum - steady) * config.every / beyond, change * now.speed > 0.0)
     }
 
     fn confirm(&mut self, config: &RunUpConfig, found: f32, accelerating: bool) -> Finding {

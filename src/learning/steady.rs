@@ -9,8 +9,12 @@ const SAME_SPEED: f32 = 0.2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Steady {
-    /// At its beginning \[rad/s\].
+    /// That it is steady about \[rad/s\].
     pub speed: f32,
+    /// At its end \[rad/s\].
+    pub end: f32,
+    /// Change of the speed over it \[rad/s\].
+    pub change: f32,
     /// Mean \[N m\].
     pub torque: f32,
     /// Difference of the means of its two halves \[N m\].
@@ -22,7 +26,10 @@ pub(super) struct Steady {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Window {
     count: u32,
+    /// That the others are compared with.
     speed: f32,
+    /// At the beginning.
+    first: f32,
     /// Of the two halves.
     sums: [f32; 2],
 }
@@ -35,6 +42,9 @@ impl Window {
             *self = Window { speed, ..Window::default() };
             return None;
         }
+        if self.count == 0 {
+            self.first = speed;
+        }
         let half = length / 2;
         let [first, second] = &mut self.sums;
         *(if self.count < half { first } else { second }) += torque;
@@ -44,7 +54,13 @@ impl Window {
         }
         let [first, second] = self.sums.map(|sum| sum / half as f32);
         (self.count, self.sums) = (0, [0.0; 2]);
-        Some(Steady { speed, torque: 0.5 * (first + second), drift: (first - second).abs() })
+        Some(Steady {
+            speed: self.speed,
+            end: speed,
+            change: speed - self.first,
+            torque: 0.5 * (first + second),
+            drift: (first - second).abs(),
+        })
     }
 }
 

@@ -4,6 +4,7 @@
 //! the scene, since direct drive refers nothing.
 
 use driveline::configure::Machine as _;
+use driveline_firmware::scene::no_load::panel;
 use driveline_firmware::scenes::blooming_mill::BloomingMill;
 
 use super::departure::Departure;
@@ -45,6 +46,38 @@ fn chain(program: LoadProgram, by: &Departure) -> Result<Plant, PlantError> {
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     departing(&Departure::NONE)
+}
+
+/// A run for the learners with the spindles uncoupled: motor and pinion stand, with half of the friction, three steps
+/// of the speed in either direction. Spindle heads of a thousandth of the rolls' inertia stay.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn uncoupled(by: &Departure) -> Result<Scenario, PlantError> {
+    let [slow, fast] = [0.3, 0.9].map(|share| share * BloomingMill::RATING.speed);
+    let there = [slow, fast, slow];
+    let back = there.map(|speed| -speed);
+    let speeds = [&there[..], &back, &there, &back, &[slow]].concat();
+    let plant = Chain::motor(1.1e5 * by.motor_inertia)
+        .shaft(Shaft::elastic(1.2e9 * by.stiffness).damping(3.0e5), 1.0e4)
+        .coulomb(0.5 * FRICTION)
+        .shaft(Shaft::elastic(2.2e5).damping(1.0e2), 22.0)
+        .start(Start::Rest)
+        .build()?;
+    let mut actions = vec![(0.1, Action::Release), (0.1, Action::Panel(panel::NO_LOAD, 1.0))];
+    actions.extend((0..).zip(&speeds).map(|(k, speed)| (0.2 + 2.5 * f64::from(k), Action::Setpoint(*speed))));
+    let end = 0.2 + 2.5 * speeds.len() as f64;
+    actions.extend([(end, Action::Panel(panel::NO_LOAD, 0.0)), (end, Action::Setpoint(0.0))]);
+    Ok(Scenario {
+        name: "spindles uncoupled",
+        plant: plant.into(),
+        held: 0.0,
+        actions,
+        duration: end + 1.0,
+        counted: true,
+        marks: Vec::new(),
+        law: None,
+    })
 }
 
 /// The mill as it is.

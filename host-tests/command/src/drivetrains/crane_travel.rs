@@ -2,6 +2,7 @@
 //! wind.
 
 use driveline::configure::Machine as _;
+use driveline_firmware::scene::no_load::panel;
 use driveline_firmware::scenes::crane_travel::{self as scene, CraneTravel};
 
 use super::departure::Departure;
@@ -57,6 +58,39 @@ fn resistance(plant: &Body) -> f64 {
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
     departing(&Departure::NONE)
+}
+
+/// A run for the learners with an empty hook: a step of the speed on 40 m there and back, then a short way there. The
+/// travelling resistance is that of the lighter crane.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn empty_hook(by: &Departure) -> Result<Scenario, PlantError> {
+    let square = TRAVEL * TRAVEL;
+    let plant = Chain::motor((0.2 + BRIDGE * square) * by.motor_inertia)
+        .coulomb(RESISTANCE * (scene::HOOK + BRIDGE) / (LOAD + BRIDGE))
+        .shaft(Shaft::elastic(PENDULUM * scene::HOOK / LOAD / by.rope), scene::HOOK * square)
+        .build()?;
+    let [slow, fast] = [0.35, 0.9].map(|share| share * CraneTravel::RATING.speed);
+    let mut actions = vec![(0.1, Action::Release), (0.1, Action::Panel(panel::NO_LOAD, 1.0))];
+    let mut time = 0.2;
+    for (speed, lasts) in
+        [(slow, 20.0), (fast, 20.0), (slow, 22.0), (-slow, 24.0), (-fast, 20.0), (-slow, 22.0), (slow, 24.0)]
+    {
+        actions.push((time, Action::Setpoint(speed)));
+        time += lasts;
+    }
+    actions.extend([(time, Action::Panel(panel::NO_LOAD, 0.0)), (time, Action::Setpoint(0.0))]);
+    Ok(Scenario {
+        name: "empty hook",
+        plant: plant.into(),
+        held: 0.0,
+        actions,
+        duration: time + 15.0,
+        counted: true,
+        marks: Vec::new(),
+        law: None,
+    })
 }
 
 /// The crane as it is.
