@@ -13,8 +13,8 @@ const fn has_ticks<M: Machine>(least: f64) {
     let ticks = turns.min(1.0) * TAU / (M::RATING.speed * M::PERIOD);
     assert!(
         !(ticks < least),
-        "at rated speed a cycle has fewer than 64 ticks, or 256 beside a waveform, the least for its extremes: raise the \
-        rate, or measure the waveform alone"
+        "at rated speed a cycle has fewer than 64 ticks, or 256 beside a waveform, the least for its extremes: raise \
+        the rate, or measure the waveform alone"
     );
 }
 

@@ -1,15 +1,17 @@
 //! A surface grinder whose drive has all four parts: it observes, measures the fluctuation, governs and balances.
 //!
 //! A 22 kW, eight-pole motor at 735 r/min (286 N m; makers' tables give 0.5 kg m2 for frame size 225) turns a vertical
-//! spindle with a wheel of segments, 500 mm in diameter, through a soft rubber coupling of 400 N m. Its half at the motor
-//! has 0.02 kg m2; 4.9 kN m/rad and a relative damping of a half are assumed. Chuck, segments and spindle have 1.9 kg
-//! m2. The motor's encoder has 2048 sine periods on a turn, each interpolated to 64 counts. The figures are of the size
-//! of such machines; they are not those of one.
+//! spindle with a wheel of segments, 500 mm in diameter, through a soft rubber coupling of 400 N m. Its half at the
+//! motor has 0.02 kg m2; 4.9 kN m/rad and a relative damping of a half are assumed. Chuck, segments and spindle have
+//! 1.9 kg m2. The motor's encoder has 2048 sine periods on a turn, each interpolated to 64 counts. The figures are of
+//! the size of such machines; they are not those of one.
 //!
 //! One segment stands proud of the others: the torque of the cut swings once and twice a turn, on either side of the
 //! coupling's resonance of 17 Hz. The cut acts as a torque alone. A force of it on the spindle once a turn would be
-//! balanced with the wheel, and be missing after the cut: a real machine is balanced while it idles. Segments wear unevenly, so the wheel is out of balance. A balancing head in the spindle
-//! moves two masses round the axis; two velocity sensors stand on the bearing housings.
+//! balanced with the wheel, and be missing after the cut: a real machine is balanced while it idles.
+//!
+//! Segments wear unevenly, so the wheel is out of balance. A balancing head in the spindle moves two masses round the
+//! axis; two velocity sensors stand on the bearing housings.
 //!
 //! | variant | has |
 //! |---|---|
@@ -74,8 +76,8 @@ pub const COUNTS: u32 = 2048 * 64;
 /// and do not average out: with 16 bins the second order is off by 0.5 % of the first, with 32 by 0.1 %.
 pub const BINS: usize = 32;
 
-/// Highest order of the waveform: the cut swings once and twice a turn, and through the coupling an error of a higher order
-/// would grow with its square.
+/// Highest order of the waveform: the cut swings once and twice a turn, and through the coupling an error of a higher
+/// order would grow with its square.
 pub const HIGHEST: usize = 2;
 
 /// The largest correction of the head \[kg m\].
