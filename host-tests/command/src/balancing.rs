@@ -15,6 +15,7 @@
 mod error;
 mod fan;
 mod flexible;
+mod four_parts;
 mod grinder;
 mod in_run;
 mod machine;
