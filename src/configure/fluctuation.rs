@@ -13,7 +13,7 @@ const fn has_ticks<M: Machine>(least: f64) {
     let ticks = turns.min(1.0) * TAU / (M::RATING.speed * M::PERIOD);
     assert!(
         !(ticks < least),
-        "at rated speed a cycle has fewer than 64 ticks, or 256 beside a waveform, the least for its extremes: raise \
+        "at rated speed a cycle has fewer than 96 ticks, or 160 beside a waveform, the least for its extremes: raise \
         the rate, or measure the waveform alone"
     );
 }
@@ -23,7 +23,7 @@ macro_rules! measurements {
         impl<M: Machine> Configure<M, $number> for Extremes<$number> {
             type Config = CycleConfig;
             const CONFIG: CycleConfig = {
-                has_ticks::<M>(64.0);
+                has_ticks::<M>(96.0);
                 CycleConfig::new(M::CYCLE, M::PERIOD, $bases)
             };
         }
@@ -37,7 +37,7 @@ macro_rules! measurements {
         impl<M: Machine, const BINS: usize> Configure<M, $number> for Interleaved<$number, BINS> {
             type Config = WaveformConfig;
             const CONFIG: WaveformConfig = {
-                has_ticks::<M>(256.0);
+                has_ticks::<M>(160.0);
                 <Waveform<$number, BINS> as Configure<M, $number>>::CONFIG
             };
         }

@@ -19,7 +19,8 @@ pub struct WaveformConfig {
 
 /// Sums of many numbers, beside the operations of [`Number`].
 pub trait Summed: Number {
-    /// A sum of many numbers: a float itself; in fixed point of twice the width.
+    /// A sum of many numbers: a float itself; in fixed point two words, the lower one first. As one number of twice the
+    /// width it would leave a gap in a bin, and emptying the bins would take a store for each of their fields.
     type Total: Copy + Default + PartialEq + core::fmt::Debug;
     /// `total` and the number.
     fn added_to(self, total: Self::Total) -> Self::Total;
@@ -28,15 +29,17 @@ pub trait Summed: Number {
 }
 
 impl Summed for Fixed {
-    type Total = i64;
+    type Total = [u32; 2];
 
     #[inline(always)]
-    fn added_to(self, total: i64) -> i64 {
-        total.wrapping_add(i64::from(self.to_bits()))
+    fn added_to(self, [low, high]: [u32; 2]) -> [u32; 2] {
+        let total = u64::from(high) << 32 | u64::from(low);
+        let total = total.wrapping_add_signed(i64::from(self.to_bits()));
+        [total as u32, (total >> 32) as u32]
     }
 
-    fn total_to_real(total: i64) -> f64 {
-        total as f64 / 268_435_456.0
+    fn total_to_real([low, high]: [u32; 2]) -> f64 {
+        (u64::from(high) << 32 | u64::from(low)) as i64 as f64 / 268_435_456.0
     }
 }
 

@@ -4,7 +4,7 @@
 //! between detect the end of the cycle or do a slice of its work. The extreme between the samples is found by a
 //! parabola through three of them: of a sine with 64 ticks to its period it then misses at most 0.06 % of the
 //! amplitude, with 40 ticks 0.35 %. The mean by time is exact: the cycle's angle over the time between its two ends,
-//! which are interpolated. A cycle, and a turn of a longer one, must have 64 ticks: the work at its end takes half of
+//! which are interpolated. A cycle, and a turn of a longer one, must have 96 ticks: the work at its end takes half of
 //! them.
 //!
 //! The speeds are the observer's. A ripple much faster than the observer is smaller in them than it is, and their noise

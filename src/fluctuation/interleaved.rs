@@ -2,7 +2,7 @@
 //!
 //! In a pair each part takes its slice of work in the same ticks. Here of four ticks two look at the speeds, one does a
 //! slice of the waveform's work, and one a slice of the extremes'. Each end of a cycle takes twice as long: a cycle,
-//! and a turn of a longer one, must have 256 ticks.
+//! and a turn of a longer one, must have 160 ticks.
 
 use super::{Extremes, Fluctuation, Ranked, Summed, Waveform, WaveformConfig};
 use crate::sample::Estimate;
@@ -100,6 +100,38 @@ mod tests {
             }
             assert!(windows >= 2, "{start}, {sign}: {windows}");
         }
+    }
+
+    /// As few ticks to a turn as there may be, of both alone and together, in both directions and from anywhere.
+    #[test]
+    fn a_turn_may_have_few_ticks() {
+        fn run<F: Fluctuation<f32> + Default>(
+            config: &F::Config,
+            ticks: f64,
+            reading: fn(&F) -> Option<crate::fluctuation::Reading>,
+        ) {
+            for (start, sign) in (0..50).flat_map(|start| [(start, 1.0), (start, -1.0)]) {
+                let (mut measured, w) = (F::default(), core::f64::consts::TAU / ticks / 1e-4);
+                let mut phi = core::f64::consts::TAU * (f64::from(start) + 0.7) / 50.0;
+                for tick in 0..3_000 {
+                    let speed = sign * w * (1.0 + 0.01 * phi.cos());
+                    let estimate =
+                        Estimate { motor_speed: speed as f32, load_speed: speed as f32, ..Estimate::default() };
+                    phi += 1e-4 * speed;
+                    let angle = (phi / core::f64::consts::TAU).rem_euclid(1.0) * 4_294_967_296.0;
+                    measured.measure(config, angle as u32, 0.0, &estimate);
+                    // found by then: eight turns and more
+                    if tick > 1_500 {
+                        let turn = reading(&measured).unwrap();
+                        // a thousandth of the swing's angle, and the parabola's 0.06 % with 24 samples to a period
+                        assert!((turn.mean / (sign * w) - 1.0).abs() < 1e-4, "{ticks}, {start}, {sign}: {turn:?}");
+                        assert!((turn.motor.delta - 0.02).abs() < 1e-4, "{ticks}, {start}, {sign}: {turn:?}");
+                    }
+                }
+            }
+        }
+        run::<crate::fluctuation::Extremes<f32>>(&CYCLE, 96.0, |one| one.reading(&CYCLE));
+        run::<Interleaved<f32, 32>>(&CONFIG, 160.0, |both| both.extremes().reading(&CYCLE));
     }
 
     /// An angle that is lost as the end of a segment is being dealt with: no turn of it is a reading.

@@ -1,7 +1,7 @@
 #![no_std]
 #![no_main]
-//! The test rig on a NUCLEO-G474RE: the control loop in the timer's interrupt, balancing and telemetry in the main
-//! loop.
+//! The test rig on a NUCLEO-G474RE, a drive with all four parts: the control loop in the timer's interrupt, balancing,
+//! the fluctuation's figures and telemetry in the main loop.
 //!
 //! The blue button stops the drive when it is touched, and starts it when it was pressed and let go.
 //! `cargo driveline watch` shows the telemetry; requests come as frames of [`Asking`]. See `doc/boards.md`.
@@ -22,14 +22,14 @@ use driveline_firmware::board::nucleo_g474re::{
 use driveline_firmware::control_loop::main_loop_watch::Attended;
 use driveline_firmware::control_loop::step::{Asked, Turn};
 use driveline_firmware::control_loop::telemetry;
+use driveline_firmware::panel::axis_panel::{AxisPanel, BetweenTicks};
 use driveline_firmware::panel::serial_request::{Asking, RELEASE, SPEED};
-use driveline_firmware::scene::balanced::{Adviser as _, Measurement, reading, state};
-use driveline_firmware::scene::panel_keys::{DONE, Key};
+use driveline_firmware::scene::panel_keys::DONE;
 use driveline_firmware::scene::{Constants, Variant};
 use driveline_firmware::scenes::test_rig::{self, Adviser, TestRig};
 use stm32_metapac::{Interrupt, interrupt};
 
-driveline_firmware::selected!("test-rig/f32/two-mass/10000");
+driveline_firmware::selected!("test-rig/f32/whole/10000");
 
 /// State owned by the interrupt.
 struct Control {
@@ -49,9 +49,9 @@ unsafe impl Sync for Owned {}
 
 static CONTROL: Owned = Owned(UnsafeCell::new(MaybeUninit::uninit()));
 
-/// Values of a record: those of a scene, the two velocities, the last answer.
-const VALUES: usize = telemetry::VALUES + 3;
-/// Ticks between two records: a thousand of 57 bytes a second, two thirds of what the port takes.
+/// Values of a record: those of a scene, the two velocities, the last answer, the last turn's fluctuation.
+const VALUES: usize = telemetry::VALUES + 6;
+/// Ticks between two records: a thousand of 69 bytes a second, three quarters of what the port takes.
 const TICKS: u32 = 10;
 /// Records between two descriptions of the channels.
 const DESCRIBED: u32 = 1_000;
@@ -62,12 +62,18 @@ static TURNS: AtomicU32 = AtomicU32::new(0);
 static RELEASED: AtomicBool = AtomicBool::new(false);
 static REFERENCE: AtomicU32 = AtomicU32::new((test_rig::SPEED as f32).to_bits());
 static ANSWER: AtomicU32 = AtomicU32::new(0);
+/// Mean speed, delta of motor and load in the last turn that was finished.
+static LAST_TURN: [AtomicU32; 3] = [const { AtomicU32::new(0) }; 3];
 
 const COLUMNS: [Column<'static>; VALUES] = {
     let [a, b, c, d, e, f, g, h] = telemetry::channels::<Selected>();
     let first = Column { name: "vibration 1", unit: "m/s", kind: Kind::Single };
     let second = Column { name: "vibration 2", unit: "m/s", kind: Kind::Single };
-    [a, b, c, d, e, f, g, h, first, second, Column { name: "answer", unit: "", kind: Kind::Integer(1.0) }]
+    let answer = Column { name: "answer", unit: "", kind: Kind::Integer(1.0) };
+    let mean = Column { name: "mean speed", unit: "rad/s", kind: Kind::Single };
+    let motor = Column { name: "delta of motor", unit: "", kind: Kind::Single };
+    let load = Column { name: "delta of load", unit: "", kind: Kind::Single };
+    [a, b, c, d, e, f, g, h, first, second, answer, mean, motor, load]
 };
 
 /// A tick.
@@ -89,7 +95,9 @@ fn TIM6_DAC() {
         *left = TICKS;
         let [a, b, c, d, e, f, g, h] = telemetry::values(&input, &output);
         let [first, second] = input.vibration;
-        RECORDS.record(&[a, b, c, d, e, f, g, h, first, second, ANSWER.load(Ordering::Relaxed)]);
+        let answer = ANSWER.load(Ordering::Relaxed);
+        let [mean, motor, load] = LAST_TURN.each_ref().map(|value| value.load(Ordering::Relaxed));
+        RECORDS.record(&[a, b, c, d, e, f, g, h, first, second, answer, mean, motor, load]);
     }
 }
 
@@ -112,13 +120,14 @@ fn main() -> ! {
     // SAFETY: the interrupt's state is initialised.
     unsafe { NVIC::unmask(Interrupt::TIM6_DAC) };
 
-    let mut desk = Desk { serial, asking: Asking::default(), adviser: Adviser::new() };
+    let mut desk = Desk { serial, asking: Asking::default(), panel: AxisPanel::default() };
     let mut starter = Starter { resting: button.is_high(), button, pressed: false, turns: 0, stopped: false };
     let mut told = DESCRIBED;
     loop {
         TURNS.store(TURNS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
         starter.look();
         desk.serve();
+        desk.note_turn();
         if told >= DESCRIBED {
             told = 0;
             let Ok(()) = Column::send(&COLUMNS, &mut desk.serial);
@@ -164,11 +173,11 @@ impl Starter {
     }
 }
 
-/// Tasks of the main loop: the terminal and the balancing.
+/// Tasks of the main loop: the terminal, the balancing and the fluctuation.
 struct Desk {
     serial: Serial,
     asking: Asking,
-    adviser: Adviser,
+    panel: AxisPanel<TestRig, Adviser>,
 }
 
 impl Desk {
@@ -182,43 +191,39 @@ impl Desk {
     }
 
     fn answer(&mut self, [key, value]: [u32; 2]) -> u32 {
-        match (key, Key::of(key)) {
-            (RELEASE, _) => {
+        match key {
+            RELEASE => {
                 RELEASED.store(value == 1, Ordering::Relaxed);
                 DONE
             }
-            (SPEED, _) => {
+            SPEED => {
                 // a value that is no speed is refused by the drive, and flagged
                 REFERENCE.store(value, Ordering::Relaxed);
                 DONE
             }
-            (_, Some(Key::Begin)) => {
-                between_ticks(|scene| scene.begin());
-                DONE
-            }
-            (_, Some(key)) => {
-                // a tick may wait for the copy, but not for its processing
-                let measurement = between_ticks(|scene| *scene.measurement());
-                self.advise(key, value, &measurement)
-            }
-            _ => 0,
+            _ => self.panel.ask(<Selected as Constants>::CONFIG, &mut Interrupted, [key, value]),
         }
     }
 
-    fn advise(&mut self, key: Key, value: u32, measurement: &Measurement<f32>) -> u32 {
-        let balancer = &<Selected as Constants>::CONFIG.balancer;
-        match key {
-            Key::State => state::<TestRig, f32>(balancer, measurement),
-            key => self.adviser.ask(key, value, reading::<TestRig, f32>(balancer, measurement).ok()),
+    /// Puts the fluctuation of a turn that was finished into the records.
+    fn note_turn(&mut self) {
+        if let Some(turn) = self.panel.new_turn(<Selected as Constants>::CONFIG, &mut Interrupted) {
+            for (kept, value) in LAST_TURN.iter().zip(turn) {
+                kept.store(value.to_bits(), Ordering::Relaxed);
+            }
         }
     }
 }
 
-/// Does something with the scene between two ticks; once the interrupt is unmasked.
-fn between_ticks<T>(action: impl FnOnce(&mut <Selected as Variant>::Scene) -> T) -> T {
-    free(|_| {
-        // SAFETY: interrupts are off, and `main` has initialised it before there was anything to answer.
-        let control = unsafe { (*CONTROL.0.get()).assume_init_mut() };
-        action(&mut control.scene)
-    })
+/// The scene of the interrupt, once that is unmasked.
+struct Interrupted;
+
+impl BetweenTicks<<Selected as Variant>::Scene> for Interrupted {
+    fn between_ticks<T>(&mut self, action: impl FnOnce(&mut <Selected as Variant>::Scene) -> T) -> T {
+        free(|_| {
+            // SAFETY: interrupts are off, and `main` has initialised it before there was anything to answer.
+            let control = unsafe { (*CONTROL.0.get()).assume_init_mut() };
+            action(&mut control.scene)
+        })
+    }
 }

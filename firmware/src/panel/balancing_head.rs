@@ -70,3 +70,17 @@ impl<H: Head> Adviser for HeadPanel<H> {
         }
     }
 }
+
+/// A head beside another panel of weights, which keeps all keys but those of the head.
+impl<A: Adviser, H: Head> Adviser for (A, HeadPanel<H>) {
+    fn new() -> Self {
+        (A::new(), HeadPanel::new())
+    }
+
+    fn ask(&mut self, key: Key, value: u32, measured: Option<Measured>) -> u32 {
+        match key {
+            Key::Step | Key::HeadRe | Key::HeadIm => self.1.ask(key, value, measured),
+            _ => self.0.ask(key, value, measured),
+        }
+    }
+}

@@ -13,7 +13,8 @@ use core::marker::PhantomData;
 use driveline::configure::HasVibration;
 use driveline::drive::ConfigOf;
 use driveline::fault::Faults;
-use driveline::governor::SpeedLoop;
+use driveline::fluctuation::Fluctuation;
+use driveline::governor::Governor;
 use driveline::hal::{Axis, Board, TRIPPING};
 use driveline::number::Number;
 use driveline::observer::Observer;
@@ -66,40 +67,65 @@ impl<N: Number> Board<N> for Image<N> {
     }
 }
 
-type Parts<N, O> = Axis<Image<N>, N, O, (), SpeedLoop<N>, Measurement<N>>;
-
-/// An axis with its constants. What balances is beside it: the panel only begins readings.
-pub struct OnAxis<M, N: SensorUnit + 'static, O: Observer<N, Config: 'static>> {
+/// An axis with its constants. Its panel is beside it, as [`AxisPanel`](crate::panel::axis_panel::AxisPanel): here it
+/// only begins readings.
+pub struct OnAxis<M, N, O, F, G>
+where
+    N: SensorUnit + 'static,
+    O: Observer<N, Config: 'static>,
+    F: Fluctuation<N, Config: 'static>,
+    G: Governor<N, Config: 'static>,
+{
     // By reference: folded into the code, the constants cost more instructions than loaded from a table.
-    config: &'static ConfigOf<BalancedDrive<N, O>>,
-    axis: Parts<N, O>,
+    config: &'static ConfigOf<BalancedDrive<N, O, F, G>>,
+    axis: Axis<Image<N>, N, O, F, G, Measurement<N>>,
     released: bool,
     machine: PhantomData<M>,
 }
 
-impl<M, N: SensorUnit, O: Observer<N, Config: 'static>> OnAxis<M, N, O> {
-    /// Begins a reading of the vibration: between two ticks.
-    pub fn begin(&mut self) {
-        self.axis.drive_mut().balancer_mut().begin();
+impl<M, N, O, F, G> OnAxis<M, N, O, F, G>
+where
+    N: SensorUnit + 'static,
+    O: Observer<N, Config: 'static>,
+    F: Fluctuation<N, Config: 'static>,
+    G: Governor<N, Config: 'static>,
+{
+    /// The drive, to look at.
+    pub fn drive(&self) -> &BalancedDrive<N, O, F, G> {
+        self.axis.drive()
     }
 
-    /// The reading, complete or not: to be copied between two ticks, and worked on at leisure.
-    pub fn measurement(&self) -> &Measurement<N> {
-        self.axis.drive().balancer()
+    /// The drive, for actions between two ticks.
+    pub fn drive_mut(&mut self) -> &mut BalancedDrive<N, O, F, G> {
+        self.axis.drive_mut()
     }
 }
 
-impl<M: HasVibration, N: SensorUnit, O: Observer<N, Config: 'static>> FromConfig for OnAxis<M, N, O> {
-    type Drive = BalancedDrive<N, O>;
+impl<M, N, O, F, G> FromConfig for OnAxis<M, N, O, F, G>
+where
+    M: HasVibration,
+    N: SensorUnit + 'static,
+    O: Observer<N, Config: 'static>,
+    F: Fluctuation<N, Config: 'static>,
+    G: Governor<N, Config: 'static>,
+{
+    type Drive = BalancedDrive<N, O, F, G>;
 
-    fn from_config(config: &'static ConfigOf<BalancedDrive<N, O>>) -> Self {
+    fn from_config(config: &'static ConfigOf<Self::Drive>) -> Self {
         // An incremental encoder counts from where it was switched on.
         let board = Image { angle: 0, torque: N::ZERO, faults: Faults::NONE };
         OnAxis { config, axis: Axis::new(board, config, TRIPPING), released: false, machine: PhantomData }
     }
 }
 
-impl<M: HasVibration, N: SensorUnit, O: Observer<N, Config: 'static>> Scene for OnAxis<M, N, O> {
+impl<M, N, O, F, G> Scene for OnAxis<M, N, O, F, G>
+where
+    M: HasVibration,
+    N: SensorUnit + 'static,
+    O: Observer<N, Config: 'static>,
+    F: Fluctuation<N, Config: 'static>,
+    G: Governor<N, Config: 'static>,
+{
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
         let word = <N as Number>::from_word;
@@ -126,10 +152,10 @@ impl<M: HasVibration, N: SensorUnit, O: Observer<N, Config: 'static>> Scene for 
         match Key::of(key) {
             None => 0,
             Some(Key::Begin) => {
-                self.begin();
+                self.drive_mut().balancer_mut().begin();
                 DONE
             }
-            Some(Key::State) => state::<M, N>(&self.config.balancer, self.measurement()),
+            Some(Key::State) => state::<M, N>(&self.config.balancer, self.drive().balancer()),
             Some(_) => refused(3),
         }
     }

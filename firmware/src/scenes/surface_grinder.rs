@@ -22,15 +22,17 @@ use driveline::balancing::{InRunConfig, Steadiness};
 use driveline::configure::{HasVibration, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, SpeedLoopDesign, SpeedLoopTuning};
 use driveline::drive::ConfigOf;
-use driveline::fluctuation::{Drivetrain, Interleaved, Ranked, Summed};
+use driveline::fluctuation::{Interleaved, Ranked, Summed};
 use driveline::governor::{SpeedGovernor, SymmetricLimit};
 use driveline::machine::{Chain, Damping, Inertia, Stiffness};
 use driveline::observer::SemiImplicitObserver;
 use driveline::settings::{PhasorSettings, Screening};
 
 use crate::panel::balancing_head::{Head, HeadPanel};
+use crate::panel::fluctuation::{FluctuationPanel, TAKE};
 use crate::scene::balanced::{BalancedDrive, Panel, Sampled, SensorUnit};
 use crate::scene::composed::{Beside, Composed};
+use crate::scene::panel_keys::Key;
 use crate::scene::table::variants;
 use crate::scene::{Input, Output};
 
@@ -76,10 +78,6 @@ pub const COUNTS: u32 = 2048 * 64;
 /// and do not average out: with 16 bins the second order is off by 0.5 % of the first, with 32 by 0.1 %.
 pub const BINS: usize = 32;
 
-/// Highest order of the waveform: the cut swings once and twice a turn, and through the coupling an error of a higher
-/// order would grow with its square.
-pub const HIGHEST: usize = 2;
-
 /// The largest correction of the head \[kg m\].
 pub const CAPACITY: f64 = 2.0e-2;
 
@@ -117,53 +115,15 @@ variants! {
     "tick": Tick for SurfaceGrinder;
 }
 
-/// Keys of the panel beside those of the [balancing](crate::scene::panel_keys), whose numbers end before these. The
-/// answers are the bits of `f32`, 0 where there is none yet.
-pub mod panel {
-    /// Keeps the waveform of the last finished turns; answers [`DONE`], or [`NOT_YET`] where there is none.
-    pub const TAKE: u32 = 64;
-    /// Delta of the motor by the waveform that was kept.
-    pub const MOTOR_DELTA: u32 = 65;
-    /// Delta of the wheel by the same, through the coupling.
-    pub const LOAD_DELTA: u32 = 66;
-    /// Cosine of the motor's order `value`, from 1 on \[rad/s\].
-    pub const COSINE: u32 = 67;
-    /// Its sine.
-    pub const SINE: u32 = 68;
-    /// Delta of the motor in the last finished turn, by its extremes.
-    pub const MOTOR_EXTREMES: u32 = 69;
-    /// Delta of the wheel, by the same.
-    pub const LOAD_EXTREMES: u32 = 70;
-
-    /// Answer: done.
-    pub const DONE: u32 = 1;
-    /// Answer: no finished turns, or none that a waveform can be taken from.
-    pub const NOT_YET: u32 = 2;
-}
-
-/// Coupling and masses, for the load side of the waveform.
-const DRIVETRAIN: Drivetrain = {
-    let machine = SurfaceGrinder::TWO_MASS;
-    Drivetrain {
-        motor_inertia: machine.motor_inertia,
-        load_inertia: machine.load_inertia,
-        stiffness: machine.stiffness,
-        damping: machine.damping,
-    }
-};
-
 /// State of the panel: the balancing, and the waveform that was kept.
 pub struct Desk {
     balancing: Panel<SurfaceGrinder, HeadPanel<TheHead>>,
-    /// Delta of motor and wheel.
-    deltas: [f32; 2],
-    /// Cosine and sine of the motor's orders \[rad/s\].
-    orders: [[f32; 2]; HIGHEST],
+    fluctuation: FluctuationPanel<SurfaceGrinder>,
 }
 
 impl<N: SensorUnit + Summed + Ranked> Beside<WholeDrive<N>> for Desk {
     fn start(drive: &mut WholeDrive<N>, config: &ConfigOf<WholeDrive<N>>) -> Self {
-        Desk { balancing: Panel::start(drive, config), deltas: [0.0; 2], orders: [[0.0; 2]; HIGHEST] }
+        Desk { balancing: Panel::start(drive, config), fluctuation: FluctuationPanel::default() }
     }
 
     #[inline(always)]
@@ -177,38 +137,11 @@ impl<N: SensorUnit + Summed + Ranked> Beside<WholeDrive<N>> for Desk {
         config: &mut &'static ConfigOf<WholeDrive<N>>,
         asked: [u32; 2],
     ) -> u32 {
-        let [key, value] = asked;
-        let [cosine, sine] = self.orders.get(value.wrapping_sub(1) as usize).copied().unwrap_or_default();
-        let extremes = || drive.fluctuation().extremes().reading(&config.fluctuation.cycle);
-        let number = match key {
-            panel::TAKE => return self.take(drive, config),
-            panel::MOTOR_DELTA => self.deltas[0],
-            panel::LOAD_DELTA => self.deltas[1],
-            panel::COSINE => cosine,
-            panel::SINE => sine,
-            panel::MOTOR_EXTREMES => extremes().map_or(0.0, |turn| turn.motor.delta as f32),
-            panel::LOAD_EXTREMES => extremes().map_or(0.0, |turn| turn.load.delta as f32),
-            _ => return self.balancing.panel(drive, config, asked),
-        };
-        number.to_bits()
-    }
-}
-
-impl Desk {
-    #[inline(never)]
-    fn take<N: SensorUnit + Summed + Ranked>(
-        &mut self,
-        drive: &mut WholeDrive<N>,
-        config: &ConfigOf<WholeDrive<N>>,
-    ) -> u32 {
-        let config = &config.fluctuation;
-        let Some(window) = drive.fluctuation_mut().waveform_mut().take() else { return panel::NOT_YET };
-        let Ok(ripple) = window.ripple(config, HIGHEST) else { return panel::NOT_YET };
-        let load = ripple.load_side(&config.cycle, &DRIVETRAIN, &window.motor_torque(config, HIGHEST)).load;
-        self.deltas = [ripple.motor.delta as f32, load.delta as f32];
-        for (kept, order) in self.orders.iter_mut().zip(&ripple.speed.orders) {
-            *kept = [order.cos as f32, order.sin as f32];
+        let [key, _] = asked;
+        match (key, Key::of(key)) {
+            (TAKE, _) => self.fluctuation.keep(&config.fluctuation, drive.fluctuation_mut().waveform_mut().take()),
+            (_, Some(_)) => self.balancing.panel(drive, config, asked),
+            (_, None) => self.fluctuation.number(&config.fluctuation, asked, || *drive.fluctuation().extremes()),
         }
-        panel::DONE
     }
 }

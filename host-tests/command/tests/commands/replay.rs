@@ -290,7 +290,7 @@ fn an_angles_fluctuation_is_that_of_its_motion() {
             }
         }
     }
-    // fewer orders; then a motion to and fro, one too fast for its samples, no angle at all
+    // fewer orders; then a motion forwards and backwards, one too fast for its samples, no angle at all
     let found = json(folder.path(), &["log.csv", "--fluctuation", "--cycles", "1", "--from", "4", "--orders", "3"]);
     assert!(found["windows"][0]["orders"].as_array().unwrap().len() <= 3, "{found}");
     let samples = |angle: fn(f64) -> f64| -> String { (0..2000).map(|at| format!("{}\n", angle(at.into()))).collect() };

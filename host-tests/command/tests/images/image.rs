@@ -146,7 +146,7 @@ fn the_stack_of_the_board_with_a_motor_ends_where_the_memory_ends() {
     let address = |name: &str| file.symbols().find(|symbol| symbol.name() == Ok(name)).unwrap().address();
     // RM0440, 2.2.2: SRAM1 begins here, and below it there is nothing that can be written
     assert_eq!(address("_stack_end"), 0x2000_0000);
-    assert_eq!(address("_stack_start"), address("_stack_end") + 16 * 1024);
+    assert_eq!(address("_stack_start"), address("_stack_end") + 24 * 1024);
     for variables in ["__sdata", "__sbss"] {
         assert!(address(variables) >= address("_stack_start"), "{variables}");
     }

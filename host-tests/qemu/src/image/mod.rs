@@ -86,7 +86,7 @@ pub struct Image {
 }
 
 /// The variant that the board with a motor holds.
-pub const ON_NUCLEO: &str = "test-rig/f32/two-mass/10000";
+pub const ON_NUCLEO: &str = "test-rig/f32/whole/10000";
 
 /// Whether a variant belongs on a board: floats on cores that have a unit for them, fixed point and the empty variant
 /// on all.

@@ -1,6 +1,6 @@
 //! Scenes that are balanced: by their firmware on the host, and in QEMU.
 
-use cargo_driveline::balancing::{GrinderStart, Outcome, Scene, SpindleStart, grinder, spindle};
+use cargo_driveline::balancing::{GrinderStart, Outcome, Scene, SpindleStart, grinder, rig, spindle};
 use cargo_driveline::closed_loop::ticks::OnHost;
 use driveline_firmware::scenes::find;
 use driveline_qemu::image::{Contents, Program, board, build};
@@ -84,6 +84,17 @@ fn a_grinder_with_all_four_parts_keeps_every_claim() {
         assert!(course.worst <= 1.3);
         for claim in &outcome.claims {
             assert!(claim.holds(), "{variant} from {number}: {claim:?}");
+        }
+    }
+}
+
+/// The drive of the board with a motor, with the panel of its main loop.
+#[test]
+fn the_test_rig_with_all_four_parts_keeps_every_claim() {
+    for number in 1..=4 {
+        let (course, claims) = rig(&GrinderStart::random(number)).unwrap();
+        for claim in &claims {
+            assert!(claim.holds(), "{number}: {claim:?}");
         }
     }
 }

@@ -164,7 +164,7 @@ fn a_thousand_machines_within_each_scene_s_tolerances_are_stable_with_6_db_to_sp
         flexible TwoMass flexible::Flexible;
         grinding_spindle TwoMass grinding_spindle::GrindingSpindle;
         surface_grinder Tick surface_grinder::SurfaceGrinder;
-        test_rig TwoMass test_rig::TestRig;
+        test_rig Whole test_rig::TestRig;
     };
     for scene in scenes {
         let (unstable, fragile) = scene.drawn();

@@ -9,7 +9,7 @@ use driveline_firmware::control_loop::main_loop_watch::{Attended, PATIENCE};
 use driveline_firmware::control_loop::step::{Asked, Turn};
 use driveline_firmware::panel::serial_request::{Asking, SPEED};
 use driveline_firmware::scene::{Input, Of, Scene, Variant};
-use driveline_firmware::scenes::test_rig::{TestRig, TwoMass};
+use driveline_firmware::scenes::test_rig::{TestRig, Whole};
 use proptest::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,13 +123,13 @@ fn a_reading_that_is_missing_is_told_and_never_taken_for_new() {
 
 /// The test rig's own tick on the board.
 struct Rig {
-    scene: TwoMass<f32>,
+    scene: Whole<f32>,
     turn: Turn<Noting, f32>,
 }
 
 impl Rig {
     fn new() -> Self {
-        Rig { scene: Of::<TestRig, TwoMass<f32>>::start(), turn: Turn::new(Noting::default()) }
+        Rig { scene: Of::<TestRig, Whole<f32>>::start(), turn: Turn::new(Noting::default()) }
     }
 
     fn ticks(&mut self, ticks: u32, asked: Asked<f32>) -> Faults {
