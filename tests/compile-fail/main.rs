@@ -4,13 +4,14 @@
 //! on.
 
 /// What each file beside this one must be told; the sentence of the error, and the file's name.
-const SENTENCES: [(&str, &str); 7] = [
+const SENTENCES: [(&str, &str); 8] = [
     ("negative_inertia", driveline::machine::Error::RotorInertia.message()),
     ("efficiency_out_of_range", driveline::machine::Error::GearEfficiency.message()),
     ("unobservable_pair", driveline::design::Error::Unobservable.message()),
     ("rate_below_the_shaft", driveline::design::Error::SampleRate.message()),
     ("encoder_without_lines", driveline::design::Error::EncoderLines.message()),
     ("first_drive_too_slow", driveline::design::Error::SampleRate.message()),
+    ("too_few_ticks", "at rated speed a cycle has fewer than 96 ticks"),
     ("fragile_loop", driveline::design::Error::LoopGain.message()),
 ];
 
