@@ -219,7 +219,8 @@ impl<const TEETH: usize> ToothWindow<TEETH> {
             missed: self.missed,
         };
         let speed = f64::from(self.cycles) * angle / self.whole;
-        Ok(Ripple { quality, ..Ripple::of(slowness, speed, acceleration, angle, highest, self.cycles) })
+        let ripple = Ripple::of(slowness, speed, acceleration, angle, highest, self.cycles);
+        if ripple.turns_one_way() { Ok(Ripple { quality, ..ripple }) } else { Err(Unusable::Trend) }
     }
 }
 

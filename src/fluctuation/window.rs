@@ -109,7 +109,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         let per_tick = config.cycle.angle / TAU / config.cycle.period;
         let acceleration = sign * per_tick * ramp.acceleration / config.cycle.period;
         let ripple = Ripple::of(slowness, mean, acceleration, config.cycle.angle, highest, self.cycles);
-        Ok(Ripple { quality, ..ripple })
+        if ripple.turns_one_way() { Ok(Ripple { quality, ..ripple }) } else { Err(Unusable::Trend) }
     }
 
     /// Rms of the angle by which the ticks counted up to the end of each bin differ from the waveform \[rad\], 2 pi to
@@ -175,6 +175,12 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
 }
 
 impl Ripple {
+    /// Whether no speed of the cycle is against the mean: a stop within the window may fit orders that pass through
+    /// infinity.
+    pub(super) fn turns_one_way(&self) -> bool {
+        [self.motor.min, self.motor.max].iter().all(|extreme| extreme.speed / self.mean > 0.0)
+    }
+
     /// From the slowness over its mean.
     pub(super) fn of(
         slowness: Series,

@@ -208,9 +208,12 @@ impl Desk {
     /// Puts the fluctuation of a turn that was finished into the records.
     fn note_turn(&mut self) {
         if let Some(turn) = self.panel.new_turn(<Selected as Constants>::CONFIG, &mut Interrupted) {
-            for (kept, value) in LAST_TURN.iter().zip(turn) {
-                kept.store(value.to_bits(), Ordering::Relaxed);
-            }
+            // no record has one turn's mean beside another's delta
+            free(|_| {
+                for (kept, value) in LAST_TURN.iter().zip(turn) {
+                    kept.store(value.to_bits(), Ordering::Relaxed);
+                }
+            });
         }
     }
 }

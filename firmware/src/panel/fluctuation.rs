@@ -51,12 +51,7 @@ impl<M> Default for FluctuationPanel<M> {
 
 impl<M: Machine> FluctuationPanel<M> {
     /// Shaft and masses, for the load side of the waveform.
-    const DRIVETRAIN: Drivetrain = Drivetrain {
-        motor_inertia: M::TWO_MASS.motor_inertia,
-        load_inertia: M::TWO_MASS.load_inertia,
-        stiffness: M::TWO_MASS.stiffness,
-        damping: M::TWO_MASS.damping,
-    };
+    const DRIVETRAIN: Drivetrain = Drivetrain::of(&M::TWO_MASS);
 
     /// The answer to [`TAKE`]: keeps the waveform of a window.
     #[inline(never)]

@@ -29,6 +29,9 @@ pub trait NoLoadRun: Machine {
     const INERTIA: f64;
     /// Window of steady speed \[s\].
     const WINDOW: f64;
+    /// Inertia ratios that may be found: motor inertia within 10 % and torque constant within 5 % of what was told,
+    /// 0.9/1.05 to 1.1/0.95, and 1 % for the finding's own error.
+    const RATIO: [f64; 2] = [0.85, 1.17];
 }
 
 /// Keys of the panel, with a value as the bits of `f32`.
@@ -45,9 +48,6 @@ pub mod panel {
 const TICKS: u32 = 10;
 /// A change of speed and the settling after it \[s\], at the most: the load is known to be none.
 const PAUSE: f64 = 30.0;
-/// Motor inertia within 10 % and torque constant within 5 %, 0.9/1.05 to 1.1/0.95, and 1 % for noise.
-const RATIO: [f64; 2] = [0.85, 1.17];
-
 /// Learners of torque offset and inertia, and what they have found.
 pub struct NoLoadLearner<N: Number, M> {
     torque: TorqueConstant,
@@ -81,7 +81,7 @@ impl<N: Units<Coefficient: Magnitude>, M: NoLoadRun> NoLoadLearner<N, M> {
         ..RunUpConfig::new(
             M::RATING.torque,
             M::RATING.speed,
-            [RATIO[0] * M::INERTIA, RATIO[1] * M::INERTIA],
+            [M::RATIO[0] * M::INERTIA, M::RATIO[1] * M::INERTIA],
             Self::EVERY,
         )
     };

@@ -59,6 +59,8 @@ pub const HOOK: f64 = 300.0;
 impl NoLoadRun for CraneTravel {
     const INERTIA: f64 = Self::TWO_MASS.motor_inertia + HOOK * TRAVEL * TRAVEL;
     const WINDOW: f64 = 3.0;
+    /// A finding of the nominal crane is off by 4.3 %.
+    const RATIO: [f64; 2] = [0.82, 1.21];
 }
 
 /// Travel per angle of the motors \[m/rad\].

@@ -165,9 +165,9 @@ fn governed(braked: &[Seen], turns: &[&[Seen]]) -> Result<Vec<Claim>, BalancingE
         claim("mean speed off its setpoint with the spring, as a share", (held / SPEED - 1.0).abs(), 1e-4),
         // A tenth for the observer.
         claim(
-            "dip of the disc's speed as the brake comes on, over that by the true speeds",
-            (SPEED - least) / dip()?,
-            1.1,
+            "dip of the disc's speed as the brake comes on, off that by the true speeds",
+            ((SPEED - least) / dip()? - 1.0).abs(),
+            0.1,
         ),
     ])
 }

@@ -1,7 +1,7 @@
 //! A drive that a campaign runs.
 
 use driveline_firmware::Words;
-use driveline_firmware::scenes::{Row, find};
+use driveline_firmware::scenes::{Row, VARIANTS, find};
 
 use super::file::FileObserver;
 use super::plain::PlainLoop;
@@ -47,10 +47,9 @@ impl Drive {
         match name.unwrap_or(&usual) {
             PLAIN => Ok(Self::Plain(rate)),
             name => find(&format!("{}/{name}", machine.name)).map(Self::Variant).ok_or_else(|| {
-                format!(
-                    "`{}` has no drive `{name}`; expected NUMBER/OBSERVER/RATE, such as {usual}, or plain",
-                    machine.name
-                )
+                let own = |variant: &'static str| variant.strip_prefix(machine.name)?.strip_prefix('/');
+                let all: Vec<&str> = VARIANTS.iter().copied().filter_map(own).collect();
+                format!("`{}` has no drive `{name}`; expected {} or plain", machine.name, all.join(", "))
             }),
         }
     }

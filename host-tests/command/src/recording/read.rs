@@ -94,14 +94,19 @@ impl Recording {
     /// that was, as a part of the step: 0 where the level has two values only, as in a log of its changes. `None`
     /// without such a column.
     ///
-    /// Beyond the middle on either side a level must come to a quarter of its swing there before, and to a hundredth of
+    /// Of the level of teeth one sample of 500 at either end is left out of its range, for a spike. Beyond the middle on
+    /// either side a level must come to a quarter of its swing there before, and to a hundredth of
     /// its range: the swing of a magnetic pickup grows with the speed. Where edges stay away, the swing before counts
     /// half as much after each time of eight edges.
     pub fn edges(&self, quantity: Quantity, falling: bool) -> Option<Vec<(usize, f64)>> {
         let level = self.signal(quantity)?;
         let sign = if falling { -1.0 } else { 1.0 };
-        let least = level.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = level.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut sorted = level.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        // teeth are at either level for much of the time, so that a few samples beyond are faults; a mark may be one
+        let beyond = if quantity == Quantity::Teeth { sorted.len() / 500 } else { 0 };
+        let least = sorted.get(beyond).copied().unwrap_or(f64::INFINITY);
+        let most = sorted.iter().rev().nth(beyond).copied().unwrap_or(f64::NEG_INFINITY);
         let (middle, range) = (least + 0.5 * (most - least), most - least);
         let is_digital = level.iter().all(|value| *value == least || *value == most);
         let height = |row: usize| sign * (level[row] - middle);

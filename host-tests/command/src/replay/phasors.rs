@@ -93,10 +93,15 @@ pub fn readings(
 }
 
 /// Where the angle \[rad\] stands as the mark passes, on average, whether or not it comes round between two samples;
-/// none where it is at no one place: twice a turn, or a shaft's angle behind a gear.
+/// none where it is at no one place, or passes more than
+/// once a turn: two marks, or a shaft's angle behind a gear.
 pub fn zero(angle: &[f64], marks: &[(usize, f64)]) -> Option<f64> {
     let step = |row: usize| (angle[row] - angle[row - 1] + PI).rem_euclid(TAU) - PI;
     let at = |(row, since): &(usize, f64)| angle[*row] - since * step(*row);
+    let turns = (1..angle.len()).map(step).sum::<f64>().abs() / TAU;
+    if marks.len() as f64 > turns + 2.0 {
+        return None;
+    }
     let sum: Complex<f64> = marks.iter().map(at).map(|angle| Complex::from_polar(1.0, angle)).sum();
     // a scatter of a quarter of a radian leaves 0.97
     (sum.norm() > 0.97 * marks.len() as f64).then_some(sum.arg())

@@ -88,7 +88,7 @@ pub fn turned(angle: f64) -> u32 {
 }
 
 /// An angle that comes round after a turn, as it goes on: no step is beyond half a turn.
-fn unwrapped(angle: &[f64]) -> Vec<f64> {
+pub fn unwrapped(angle: &[f64]) -> Vec<f64> {
     let (mut turns, mut last) = (0.0, angle.first().copied().unwrap_or(0.0));
     let step = |&angle: &f64| {
         turns -= ((angle - last) / TAU).round();

@@ -26,6 +26,9 @@ pub struct Windowed {
     pub doubt: Option<&'static str>,
 }
 
+/// A doubt.
+pub const DIFFER: &str = "the cycles differ by more than their ripple: a stop, a reversal, another load";
+
 /// Angle by which a good wheel's teeth are out of place \[rad\]: a tenth of a degree, 0.2 mm at a radius of 100 mm.
 const TEETH: f64 = 1.75e-3;
 
@@ -38,7 +41,7 @@ pub fn doubt(ripple: &Ripple, turns: u32) -> Option<&'static str> {
     if ripple.quality.residue > explained {
         Some("more is left than the orders explain")
     } else if ripple.quality.spread > explained {
-        Some("the cycles differ by more than their ripple: a stop, a reversal, another load")
+        Some(DIFFER)
     } else {
         None
     }

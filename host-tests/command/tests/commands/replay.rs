@@ -230,6 +230,11 @@ fn a_magnetic_pickups_steep_edge_is_found_at_every_speed() {
         // from peak to peak twice the root of the squares of four, 6e-4, and more for the tail
         assert!(of("delta") < 1e-3 && window["doubtful"] == false, "{window}");
     }
+    // a spike is no level
+    let text = fs::read_to_string(folder.path().join("log.csv")).unwrap().replacen("\n0.0", "\n200.0", 1);
+    fs::write(folder.path().join("spike.csv"), text).unwrap();
+    let found = json(folder.path(), &[&["spike.csv"], &arguments[1..], &["--falling"]].concat());
+    assert!(found["windows"].as_array().unwrap().len() >= 17, "{found}");
     // the other edge of a tooth is spread over the gap, which the command sees
     let output = replay(folder.path(), &[&arguments[..], &["--html", "page.html"]].concat());
     let said = String::from_utf8(output.stdout).unwrap();
@@ -289,6 +294,19 @@ fn an_angles_fluctuation_is_that_of_its_motion() {
                 assert!((amplitude - RIPPLE).abs() < 3e-4, "{rate} Hz: {window}");
             }
         }
+    }
+    // a stop within a window, on the way at an even 100 rad/s: refused, or doubted
+    for stop in [0.05, 2.0] {
+        let angle = |time: f64| 100.0 * if time < 1.0 { time } else { (time - stop).max(1.0) };
+        let rows: String = (0..12_000).map(|at| format!("{:.9}\n", angle(f64::from(at) / 2000.0))).collect();
+        fs::write(folder.path().join("stop.csv"), format!("angle_rad\n{rows}")).unwrap();
+        let found = json(folder.path(), &["stop.csv", "--fluctuation", "--rate", "2000", "--cycles", "8"]);
+        let windows = found["windows"].as_array().unwrap();
+        let at_it = |window: &&Value| (1.0..1.0 + stop + 0.6).contains(&window["until"].as_f64().unwrap());
+        let good = |window: &Value| window["doubtful"] == false && window["delta"].as_f64().unwrap() < 2e-3;
+        assert!(windows.iter().filter(at_it).any(|window| !good(window)), "{stop}: {found}");
+        let apart = windows.iter().filter(|window| !at_it(window));
+        assert!(apart.clone().count() >= 3 && apart.clone().all(good), "{stop}: {found}");
     }
     // fewer orders; then a motion forwards and backwards, one too fast for its samples, no angle at all
     let found = json(folder.path(), &["log.csv", "--fluctuation", "--cycles", "1", "--from", "4", "--orders", "3"]);
@@ -357,10 +375,11 @@ fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
         assert!((speed / 20.3 - 1.0).abs() < 1e-3, "{file}, order {order}: {speed}");
         assert!((angle - phase).abs() < tolerance, "{file}, order {order}: {angle}");
     }
-    // a mark twice a turn tells no zero
+    // two marks on a turn tell no zero
     let twice: String =
         text.lines().skip(1).zip(0..).fold(String::from("angle_turns,mark,vibration_mm_per_s\n"), |all, (line, at)| {
-            let mark = u8::from((2.0 * turns(at)).fract() < 0.1);
+            // a twelfth of a turn apart
+            let mark = u8::from((12.0 * turns(at)).fract() < 0.6 && turns(at).fract() < 1.0 / 6.0);
             all + &format!("{:.9},{mark},{}\n", turns(at), line.rsplit_once(',').unwrap().1)
         });
     fs::write(folder.path().join("twice.csv"), twice).unwrap();

@@ -28,15 +28,15 @@ pub struct PhasorOptions {
     #[arg(long)]
     phasors: bool,
     /// Order of the running speed: 1x, 2x and on
-    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with_all = ["machine", "teeth"],
+    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with_all = ["machine", "teeth", "fluctuation"],
         value_parser = clap::value_parser!(u32).range(1..=15))]
     order: u32,
     /// Turns to a block; a reading has five blocks
-    #[arg(long, value_name = "TURNS", default_value_t = 8, conflicts_with_all = ["machine", "teeth"],
+    #[arg(long, value_name = "TURNS", default_value_t = 8, conflicts_with_all = ["machine", "teeth", "fluctuation"],
         value_parser = clap::value_parser!(u32).range(1..=100))]
     turns: u32,
     /// End of the sensor's range: a sample beyond it is clipped [unit of the column]
-    #[arg(long, value_name = "VALUE", conflicts_with_all = ["machine", "teeth"])]
+    #[arg(long, value_name = "VALUE", conflicts_with_all = ["machine", "teeth", "fluctuation"])]
     range: Option<f64>,
 }
 

@@ -89,7 +89,9 @@ pub fn table(windows: &[Windowed]) -> Table {
                     significant(ripple.motor.delta),
                     format!("{order}: {}", percent(amplitude)),
                     significant(ripple.quality.residue.to_degrees()),
-                    significant(ripple.quality.spread.to_degrees()),
+                    Some(ripple.quality.spread.to_degrees())
+                        .filter(|spread| *spread > 0.0)
+                        .map_or_else(|| "none".to_owned(), significant),
                     doubt.map_or_else(|| "yes".to_owned(), |doubt| format!("doubtful: {doubt}")),
                 ]);
             }
