@@ -94,10 +94,10 @@ impl Recording {
     /// that was, as a part of the step: 0 where the level has two values only, as in a log of its changes. `None`
     /// without such a column.
     ///
-    /// Of the level of teeth one sample of 500 at either end is left out of its range, for a spike. Beyond the middle on
-    /// either side a level must come to a quarter of its swing there before, and to a hundredth of
-    /// its range: the swing of a magnetic pickup grows with the speed. Where edges stay away, the swing before counts
-    /// half as much after each time of eight edges.
+    /// Of the level of teeth one sample of 500 at either end is left out of its range, for a spike. Beyond the middle
+    /// on either side a level must come to a quarter of its swing there before, and to a hundredth of its range: the
+    /// swing of a magnetic pickup grows with the speed. Where edges stay away, the swing before counts half as much
+    /// after each time of eight edges.
     pub fn edges(&self, quantity: Quantity, falling: bool) -> Option<Vec<(usize, f64)>> {
         let level = self.signal(quantity)?;
         let sign = if falling { -1.0 } else { 1.0 };
