@@ -65,9 +65,9 @@ fn a_measurement_of_the_fluctuation_that_is_left_out_is_not_there() {
         assert!(!has(&without, "fluctuation"), "{core}");
         // Extremes: peaks of four words, two of each speed with its last value, and four for each of two finished
         // cycles; five ends of four words; ten for where it stands: 18 + 32 + 20 + 10 words. Waveform: 64 bins, each
-        // three words and a sum of torques, in fixed point of eight bytes and on an address of eight; five ends of four
-        // words, ten for where it stands.
-        let bin = if number == "f32" { 16 } else { 24 };
+        // three words and a sum of torques, in fixed point of two words; five ends of four words, ten for where it
+        // stands.
+        let bin = if number == "f32" { 16 } else { 20 };
         for (part, state) in [("extremes", 80 * 4), ("waveform", 64 * bin + 30 * 4)] {
             let with = read(number, &format!("two-mass-{part}"), board);
             let what = format!("{part} on {core}: {:?} and {:?}", without.sizes, with.sizes);
