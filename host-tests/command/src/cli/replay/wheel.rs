@@ -54,7 +54,8 @@ impl WheelOptions {
             let _ = write!(text, "; the last {PRINTED} of {} windows", turned.windows.len());
         }
         // the other edge of a pickup may be the one that its teeth pass at
-        let other = edges(&recording, !falling).ok().and_then(|times| turn(&wheel, windows, &times).ok());
+        let level = recording.signal(Quantity::Teeth);
+        let other = level.and_then(|_| turn(&wheel, windows, &edges(&recording, !falling).ok()?).ok());
         let here = unexplained(&turned);
         if let Some(there) = other.as_ref().and_then(unexplained)
             && here.is_none_or(|here| there < 0.3 * here)

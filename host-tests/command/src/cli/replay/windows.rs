@@ -89,9 +89,10 @@ pub fn table(windows: &[Windowed]) -> Table {
                     significant(ripple.motor.delta),
                     format!("{order}: {}", percent(amplitude)),
                     significant(ripple.quality.residue.to_degrees()),
-                    Some(ripple.quality.spread.to_degrees())
-                        .filter(|spread| *spread > 0.0)
-                        .map_or_else(|| "none".to_owned(), significant),
+                    match ripple.quality.spread {
+                        0.0 => "none".to_owned(),
+                        spread => significant(spread.to_degrees()),
+                    },
                     doubt.map_or_else(|| "yes".to_owned(), |doubt| format!("doubtful: {doubt}")),
                 ]);
             }
