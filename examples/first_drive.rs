@@ -57,7 +57,7 @@ impl Plant {
     }
 }
 
-/// Time \[s\], true and estimated speed of the roll \[rad/s\], true and estimated torque of the shaft \[N m\], of each
+/// Time (s), true and estimated speed of the roll (rad/s), true and estimated torque of the shaft (N m), of each
 /// tick: up to 100 rad/s, then a load of 150 N m from 3 s on.
 fn run<N: Units>(config: &ConfigOf<RollDrive<N>>) -> Vec<[f64; 5]> {
     let (mut drive, mut plant, mut torque) = (RollDrive::<N>::new(config, 0), Plant::default(), 0.0);

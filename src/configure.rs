@@ -16,7 +16,7 @@
 //!     const RATING: Rating = Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 };
 //!     const ENCODER: Encoder = Encoder::lines(2048);
 //!     const RATE_HZ: u32 = 10_000;
-//!     // a derived constant that is named is overridden: here the acceleration of the setpoint [rad/s2]
+//!     // a derived constant that is named is overridden: here the acceleration of the setpoint (rad/s2)
 //!     const RAMP: f64 = 40.0;
 //! }
 //! type RollDrive<N> = Drive<N, GearedObserver<TwoMassObserver<N>>, (), SpeedLoop<N>>;

@@ -50,11 +50,11 @@ use crate::sample::{Command, Estimate, Sample};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Limits<N: Number> {
-    /// Largest plausible applied torque [N m].
+    /// Largest plausible applied torque (N m).
     pub torque: N,
-    /// Largest plausible setpoint [rad/s].
+    /// Largest plausible setpoint (rad/s).
     pub setpoint: N,
-    /// Largest plausible innovation [2^-32 turn].
+    /// Largest plausible innovation (2^-32 turn).
     pub innovation: N,
     /// Largest predicted turn in a tick for which an unchanged angle is plausible, in the unit of
     /// [`Number::less_turn`].
@@ -134,7 +134,7 @@ where
     G: Governor<N>,
     B: Balancer<N>,
 {
-    /// A drive whose machine stands still at `angle` [2^-32 turn], without torque in its shaft.
+    /// A drive whose machine stands still at `angle` (2^-32 turn), without torque in its shaft.
     pub fn new(config: &ConfigOf<Self>, angle: u32) -> Self {
         Drive {
             observer: O::at_rest(&config.observer, angle, N::ZERO),

@@ -97,7 +97,7 @@ pub trait Fluctuation<N: Number>: Default {
     /// Its constants, shared and immutable.
     type Config;
 
-    /// Takes one tick's angle [2^-32 turn], the torque that the motor gave in it and the estimate into account.
+    /// Takes one tick's angle (2^-32 turn), the torque that the motor gave in it and the estimate into account.
     fn measure(&mut self, config: &Self::Config, angle: u32, torque: N, estimate: &Estimate<N>);
 
     /// This tick's angle cannot be used: the present measurement is void.

@@ -22,7 +22,7 @@
 //!
 //! # Terms
 //! *Base*: unit of a fixed-point number. *Coast*: a tick without a usable angle, by prediction
-//! alone. *Innovation*: measured less predicted motor angle [2^-32 turn].
+//! alone. *Innovation*: measured less predicted motor angle (2^-32 turn).
 
 mod angle;
 mod backlash;
@@ -69,7 +69,7 @@ pub trait Observer<N: Number>: Sized {
     /// For an observer whose states are quantities of the estimate nothing changes.
     fn switch(&mut self, _from: &Self::Config, _to: &Self::Config) {}
 
-    /// The speed at which the motor turns by `turned` [2^-32 turn] in a tick.
+    /// The speed at which the motor turns by `turned` (2^-32 turn) in a tick.
     fn speed_of_turn(config: &Self::Config, turned: N) -> N;
 
     /// Resynchronises to the angle, whatever was predicted.

@@ -12,7 +12,7 @@
 //!
 //! # Terms
 //! *Scheduling variable*: a measured or estimated parameter that the gains follow. *Travel*: the load's path per angle
-//! of the motor, r [m/rad].
+//! of the motor, r (m/rad).
 
 mod constants;
 mod grid;

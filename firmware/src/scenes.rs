@@ -1,7 +1,7 @@
 //! The scenes: one file each, and one line of a table.
 //!
 //! A scene's name is that of its file. The file says what the machine is and lists the variants that can be flashed. A
-//! scene of [`drivetrains!`] also has a file of the same name in the host's folder `drivetrains`, with its plant and
+//! scene of `drivetrains!` also has a file of the same name in the host's folder `drivetrains`, with its plant and
 //! its runs. Names, images, the host's lists and the budgets' keys follow from these tables; `DRIVELINE_VARIANT`
 //! chooses a variant when a binary is built ([`selected!`](crate::selected!)).
 

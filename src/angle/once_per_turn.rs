@@ -12,7 +12,7 @@ const MOST_TURNS: u32 = 3;
 /// Pulses beside their place in a row until the angle is lost.
 const MOST_ASTRAY: u32 = 3;
 
-/// Gains of the pulses in angle and speed \[2^-16\]: `2 (2 k - 1)/(k (k + 1))` and `6/(k (k + 1))` for the pulse `k`.
+/// Gains of the pulses in angle and speed (2^-16): `2 (2 k - 1)/(k (k + 1))` and `6/(k (k + 1))` for the pulse `k`.
 const GAINS: [[i64; 2]; MEMORY] = {
     let mut gains = [[0; 2]; MEMORY];
     let mut at = 0;
@@ -41,12 +41,12 @@ const GAINS: [[i64; 2]; MEMORY] = {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct OncePerTurn {
-    /// Angle, and its growth in a tick \[2^-64 turn\].
+    /// Angle, and its growth in a tick (2^-64 turn).
     angle: u64,
     step: u64,
     /// Pulses in use.
     pulses: u32,
-    /// Ticks since the first pulse, and how long before its tick it was \[2^-32 tick\].
+    /// Ticks since the first pulse, and how long before its tick it was (2^-32 tick).
     since: u32,
     late: u32,
     /// Turns since the last pulse; pulses beside their place since the last good one.
@@ -60,10 +60,10 @@ impl OncePerTurn {
         OncePerTurn { angle: 0, step: 0, pulses: 0, since: 0, late: 0, turns: 0, astray: 0 }
     }
 
-    /// Takes a tick, and returns the rotor's angle \[2^-32 turn\]; `None` before the second pulse, and where pulses
+    /// Takes a tick, and returns the rotor's angle (2^-32 turn); `None` before the second pulse, and where pulses
     /// stay away or come astray.
     ///
-    /// `pulse` is how long before this tick the pulse came \[2^-32 tick\], by a capture timer. Where a level is sampled
+    /// `pulse` is how long before this tick the pulse came (2^-32 tick), by a capture timer. Where a level is sampled
     /// that is half a tick on average: `1 << 31`.
     pub fn tick(&mut self, pulse: Option<u32>) -> Option<u32> {
         self.since = self.since.saturating_add(1);
@@ -117,7 +117,7 @@ impl OncePerTurn {
         self.step = self.step.wrapping_add((step * speed) as u64);
     }
 
-    /// How far the rotor turns in a part of a tick \[2^-64 turn\].
+    /// How far the rotor turns in a part of a tick (2^-64 turn).
     fn passed(&self, late: u32) -> u64 {
         (self.step >> 32) * u64::from(late)
     }

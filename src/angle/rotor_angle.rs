@@ -66,14 +66,14 @@ pub(crate) enum Passed {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RotorAngle {
-    /// The motor's angle at the last tick [2^-32 turn].
+    /// The motor's angle at the last tick (2^-32 turn).
     motor: u32,
     /// Units of the rotor's position in the upper word, 2^-32 units in the lower.
     position: i64,
 }
 
 impl RotorAngle {
-    /// Follows the motor to an angle [2^-32 turn]; false where the rotor has passed its zero: then call
+    /// Follows the motor to an angle (2^-32 turn); false where the rotor has passed its zero: then call
     /// [`RotorAngle::wrap`].
     #[inline(always)]
     pub(crate) fn follow(&mut self, config: &RotorAngleConfig, motor: u32) -> bool {
@@ -96,7 +96,7 @@ impl RotorAngle {
         false
     }
 
-    /// Follows the motor to an angle [2^-32 turn], and returns whether the rotor has passed its zero.
+    /// Follows the motor to an angle (2^-32 turn), and returns whether the rotor has passed its zero.
     #[inline(always)]
     pub(crate) fn advance(&mut self, config: &RotorAngleConfig, motor: u32) -> Passed {
         let turned = motor.wrapping_sub(self.motor) as i32;
@@ -117,7 +117,7 @@ impl RotorAngle {
         Passed::Astray
     }
 
-    /// The rotor's angle times the order [2^-26 turn].
+    /// The rotor's angle times the order (2^-26 turn).
     #[inline(always)]
     pub(crate) fn direction(&self, config: &RotorAngleConfig) -> u32 {
         ((u64::from(self.units()) * u64::from(config.inverse)) >> 32) as u32
@@ -129,19 +129,19 @@ impl RotorAngle {
         (self.position >> 32) as u32
     }
 
-    /// The rotor's angle times the order [2^-32 turn].
+    /// The rotor's angle times the order (2^-32 turn).
     #[inline(always)]
     pub fn angle(&self, config: &RotorAngleConfig) -> u32 {
         ((u64::from(self.units()) * u64::from(config.inverse)) >> 26) as u32
     }
 
-    /// Sets the rotor's angle [2^-32 turn] at an angle of the motor [2^-32 turn], as an index on the rotor shows it.
+    /// Sets the rotor's angle (2^-32 turn) at an angle of the motor (2^-32 turn), as an index on the rotor shows it.
     pub fn set_at(&mut self, config: &RotorAngleConfig, motor: u32, angle: u32) {
         self.motor = motor;
         self.set(config, angle);
     }
 
-    /// Sets the rotor's angle [2^-32 turn] at the motor's angle of the last tick.
+    /// Sets the rotor's angle (2^-32 turn) at the motor's angle of the last tick.
     pub fn set(&mut self, config: &RotorAngleConfig, angle: u32) {
         self.position = i64::from(angle) * i64::from(config.turn);
     }

@@ -74,7 +74,7 @@ pub trait Synchronous: Number {
     /// Cosine and sine of nothing.
     const AHEAD: [Self::Part; 2];
 
-    /// Cosine and sine of an angle [2^-26 turn].
+    /// Cosine and sine of an angle (2^-26 turn).
     fn direction(angle: u32) -> [Self::Part; 2];
     /// The difference of two parts.
     fn change(to: Self::Part, from: Self::Part) -> Self::Part;

@@ -21,7 +21,7 @@ pub struct FromAmplitudes<T: Scalar> {
     pub disagreement: T,
 }
 
-/// From the baseline's amplitude, the trial weight, and the angle \[rad\] and amplitude of each trial run.
+/// From the baseline's amplitude, the trial weight, and the angle (rad) and amplitude of each trial run.
 ///
 /// # Errors
 /// [`Error::TrialWeightZero`], [`Error::Reading`], [`Error::ReadingMissing`] for fewer than two runs,

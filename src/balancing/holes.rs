@@ -19,7 +19,7 @@ pub enum CorrectionMethod {
 #[derive(Clone, Copy, Debug, PartialEq)]
 // Not logged: the complex numbers of `nalgebra` have no `Format`.
 pub struct Holes<'a, T> {
-    /// Angles of the holes \[rad\].
+    /// Angles of the holes (rad).
     pub angles: &'a [T],
     /// Stock weights, each available any number of times, in the unit of the weights; a hole may also stay empty.
     pub weights: &'a [T],

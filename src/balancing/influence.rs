@@ -8,7 +8,7 @@ use super::matrix::{Matrix, pick};
 use super::scalar::{Complex, Scalar, given, real, size, square, zero};
 
 /// Influence coefficients of at most `PLANES` planes on at most `ROWS` readings
-/// \[unit of the reading per unit of the weight\].
+/// (unit of the reading per unit of the weight).
 ///
 /// A row is a sensor at a speed; the order is the user's, and the same in all runs.
 #[derive(Clone, Copy, Debug, PartialEq)]

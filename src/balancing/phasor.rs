@@ -130,7 +130,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
         (self.noted, self.left) = (0, 1);
     }
 
-    /// Sets the rotor's angle [2^-32 turn] at an angle of the motor [2^-32 turn], as an index mark on the rotor shows
+    /// Sets the rotor's angle (2^-32 turn) at an angle of the motor (2^-32 turn), as an index mark on the rotor shows
     /// it, and begins a new reading.
     ///
     /// An incremental encoder has its zero where it was switched on; without this, so has the phase.
@@ -140,7 +140,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
         self.begin();
     }
 
-    /// The rotor's angle, times the order [2^-32 turn].
+    /// The rotor's angle, times the order (2^-32 turn).
     pub fn angle(&self, config: &PhasorsConfig<N, CHANNELS>) -> u32 {
         self.turning.angle(&config.turning)
     }

@@ -22,12 +22,12 @@ pub const CORRECTIONS: usize = 6;
 pub struct Run<T: Scalar, const ROWS: usize> {
     /// The readings.
     pub(crate) readings: [Complex<T>; ROWS],
-    /// Speed of each \[rad/s\].
+    /// Speed of each (rad/s).
     pub(crate) speeds: [T; ROWS],
 }
 
 impl<T: Scalar, const ROWS: usize> Run<T, ROWS> {
-    /// A run of readings, each with its speed \[rad/s\].
+    /// A run of readings, each with its speed (rad/s).
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::ReadingMissing`] where there are fewer readings than speeds or the other way round,

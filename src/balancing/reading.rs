@@ -98,8 +98,8 @@ pub struct Steadiness {
     pub drift: f32,
     /// Standard deviation of the phasor by the blocks' remaining differences, over its amplitude.
     pub scatter: f32,
-    /// Smallest reference amplitude of drift and scatter \[unit of the channel; in a [`PhasorsConfig`] in fixed point
-    /// per unit of its base\].
+    /// Smallest reference amplitude of drift and scatter (unit of the channel; in a [`PhasorsConfig`] in fixed point
+    /// per unit of its base).
     pub floor: f32,
 }
 
@@ -116,7 +116,7 @@ pub struct Reading {
     /// The phasor.
     pub phasor: Phasor,
     /// Variance of the phasor: the mean square of its error, as far as the blocks' scatter shows it
-    /// \[square of the channel's unit\].
+    /// (square of the channel's unit).
     pub variance: f32,
     /// Turns, times the order.
     pub turns: u32,

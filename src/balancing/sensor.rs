@@ -6,11 +6,11 @@ use super::reading::Phasor;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Motion {
-    /// \[m\]; a displacement sensor looks at the shaft.
+    /// (m); a displacement sensor looks at the shaft.
     Displacement,
-    /// \[m/s\].
+    /// (m/s).
     Velocity,
-    /// \[m/s2\].
+    /// (m/s2).
     Acceleration,
 }
 
@@ -36,11 +36,11 @@ pub struct Sensor {
     pub motion: Motion,
     /// Units of the channel to the unit of motion.
     pub sensitivity: f32,
-    /// Corner below which it gives less \[rad/s\]; 0 for none.
+    /// Corner below which it gives less (rad/s); 0 for none.
     pub high_pass: f32,
-    /// Corner above which it gives less \[rad/s\]; infinite for none.
+    /// Corner above which it gives less (rad/s); infinite for none.
     pub low_pass: f32,
-    /// Angle that it is mounted at, from the rotor's zero in the sense of turning \[rad\].
+    /// Angle that it is mounted at, from the rotor's zero in the sense of turning (rad).
     pub angle: f32,
 }
 
@@ -64,7 +64,7 @@ impl Sensor {
         Sensor { motion, sensitivity: 1.0, high_pass: 0.0, low_pass: f32::INFINITY, angle: 0.0 }
     }
 
-    /// The motion at `frequency` \[rad/s\], above 0, behind a phasor of the channel: in m, m/s or m/s2.
+    /// The motion at `frequency` (rad/s), above 0, behind a phasor of the channel: in m, m/s or m/s2.
     ///
     /// The phase is that of a sensor at the rotor's zero only where the bearings are alike in all directions.
     ///

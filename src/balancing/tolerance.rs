@@ -3,18 +3,18 @@
 use super::error::Error;
 use super::scalar::{Complex, Scalar, real, size, zero};
 
-/// The balance quality grades \[mm/s\].
+/// The balance quality grades (mm/s).
 pub const GRADES: [f64; 11] = [0.4, 1.0, 2.5, 6.3, 16.0, 40.0, 100.0, 250.0, 630.0, 1600.0, 4000.0];
 
 /// A rotor whose residual unbalance is judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tolerance<T> {
-    /// Balance quality grade G, the speed of the centre of mass about the axis \[mm/s\].
+    /// Balance quality grade G, the speed of the centre of mass about the axis (mm/s).
     pub grade: T,
-    /// Mass \[kg\].
+    /// Mass (kg).
     pub mass: T,
-    /// Highest service speed \[rad/s\].
+    /// Highest service speed (rad/s).
     pub speed: T,
 }
 
@@ -22,9 +22,9 @@ pub struct Tolerance<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Verdict<T> {
-    /// The grade that it has \[mm/s\].
+    /// The grade that it has (mm/s).
     pub grade: T,
-    /// The next standard grade that it fulfils \[mm/s\]; none where it is worse than all.
+    /// The next standard grade that it fulfils (mm/s); none where it is worse than all.
     pub fulfils: Option<T>,
     /// Whether it is within the tolerance.
     pub passed: bool,
@@ -41,7 +41,7 @@ impl<T: Scalar> Tolerance<T> {
         }
     }
 
-    /// Permissible residual unbalance of the rotor \[kg m\]: `U = G m / omega` [Notes ch. 5].
+    /// Permissible residual unbalance of the rotor (kg m): `U = G m / omega` [Notes ch. 5].
     ///
     /// # Errors
     /// [`Error::Setting`] with the index of the value that is not positive.
@@ -50,8 +50,8 @@ impl<T: Scalar> Tolerance<T> {
         Ok(self.grade * real(1e-3) * self.mass / self.speed)
     }
 
-    /// The same for two tolerance planes at the bearings A and B \[kg m\], by the distances of the centre of mass from
-    /// them \[m\].
+    /// The same for two tolerance planes at the bearings A and B (kg m), by the distances of the centre of mass from
+    /// them (m).
     ///
     /// `from_a` is counted towards B, so that a centre of mass between the bearings has 0 < `from_a` < `span`. The
     /// shares are held within 0.3 and 0.7 between bearings, 0.3 and 1.3 overhung.
@@ -69,7 +69,7 @@ impl<T: Scalar> Tolerance<T> {
         Ok([whole * held((span - from_a) / span), whole * held(from_a / span)])
     }
 
-    /// Judges a residual unbalance of the rotor \[kg m\].
+    /// Judges a residual unbalance of the rotor (kg m).
     ///
     /// # Errors
     /// [`Error::Setting`] with the index of the value that is not positive.
@@ -86,7 +86,7 @@ impl<T: Scalar> Tolerance<T> {
     }
 }
 
-/// Unbalances along a rotor \[kg m at m\] as two in the planes at `a` and `b` \[m\]: each splits by its distances
+/// Unbalances along a rotor (kg m at m) as two in the planes at `a` and `b` (m): each splits by its distances
 /// [Notes ch. 5]. The correction is the opposite.
 ///
 /// # Errors
@@ -108,7 +108,7 @@ pub fn two_planes<T: Scalar>(
     Ok(sums)
 }
 
-/// The unbalance of the whole rotor \[kg m\]: the size of the sum of its planes'.
+/// The unbalance of the whole rotor (kg m): the size of the sum of its planes'.
 pub fn resultant<T: Scalar>(unbalances: &[Complex<T>]) -> T {
     size(unbalances.iter().fold(zero(), |sum, unbalance| sum + *unbalance))
 }

@@ -9,9 +9,9 @@ use crate::math::{atan2, sqrt};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Eccentricity {
-    /// Amplitude \[rad\].
+    /// Amplitude (rad).
     pub amplitude: Figure,
-    /// Phase \[rad\], from -pi to pi: the angle, from where the encoder read zero, at which it reads most ahead.
+    /// Phase (rad), from -pi to pi: the angle, from where the encoder read zero, at which it reads most ahead.
     pub phase: f64,
 }
 
@@ -26,10 +26,10 @@ fn unexplained(order: &Harmonic, halves: f64, mean_speed: f64, inertia: f64, blo
     angle.plus(torque.scaled(1.0 / (inertia * speed * speed)))
 }
 
-/// The eccentricity, from the correlation over `blocks` at a mean speed \[rad/s\]; its spread from the neighbouring
+/// The eccentricity, from the correlation over `blocks` at a mean speed (rad/s); its spread from the neighbouring
 /// orders, where an encoder has none.
 ///
-/// `start` is the absolute angle at which the test began \[rad\].
+/// `start` is the absolute angle at which the test began (rad).
 pub(crate) fn of(
     orders: &[Harmonic; 3],
     mean_speed: f64,

@@ -18,7 +18,7 @@ pub(crate) fn peak(amplitudes: impl Iterator<Item = f64>) -> f64 {
     sum.min(CREST * sqrt(0.5 * square))
 }
 
-/// Frequencies \[Hz\] over the band, by like ratios.
+/// Frequencies (Hz) over the band, by like ratios.
 pub(crate) fn over_band<const L: usize>(band: [f64; 2]) -> [f64; L] {
     let step = ln(band[1] / band[0]) / (L.max(2) - 1) as f64;
     let mut hertz = [0.0; L];
@@ -28,7 +28,7 @@ pub(crate) fn over_band<const L: usize>(band: [f64; 2]) -> [f64; L] {
     hertz
 }
 
-/// Frequencies \[Hz\] about the resonance and the antiresonance of a fit, and some wide of them; and the time \[s\]
+/// Frequencies (Hz) about the resonance and the antiresonance of a fit, and some wide of them; and the time (s)
 /// that tells those about the resonance apart.
 pub(crate) fn about<const L: usize>(fit: &Fit, band: [f64; 2]) -> ([f64; L], f64) {
     let derived = fit.derived();
@@ -65,7 +65,7 @@ fn sort<const L: usize>(numbers: &mut [f64; L]) {
     }
 }
 
-/// Time \[s\] over which frequencies can be told apart: half of their mean distance is two lines of the record.
+/// Time (s) over which frequencies can be told apart: half of their mean distance is two lines of the record.
 pub(crate) fn time<const L: usize>(hertz: &[f64; L]) -> f64 {
     let mut least = f64::INFINITY;
     for (a, b) in hertz.iter().zip(hertz.iter().skip(2)) {
@@ -74,7 +74,7 @@ pub(crate) fn time<const L: usize>(hertz: &[f64; L]) -> f64 {
     4.0 / least.max(f64::MIN_POSITIVE)
 }
 
-/// Lines at these frequencies \[Hz\], moved to whole turns over the record, two apart at least: so the window keeps
+/// Lines at these frequencies (Hz), moved to whole turns over the record, two apart at least: so the window keeps
 /// them apart.
 pub(crate) fn lines<const L: usize>(hertz: &[f64; L], blocks: u32, config: &TestConfig) -> [Line; L] {
     let time = f64::from(blocks) * config.block;
@@ -90,7 +90,7 @@ pub(crate) fn lines<const L: usize>(hertz: &[f64; L], blocks: u32, config: &Test
     lines
 }
 
-/// Sets the amplitudes \[N m\], with starts by which they hardly ever meet [Schroeder 1970, IEEE Trans. Inf. Theory
+/// Sets the amplitudes (N m), with starts by which they hardly ever meet [Schroeder 1970, IEEE Trans. Inf. Theory
 /// 16].
 pub(crate) fn set<const L: usize>(lines: &mut [Line; L], amplitude: impl Fn(f64) -> f64) {
     for (k, line) in lines.iter_mut().enumerate() {

@@ -23,9 +23,9 @@ const COMPLIANCE: f64 = 0.5;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Fit {
-    /// Unit of inertia \[kg m2\].
+    /// Unit of inertia (kg m2).
     unit: f64,
-    /// Highest frequency \[rad/s\], the unit of R.
+    /// Highest frequency (rad/s), the unit of R.
     highest: f64,
     x: [f64; PARAMETERS],
     covariance: [[f64; PARAMETERS]; PARAMETERS],
@@ -40,19 +40,19 @@ pub struct Fit {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Derived {
-    /// Total inertia \[kg m2\].
+    /// Total inertia (kg m2).
     pub total: f64,
-    /// Inertia on the motor's side \[kg m2\].
+    /// Inertia on the motor's side (kg m2).
     pub motor: f64,
-    /// Inertia on the load's side \[kg m2\].
+    /// Inertia on the load's side (kg m2).
     pub load: f64,
-    /// Resonance \[rad/s\].
+    /// Resonance (rad/s).
     pub resonance: f64,
-    /// Antiresonance \[rad/s\].
+    /// Antiresonance (rad/s).
     pub antiresonance: f64,
-    /// Stiffness \[N m/rad\].
+    /// Stiffness (N m/rad).
     pub stiffness: f64,
-    /// Damping \[N m s/rad\].
+    /// Damping (N m s/rad).
     pub damping: f64,
     /// Damping ratio of the resonance.
     pub damping_ratio: f64,
@@ -184,8 +184,8 @@ impl Data<'_> {
 /// Points of the grid.
 const PLACES: u32 = 96;
 
-/// Fits responses, with the resonance looked for between two frequencies \[rad/s\]; `unit` is a guess of the inertia
-/// \[kg m2\]. `None` for fewer than six responses, and where no two masses with positive inertias fit.
+/// Fits responses, with the resonance looked for between two frequencies (rad/s); `unit` is a guess of the inertia
+/// (kg m2). `None` for fewer than six responses, and where no two masses with positive inertias fit.
 #[must_use]
 pub fn fit(responses: &[Response], unit: f64, between: [f64; 2]) -> Option<Fit> {
     let highest = responses.iter().map(|response| response.frequency).fold(0.0, f64::max);
@@ -253,7 +253,7 @@ pub fn fit(responses: &[Response], unit: f64, between: [f64; 2]) -> Option<Fit> 
 }
 
 impl Fit {
-    /// The response of the fit at a frequency \[rad/s\].
+    /// The response of the fit at a frequency (rad/s).
     pub(crate) fn response(&self, frequency: f64) -> Complex {
         let [g, b, r, lw, lz] = self.x;
         let share = frequency / self.highest.max(f64::MIN_POSITIVE);
@@ -311,7 +311,7 @@ impl Fit {
         figures
     }
 
-    /// Whether the resonance lies between two frequencies \[Hz\], by 2 %.
+    /// Whether the resonance lies between two frequencies (Hz), by 2 %.
     pub(crate) fn within(&self, band: [f64; 2]) -> bool {
         let hertz = self.derived().resonance / TAU;
         hertz > 1.02 * band[0] && hertz < 0.98 * band[1]

@@ -24,11 +24,11 @@ pub(crate) fn ends_of(segment: usize) -> (f32, f32) {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Segment {
-    /// Torque \[N m\].
+    /// Torque (N m).
     pub torque: f64,
-    /// Speed \[rad/s\].
+    /// Speed (rad/s).
     pub speed: f64,
-    /// Acceleration \[rad/s2\].
+    /// Acceleration (rad/s2).
     pub acceleration: f64,
 }
 
@@ -36,13 +36,13 @@ pub(crate) struct Segment {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Friction {
-    /// Friction that does not depend on the speed \[N m\], the losses of a gear under a steady load included.
+    /// Friction that does not depend on the speed (N m), the losses of a gear under a steady load included.
     pub coulomb: Figure,
-    /// Friction per speed \[N m s/rad\].
+    /// Friction per speed (N m s/rad).
     pub viscous: Figure,
-    /// Torque that is the same both ways: the weight of the load \[N m\].
+    /// Torque that is the same both ways: the weight of the load (N m).
     pub weight: Figure,
-    /// Total inertia by the ramps \[kg m2\].
+    /// Total inertia by the ramps (kg m2).
     pub inertia: Figure,
 }
 

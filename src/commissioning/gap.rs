@@ -13,7 +13,7 @@ pub(crate) const PUSH: f64 = 0.5;
 /// Share of a push to which it is eased for its second reading.
 pub(crate) const EASED: f64 = 1.0 / 3.0;
 
-/// Where the motor stood against a flank \[rad\]: under the whole push, and under the eased one.
+/// Where the motor stood against a flank (rad): under the whole push, and under the eased one.
 pub(crate) type Push = (f64, f64);
 
 /// The gap: the ways from flank to flank under both torques, carried on to none, since the twist of the shafts grows

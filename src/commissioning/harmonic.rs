@@ -14,7 +14,7 @@ pub(crate) struct Harmonic {
 }
 
 impl Harmonic {
-    /// Takes in a block at an angle of `halves` half turns of the motor's `angle` [2^-32 turn].
+    /// Takes in a block at an angle of `halves` half turns of the motor's `angle` (2^-32 turn).
     #[inline(always)]
     pub(crate) fn take(&mut self, halves: u32, angle: i64, window: f32, speed: f32, torque: f32) {
         // The table takes 2^26 to the turn.

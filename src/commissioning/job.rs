@@ -26,7 +26,7 @@ pub(crate) enum Next {
     Segments,
     /// The test of the encoder.
     Turns,
-    /// The test of backlash: with this torque \[N m\], creeping at this speed \[rad/s\], no further than this \[rad\].
+    /// The test of backlash: with this torque (N m), creeping at this speed (rad/s), no further than this (rad).
     Reversals { torque: f64, speed: f64, widest: f64 },
     /// A record of the multisine: blocks of it and before it, and which way.
     Record { blocks: u32, settle: u32, way: f64 },
@@ -40,11 +40,11 @@ pub(crate) enum Next {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Known<const L: usize> {
-    /// The servo's inertia \[kg m2\].
+    /// The servo's inertia (kg m2).
     pub inertia: f64,
     pub friction: Friction,
     pub eccentricity: Eccentricity,
-    /// Cosine and sine part of the eccentricity, from where the test began \[rad\].
+    /// Cosine and sine part of the eccentricity, from where the test began (rad).
     pub eccentric: [f64; 2],
     gap: Result<Figure, Error>,
     /// Ways that have a fit that is good enough.
@@ -56,10 +56,10 @@ pub(crate) struct Known<const L: usize> {
     pub lines: [Line; L],
     /// Window of the next measurement.
     pub window: Window,
-    /// Records so far, and how long the last one was \[s\].
+    /// Records so far, and how long the last one was (s).
     records: u32,
     time: f64,
-    /// Amplitude of each line of the records that look for the resonance \[N m\].
+    /// Amplitude of each line of the records that look for the resonance (N m).
     level: f64,
 }
 
@@ -82,7 +82,7 @@ impl<const L: usize> Known<L> {
         }
     }
 
-    /// Inertia on the motor's side \[kg m2\], as far as it is known.
+    /// Inertia on the motor's side (kg m2), as far as it is known.
     pub(crate) fn motor_inertia(&self, config: &TestConfig) -> f64 {
         self.last.map_or(config.settings.inertia, |fit| fit.derived().motor)
     }
@@ -100,7 +100,7 @@ pub struct Job<const L: usize> {
     pub(crate) segments: [Segment; SEGMENTS],
     pub(crate) pushes: [Push; PUSHES],
     pub(crate) mean_speed: f64,
-    /// Angle from where the test began, and of that from the encoder's zero \[rad\].
+    /// Angle from where the test began, and of that from the encoder's zero (rad).
     pub(crate) angle: f64,
     pub(crate) zero: f64,
 }
@@ -200,7 +200,7 @@ impl<const L: usize> Job<L> {
         self.first(known, config)
     }
 
-    /// Largest swing of the shaft \[N m\]: within its margin, and with a gap below the friction that keeps the flanks
+    /// Largest swing of the shaft (N m): within its margin, and with a gap below the friction that keeps the flanks
     /// in contact.
     fn swing(known: &Known<L>, config: &TestConfig) -> f64 {
         let friction = &known.friction;
@@ -228,7 +228,7 @@ impl<const L: usize> Job<L> {
         self.record(known, config, &hertz, time(&hertz), |_| level)
     }
 
-    /// A record at these frequencies \[Hz\], the other way than the last one; `needed` \[s\] separates its lines; half
+    /// A record at these frequencies (Hz), the other way than the last one; `needed` (s) separates its lines; half
     /// of that is still accepted.
     fn record(
         &self,
@@ -390,5 +390,5 @@ impl<const L: usize> Job<L> {
     }
 }
 
-/// No gap is wider \[rad\]: a tenth of a turn of the motor.
+/// No gap is wider (rad): a tenth of a turn of the motor.
 const WIDEST: f64 = 0.1 * TAU;

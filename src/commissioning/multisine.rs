@@ -8,13 +8,13 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Line {
-    /// Frequency \[rad/s\].
+    /// Frequency (rad/s).
     pub frequency: f64,
     /// Cosine and sine of its rotation in a block.
     pub turn: [f32; 2],
     /// Where it is.
     pub phasor: [f32; 2],
-    /// Amplitude and start \[N m\]: the torque is the real part of this times the phasor.
+    /// Amplitude and start (N m): the torque is the real part of this times the phasor.
     pub amplitude: [f32; 2],
     /// Sums of the angle's increase over a block, and of the torque, with the phasor turned back.
     pub angle: [f32; 2],

@@ -6,15 +6,15 @@ use super::TestConfig;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Reference {
-    /// Angle from where the test began [2^-32 turn].
+    /// Angle from where the test began (2^-32 turn).
     pub angle: i64,
-    /// Speed \[rad/s\].
+    /// Speed (rad/s).
     pub speed: f32,
-    /// Speed that it goes to \[rad/s\].
+    /// Speed that it goes to (rad/s).
     pub target: f32,
-    /// How fast it goes there \[rad/s2\].
+    /// How fast it goes there (rad/s2).
     pub rate: f32,
-    /// Acceleration in this block \[rad/s2\].
+    /// Acceleration in this block (rad/s2).
     pub acceleration: f32,
 }
 

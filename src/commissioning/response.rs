@@ -9,13 +9,13 @@ use crate::math::{sin_cos, sqrt};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Response {
-    /// Frequency \[rad/s\].
+    /// Frequency (rad/s).
     pub frequency: f64,
-    /// Acceleration per torque, real and imaginary part [1/(kg m2)].
+    /// Acceleration per torque, real and imaginary part (1/(kg m2)).
     pub acceleration: [f64; 2],
-    /// Standard deviation of each part, from noise in torque and angle [1/(kg m2)].
+    /// Standard deviation of each part, from noise in torque and angle (1/(kg m2)).
     pub standard_deviation: f64,
-    /// Amplitude of the torque that was correlated with \[N m\].
+    /// Amplitude of the torque that was correlated with (N m).
     pub torque: f64,
 }
 
@@ -30,7 +30,7 @@ fn sinc(x: f64) -> f64 {
     if x.abs() < 1.0e-4 { 1.0 - x * x / 6.0 } else { sin_cos(x).0 / x }
 }
 
-/// The response of one line over a record of so many blocks; `viscous` friction \[N m s/rad\] is taken off.
+/// The response of one line over a record of so many blocks; `viscous` friction (N m s/rad) is taken off.
 ///
 /// The torque is held over a block of D ticks and the angle is the mean of its samples, which come a tick after the
 /// torque begins: with `Theta/T = G`, the correlations give `G sinc(w D t/2) sin(w D t/2)/(D sin(w t/2)) exp(j w (t/2 -

@@ -7,25 +7,25 @@ use crate::machine::{Damping, Gap, Inertia, Stiffness, Torque, TwoMass};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CommissioningResult {
-    /// Total inertia \[kg m2\].
+    /// Total inertia (kg m2).
     pub total_inertia: Figure,
-    /// Inertia on the motor's side \[kg m2\].
+    /// Inertia on the motor's side (kg m2).
     pub motor_inertia: Figure,
-    /// Inertia on the load's side \[kg m2\].
+    /// Inertia on the load's side (kg m2).
     pub load_inertia: Figure,
-    /// Resonance \[rad/s\].
+    /// Resonance (rad/s).
     pub resonance: Figure,
-    /// Antiresonance \[rad/s\].
+    /// Antiresonance (rad/s).
     pub antiresonance: Figure,
-    /// Stiffness \[N m/rad\].
+    /// Stiffness (N m/rad).
     pub stiffness: Figure,
-    /// Damping of the shaft \[N m s/rad\].
+    /// Damping of the shaft (N m s/rad).
     pub damping: Figure,
     /// Damping ratio of the resonance.
     pub damping_ratio: Figure,
     /// Friction and weight.
     pub friction: Friction,
-    /// The whole gap \[rad\], or why it could not be identified.
+    /// The whole gap (rad), or why it could not be identified.
     pub gap: Result<Figure, Error>,
     /// Eccentricity of the encoder.
     pub eccentricity: Eccentricity,

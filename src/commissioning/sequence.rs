@@ -50,7 +50,7 @@ pub struct Commissioning<const L: usize> {
     index: usize,
     /// The angle of the tick before; none before the first.
     last: Option<u32>,
-    /// Angle from where the test began [2^-32 turn].
+    /// Angle from where the test began (2^-32 turn).
     angle: i64,
     /// Sum over the block, and over the one before.
     sum: i64,
@@ -60,13 +60,13 @@ pub struct Commissioning<const L: usize> {
     ticks: u32,
     torque: f32,
     excitation: f32,
-    /// Bound that the torque last met in the stage \[N m\]; how often it met the other one next.
+    /// Bound that the torque last met in the stage (N m); how often it met the other one next.
     bound: f32,
     reversals: u32,
     /// Size of the excitation, and how it changes in a block.
     fade: f32,
     fading: f32,
-    /// Cosine and sine part of the eccentricity correction \[rad\], and the correction of the last block.
+    /// Cosine and sine part of the eccentricity correction (rad), and the correction of the last block.
     eccentric: [f32; 2],
     taken: f32,
     servo: Servo,
@@ -131,7 +131,7 @@ impl<const L: usize> Commissioning<L> {
         }
     }
 
-    /// One tick: the motor's angle [2^-32 turn] in, the torque \[N m\] out, for the next tick.
+    /// One tick: the motor's angle (2^-32 turn) in, the torque (N m) out, for the next tick.
     ///
     /// After an implausible angle, or beyond the travel, there is no torque: the brake must hold the load.
     #[inline]
@@ -208,7 +208,7 @@ impl<const L: usize> Commissioning<L> {
         &self.known.responses
     }
 
-    /// Angle from where the test began \[rad\].
+    /// Angle from where the test began (rad).
     #[must_use]
     pub fn travelled(&self) -> f64 {
         self.angle as f64 * (core::f64::consts::TAU / 4_294_967_296.0)
@@ -501,7 +501,7 @@ impl<const L: usize> Commissioning<L> {
         }
     }
 
-    /// Where the motor stands against a flank \[rad\].
+    /// Where the motor stands against a flank (rad).
     fn place(&self, config: &TestConfig) -> f64 {
         self.reference.angle as f64 / f64::from(config.units) + f64::from(self.deviation.angle)
     }
@@ -523,7 +523,7 @@ impl<const L: usize> Commissioning<L> {
 }
 
 impl TestConfig {
-    /// Duration of a segment of the friction's test \[s\]: long beside the servo and the band's lower end, and for
+    /// Duration of a segment of the friction's test (s): long beside the servo and the band's lower end, and for
     /// ramps no steeper than the others.
     pub(crate) fn segment(&self) -> f64 {
         let [low, _] = self.settings.band;

@@ -20,16 +20,16 @@ pub(crate) struct Servo {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Deviation {
-    /// Angle \[rad\].
+    /// Angle (rad).
     pub angle: f32,
-    /// Speed \[rad/s\].
+    /// Speed (rad/s).
     pub speed: f32,
-    /// Torque other than the motor's \[N m\].
+    /// Torque other than the motor's (N m).
     pub disturbance: f32,
 }
 
 impl Servo {
-    /// The servo of a machine of this inertia \[kg m2\].
+    /// The servo of a machine of this inertia (kg m2).
     ///
     /// The observer has three equal poles three times as fast as the servo's two [critically damped filter of third
     /// order: Benedict and Bordner 1962].

@@ -13,24 +13,24 @@ pub struct TestSettings {
     pub rate: Rate,
     /// The encoder on the motor.
     pub encoder: Encoder,
-    /// The most that the motor's torque may differ from `held` \[N m\]; no more than `shaft_torque` leaves beside
+    /// The most that the motor's torque may differ from `held` (N m); no more than `shaft_torque` leaves beside
     /// `held` is given, and half of that before the multisine, so that a load that is seized is not strained either.
     pub torque: f64,
-    /// Largest shaft torque during the test, the holding torque included \[N m\]: half of rated torque as a rule.
+    /// Largest shaft torque during the test, the holding torque included (N m): half of rated torque as a rule.
     pub shaft_torque: f64,
-    /// Speed of the test \[rad/s\]: eight turns in an hour at least; the motor's own swing stays below it.
+    /// Speed of the test (rad/s): eight turns in an hour at least; the motor's own swing stays below it.
     pub speed: f64,
-    /// How far the motor may turn to either side of where it starts \[rad\].
+    /// How far the motor may turn to either side of where it starts (rad).
     pub travel: f64,
-    /// Torque that holds the load at the start \[N m\], to within `torque`; 0 for a load without weight.
+    /// Torque that holds the load at the start (N m), to within `torque`; 0 for a load without weight.
     pub held: f64,
-    /// First guess of the total inertia \[kg m2\], within a factor of two; the motor's, where no more is known.
+    /// First guess of the total inertia (kg m2), within a factor of two; the motor's, where no more is known.
     pub inertia: f64,
-    /// Where the resonance and the antiresonance are looked for \[Hz\].
+    /// Where the resonance and the antiresonance are looked for (Hz).
     pub band: [f64; 2],
-    /// Standard deviation of the motor's torque from the command in a tick \[N m\].
+    /// Standard deviation of the motor's torque from the command in a tick (N m).
     pub torque_accuracy: f64,
-    /// Time from the sample to when the torque that it gives rise to begins to act \[s\]: 0 where it acts at once.
+    /// Time from the sample to when the torque that it gives rise to begins to act (s): 0 where it acts at once.
     pub delay: f64,
 }
 
@@ -40,14 +40,14 @@ const STEADY: f64 = 0.5;
 /// A lag that alone takes this share of the torque means that the motor does not follow.
 const LAG: f64 = 0.5;
 
-/// Longest run-up \[s\], and longest time for the eight turns that the encoder's test needs.
+/// Longest run-up (s), and longest time for the eight turns that the encoder's test needs.
 const LONGEST: [f64; 2] = [1_800.0, 3_600.0];
 
 /// The most that the swing's watch takes for an acceleration, per radian of error and block^2: the sum of the sizes of
 /// its impulse response.
 const RINGING: f64 = 0.043;
 
-/// Largest eccentricity of an encoder \[rad\]: half a degree.
+/// Largest eccentricity of an encoder (rad): half a degree.
 const ECCENTRIC: f64 = 0.01;
 
 /// Blocks in a period of the band's upper end, at least.
@@ -59,11 +59,11 @@ const BLOCKS: f64 = 12.0;
 pub struct TestConfig {
     /// The settings that it was made from.
     pub(crate) settings: TestSettings,
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     pub(crate) period: f64,
     /// Ticks in a block: angles are summed and the torque held over it.
     pub(crate) ticks: u32,
-    /// Duration of a block \[s\].
+    /// Duration of a block (s).
     pub(crate) block: f64,
     /// The same, as the tick takes it.
     pub(crate) block_f32: f32,
@@ -71,22 +71,22 @@ pub struct TestConfig {
     pub(crate) unit: f32,
     /// 2^-32 turns in a radian.
     pub(crate) units: f32,
-    /// Largest plausible turn in a tick \[2^-32 turn\].
+    /// Largest plausible turn in a tick (2^-32 turn).
     pub(crate) jump: u32,
-    /// Most that the motor may lag behind the reference \[rad\].
+    /// Most that the motor may lag behind the reference (rad).
     pub(crate) lag: f32,
-    /// Largest deviation from the holding torque \[N m\]: under the multisine, and before.
+    /// Largest deviation from the holding torque (N m): under the multisine, and before.
     pub(crate) most: [f64; 2],
-    /// The travel \[2^-32 turn\].
+    /// The travel (2^-32 turn).
     pub(crate) travel: i64,
-    /// Resolution of the encoder \[rad\].
+    /// Resolution of the encoder (rad).
     pub(crate) resolution: f64,
-    /// Natural frequency of the servo \[rad/s\]: a sixth of the band's lower end, and below a tenth of the torque's
+    /// Natural frequency of the servo (rad/s): a sixth of the band's lower end, and below a tenth of the torque's
     /// reach.
     pub(crate) servo: f64,
-    /// Rate of change of the speed \[rad/s2\].
+    /// Rate of change of the speed (rad/s2).
     pub(crate) acceleration: f64,
-    /// Shaft torque beyond which it swings \[N m\]: the largest one, and what the encoder may seem to add.
+    /// Shaft torque beyond which it swings (N m): the largest one, and what the encoder may seem to add.
     pub(crate) swing: f32,
 }
 
@@ -186,12 +186,12 @@ impl TestConfig {
         &self.settings
     }
 
-    /// Blocks in a time \[s\], at least one.
+    /// Blocks in a time (s), at least one.
     pub(crate) fn blocks(&self, time: f64) -> u32 {
         ((time / self.block) as u32).max(1)
     }
 
-    /// Shaft torque available beside the held load \[N m\].
+    /// Shaft torque available beside the held load (N m).
     pub(crate) fn room(&self, static_torque: f64) -> f64 {
         (self.settings.shaft_torque - static_torque.abs()).max(0.0)
     }

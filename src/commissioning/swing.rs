@@ -11,7 +11,7 @@ pub(crate) struct SwingWatch {
     state: Deviation,
     /// Blocks until the observer has settled.
     settles: u32,
-    /// Shaft torque \[N m\] when it last passed the limit on the other side than before.
+    /// Shaft torque (N m) when it last passed the limit on the other side than before.
     passed: f32,
     /// How often it did without a pause, and the blocks since.
     passes: u32,
@@ -27,7 +27,7 @@ const PASSES: u32 = 4;
 const SETTLES: u32 = 48;
 
 impl SwingWatch {
-    /// For a motor of this inertia \[kg m2\], from this state; a greater inertia finds a swing earlier.
+    /// For a motor of this inertia (kg m2), from this state; a greater inertia finds a swing earlier.
     pub(crate) fn new(config: &TestConfig, inertia: f64, state: Deviation) -> Self {
         let [low, _] = config.settings.band;
         Self {
@@ -42,7 +42,7 @@ impl SwingWatch {
     }
 
     /// One block: the measurement under `torque`, while the reference accelerated. Whether the shaft swings: its torque
-    /// \[N m\] has been beyond the limit on one side and the other, several times.
+    /// (N m) has been beyond the limit on one side and the other, several times.
     #[inline(always)]
     pub(crate) fn observe(&mut self, config: &TestConfig, measured: f32, torque: f32, acceleration: f32) -> bool {
         self.observer.observe(&mut self.state, config.block_f32, measured, torque, acceleration);

@@ -46,7 +46,7 @@ struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// Bases of this torque \[N m\] and this speed \[rad/s\], or those with a finer base of the twist: just over half
+    /// Bases of this torque (N m) and this speed (rad/s), or those with a finer base of the twist: just over half
     /// the twist under the base of the torque, the least for which the compliance fits.
     const fn bases(&self, torque: f64, speed: f64, finer: bool) -> Bases {
         match self.two_mass {

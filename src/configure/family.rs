@@ -45,7 +45,7 @@ use crate::settings::{Bases, SpeedLoopSettings};
 ///     const RATE_HZ: u32 = 10_000;
 /// }
 /// impl Family<2, 2> for Hoist {
-///     /// Inverse of the load [1/t].
+///     /// Inverse of the load (1/t).
 ///     const FIRST: [f64; 2] = [0.5, 1.0];
 ///     const SECOND: [f64; 2] = [1.0, 3.0];
 ///     const MEMBERS: [[TwoMass; 2]; 2] = {

@@ -13,7 +13,7 @@ pub enum GainSource {
 }
 
 impl GainSource {
-    /// The proportional gain \[N m s/rad\].
+    /// The proportional gain (N m s/rad).
     pub(super) const fn proportional(&self) -> f64 {
         match self {
             GainSource::SpeedLoop(design) => design.proportional,

@@ -31,7 +31,7 @@ pub trait HasDroop: Machine {
 pub trait HasBarredSpeeds<const K: usize>: Machine {
     /// The barred ranges.
     const BARRED: BarredSpeeds<K>;
-    /// Acceleration through them \[rad/s2\]: nine tenths of the torque limit on the inertia of the two masses.
+    /// Acceleration through them (rad/s2): nine tenths of the torque limit on the inertia of the two masses.
     const QUICK_RAMP: f64 =
         0.9 * Self::RATING.torque_limit / (Self::TWO_MASS.motor_inertia + Self::TWO_MASS.load_inertia);
 }
@@ -44,7 +44,7 @@ pub trait HasTorqueCurve<const K: usize>: Machine {
 
 /// A machine whose torque may change so fast and no faster.
 pub trait HasSlew: Machine {
-    /// Torque per time \[N m/s\].
+    /// Torque per time (N m/s).
     const SLEW: f64;
 }
 

@@ -19,7 +19,7 @@ pub enum LoopPart {
     Rigid(RigidDesign),
     /// A governor.
     SpeedLoop(SpeedLoopDesign),
-    /// A torque against the twist rate \[N m s/rad\], added to the governor's.
+    /// A torque against the twist rate (N m s/rad), added to the governor's.
     Damping(f64),
 }
 

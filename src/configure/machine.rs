@@ -12,11 +12,11 @@ use crate::settings::{Bases, Cycle, Gear, Screening};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rating {
-    /// Rated torque \[N m\].
+    /// Rated torque (N m).
     pub torque: f64,
-    /// Rated speed \[rad/s\].
+    /// Rated speed (rad/s).
     pub speed: f64,
-    /// Largest torque that may be commanded, either way \[N m\].
+    /// Largest torque that may be commanded, either way (N m).
     pub torque_limit: f64,
 }
 
@@ -48,8 +48,8 @@ impl Rating {
         }
     }
 
-    /// Acceleration of the setpoint \[rad/s2\]: rated speed in two seconds, or the acceleration of this inertia
-    /// \[kg m2\] by half of the torque limit where that is less, so that the other half remains for the load.
+    /// Acceleration of the setpoint (rad/s2): rated speed in two seconds, or the acceleration of this inertia
+    /// (kg m2) by half of the torque limit where that is less, so that the other half remains for the load.
     #[must_use]
     pub const fn ramp(&self, inertia: f64) -> f64 {
         let (usual, possible) = (self.speed / 2.0, 0.5 * self.torque_limit / inertia);
@@ -74,7 +74,7 @@ pub trait Machine {
 
     /// The tick rate.
     const RATE: Rate = Rate::hz(Self::RATE_HZ);
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     const PERIOD: f64 = period(Self::RATE);
 
     /// Two masses that stand for the chain: those with its first resonance and antiresonance.
@@ -121,11 +121,11 @@ pub trait Machine {
     const ROBUSTNESS: Robustness = Robustness::USUAL;
     /// The speed loop, from the two masses, rate and tuning.
     const SPEED_LOOP: SpeedLoopDesign = Self::TWO_MASS.speed_loop(Self::RATE, Self::TUNING);
-    /// Acceleration of the setpoint \[rad/s2\]: [`Rating::ramp`] with the inertia of the whole chain.
+    /// Acceleration of the setpoint (rad/s2): [`Rating::ramp`] with the inertia of the whole chain.
     const RAMP: f64 = Self::RATING.ramp(Self::CHAIN.total_inertia());
     /// Source of the composed governor's gains: the speed loop.
     const GAINS: GainSource = GainSource::SpeedLoop(Self::SPEED_LOOP);
-    /// Smallest torque of a motor whose limits differ \[N m\], zero or below: zero, as an engine cannot brake.
+    /// Smallest torque of a motor whose limits differ (N m), zero or below: zero, as an engine cannot brake.
     const LEAST_TORQUE: f64 = 0.0;
 
     /// Plausibility limits of a sample: [`Rating::screening`].
@@ -145,7 +145,7 @@ pub trait Machine {
     const CYCLES: u32 = 16;
 }
 
-/// Angle of a count of the encoder \[rad\].
+/// Angle of a count of the encoder (rad).
 const fn count(encoder: Encoder) -> f64 {
     match encoder.resolution() {
         Ok(count) => count,
@@ -153,7 +153,7 @@ const fn count(encoder: Encoder) -> f64 {
     }
 }
 
-/// Time between two ticks \[s\].
+/// Time between two ticks (s).
 const fn period(rate: Rate) -> f64 {
     match rate.period() {
         Ok(period) => period,

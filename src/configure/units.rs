@@ -6,13 +6,13 @@ use crate::sample::{Command, Estimate, Sample};
 
 /// A number type for the quantities of a machine: SI units in floats, per unit of its bases in fixed point.
 pub trait Units: Number {
-    /// A torque \[N m\].
+    /// A torque (N m).
     fn from_torque<M: Machine>(torque: f32) -> Self;
-    /// A speed \[rad/s\].
+    /// A speed (rad/s).
     fn from_speed<M: Machine>(speed: f32) -> Self;
-    /// This torque \[N m\].
+    /// This torque (N m).
     fn to_torque<M: Machine>(self) -> f32;
-    /// This speed \[rad/s\].
+    /// This speed (rad/s).
     fn to_speed<M: Machine>(self) -> f32;
 }
 
@@ -66,7 +66,7 @@ impl Units for Fixed {
 }
 
 impl<N: Units> Sample<N> {
-    /// A sample in SI units: angle \[2^-32 turn\], torque \[N m\], setpoint \[rad/s\].
+    /// A sample in SI units: angle (2^-32 turn), torque (N m), setpoint (rad/s).
     #[inline(always)]
     pub fn si<M: Machine>(angle: u32, torque: f32, setpoint: f32) -> Self {
         Sample { angle, torque: N::from_torque::<M>(torque), setpoint: N::from_speed::<M>(setpoint) }
@@ -74,7 +74,7 @@ impl<N: Units> Sample<N> {
 }
 
 impl<N: Units> Command<N> {
-    /// The torque \[N m\].
+    /// The torque (N m).
     #[inline(always)]
     pub fn torque_si<M: Machine>(&self) -> f32 {
         self.torque.to_torque::<M>()

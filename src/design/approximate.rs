@@ -30,17 +30,17 @@ pub struct Fidelity {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ApproximateStep {
-    /// Twist from twist \[1\], less one.
+    /// Twist from twist (1), less one.
     pub n11: f64,
-    /// Twist from twist rate \[s\].
+    /// Twist from twist rate (s).
     pub n12: f64,
-    /// Twist from drive \[s2\].
+    /// Twist from drive (s2).
     pub g1: f64,
-    /// Twist rate from twist \[1/s\].
+    /// Twist rate from twist (1/s).
     pub n21: f64,
-    /// Twist rate from twist rate \[1\], less one.
+    /// Twist rate from twist rate (1), less one.
     pub n22: f64,
-    /// Twist rate from forcing \[s\].
+    /// Twist rate from forcing (s).
     pub g2: f64,
     /// How far it is from the exact step.
     pub fidelity: Fidelity,
@@ -74,18 +74,18 @@ impl ApproximateStep {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SemiImplicitStep {
-    /// Period \[s\].
+    /// Period (s).
     pub dt: f64,
-    /// `T k/J_r` \[1/s\].
+    /// `T k/J_r` (1/s).
     pub stiffness_dt: f64,
-    /// `T d/J_r` \[1\].
+    /// `T d/J_r` (1).
     pub damping_dt: f64,
     /// How far it is from the exact step.
     pub fidelity: Fidelity,
 }
 
 impl SemiImplicitStep {
-    /// The step of a machine over a period \[s\].
+    /// The step of a machine over a period (s).
     #[must_use]
     pub const fn new(machine: &TwoMass, period: f64) -> Self {
         let (w2, two_a) = rates(machine);
@@ -117,7 +117,7 @@ impl StepChoice {
     }
 }
 
-/// `k/J_r` \[1/s2\] and `d/J_r` \[1/s\].
+/// `k/J_r` (1/s2) and `d/J_r` (1/s).
 const fn rates(machine: &TwoMass) -> (f64, f64) {
     let reduced = machine.reduced_inertia();
     (machine.stiffness / reduced, machine.damping / reduced)

@@ -38,13 +38,13 @@ pub struct BacklashDesign {
     pub contact: TwoMassDesign,
     /// The step of twist and twist rate in free flight.
     pub free: ExactStep,
-    /// Whole free travel of the gap \[rad\].
+    /// Whole free travel of the gap (rad).
     pub gap: f64,
     /// Searching gains: correction of each state per radian of innovation.
     pub searching: [f64; 5],
     /// Largest size of a pole of the estimate's error with the searching gains, in contact.
     pub searching_radius: f64,
-    /// Predicted standard deviation of the twist with the searching gains \[rad\].
+    /// Predicted standard deviation of the twist with the searching gains (rad).
     pub searching_twist: f64,
     /// Ticks for which the searching gains stand after the gap has closed, at least 1.
     pub hold: u32,

@@ -9,16 +9,16 @@ use crate::math::sqrt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTakeUpTuning {
-    /// Torque that the impact may add in the shaft [N m], above 0.
+    /// Torque that the impact may add in the shaft (N m), above 0.
     pub impact: f64,
-    /// Largest torque while the gap is open [N m], above 0.
+    /// Largest torque while the gap is open (N m), above 0.
     pub torque: f64,
-    /// Rise of the torque limit per period of the resonance, on the driven flank [N m], above 0.
+    /// Rise of the torque limit per period of the resonance, on the driven flank (N m), above 0.
     pub rise: f64,
-    /// Fall of the torque limit per period of the resonance, in the gap and on the other flank [N m], above 0; at once
+    /// Fall of the torque limit per period of the resonance, in the gap and on the other flank (N m), above 0; at once
     /// if infinite.
     pub fall: f64,
-    /// Largest torque that the limit rises to [N m], the motor's; at least [`torque`](Self::torque). Active damping is
+    /// Largest torque that the limit rises to (N m), the motor's; at least [`torque`](Self::torque). Active damping is
     /// added to it, so that the limit behind the take-up is the final one.
     pub max_torque: f64,
     /// Damping ratio that the motor adds to the shaft; not negative.
@@ -29,21 +29,21 @@ pub struct BacklashTakeUpTuning {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTakeUpDesign {
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     pub period: f64,
-    /// Approach speed: largest twist rate in an open gap [rad/s].
+    /// Approach speed: largest twist rate in an open gap (rad/s).
     pub approach_speed: f64,
-    /// Largest torque while the gap is open [N m].
+    /// Largest torque while the gap is open (N m).
     pub torque: f64,
     /// Damping of the twist rate while the gap is open [N m s/rad]: torque over approach speed.
     pub braking: f64,
-    /// Rate at which the largest torque rises on the driven flank [N m/s].
+    /// Rate at which the largest torque rises on the driven flank (N m/s).
     pub slew: f64,
-    /// Rate at which it falls in the gap and on the other flank [N m/s], at most to the least within a tick.
+    /// Rate at which it falls in the gap and on the other flank (N m/s), at most to the least within a tick.
     pub fall: f64,
-    /// Largest torque of the motor [N m].
+    /// Largest torque of the motor (N m).
     pub max_torque: f64,
-    /// Active damping in contact [N m s/rad].
+    /// Active damping in contact (N m s/rad).
     pub damping: f64,
 }
 

@@ -16,9 +16,9 @@ pub struct BarredSpeeds<const K: usize> {
 
 impl<const K: usize> BarredSpeeds<K> {
     /// The ranges about the critical speeds `frequency/order` [Pfützner 1980 ch. 1], as wide as `margin` of them either
-    /// way, as far as they begin below `up_to` [rad/s]. Ranges that touch are one.
+    /// way, as far as they begin below `up_to` (rad/s). Ranges that touch are one.
     ///
-    /// `frequencies` [rad/s] of the torsional vibration, `orders` in multiples of a turn (a four-stroke engine has 1/2,
+    /// `frequencies` (rad/s) of the torsional vibration, `orders` in multiples of a turn (a four-stroke engine has 1/2,
     /// 1, 3/2 ...).
     ///
     /// # Panics
@@ -135,7 +135,7 @@ impl<const K: usize> BarredSpeeds<K> {
         Ok(barred)
     }
 
-    /// The ranges, lower and upper edge [rad/s].
+    /// The ranges, lower and upper edge (rad/s).
     #[must_use]
     pub const fn ranges(&self) -> &[[f64; 2]] {
         self.ranges.split_at(self.count).0

@@ -25,9 +25,9 @@ const LATEST: f64 = 12.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ClosedLoop {
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     pub period: f64,
-    /// Frequency of the integral \[rad/s\]: below it nothing is decided.
+    /// Frequency of the integral (rad/s): below it nothing is decided.
     slowest: f64,
     numerator: Polynomial,
     denominator: Polynomial,
@@ -213,7 +213,7 @@ impl ClosedLoop {
         Mapped::of(&self.numerator, &self.denominator)
     }
 
-    /// Whether the loop is stable with its response turned by an angle \[rad\] either way: `|D + e^(j phi) N|^2` has
+    /// Whether the loop is stable with its response turned by an angle (rad) either way: `|D + e^(j phi) N|^2` has
     /// real coefficients.
     pub(super) const fn is_stable_turned(&self, plant: &Plant, angle: f64) -> bool {
         let (numerator, denominator) = self.open(plant);

@@ -2,15 +2,15 @@
 
 use crate::math::{hypot, sqrt};
 
-/// Errors of shaft torque, load speed and load torque \[N m, rad/s, N m\], rms.
+/// Errors of shaft torque, load speed and load torque (N m, rad/s, N m), rms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EstimateError {
-    /// Of the shaft torque \[N m\].
+    /// Of the shaft torque (N m).
     pub shaft_torque: f64,
-    /// Of the load's speed \[rad/s\].
+    /// Of the load's speed (rad/s).
     pub load_speed: f64,
-    /// Of the load torque \[N m\].
+    /// Of the load torque (N m).
     pub load_torque: f64,
 }
 

@@ -61,7 +61,7 @@ pub const fn exponential<const N: usize>(a: &Matrix<N, N>) -> Option<Matrix<N, N
     Some(Matrix::IDENTITY.plus(1.0, &less_one).scaled(&units, &units))
 }
 
-/// Exact zero-order-hold matrices `(F, G)` of `x' = A x + B u` over a period \[s\], `None` as for [`exponential`].
+/// Exact zero-order-hold matrices `(F, G)` of `x' = A x + B u` over a period (s), `None` as for [`exponential`].
 ///
 /// `W` must be `N + M`: the order of the matrix that joins states and inputs.
 #[must_use]

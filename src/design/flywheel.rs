@@ -1,6 +1,6 @@
 //! A flywheel by the areas between driving and loading torque [Wang 1989 ch. 5, Notes ch. 5].
 
-/// Energy swing A_max over a cycle \[J\] from the areas between the driving and the loading torque, in their order,
+/// Energy swing A_max over a cycle (J) from the areas between the driving and the loading torque, in their order,
 /// positive where the driving torque is larger: the highest less the lowest of their running sum.
 #[must_use]
 pub const fn energy_swing(areas: &[f64]) -> f64 {
@@ -19,7 +19,7 @@ pub const fn energy_swing(areas: &[f64]) -> f64 {
     most - least
 }
 
-/// Inertia \[kg m2\] that keeps delta at `delta` where the energy swings by `swing` \[J\] at a mean speed \[rad/s\]:
+/// Inertia (kg m2) that keeps delta at `delta` where the energy swings by `swing` (J) at a mean speed (rad/s):
 /// A_max/(omega_m^2 delta). Existing rotating inertia counts towards it. For a machine of constant inertia only.
 ///
 /// ```

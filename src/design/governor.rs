@@ -29,9 +29,9 @@ use crate::math::sqrt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Actuator {
-    /// Dead time \[s\].
+    /// Dead time (s).
     pub delay: f64,
-    /// Time constant of the first-order lag \[s\].
+    /// Time constant of the first-order lag (s).
     pub lag: f64,
 }
 
@@ -39,7 +39,7 @@ impl Actuator {
     /// A torque-controlled drive: within a tick.
     pub const DIRECT: Self = Self { delay: 0.0, lag: 0.0 };
 
-    /// The dead time to allow for with a combustion engine \[s\] at a speed \[rad/s\]: half the interval between two
+    /// The dead time to allow for with a combustion engine (s) at a speed (rad/s): half the interval between two
     /// firings, until the next cylinder takes the new amount of fuel, and a quarter of a turn until its pressure has
     /// become torque. A four-stroke engine fires `cylinders/2` times a turn.
     ///
@@ -75,7 +75,7 @@ impl Actuator {
 pub struct LoadFeedForward {
     /// The share, from 0 to 1.
     pub share: f64,
-    /// By how much the estimate is late, as a first-order lag \[s\].
+    /// By how much the estimate is late, as a first-order lag (s).
     pub lag: f64,
 }
 
@@ -94,7 +94,7 @@ impl LoadFeedForward {
 pub struct VirtualInertia {
     /// Of the machine's total inertia, from 0 to 1.
     pub share: f64,
-    /// By how much the estimate of the load torque is late, as a first-order lag \[s\].
+    /// By how much the estimate of the load torque is late, as a first-order lag (s).
     pub lag: f64,
 }
 
@@ -102,13 +102,13 @@ pub struct VirtualInertia {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct GovernorDesign {
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     pub period: f64,
-    /// Proportional gain \[N m s/rad\].
+    /// Proportional gain (N m s/rad).
     pub proportional: f64,
-    /// Integral gain \[N m/rad\].
+    /// Integral gain (N m/rad).
     pub integral: f64,
-    /// Equivalent delay of the loop \[s\], as reduced by a virtual inertia.
+    /// Equivalent delay of the loop (s), as reduced by a virtual inertia.
     pub equivalent_delay: f64,
     /// Share of the load torque that is fed forward.
     pub share: f64,
@@ -116,7 +116,7 @@ pub struct GovernorDesign {
     pub acceleration: f64,
     /// The actuator.
     pub actuator: Actuator,
-    /// Lag of the estimated load torque \[s\]; 0 where nothing is taken of it.
+    /// Lag of the estimated load torque (s); 0 where nothing is taken of it.
     pub lag: f64,
 }
 

@@ -31,7 +31,7 @@ pub(super) struct Late {
 }
 
 impl LateLoop {
-    /// Response at a frequency \[rad/s\], positive where the feedback opposes.
+    /// Response at a frequency (rad/s), positive where the feedback opposes.
     pub(super) const fn response(&self, frequency: f64) -> Complex {
         let angle = frequency * self.period;
         let (half, _) = sin_cos(0.5 * angle);

@@ -13,12 +13,12 @@ pub struct Margins {
     pub gain_up: f64,
     /// Factor by which the gain may shrink, below 1; 0 where no loss destabilises.
     pub gain_down: f64,
-    /// Smallest phase margin over all crossings of gain 1 \[rad\].
+    /// Smallest phase margin over all crossings of gain 1 (rad).
     pub phase: f64,
-    /// Smallest dead time more that destabilises \[s\]: over all crossings, the phase to -180 degrees over the
+    /// Smallest dead time more that destabilises (s): over all crossings, the phase to -180 degrees over the
     /// frequency.
     pub delay: f64,
-    /// Highest frequency at which the gain crosses 1 \[rad/s\].
+    /// Highest frequency at which the gain crosses 1 (rad/s).
     pub crossover: f64,
     /// Smallest distance of the response from -1; over 0.5 is sound.
     pub modulus: f64,
@@ -60,7 +60,7 @@ pub(super) enum OpenLoop {
 }
 
 impl OpenLoop {
-    /// Response at a frequency \[rad/s\].
+    /// Response at a frequency (rad/s).
     const fn response(&self, frequency: f64) -> Complex {
         match self {
             Self::Late(open) => open.response(frequency),
@@ -73,7 +73,7 @@ impl OpenLoop {
         }
     }
 
-    /// Lowers the margins found to what a range of frequencies \[rad/s\] shows.
+    /// Lowers the margins found to what a range of frequencies (rad/s) shows.
     pub(super) const fn sweep(&self, found: &mut Margins, from: f64, to: f64, points: u32) {
         let factor = exp(ln(to / from) / points as f64);
         let mut low = from;

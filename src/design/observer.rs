@@ -1,6 +1,6 @@
 //! Observer of two masses from the motor's angle alone.
 //!
-//! The state is `[theta_m, omega_m, delta, omega_l, tau_L]` \[rad, rad/s, rad, rad/s, N m\], the input the motor's
+//! The state is `[theta_m, omega_m, delta, omega_l, tau_L]` (rad, rad/s, rad, rad/s, N m), the input the motor's
 //! torque. The transition is exact: momentum moves as one rigid machine, and the twist by [`ExactStep`].
 
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
@@ -15,17 +15,17 @@ const SURVIVING_SWING: f64 = 0.1;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StandardDeviation {
-    /// Motor angle \[rad\].
+    /// Motor angle (rad).
     pub motor_angle: f64,
-    /// Motor speed \[rad/s\].
+    /// Motor speed (rad/s).
     pub motor_speed: f64,
-    /// Twist \[rad\].
+    /// Twist (rad).
     pub twist: f64,
-    /// Shaft torque \[N m\].
+    /// Shaft torque (N m).
     pub shaft_torque: f64,
-    /// Load speed \[rad/s\].
+    /// Load speed (rad/s).
     pub load_speed: f64,
-    /// Load torque \[N m\].
+    /// Load torque (N m).
     pub load_torque: f64,
 }
 
@@ -33,7 +33,7 @@ pub struct StandardDeviation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TwoMassDesign {
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     pub period: f64,
     /// The machine that it observes.
     pub machine: TwoMass,
@@ -45,7 +45,7 @@ pub struct TwoMassDesign {
     pub chosen: StepChoice,
     /// Transition of the state over a tick.
     pub transition: Matrix<5, 5>,
-    /// The motor torque's effect on the state over a tick \[state/(N m)\].
+    /// The motor torque's effect on the state over a tick (state/(N m)).
     pub input: [f64; 5],
     /// Filter gain K, correction of each state per radian of innovation.
     pub gains: [f64; 5],
@@ -55,7 +55,7 @@ pub struct TwoMassDesign {
     pub spectral_radius: f64,
     /// Predicted standard deviations.
     pub standard_deviation: StandardDeviation,
-    /// Predicted standard deviation of the innovation \[rad\].
+    /// Predicted standard deviation of the innovation (rad).
     pub innovation: f64,
     /// Covariance after the measurement.
     pub posterior: Matrix<5, 5>,

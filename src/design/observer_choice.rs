@@ -22,15 +22,15 @@ use crate::math::{exp_m1, sqrt};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadCycle {
-    /// Rated speed \[rad/s\], which errors of speed are fractions of.
+    /// Rated speed (rad/s), which errors of speed are fractions of.
     pub speed: f64,
-    /// Peak torque of the shaft \[N m\], which errors of torque are fractions of.
+    /// Peak torque of the shaft (N m), which errors of torque are fractions of.
     pub torque: f64,
-    /// Largest change of torque that comes about at once, of the motor's or the load's \[N m\].
+    /// Largest change of torque that comes about at once, of the motor's or the load's (N m).
     pub change: f64,
-    /// How long it takes \[s\], 0 for a step.
+    /// How long it takes (s), 0 for a step.
     pub rise: f64,
-    /// Time between two such changes \[s\].
+    /// Time between two such changes (s).
     pub every: f64,
     /// Whether the shaft's torque changes its sign, so that a gap opens and closes.
     pub reverses: bool,
@@ -122,7 +122,7 @@ impl ObserverSelection {
 }
 
 impl TwoMass {
-    /// The observer for a load cycle, at a tick period \[s\].
+    /// The observer for a load cycle, at a tick period (s).
     ///
     /// A scene may take another, at the cost of the excess error. Without damping a swing does not decay.
     #[must_use]
@@ -148,7 +148,7 @@ impl TwoMass {
         ObserverSelection { without_shaft, without_gap, semi_implicit: step.fidelity.error_bound, chosen }
     }
 
-    /// Largest amplitude of the shaft torque's swing after a change of the load cycle \[N m\].
+    /// Largest amplitude of the shaft torque's swing after a change of the load cycle (N m).
     pub(super) const fn amplitude_after(&self, cycle: &LoadCycle) -> f64 {
         let share = if self.motor_inertia > self.load_inertia { self.motor_inertia } else { self.load_inertia };
         let turned = self.resonance() * cycle.rise;
@@ -164,7 +164,7 @@ impl TwoMass {
         amplitude * sqrt(0.5 * left)
     }
 
-    /// Rms error of a shaft torque oscillation of this amplitude \[N m\], until the next change.
+    /// Rms error of a shaft torque oscillation of this amplitude (N m), until the next change.
     const fn swing(&self, amplitude: f64, cycle: &LoadCycle) -> Penalty {
         let resonance = self.resonance();
         let rms = self.rms_until(cycle.every, amplitude);

@@ -22,7 +22,7 @@ use crate::math::{exp, exp_m1, hypot, ln, sin_cos, sqrt};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlacedObserver {
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     pub period: f64,
     /// The machine that it observes.
     pub machine: TwoMass,
@@ -79,7 +79,7 @@ impl TwoMass {
         }
     }
 
-    /// The unit of frequency \[rad/s\], and the poles of the continuous Kalman filter \[1/s\].
+    /// The unit of frequency (rad/s), and the poles of the continuous Kalman filter (1/s).
     const fn filter_poles(&self, motor: f64, load: f64) -> (f64, [(f64, f64); 5]) {
         let (jm, jl, reduced) = (self.motor_inertia, self.load_inertia, self.reduced_inertia());
         let (w2, two_a) = (self.stiffness / reduced, self.damping / reduced);

@@ -16,11 +16,11 @@ const NEGLIGIBLE: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Vibration {
-    /// Square of the natural frequency \[1/s2\].
+    /// Square of the natural frequency (1/s2).
     pub square: f64,
-    /// Modal damping \[1/s\].
+    /// Modal damping (1/s).
     pub damping: f64,
-    /// Square of the shape at the motor \[1/(kg m2)\].
+    /// Square of the shape at the motor (1/(kg m2)).
     pub residue: f64,
 }
 
@@ -55,7 +55,7 @@ impl Plant {
         Self::of_modes(chain.total_inertia(), &chain.modes())
     }
 
-    /// A machine of this inertia \[kg m2\] with vibrations, as of a train. A vibration with a node at the motor is left
+    /// A machine of this inertia (kg m2) with vibrations, as of a train. A vibration with a node at the motor is left
     /// out: the motor neither excites nor feels it.
     #[must_use]
     pub const fn of_modes(inertia: f64, modes: &Modes) -> Self {

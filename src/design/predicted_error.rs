@@ -26,15 +26,15 @@ use crate::math::{exp, sin_cos, sqrt};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Operation {
-    /// Rated torque \[N m\], which an offset is a fraction of.
+    /// Rated torque (N m), which an offset is a fraction of.
     pub rated_torque: f64,
-    /// Motor torque \[N m\], rms.
+    /// Motor torque (N m), rms.
     pub torque: f64,
-    /// Acceleration \[rad/s2\], rms.
+    /// Acceleration (rad/s2), rms.
     pub acceleration: f64,
-    /// Speed at which the encoder's errors act \[rad/s\].
+    /// Speed at which the encoder's errors act (rad/s).
     pub speed: f64,
-    /// Noise of the reported torque \[N m\], rms.
+    /// Noise of the reported torque (N m), rms.
     pub torque_noise: f64,
     /// The load cycle.
     pub cycle: LoadCycle,
@@ -117,7 +117,7 @@ impl Linear {
 }
 
 impl Linear {
-    /// Estimates over the angle \[N m/rad, ...\] that a motion `z^n` of the measured angle brings about.
+    /// Estimates over the angle (N m/rad, ...) that a motion `z^n` of the measured angle brings about.
     const fn response(&self, z: Complex) -> [Complex; 3] {
         // (z - A) x = z K, states in units of their gains, real and imaginary part one below the other
         let mut system = Matrix::<10, 10>::ZERO;

@@ -1,6 +1,6 @@
 //! Observer of a rigid machine from the motor's angle alone.
 //!
-//! The state is `[theta, omega, tau_L]` \[rad, rad/s, N m\], the input the motor's torque.
+//! The state is `[theta, omega, tau_L]` (rad, rad/s, N m), the input the motor's torque.
 
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
 use super::{Error, Kalman, Matrix};
@@ -11,13 +11,13 @@ use crate::math::sqrt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RigidDesign {
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     pub period: f64,
     /// The machine that it observes.
     pub machine: Rigid,
     /// Transition of the state over a tick.
     pub transition: Matrix<3, 3>,
-    /// The motor torque's effect on the state over a tick \[state/(N m)\].
+    /// The motor torque's effect on the state over a tick (state/(N m)).
     pub input: [f64; 3],
     /// Filter gain K, correction of each state per radian of innovation.
     pub gains: [f64; 3],
@@ -25,9 +25,9 @@ pub struct RigidDesign {
     pub poles: [(f64, f64); 3],
     /// Largest size of a pole.
     pub spectral_radius: f64,
-    /// Predicted standard deviations of angle \[rad\], speed \[rad/s\] and load torque \[N m\] after the measurement.
+    /// Predicted standard deviations of angle (rad), speed (rad/s) and load torque (N m) after the measurement.
     pub standard_deviation: [f64; 3],
-    /// Predicted standard deviation of the innovation \[rad\].
+    /// Predicted standard deviation of the innovation (rad).
     pub innovation: f64,
 }
 

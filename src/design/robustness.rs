@@ -17,7 +17,7 @@ use crate::machine::TwoMass;
 pub struct Robustness {
     /// Factor by which the gain may grow or shrink, 1 or above.
     pub gain: f64,
-    /// Phase margin \[rad\].
+    /// Phase margin (rad).
     pub phase: f64,
 }
 

@@ -7,7 +7,7 @@ use crate::machine::TwoMass;
 use crate::math::sqrt;
 
 impl TwoMass {
-    /// The speed loop of [`try_speed_loop`](Self::try_speed_loop), no faster than `bandwidth` \[rad/s\] nor than 0.4 of
+    /// The speed loop of [`try_speed_loop`](Self::try_speed_loop), no faster than `bandwidth` (rad/s) nor than 0.4 of
     /// the antiresonance, with the damping ratio of the shaft at which the gain on the twist rate is a tenth of the
     /// proportional one, or less.
     ///

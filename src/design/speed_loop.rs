@@ -61,26 +61,26 @@ impl SpeedLoopTuning {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopDesign {
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     pub period: f64,
-    /// Proportional gain \[N m s/rad\] on the error of the motor's speed.
+    /// Proportional gain (N m s/rad) on the error of the motor's speed.
     pub proportional: f64,
-    /// Integral gain \[N m/rad\].
+    /// Integral gain (N m/rad).
     pub integral: f64,
-    /// Active damping: gain on the twist rate \[N m s/rad\], subtracted from the torque.
+    /// Active damping: gain on the twist rate (N m s/rad), subtracted from the torque.
     pub damping: f64,
-    /// Time constant of the lag on the damping \[s\], 0 without: [`with_damping_lag`](Self::with_damping_lag).
+    /// Time constant of the lag on the damping (s), 0 without: [`with_damping_lag`](Self::with_damping_lag).
     pub damping_lag: f64,
-    /// Natural frequency of the speed \[rad/s\].
+    /// Natural frequency of the speed (rad/s).
     pub bandwidth: f64,
-    /// Natural frequency of the damped shaft \[rad/s\].
+    /// Natural frequency of the damped shaft (rad/s).
     pub shaft_frequency: f64,
     /// Largest size of a pole of the discrete closed loop.
     pub spectral_radius: f64,
 }
 
 impl SpeedLoopDesign {
-    /// The same with a lag on the damping \[s\], for a governor with [`DampingLag`](crate::governor::DampingLag). The
+    /// The same with a lag on the damping (s), for a governor with [`DampingLag`](crate::governor::DampingLag). The
     /// reciprocal of the resonance keeps the damping off vibrations of several times its frequency.
     #[must_use]
     pub const fn with_damping_lag(self, damping_lag: f64) -> Self {

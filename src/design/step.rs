@@ -18,31 +18,31 @@ use crate::math::{exp, exp_m1, sin_cos, sqrt};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ExactStep {
-    /// Twist from twist \[1\], less one.
+    /// Twist from twist (1), less one.
     pub n11: f64,
-    /// Twist from twist rate \[s\].
+    /// Twist from twist rate (s).
     pub n12: f64,
-    /// Twist from drive \[s2\].
+    /// Twist from drive (s2).
     pub g1: f64,
-    /// Twist rate from twist \[1/s\].
+    /// Twist rate from twist (1/s).
     pub n21: f64,
-    /// Twist rate from twist rate \[1\], less one.
+    /// Twist rate from twist rate (1), less one.
     pub n22: f64,
-    /// Twist rate from forcing \[s\].
+    /// Twist rate from forcing (s).
     pub g2: f64,
-    /// Reduction of the twist rate by the shaft: `T - g2` \[s\], to full precision.
+    /// Reduction of the twist rate by the shaft: `T - g2` (s), to full precision.
     pub lag: f64,
 }
 
 impl ExactStep {
-    /// The step of a machine over a period \[s\]; its stiffness and damping may be zero.
+    /// The step of a machine over a period (s); its stiffness and damping may be zero.
     #[must_use]
     pub const fn new(machine: &TwoMass, period: f64) -> Self {
         let reduced = machine.reduced_inertia();
         Self::from_rates(machine.stiffness / reduced, machine.damping / reduced, period)
     }
 
-    /// The step from `w^2 = k/J_r` \[1/s2\] and `2 a = d/J_r` \[1/s\] over a period \[s\].
+    /// The step from `w^2 = k/J_r` (1/s2) and `2 a = d/J_r` (1/s) over a period (s).
     #[must_use]
     pub const fn from_rates(w2: f64, two_a: f64, period: f64) -> Self {
         let (g1, g2, lag) = step_response(0.5 * two_a * period, w2 * period * period);
@@ -50,7 +50,7 @@ impl ExactStep {
         Self { n11: -w2 * g1, n12: g2, g1, n21: -w2 * g2, n22: -(w2 * g1 + two_a * g2), g2, lag }
     }
 
-    /// Impulse \[N m s\] from motor to load by the shaft in a tick, from twist, twist rate and forcing:
+    /// Impulse (N m s) from motor to load by the shaft in a tick, from twist, twist rate and forcing:
     /// `h = h.0 delta + h.1 v + h.2 s`. Then `J_m w_m += T tau_m - h` and `J_l w_l += h - T tau_L`.
     #[must_use]
     pub const fn impulse(&self, machine: &TwoMass) -> (f64, f64, f64) {

@@ -82,7 +82,7 @@ pub struct Tolerance {
     pub torque: Spread,
     /// Ticks by which the torque may act later than described.
     pub late: u32,
-    /// Lag of the torque \[s\] on top of the actuator's.
+    /// Lag of the torque (s) on top of the actuator's.
     pub lag: f64,
     /// Torque at the shaft that is not reported, either way, as a fraction of rated torque.
     pub offset: f64,

@@ -13,7 +13,7 @@ pub struct TorqueCurve<const K: usize> {
 }
 
 impl<const K: usize> TorqueCurve<K> {
-    /// A curve through points of speed [rad/s], the first of them at zero and each above the last, and torque [N m].
+    /// A curve through points of speed (rad/s), the first of them at zero and each above the last, and torque (N m).
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_through`](Self::try_through)
@@ -43,7 +43,7 @@ impl<const K: usize> TorqueCurve<K> {
         if K == 0 { Err(Error::TorqueCurve) } else { Ok(TorqueCurve { points }) }
     }
 
-    /// The curve with no more than `power` \[W\] at each of its points.
+    /// The curve with no more than `power` (W) at each of its points.
     #[must_use]
     pub const fn with_power_limit(mut self, power: f64) -> Self {
         let mut k = 0;
@@ -57,7 +57,7 @@ impl<const K: usize> TorqueCurve<K> {
         self
     }
 
-    /// The points: speed [rad/s], torque [N m].
+    /// The points: speed (rad/s), torque (N m).
     #[must_use]
     pub const fn points(&self) -> &[[f64; 2]; K] {
         &self.points

@@ -14,13 +14,13 @@ impl Rate {
         Self(rate as f64)
     }
 
-    /// A rate from the time between two ticks \[s\].
+    /// A rate from the time between two ticks (s).
     #[must_use]
     pub const fn every(period: f64) -> Self {
         Self(1.0 / period)
     }
 
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     ///
     /// # Errors
     /// [`Error::Period`] for a rate that is not positive and finite.
@@ -50,11 +50,11 @@ impl Rate {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Encoder {
     counts: u64,
-    /// Amplitudes of interpolation error and eccentricity \[rad\].
+    /// Amplitudes of interpolation error and eccentricity (rad).
     pub(super) amplitudes: [f64; 2],
     /// Signal periods on a turn.
     pub(super) periods: u32,
-    /// Rms of the turn during the jitter \[rad\].
+    /// Rms of the turn during the jitter (rad).
     pub(super) jitter: f64,
 }
 
@@ -80,14 +80,14 @@ impl Encoder {
         self
     }
 
-    /// With an eccentricity: the amplitude of the angle's error once a turn \[rad\].
+    /// With an eccentricity: the amplitude of the angle's error once a turn (rad).
     #[must_use]
     pub const fn eccentricity(mut self, amplitude: f64) -> Self {
         self.amplitudes[1] = amplitude;
         self
     }
 
-    /// Read at an uncertain time: its rms deviation \[s\], and the speed at which it is taken into account [rad/s], as
+    /// Read at an uncertain time: its rms deviation (s), and the speed at which it is taken into account (rad/s), as
     /// a rule the rated one.
     #[must_use]
     pub const fn jitter(mut self, deviation: f64, speed: f64) -> Self {
@@ -95,7 +95,7 @@ impl Encoder {
         self
     }
 
-    /// Angle of one count \[rad\].
+    /// Angle of one count (rad).
     ///
     /// # Errors
     /// [`Error::EncoderLines`] for an encoder of none.
@@ -103,7 +103,7 @@ impl Encoder {
         if self.counts == 0 { Err(Error::EncoderLines) } else { Ok(core::f64::consts::TAU / self.counts as f64) }
     }
 
-    /// Variance of the measured angle \[rad2\]: that of rounding to a count, `resolution^2/12`, and of the accuracy,
+    /// Variance of the measured angle (rad2): that of rounding to a count, `resolution^2/12`, and of the accuracy,
     /// `amplitude^2/2` of each periodic error and the square of the jitter's turn.
     ///
     /// # Errors
@@ -125,16 +125,16 @@ impl Encoder {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Disturbance {
-    /// Root mean square of the error of the motor's torque in one tick \[N m\], taken as independent from tick to tick.
+    /// Root mean square of the error of the motor's torque in one tick (N m), taken as independent from tick to tick.
     pub torque_accuracy: f64,
-    /// A step of the load torque \[N m\] that the observer is to have followed ...
+    /// A step of the load torque (N m) that the observer is to have followed ...
     pub load_torque_step: f64,
-    /// ... within this time \[s\].
+    /// ... within this time (s).
     pub within: f64,
 }
 
 impl Disturbance {
-    /// Variance of the motor's torque in a tick \[N2 m2\].
+    /// Variance of the motor's torque in a tick (N2 m2).
     ///
     /// # Errors
     /// [`Error::TorqueAccuracy`].
@@ -143,7 +143,7 @@ impl Disturbance {
         if self.torque_accuracy > 0.0 && square.is_finite() { Ok(square) } else { Err(Error::TorqueAccuracy) }
     }
 
-    /// Variance that the load torque gains in a tick \[N2 m2\]: `step^2 T / within`.
+    /// Variance that the load torque gains in a tick (N2 m2): `step^2 T / within`.
     ///
     /// The load torque is modelled as a random walk. Its variance grows in proportion to time, so one that has wandered
     /// by a root mean square of `load_torque_step` after the time `within` has an intensity of `step^2/within`; a real

@@ -9,21 +9,21 @@ pub struct TorqueClasses<N: Classed> {
     pub(super) scale: N::Scale,
     /// Half of the classes.
     pub(super) middle: i32,
-    /// Width of a class \[N m\].
+    /// Width of a class (N m).
     pub(super) width: f64,
-    /// Base of torques \[N m\]; 1 for floats.
+    /// Base of torques (N m); 1 for floats.
     pub(super) base: f64,
-    /// Time between two ticks \[s\]; 1 where it is left in ticks.
+    /// Time between two ticks (s); 1 where it is left in ticks.
     pub(super) period: f64,
 }
 
 impl<N: Classed> TorqueClasses<N> {
-    /// Width of a class \[N m\].
+    /// Width of a class (N m).
     pub const fn width(&self) -> f64 {
         self.width
     }
 
-    /// The same with the time between two ticks \[s\].
+    /// The same with the time between two ticks (s).
     #[must_use]
     pub const fn with_period(self, period: f64) -> Self {
         TorqueClasses { period, ..self }
@@ -64,7 +64,7 @@ macro_rules! classed {
         }
 
         impl TorqueClasses<$float> {
-            /// `CLASSES` classes between `-limit` and `limit` \[N m\].
+            /// `CLASSES` classes between `-limit` and `limit` (N m).
             ///
             /// # Panics
             /// At compile time in a constant: for a limit that is not positive and finite, or a number of classes that
@@ -101,7 +101,7 @@ impl Classed for Fixed {
 }
 
 impl TorqueClasses<Fixed> {
-    /// `CLASSES` classes between `-limit` and `limit` \[N m\], of torques with this base \[N m\].
+    /// `CLASSES` classes between `-limit` and `limit` (N m), of torques with this base (N m).
     ///
     /// # Panics
     /// At compile time in a constant: for a limit below 1/512 of the base or beyond eight bases, or a number of classes

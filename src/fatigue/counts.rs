@@ -57,7 +57,7 @@ impl<const CLASSES: usize, const REVERSALS: usize> Counts<CLASSES, REVERSALS> {
         line.damage(0.5 * f64::from(range) * self.width)
     }
 
-    /// Time in which the torque was beyond a limit \[N m\], either way, to the class \[s, or ticks\]: classes that
+    /// Time in which the torque was beyond a limit (N m), either way, to the class (s, or ticks): classes that
     /// begin at the limit or beyond it. The outermost classes hold all that is beyond them: no limit divides them.
     pub fn time_above(&self, limit: f64) -> f64 {
         let middle = CLASSES as f64 / 2.0;
@@ -71,12 +71,12 @@ impl<const CLASSES: usize, const REVERSALS: usize> Counts<CLASSES, REVERSALS> {
         beyond.map(|(_, &ticks)| f64::from(ticks)).sum::<f64>() * self.period
     }
 
-    /// The largest torque, either way \[N m\].
+    /// The largest torque, either way (N m).
     pub fn largest(&self) -> f64 {
         self.largest
     }
 
-    /// The torque amplification factor: the largest torque over this rated torque \[N m\].
+    /// The torque amplification factor: the largest torque over this rated torque (N m).
     pub fn amplification(&self, rated: f64) -> f64 {
         self.largest / rated
     }

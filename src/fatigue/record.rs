@@ -15,14 +15,14 @@ use super::{Counts, Rainflow, WoehlerLine};
 pub struct LifeRecord {
     /// Damage by Miner's rule; failure at 1.
     pub damage: f64,
-    /// Time beyond the limit of one's own \[s\].
+    /// Time beyond the limit of one's own (s).
     pub time_above: f64,
-    /// The largest torque, either way \[N m\].
+    /// The largest torque, either way (N m).
     pub largest: f64,
 }
 
 impl LifeRecord {
-    /// Takes the closed cycles, the time above `limit` \[N m\] and the largest torque out of a running count: between
+    /// Takes the closed cycles, the time above `limit` (N m) and the largest torque out of a running count: between
     /// two ticks.
     pub fn take<N: Classed, const CLASSES: usize, const REVERSALS: usize>(
         &mut self,

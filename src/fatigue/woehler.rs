@@ -6,7 +6,7 @@ use crate::math::{exp, ln};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WoehlerLine {
-    /// Amplitude at the knee \[N m\], half of a cycle's range.
+    /// Amplitude at the knee (N m), half of a cycle's range.
     pub knee: f64,
     /// Cycles to failure there.
     pub cycles: f64,
@@ -18,7 +18,7 @@ pub struct WoehlerLine {
 }
 
 impl WoehlerLine {
-    /// Damage of a cycle of this amplitude \[N m\]; NaN for a curve whose numbers are none.
+    /// Damage of a cycle of this amplitude (N m); NaN for a curve whose numbers are none.
     #[must_use]
     pub const fn damage(&self, amplitude: f64) -> f64 {
         let share = amplitude / self.knee;

@@ -31,7 +31,7 @@ const LONGEST: u32 = 1 << 22;
 pub struct CycleMeanConfig<N: Number> {
     /// The cycle, in as many segments as the measurement has.
     pub cycle: CycleConfig,
-    /// Its angle [2^-26 turn].
+    /// Its angle (2^-26 turn).
     pub angle: u32,
     /// Speed from a turn in a tick [rad/s per 2^-32 turn].
     pub speed: N::Coefficient,
@@ -43,7 +43,7 @@ pub struct CycleMeanConfig<N: Number> {
 struct Mark<N> {
     /// The first tick beyond it; wraps.
     tick: u32,
-    /// How far that tick was beyond it [2^-26 turn].
+    /// How far that tick was beyond it (2^-26 turn).
     beyond: u32,
     /// The motor's estimated speed.
     speed: N,

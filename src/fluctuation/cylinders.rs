@@ -21,11 +21,11 @@ use crate::math::{sin_cos, sqrt};
 pub struct Engine<const CYLINDERS: usize> {
     /// Numbers of the cylinders in the order in which they fire.
     pub firing_order: [u8; CYLINDERS],
-    /// Top dead centre before the first of them fires: angle from the beginning of the cycle \[rad\].
+    /// Top dead centre before the first of them fires: angle from the beginning of the cycle (rad).
     pub first: f64,
-    /// From top dead centre to the largest torque of combustion \[rad\]; 0.6 as a rule.
+    /// From top dead centre to the largest torque of combustion (rad); 0.6 as a rule.
     pub peak: f64,
-    /// Inertia of engine, flywheel and load \[kg m2\].
+    /// Inertia of engine, flywheel and load (kg m2).
     pub inertia: f64,
     /// Turns of the crank to a cycle: 2 of a four-stroke engine, 1 of a two-stroke engine.
     pub turns: u32,
@@ -51,7 +51,7 @@ pub enum CylinderVerdict {
 pub struct Cylinder {
     /// Its number.
     pub number: u8,
-    /// Its mean torque over the cycle [N m].
+    /// Its mean torque over the cycle (N m).
     pub torque: f64,
     /// Its torque over the median of all.
     pub share: f64,
@@ -92,7 +92,7 @@ impl Ripple {
         let torque = Series::of(&energy, &circle, half).derivative();
         let mut differences = [0.0; CYLINDERS];
         let mut variance = 0.0;
-        // The scatter of an amplitude [rad] over its teeth and cycles, and of the order of the torque that it makes.
+        // The scatter of an amplitude (rad) over its teeth and cycles, and of the order of the torque that it makes.
         let scatter = self.quality.spread / sqrt(0.5 * teeth.max(1) as f64 * f64::from(self.cycles.max(1)));
         for (m, order) in (1_u32..).zip(torque.orders.iter().take(half)) {
             let k = f64::from(m) / turns;

@@ -62,7 +62,7 @@ struct Peak<R> {
     /// The extreme before: on the way to a peak, the sample before.
     before: R,
     after: R,
-    /// The angle [2^-32 turn], its last six bits those of the segment's number.
+    /// The angle (2^-32 turn), its last six bits those of the segment's number.
     place: u32,
 }
 
@@ -421,7 +421,7 @@ impl<N: Ranked> Extremes<N> {
         })
     }
 
-    /// Mean speed by time of the cycle that was finished last [rad/s], negative backwards: input of a governor that is
+    /// Mean speed by time of the cycle that was finished last (rad/s), negative backwards: input of a governor that is
     /// not to act on the ripple.
     pub fn mean(&self, config: &CycleConfig) -> Option<f64> {
         if self.good < 2 {
@@ -449,7 +449,7 @@ impl<N: Ranked> Extremes<N> {
         Extreme { speed: value - 0.25 * (before - after) * offset, angle }
     }
 
-    /// Where in the cycle that was finished last a sample was \[rad\]: to the turn by its segment, within it by its
+    /// Where in the cycle that was finished last a sample was (rad): to the turn by its segment, within it by its
     /// angle.
     fn place(&self, config: &CycleConfig, peak: &Peak<N::Rank>) -> f64 {
         let (from, to) = (self.edge(1), self.edge(0));
@@ -472,9 +472,9 @@ impl<N: Ranked> Extremes<N> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Extreme {
-    /// Speed [rad/s].
+    /// Speed (rad/s).
     pub speed: f64,
-    /// Where in the cycle, from 0 to less than the cycle's angle \[rad\].
+    /// Where in the cycle, from 0 to less than the cycle's angle (rad).
     pub angle: f64,
 }
 
@@ -486,7 +486,7 @@ pub struct Fluctuations {
     pub max: Extreme,
     /// The least speed.
     pub min: Extreme,
-    /// (max + min)/2 [rad/s].
+    /// (max + min)/2 (rad/s).
     pub arithmetic_mean: f64,
     /// (max - min) over the mean by time.
     pub delta: f64,
@@ -513,12 +513,12 @@ impl Fluctuations {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reading {
-    /// Mean by time [rad/s], of motor and load alike; negative backwards.
+    /// Mean by time (rad/s), of motor and load alike; negative backwards.
     pub mean: f64,
     /// The mean less that of the cycle before [rad/s]: the part that is not periodic, which a governor mends and a
     /// flywheel does not.
     pub change: Option<f64>,
-    /// How long the cycle took \[s\].
+    /// How long the cycle took (s).
     pub duration: f64,
     /// The motor.
     pub motor: Fluctuations,

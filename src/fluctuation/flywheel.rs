@@ -70,10 +70,10 @@ pub enum Remedy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Balance {
-    /// Inertia over the angle of the cycle, referred to the motor \[kg m2\]: [`Series::constant`], or
+    /// Inertia over the angle of the cycle, referred to the motor (kg m2): [`Series::constant`], or
     /// [`Series::from_samples`] of a table.
     pub inertia: Series,
-    /// By how much the driving torque falls with the speed [N m s/rad], 0 for a constant one.
+    /// By how much the driving torque falls with the speed (N m s/rad), 0 for a constant one.
     pub slope: f64,
 }
 
@@ -81,9 +81,9 @@ pub struct Balance {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Flywheel {
-    /// Swing of the kinetic energy over the cycle as it is \[J\].
+    /// Swing of the kinetic energy over the cycle as it is (J).
     pub energy_swing: f64,
-    /// Inertia to be added on the motor's shaft \[kg m2\]; 0 where delta is permitted already.
+    /// Inertia to be added on the motor's shaft (kg m2); 0 where delta is permitted already.
     pub missing: f64,
     /// Delta by the arithmetic mean as it is, by the measured speed.
     pub delta: f64,
@@ -154,7 +154,7 @@ struct Machine {
     /// Kinetic energy, which is the work of all torques but for a constant.
     work: Grid,
     slope: f64,
-    /// Angle between two points \[rad\].
+    /// Angle between two points (rad).
     step: f64,
 }
 

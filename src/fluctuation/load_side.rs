@@ -20,13 +20,13 @@ use super::{Bin, CycleConfig, Ripple, Summed, WaveformConfig, Window};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Drivetrain {
-    /// Inertia of the motor \[kg m2\].
+    /// Inertia of the motor (kg m2).
     pub motor_inertia: f64,
-    /// Inertia of the load \[kg m2\].
+    /// Inertia of the load (kg m2).
     pub load_inertia: f64,
-    /// Stiffness between them [N m/rad].
+    /// Stiffness between them (N m/rad).
     pub stiffness: f64,
-    /// Damping between them [N m s/rad].
+    /// Damping between them (N m s/rad).
     pub damping: f64,
 }
 
@@ -34,21 +34,21 @@ pub struct Drivetrain {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadSide {
-    /// Torque of the shaft over the angle of the cycle [N m].
+    /// Torque of the shaft over the angle of the cycle (N m).
     pub shaft_torque: Series,
-    /// Speed of the load [rad/s], its trend taken off.
+    /// Speed of the load (rad/s), its trend taken off.
     pub load_speed: Series,
-    /// Torque of the load [N m].
+    /// Torque of the load (N m).
     pub load_torque: Series,
     /// Extremes of the load's speed, and its delta.
     pub load: Fluctuations,
     /// Energy swing over the cycle, largest less least of the kinetic energy of both masses and the energy in the
-    /// shaft: A_max \[J\] [Wang 1989 ch. 5].
+    /// shaft: A_max (J) [Wang 1989 ch. 5].
     pub energy_swing: f64,
 }
 
 impl<N: Summed, const BINS: usize> Window<N, BINS> {
-    /// The motor's torque over the angle of the cycle [N m], with orders up to `highest`: the mean of each bin over the
+    /// The motor's torque over the angle of the cycle (N m), with orders up to `highest`: the mean of each bin over the
     /// window. A bin without a tick has the torque of the one before it.
     pub fn motor_torque(&self, config: &WaveformConfig, highest: usize) -> Series {
         let of = |bin: &Bin<N>| {

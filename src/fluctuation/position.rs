@@ -11,23 +11,23 @@ use crate::number::Number;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CycleConfig {
-    /// Length of a segment, at most a quarter of a turn [2^-32 turn]; the cycle is a power of two of them.
+    /// Length of a segment, at most a quarter of a turn (2^-32 turn); the cycle is a power of two of them.
     pub length: u32,
     /// Number of segments less one, all ones in binary.
     pub last_segment: u32,
-    /// Remainder of the cycle after whole segments [2^-32 turn] ...
+    /// Remainder of the cycle after whole segments (2^-32 turn) ...
     pub whole: u32,
     /// ... and its own remainder [2^-32 turn over `divisor`].
     pub part: u32,
     /// Cycles in the whole number of turns that the ratio is given by.
     pub divisor: u32,
-    /// The cycle's angle \[rad\].
+    /// The cycle's angle (rad).
     pub angle: f64,
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     pub period: f64,
-    /// Base of speeds [rad/s]; 1 for floats.
+    /// Base of speeds (rad/s); 1 for floats.
     pub speed: f64,
-    /// Base of torques [N m]; 1 for floats.
+    /// Base of torques (N m); 1 for floats.
     pub torque: f64,
 }
 
@@ -37,9 +37,9 @@ pub struct CycleConfig {
 pub struct Edge<N> {
     /// The tick; wraps.
     pub tick: u32,
-    /// Its angle [2^-32 turn].
+    /// Its angle (2^-32 turn).
     pub angle: u32,
-    /// How far that was beyond the cycle's end [2^-32 turn].
+    /// How far that was beyond the cycle's end (2^-32 turn).
     pub beyond: u32,
     /// The motor's estimated speed.
     pub speed: N,
@@ -49,7 +49,7 @@ pub struct Edge<N> {
 const LATEST: f64 = 64.0;
 
 impl<N: Number> Edge<N> {
-    /// How long before its tick the end was passed \[ticks\], where the motor turned by `turned` in a tick \[rad\];
+    /// How long before its tick the end was passed (ticks), where the motor turned by `turned` in a tick (rad);
     /// half a tick where that is undefined.
     pub fn fraction(&self, turned: f64) -> f64 {
         let fraction = f64::from(self.beyond) * RADIANS / turned;
@@ -70,13 +70,13 @@ pub(super) const RADIANS: f64 = TAU / 4_294_967_296.0;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Position {
-    /// Where the segment begins [2^-32 turn].
+    /// Where the segment begins (2^-32 turn).
     pub start: u32,
     /// The segment's number.
     pub segment: u32,
     /// Remainder of whole units of 2^-32 turn at the cycle's beginning, in `divisor`s of one.
     carry: u32,
-    /// Excess of the cycle over its segments [2^-32 turn].
+    /// Excess of the cycle over its segments (2^-32 turn).
     extra: u32,
     /// No tick was left out since the last passage: the next one takes one tick. Not so at first, when the motor may
     /// stand anywhere.
@@ -104,13 +104,13 @@ pub(super) enum Way {
 }
 
 impl Position {
-    /// How far the motor is into the segment [2^-32 turn]; from the segment's length on it is in another.
+    /// How far the motor is into the segment (2^-32 turn); from the segment's length on it is in another.
     #[inline(always)]
     pub fn within(&self, angle: u32) -> u32 {
         angle.wrapping_sub(self.start)
     }
 
-    /// Direction of a motor so far beyond the segment's end [2^-32 turn].
+    /// Direction of a motor so far beyond the segment's end (2^-32 turn).
     // A segment is at most a quarter of a turn. The motor is looked for in the next two, and in the one before.
     #[inline(always)]
     pub fn ahead(&self, cycle: &CycleConfig, beyond: u32) -> Way {

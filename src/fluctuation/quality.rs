@@ -6,9 +6,9 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Quality {
-    /// Rms of the angle that the orders leave unexplained \[rad\]: higher orders, pitch errors, jitter's mean.
+    /// Rms of the angle that the orders leave unexplained (rad): higher orders, pitch errors, jitter's mean.
     pub residue: f64,
-    /// Rms of the angle by which single cycles differ from their mean \[rad\]; 0 where only the mean is known, as of a
+    /// Rms of the angle by which single cycles differ from their mean (rad); 0 where only the mean is known, as of a
     /// waveform from ticks.
     pub spread: f64,
     /// Relative rise of a cycle's duration from one cycle to the next, which was taken off.

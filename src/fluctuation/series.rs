@@ -22,7 +22,7 @@ impl Order {
         hypot(self.cos, self.sin)
     }
 
-    /// Phase \[rad\], in (-pi, pi]: the order is `amplitude cos(n theta - phase)`.
+    /// Phase (rad), in (-pi, pi]: the order is `amplitude cos(n theta - phase)`.
     pub fn phase(&self) -> f64 {
         atan2(self.sin, self.cos)
     }
@@ -77,7 +77,7 @@ impl Series {
         self.orders.iter().rposition(|order| order.cos != 0.0 || order.sin != 0.0).map_or(0, |last| last + 1)
     }
 
-    /// Its extremes as those of a speed whose mean by time is `mean`, over a cycle of `angle` \[rad\].
+    /// Its extremes as those of a speed whose mean by time is `mean`, over a cycle of `angle` (rad).
     pub(super) fn fluctuations(&self, mean: f64, angle: f64, circle: &Circle) -> Fluctuations {
         let (mut least, mut most) = ((0, f64::INFINITY), (0, f64::NEG_INFINITY));
         for (index, value) in (0_u32..).zip(self.grid(circle)) {
@@ -101,7 +101,7 @@ impl Series {
         n.checked_sub(1).and_then(|index| self.orders.get(index)).copied().unwrap_or_default()
     }
 
-    /// Value at the angle theta of the cycle \[rad\], 2 pi to the cycle whatever its turns.
+    /// Value at the angle theta of the cycle (rad), 2 pi to the cycle whatever its turns.
     pub fn at(&self, theta: f64) -> f64 {
         let (sin, cos) = sin_cos(theta);
         self.along(cos, sin)

@@ -18,12 +18,12 @@ use crate::wheel::{LOST, ToothCycle, ToothedWheelConfig};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ToothWindow<const TEETH: usize> {
-    /// Sums of the lateness \[cycle\].
+    /// Sums of the lateness (cycle).
     late: [f32; TEETH],
-    /// Sum of its squares over all teeth \[cycle2\].
+    /// Sum of its squares over all teeth (cycle2).
     squares: f64,
     cycles: u32,
-    /// Length of all cycles, of the first and of the last \[s\].
+    /// Length of all cycles, of the first and of the last (s).
     whole: f64,
     opening: f64,
     closing: f64,
@@ -32,7 +32,7 @@ pub struct ToothWindow<const TEETH: usize> {
     missed: u32,
 }
 
-/// By how much each tooth passes later than its place would \[rad\], 2 pi to the cycle, less the first's.
+/// By how much each tooth passes later than its place would (rad), 2 pi to the cycle, less the first's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ToothErrors<const TEETH: usize>([f32; TEETH]);
@@ -62,7 +62,7 @@ impl<const TEETH: usize> Default for ToothWindow<TEETH> {
     }
 }
 
-/// Angle of a cycle's tooth \[cycle\].
+/// Angle of a cycle's tooth (cycle).
 fn place<const WHEEL: usize>(config: &ToothedWheelConfig<WHEEL>, tooth: usize) -> f64 {
     let (turn, in_turn) = (tooth / WHEEL.max(1), tooth % WHEEL.max(1));
     let angle = config.teeth.get(in_turn).map_or(0, |tooth| tooth.angle);
@@ -121,7 +121,7 @@ impl<const TEETH: usize> ToothWindow<TEETH> {
     }
 
     /// Relative rise of the slowness over a cycle, and the acceleration of the mean speed of a cycle of so many turns
-    /// [rad/s2].
+    /// (rad/s2).
     fn trend(&self, angle: f64) -> (f64, f64) {
         if self.cycles < 2 || self.opening <= 0.0 || self.closing <= 0.0 {
             return (0.0, 0.0);
@@ -133,7 +133,7 @@ impl<const TEETH: usize> ToothWindow<TEETH> {
         (rise, (angle / self.closing - angle / self.opening) / (between * mean))
     }
 
-    /// The mean lateness of each tooth \[cycle\], the trend taken off.
+    /// The mean lateness of each tooth (cycle), the trend taken off.
     fn lateness<const WHEEL: usize>(&self, config: &ToothedWheelConfig<WHEEL>, rise: f64) -> [f64; TEETH] {
         let mut mean = [0.0; TEETH];
         let first = place(config, 0);

@@ -167,7 +167,7 @@ impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
         self.slice == Slice::Watch
     }
 
-    /// A tick so far from the segment's start [2^-32 turn], a little before it or beyond its end included.
+    /// A tick so far from the segment's start (2^-32 turn), a little before it or beyond its end included.
     #[inline(always)]
     fn count(&mut self, config: &WaveformConfig, within: u32, torque: N) {
         let place = ((i64::from(within as i32) * i64::from(config.scale)) >> 32) as i32;

@@ -24,12 +24,12 @@ pub struct Window<N: Summed, const BINS: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Ripple {
-    /// Mean speed by time [rad/s]; negative backwards.
+    /// Mean speed by time (rad/s); negative backwards.
     pub mean: f64,
     /// Acceleration of the cycle's mean speed over the window [rad/s2]: the part that is not periodic, which a governor
     /// mends and a flywheel does not; 0 over a single cycle.
     pub acceleration: f64,
-    /// The motor's speed over the angle of the cycle [rad/s], its trend taken off.
+    /// The motor's speed over the angle of the cycle (rad/s), its trend taken off.
     pub speed: Series,
     /// Its extremes, and delta.
     pub motor: Fluctuations,
@@ -112,7 +112,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         if ripple.turns_one_way() { Ok(Ripple { quality, ..ripple }) } else { Err(Unusable::Trend) }
     }
 
-    /// Rms of the angle by which the ticks counted up to the end of each bin differ from the waveform \[rad\], 2 pi to
+    /// Rms of the angle by which the ticks counted up to the end of each bin differ from the waveform (rad), 2 pi to
     /// the cycle.
     fn residue(&self, slowness: &Series) -> f64 {
         let total: f64 = self.bins.iter().map(|bin| f64::from(bin.ticks)).sum();
@@ -158,7 +158,7 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         sum
     }
 
-    /// The two ends of the window where the motor turns by so much in a tick there \[rad\].
+    /// The two ends of the window where the motor turns by so much in a tick there (rad).
     fn ends(&self, turned: [f64; 2]) -> Ends {
         let [first, second, last_but_one, last] = self.edges;
         let [from, to] = turned;

@@ -34,9 +34,9 @@ pub struct ActuatorMonitor<N, const K: usize> {
 pub struct ActuatorMonitorConfig<N: Number, const K: usize> {
     /// Share of a step that each lag covers in a tick, `1 - exp(-T/lag)`.
     pub share: [N::Coefficient; K],
-    /// Largest plausible difference \[N m\].
+    /// Largest plausible difference (N m).
     pub tolerance: N,
-    /// Largest torque of the actuator, in either direction \[N m\].
+    /// Largest torque of the actuator, in either direction (N m).
     pub max_torque: N,
     /// Ticks beyond the tolerance, less those within, before a trip.
     pub timeout: u32,
@@ -49,7 +49,7 @@ impl<N: Number, const K: usize> ActuatorMonitor<N, K> {
         ActuatorMonitor { expected: [N::ZERO; K], outside: 0, absent: false }
     }
 
-    /// The expected torque of the actuator's position \[N m\].
+    /// The expected torque of the actuator's position (N m).
     #[inline(always)]
     pub fn expected(&self) -> N {
         self.expected.last().copied().unwrap_or(N::ZERO)

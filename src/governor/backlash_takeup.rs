@@ -29,19 +29,19 @@ use crate::sample::Estimate;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BacklashTakeUpConfig<N: Number, L> {
-    /// Least reach: largest torque in the gap and on the flank that is not driven [N m].
+    /// Least reach: largest torque in the gap and on the flank that is not driven (N m).
     pub torque: N,
-    /// Damping of the twist rate while the gap is open [N m s/rad], negative.
+    /// Damping of the twist rate while the gap is open (N m s/rad), negative.
     pub braking: N::Coefficient,
-    /// Rise of the reach per tick on the driven flank [N m].
+    /// Rise of the reach per tick on the driven flank (N m).
     pub step: N,
-    /// Fall of the reach per tick in the gap and on the other flank [N m], negative.
+    /// Fall of the reach per tick in the gap and on the other flank (N m), negative.
     pub fall: N,
-    /// Largest reach [N m].
+    /// Largest reach (N m).
     pub max_torque: N,
-    /// Active damping -k_d [N m s/rad], on the twist rate, in contact.
+    /// Active damping -k_d (N m s/rad), on the twist rate, in contact.
     pub damping: N::Coefficient,
-    /// Ramp tracking: setpoint per torque withheld, 1/k_p [rad/(s N m)].
+    /// Ramp tracking: setpoint per torque withheld, 1/k_p (rad/(s N m)).
     pub tracking: N::Coefficient,
     /// Constants of the other limit.
     pub limit: L,

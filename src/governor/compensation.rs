@@ -74,7 +74,7 @@ pub struct ActiveDamping;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ActiveDampingConfig<N: Number> {
-    /// Active damping -k_d [N m s/rad], on the twist rate.
+    /// Active damping -k_d (N m s/rad), on the twist rate.
     pub damping: N::Coefficient,
 }
 

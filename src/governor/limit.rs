@@ -11,7 +11,7 @@ pub trait Limit<N: Number>: Default {
     /// The permitted torque nearest to `wanted`.
     fn limit(&mut self, config: &Self::Config, estimate: &Estimate<N>, wanted: N) -> N;
 
-    /// Ramp tracking: the ramped setpoint [rad/s] after a tick in which the governor wanted this torque, moved back by
+    /// Ramp tracking: the ramped setpoint (rad/s) after a tick in which the governor wanted this torque, moved back by
     /// the torque that the limit withheld over the proportional gain. Without tracking the setpoint stays.
     #[inline(always)]
     fn track(&self, _config: &Self::Config, setpoint: N, _wanted: N) -> N {
@@ -32,7 +32,7 @@ pub struct SymmetricLimit;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SymmetricLimitConfig<N> {
-    /// Largest torque, in either direction [N m].
+    /// Largest torque, in either direction (N m).
     pub torque: N,
 }
 
@@ -54,9 +54,9 @@ pub struct TorqueRange;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorqueRangeConfig<N> {
-    /// Smallest torque, zero or below [N m].
+    /// Smallest torque, zero or below (N m).
     pub min: N,
-    /// Largest torque, above zero [N m].
+    /// Largest torque, above zero (N m).
     pub max: N,
 }
 
@@ -90,11 +90,11 @@ pub struct Curve<const K: usize>;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CurvePiece<N: Number> {
-    /// Where it begins [rad/s].
+    /// Where it begins (rad/s).
     pub speed: N,
-    /// The largest torque there [N m].
+    /// The largest torque there (N m).
     pub torque: N,
-    /// Its slope [N m s/rad], on the [widened](Number::widened) speed.
+    /// Its slope (N m s/rad), on the [widened](Number::widened) speed.
     pub slope: N::Coefficient,
 }
 
@@ -104,7 +104,7 @@ pub struct CurvePiece<N: Number> {
 pub struct CurveConfig<N: Number, const K: usize> {
     /// The pieces, speeds rising from zero; the last one is level.
     pub pieces: [CurvePiece<N>; K],
-    /// Smallest torque, zero or below [N m].
+    /// Smallest torque, zero or below (N m).
     pub min: N,
 }
 
@@ -144,7 +144,7 @@ pub struct Slew<N, L> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SlewConfig<N, L> {
-    /// Largest change of the torque in a tick [N m].
+    /// Largest change of the torque in a tick (N m).
     pub step: N,
     /// Constants of the other limit.
     pub limit: L,

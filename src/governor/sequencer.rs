@@ -143,15 +143,15 @@ pub struct SequencerConfig<N> {
     pub running: SpeedRange<N>,
     /// From the reverse limit to overspeed.
     pub allowed: SpeedRange<N>,
-    /// Largest torque of the shaft, either way [N m].
+    /// Largest torque of the shaft, either way (N m).
     pub shaft_torque: N,
-    /// The speed below which a braking machine has stopped [rad/s].
+    /// The speed below which a braking machine has stopped (rad/s).
     pub standstill: N,
     /// Trip delay of overspeed, reverse rotation and shaft overload: ticks beyond the limit, less those within.
     pub trip_delay: u32,
     /// Trip delay of underspeed: ticks beyond the limit, less those within.
     pub underspeed_delay: u32,
-    /// Starting time \[ticks\].
+    /// Starting time (ticks).
     pub start: u32,
 }
 

@@ -7,7 +7,7 @@ pub trait SetpointShape<N: Number>: Default {
     /// Its constants.
     type Config;
 
-    /// The ramp's target for a setpoint and its largest step in this tick, from its present value [rad/s].
+    /// The ramp's target for a setpoint and its largest step in this tick, from its present value (rad/s).
     #[inline(always)]
     fn goal(&self, _config: &Self::Config, setpoint: N, _ramped: N, ramp: N) -> (N, N) {
         (setpoint, ramp)
@@ -53,7 +53,7 @@ pub struct Droop;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DroopConfig<N: Number> {
-    /// Speed per torque [rad/(s N m)].
+    /// Speed per torque (rad/(s N m)).
     pub droop: N::Coefficient,
 }
 
@@ -76,9 +76,9 @@ pub struct Barred<const K: usize>;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedRange<N> {
-    /// Its middle [rad/s].
+    /// Its middle (rad/s).
     pub middle: N,
-    /// Half its width [rad/s].
+    /// Half its width (rad/s).
     pub half: N,
 }
 
@@ -88,7 +88,7 @@ pub struct SpeedRange<N> {
 pub struct BarredConfig<N, const K: usize> {
     /// The ranges; they do not overlap.
     pub ranges: [SpeedRange<N>; K],
-    /// Largest step of the setpoint in a tick inside a range [rad/s].
+    /// Largest step of the setpoint in a tick inside a range (rad/s).
     pub quick: N,
 }
 

@@ -26,13 +26,13 @@ use crate::sample::Estimate;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gains<N: Number> {
-    /// Proportional gain k_p [N m s/rad].
+    /// Proportional gain k_p (N m s/rad).
     pub proportional: N::Coefficient,
-    /// Integral gain per tick, k_i T [N m s/rad].
+    /// Integral gain per tick, k_i T (N m s/rad).
     pub integral: N::Coefficient,
     /// Anti-windup gain: share of the limited torque fed back to the integral in a tick, k_i T/k_p.
     pub anti_windup: N::Coefficient,
-    /// Largest change of the setpoint in a tick [rad/s].
+    /// Largest change of the setpoint in a tick (rad/s).
     pub ramp: N,
 }
 
@@ -87,12 +87,12 @@ where
     M: Sequence<N>,
     V: SpeedFilter<N>,
 {
-    /// The ramped setpoint, before the droop [rad/s].
+    /// The ramped setpoint, before the droop (rad/s).
     pub fn ramped_setpoint(&self) -> N {
         self.ramped
     }
 
-    /// The integral [N m].
+    /// The integral (N m).
     pub fn integral(&self) -> N {
         self.integral
     }

@@ -16,17 +16,17 @@ use crate::sample::Estimate;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopConfig<N: Number, F = ()> {
-    /// Proportional gain k_p [N m s/rad].
+    /// Proportional gain k_p (N m s/rad).
     pub proportional: N::Coefficient,
-    /// Integral gain per tick, k_i T [N m s/rad].
+    /// Integral gain per tick, k_i T (N m s/rad).
     pub integral: N::Coefficient,
-    /// Active damping -k_d [N m s/rad], on the twist rate.
+    /// Active damping -k_d (N m s/rad), on the twist rate.
     pub damping: N::Coefficient,
     /// Anti-windup gain: share of the limited torque fed back to the integral in a tick, k_i T/k_p.
     pub anti_windup: N::Coefficient,
-    /// Largest torque, in either direction [N m].
+    /// Largest torque, in either direction (N m).
     pub torque_limit: N,
-    /// Largest change of the setpoint in a tick [rad/s].
+    /// Largest change of the setpoint in a tick (rad/s).
     pub ramp: N,
     /// Constants of the filters.
     pub filter: F,
@@ -52,7 +52,7 @@ pub struct SpeedLoop<N, F = ()> {
 }
 
 impl<N: Copy, F> SpeedLoop<N, F> {
-    /// The ramped setpoint [rad/s].
+    /// The ramped setpoint (rad/s).
     pub fn ramped_setpoint(&self) -> N {
         self.ramped
     }

@@ -33,7 +33,7 @@ pub enum Range {
 }
 
 impl Range {
-    /// Acceleration per count [m/s2].
+    /// Acceleration per count (m/s2).
     pub const fn per_count(self) -> f64 {
         9.806_65
             / match self {

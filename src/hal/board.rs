@@ -17,7 +17,7 @@ pub trait Board<N> {
     /// [`Faults::ANGLE_MISSING`] where there is none that is new and sound.
     fn angle(&mut self) -> Result<u32, Faults>;
 
-    /// The motor's torque [N m] during the tick that has just ended: `set` where it follows its command. A board that
+    /// The motor's torque (N m) during the tick that has just ended: `set` where it follows its command. A board that
     /// measures currents returns the measured value.
     ///
     /// # Errors

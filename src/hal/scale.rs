@@ -64,7 +64,7 @@ macro_rules! float {
         }
 
         impl FullScale<$float> {
-            /// Full scale is `torque` [N m], which must not be zero; a negative one turns the output round.
+            /// Full scale is `torque` (N m), which must not be zero; a negative one turns the output round.
             ///
             /// # Panics
             /// At compile time in a constant, where it is zero or no number.
@@ -113,7 +113,7 @@ impl Scaled for Fixed {
 }
 
 impl FullScale<Fixed> {
-    /// Full scale is `torque` [N m], which must not be zero; a negative one turns the output round.
+    /// Full scale is `torque` (N m), which must not be zero; a negative one turns the output round.
     ///
     /// # Panics
     /// At compile time in a constant, where it is zero, no number, or less than 1/32768 of the base.

@@ -27,7 +27,7 @@ pub struct PhaseConfig<N: Scaled> {
     pub full_scale: FullScale<N>,
     /// Pairs of poles.
     pub pole_pairs: u32,
-    /// Angle of the motor at which phase a's axis and the magnet's agree [2^-32 turn].
+    /// Angle of the motor at which phase a's axis and the magnet's agree (2^-32 turn).
     pub zero: u32,
 }
 

@@ -44,7 +44,7 @@ const fn times(a: Complex, b: Complex) -> Complex {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EccentricityConfig {
-    /// Time between two ticks \[s\].
+    /// Time between two ticks (s).
     period: f64,
     /// Trace of the twist's increments, and their determinant.
     twist: [f64; 2],
@@ -52,12 +52,12 @@ pub struct EccentricityConfig {
     poles: [Complex; 5],
     /// Ticks in a block.
     block: u32,
-    /// Largest amplitude [2^-32 turn].
+    /// Largest amplitude (2^-32 turn).
     bound: f64,
 }
 
 impl EccentricityConfig {
-    /// For an observer of two masses, with amplitudes up to `bound` \[rad\] and blocks of `time` \[s\].
+    /// For an observer of two masses, with amplitudes up to `bound` (rad) and blocks of `time` (s).
     ///
     /// # Panics
     /// At compile time in a constant, for a bound that is not positive or beyond a tenth of a radian, or a time of less
@@ -87,7 +87,7 @@ impl EccentricityConfig {
         }
     }
 
-    /// The part of an error at once a turn that remains in the innovation, at a speed \[rad/s\].
+    /// The part of an error at once a turn that remains in the innovation, at a speed (rad/s).
     pub const fn sensitivity(&self, speed: f64) -> (f64, f64) {
         let theta = speed * self.period;
         let (half, _) = sin_cos(0.5 * theta);
@@ -114,7 +114,7 @@ impl EccentricityConfig {
 pub trait Correction: Synchronous {
     /// Units of a sum's growth to 2^-32 turn.
     const UNIT: f64;
-    /// The error of an eccentricity [2^-32 turn] in a direction.
+    /// The error of an eccentricity (2^-32 turn) in a direction.
     fn error(eccentricity: [i32; 2], direction: [Self::Part; 2]) -> i32;
 }
 
@@ -153,7 +153,7 @@ pub struct EccentricityObserver<N: Correction, O> {
     observer: O,
     /// The last accepted angle, as measured.
     measured: u32,
-    /// Coefficients of cosine and sine [2^-32 turn].
+    /// Coefficients of cosine and sine (2^-32 turn).
     eccentricity: [i32; 2],
     sums: [N::Sum; 2],
     ticks: u32,
@@ -177,7 +177,7 @@ fn direction<N: Correction>(measured: u32) -> [N::Part; 2] {
 }
 
 impl<N: Correction, O> EccentricityObserver<N, O> {
-    /// The learnt eccentricity: coefficients of cosine and sine of the measured angle [2^-32 turn].
+    /// The learnt eccentricity: coefficients of cosine and sine of the measured angle (2^-32 turn).
     pub fn eccentricity(&self) -> [i32; 2] {
         self.eccentricity
     }
@@ -194,7 +194,7 @@ impl<N: Correction, O> EccentricityObserver<N, O> {
         (self.sums, self.ticks, self.learner.speed) = ([N::Sum::default(); 2], 0, speed);
     }
 
-    /// Learns from the ticks since the last block, at the motor's present speed \[rad/s\]: between two ticks, some ten
+    /// Learns from the ticks since the last block, at the motor's present speed (rad/s): between two ticks, some ten
     /// times a second.
     pub fn learn(&mut self, config: &EccentricityConfig, speed: f32) -> Finding {
         let Learner { speed: began, .. } = self.learner;
@@ -238,7 +238,7 @@ impl<N: Correction, O> EccentricityObserver<N, O> {
         if is_bounded { Finding::AtBound } else { Finding::Changed }
     }
 
-    /// Amplitude and phase of the learnt error \[rad\]: the encoder reads `amplitude cos(angle - phase)` too much.
+    /// Amplitude and phase of the learnt error (rad): the encoder reads `amplitude cos(angle - phase)` too much.
     pub fn amplitude_and_phase(&self) -> [f64; 2] {
         let [a, b] = self.eccentricity.map(f64::from);
         [hypot(a, b) / PER_RADIAN, atan2(b, a)]

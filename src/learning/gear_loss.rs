@@ -25,16 +25,16 @@ pub struct GearLossConfig {
     pub window: u32,
     /// Updates between the windows of a pair, at the most.
     pub pause: u32,
-    /// Least speed, either way \[rad/s\].
+    /// Least speed, either way (rad/s).
     pub least_speed: f32,
-    /// Least torque \[N m\]: below it the friction without load counts for more than the loss.
+    /// Least torque (N m): below it the friction without load counts for more than the loss.
     pub least_torque: f32,
     /// Smallest and largest friction per shaft torque that is accepted.
     pub range: [f32; 2],
 }
 
 impl GearLossConfig {
-    /// For a motor of rated `torque` \[N m\] and `speed` \[rad/s\], a gear whose efficiency lies within a range, and
+    /// For a motor of rated `torque` (N m) and `speed` (rad/s), a gear whose efficiency lies within a range, and
     /// an update every so many seconds: windows of half a second from a quarter of the rated speed and a fifth of the
     /// rated torque on, pairs within ten seconds.
     ///
@@ -98,7 +98,7 @@ impl GearLoss {
         (self.window, self.pairs) = Default::default();
     }
 
-    /// Takes the motor's reported torque \[N m\] and speed \[rad/s\], between the ticks at a steady rate.
+    /// Takes the motor's reported torque (N m) and speed (rad/s), between the ticks at a steady rate.
     pub fn update(&mut self, config: &GearLossConfig, torque: f32, speed: f32) -> Finding {
         if !(torque.is_finite() && speed.is_finite()) {
             self.interrupt();

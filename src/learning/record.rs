@@ -8,9 +8,9 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub struct Learnt {
     /// Friction of the gear per shaft torque.
     pub friction: f32,
-    /// Eccentricity of the encoder: coefficients of cosine and sine [2^-32 turn].
+    /// Eccentricity of the encoder: coefficients of cosine and sine (2^-32 turn).
     pub eccentricity: [i32; 2],
-    /// Torque at the shaft over the reported one, less one, and where none is reported \[N m\].
+    /// Torque at the shaft over the reported one, less one, and where none is reported (N m).
     pub torque: [f32; 2],
     /// Inertia of the motor over that of the data sheet, less one.
     pub inertia: f32,

@@ -36,20 +36,20 @@ pub struct RunUpConfig {
     pub window: u32,
     /// Updates from one window to the other, at the most.
     pub pause: u32,
-    /// Least speed, either way \[rad/s\].
+    /// Least speed, either way (rad/s).
     pub least_speed: f32,
-    /// Least change of the speed \[rad/s\].
+    /// Least change of the speed (rad/s).
     pub least_change: f32,
-    /// Rated torque \[N m\].
+    /// Rated torque (N m).
     pub torque: f32,
-    /// Interval of the updates \[s\].
+    /// Interval of the updates (s).
     pub every: f32,
-    /// Smallest and largest inertia that is accepted \[kg m2\].
+    /// Smallest and largest inertia that is accepted (kg m2).
     pub range: [f32; 2],
 }
 
 impl RunUpConfig {
-    /// For a motor of rated `torque` \[N m\] and `speed` \[rad/s\], an inertia within a range \[kg m2\], and an update
+    /// For a motor of rated `torque` (N m) and `speed` (rad/s), an inertia within a range (kg m2), and an update
     /// every so many seconds: windows of half a second from a tenth of the rated speed on, changes of half of the
     /// rated speed within ten seconds.
     ///
@@ -92,7 +92,7 @@ pub struct RunUp {
 }
 
 impl RunUp {
-    /// From an inertia to begin with \[kg m2\]. A value out of range is moved to its end, NaN to its start.
+    /// From an inertia to begin with (kg m2). A value out of range is moved to its end, NaN to its start.
     pub fn new(config: &RunUpConfig, inertia: f32) -> Self {
         let [least, most] = config.range;
         RunUp {
@@ -106,7 +106,7 @@ impl RunUp {
         }
     }
 
-    /// Inertia of the whole drivetrain at the motor \[kg m2\].
+    /// Inertia of the whole drivetrain at the motor (kg m2).
     pub fn inertia(&self) -> f32 {
         self.inertia
     }
@@ -127,7 +127,7 @@ impl RunUp {
         (self.unconfirmed, self.findings) = (None, 0);
     }
 
-    /// Takes the motor's torque \[N m\] and speed \[rad/s\], between the ticks at a steady rate.
+    /// Takes the motor's torque (N m) and speed (rad/s), between the ticks at a steady rate.
     pub fn update(&mut self, config: &RunUpConfig, torque: f32, speed: f32) -> Finding {
         if !(torque.is_finite() && speed.is_finite()) {
             self.interrupt();

@@ -9,15 +9,15 @@ const SAME_SPEED: f32 = 0.2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Steady {
-    /// That it is steady about \[rad/s\].
+    /// That it is steady about (rad/s).
     pub speed: f32,
-    /// At its end \[rad/s\].
+    /// At its end (rad/s).
     pub end: f32,
-    /// Change of the speed over it \[rad/s\].
+    /// Change of the speed over it (rad/s).
     pub change: f32,
-    /// Mean \[N m\].
+    /// Mean (N m).
     pub torque: f32,
-    /// Difference of the means of its two halves \[N m\].
+    /// Difference of the means of its two halves (N m).
     pub drift: f32,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Takes a torque \[N m\] and a speed \[rad/s\], both finite; the window that they complete.
+    /// Takes a torque (N m) and a speed (rad/s), both finite; the window that they complete.
     pub fn update(&mut self, length: u32, least_speed: f32, torque: f32, speed: f32) -> Option<Steady> {
         let changed = (speed - self.speed).abs() > STEADY_SPEED * self.speed.abs();
         if changed || speed.abs() < least_speed {

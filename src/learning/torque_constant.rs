@@ -39,18 +39,18 @@ pub struct TorqueConstantConfig {
     pub window: u32,
     /// Updates between the windows of a pair, at the most.
     pub pause: u32,
-    /// Least speed, either way \[rad/s\].
+    /// Least speed, either way (rad/s).
     pub least_speed: f32,
-    /// Rated torque \[N m\].
+    /// Rated torque (N m).
     pub torque: f32,
-    /// Load torque from which on the gear's loss is taken off and checked \[N m\].
+    /// Load torque from which on the gear's loss is taken off and checked (N m).
     pub weight: f32,
     /// Smallest and largest half difference over the mean, up to down.
     pub loss: [f32; 2],
 }
 
 impl TorqueConstantConfig {
-    /// For a motor of rated `torque` \[N m\] and `speed` \[rad/s\], a gear whose efficiency lies within a range, and
+    /// For a motor of rated `torque` (N m) and `speed` (rad/s), a gear whose efficiency lies within a range, and
     /// an update every so many seconds: windows of half a second from a quarter of the rated speed on, pairs within ten
     /// seconds.
     ///
@@ -78,7 +78,7 @@ impl TorqueConstantConfig {
     }
 }
 
-/// A known load and the torque that carries it, as reported \[N m\].
+/// A known load and the torque that carries it, as reported (N m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Point {
@@ -100,7 +100,7 @@ pub struct TorqueConstant {
 }
 
 impl TorqueConstant {
-    /// From a gain and an offset \[N m\] to begin with: 1 and 0, or what was learnt. A value out of bounds is moved to
+    /// From a gain and an offset (N m) to begin with: 1 and 0, or what was learnt. A value out of bounds is moved to
     /// its end, NaN counts as 1 and 0.
     pub fn new(config: &TorqueConstantConfig, gain: f32, offset: f32) -> Self {
         let offset_bound = OFFSET * config.torque;
@@ -120,12 +120,12 @@ impl TorqueConstant {
         self.gain
     }
 
-    /// Torque at the shaft where none is reported \[N m\].
+    /// Torque at the shaft where none is reported (N m).
     pub fn offset(&self) -> f32 {
         self.offset
     }
 
-    /// Begins with a known load torque at the motor \[N m\], zero without load; none ends it. Nothing is learnt under a
+    /// Begins with a known load torque at the motor (N m), zero without load; none ends it. Nothing is learnt under a
     /// load that is not known.
     pub fn set_load(&mut self, load: Option<f32>) {
         self.load = load.filter(|load| load.is_finite());
@@ -137,7 +137,7 @@ impl TorqueConstant {
         (self.window, self.pairs, self.unconfirmed) = Default::default();
     }
 
-    /// Takes the motor's torque as reported, before any calibration \[N m\], and speed \[rad/s\], between the ticks at
+    /// Takes the motor's torque as reported, before any calibration (N m), and speed (rad/s), between the ticks at
     /// a steady rate.
     pub fn update(&mut self, config: &TorqueConstantConfig, torque: f32, speed: f32) -> Finding {
         if !(torque.is_finite() && speed.is_finite()) {

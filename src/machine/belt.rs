@@ -13,13 +13,13 @@ use super::{Chain, Diameter, Efficiency, Error, Length, LinearDamping, Ratio, St
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Belt {
-    /// Effective diameter of the pulley on the motor's side \[m\].
+    /// Effective diameter of the pulley on the motor's side (m).
     pub driving: Diameter,
-    /// Effective diameter of the pulley on the load's side \[m\].
+    /// Effective diameter of the pulley on the load's side (m).
     pub driven: Diameter,
-    /// Stiffness of one strand \[N/m\].
+    /// Stiffness of one strand (N/m).
     pub strand: Stiffness,
-    /// Damping of one strand \[N s/m\].
+    /// Damping of one strand (N s/m).
     pub damping: LinearDamping,
     /// Efficiency of the drive.
     pub efficiency: Efficiency,
@@ -32,7 +32,7 @@ impl Belt {
         Ratio(self.driven.0 / self.driving.0)
     }
 
-    /// Torsional stiffness at the driving pulley \[N m/rad\].
+    /// Torsional stiffness at the driving pulley (N m/rad).
     #[must_use]
     pub const fn stiffness(&self) -> Stiffness {
         Stiffness(self.at_driving(self.strand.0))
@@ -63,7 +63,7 @@ impl Chain {
             .gear(belt.ratio(), belt.efficiency)
     }
 
-    /// A ball screw: turning becomes travel, by its lead \[m\] a turn. A drum of diameter `lead/pi` travels alike.
+    /// A ball screw: turning becomes travel, by its lead (m) a turn. A drum of diameter `lead/pi` travels alike.
     ///
     /// Refused: [`Error::ScrewLead`], [`Error::RotaryAfterDrum`].
     #[must_use]

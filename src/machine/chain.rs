@@ -11,11 +11,11 @@ pub const CAPACITY: usize = 16;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Shaft {
-    /// Stiffness \[N m/rad\].
+    /// Stiffness (N m/rad).
     pub stiffness: f64,
-    /// Viscous damping \[N m s/rad\].
+    /// Viscous damping (N m s/rad).
     pub damping: f64,
-    /// Whole free travel of the backlash in series with it \[rad\]; 0 without one.
+    /// Whole free travel of the backlash in series with it (rad); 0 without one.
     pub gap: f64,
 }
 
@@ -42,22 +42,22 @@ pub struct Chain {
     pub(super) count: usize,
     /// Motor turns per turn of the present shaft.
     pub(super) ratio: f64,
-    /// Travel per motor angle \[m/rad\] once a drum has been passed, 0 before.
+    /// Travel per motor angle (m/rad) once a drum has been passed, 0 before.
     pub(super) travel: f64,
     pub(super) efficiency: f64,
     /// The same while the load drives.
     pub(super) back_efficiency: f64,
     pub(super) flow: Flow,
-    /// A gap that waits for the next shaft \[rad\].
+    /// A gap that waits for the next shaft (rad).
     pub(super) gap: f64,
-    /// Weight torque without losses, hoisting and lowering \[N m\].
+    /// Weight torque without losses, hoisting and lowering (N m).
     pub(super) gravity: [f64; 3],
     /// The first element that was refused, and why.
     pub(super) error: Option<Error>,
 }
 
 impl Chain {
-    /// Begins a chain with the motor's own inertia \[kg m2\].
+    /// Begins a chain with the motor's own inertia (kg m2).
     ///
     /// An element that is wrong, or that cannot follow, is left out, and the chain carries the first such
     /// [`error`](Self::error) to its end: what is made of the chain stops with its sentence, or returns it from its
@@ -114,7 +114,7 @@ impl Chain {
         self
     }
 
-    /// A shaft to the next mass: stiffness \[N m/rad\] and damping \[N m s/rad\] on its own speed.
+    /// A shaft to the next mass: stiffness (N m/rad) and damping (N m s/rad) on its own speed.
     ///
     /// Refused: [`Error::ShaftStiffness`], [`Error::ShaftDamping`], [`Error::RotaryAfterDrum`],
     /// [`Error::TooManyMasses`].
@@ -133,7 +133,7 @@ impl Chain {
         self.link(referred, refer_stiffness(damping.0, self.ratio, self.loss(), Side::Load, self.flow))
     }
 
-    /// A rotor on the present mass: inertia \[kg m2\] on its own speed.
+    /// A rotor on the present mass: inertia (kg m2) on its own speed.
     ///
     /// Refused: [`Error::RotorInertia`], [`Error::RotaryAfterDrum`].
     #[must_use]
@@ -192,7 +192,7 @@ impl Chain {
         }
     }
 
-    /// A backlash: the whole free travel \[rad\] on its own speed. Referred to the motor it is `ratio` times as wide.
+    /// A backlash: the whole free travel (rad) on its own speed. Referred to the motor it is `ratio` times as wide.
     ///
     /// Refused: [`Error::BacklashGap`], [`Error::RotaryAfterDrum`].
     #[must_use]
@@ -206,7 +206,7 @@ impl Chain {
         self.slacken(refer_gap(gap.0, self.ratio, Side::Load))
     }
 
-    /// Puts a gap \[rad at the motor\] in series with the shaft before it, or keeps it for the next one.
+    /// Puts a gap (rad at the motor) in series with the shaft before it, or keeps it for the next one.
     pub(super) const fn slacken(mut self, gap: f64) -> Self {
         if self.count > 1 && self.inertia[self.count - 1] == 0.0 {
             self.shaft[self.count - 2].gap += gap;
@@ -236,7 +236,7 @@ impl Chain {
         self
     }
 
-    /// Referred inertias \[kg m2\], the motor first.
+    /// Referred inertias (kg m2), the motor first.
     #[must_use]
     pub const fn masses(&self) -> &[f64] {
         self.inertia.split_at(self.count).0
@@ -248,7 +248,7 @@ impl Chain {
         self.shaft.split_at(self.count - 1).0
     }
 
-    /// Sum of the referred inertias \[kg m2\].
+    /// Sum of the referred inertias (kg m2).
     #[must_use]
     pub const fn total_inertia(&self) -> f64 {
         let mut sum = 0.0;
@@ -260,7 +260,7 @@ impl Chain {
         sum
     }
 
-    /// Sum of the gaps \[rad\], at the motor.
+    /// Sum of the gaps (rad), at the motor.
     #[must_use]
     pub const fn total_gap(&self) -> f64 {
         let mut sum = 0.0;
@@ -272,19 +272,19 @@ impl Chain {
         sum
     }
 
-    /// Torque of the lifted weights at the motor \[N m\], without losses; positive where it decelerates hoisting.
+    /// Torque of the lifted weights at the motor (N m), without losses; positive where it decelerates hoisting.
     #[must_use]
     pub const fn gravity_torque(&self) -> f64 {
         self.gravity[0]
     }
 
-    /// Torque of the lifted weights at the motor while it drives them up \[N m\]: over the efficiency.
+    /// Torque of the lifted weights at the motor while it drives them up (N m): over the efficiency.
     #[must_use]
     pub const fn gravity_torque_hoisting(&self) -> f64 {
         self.gravity[1]
     }
 
-    /// Torque of the lifted weights at the motor while they drive it \[N m\]: times the efficiency.
+    /// Torque of the lifted weights at the motor while they drive it (N m): times the efficiency.
     #[must_use]
     pub const fn gravity_torque_lowering(&self) -> f64 {
         self.gravity[2]
@@ -296,7 +296,7 @@ impl Chain {
         self.ratio
     }
 
-    /// Travel of the load per motor angle \[m/rad\]; 0 without a drum.
+    /// Travel of the load per motor angle (m/rad); 0 without a drum.
     #[must_use]
     pub const fn travel_per_angle(&self) -> f64 {
         self.travel

@@ -18,19 +18,19 @@ use crate::math::{sin_cos, sqrt};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CrankSlider {
-    /// Radius of the crank \[m\].
+    /// Radius of the crank (m).
     pub radius: Length,
-    /// Length of the connecting rod from pin to pin \[m\].
+    /// Length of the connecting rod from pin to pin (m).
     pub rod: Length,
-    /// Inertia of the crank and the parts rotating with it \[kg m2\].
+    /// Inertia of the crank and the parts rotating with it (kg m2).
     pub crank: Inertia,
-    /// Mass of the connecting rod \[kg\].
+    /// Mass of the connecting rod (kg).
     pub rod_mass: Mass,
-    /// Distance of the connecting rod's centre of mass from the crank pin \[m\].
+    /// Distance of the connecting rod's centre of mass from the crank pin (m).
     pub rod_centre: Length,
-    /// Inertia of the connecting rod about its centre of mass \[kg m2\].
+    /// Inertia of the connecting rod about its centre of mass (kg m2).
     pub rod_inertia: Inertia,
-    /// Mass of the slider \[kg\].
+    /// Mass of the slider (kg).
     pub slider: Mass,
 }
 
@@ -38,11 +38,11 @@ pub struct CrankSlider {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Travel {
-    /// Travel \[m\].
+    /// Travel (m).
     pub travel: f64,
-    /// First derivative \[m/rad\]: velocity over speed, and torque at the crank over force on the slider.
+    /// First derivative (m/rad): velocity over speed, and torque at the crank over force on the slider.
     pub first: f64,
-    /// Second derivative \[m/rad2\].
+    /// Second derivative (m/rad2).
     pub second: f64,
 }
 
@@ -50,9 +50,9 @@ pub struct Travel {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct VariableInertia {
-    /// Inertia J(phi) \[kg m2\].
+    /// Inertia J(phi) (kg m2).
     pub inertia: f64,
-    /// Derivative J'(phi) \[kg m2/rad\].
+    /// Derivative J'(phi) (kg m2/rad).
     pub derivative: f64,
 }
 
@@ -88,7 +88,7 @@ impl CrankSlider {
         self.radius.0 / self.rod.0
     }
 
-    /// Position of the slider at an angle \[rad\] from the top dead centre.
+    /// Position of the slider at an angle (rad) from the top dead centre.
     #[must_use]
     pub const fn travel(&self, angle: f64) -> Travel {
         let (r, lambda) = (self.radius.0, self.lambda());
@@ -112,7 +112,7 @@ impl CrankSlider {
         lean * (swing * swing - 1.0) / upright
     }
 
-    /// Inertia at the crank at an angle \[rad\] from the top dead centre.
+    /// Inertia at the crank at an angle (rad) from the top dead centre.
     #[must_use]
     pub const fn inertia(&self, angle: f64) -> VariableInertia {
         let (sine, cosine) = sin_cos(angle);
@@ -128,26 +128,26 @@ impl CrankSlider {
         }
     }
 
-    /// Reciprocating mass: the slider and the connecting rod's share \[kg\].
+    /// Reciprocating mass: the slider and the connecting rod's share (kg).
     #[must_use]
     pub const fn reciprocating_mass(&self) -> Mass {
         Mass(self.slider.0 + self.rod_mass.0 * self.rod_centre.0 / self.rod.0)
     }
 
-    /// Inertia rotating with the crank: its own and the connecting rod's share at the pin \[kg m2\].
+    /// Inertia rotating with the crank: its own and the connecting rod's share at the pin (kg m2).
     #[must_use]
     pub const fn rotating_inertia(&self) -> Inertia {
         let share = self.rod_mass.0 * (1.0 - self.rod_centre.0 / self.rod.0);
         Inertia(self.crank.0 + share * self.radius.0 * self.radius.0)
     }
 
-    /// Excess of the connecting rod's inertia over that of its masses at the pins \[kg m2\].
+    /// Excess of the connecting rod's inertia over that of its masses at the pins (kg m2).
     const fn rod_correction(&self) -> f64 {
         let a = self.rod_centre.0;
         self.rod_inertia.0 - self.rod_mass.0 * a * (self.rod.0 - a)
     }
 
-    /// Mean of J(phi) over a turn \[kg m2\]: the crank drive's inertia in a chain.
+    /// Mean of J(phi) over a turn (kg m2): the crank drive's inertia in a chain.
     ///
     /// By 256 equidistant angles, which for a periodic function is exact but for harmonics of 256 and more: below 1e-12
     /// up to lambda 0.9.
@@ -162,8 +162,8 @@ impl CrankSlider {
         Inertia(sum / 256.0)
     }
 
-    /// Force of the reciprocating masses on the frame along the slider's path \[N\], away from the crank, at an angle
-    /// \[rad\], a speed \[rad/s\] and an acceleration \[rad/s2\] of the crank: `m (s'' omega^2 + s' omega')`
+    /// Force of the reciprocating masses on the frame along the slider's path (N), away from the crank, at an angle
+    /// (rad), a speed (rad/s) and an acceleration (rad/s2) of the crank: `m (s'' omega^2 + s' omega')`
     /// [Notes ch. 5].
     #[must_use]
     pub const fn mass_force(&self, angle: f64, speed: f64, acceleration: f64) -> f64 {
@@ -171,7 +171,7 @@ impl CrankSlider {
         self.reciprocating_mass().0 * (travel.second * speed * speed + travel.first * acceleration)
     }
 
-    /// First and second order of that force at a steady speed \[N\]: `m r omega^2` and `lambda m r omega^2`, the
+    /// First and second order of that force at a steady speed (N): `m r omega^2` and `lambda m r omega^2`, the
     /// amplitudes of `cos phi` and `cos 2 phi` [Notes ch. 5]. The truncation error is of the order of lambda cubed.
     #[must_use]
     pub const fn force_orders(&self, speed: f64) -> [f64; 2] {

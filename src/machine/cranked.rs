@@ -18,7 +18,7 @@ use super::{CrankSlider, Error, Inertia, VariableInertia};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Cranked {
-    /// Inertia of the motor and all parts at a constant ratio to it \[kg m2\].
+    /// Inertia of the motor and all parts at a constant ratio to it (kg m2).
     pub constant: f64,
     /// The crank drive, on its own shaft.
     pub crank: CrankSlider,
@@ -65,7 +65,7 @@ impl Cranked {
         self.turns as f64 / self.motor_turns as f64
     }
 
-    /// Inertia at the motor, and its derivative by the motor's angle, with the crank at an angle \[rad\] from its top
+    /// Inertia at the motor, and its derivative by the motor's angle, with the crank at an angle (rad) from its top
     /// dead centre.
     ///
     /// Referred by the ratio r: `J_m + r^2 J(phi)`, `r^3 J'(phi)` [Wang 1989 (1-15)].
@@ -76,14 +76,14 @@ impl Cranked {
         VariableInertia { inertia: self.constant + r * r * inertia, derivative: r * r * r * derivative }
     }
 
-    /// Mean inertia over a turn of the crank \[kg m2\].
+    /// Mean inertia over a turn of the crank (kg m2).
     #[must_use]
     pub const fn mean_inertia(&self) -> f64 {
         let r = self.ratio();
         self.constant + r * r * self.crank.mean_inertia().0
     }
 
-    /// Least and largest inertia over a turn of the crank \[kg m2\], of 256 angles.
+    /// Least and largest inertia over a turn of the crank (kg m2), of 256 angles.
     #[must_use]
     pub const fn extremes(&self) -> [f64; 2] {
         let first = self.inertia(0.0).inertia;

@@ -40,9 +40,9 @@ use crate::math::{hypot, sqrt};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Resonance {
-    /// Inertia \[kg m2\].
+    /// Inertia (kg m2).
     pub inertia: f64,
-    /// Natural frequency \[rad/s\].
+    /// Natural frequency (rad/s).
     pub frequency: f64,
 }
 
@@ -50,24 +50,24 @@ pub struct Resonance {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Damper {
-    /// Inertia of the ring \[kg m2\].
+    /// Inertia of the ring (kg m2).
     pub inertia: f64,
-    /// Stiffness of its spring \[N m/rad\].
+    /// Stiffness of its spring (N m/rad).
     pub stiffness: f64,
-    /// Damping \[N m s/rad\].
+    /// Damping (N m s/rad).
     pub damping: f64,
 }
 
 impl Damper {
-    /// An undamped absorber: a mass that vibrates at `frequency` \[rad/s\] stands still where it is attached, and the
+    /// An undamped absorber: a mass that vibrates at `frequency` (rad/s) stands still where it is attached, and the
     /// ring swings by torque over stiffness.
     #[must_use]
     pub const fn absorber(inertia: Inertia, frequency: f64) -> Self {
         Self { inertia: inertia.0, stiffness: inertia.0 * frequency * frequency, damping: 0.0 }
     }
 
-    /// Torque that it takes per angle of the mass it is attached to, as real and imaginary part \[N m/rad\], at a
-    /// frequency \[rad/s\]: `-J_d omega^2 (k + i d omega)/(k - J_d omega^2 + i d omega)`; infinite at the frequency of
+    /// Torque that it takes per angle of the mass it is attached to, as real and imaginary part (N m/rad), at a
+    /// frequency (rad/s): `-J_d omega^2 (k + i d omega)/(k - J_d omega^2 + i d omega)`; infinite at the frequency of
     /// an absorber.
     #[must_use]
     pub const fn dynamic_stiffness(&self, frequency: f64) -> [f64; 2] {
@@ -91,7 +91,7 @@ impl Resonance {
         Self { inertia: 1.0 / (psi * psi), frequency: mode.frequency }
     }
 
-    /// Stiffness \[N m/rad\].
+    /// Stiffness (N m/rad).
     #[must_use]
     pub const fn stiffness(&self) -> f64 {
         self.inertia * self.frequency * self.frequency
@@ -115,7 +115,7 @@ impl Resonance {
         Damper { inertia: ring.0, stiffness: 0.0, damping }
     }
 
-    /// Frequencies \[rad/s\] at which the amplitude with the best tuned damper does not depend on its damping.
+    /// Frequencies (rad/s) at which the amplitude with the best tuned damper does not depend on its damping.
     #[must_use]
     pub const fn tuned_fixed_points(&self, mass_ratio: f64) -> [f64; 2] {
         let apart = sqrt(mass_ratio / (2.0 + mass_ratio));
@@ -123,7 +123,7 @@ impl Resonance {
         [self.frequency * sqrt(scale * (1.0 - apart)), self.frequency * sqrt(scale * (1.0 + apart))]
     }
 
-    /// Frequency \[rad/s\] at which the amplitude with a viscous damper does not depend on its damping:
+    /// Frequency (rad/s) at which the amplitude with a viscous damper does not depend on its damping:
     /// `omega sqrt(2/(2 + mu))`.
     #[must_use]
     pub const fn viscous_fixed_point(&self, mass_ratio: f64) -> f64 {
@@ -142,7 +142,7 @@ impl Resonance {
         (2.0 + mass_ratio) / mass_ratio
     }
 
-    /// Amplitude over the static angle at a frequency \[rad/s\] of the torque, with a damper.
+    /// Amplitude over the static angle at a frequency (rad/s) of the torque, with a damper.
     #[must_use]
     pub const fn amplitude(&self, damper: &Damper, frequency: f64) -> f64 {
         let k = self.stiffness();

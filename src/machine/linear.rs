@@ -7,7 +7,7 @@ use super::error::{not_negative, positive};
 use super::refer::Flow;
 use super::{Chain, Diameter, Error, Falls, Length, LinearDamping, Mass, Stiffness};
 
-/// Standard acceleration of gravity \[m/s2\].
+/// Standard acceleration of gravity (m/s2).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 impl Chain {
@@ -26,13 +26,13 @@ impl Chain {
         self
     }
 
-    /// A rope without damping: falls, and stiffness \[N/m\] at the load.
+    /// A rope without damping: falls, and stiffness (N/m) at the load.
     #[must_use]
     pub const fn rope(self, falls: Falls, stiffness: Stiffness) -> Self {
         self.damped_rope(falls, stiffness, LinearDamping(0.0))
     }
 
-    /// A rope: falls, stiffness \[N/m\] and damping \[N s/m\] at the load.
+    /// A rope: falls, stiffness (N/m) and damping (N s/m) at the load.
     ///
     /// Refused: [`Error::DrumMissing`], [`Error::RopeFalls`], [`Error::RopeStiffness`], [`Error::RopeDamping`],
     /// [`Error::TooManyMasses`].
@@ -55,7 +55,7 @@ impl Chain {
         self.link(referred, self.at_motor(damping.0))
     }
 
-    /// A mass \[kg\] that the drive lifts: its inertia, and its weight as a load torque.
+    /// A mass (kg) that the drive lifts: its inertia, and its weight as a load torque.
     ///
     /// Refused: [`Error::LoadMass`], [`Error::DrumMissing`].
     #[must_use]
@@ -68,7 +68,7 @@ impl Chain {
         chain
     }
 
-    /// A mass \[kg\] that the drive moves on the level: inertia only.
+    /// A mass (kg) that the drive moves on the level: inertia only.
     ///
     /// Refused: [`Error::LoadMass`], [`Error::DrumMissing`].
     #[must_use]
@@ -84,10 +84,10 @@ impl Chain {
         self
     }
 
-    /// A mass \[kg\] that swings on a rope \[m\] under a travelling mass, such as a crane's load: a spring of `m g/l`
+    /// A mass (kg) that swings on a rope (m) under a travelling mass, such as a crane's load: a spring of `m g/l`
     /// at the travel, then the mass.
     ///
-    /// For small angles: at an amplitude of theta \[rad\] a pendulum swings slower than this by `theta^2/16`, 0.4 % at
+    /// For small angles: at an amplitude of theta (rad) a pendulum swings slower than this by `theta^2/16`, 0.4 % at
     /// 15 degrees.
     ///
     /// Refused: [`Error::DrumMissing`], [`Error::PendulumLength`], [`Error::LoadMass`], [`Error::TooManyMasses`].
@@ -106,7 +106,7 @@ impl Chain {
         self.link(spring, 0.0).driven(mass)
     }
 
-    /// Free travel along the load's path \[m\], such as a slack rope: `2 i n x / D` at the motor.
+    /// Free travel along the load's path (m), such as a slack rope: `2 i n x / D` at the motor.
     ///
     /// Refused: [`Error::BacklashGap`], [`Error::DrumMissing`].
     #[must_use]
@@ -120,7 +120,7 @@ impl Chain {
         self.slacken(travel.0 / self.travel)
     }
 
-    /// A mass \[kg\], stiffness \[N/m\] or damping \[N s/m\] along the travel, at the motor's shaft.
+    /// A mass (kg), stiffness (N/m) or damping (N s/m) along the travel, at the motor's shaft.
     const fn at_motor(&self, linear: f64) -> f64 {
         let kept = linear * self.travel * self.travel;
         match self.flow {

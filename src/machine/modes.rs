@@ -17,13 +17,13 @@ pub(super) type Columns = [[f64; CAPACITY]; SHAFTS];
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Mode {
-    /// Natural frequency \[rad/s\], undamped.
+    /// Natural frequency (rad/s), undamped.
     pub frequency: f64,
-    /// Mass-normalised shape, the motor first \[1/sqrt(kg m2)\]; zero beyond the chain's masses.
+    /// Mass-normalised shape, the motor first (1/sqrt(kg m2)); zero beyond the chain's masses.
     pub shape: [f64; CAPACITY],
-    /// Square of the shape at the motor \[1/(kg m2)\]: modal gain from the motor's torque to its angle.
+    /// Square of the shape at the motor (1/(kg m2)): modal gain from the motor's torque to its angle.
     pub residue: f64,
-    /// Modal damping \[1/s\]: twice the decay rate of the vibration while it is small against the frequency.
+    /// Modal damping (1/s): twice the decay rate of the vibration while it is small against the frequency.
     pub damping: f64,
 }
 
@@ -71,7 +71,7 @@ impl Modes {
         &mut self.mode[index]
     }
 
-    /// Natural frequencies with the motor locked \[rad/s\], one for each mass but the motor, lowest first.
+    /// Natural frequencies with the motor locked (rad/s), one for each mass but the motor, lowest first.
     #[must_use]
     pub const fn antiresonances(&self) -> &[f64] {
         self.antiresonance.split_at(self.count).0
@@ -115,7 +115,7 @@ impl Chain {
     }
 }
 
-/// First resonance and first antiresonance \[rad/s\] of a chain with `shafts` shafts.
+/// First resonance and first antiresonance (rad/s) of a chain with `shafts` shafts.
 pub(super) const fn lowest(inertia: &[f64; CAPACITY], stiffness: &[f64; SHAFTS], shafts: usize) -> (f64, f64) {
     let free = singular(scaled_incidence(inertia, stiffness, shafts, false), shafts);
     let held = singular(scaled_incidence(inertia, stiffness, shafts, true), shafts);

@@ -17,17 +17,17 @@ pub struct Planetary {
     pub sun_teeth: u32,
     /// Teeth of the ring.
     pub ring_teeth: u32,
-    /// Module \[m\].
+    /// Module (m).
     pub module: f64,
     /// Number of planets.
     pub planets: u32,
-    /// Inertia of the sun \[kg m2\].
+    /// Inertia of the sun (kg m2).
     pub sun: Inertia,
-    /// Inertia of one planet about its own axis \[kg m2\].
+    /// Inertia of one planet about its own axis (kg m2).
     pub planet: Inertia,
-    /// Mass of one planet \[kg\].
+    /// Mass of one planet (kg).
     pub planet_mass: Mass,
-    /// Inertia of the carrier without the planets \[kg m2\].
+    /// Inertia of the carrier without the planets (kg m2).
     pub carrier: Inertia,
     /// Efficiency of the set.
     pub efficiency: Efficiency,
@@ -48,7 +48,7 @@ impl Planetary {
         (1.0 - self.ring_teeth as f64 / planet_teeth) / self.ratio()
     }
 
-    /// Inertia of the whole set at the sun \[kg m2\], without losses.
+    /// Inertia of the whole set at the sun (kg m2), without losses.
     #[must_use]
     pub const fn inertia_at_sun(&self) -> f64 {
         let carrier_speed = 1.0 / self.ratio();
@@ -60,7 +60,7 @@ impl Planetary {
         self.sun.0 + self.planets as f64 * planet + self.carrier.0 * carrier_speed * carrier_speed
     }
 
-    /// Inertia of the whole set at the carrier \[kg m2\], without losses: `ratio^2` of that at the sun.
+    /// Inertia of the whole set at the carrier (kg m2), without losses: `ratio^2` of that at the sun.
     #[must_use]
     pub const fn inertia_at_carrier(&self) -> f64 {
         self.inertia_at_sun() * self.ratio() * self.ratio()
@@ -97,7 +97,7 @@ pub enum Member {
 pub struct PlanetaryGear {
     /// The set.
     pub set: Planetary,
-    /// Inertia of the ring \[kg m2\].
+    /// Inertia of the ring (kg m2).
     pub ring: Inertia,
     /// The member on the motor's side.
     pub input: Member,
@@ -136,7 +136,7 @@ impl PlanetaryGear {
         }
     }
 
-    /// Inertia of the whole set at the input \[kg m2\], without losses.
+    /// Inertia of the whole set at the input (kg m2), without losses.
     #[must_use]
     pub const fn inertia(&self) -> f64 {
         let [sun, ring, carrier, planet] = self.speeds();

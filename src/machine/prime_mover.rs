@@ -10,7 +10,7 @@
 //! | [`StartingLaw`] | `tau`, `tau (1 - t/T)`, `tau (1 - t^2/T^2)` | [Huang 1987 §2.2] |
 //!
 //! Torques are in N m, speeds in rad/s, at the motor's shaft. The stiffness of a characteristic is `|d tau/d omega|`
-//! \[N m s/rad\]: it damps the machine where the torque falls with the speed. The overload capacity is the largest
+//! (N m s/rad): it damps the machine where the torque falls with the speed. The overload capacity is the largest
 //! torque over the rated one.
 //!
 //! ```

@@ -10,33 +10,33 @@ macro_rules! quantity {
 }
 
 quantity! {
-    /// Moment of inertia \[kg m2\] on its own shaft.
+    /// Moment of inertia (kg m2) on its own shaft.
     Inertia,
-    /// Stiffness: \[N m/rad\] of a shaft on its own speed, \[N/m\] of a rope at the load.
+    /// Stiffness: (N m/rad) of a shaft on its own speed, (N/m) of a rope at the load.
     Stiffness,
-    /// Viscous damping of a shaft \[N m s/rad\] on its own speed.
+    /// Viscous damping of a shaft (N m s/rad) on its own speed.
     Damping,
-    /// Viscous damping of a rope \[N s/m\] along the travel of the load.
+    /// Viscous damping of a rope (N s/m) along the travel of the load.
     LinearDamping,
     /// Ratio of a gear: speed of the motor's side over speed of the load's side, above 0.
     Ratio,
     /// Efficiency, above 0 and at most 1.
     Efficiency,
-    /// Diameter of a drum, pinion, wheel or shaft \[m\].
+    /// Diameter of a drum, pinion, wheel or shaft (m).
     Diameter,
-    /// Mass \[kg\].
+    /// Mass (kg).
     Mass,
-    /// Free travel of a backlash \[rad\] on its own shaft: the whole gap, not half of it.
+    /// Free travel of a backlash (rad) on its own shaft: the whole gap, not half of it.
     Gap,
-    /// Travel along a straight line, or length of a shaft, connecting rod or pendulum \[m\].
+    /// Travel along a straight line, or length of a shaft, connecting rod or pendulum (m).
     Length,
-    /// Torque \[N m\].
+    /// Torque (N m).
     Torque,
-    /// Angular speed \[rad/s\].
+    /// Angular speed (rad/s).
     Speed,
-    /// Shear modulus of a material \[Pa\].
+    /// Shear modulus of a material (Pa).
     ShearModulus,
-    /// Density of a material \[kg/m3\].
+    /// Density of a material (kg/m3).
     Density,
 }
 

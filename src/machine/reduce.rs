@@ -136,7 +136,7 @@ impl Chain {
         }
     }
 
-    /// Static compliance at the motor \[rad/(N m)\]: its angle against the mean angle of all masses under a steady
+    /// Static compliance at the motor (rad/(N m)): its angle against the mean angle of all masses under a steady
     /// torque.
     ///
     /// Each shaft passes on the share of the torque that the inertia beyond it takes: `sum (J_beyond/J)^2 / k`.
@@ -152,7 +152,7 @@ impl Chain {
     }
 }
 
-/// Gives two masses of this total the frequency of a vibration and an antiresonance \[rad/s\].
+/// Gives two masses of this total the frequency of a vibration and an antiresonance (rad/s).
 pub(super) const fn matched(machine: &mut TwoMass, total: f64, first: &Mode, held: f64) {
     let ratio = held / first.frequency;
     machine.motor_inertia = total * ratio * ratio;

@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ReductionError {
-    /// Lowest natural frequency left out \[rad/s\]; infinite where none is.
+    /// Lowest natural frequency left out (rad/s); infinite where none is.
     pub next_mode: f64,
     /// Its share at the motor: residue times total inertia. At 1 it moves the motor as much as the rigid turning does.
     pub next_share: f64,

@@ -33,7 +33,7 @@ const fn with_loss(value: f64, efficiency: f64, side: Side, flow: Flow) -> f64 {
     }
 }
 
-/// A torque \[N m\] on the other side of a gear of `ratio` (motor speed over load speed).
+/// A torque (N m) on the other side of a gear of `ratio` (motor speed over load speed).
 #[must_use]
 pub const fn refer_torque(torque: f64, ratio: f64, efficiency: f64, side: Side, flow: Flow) -> f64 {
     let kept = match side {
@@ -43,7 +43,7 @@ pub const fn refer_torque(torque: f64, ratio: f64, efficiency: f64, side: Side, 
     with_loss(kept, efficiency, side, flow)
 }
 
-/// An inertia \[kg m2\] on the other side of a gear of `ratio`.
+/// An inertia (kg m2) on the other side of a gear of `ratio`.
 #[must_use]
 pub const fn refer_inertia(inertia: f64, ratio: f64, efficiency: f64, side: Side, flow: Flow) -> f64 {
     let kept = match side {
@@ -53,13 +53,13 @@ pub const fn refer_inertia(inertia: f64, ratio: f64, efficiency: f64, side: Side
     with_loss(kept, efficiency, side, flow)
 }
 
-/// A stiffness \[N m/rad\] or a damping \[N m s/rad\] on the other side of a gear of `ratio`.
+/// A stiffness (N m/rad) or a damping (N m s/rad) on the other side of a gear of `ratio`.
 #[must_use]
 pub const fn refer_stiffness(stiffness: f64, ratio: f64, efficiency: f64, side: Side, flow: Flow) -> f64 {
     refer_inertia(stiffness, ratio, efficiency, side, flow)
 }
 
-/// A backlash \[rad\] on the other side of a gear of `ratio`.
+/// A backlash (rad) on the other side of a gear of `ratio`.
 #[must_use]
 pub const fn refer_gap(gap: f64, ratio: f64, side: Side) -> f64 {
     match side {
@@ -68,7 +68,7 @@ pub const fn refer_gap(gap: f64, ratio: f64, side: Side) -> f64 {
     }
 }
 
-/// Stiffness of two springs in series \[N m/rad\]: `1/k = 1/k1 + 1/k2`.
+/// Stiffness of two springs in series (N m/rad): `1/k = 1/k1 + 1/k2`.
 #[must_use]
 pub const fn series(k1: f64, k2: f64) -> f64 {
     let (soft, stiff) = if k1 < k2 { (k1, k2) } else { (k2, k1) };

@@ -7,9 +7,9 @@ use super::{Chain, Error, Inertia};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rigid {
-    /// Inertia of the whole machine \[kg m2\].
+    /// Inertia of the whole machine (kg m2).
     pub inertia: f64,
-    /// Torque of the weight at the motor \[N m\], without losses; positive where it decelerates.
+    /// Torque of the weight at the motor (N m), without losses; positive where it decelerates.
     pub gravity_torque: f64,
 }
 

@@ -35,11 +35,11 @@ impl Density {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Section {
-    /// Length \[m\].
+    /// Length (m).
     pub length: Length,
-    /// Outer diameter at either end \[m\].
+    /// Outer diameter at either end (m).
     pub diameter: [Diameter; 2],
-    /// Diameter of the bore \[m\], 0 for a solid section.
+    /// Diameter of the bore (m), 0 for a solid section.
     pub bore: Diameter,
 }
 
@@ -78,7 +78,7 @@ impl Section {
         }
     }
 
-    /// Integral of `dx/(D^4 - d^4)` over the section \[1/m3\].
+    /// Integral of `dx/(D^4 - d^4)` over the section (1/m3).
     ///
     /// A cylinder and a solid cone in closed form. A bored cone in partial fractions has the difference of two near
     /// equal terms where the taper is slight, so it goes by Gauss and Legendre's rule of 16 points on 8 equal pieces:
@@ -113,7 +113,7 @@ impl Section {
         l * sum / (2.0 * pieces as f64)
     }
 
-    /// Torsional stiffness \[N m/rad\].
+    /// Torsional stiffness (N m/rad).
     ///
     /// # Panics
     /// At compile time in a constant, where a dimension is out of its range.
@@ -122,7 +122,7 @@ impl Section {
         stepped(&[*self], modulus)
     }
 
-    /// Moment of inertia about the axis \[kg m2\].
+    /// Moment of inertia about the axis (kg m2).
     ///
     /// # Panics
     /// At compile time in a constant, where a dimension or the density is out of its range.
@@ -152,7 +152,7 @@ impl Section {
         Ok(Inertia(density.0 * PI / 32.0 * self.length.0 * (mean - bore2 * bore2)))
     }
 
-    /// Length that a solid cylinder of another diameter needs to twist as much: `l_e = l (d_e/d)^4` \[m\]
+    /// Length that a solid cylinder of another diameter needs to twist as much: `l_e = l (d_e/d)^4` (m)
     /// [Wang 1989 (1-16)].
     ///
     /// # Panics
@@ -170,7 +170,7 @@ impl Section {
     }
 }
 
-/// Torsional stiffness of a stepped shaft \[N m/rad\]: its sections in series.
+/// Torsional stiffness of a stepped shaft (N m/rad): its sections in series.
 ///
 /// # Panics
 /// At compile time in a constant, where a dimension or the modulus is out of its range or there is no section.

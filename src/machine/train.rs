@@ -165,7 +165,7 @@ impl Train {
         self
     }
 
-    /// Inertias \[kg m2\], the motor first, then those of its chain, then those of the branches in their order.
+    /// Inertias (kg m2), the motor first, then those of its chain, then those of the branches in their order.
     #[must_use]
     pub const fn masses(&self) -> &[f64] {
         self.inertia.split_at(self.count).0
@@ -177,7 +177,7 @@ impl Train {
         self.joint.split_at(self.count - 1 + self.closing).0
     }
 
-    /// Sum of the inertias \[kg m2\].
+    /// Sum of the inertias (kg m2).
     #[must_use]
     pub const fn total_inertia(&self) -> f64 {
         let mut sum = 0.0;
@@ -189,7 +189,7 @@ impl Train {
         sum
     }
 
-    /// Largest sum of gaps \[rad\] between the motor and an end of the train, loops left out.
+    /// Largest sum of gaps (rad) between the motor and an end of the train, loops left out.
     #[must_use]
     pub const fn total_gap(&self) -> f64 {
         let mut gap = [0.0; CAPACITY];
@@ -205,7 +205,7 @@ impl Train {
         largest
     }
 
-    /// Torque of the weights at the motor \[N m\], without losses.
+    /// Torque of the weights at the motor (N m), without losses.
     #[must_use]
     pub const fn gravity_torque(&self) -> f64 {
         self.gravity

@@ -11,17 +11,17 @@ use crate::math::sqrt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TwoMass {
-    /// Inertia on the motor's side \[kg m2\].
+    /// Inertia on the motor's side (kg m2).
     pub motor_inertia: f64,
-    /// Inertia on the load's side \[kg m2\].
+    /// Inertia on the load's side (kg m2).
     pub load_inertia: f64,
-    /// Stiffness \[N m/rad\].
+    /// Stiffness (N m/rad).
     pub stiffness: f64,
-    /// Damping \[N m s/rad\].
+    /// Damping (N m s/rad).
     pub damping: f64,
-    /// Whole free travel of the backlash \[rad\]; 0 without one.
+    /// Whole free travel of the backlash (rad); 0 without one.
     pub gap: f64,
-    /// Torque of the weight at the motor \[N m\], without losses; positive where it decelerates.
+    /// Torque of the weight at the motor (N m), without losses; positive where it decelerates.
     pub gravity_torque: f64,
     /// Errors of the reduction; all zero for a machine of two masses.
     pub error: ReductionError,
@@ -60,7 +60,7 @@ impl TwoMass {
         }
     }
 
-    /// The same with a backlash: the whole free travel \[rad\] at the motor.
+    /// The same with a backlash: the whole free travel (rad) at the motor.
     ///
     /// # Panics
     /// At compile time in a constant, where the gap is negative or not finite.
@@ -73,7 +73,7 @@ impl TwoMass {
         self
     }
 
-    /// The same with a weight: its torque at the motor \[N m\].
+    /// The same with a weight: its torque at the motor (N m).
     ///
     /// # Panics
     /// At compile time in a constant, where the torque is not finite.
@@ -108,25 +108,25 @@ impl TwoMass {
         }
     }
 
-    /// Sum of the inertias \[kg m2\].
+    /// Sum of the inertias (kg m2).
     #[must_use]
     pub const fn total_inertia(&self) -> f64 {
         self.motor_inertia + self.load_inertia
     }
 
-    /// Reduced inertia `J_m J_l / (J_m + J_l)` \[kg m2\].
+    /// Reduced inertia `J_m J_l / (J_m + J_l)` (kg m2).
     #[must_use]
     pub const fn reduced_inertia(&self) -> f64 {
         super::refer::series(self.motor_inertia, self.load_inertia)
     }
 
-    /// Resonance with both ends free, undamped \[rad/s\].
+    /// Resonance with both ends free, undamped (rad/s).
     #[must_use]
     pub const fn resonance(&self) -> f64 {
         sqrt(self.stiffness / self.reduced_inertia())
     }
 
-    /// Antiresonance: resonance with the motor locked, undamped \[rad/s\].
+    /// Antiresonance: resonance with the motor locked, undamped (rad/s).
     #[must_use]
     pub const fn antiresonance(&self) -> f64 {
         sqrt(self.stiffness / self.load_inertia)

@@ -17,7 +17,7 @@ const fn difference(a: f64, b: f64) -> (f64, f64) {
     (d, (a - (d + back)) + (back - b))
 }
 
-/// Sine and cosine of an angle \[rad\], within 1 ulp up to 1e6 rad; NaN where the angle is not finite.
+/// Sine and cosine of an angle (rad), within 1 ulp up to 1e6 rad; NaN where the angle is not finite.
 ///
 /// Beyond 1e6 rad the argument reduction loses digits, as many as the angle has grown by.
 #[must_use]
@@ -61,7 +61,7 @@ pub const fn sin_cos(angle: f64) -> (f64, f64) {
     }
 }
 
-/// Angle of the point `(x, y)` in (-pi, pi] \[rad\], within 3 ulp; zero for the origin.
+/// Angle of the point `(x, y)` in (-pi, pi] (rad), within 3 ulp; zero for the origin.
 #[must_use]
 pub const fn atan2(y: f64, x: f64) -> f64 {
     let (ax, ay) = (x.abs(), y.abs());

@@ -68,7 +68,7 @@ impl<N: Number> AngleTracker<N> {
 }
 
 impl<N: Number, S> Prediction<N, S> {
-    /// Measured less predicted angle [2^-32 turn].
+    /// Measured less predicted angle (2^-32 turn).
     #[inline(always)]
     pub fn innovation(&self) -> N {
         self.innovation

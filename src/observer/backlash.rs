@@ -75,7 +75,7 @@ pub struct Correction<N: Number> {
 pub struct BacklashConfig<N: Number> {
     /// Twist forcing s from the motor's and the load's torque [rad/s2 per N m].
     pub forcing: [N::Coefficient; 2],
-    /// Half the gap \[rad\].
+    /// Half the gap (rad).
     pub half_gap: N,
     /// In contact with a flank.
     pub contact: Contact<N>,
@@ -83,7 +83,7 @@ pub struct BacklashConfig<N: Number> {
     pub free: FreeFlight<N>,
     /// Increment of the mean speed from the accelerating torque, T/(J_m + J_l).
     pub acceleration: N::Coefficient,
-    /// Turn of the motor from the sum of two mean speeds and from the twist's increment [2^-32 turn].
+    /// Turn of the motor from the sum of two mean speeds and from the twist's increment (2^-32 turn).
     pub turn: [N::Coefficient; 2],
     /// Gains of a shaft that has been in contact for some time.
     pub settled: Correction<N>,
@@ -188,7 +188,7 @@ fn put_right<N: Gap>(
 }
 
 impl<N: Gap> BacklashObserver<N> {
-    /// The twist from the middle of the gap \[rad\]: beyond half the gap the shaft is stretched.
+    /// The twist from the middle of the gap (rad): beyond half the gap the shaft is stretched.
     pub fn twist(&self) -> N {
         self.twist
     }

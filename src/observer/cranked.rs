@@ -37,7 +37,7 @@ pub struct TablePoint<N> {
     /// Mean inertia over the inertia here.
     pub inertia_ratio: N,
     /// Torque that the turning crank takes at the base of the speed, or at 1 rad/s: half the derivative of the inertia
-    /// [N m s2/rad2].
+    /// (N m s2/rad2).
     pub inertia_slope: N,
 }
 
@@ -64,7 +64,7 @@ pub struct CrankObserver<N> {
 }
 
 impl<N: Number> CrankObserver<N> {
-    /// Homing: sets the crank's angle from the top dead centre [2^-32 turn], positive as the motor's.
+    /// Homing: sets the crank's angle from the top dead centre (2^-32 turn), positive as the motor's.
     ///
     /// Until then it counts from where the observer was started. It stays valid as long as the motor's angle is
     /// measured at least every half turn. After [`crate::fault::Faults::ANGLE_LOST`] the shorter displacement is
@@ -73,7 +73,7 @@ impl<N: Number> CrankObserver<N> {
         self.turning.set(&config.turning, crank_angle);
     }
 
-    /// The crank's angle from the top dead centre [2^-32 turn], with the resolution of 2^-26 turns.
+    /// The crank's angle from the top dead centre (2^-32 turn), with the resolution of 2^-26 turns.
     pub fn crank_angle(&self, config: &CrankConfig<N>) -> u32 {
         self.turning.angle(&config.turning)
     }

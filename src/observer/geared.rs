@@ -28,9 +28,9 @@ pub struct GearedConfig<N: Stiction, C> {
     pub observer: C,
     /// Friction per shaft torque in motion, lambda.
     pub friction: N::Coefficient,
-    /// Stiction gain c [N m s/rad].
+    /// Stiction gain c (N m s/rad).
     pub stiction_gain: N::StictionGain,
-    /// Deadband: largest innovation left out while the gear sticks [2^-32 turn].
+    /// Deadband: largest innovation left out while the gear sticks (2^-32 turn).
     pub deadband: N,
 }
 

@@ -16,7 +16,7 @@ use crate::sample::Estimate;
 pub struct RigidConfig<N: Number> {
     /// T/J.
     pub acceleration: N::Coefficient,
-    /// Turn of the motor from the sum of the old and the new speed [2^-32 turn].
+    /// Turn of the motor from the sum of the old and the new speed (2^-32 turn).
     pub turn: N::Coefficient,
     /// Correction of speed and load torque per innovation.
     pub correction: [N::Coefficient; 2],

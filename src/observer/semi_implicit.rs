@@ -27,7 +27,7 @@ pub struct SemiImplicitConfig<N: Number> {
     pub load: N::Coefficient,
     /// Shaft torque from the new and from the old twist rate: k T + d and -d.
     pub shaft: [N::Coefficient; 2],
-    /// Turn of the motor from its new speed [2^-32 turn].
+    /// Turn of the motor from its new speed (2^-32 turn).
     pub turn: N::Coefficient,
     /// Correction of motor speed, load speed, shaft torque and load torque per innovation.
     pub correction: [N::Coefficient; 4],

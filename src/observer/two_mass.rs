@@ -32,7 +32,7 @@ pub struct TwoMassConfig<N: Number> {
     pub twist_rate: [N::Coefficient; 3],
     /// Increment of the mean speed from the accelerating torque, T/(J_m + J_l).
     pub acceleration: N::Coefficient,
-    /// Turn of the motor from the sum of two mean speeds and from the twist's increment [2^-32 turn].
+    /// Turn of the motor from the sum of two mean speeds and from the twist's increment (2^-32 turn).
     pub turn: [N::Coefficient; 2],
     /// Correction of mean speed, v, twist and load torque per innovation.
     pub correction: [N::Coefficient; 4],

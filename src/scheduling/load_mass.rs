@@ -4,17 +4,17 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadMassConfig {
-    /// Mass per load torque, `1/(g r)` \[kg/(N m)\].
+    /// Mass per load torque, `1/(g r)` (kg/(N m)).
     per_torque: f32,
     /// Share of a new value in the filtered one.
     share: f32,
-    /// Smallest and largest mass \[kg\].
+    /// Smallest and largest mass (kg).
     range: [f32; 2],
 }
 
 impl LoadMassConfig {
-    /// A load that moves by `travel` per angle of the motor \[m/rad\], filtered over `time` \[s\] by updates in
-    /// intervals of `every` \[s\], within a `range` \[kg\].
+    /// A load that moves by `travel` per angle of the motor (m/rad), filtered over `time` (s) by updates in
+    /// intervals of `every` (s), within a `range` (kg).
     ///
     /// # Panics
     /// At compile time in a constant, for a value that is not positive and finite, or a range that is empty.
@@ -28,7 +28,7 @@ impl LoadMassConfig {
             range[0] >= 0.0 && range[1] > range[0] && range[1].is_finite(),
             "the smallest load must be zero or above (kg), the largest above it and finite"
         );
-        /// Gravity [m/s2], the standard value of ISO 80000-3.
+        /// Gravity (m/s2), the standard value of ISO 80000-3.
         const GRAVITY: f64 = 9.80665;
         LoadMassConfig {
             per_torque: (1.0 / (GRAVITY * travel)) as f32,
@@ -38,7 +38,7 @@ impl LoadMassConfig {
     }
 }
 
-/// Mass of a lifted load \[kg\].
+/// Mass of a lifted load (kg).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadMass {
@@ -46,13 +46,13 @@ pub struct LoadMass {
 }
 
 impl LoadMass {
-    /// From a mass to begin with \[kg\].
+    /// From a mass to begin with (kg).
     pub fn new(config: &LoadMassConfig, mass: f32) -> Self {
         let [least, most] = config.range;
         LoadMass { mass: if mass >= least { mass.min(most) } else { least } }
     }
 
-    /// Takes an estimated load torque \[N m\]; a value that is not finite is left out.
+    /// Takes an estimated load torque (N m); a value that is not finite is left out.
     pub fn update(&mut self, config: &LoadMassConfig, load_torque: f32) -> f32 {
         let [least, most] = config.range;
         let found = load_torque * config.per_torque;

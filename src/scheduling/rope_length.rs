@@ -1,6 +1,6 @@
 //! Length of a hoist's rope, from the turns of its motor.
 
-/// Length of a rope \[m\] that shortens as the motor turns forwards.
+/// Length of a rope (m) that shortens as the motor turns forwards.
 ///
 /// The angle wraps within a turn; between two updates the motor may turn further. The whole turns between them are
 /// those of the speed, whose mean must be right to half a turn.
@@ -9,9 +9,9 @@
 pub struct RopeLength {
     /// Travel per angle of the motor [m per 2^-32 turn].
     travel: f32,
-    /// Turns of the motor up from the start [2^-32 turn].
+    /// Turns of the motor up from the start (2^-32 turn).
     wound: i64,
-    /// Length at the start \[m\].
+    /// Length at the start (m).
     start: f32,
     angle: u32,
     speed: f32,
@@ -21,13 +21,13 @@ pub struct RopeLength {
 const PER_RADIAN: f32 = (4_294_967_296.0 / core::f64::consts::TAU) as f32;
 
 impl RopeLength {
-    /// A rope of this length now \[m\], whose load moves by `travel` per angle of the motor \[m/rad\], at rest at
-    /// `angle` [2^-32 turn].
+    /// A rope of this length now (m), whose load moves by `travel` per angle of the motor (m/rad), at rest at
+    /// `angle` (2^-32 turn).
     pub fn new(travel: f32, length: f32, angle: u32) -> Self {
         RopeLength { travel: travel / PER_RADIAN, wound: 0, start: length, angle, speed: 0.0 }
     }
 
-    /// Takes angle [2^-32 turn] and speed of the motor \[rad/s\], `elapsed` \[s\] after the last update. A speed that
+    /// Takes angle (2^-32 turn) and speed of the motor (rad/s), `elapsed` (s) after the last update. A speed that
     /// is not finite counts as the last one, such a time as none.
     pub fn update(&mut self, angle: u32, speed: f32, elapsed: f32) -> f32 {
         let speed = if speed.is_finite() { speed } else { self.speed };
@@ -39,12 +39,12 @@ impl RopeLength {
         self.length()
     }
 
-    /// The present length \[m\].
+    /// The present length (m).
     pub fn length(&self) -> f32 {
         self.start - self.wound as f32 * self.travel
     }
 
-    /// Starts anew from a known length \[m\], as at a limit switch.
+    /// Starts anew from a known length (m), as at a limit switch.
     pub fn resync(&mut self, length: f32) {
         (self.start, self.wound) = (length, 0);
     }

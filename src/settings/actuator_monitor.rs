@@ -16,12 +16,12 @@ const LAG: &str = "a lag of a monitored actuator must be positive and finite, in
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ActuatorMonitorSettings {
-    /// Largest difference between the position's torque and the expected one \[N m\]: more than 0.4 of the largest
+    /// Largest difference between the position's torque and the expected one (N m): more than 0.4 of the largest
     /// torque times the relative error of the lags.
     pub tolerance: f64,
-    /// Largest torque of the actuator \[N m\].
+    /// Largest torque of the actuator (N m).
     pub max_torque: f64,
-    /// Duration of a larger difference before a trip \[s\].
+    /// Duration of a larger difference before a trip (s).
     pub timeout: f64,
 }
 

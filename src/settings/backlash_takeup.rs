@@ -30,7 +30,7 @@ const fn take_up(design: &BacklashTakeUpDesign, proportional: f64, format: &Form
 
 constants! {
     /// [`Error::Coefficient`] for a gain beyond the range of fixed point, [`Error::Value`] for a figure that is not
-    /// positive and finite, or beyond its base. `proportional` is the governor's gain k_p [N m s/rad], for the tracking
+    /// positive and finite, or beyond its base. `proportional` is the governor's gain k_p (N m s/rad), for the tracking
     /// of its ramp.
     impl[L: Copy] BacklashTakeUpConfig[, L], new,
     try_new(design: &BacklashTakeUpDesign, proportional: f64, limit: L), |format| {

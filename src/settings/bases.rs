@@ -14,15 +14,15 @@ const BASE: &str =
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Bases {
-    /// Base of every torque [N m].
+    /// Base of every torque (N m).
     pub torque: f64,
-    /// Base of every speed [rad/s].
+    /// Base of every speed (rad/s).
     pub speed: f64,
-    /// Base of the twist \[rad\].
+    /// Base of the twist (rad).
     pub twist: f64,
-    /// Base of the twist rate [rad/s].
+    /// Base of the twist rate (rad/s).
     pub twist_rate: f64,
-    /// Base of the twist forcing s [rad/s2].
+    /// Base of the twist forcing s (rad/s2).
     pub forcing: f64,
 }
 
@@ -30,8 +30,8 @@ impl Bases {
     /// All one: SI units, as floats have them.
     pub const SI: Bases = Bases { torque: 1.0, speed: 1.0, twist: 1.0, twist_rate: 1.0, forcing: 1.0 };
 
-    /// Bases for a machine whose torques, in motor and shaft, stay within `torque` [N m] and whose speeds stay within
-    /// `speed` [rad/s].
+    /// Bases for a machine whose torques, in motor and shaft, stay within `torque` (N m) and whose speeds stay within
+    /// `speed` (rad/s).
     ///
     /// The base of the twist is the twist under 1.9 times the base of the torque (a shaft coefficient k twist/torque
     /// must stay under 2). That of the twist rate is the rate at which this twist oscillates, limited by the speeds and

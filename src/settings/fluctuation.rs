@@ -47,7 +47,7 @@ impl Drivetrain {
 }
 
 impl CycleConfig {
-    /// The constants of a cycle in ticks of `period` \[s\], for numbers of these bases: [`Bases::SI`] for floats.
+    /// The constants of a cycle in ticks of `period` (s), for numbers of these bases: [`Bases::SI`] for floats.
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -55,7 +55,7 @@ impl CycleConfig {
         or_stop!(Self::try_new(cycle, period, bases))
     }
 
-    /// The constants of a cycle in ticks of `period` \[s\], for numbers of these bases: [`Bases::SI`] for floats.
+    /// The constants of a cycle in ticks of `period` (s), for numbers of these bases: [`Bases::SI`] for floats.
     ///
     /// # Errors
     /// [`Error::Value`] for a ratio of zero or beyond 65,535, a cycle of more than 16 turns, or a period that is not
@@ -98,7 +98,7 @@ impl CycleConfig {
     }
 }
 
-/// A cycle in so many segments, and its angle [2^-26 turn].
+/// A cycle in so many segments, and its angle (2^-26 turn).
 const fn mean_cycle(cycle: Cycle, segments: usize, period: f64, bases: Bases) -> Result<(CycleConfig, u32), Error> {
     let least = get!(CycleConfig::try_new(cycle, period, bases)).last_segment as usize + 1;
     if !(segments.is_power_of_two() && segments >= 4 && segments <= 1024 && segments >= least) {
@@ -115,7 +115,7 @@ macro_rules! float_mean {
     ($float:ident) => {
         impl CycleMeanConfig<$float> {
             /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period`
-            /// \[s\], as floats.
+            /// (s), as floats.
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
@@ -142,7 +142,7 @@ float_mean!(f32);
 float_mean!(f64);
 
 impl CycleMeanConfig<Fixed> {
-    /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period` \[s\], in
+    /// The constants of the speed without its ripple, renewed `SEGMENTS` times a cycle, in ticks of `period` (s), in
     /// fixed point.
     ///
     /// # Panics

@@ -39,7 +39,7 @@ impl Format {
         }
     }
 
-    /// Factor from a turn in a tick [2^-32 turn] to a speed.
+    /// Factor from a turn in a tick (2^-32 turn) to a speed.
     pub(crate) const fn speed_of_turn(&self, period: f64) -> f64 {
         let factor = self.unit / (ANGLE_PER_RADIAN * period * self.bases.speed * self.speed);
         // Beyond fixed point (at its base the motor turns by less than 2^-32 turn in a tick) the initial speed is too

@@ -20,24 +20,24 @@ const FIXED: &str = "the efficiency of the gear must be above 0.62 in fixed poin
 pub struct Gear {
     /// Efficiency, above 0 and at most 1.
     pub efficiency: f64,
-    /// Inertia in front of the gear, which comes to rest when the gear is held \[kg m2\].
+    /// Inertia in front of the gear, which comes to rest when the gear is held (kg m2).
     pub inertia: f64,
-    /// Deadband: turn of the motor while the gear sticks \[rad\], twice the twist of the shaft before it under the
+    /// Deadband: turn of the motor while the gear sticks (rad), twice the twist of the shaft before it under the
     /// gear's friction, plus a few counts of the encoder.
     pub deadband: f64,
 }
 
 impl Gear {
     /// Whether fixed point, whose stiction gain follows from its bases, brings the gear to rest in ticks of this period
-    /// \[s\].
+    /// (s).
     ///
     /// Twice the firmness that is held within two ticks would swing, four times would grow.
     pub(crate) const fn holds(&self, period: f64, bases: Bases) -> bool {
         STICTION_GAIN * (bases.torque / bases.speed) <= self.inertia / period
     }
 
-    /// Friction per shaft torque, stiction gain \[N m s/rad\] that stops the motor within two ticks, and the deadband
-    /// \[2^-32 turn\].
+    /// Friction per shaft torque, stiction gain (N m s/rad) that stops the motor within two ticks, and the deadband
+    /// (2^-32 turn).
     const fn losses(&self, period: f64) -> Result<[f64; 3], Error> {
         let eta = self.efficiency;
         if !(eta > 0.0 && eta <= 1.0) {
@@ -62,7 +62,7 @@ impl Gear {
 macro_rules! float {
     ($float:ident) => {
         impl<C: Copy> GearedConfig<$float, C> {
-            /// An observer's constants behind a gear, in ticks of this period \[s\].
+            /// An observer's constants behind a gear, in ticks of this period (s).
             ///
             /// # Panics
             /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new)
@@ -71,7 +71,7 @@ macro_rules! float {
                 or_stop!(Self::try_new(observer, gear, period, bases))
             }
 
-            /// An observer's constants behind a gear, in ticks of this period \[s\].
+            /// An observer's constants behind a gear, in ticks of this period (s).
             ///
             /// # Errors
             /// [`Error::Value`] for a figure of the gear that is out of its range.
@@ -92,7 +92,7 @@ float!(f32);
 float!(f64);
 
 impl<C: Copy> GearedConfig<Fixed, C> {
-    /// An observer's constants behind a gear, in ticks of this period \[s\].
+    /// An observer's constants behind a gear, in ticks of this period (s).
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -100,7 +100,7 @@ impl<C: Copy> GearedConfig<Fixed, C> {
         or_stop!(Self::try_new(observer, gear, period, bases))
     }
 
-    /// An observer's constants behind a gear, in ticks of this period \[s\].
+    /// An observer's constants behind a gear, in ticks of this period (s).
     ///
     /// # Errors
     /// [`Error::Value`] for a figure of the gear that is out of its range, or an inertia too light for the bases;

@@ -34,21 +34,21 @@ const DELAY: &str = "the transport delay must be zero or above and less than its
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SequencerSettings {
-    /// Overspeed limit [rad/s].
+    /// Overspeed limit (rad/s).
     pub overspeed: f64,
-    /// Underspeed limit of a running machine [rad/s]; below zero for a machine that runs both ways, which has none.
+    /// Underspeed limit of a running machine (rad/s); below zero for a machine that runs both ways, which has none.
     pub underspeed: f64,
-    /// Largest speed backwards [rad/s]; the overspeed limit for a machine that runs both ways.
+    /// Largest speed backwards (rad/s); the overspeed limit for a machine that runs both ways.
     pub reverse: f64,
-    /// Largest torque of the shaft, either way [N m].
+    /// Largest torque of the shaft, either way (N m).
     pub shaft_torque: f64,
-    /// The speed below which a braking machine has stopped [rad/s].
+    /// The speed below which a braking machine has stopped (rad/s).
     pub standstill: f64,
-    /// Time beyond a limit, other than underspeed's, that does not trip yet \[s\].
+    /// Time beyond a limit, other than underspeed's, that does not trip yet (s).
     pub trip_delay: f64,
-    /// Time of underspeed that does not trip yet \[s\].
+    /// Time of underspeed that does not trip yet (s).
     pub underspeed_delay: f64,
-    /// Time that a start may take \[s\].
+    /// Time that a start may take (s).
     pub start: f64,
 }
 
@@ -152,7 +152,7 @@ pub(super) const fn ticks(time: f64, period: f64) -> Result<u32, Error> {
 }
 
 constants! {
-    /// [`Error::Value`] for a ramp [rad/s2] that is not positive and finite, or that the number rounds to none;
+    /// [`Error::Value`] for a ramp (rad/s2) that is not positive and finite, or that the number rounds to none;
     /// [`Error::Coefficient`] for a gain that is not finite or beyond fixed point.
     impl[] Gains[], new, try_new(design: &GovernorDesign, ramp: f64), |format| {
         let design = [design.proportional, design.integral, 0.0, design.acceleration, design.period];
@@ -162,7 +162,7 @@ constants! {
 }
 
 constants! {
-    /// [`Error`] for a droop (a fraction of the rated speed [rad/s] at the rated torque [N m]) that is out of range.
+    /// [`Error`] for a droop (a fraction of the rated speed (rad/s) at the rated torque (N m)) that is out of range.
     impl[] DroopConfig[], new, try_new(fraction: f64, rated_speed: f64, rated_torque: f64), |format| {
         let ([], [droop]) = get!(To::part(droop(fraction, rated_speed, rated_torque, &format), DROOP));
         Ok(DroopConfig { droop })
@@ -195,7 +195,7 @@ constants! {
 }
 
 constants! {
-    /// [`Error::Value`] for a torque [N m] that is not positive and finite, or beyond twice its base.
+    /// [`Error::Value`] for a torque (N m) that is not positive and finite, or beyond twice its base.
     impl[] SymmetricLimitConfig[], new, try_new(torque: f64), |format| {
         let ([_, torque], []) = get!(To::part(between(0.0, torque, &format), LIMIT));
         Ok(SymmetricLimitConfig { torque })
@@ -203,7 +203,7 @@ constants! {
 }
 
 constants! {
-    /// [`Error::Value`] for torques [N m] that are not at most and above zero and finite, or beyond twice their base.
+    /// [`Error::Value`] for torques (N m) that are not at most and above zero and finite, or beyond twice their base.
     impl[] TorqueRangeConfig[], new, try_new(min: f64, max: f64), |format| {
         let ([min, max], []) = get!(To::part(between(min, max, &format), LIMIT));
         Ok(TorqueRangeConfig { min, max })
@@ -211,7 +211,7 @@ constants! {
 }
 
 constants! {
-    /// [`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` \[s\] or
+    /// [`Error::Value`] for limits out of order or beyond their bases, or a time of 2^31 ticks of `period` (s) or
     /// more.
     impl[] SequencerConfig[], new, try_new(settings: &SequencerSettings, period: f64), |format| {
         let ([middle, half, centre, reach, shaft, standstill], []) = get!(To::part(windows(settings, &format), MODES));
@@ -228,7 +228,7 @@ constants! {
 }
 
 constants! {
-    /// [`Error::Value`] for a ramp [rad/s2] that is not positive and finite, [`Error::Coefficient`] for a gain beyond
+    /// [`Error::Value`] for a ramp (rad/s2) that is not positive and finite, [`Error::Coefficient`] for a gain beyond
     /// fixed point.
     impl[] Gains[], of_speed_loop, try_of_speed_loop(design: &SpeedLoopDesign, ramp: f64), |format| {
         let design = [design.proportional, design.integral, design.damping, 0.0, design.period];
@@ -238,7 +238,7 @@ constants! {
 }
 
 impl<const K: usize> TransportDelayConfig<K> {
-    /// A delay \[s\] in ticks of `period` \[s\].
+    /// A delay (s) in ticks of `period` (s).
     ///
     /// # Panics
     /// At compile time in a constant, with the sentence of the [`Error`] that [`try_new`](Self::try_new) returns.
@@ -246,7 +246,7 @@ impl<const K: usize> TransportDelayConfig<K> {
         or_stop!(Self::try_new(delay, period))
     }
 
-    /// A delay \[s\] in ticks of `period` \[s\], to the nearest.
+    /// A delay (s) in ticks of `period` (s), to the nearest.
     ///
     /// # Errors
     /// [`Error::Value`] for a delay that is negative or does not fit the ring.

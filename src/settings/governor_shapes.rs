@@ -56,7 +56,7 @@ const fn quick(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
 }
 
 constants! {
-    /// [`Error::Value`] for other than `K` ranges, one beyond twice the base of the speed, or a quick ramp [rad/s2]
+    /// [`Error::Value`] for other than `K` ranges, one beyond twice the base of the speed, or a quick ramp (rad/s2)
     /// that is not positive and finite.
     impl[const K: usize] BarredConfig[, K],
     new, try_new(barred: &BarredSpeeds<K>, quick_ramp: f64, period: f64), |format| {
@@ -74,7 +74,7 @@ constants! {
 }
 
 constants! {
-    /// [`Error`] for a smallest torque [N m] above zero or not finite, a point or a slope that the float does not hold,
+    /// [`Error`] for a smallest torque (N m) above zero or not finite, a point or a slope that the float does not hold,
     /// a point beyond twice its base, or a slope of 2 bases of the torque per base of the speed or more.
     impl[const K: usize] CurveConfig[, K], new, try_new(curve: &TorqueCurve<K>, min: f64), |format| {
         let ([min, _], []) = get!(To::part(between(min, format.bases.torque, &format), LIMIT));
@@ -91,7 +91,7 @@ constants! {
 }
 
 constants! {
-    /// [`Error::Value`] for a torque per time [N m/s] that is not positive and finite, or twice the base of the torque
+    /// [`Error::Value`] for a torque per time (N m/s) that is not positive and finite, or twice the base of the torque
     /// in a tick.
     impl[L: Copy] SlewConfig[, L], new, try_new(rate: f64, limit: L, period: f64), |format| {
         let ([step], []) = get!(To::part(slew(rate, period, &format), SLEW));

@@ -19,14 +19,14 @@ const INNOVATION: &str =
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Screening {
-    /// Largest plausible applied torque [N m].
+    /// Largest plausible applied torque (N m).
     pub torque: f64,
-    /// Largest plausible setpoint [rad/s].
+    /// Largest plausible setpoint (rad/s).
     pub setpoint: f64,
-    /// Largest plausible innovation \[rad\]: the motor's deviation under the largest torque before the observer has
+    /// Largest plausible innovation (rad): the motor's deviation under the largest torque before the observer has
     /// followed, at most 0.098 rad in fixed point.
     pub innovation: f64,
-    /// Largest predicted turn in a tick for which an unchanged angle is plausible \[rad\]: two counts of the encoder.
+    /// Largest predicted turn in a tick for which an unchanged angle is plausible (rad): two counts of the encoder.
     pub frozen_turn: f64,
     /// Ticks without a usable angle, less those with one, after which it counts as lost: no more than the motor needs
     /// for half a turn.

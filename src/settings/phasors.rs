@@ -82,7 +82,7 @@ macro_rules! phasors {
     ($number:ident, $most:expr, |$limit:ident| $convert:expr) => {
         impl<const CHANNELS: usize> PhasorsConfig<$number, CHANNELS> {
             /// The constants of a measurement; `limits` are the largest samples of each channel that are not clipped
-            /// \[unit of the channel, per unit of its base in fixed point\].
+            /// (unit of the channel, per unit of its base in fixed point).
             ///
             /// # Panics
             /// With the sentence of [`PhasorError`]: a compile error in a constant.

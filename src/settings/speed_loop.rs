@@ -21,9 +21,9 @@ const LAG: &str = "the lag of the damping must be positive and finite, in fixed 
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopSettings {
-    /// Largest torque, in either direction [N m].
+    /// Largest torque, in either direction (N m).
     pub torque_limit: f64,
-    /// Largest acceleration of the setpoint [rad/s2].
+    /// Largest acceleration of the setpoint (rad/s2).
     pub ramp: f64,
 }
 
@@ -65,8 +65,8 @@ constants! {
 }
 
 constants! {
-    /// [`Error::Value`] for a lag \[s\] that is not positive and finite, [`Error::Coefficient`] in fixed point for one
-    /// of 1.44 ticks of `period` \[s\] or less.
+    /// [`Error::Value`] for a lag (s) that is not positive and finite, [`Error::Coefficient`] in fixed point for one
+    /// of 1.44 ticks of `period` (s) or less.
     impl[] DampingLagConfig[], new, try_new(lag: f64, period: f64), |_format| {
         let share = -exp_m1(-period / lag);
         if !(lag > 0.0 && lag.is_finite() && share > 0.0) {

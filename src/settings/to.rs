@@ -35,12 +35,12 @@ macro_rules! float {
                 Ok(get!(positive(value, sentence)) as $float)
             }
 
-            /// An angle \[2^-32 turn\].
+            /// An angle (2^-32 turn).
             pub(super) const fn angle(value: f64, sentence: &'static str) -> Result<$float, Error> {
                 Self::number(value, sentence)
             }
 
-            /// The turn of a tick \[2^-32 turn\], as `less_turn` takes it.
+            /// The turn of a tick (2^-32 turn), as `less_turn` takes it.
             pub(super) const fn turn(value: f64, sentence: &'static str) -> Result<$float, Error> {
                 Self::number(value, sentence)
             }
@@ -118,12 +118,12 @@ impl To<Fixed> {
         per_unit(value, sentence)
     }
 
-    /// An angle \[2^-32 turn\].
+    /// An angle (2^-32 turn).
     pub(super) const fn angle(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
         if value > INNOVATION_RANGE { Err(Error::Value(sentence)) } else { Ok(Fixed::from_bits(value as i32)) }
     }
 
-    /// The turn of a tick \[2^-32 turn\], as `less_turn` takes it.
+    /// The turn of a tick (2^-32 turn), as `less_turn` takes it.
     pub(super) const fn turn(value: f64, sentence: &'static str) -> Result<Fixed, Error> {
         Ok(Fixed::from_bits(get!(Self::angle(value, sentence)).to_bits() >> TURN_SHIFT))
     }

@@ -23,7 +23,7 @@ const SLOW: &str = "the lowest speed must be positive (rad/s), and a turn at it 
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Teeth<const TEETH: usize> {
-    /// The angles \[turn\], from 0 to less than 1, rising.
+    /// The angles (turn), from 0 to less than 1, rising.
     pub angles: [f64; TEETH],
 }
 
@@ -33,9 +33,9 @@ pub struct Teeth<const TEETH: usize> {
 pub struct ToothClock {
     /// Turns of the wheel to a cycle: 1, or 2 of a four-stroke engine.
     pub turns: u32,
-    /// Clock \[Hz\].
+    /// Clock (Hz).
     pub clock: f64,
-    /// Lowest speed at which the angle is wanted [rad/s].
+    /// Lowest speed at which the angle is wanted (rad/s).
     pub lowest_speed: f64,
 }
 
@@ -93,7 +93,7 @@ impl<const TEETH: usize> Teeth<TEETH> {
         Teeth { angles }
     }
 
-    /// Even places with one tooth more at this angle \[degree\]: `Teeth::<13>::extra(12, 10.0)` is a 12+1 wheel.
+    /// Even places with one tooth more at this angle (degree): `Teeth::<13>::extra(12, 10.0)` is a 12+1 wheel.
     ///
     /// # Panics
     /// Where the teeth are not the places and one; in a constant at compile time.
@@ -122,7 +122,7 @@ impl<const TEETH: usize> Teeth<TEETH> {
         Teeth { angles }
     }
 
-    /// Teeth at these angles \[degree\].
+    /// Teeth at these angles (degree).
     #[must_use]
     pub const fn degrees(mut angles: [f64; TEETH]) -> Self {
         let mut tooth = 0;
@@ -183,7 +183,7 @@ impl<const TEETH: usize> Teeth<TEETH> {
 
 impl<const EDGES: usize> Cam<EDGES> {
     /// The edges of a cam at these angles of the crank in a cycle of so many turns, and how far each may be from there
-    /// \[degree of the crank\].
+    /// (degree of the crank).
     ///
     /// # Panics
     /// Where an angle is not in the cycle, or the tolerance not below half of it; in a constant at compile time.
@@ -259,7 +259,7 @@ impl<const TEETH: usize> ToothedWheelConfig<TEETH> {
     }
 }
 
-/// From each tooth's predecessor to it \[turn\].
+/// From each tooth's predecessor to it (turn).
 const fn spans<const TEETH: usize>(angles: &[f64; TEETH]) -> Result<[f64; TEETH], Error> {
     let mut spans = [0.0; TEETH];
     let mut k = 0;
@@ -292,7 +292,7 @@ const fn sector<const TEETH: usize>(spans: &[f64; TEETH]) -> usize {
     TEETH
 }
 
-/// How far the ratio of two intervals may be from that of their spans \[octave\]: by 2.2, as each edge may be out of
+/// How far the ratio of two intervals may be from that of their spans (octave): by 2.2, as each edge may be out of
 /// place by a fifth of the interval, or one of them missing; and not more than 0.6 of the largest ratio of two spans,
 /// by which a gap is known. A step of the ratios is added.
 const fn tolerance<const TEETH: usize>(spans: &[f64; TEETH]) -> f64 {

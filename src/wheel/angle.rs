@@ -12,9 +12,9 @@ pub const SKIPPED: u32 = 2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WheelAngle {
-    /// The angle [2^-32 turn].
+    /// The angle (2^-32 turn).
     pub angle: u32,
-    /// Its standard deviation [2^-32 turn], from the errors of the predicted passages.
+    /// Its standard deviation (2^-32 turn), from the errors of the predicted passages.
     pub deviation: u32,
 }
 

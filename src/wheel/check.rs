@@ -1,6 +1,6 @@
 //! Whether a wheel is the one described, before its angle is given.
 
-/// Sums over the teeth that are being checked \[clock/4\].
+/// Sums over the teeth that are being checked (clock/4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Check {

@@ -6,11 +6,11 @@ use super::place::{RATIOS, Set};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tooth {
-    /// Its angle [2^-32 turn].
+    /// Its angle (2^-32 turn).
     pub angle: u32,
     /// The same less that of the tooth before [2^-32 turn]: its span.
     pub span: u32,
-    /// Half of the least of the spans before and behind it [2^-32 turn].
+    /// Half of the least of the spans before and behind it (2^-32 turn).
     pub slack: u32,
     /// Spans to a turn [2^-12].
     pub spans: u32,
@@ -30,7 +30,7 @@ pub struct ToothedWheelConfig<const TEETH: usize> {
     pub turns: u32,
     /// Longest time of a turn (clock counts): below that speed there is no angle.
     pub slowest: u32,
-    /// Time of a count of the clock \[s\].
+    /// Time of a count of the clock (s).
     pub period: f64,
 }
 

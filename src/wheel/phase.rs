@@ -4,9 +4,9 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Cam<const EDGES: usize> {
-    /// Their places in the cycle [2^-32 cycle].
+    /// Their places in the cycle (2^-32 cycle).
     pub edges: [u32; EDGES],
-    /// How far an edge may be from its place, as a cam's drive may be stretched or shifted [2^-32 cycle].
+    /// How far an edge may be from its place, as a cam's drive may be stretched or shifted (2^-32 cycle).
     pub tolerance: u32,
 }
 

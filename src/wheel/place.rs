@@ -32,7 +32,7 @@ pub(crate) const fn ratio(interval: u32, before: u32) -> usize {
     }
 }
 
-/// The middle of a number's ratios \[octave\].
+/// The middle of a number's ratios (octave).
 pub(crate) const fn ratio_of(number: usize) -> f64 {
     (number as f64 - (3 << STEPS) as f64) / (1 << STEPS) as f64
 }

@@ -105,7 +105,7 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// The angle of a time [2^-32 turn].
+    /// The angle of a time (2^-32 turn).
     pub fn angle(&self, time: i32) -> u32 {
         ((i64::from(time) << (self.zeros & 31)).wrapping_mul(i64::from(self.inverse)) >> 16) as u32
     }

@@ -48,7 +48,7 @@ fn solve(runs: &Runs, weights: &mut [Complex<f32>; 3], objective: Objective, lim
     }
 }
 
-/// Darlow 1982, case 1: influence coefficients of four readings by three planes, amplitude and phase \[degrees\].
+/// Darlow 1982, case 1: influence coefficients of four readings by three planes, amplitude and phase (degrees).
 const DARLOW: [[[f32; 2]; 3]; 4] = [
     [[1.41, 45.0], [2.24, 27.0], [3.61, 34.0]],
     [[3.16, 72.0], [4.47, 27.0], [2.24, 27.0]],

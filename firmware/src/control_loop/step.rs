@@ -15,7 +15,7 @@ use crate::scene::{Input, Output};
 pub struct Asked<N> {
     /// Whether the power stage may be on.
     pub released: bool,
-    /// The speed \[rad/s\].
+    /// The speed (rad/s).
     pub speed: N,
 }
 

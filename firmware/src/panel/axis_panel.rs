@@ -95,7 +95,7 @@ impl<M: HasVibration, A: Adviser> AxisPanel<M, A> {
         }
     }
 
-    /// Mean speed \[rad/s\] and delta of motor and load in the last turn, where one was finished since the last call.
+    /// Mean speed (rad/s) and delta of motor and load in the last turn, where one was finished since the last call.
     pub fn new_turn<N, O, G, const BINS: usize>(
         &mut self,
         config: &ConfigOf<BalancedDrive<N, O, Interleaved<N, BINS>, G>>,

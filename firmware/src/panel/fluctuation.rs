@@ -14,7 +14,7 @@ pub const TAKE: u32 = 64;
 pub const MOTOR_DELTA: u32 = 65;
 /// Key: delta of the load by the same, through the shaft.
 pub const LOAD_DELTA: u32 = 66;
-/// Key: cosine of the motor's order `value`, from 1 on \[rad/s\].
+/// Key: cosine of the motor's order `value`, from 1 on (rad/s).
 pub const COSINE: u32 = 67;
 /// Key: its sine.
 pub const SINE: u32 = 68;
@@ -22,7 +22,7 @@ pub const SINE: u32 = 68;
 pub const MOTOR_EXTREMES: u32 = 69;
 /// Key: delta of the load, by the same.
 pub const LOAD_EXTREMES: u32 = 70;
-/// Key: mean speed of the last finished turn \[rad/s\].
+/// Key: mean speed of the last finished turn (rad/s).
 pub const MEAN: u32 = 71;
 
 /// Answer: done.
@@ -38,7 +38,7 @@ pub const HIGHEST: usize = 2;
 pub struct FluctuationPanel<M> {
     /// Delta of motor and load.
     deltas: [f32; 2],
-    /// Cosine and sine of the motor's orders \[rad/s\].
+    /// Cosine and sine of the motor's orders (rad/s).
     orders: [[f32; 2]; HIGHEST],
     machine: PhantomData<M>,
 }
@@ -97,7 +97,7 @@ impl<M: Machine> FluctuationPanel<M> {
     }
 }
 
-/// The last finished turn by its extremes: mean speed \[rad/s\], delta of the motor and of the load. Zeros where there
+/// The last finished turn by its extremes: mean speed (rad/s), delta of the motor and of the load. Zeros where there
 /// is none.
 #[inline(never)]
 pub fn last_turn<N: Ranked>(config: &WaveformConfig, extremes: &Extremes<N>) -> [f32; 3] {

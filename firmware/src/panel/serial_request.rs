@@ -9,7 +9,7 @@
 
 /// Key: 1 releases the drive, 0 stops it.
 pub const RELEASE: u32 = 32;
-/// Key: the speed to be held \[rad/s\], as bits of an `f32`.
+/// Key: the speed to be held (rad/s), as bits of an `f32`.
 pub const SPEED: u32 = 33;
 
 const BEGIN: u8 = 0x5a;

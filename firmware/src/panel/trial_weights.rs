@@ -14,7 +14,7 @@ use crate::scene::panel_keys::{DONE, Key, next, refused};
 
 /// Tolerance of the residual.
 pub trait Goal {
-    /// The largest residual \[unit of the sensors\].
+    /// The largest residual (unit of the sensors).
     const GOOD: f32;
 }
 

@@ -53,7 +53,7 @@ impl SensorUnit for Fixed {
 pub struct Measured {
     /// Of both channels, in the unit of the sensors.
     pub readings: [Reading; CHANNELS],
-    /// Speed of the rotor over it \[rad/s\].
+    /// Speed of the rotor over it (rad/s).
     pub speed: f32,
 }
 

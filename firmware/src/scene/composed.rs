@@ -70,7 +70,7 @@ impl<D: OverWords> Beside<D> for () {
 
 /// A drive with its constants, and what stands beside it.
 ///
-/// While the governor is not released, [`Input::reference`] is the torque that the drive holds.
+/// While the governor is not released, `Input::reference` is the torque that the drive holds.
 pub struct Composed<D: Composition<Config: 'static>, B = ()> {
     // By reference: folded into the code, the constants cost more instructions than loaded from a table.
     config: &'static ConfigOf<D>,

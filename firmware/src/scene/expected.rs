@@ -15,9 +15,9 @@ use driveline::observer::{
 /// A design's prediction for its observer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
-    /// Standard deviation of the shaft torque's estimate \[N m\]; none where the design does not follow the shaft.
+    /// Standard deviation of the shaft torque's estimate (N m); none where the design does not follow the shaft.
     pub shaft_torque: Option<f64>,
-    /// Standard deviation of the load speed's estimate [rad/s].
+    /// Standard deviation of the load speed's estimate (rad/s).
     pub load_speed: f64,
     /// The observer's model of the machine, with its reduction error; none for one mass.
     pub machine: Option<machine::TwoMass>,

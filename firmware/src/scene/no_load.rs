@@ -25,9 +25,9 @@ use super::{Input, Output};
 
 /// A machine that learns in no-load runs.
 pub trait NoLoadRun: Machine {
-    /// Inertia that the motor accelerates without load, by the drawings \[kg m2\].
+    /// Inertia that the motor accelerates without load, by the drawings (kg m2).
     const INERTIA: f64;
-    /// Window of steady speed \[s\].
+    /// Window of steady speed (s).
     const WINDOW: f64;
     /// Inertia ratios that may be found: motor inertia within 10 % and torque constant within 5 % of what was told,
     /// 0.9/1.05 to 1.1/0.95, and 1 % for the finding's own error.
@@ -38,7 +38,7 @@ pub trait NoLoadRun: Machine {
 pub mod panel {
     /// A no-load run begins; zero ends it.
     pub const NO_LOAD: u32 = 1;
-    /// Answers the torque's offset \[N m\].
+    /// Answers the torque's offset (N m).
     pub const OFFSET: u32 = 2;
     /// The inertia ratio.
     pub const INERTIA: u32 = 3;
@@ -46,7 +46,7 @@ pub mod panel {
 
 /// Ticks between two updates of the learners.
 const TICKS: u32 = 10;
-/// A change of speed and the settling after it \[s\], at the most: the load is known to be none.
+/// A change of speed and the settling after it (s), at the most: the load is known to be none.
 const PAUSE: f64 = 30.0;
 /// Learners of torque offset and inertia, and what they have found.
 pub struct NoLoadLearner<N: Number, M> {
@@ -58,7 +58,7 @@ pub struct NoLoadLearner<N: Number, M> {
     excess: N::Coefficient,
     no_load: bool,
     ticks: u32,
-    /// At the last update \[rad/s\].
+    /// At the last update (rad/s).
     speed: f32,
     /// Of the last tick.
     reported: N,

@@ -47,7 +47,7 @@ impl HasVibration for BalancedFan {
         steadiness: Steadiness { floor: 2e-3, ..Steadiness::USUAL },
         ..PhasorSettings::DIRECT
     };
-    /// Of velocity [m/s].
+    /// Of velocity (m/s).
     const VIBRATION_LIMIT: f64 = 0.05;
 }
 
@@ -55,7 +55,7 @@ impl HasVibration for BalancedFan {
 pub struct Quiet;
 
 impl Goal for Quiet {
-    /// A velocity that goes with grade G 1 \[m/s\].
+    /// A velocity that goes with grade G 1 (m/s).
     const GOOD: f32 = 1.0e-4;
 }
 

@@ -26,7 +26,7 @@ use crate::scene::composed::{Composed, Governed, GovernedBy};
 use crate::scene::no_load::{NoLoadLearner, NoLoadRun};
 use crate::scene::table::variants;
 
-/// The gap of the spindles \[rad\].
+/// The gap of the spindles (rad).
 pub const GAP: f64 = 10.0e-3;
 
 /// The machine, from the motor to the rolls.

@@ -51,7 +51,7 @@ impl Machine for CraneTravel {
         Screening { max_coast: Self::RATE_HZ / 67, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
 }
 
-/// Mass of the empty hook \[kg\].
+/// Mass of the empty hook (kg).
 pub const HOOK: f64 = 300.0;
 
 /// With an empty hook. The loop creeps into its setpoint over some ten seconds; in a window of 3 s the torque's noise
@@ -63,7 +63,7 @@ impl NoLoadRun for CraneTravel {
     const RATIO: [f64; 2] = [0.82, 1.21];
 }
 
-/// Travel per angle of the motors \[m/rad\].
+/// Travel per angle of the motors (m/rad).
 const TRAVEL: f64 = 0.25 / 30.0;
 
 /// Counts of the encoder on a turn.

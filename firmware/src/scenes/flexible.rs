@@ -42,21 +42,21 @@ impl HasVibration for Flexible {
         steadiness: Steadiness { floor: 2e-7, ..Steadiness::USUAL },
         ..PhasorSettings::DIRECT
     };
-    /// Of displacement [m].
+    /// Of displacement (m).
     const VIBRATION_LIMIT: f64 = 2.0e-4;
 }
 
-/// The two speeds [rad/s], 1062 and 1614 r/min.
+/// The two speeds (rad/s), 1062 and 1614 r/min.
 pub const SPEEDS: [f64; 2] = [1062.0 * core::f64::consts::PI / 30.0, 1614.0 * core::f64::consts::PI / 30.0];
 
-/// Speed of the slow roll [rad/s], 150 r/min.
+/// Speed of the slow roll (rad/s), 150 r/min.
 pub const SLOW_ROLL: f64 = 5.0 * core::f64::consts::PI;
 
 /// Good enough.
 pub struct Quiet;
 
 impl Goal for Quiet {
-    /// A twentieth of the vibration as it is found \[m\].
+    /// A twentieth of the vibration as it is found (m).
     const GOOD: f32 = 2.0e-7;
 }
 

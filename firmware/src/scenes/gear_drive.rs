@@ -28,7 +28,7 @@ pub const TEETH: [u32; 2] = [21, 50];
 /// Motor turns per turn of the driven machine.
 pub const RATIO: f64 = TEETH[1] as f64 / TEETH[0] as f64;
 
-/// Base radii of pinion and wheel [m]: half of module times teeth, by the cosine of 20 degrees.
+/// Base radii of pinion and wheel (m): half of module times teeth, by the cosine of 20 degrees.
 pub const BASE_RADII: [f64; 2] =
     [0.002 * TEETH[0] as f64 * 0.939_692_620_785_908_4, 0.002 * TEETH[1] as f64 * 0.939_692_620_785_908_4];
 

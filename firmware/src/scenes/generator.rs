@@ -59,7 +59,7 @@ pub const RATE_HZ: u32 = 2_400;
 const PERIOD: f64 = 1.0 / RATE_HZ as f64;
 const RATE: Rate = Rate::hz(RATE_HZ);
 
-/// Rated speed of both sets [rad/s], 1500 r/min.
+/// Rated speed of both sets (rad/s), 1500 r/min.
 pub const RATED_SPEED: f64 = 157.079_632_679_489_66;
 
 /// The encoder on the flywheel.
@@ -67,17 +67,17 @@ pub const ENCODER: Encoder = Encoder::lines(2048);
 
 /// Data of a genset.
 pub struct Set {
-    /// Rated torque [N m].
+    /// Rated torque (N m).
     pub rated_torque: f64,
     /// Engine or turbine, coupling, generator.
     pub machine: TwoMassMachine,
     /// The actuator.
     pub actuator: Actuator,
-    /// Delay of the rack's torque for the observer [s].
+    /// Delay of the rack's torque for the observer (s).
     pub delay: f64,
     /// How the observer is tuned.
     pub disturbance: Disturbance,
-    /// Lag of the estimated load torque [s], as measured on a step.
+    /// Lag of the estimated load torque (s), as measured on a step.
     pub estimate_lag: f64,
     /// Span of the governor's loop, with feed-forward and without.
     pub optimum_factor: [f64; 2],
@@ -85,13 +85,13 @@ pub struct Set {
     pub share: f64,
     /// Share of the inertia that is given against the acceleration, without feed-forward.
     pub inertia: f64,
-    /// Lags of the actuator from the command to the reported torque [s].
+    /// Lags of the actuator from the command to the reported torque (s).
     pub lags: [f64; 2],
-    /// Timeout of the actuator monitor [s].
+    /// Timeout of the actuator monitor (s).
     pub timeout: f64,
     /// Largest torque against speed.
     pub curve: TorqueCurve<4>,
-    /// Acceleration of the setpoint [rad/s2].
+    /// Acceleration of the setpoint (rad/s2).
     pub ramp: f64,
     /// Barred speeds.
     pub barred: BarredSpeeds<1>,
@@ -105,13 +105,13 @@ const DIESEL_MACHINE: TwoMassMachine = DIESEL_CHAIN.reduce(Match::ResonanceAntir
 /// Rated torque of the diesel [N m]: 400 kW.
 pub const DIESEL_TORQUE: f64 = 4.0e5 / RATED_SPEED;
 
-/// Lag of the rack [s].
+/// Lag of the rack (s).
 pub const RACK_LAG: f64 = 0.02;
 
-/// Mean time from an injection to its torque [s], for the observer, which follows the mean torque.
+/// Mean time from an injection to its torque (s), for the observer, which follows the mean torque.
 pub const TORQUE_DELAY: f64 = 0.0065;
 
-/// Dead time that the governor allows for [s], which has to bear with every phase of the firing.
+/// Dead time that the governor allows for (s), which has to bear with every phase of the firing.
 pub const FIRING_DELAY: f64 = Actuator::firing_delay(6, true, RATED_SPEED);
 
 /// Delay of the speed filter [s]: half of its interval.
@@ -145,12 +145,12 @@ pub const DIESEL: Set = Set {
 /// Rated torque of the turbine at the generator's shaft [N m]: 2 MW.
 pub const TURBINE_TORQUE: f64 = 2.0e6 / RATED_SPEED;
 
-/// Lags of the turbine's valve and of its steam chest [s].
+/// Lags of the turbine's valve and of its steam chest (s).
 pub const VALVE_LAG: f64 = 0.1;
 /// See [`VALVE_LAG`].
 pub const CHEST_LAG: f64 = 0.25;
 
-/// Sum of the turbine set's inertias [kg m2], from its acceleration time of 8 s.
+/// Sum of the turbine set's inertias (kg m2), from its acceleration time of 8 s.
 pub const TURBINE_INERTIA: f64 = 8.0 * TURBINE_TORQUE / RATED_SPEED;
 
 /// The parts of the turbine: turbine with gear, coupling, generator.
@@ -255,7 +255,7 @@ impl Set {
     }
 }
 
-/// The ring of the rack [ticks].
+/// The ring of the rack (ticks).
 pub const RING: usize = 32;
 
 /// Ticks of the firing interval, the length of the moving average.

@@ -42,11 +42,11 @@ impl HasVibration for GrindingSpindle {
         steadiness: Steadiness { drift: 0.1, scatter: 0.1, floor: 0.4, ..Steadiness::USUAL },
         ..PhasorSettings::DIRECT
     };
-    /// Of acceleration [m/s2].
+    /// Of acceleration (m/s2).
     const VIBRATION_LIMIT: f64 = 20.0;
 }
 
-/// The largest correction of the head [kg m].
+/// The largest correction of the head (kg m).
 pub const CAPACITY: f64 = 1.5e-3;
 
 /// The balancing head.

@@ -37,7 +37,7 @@ use crate::scene::table::variants;
 /// Turns of the motor to one of the crank.
 pub const RATIO: u32 = 14;
 
-/// Inertia of motor and flywheel \[kg m2\].
+/// Inertia of motor and flywheel (kg m2).
 pub const FLYWHEEL: f64 = 0.3 + 4.5;
 
 /// Crank, rod and slider, on the crank's shaft.
@@ -84,13 +84,13 @@ impl HasCrank for PunchPress {
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 2048 * 64;
 
-/// Crank angle when the press is switched on: half a turn from the top dead centre [2^-32 turn].
+/// Crank angle when the press is switched on: half a turn from the top dead centre (2^-32 turn).
 pub const TOP: u32 = 1 << 31;
 
 /// A stroke: a turn of the crank.
 pub const STROKE: Cycle = Cycle { turns: RATIO, cycles: 1 };
 
-/// The longest stroke that the press is governed in by its mean \[s\]: at four fifths of rated speed.
+/// The longest stroke that the press is governed in by its mean (s): at four fifths of rated speed.
 pub const LONGEST_STROKE: f64 = core::f64::consts::TAU * RATIO as f64 / (0.8 * PunchPress::RATING.speed);
 
 /// The governor on the speed without its ripple. That is renewed from a whole stroke: a gain of 1.5 J over the stroke's
@@ -115,7 +115,7 @@ pub const BINS: usize = 128;
 /// delta.
 pub const HIGHEST: usize = 16;
 
-/// The inertia at the motor over the stroke, from the top on \[kg m2\].
+/// The inertia at the motor over the stroke, from the top on (kg m2).
 pub static INERTIA: [f64; 64] = {
     let mut table = [0.0; 64];
     let mut k = 0;
@@ -131,13 +131,13 @@ pub mod panel {
     /// Advise a flywheel for a permissible delta, as the bits of `f32`: answers [`DONE`], or [`NOT_YET`] where no
     /// window of strokes is finished, or [`NONE`] where no flywheel does it. The other keys refer to this flywheel.
     pub const ADVISE: u32 = 1;
-    /// Mean speed [rad/s], as the bits of `f32`.
+    /// Mean speed (rad/s), as the bits of `f32`.
     pub const MEAN: u32 = 2;
     /// Delta by the arithmetic mean.
     pub const DELTA: u32 = 3;
-    /// Swing of the kinetic energy over the stroke, with J(phi) \[J\].
+    /// Swing of the kinetic energy over the stroke, with J(phi) (J).
     pub const ENERGY_SWING: u32 = 4;
-    /// Inertia that is missing at the motor \[kg m2\].
+    /// Inertia that is missing at the motor (kg m2).
     pub const MISSING: u32 = 5;
 
     /// Answer: done.

@@ -67,7 +67,7 @@ impl HasVibration for SurfaceGrinder {
         steadiness: Steadiness { drift: 0.1, scatter: 0.1, floor: 1.0e-3, ..Steadiness::USUAL },
         ..PhasorSettings::DIRECT
     };
-    /// Of velocity \[m/s\].
+    /// Of velocity (m/s).
     const VIBRATION_LIMIT: f64 = 0.02;
 }
 
@@ -78,7 +78,7 @@ pub const COUNTS: u32 = 2048 * 64;
 /// and do not average out: with 16 bins the second order is off by 0.5 % of the first, with 32 by 0.1 %.
 pub const BINS: usize = 32;
 
-/// The largest correction of the head \[kg m\].
+/// The largest correction of the head (kg m).
 pub const CAPACITY: f64 = 2.0e-2;
 
 /// The balancing head.

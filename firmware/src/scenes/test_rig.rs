@@ -58,14 +58,14 @@ impl HasVibration for TestRig {
         steadiness: Steadiness { floor: 0.1 * Quiet::GOOD, ..Steadiness::USUAL },
         ..PhasorSettings::DIRECT
     };
-    /// Of velocity [m/s].
+    /// Of velocity (m/s).
     const VIBRATION_LIMIT: f64 = 0.02;
 }
 
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 10_000;
 
-/// Speed that the button starts [rad/s].
+/// Speed that the button starts (rad/s).
 pub const SPEED: f64 = 100.0;
 
 /// Bins of the waveform, 20 ticks each at the button's speed.
@@ -77,11 +77,11 @@ pub const BINS: usize = 32;
 pub struct Quiet;
 
 impl Goal for Quiet {
-    /// A velocity that goes with grade G 1 \[m/s\].
+    /// A velocity that goes with grade G 1 (m/s).
     const GOOD: f32 = 1.0e-3;
 }
 
-/// The largest correction of the head \[kg m\]: grade G 16 of the disc's 0.62 kg at the button's speed.
+/// The largest correction of the head (kg m): grade G 16 of the disc's 0.62 kg at the button's speed.
 pub const CAPACITY: f64 = 1.0e-4;
 
 /// The balancing head.

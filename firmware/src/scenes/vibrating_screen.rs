@@ -24,16 +24,16 @@ use driveline::settings::{Bases, Screening};
 use crate::scene::composed::GovernedBy;
 use crate::scene::table::variants;
 
-/// Mass of the box with its charge, and of the frame [kg].
+/// Mass of the box with its charge, and of the frame (kg).
 pub const MASSES: [f64; 2] = [8000.0, 5000.0];
 
-/// Stiffness of the springs between box and frame, and between frame and ground [N/m].
+/// Stiffness of the springs between box and frame, and between frame and ground (N/m).
 pub const SPRINGS: [f64; 2] = [2.4e6, 4.0e6];
 
-/// Mass times radius of both unbalances [kg m].
+/// Mass times radius of both unbalances (kg m).
 pub const UNBALANCE: f64 = 40.0;
 
-/// Inertia of both exciter shafts with their unbalances [kg m2].
+/// Inertia of both exciter shafts with their unbalances (kg m2).
 pub const EXCITER: f64 = 8.5;
 
 /// The motor, the cardan shaft, and the exciter. The box swings freely at speed and takes `S^2/2M` off its inertia on
@@ -77,7 +77,7 @@ impl HasBarredSpeeds<2> for VibratingScreen {
 /// coarse to follow the box's push from behind the shaft.
 pub const COUNTS: u32 = 524_288;
 
-/// Resonances of box and frame on their springs [rad/s], each a critical speed: the roots of
+/// Resonances of box and frame on their springs (rad/s), each a critical speed: the roots of
 /// `w^4 - (k1/m1 + (k1 + k2)/m2) w^2 + k1 k2/(m1 m2)`.
 pub const CRITICAL: [f64; 2] = {
     let ([box_mass, frame], [main, lower]) = (MASSES, SPRINGS);

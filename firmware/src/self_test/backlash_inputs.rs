@@ -18,7 +18,7 @@ const LOAD: f32 = MACHINE.load_inertia as f32;
 const STIFFNESS: f32 = MACHINE.stiffness as f32;
 const DAMPING: f32 = MACHINE.damping as f32;
 const HALF_GAP: f32 = 0.5 * GAP as f32;
-/// Drag of the rolls [N m s/rad], which lets the gap open.
+/// Drag of the rolls (N m s/rad), which lets the gap open.
 const DRAG: f32 = 5.0e4;
 /// Torque of the motor [N m]: more than rated, for more impacts, and still plausible.
 const TORQUE: f32 = 1.6 * BloomingMill::RATING.torque_limit as f32;
@@ -41,7 +41,7 @@ impl Rattle {
         Rattle { tick: 0, angle: 0, twist: 0.0, motor_speed: 0.0, load_speed: -1.5 }
     }
 
-    /// The angle after the next tick, 2^32 to the turn, and the motor's torque during it [N m].
+    /// The angle after the next tick, 2^32 to the turn, and the motor's torque during it (N m).
     pub fn next_input(&mut self) -> (u32, f32) {
         let torque = if (self.tick / 250).is_multiple_of(2) { TORQUE } else { -TORQUE };
         self.tick = self.tick.wrapping_add(1);

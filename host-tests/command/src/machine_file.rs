@@ -51,21 +51,21 @@
 //!
 //! | kind | keys (those in brackets may be left out) |
 //! |---|---|
-//! | `motor`, `rotor` | `inertia` \[kg m2\] |
-//! | `shaft` | `stiffness` \[N m/rad\], (`damping` \[N m s/rad\]) |
-//! | `section` | `length` \[m\], `diameter` \[m\], (`end` diameter \[m\]), (`bore` \[m\]), (`modulus` \[Pa\], steel's), (`damping` \[N m s/rad\]); pieces in a row are a stepped shaft |
-//! | `crank` | `inertia`, `radius` \[m\], `rod` \[m\], `slider` \[kg\], (`rod_mass`, `rod_centre` \[m\] from the pin, `rod_inertia`); the mean over a turn |
+//! | `motor`, `rotor` | `inertia` (kg m2) |
+//! | `shaft` | `stiffness` (N m/rad), (`damping` (N m s/rad)) |
+//! | `section` | `length` (m), `diameter` (m), (`end` diameter (m)), (`bore` (m)), (`modulus` (Pa), steel's), (`damping` (N m s/rad)); pieces in a row are a stepped shaft |
+//! | `crank` | `inertia`, `radius` (m), `rod` (m), `slider` (kg), (`rod_mass`, `rod_centre` (m) from the pin, `rod_inertia`); the mean over a turn |
 //! | `worm` | `ratio`, `efficiency`, `back_efficiency` with the load driving |
-//! | `planetary` | `sun_teeth`, `ring_teeth`, `module` \[m\], `planets`, `sun`, `planet`, `carrier` \[kg m2\], `planet_mass` \[kg\], (`efficiency`, `driven` the member on the motor's side, `held`: `sun`, `ring` or `carrier`; the sun and the ring where they are left out; `ring` \[kg m2\]) |
-//! | `belt` | `driving`, `driven` \[m\], `stiffness` \[N/m\] of a strand, (`damping` \[N s/m\]), (`efficiency`) |
-//! | `screw` | `lead` \[m\] a turn |
-//! | `swinging` | `mass` \[kg\], `length` \[m\] of the pendulum |
-//! | `slack` | `travel` \[m\] along the load's path |
+//! | `planetary` | `sun_teeth`, `ring_teeth`, `module` (m), `planets`, `sun`, `planet`, `carrier` (kg m2), `planet_mass` (kg), (`efficiency`, `driven` the member on the motor's side, `held`: `sun`, `ring` or `carrier`; the sun and the ring where they are left out; `ring` (kg m2)) |
+//! | `belt` | `driving`, `driven` (m), `stiffness` (N/m) of a strand, (`damping` (N s/m)), (`efficiency`) |
+//! | `screw` | `lead` (m) a turn |
+//! | `swinging` | `mass` (kg), `length` (m) of the pendulum |
+//! | `slack` | `travel` (m) along the load's path |
 //! | `gear` | `ratio` motor speed over load speed, (`efficiency`) |
-//! | `drum` | `diameter` \[m\] |
-//! | `rope` | `falls`, `stiffness` \[N/m\] at the load, (`damping` \[N s/m\]) |
-//! | `lifted`, `driven` | `mass` \[kg\]; a lifted one has weight |
-//! | `backlash` | `gap` \[rad\], the whole free angle |
+//! | `drum` | `diameter` (m) |
+//! | `rope` | `falls`, `stiffness` (N/m) at the load, (`damping` (N s/m)) |
+//! | `lifted`, `driven` | `mass` (kg); a lifted one has weight |
+//! | `backlash` | `gap` (rad), the whole free angle |
 //!
 //! A machine with branches has, beside its chain of elements, a `[[branch]]` for each: `at`, the label of the element
 //! whose mass it stands on (a motor, rotor, crank or planetary set of the chain or of a branch before it), and
@@ -87,7 +87,7 @@
 //!
 //! A rotor that is to be balanced has a file of its own kind: see [`RotorFile`].
 //!
-//! For a diagram of critical speeds, `[running]` gives the speeds `least` and `greatest` of the motor \[rad/s\], and
+//! For a diagram of critical speeds, `[running]` gives the speeds `least` and `greatest` of the motor (rad/s), and
 //! each
 //! `[[excitation]]` its `name`, its `orders`, and the `ratio` of the motor's speed over that of the shaft that
 //! excites (1 where it is left out). `[engine]` describes a piston engine on masses of the machine, `[[damper]]` a
@@ -224,9 +224,9 @@ pub struct Accuracy {
     pub signal_periods: u32,
     /// Amplitude of the interpolation error, as a fraction of a signal period.
     pub interpolation: f64,
-    /// Amplitude of the angle's error once a turn \[rad\].
+    /// Amplitude of the angle's error once a turn (rad).
     pub eccentricity: f64,
-    /// Rms deviation of the time at which it is read \[s\].
+    /// Rms deviation of the time at which it is read (s).
     pub jitter: f64,
 }
 
@@ -247,42 +247,42 @@ pub struct Control {
 /// Disturbances for the observer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Disturbance {
-    /// Root mean square of the error of the motor's torque in one tick \[N m\].
+    /// Root mean square of the error of the motor's torque in one tick (N m).
     pub torque_accuracy: f64,
-    /// A change of load torque at the motor \[N m\] ...
+    /// A change of load torque at the motor (N m) ...
     pub load_torque_step: f64,
-    /// ... that may come about within this time \[s\].
+    /// ... that may come about within this time (s).
     pub within: f64,
 }
 
 /// Limits of the machine, at the motor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Limits {
-    /// Torque \[N m\].
+    /// Torque (N m).
     pub torque: f64,
-    /// Speed \[rad/s\].
+    /// Speed (rad/s).
     pub speed: f64,
-    /// Rated torque \[N m\]; half of the largest where the file states none.
+    /// Rated torque (N m); half of the largest where the file states none.
     pub rated_torque: f64,
 }
 
 /// The motor's torque after its command.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Actuator {
-    /// Dead time \[s\].
+    /// Dead time (s).
     pub delay: f64,
-    /// Bandwidth of the current control \[Hz\], where it is not within the tick.
+    /// Bandwidth of the current control (Hz), where it is not within the tick.
     pub bandwidth: Option<f64>,
 }
 
 /// How the machine is shaken: what decides which observer it needs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Duty {
-    /// Largest change of torque that comes about at once, at the motor \[N m\].
+    /// Largest change of torque that comes about at once, at the motor (N m).
     pub change: f64,
-    /// How long it takes \[s\].
+    /// How long it takes (s).
     pub rise: f64,
-    /// Time between two of them \[s\].
+    /// Time between two of them (s).
     pub every: f64,
 }
 

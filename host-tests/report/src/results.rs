@@ -96,23 +96,23 @@ pub struct Composition {
     pub number: String,
     /// Core.
     pub core: String,
-    /// Code \[byte\].
+    /// Code (byte).
     pub text_bytes: u64,
-    /// Constants \[byte\].
+    /// Constants (byte).
     pub rodata_bytes: u64,
-    /// Initialised data \[byte\]: in flash and in RAM.
+    /// Initialised data (byte): in flash and in RAM.
     pub data_bytes: u64,
-    /// Zeroed data \[byte\].
+    /// Zeroed data (byte).
     pub bss_bytes: u64,
 }
 
 impl Composition {
-    /// Flash \[byte\].
+    /// Flash (byte).
     pub const fn flash(&self) -> u64 {
         self.text_bytes + self.rodata_bytes + self.data_bytes
     }
 
-    /// RAM \[byte\].
+    /// RAM (byte).
     pub const fn ram(&self) -> u64 {
         self.data_bytes + self.bss_bytes
     }

@@ -18,7 +18,7 @@ pub struct Sweep {
 /// One machine at one rate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepPoint {
-    /// Natural frequency times the tick, omega T \[rad\].
+    /// Natural frequency times the tick, omega T (rad).
     pub omega_t: f64,
     /// Load inertia over motor inertia.
     pub inertia_ratio: f64,

@@ -13,13 +13,13 @@ pub struct Trajectory {
     pub variant: String,
     /// The situation: `load step`, `lowering`.
     pub situation: String,
-    /// Time \[s\], rising.
+    /// Time (s), rising.
     pub time: Vec<f64>,
-    /// Shaft torque at the motor \[N m\].
+    /// Shaft torque at the motor (N m).
     pub shaft_torque: Signal,
-    /// Load speed at the motor \[rad/s\].
+    /// Load speed at the motor (rad/s).
     pub load_speed: Signal,
-    /// Load torque at the motor \[N m\].
+    /// Load torque at the motor (N m).
     pub load_torque: Signal,
     /// Events with their times.
     pub marks: Vec<Mark>,
@@ -39,7 +39,7 @@ pub struct Signal {
 /// An event at a time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
-    /// Time \[s\].
+    /// Time (s).
     pub time: f64,
     /// The event, in one to three words.
     pub label: String,

@@ -11,21 +11,21 @@ use crate::math::sqrt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FrictionDamper {
-    /// Inertia of the ring \[kg m2\].
+    /// Inertia of the ring (kg m2).
     pub inertia: f64,
-    /// Friction torque \[N m\].
+    /// Friction torque (N m).
     pub torque: f64,
 }
 
 impl FrictionDamper {
-    /// The torque that takes most energy from a hub of this amplitude \[rad\] and frequency \[rad/s\]:
+    /// The torque that takes most energy from a hub of this amplitude (rad) and frequency (rad/s):
     /// `sqrt(2)/pi J_d omega^2 phi`.
     #[must_use]
     pub const fn best(inertia: super::Inertia, amplitude: f64, frequency: f64) -> Self {
         Self { inertia: inertia.0, torque: SQRT_2 / PI * inertia.0 * frequency * frequency * amplitude }
     }
 
-    /// Energy that it takes in a period \[J\]: `4 tau phi sqrt(1 - x^2)`, `x = pi tau/(2 J_d omega^2 phi)`; NaN where
+    /// Energy that it takes in a period (J): `4 tau phi sqrt(1 - x^2)`, `x = pi tau/(2 J_d omega^2 phi)`; NaN where
     /// the ring cannot slip at all.
     #[must_use]
     pub const fn energy(&self, amplitude: f64, frequency: f64) -> f64 {
@@ -42,7 +42,7 @@ impl Resonance {
         0.25 * PI * PI / mass_ratio
     }
 
-    /// The best friction damper of a ring against a torque \[N m\] at the natural frequency.
+    /// The best friction damper of a ring against a torque (N m) at the natural frequency.
     #[must_use]
     pub const fn friction_damper(&self, ring: super::Inertia, torque: f64) -> FrictionDamper {
         let amplitude = Self::friction_amplitude(ring.0 / self.inertia) * torque / self.stiffness();

@@ -7,11 +7,11 @@ use crate::math::sqrt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CentrifugalPendulum {
-    /// Mass \[kg\].
+    /// Mass (kg).
     pub mass: f64,
-    /// Distance of its pivot from the axis, R \[m\].
+    /// Distance of its pivot from the axis, R (m).
     pub radius: f64,
-    /// Length of the pendulum, L \[m\].
+    /// Length of the pendulum, L (m).
     pub length: f64,
 }
 
@@ -28,7 +28,7 @@ impl CentrifugalPendulum {
         sqrt(self.radius / self.length)
     }
 
-    /// Inertia that it adds to the disc at an order \[kg m2\]: `m (R + L)^2/(1 - nu^2 L/R)`; negative above its own
+    /// Inertia that it adds to the disc at an order (kg m2): `m (R + L)^2/(1 - nu^2 L/R)`; negative above its own
     /// order, infinite at it.
     #[must_use]
     pub const fn inertia(&self, order: f64) -> f64 {
@@ -36,7 +36,7 @@ impl CentrifugalPendulum {
         self.mass * arm * arm / (1.0 - order * order * self.length / self.radius)
     }
 
-    /// Swing of the pendulum \[rad\] that balances a torque \[N m\] of its own order at a speed \[rad/s\] of the disc:
+    /// Swing of the pendulum (rad) that balances a torque (N m) of its own order at a speed (rad/s) of the disc:
     /// `tau/(m R (R + L) Omega^2)`.
     #[must_use]
     pub const fn swing(&self, torque: f64, speed: f64) -> f64 {

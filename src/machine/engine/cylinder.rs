@@ -5,7 +5,7 @@ use core::f64::consts::{PI, TAU};
 use crate::machine::{Error, Length};
 use crate::math::{hypot, sin_cos};
 
-/// Crank angles that are nearer to each other than this are the same \[rad\]: far above their rounding, far below the
+/// Crank angles that are nearer to each other than this are the same (rad): far above their rounding, far below the
 /// distance of two throws.
 const SAME: f64 = 1e-6;
 
@@ -20,7 +20,7 @@ pub enum WorkingCycle {
 }
 
 impl WorkingCycle {
-    /// Crank angle of a cycle \[rad\].
+    /// Crank angle of a cycle (rad).
     #[must_use]
     pub const fn angle(self) -> f64 {
         match self {
@@ -40,13 +40,13 @@ impl WorkingCycle {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Cylinder {
-    /// Angle of its throw on the crankshaft \[rad\], in the sense of rotation.
+    /// Angle of its throw on the crankshaft (rad), in the sense of rotation.
     pub throw: f64,
-    /// Direction of its axis about the crankshaft \[rad\], in the sense of rotation.
+    /// Direction of its axis about the crankshaft (rad), in the sense of rotation.
     pub bank: f64,
-    /// Place along the crankshaft \[m\].
+    /// Place along the crankshaft (m).
     pub position: f64,
-    /// Angle of the crankshaft at which it fires \[rad\], a top dead centre.
+    /// Angle of the crankshaft at which it fires (rad), a top dead centre.
     pub firing: f64,
 }
 
@@ -57,7 +57,7 @@ impl Cylinder {
         Self { throw, bank, position: position.0, firing: within_a_turn(bank - throw) }
     }
 
-    /// Cylinders in line, `pitch` apart, by their throws \[rad\].
+    /// Cylinders in line, `pitch` apart, by their throws (rad).
     #[must_use]
     pub const fn in_line<const N: usize>(throws: [f64; N], pitch: Length) -> [Self; N] {
         let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
@@ -69,8 +69,8 @@ impl Cylinder {
         all
     }
 
-    /// Cylinders in two banks at an angle \[rad\] to each other: a pair for each throw, side by side on it, the throws
-    /// `pitch` apart. Cylinders 1, 3, 5 ... are of the first bank; `throws` has one angle \[rad\] for each cylinder.
+    /// Cylinders in two banks at an angle (rad) to each other: a pair for each throw, side by side on it, the throws
+    /// `pitch` apart. Cylinders 1, 3, 5 ... are of the first bank; `throws` has one angle (rad) for each cylinder.
     #[must_use]
     pub const fn vee<const N: usize>(throws: [f64; N], angle: f64, pitch: Length) -> [Self; N] {
         let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];
@@ -83,7 +83,7 @@ impl Cylinder {
         all
     }
 
-    /// Opposed cylinders, each on a throw of its own, `pitch` apart, by their throws \[rad\].
+    /// Opposed cylinders, each on a throw of its own, `pitch` apart, by their throws (rad).
     #[must_use]
     pub const fn boxer<const N: usize>(throws: [f64; N], pitch: Length) -> [Self; N] {
         let mut all = [Self::new(0.0, 0.0, Length(0.0)); N];

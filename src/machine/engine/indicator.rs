@@ -7,7 +7,7 @@ use crate::machine::error::positive;
 use crate::machine::{CrankSlider, Error};
 use crate::math::{exp, ln};
 
-/// Pressure of the crankcase: the standard atmosphere \[Pa\].
+/// Pressure of the crankcase: the standard atmosphere (Pa).
 const CRANKCASE: f64 = 101_325.0;
 
 /// The cycle with combustion at constant volume: polytropic compression from the charge pressure, a rise to the peak
@@ -19,9 +19,9 @@ pub struct Indicator {
     pub compression: f64,
     /// Polytropic exponent of compression and expansion, above 1: about 1.3.
     pub exponent: f64,
-    /// Charge pressure, absolute \[Pa\].
+    /// Charge pressure, absolute (Pa).
     pub charge: f64,
-    /// Peak pressure, absolute \[Pa\], above that of the compression alone.
+    /// Peak pressure, absolute (Pa), above that of the compression alone.
     pub peak: f64,
 }
 
@@ -40,7 +40,7 @@ impl Indicator {
         }
     }
 
-    /// Pressure above the crankcase's \[Pa\] at `M` equidistant crank angles over a cycle, the first at the firing dead
+    /// Pressure above the crankcase's (Pa) at `M` equidistant crank angles over a cycle, the first at the firing dead
     /// centre: the input of [`CrankSlider::gas_torque`]. The crankcase has the standard atmosphere.
     ///
     /// The orders err by `h^2/12` of the torque's kink at the firing dead centre, h the step: 4e-5 of the mean torque

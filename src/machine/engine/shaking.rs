@@ -58,7 +58,7 @@ pub const fn free_forces(cylinders: &[Cylinder], order: u32) -> Shaking {
     sum(cylinders, order, None)
 }
 
-/// Free moment of an order about a place on the crankshaft \[m\], in metres times the unit of [`free_forces`]. Its x
+/// Free moment of an order about a place on the crankshaft (m), in metres times the unit of [`free_forces`]. Its x
 /// and y are those of the forces that make it.
 #[must_use]
 pub const fn free_moments(cylinders: &[Cylinder], order: u32, about: f64) -> Shaking {

@@ -9,7 +9,7 @@ use crate::math::{hypot, sin_cos};
 /// Angles of a turn that the mass torque is taken at.
 const ANGLES: usize = 256;
 
-/// One order of a torque: `cosine cos(nu phi) + sine sin(nu phi)` \[N m\].
+/// One order of a torque: `cosine cos(nu phi) + sine sin(nu phi)` (N m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Harmonic {
@@ -28,7 +28,7 @@ impl Harmonic {
 }
 
 impl CrankSlider {
-    /// Torque of the masses at the crank at a steady speed \[rad/s\]: the sine amplitudes \[N m\] of the orders 0, 1, 2
+    /// Torque of the masses at the crank at a steady speed (rad/s): the sine amplitudes (N m) of the orders 0, 1, 2
     /// ..., `N` of them; `-J'(phi) omega^2/2` [Pfützner 1980 (1.2a)-(1.2c); the connecting rod: derived].
     ///
     /// These are all powers of lambda: the second order of a massless rod is
@@ -51,10 +51,10 @@ impl CrankSlider {
         sines
     }
 
-    /// Torque of the gas at the crank by orders \[N m\], from an indicator diagram: index `k` is `k` times the cycle's
+    /// Torque of the gas at the crank by orders (N m), from an indicator diagram: index `k` is `k` times the cycle's
     /// lowest order, index 0 the mean [Pfützner 1980 (1.2a)-(1.2c)].
     ///
-    /// `pressure` \[Pa\] above that in the crankcase, at equidistant crank angles over a whole cycle, the first at the
+    /// `pressure` (Pa) above that in the crankcase, at equidistant crank angles over a whole cycle, the first at the
     /// firing dead centre. It resolves the orders of an index below half its length.
     #[must_use]
     pub const fn gas_torque<const N: usize>(

@@ -38,13 +38,13 @@ impl CombustionType {
 pub struct Combustion {
     /// How it burns.
     pub mixture: CombustionType,
-    /// Rated torque \[N m\]: rated power over rated speed.
+    /// Rated torque (N m): rated power over rated speed.
     pub rated_torque: f64,
-    /// Rated speed \[rad/s\].
+    /// Rated speed (rad/s).
     pub rated_speed: f64,
-    /// Lowest speed that it runs at \[rad/s\].
+    /// Lowest speed that it runs at (rad/s).
     pub idle: f64,
-    /// Speed without load under its governor \[rad/s\].
+    /// Speed without load under its governor (rad/s).
     pub no_load: f64,
 }
 

@@ -7,9 +7,9 @@ use crate::machine::{Speed, Torque};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Line {
-    /// Torque at standstill \[N m\].
+    /// Torque at standstill (N m).
     pub stall: f64,
-    /// Fall of the torque with the speed \[N m s/rad\]: the stiffness of the characteristic.
+    /// Fall of the torque with the speed (N m s/rad): the stiffness of the characteristic.
     pub slope: f64,
 }
 
@@ -50,11 +50,11 @@ impl Line {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Parabola {
-    /// Torque at standstill a \[N m\].
+    /// Torque at standstill a (N m).
     pub constant: f64,
-    /// b \[N m s/rad\].
+    /// b (N m s/rad).
     pub linear: f64,
-    /// c \[N m s2/rad2\].
+    /// c (N m s2/rad2).
     pub square: f64,
 }
 
@@ -96,7 +96,7 @@ impl Parabola {
         Torque(self.constant + speed.0 * (self.linear + self.square * speed.0))
     }
 
-    /// Stiffness of the characteristic at a speed \[N m s/rad\].
+    /// Stiffness of the characteristic at a speed (N m s/rad).
     #[must_use]
     pub const fn stiffness(&self, speed: Speed) -> f64 {
         (self.linear + 2.0 * self.square * speed.0).abs()

@@ -7,16 +7,16 @@ use crate::machine::{Speed, Torque};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Shunt {
-    /// Armature voltage \[V\].
+    /// Armature voltage (V).
     pub voltage: f64,
-    /// Resistance of the armature's circuit \[ohm\].
+    /// Resistance of the armature's circuit (ohm).
     pub resistance: f64,
-    /// Torque over current, and voltage over speed \[V s\]: less in a weakened field.
+    /// Torque over current, and voltage over speed (V s): less in a weakened field.
     pub flux: f64,
 }
 
 impl Shunt {
-    /// From voltage \[V\], resistance \[ohm\] and flux \[V s\].
+    /// From voltage (V), resistance (ohm) and flux (V s).
     ///
     /// # Panics
     /// At compile time in a constant, where a value is out of range.
@@ -52,7 +52,7 @@ impl Shunt {
         Speed(self.voltage / self.flux)
     }
 
-    /// Stiffness of the characteristic \[N m s/rad\].
+    /// Stiffness of the characteristic (N m s/rad).
     #[must_use]
     pub const fn stiffness(&self) -> f64 {
         self.flux * self.flux / self.resistance
@@ -63,16 +63,16 @@ impl Shunt {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Series {
-    /// Voltage \[V\].
+    /// Voltage (V).
     pub voltage: f64,
-    /// Resistance of armature, field and starter \[ohm\].
+    /// Resistance of armature, field and starter (ohm).
     pub resistance: f64,
-    /// Torque over the square of the current \[H\].
+    /// Torque over the square of the current (H).
     pub flux: f64,
 }
 
 impl Series {
-    /// From voltage \[V\], resistance \[ohm\] and torque over the square of the current \[H\].
+    /// From voltage (V), resistance (ohm) and torque over the square of the current (H).
     ///
     /// # Panics
     /// At compile time in a constant, where a value is out of range.
@@ -96,7 +96,7 @@ impl Series {
         }
     }
 
-    /// Current at a speed \[A\], for speeds above `-R/c`: overhauled backwards beyond that, it builds up its own field
+    /// Current at a speed (A), for speeds above `-R/c`: overhauled backwards beyond that, it builds up its own field
     /// without bound.
     #[must_use]
     pub const fn current(&self, speed: Speed) -> f64 {
@@ -110,7 +110,7 @@ impl Series {
         Torque(self.flux * current * current)
     }
 
-    /// Stiffness of the characteristic at a speed above `-R/c` \[N m s/rad\].
+    /// Stiffness of the characteristic at a speed above `-R/c` (N m s/rad).
     #[must_use]
     pub const fn stiffness(&self, speed: Speed) -> f64 {
         let current = self.current(speed);

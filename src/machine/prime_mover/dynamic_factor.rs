@@ -12,7 +12,7 @@ use crate::machine::{Torque, TwoMass};
 use crate::math::{atan2, hypot, sin_cos, sqrt};
 
 impl TwoMass {
-    /// Factor of a torque that rises evenly within `time` \[s\] and stays: `1 + |sin(omega T/2)|/(omega T/2)`,
+    /// Factor of a torque that rises evenly within `time` (s) and stays: `1 + |sin(omega T/2)|/(omega T/2)`,
     /// 2 at zero or below.
     #[must_use]
     pub const fn ramp_factor(&self, time: f64) -> f64 {
@@ -20,7 +20,7 @@ impl TwoMass {
         if half > 0.0 { 1.0 + (sin_cos(half).0 / half).abs() } else { 2.0 }
     }
 
-    /// Factor of a constant torque that lasts for `time` \[s\]: `2 sin(omega T/2)` up to half a period, 2 from there
+    /// Factor of a constant torque that lasts for `time` (s): `2 sin(omega T/2)` up to half a period, 2 from there
     /// on, 0 at zero or below.
     #[must_use]
     pub const fn pulse_factor(&self, time: f64) -> f64 {
@@ -59,7 +59,7 @@ impl TwoMass {
         }
     }
 
-    /// Torque per time \[N m/s\] at which a change of the motor's torque \[N m\] has at most this factor, between 1
+    /// Torque per time (N m/s) at which a change of the motor's torque (N m) has at most this factor, between 1
     /// and 2: `change omega (factor - 1)/2`, from the envelope `1 + 2/(omega T)` of all ramps; 0 for a factor of 1 or
     /// below. The constant [`HasSlew::SLEW`](crate::configure::HasSlew::SLEW) of a governor.
     ///
@@ -74,7 +74,7 @@ impl TwoMass {
         0.5 * change.0.abs() * self.resonance() * (factor - 1.0).max(0.0)
     }
 
-    /// Torque that the shaft first turns to \[N m\] after motor and load torque have changed at once, from the torque
+    /// Torque that the shaft first turns to (N m) after motor and load torque have changed at once, from the torque
     /// `before` and masses at one speed: a reversal, or a loss of the load, through the gap. Zero where the masses turn
     /// back within the gap.
     ///

@@ -12,9 +12,9 @@ use crate::math::sqrt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Induction {
-    /// Synchronous speed \[rad/s\].
+    /// Synchronous speed (rad/s).
     pub synchronous: f64,
-    /// Largest torque \[N m\].
+    /// Largest torque (N m).
     pub breakdown: f64,
     /// Slip of the largest torque: with much resistance in the rotor above 1.
     pub breakdown_slip: f64,
@@ -84,7 +84,7 @@ impl Induction {
         Torque(2.0 * self.breakdown * s * a / (s * s + a * a))
     }
 
-    /// Stiffness of the characteristic at a speed \[N m s/rad\], without regard to its sign: below the breakdown speed
+    /// Stiffness of the characteristic at a speed (N m s/rad), without regard to its sign: below the breakdown speed
     /// the torque rises with the speed, and the machine is driven off that branch.
     #[must_use]
     pub const fn stiffness(&self, speed: Speed) -> f64 {

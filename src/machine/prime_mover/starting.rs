@@ -8,23 +8,23 @@ use crate::math::{ln, sqrt};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum StartingLaw {
-    /// Hard: a constant torque \[N m\].
+    /// Hard: a constant torque (N m).
     Hard {
-        /// Torque \[N m\].
+        /// Torque (N m).
         torque: f64,
     },
     /// Medium: `torque (1 - t^2/T^2)`, nothing after T.
     Medium {
-        /// Torque at the start \[N m\].
+        /// Torque at the start (N m).
         torque: f64,
-        /// Starting time T \[s\].
+        /// Starting time T (s).
         time: f64,
     },
     /// Soft: `torque (1 - t/T)`, nothing after T.
     Soft {
-        /// Torque at the start \[N m\].
+        /// Torque at the start (N m).
         torque: f64,
-        /// Starting time T \[s\].
+        /// Starting time T (s).
         time: f64,
     },
 }
@@ -42,7 +42,7 @@ impl StartingLaw {
         if valid { Ok(()) } else { Err(Error::StartingTime) }
     }
 
-    /// Torque at a time \[s\] after the start, zero or above.
+    /// Torque at a time (s) after the start, zero or above.
     #[must_use]
     pub const fn torque(&self, t: f64) -> Torque {
         Torque(match *self {
@@ -53,7 +53,7 @@ impl StartingLaw {
         })
     }
 
-    /// Angular impulse up to a time \[s\]: the integral of the torque \[N m s\].
+    /// Angular impulse up to a time (s): the integral of the torque (N m s).
     #[must_use]
     pub const fn impulse(&self, t: f64) -> f64 {
         match *self {
@@ -69,7 +69,7 @@ impl StartingLaw {
         }
     }
 
-    /// Starting time T \[s\] that brings a rigid machine to a speed \[rad/s\] against a load torque that is constant:
+    /// Starting time T (s) that brings a rigid machine to a speed (rad/s) against a load torque that is constant:
     /// `J omega = integral of (tau - tau_L)`; infinite where the torque does not suffice.
     ///
     /// The law's own time has no effect: it is the result.
@@ -86,13 +86,13 @@ impl StartingLaw {
 }
 
 impl Line {
-    /// Time constant of a rigid machine on this characteristic \[s\]: `J/b`.
+    /// Time constant of a rigid machine on this characteristic (s): `J/b`.
     #[must_use]
     pub const fn time_constant(&self, machine: &Rigid) -> f64 {
         machine.inertia / self.slope
     }
 
-    /// Time \[s\] from standstill to a speed \[rad/s\] against a constant load torque,
+    /// Time (s) from standstill to a speed (rad/s) against a constant load torque,
     /// `J/b ln(omega_e/(omega_e - omega))` with the speed omega_e that it tends to; infinite where that is not above
     /// the target speed.
     #[must_use]
@@ -121,14 +121,14 @@ pub enum StartCondition {
 }
 
 impl crate::machine::TwoMass {
-    /// Torque that the shaft carries while both masses accelerate alike \[N m\]: `(tau_m J_l + tau_L J_m)/(J_m + J_l)`
+    /// Torque that the shaft carries while both masses accelerate alike (N m): `(tau_m J_l + tau_L J_m)/(J_m + J_l)`
     /// [Huang 1987 part 2].
     #[must_use]
     pub const fn accelerating_torque(&self, motor: Torque, load: Torque) -> Torque {
         Torque((motor.0 * self.load_inertia + load.0 * self.motor_inertia) / self.total_inertia())
     }
 
-    /// Largest torque in the shaft after a constant motor torque sets in, undamped \[N m\] [Huang 1987 part 2].
+    /// Largest torque in the shaft after a constant motor torque sets in, undamped (N m) [Huang 1987 part 2].
     ///
     /// For a slack start motor and load torque must be positive. The motor crosses the gap, twists the shaft against
     /// the load that friction still holds, until the shaft carries the load's torque; then both swing about the
@@ -159,15 +159,15 @@ impl crate::machine::TwoMass {
         self.starting_peak(condition, motor, load).0 / load.0
     }
 
-    /// Torque that an impact of the masses at a relative speed \[rad/s\] adds, undamped:
-    /// `delta_omega sqrt(k J_m J_l/(J_m + J_l))` \[N m\] [Huang 1987 part 2].
+    /// Torque that an impact of the masses at a relative speed (rad/s) adds, undamped:
+    /// `delta_omega sqrt(k J_m J_l/(J_m + J_l))` (N m) [Huang 1987 part 2].
     #[must_use]
     pub const fn impact_torque(&self, relative_speed: f64) -> Torque {
         Torque(relative_speed * sqrt(self.stiffness * self.reduced_inertia()))
     }
 
     /// Least torque in the shaft after the load's torque has gone at once, the motor's torque staying what carried it
-    /// \[N m\]; negative where the shaft would change sides.
+    /// (N m); negative where the shaft would change sides.
     #[must_use]
     pub const fn load_loss_torque(&self, torque: Torque) -> Torque {
         Torque(torque.0 * (self.load_inertia - self.motor_inertia) / self.total_inertia())

@@ -22,7 +22,7 @@ use stm32_metapac::{DBGMCU, PWR, SYSCFG, TIM1};
 use super::clock::CLOCK_HZ;
 use super::pin::alternate;
 
-/// Frequency of the PWM [Hz].
+/// Frequency of the PWM (Hz).
 const PWM_HZ: u32 = 20_000;
 /// Counts of full duty: up and down again in a period.
 const FULL: u16 = (CLOCK_HZ / PWM_HZ / 2) as u16;

@@ -49,24 +49,24 @@ const RUN_UP: RunUpConfig = RunUpConfig::new(M::RATING.torque, M::RATING.speed, 
 fn eccentricity<F: Family<5, 4>>() -> &'static EccentricityConfig {
     const { &EccentricityConfig::of_placed(&F::OBSERVERS[1][2], 0.1 * core::f64::consts::PI / 180.0, 0.4) }
 }
-/// Gravity \[m/s2\], the standard value of ISO 80000-3.
+/// Gravity (m/s2), the standard value of ISO 80000-3.
 const GRAVITY: f32 = 9.80665;
 
 /// Keys of the panel, with a value as the bits of `f32`.
 pub mod panel {
-    /// The rope has this length now \[m\].
+    /// The rope has this length now (m).
     pub const ROPE: u32 = 1;
-    /// A known load hangs on the hook \[kg\]; a negative number ends it.
+    /// A known load hangs on the hook (kg); a negative number ends it.
     pub const LOAD: u32 = 2;
     /// Answers the learnt gain of the torque.
     pub const GAIN: u32 = 3;
-    /// The torque's offset \[N m\].
+    /// The torque's offset (N m).
     pub const OFFSET: u32 = 4;
     /// The friction of the gear per shaft torque.
     pub const LOSS: u32 = 5;
     /// The motor's inertia over that of the drawings.
     pub const MOTOR: u32 = 6;
-    /// The encoder's eccentricity \[rad\].
+    /// The encoder's eccentricity (rad).
     pub const ECCENTRICITY: u32 = 7;
 }
 
@@ -79,7 +79,7 @@ pub struct Follower<N: Correction + Stiction> {
     loss: GearLoss,
     torque: TorqueConstant,
     run_up: RunUp,
-    /// The named load \[kg\].
+    /// The named load (kg).
     named: Option<f32>,
     /// Motor's inertia over that of the drawings.
     motor: f32,

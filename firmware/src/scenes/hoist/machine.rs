@@ -14,7 +14,7 @@ use driveline::settings::{Bases, Screening};
 /// counts of the encoder: the play is eight.
 pub struct Hoist<const RATE_HZ: u32>;
 
-/// The hoist with a load of `mass` \[kg\] on a rope of `length` \[m\], whose stiffness above is that of 12 m.
+/// The hoist with a load of `mass` (kg) on a rope of `length` (m), whose stiffness above is that of 12 m.
 pub const fn chain(mass: f64, length: f64) -> Chain {
     Chain::motor(Inertia(0.62))
         .shaft(Stiffness(5.0e4), Damping(2.0))
@@ -25,16 +25,16 @@ pub const fn chain(mass: f64, length: f64) -> Chain {
         .lifted(Mass(mass))
 }
 
-/// Travel of the load per angle of the motor \[m/rad\]: half the drum's diameter, two falls, the gear.
+/// Travel of the load per angle of the motor (m/rad): half the drum's diameter, two falls, the gear.
 pub const TRAVEL: f64 = 0.8 / 2.0 / 2.0 / 31.5;
 
-/// Loads at the points of the gain schedule \[kg\]: from an empty hook to a tenth over the largest load.
+/// Loads at the points of the gain schedule (kg): from an empty hook to a tenth over the largest load.
 const MASSES: [f64; 5] = [13_000.0, 6_000.0, 2_700.0, 1_200.0, 500.0];
 
-/// Lengths of rope at its points \[m\].
+/// Lengths of rope at its points (m).
 const LENGTHS: [f64; 4] = [30.0, 17.0, 9.0, 5.0];
 
-/// By loads per tonne, inverse, and by the inverse of the rope's length \[1/m\].
+/// By loads per tonne, inverse, and by the inverse of the rope's length (1/m).
 impl<const RATE_HZ: u32> Family<5, 4> for Hoist<RATE_HZ> {
     const FIRST: [f64; 5] = inverse(MASSES, 1e3);
     const SECOND: [f64; 4] = inverse(LENGTHS, 1.0);

@@ -10,10 +10,10 @@ use driveline::settings::Bases;
 pub const RATE_HZ: u32 = 10_000;
 /// Lines of the encoder.
 pub const LINES: u32 = 2048;
-/// Whole free travel of the gap \[rad\].
+/// Whole free travel of the gap (rad).
 pub const GAP: f64 = 0.01;
 
-/// First resonance \[Hz\].
+/// First resonance (Hz).
 const RESONANCE: f64 = 15.0;
 /// Damping ratio of the resonance, of the size of steel shafts with couplings.
 const DAMPING_RATIO: f64 = 0.02;
@@ -25,7 +25,7 @@ pub struct Case {
     pub name: &'static str,
     /// The machine.
     pub machine: TwoMass,
-    /// Rated torque [N m].
+    /// Rated torque (N m).
     pub rated: f64,
 }
 

@@ -30,9 +30,9 @@ pub struct Row {
 pub struct Stretch {
     /// Which course.
     pub course: String,
-    /// Time \[s\].
+    /// Time (s).
     pub time: Vec<f64>,
-    /// The true shaft torque [N m].
+    /// The true shaft torque (N m).
     pub truth: Vec<f64>,
     /// The approaches' model of it, by name.
     pub estimates: Vec<(&'static str, Vec<f64>)>,
@@ -43,7 +43,7 @@ pub struct Stretch {
 pub struct Comparison {
     /// Ticks a second.
     pub rate_hz: u32,
-    /// The gap \[rad\].
+    /// The gap (rad).
     pub gap: f64,
     /// Seconds of each course.
     pub seconds: f64,

@@ -63,7 +63,7 @@ impl Kind {
     }
 }
 
-/// Speed at which a torque course is turned back [rad/s].
+/// Speed at which a torque course is turned back (rad/s).
 const TURNING: f64 = 60.0;
 
 /// A machine on its course, tick by tick.
@@ -119,7 +119,7 @@ impl Rig {
         &self.plant
     }
 
-    /// The angle now, 2^32 to the turn, and the torque of the tick that has ended as reported to the drive [N m].
+    /// The angle now, 2^32 to the turn, and the torque of the tick that has ended as reported to the drive (N m).
     pub fn sensed(&mut self) -> (u32, f64) {
         let torque = self.applied + 0.01 * self.rated * self.noise.normal();
         (self.encoder.read(self.plant.motor_angle()), torque)
@@ -186,11 +186,11 @@ pub struct Course {
     pub kind: Kind,
     /// Angle and torque as reported to the drive.
     pub sensed: Vec<(u32, f64)>,
-    /// Shaft torque [N m], load speed [rad/s] and twist \[rad\].
+    /// Shaft torque (N m), load speed (rad/s) and twist (rad).
     pub truth: Vec<[f64; 3]>,
-    /// Peak of the shaft torque [N m].
+    /// Peak of the shaft torque (N m).
     pub peak: f64,
-    /// Highest speed of the load [rad/s].
+    /// Highest speed of the load (rad/s).
     pub fastest: f64,
 }
 

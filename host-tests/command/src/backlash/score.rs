@@ -10,10 +10,10 @@ use super::run::Course;
 
 /// Something that estimates from the motor's angle and torque, tick by tick.
 pub trait Estimator {
-    /// Takes the angle after a tick, 2^32 to the turn, and the torque during it [N m].
+    /// Takes the angle after a tick, 2^32 to the turn, and the torque during it (N m).
     fn tick(&mut self, angle: u32, torque: f64);
 
-    /// Shaft torque [N m] and load speed [rad/s].
+    /// Shaft torque (N m) and load speed (rad/s).
     fn estimate(&self) -> [f64; 2];
 }
 

@@ -16,16 +16,16 @@ use crate::closed_loop::units::Units;
 use driveline_solver::plant::{Chain, Shaft};
 use driveline_solver::rotor::{Bearing, Direction, Faulty, Modal, Model, Polar, RigidRotor, Transducer, Whirl};
 
-/// Mass of the rotor [kg], its moments of inertia about the axis and about a diameter [kg m2].
+/// Mass of the rotor (kg), its moments of inertia about the axis and about a diameter (kg m2).
 const ROTOR: [f64; 3] = [180.0, 11.0, 8.5];
-/// Planes and bearings, from the centre of gravity [m].
+/// Planes and bearings, from the centre of gravity (m).
 const PLANE: f64 = 0.28;
 const BEARING: f64 = 0.45;
 /// Grade that it is found in.
 const FOUND: f64 = 16.0;
 /// Trial weights [kg m]: 1.4 times what is permitted in a plane in grade 6.3.
 const TRIAL: f64 = 5e-3;
-/// Time that the speed is given to settle [s].
+/// Time that the speed is given to settle (s).
 const SETTLE: f64 = 2.0;
 
 /// The fan's rotor on its pedestals, which are softer along `y` than along `x`.

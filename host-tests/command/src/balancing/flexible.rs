@@ -28,7 +28,7 @@ const SETTLE: f64 = 5.0;
 const KEPT: usize = 16;
 /// White noise of the sensors, as a share of the larger vibration as it is found.
 const NOISE: f64 = 0.05;
-/// Run-out of the shaft under the sensors [m].
+/// Run-out of the shaft under the sensors (m).
 const RUN_OUT: f64 = 1.5e-6;
 
 /// Three discs on a shaft of 1.2 m.

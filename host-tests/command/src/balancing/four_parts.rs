@@ -14,7 +14,7 @@ pub(super) fn claim(name: &str, measured: f64, limit: f64) -> Claim {
     Claim { name: name.to_owned(), measured, limit }
 }
 
-/// Root mean square of the drive's errors of motor speed, load speed [rad/s] and shaft torque [N m].
+/// Root mean square of the drive's errors of motor speed, load speed (rad/s) and shaft torque (N m).
 pub(super) fn deviations(seen: &[Seen]) -> [f64; 3] {
     [0, 1, 2].map(|k| {
         let squares: f64 = seen.iter().map(|tick| (tick.estimate[k] - tick.truth[k]).powi(2)).sum();
@@ -34,7 +34,7 @@ pub(super) fn mean(ticks: &[Seen], which: usize) -> f64 {
     ticks.iter().map(|tick| tick.truth[which]).sum::<f64>() / ticks.len() as f64
 }
 
-/// What is claimed of the observer, over the whole run, beside its shaft torque; `speed` is the rated one [rad/s]. The
+/// What is claimed of the observer, over the whole run, beside its shaft torque; `speed` is the rated one (rad/s). The
 /// limit is that which the report holds every drivetrain with a tight shaft to.
 pub(super) fn observed(seen: &[Seen], speed: f64) -> Vec<Claim> {
     let faults = seen.iter().filter(|tick| tick.faults != 0).count();
@@ -50,14 +50,14 @@ pub(super) struct Told {
     pub to: usize,
     /// Delta of motor and load by the waveform, and of the last turn by its extremes.
     deltas: [[f64; 2]; 2],
-    /// Mean speed of the last turn [rad/s].
+    /// Mean speed of the last turn (rad/s).
     mean: f64,
-    /// Orders 1 and 2 of the motor's speed [rad/s].
+    /// Orders 1 and 2 of the motor's speed (rad/s).
     orders: [Complex<f64>; 2],
 }
 
 impl Told {
-    /// Asks for the next window of turns, which is there after `patience` at the latest \[s\].
+    /// Asks for the next window of turns, which is there after `patience` at the latest (s).
     pub fn ask(operator: &mut Operator<'_>, patience: f64) -> Result<Self, BalancingError> {
         // the window before began while the speed was settling
         Told::take(operator, patience)?;
@@ -90,7 +90,7 @@ impl Told {
         Ok(())
     }
 
-    /// What is claimed of it, against the plant in all `seen` ticks of `period` \[s\]. The load swings `ratio` of the
+    /// What is claimed of it, against the plant in all `seen` ticks of `period` (s). The load swings `ratio` of the
     /// motor at the first order.
     ///
     /// The noise of the estimate makes the largest speed of a turn too large and the least too small: of its 157 to 204

@@ -24,37 +24,37 @@ use driveline_solver::noise::Noise;
 use driveline_solver::plant::{Chain, Shaft};
 use driveline_solver::rotor::{Bearing, Direction, Faulty, Modal, Model, Polar, RigidRotor, Transducer, Whirl};
 
-/// Rated speed [rad/s].
+/// Rated speed (rad/s).
 const SPEED: f64 = SurfaceGrinder::RATING.speed;
-/// Torque of coolant and air, which is there from the start, and mean torque of the cut beside it [N m].
+/// Torque of coolant and air, which is there from the start, and mean torque of the cut beside it (N m).
 const IDLE: f64 = 0.1 * SurfaceGrinder::RATING.torque;
 const CUT: f64 = 0.4 * SurfaceGrinder::RATING.torque;
 /// Swing of the cut once and twice a turn, as a share of its mean.
 const SWING: [f64; 2] = [0.8, 0.3];
 /// Time for speed and whirl to settle at first, for the speed after the cut has begun, and for the whirl after the head
-/// has moved [s].
+/// has moved (s).
 const SETTLE: [f64; 3] = [1.5, 3.0, 0.2];
 /// Rate at which the head moves its correction [kg m/s]: its whole capacity in a second.
 const RATE: f64 = scene::CAPACITY;
-/// Where head and wheel are, from the centre of gravity \[m\].
+/// Where head and wheel are, from the centre of gravity (m).
 const WHEEL: f64 = 0.25;
 /// Longest wait for a window of turns [s]: three windows.
 const PATIENCE: f64 = 3.0 * 32.0 * TAU / SPEED;
 
-/// Stiffness of the coupling [N m/rad]; with its damping of 3.6 N m s/rad half of the energy of a swing at the
+/// Stiffness of the coupling (N m/rad); with its damping of 3.6 N m s/rad half of the energy of a swing at the
 /// resonance of 110 rad/s is lost in each, by 2 pi c omega/k.
 const COUPLING: f64 = 4.9e3;
 
 /// Random: the rotor, its unbalance, its sensors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GrinderStart {
-    /// Unbalance of the wheel [kg m], and its angle [degrees].
+    /// Unbalance of the wheel (kg m), and its angle (degrees).
     pub unbalance: Vector,
-    /// Stiffness of the front and the rear bearing with their housings [N/m].
+    /// Stiffness of the front and the rear bearing with their housings (N/m).
     pub stiffness: [f64; 2],
-    /// Damping of both [N s/m].
+    /// Damping of both (N s/m).
     pub damping: f64,
-    /// Sensors' errors: share and phase [degrees].
+    /// Sensors' errors: share and phase (degrees).
     pub sensors: [(f64, f64); 2],
     /// Seed of the noise.
     pub seed: u64,

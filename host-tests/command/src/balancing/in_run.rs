@@ -41,16 +41,16 @@ impl Course {
 pub(super) struct HeadRun<'a> {
     /// The rotor.
     pub model: &'a Model,
-    /// The speed that it is balanced at [rad/s].
+    /// The speed that it is balanced at (rad/s).
     pub speed: f64,
-    /// Rate at which the head moves its correction [kg m/s].
+    /// Rate at which the head moves its correction (kg m/s).
     pub rate: f64,
-    /// Time for the whirl to settle after the head has moved [s].
+    /// Time for the whirl to settle after the head has moved (s).
     pub settle: f64,
 }
 
 impl HeadRun<'_> {
-    /// Balances the rotor, which turns with the unbalance `found` [kg m], in steps.
+    /// Balances the rotor, which turns with the unbalance `found` (kg m), in steps.
     pub fn balance(
         &self,
         operator: &mut Operator<'_>,

@@ -18,15 +18,15 @@ pub struct Drivetrain {
     pub plant: Plant,
     /// The node of the rotor.
     pub rotor: usize,
-    /// Load torque per square of the speed [N m s2].
+    /// Load torque per square of the speed (N m s2).
     pub load: f64,
-    /// Load torque at any speed [N m].
+    /// Load torque at any speed (N m).
     pub torque: f64,
-    /// Ripple of the load: waves a turn and amplitude [N m] at the rated speed, where it is largest.
+    /// Ripple of the load: waves a turn and amplitude (N m) at the rated speed, where it is largest.
     pub ripple: Vec<(f64, f64)>,
-    /// The rated speed [rad/s].
+    /// The rated speed (rad/s).
     pub rated: f64,
-    /// Standard deviation of the drive's reported torque [N m].
+    /// Standard deviation of the drive's reported torque (N m).
     pub torque_noise: f64,
 }
 
@@ -54,9 +54,9 @@ pub struct Machine {
 /// A tick, as the plant has it and as the drive estimates it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen {
-    /// Angle of the motor \[rad\].
+    /// Angle of the motor (rad).
     pub angle: f64,
-    /// Speed of motor and rotor [rad/s] and torque of the first shaft [N m].
+    /// Speed of motor and rotor (rad/s) and torque of the first shaft (N m).
     pub truth: [f64; 3],
     /// The same by the drive.
     pub estimate: [f64; 3],
@@ -110,36 +110,36 @@ impl Machine {
         self.seen.as_deref().unwrap_or_default()
     }
 
-    /// Changes the load torque at any speed [N m], and the ripple.
+    /// Changes the load torque at any speed (N m), and the ripple.
     pub fn set_torque(&mut self, torque: f64, ripple: Vec<(f64, f64)>) {
         (self.drivetrain.torque, self.drivetrain.ripple) = (torque, ripple);
     }
 
-    /// Gives the drive its setpoint [rad/s] and releases it.
+    /// Gives the drive its setpoint (rad/s) and releases it.
     pub fn set_setpoint(&mut self, speed: f64) {
         self.setpoint = speed;
         self.released = true;
     }
 
-    /// The drive's setpoint [rad/s].
+    /// The drive's setpoint (rad/s).
     #[must_use]
     pub fn setpoint(&self) -> f64 {
         self.setpoint
     }
 
-    /// Time since the start [s].
+    /// Time since the start (s).
     #[must_use]
     pub fn time(&self) -> f64 {
         self.ticks as f64 * self.whirl.tick()
     }
 
-    /// Duration of a tick [s].
+    /// Duration of a tick (s).
     #[must_use]
     pub fn period(&self) -> f64 {
         self.whirl.tick()
     }
 
-    /// Speed of the rotor [rad/s].
+    /// Speed of the rotor (rad/s).
     #[must_use]
     pub fn speed(&self) -> f64 {
         self.drivetrain.plant.speed(self.drivetrain.rotor)

@@ -12,7 +12,7 @@ use crate::closed_loop::ticks::Ticks;
 
 /// Share of the setpoint within which the speed counts as reached.
 const REACHED: f64 = 2e-3;
-/// Longest wait for a speed [s].
+/// Longest wait for a speed (s).
 const PATIENCE: f64 = 60.0;
 /// Readings that are tried at a speed.
 const READINGS: usize = 12;
@@ -68,7 +68,7 @@ impl<'a> Operator<'a> {
         Ok(Complex::new(part(self.ask(keys[0], value)?), part(self.ask(keys[1], value)?)))
     }
 
-    /// Sends a weight to the panel [kg m].
+    /// Sends a weight to the panel (kg m).
     ///
     /// # Errors
     /// What the link says; what the panel refuses.
@@ -77,7 +77,7 @@ impl<'a> Operator<'a> {
         self.press(Key::WeightIm, (weight.im as f32).to_bits())
     }
 
-    /// Lets time pass [s].
+    /// Lets time pass (s).
     ///
     /// # Errors
     /// What the link says.
@@ -89,7 +89,7 @@ impl<'a> Operator<'a> {
         Ok(())
     }
 
-    /// Brings the machine to a speed [rad/s] and lets it settle for a time [s].
+    /// Brings the machine to a speed (rad/s) and lets it settle for a time (s).
     ///
     /// # Errors
     /// What the link says; a speed that is not reached.
@@ -135,13 +135,13 @@ impl<'a> Operator<'a> {
 pub struct Hand {
     /// Of the amount, as a share.
     amount: f64,
-    /// Of the angle [rad].
+    /// Of the angle (rad).
     angle: f64,
     source: Noise,
 }
 
 impl Hand {
-    /// A hand with errors of the amount, as a share, and of the angle [degrees]; `seed` is that of its errors.
+    /// A hand with errors of the amount, as a share, and of the angle (degrees); `seed` is that of its errors.
     #[must_use]
     pub fn new(amount: f64, degrees: f64, seed: u64) -> Self {
         Hand { amount, angle: degrees.to_radians(), source: Noise::new(seed) }

@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct Vector {
     /// Size, in the unit of what it is of.
     pub size: f64,
-    /// Angle [degrees].
+    /// Angle (degrees).
     pub angle: f64,
 }
 
@@ -25,15 +25,15 @@ impl Vector {
 pub struct Stage {
     /// As found, corrected, trimmed.
     pub name: String,
-    /// The unbalance that is left in each plane [kg m].
+    /// The unbalance that is left in each plane (kg m).
     pub unbalance: Vec<Vector>,
-    /// The vibration of each row, a channel at a speed [m].
+    /// The vibration of each row, a channel at a speed (m).
     pub vibration: Vec<Vector>,
     /// The same as the firmware read it, in the sensors' unit, where it did.
     pub read: Vec<Vector>,
     /// Criterion of the scene: a grade, or a share of the initial vibration.
     pub measure: f64,
-    /// Time since the start [s].
+    /// Time since the start (s).
     pub time: f64,
 }
 
@@ -75,8 +75,8 @@ pub struct Outcome {
     pub fingerprint: u64,
     /// Most instructions of a tick, and their mean; zero on the host.
     pub instructions: (u32, f64),
-    /// Speeds [rad/s], and for each stage the largest amplitude of the channels there [m].
+    /// Speeds (rad/s), and for each stage the largest amplitude of the channels there (m).
     pub over_speed: (Vec<f64>, Vec<Vec<f64>>),
-    /// Simulated time [s].
+    /// Simulated time (s).
     pub time: f64,
 }

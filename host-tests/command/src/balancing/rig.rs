@@ -25,16 +25,16 @@ use crate::closed_loop::units::Units;
 use driveline_solver::plant::{Chain, Plant, Shaft};
 use driveline_solver::rotor::{Bearing, Direction, Faulty, Modal, Model, Polar, RigidRotor, Transducer, Whirl};
 
-/// The button's speed, at which the rig is run [rad/s].
+/// The button's speed, at which the rig is run (rad/s).
 const SPEED: f64 = scene::SPEED;
-/// Motor with half coupling, and disc [kg m2].
+/// Motor with half coupling, and disc (kg m2).
 const INERTIA: [f64; 2] = [3.2e-5, 7.7e-4];
-/// Torque of the brake, and of the spring once and twice a turn [N m].
+/// Torque of the brake, and of the spring once and twice a turn (N m).
 const BRAKE: f64 = 0.3 * TestRig::RATING.torque;
 const SPRING: [f64; 2] = [0.1, 0.03];
-/// Time for speed and whirl to settle at first, and after each change \[s\].
+/// Time for speed and whirl to settle at first, and after each change (s).
 const SETTLE: [f64; 2] = [1.5, 1.0];
-/// Longest wait for a window of turns \[s\]: three windows.
+/// Longest wait for a window of turns (s): three windows.
 const PATIENCE: f64 = 3.0 * 16.0 * TAU / SPEED;
 const PERIOD: f64 = 1.0 / TestRig::RATE_HZ as f64;
 
@@ -89,7 +89,7 @@ pub fn rig(start: &GrinderStart) -> Result<(Course, Vec<Claim>), BalancingError>
     Ok((course, claims))
 }
 
-/// The grinder's unbalance [kg m], stiffness [N/m] and damping [N s/m] at the rig's scale.
+/// The grinder's unbalance (kg m), stiffness (N/m) and damping (N s/m) at the rig's scale.
 const UNBALANCE: f64 = 1.0e-4 / 2.0e-2;
 const STIFFNESS: f64 = 4.0e4 / 8.0e6;
 const DAMPING: f64 = 15.0 / 4.0e3;
@@ -115,7 +115,7 @@ fn plant() -> Result<Plant, BalancingError> {
     Ok(Chain::motor(INERTIA[0]).shaft(Shaft::elastic(stiffness).damping(6.0e-4), INERTIA[1]).build()?)
 }
 
-/// Dip of the disc's speed under the brake [rad/s], by the design's gains on the plant's true speeds.
+/// Dip of the disc's speed under the brake (rad/s), by the design's gains on the plant's true speeds.
 fn dip() -> Result<f64, BalancingError> {
     let (mut plant, gains) = (plant()?, TestRig::SPEED_LOOP);
     let (mut integral, mut least) = (0.0, 0.0_f64);

@@ -35,11 +35,11 @@ pub struct Scene {
 pub struct Cost {
     /// Instructions of a tick at most, and on average.
     pub instructions: (u32, f64),
-    /// Most stack of a tick [bytes].
+    /// Most stack of a tick (bytes).
     pub stack: u32,
-    /// Flash and RAM of the image [bytes].
+    /// Flash and RAM of the image (bytes).
     pub flash: u64,
-    /// RAM of the image [bytes].
+    /// RAM of the image (bytes).
     pub ram: u64,
 }
 
@@ -170,7 +170,7 @@ impl Ticks for Beside {
     }
 }
 
-/// Puts an outcome together when the work is done; the amplitudes are drawn up to `highest` [rad/s].
+/// Puts an outcome together when the work is done; the amplitudes are drawn up to `highest` (rad/s).
 #[allow(clippy::too_many_arguments)]
 pub(super) fn outcome(
     scene: &str,

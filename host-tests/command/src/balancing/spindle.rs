@@ -20,23 +20,23 @@ use driveline_solver::rotor::{Bearing, Direction, Faulty, Modal, Model, Polar, R
 
 /// Rate at which the head moves its correction [kg m/s]: its whole capacity in a second.
 const RATE: f64 = scene::CAPACITY;
-/// Time for speed and whirl to settle at first, and for the whirl after the head has moved [s].
+/// Time for speed and whirl to settle at first, and for the whirl after the head has moved (s).
 const SETTLE: [f64; 2] = [1.5, 0.2];
-/// Where the head and the wheel are, from the centre of gravity [m].
+/// Where the head and the wheel are, from the centre of gravity (m).
 const WHEEL: f64 = 0.2;
 
 /// Random: the spindle, its unbalance, its sensors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SpindleStart {
-    /// Unbalance of the wheel [kg m], and its angle [degrees].
+    /// Unbalance of the wheel (kg m), and its angle (degrees).
     pub unbalance: Vector,
-    /// Stiffness of the front and the rear bearing [N/m].
+    /// Stiffness of the front and the rear bearing (N/m).
     pub stiffness: [f64; 2],
-    /// Damping of both [N s/m].
+    /// Damping of both (N s/m).
     pub damping: f64,
-    /// Sensors' errors: share and phase [degrees].
+    /// Sensors' errors: share and phase (degrees).
     pub sensors: [(f64, f64); 2],
-    /// Ripple of the load at once a turn [N m].
+    /// Ripple of the load at once a turn (N m).
     pub ripple: f64,
     /// Seed of the noise.
     pub seed: u64,

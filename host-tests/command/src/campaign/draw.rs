@@ -57,7 +57,7 @@ impl Draw {
         }
     }
 
-    /// Its encoder of so many lines, its inverter and its timing, for a motor of this rated torque [N m].
+    /// Its encoder of so many lines, its inverter and its timing, for a motor of this rated torque (N m).
     pub fn imperfections(&self, lines: f64, rated_torque: f64) -> Imperfections {
         let phase = |stream: u64| TAU * share(mixed(self.seed ^ stream));
         Imperfections {

@@ -93,7 +93,7 @@ impl Outcome {
     }
 
     /// With the swing that is left in a run without noise and errors of the encoder: sustained where its amplitude
-    /// falls by less than `exp(-1/2)` in the `free` time [s].
+    /// falls by less than `exp(-1/2)` in the `free` time (s).
     #[must_use]
     pub fn with_sustained(mut self, quiet: &Self, free: f64) -> Self {
         let decays = quiet.of(Figure::Decay) * free >= 0.5;
@@ -107,13 +107,13 @@ impl Outcome {
 /// What the figures of a run are taken against.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
-    /// Rated torque [N m].
+    /// Rated torque (N m).
     pub torque: f64,
-    /// Rated speed [rad/s].
+    /// Rated speed (rad/s).
     pub speed: f64,
-    /// Inertia behind the shaft [kg m2].
+    /// Inertia behind the shaft (kg m2).
     pub load_inertia: f64,
-    /// From when to when nothing excites the swing at the end of the run [s].
+    /// From when to when nothing excites the swing at the end of the run (s).
     pub free: (f64, f64),
 }
 
@@ -149,7 +149,7 @@ impl Gathering {
         }
     }
 
-    /// Adds a tick. `ramp` is the acceleration of the ramped setpoint now [rad/s2].
+    /// Adds a tick. `ramp` is the acceleration of the ramped setpoint now (rad/s2).
     pub fn add(&mut self, moment: &Moment, ramp: f64) {
         self.ticks += 1;
         for (k, error) in moment.error().into_iter().enumerate() {
@@ -200,7 +200,7 @@ impl Gathering {
     }
 }
 
-/// The rate [1/s] at which an amplitude `exp(-rate t)` falls whose energy over `length` [s] has this centroid [s]:
+/// The rate (1/s) at which an amplitude `exp(-rate t)` falls whose energy over `length` (s) has this centroid (s):
 /// negative where it grows.
 ///
 /// The centroid of `exp(-x t/length)` is `1/x - 1/(exp(x) - 1)` of the length. It falls with `x`, and is solved by

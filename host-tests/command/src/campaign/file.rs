@@ -52,19 +52,19 @@ pub struct FileCase {
     pub name: String,
     /// Its designs.
     pub designs: Designs,
-    /// Begin of the load's change, its end, the lower speed, the end of the run [s].
+    /// Begin of the load's change, its end, the lower speed, the end of the run (s).
     times: [f64; 4],
     /// The softest shaft, whose torque the two masses have.
     shaft: usize,
 }
 
-/// When the governor is released [s].
+/// When the governor is released (s).
 const RELEASE: f64 = 0.1;
 
 /// Least efficiency of a draw, as of a file.
 const LEAST_EFFICIENCY: f64 = 1e-3;
 
-/// Longest run [s].
+/// Longest run (s).
 const LONGEST: f64 = 600.0;
 
 impl FileCase {
@@ -101,7 +101,7 @@ impl FileCase {
         Ok(Self { name: machine.slug(), machine, designs, times: [settled, off, slower, end], shaft })
     }
 
-    /// From when to when nothing excites the swing at the end of the run [s].
+    /// From when to when nothing excites the swing at the end of the run (s).
     pub fn free(&self) -> (f64, f64) {
         let [.., slower, end] = self.times;
         (slower + 0.5 * self.machine.limits.speed / self.designs.ramp, end)

@@ -18,9 +18,9 @@ const FILTER: f64 = 0.05;
 #[derive(Clone, Debug)]
 pub struct PlainLoop {
     gains: SpeedLoopDesign,
-    /// Largest torque \[N m\].
+    /// Largest torque (N m).
     limit: f64,
-    /// Largest change of the setpoint in a tick \[rad/s\].
+    /// Largest change of the setpoint in a tick (rad/s).
     ramp: f64,
     units: Units,
     angle: u32,
@@ -30,7 +30,7 @@ pub struct PlainLoop {
 }
 
 impl PlainLoop {
-    /// A loop at rest with these gains, a largest torque \[N m\] and a ramp \[rad/s2\]. Its words are floats.
+    /// A loop at rest with these gains, a largest torque (N m) and a ramp (rad/s2). Its words are floats.
     pub fn new(gains: SpeedLoopDesign, limit: f64, ramp: f64, bases: Bases) -> Self {
         let units = Units::new(Words::Single, bases);
         let ramp = ramp * gains.period;

@@ -25,19 +25,19 @@ pub struct CampaignScene {
     /// Its name.
     pub name: &'static str,
     source: Source,
-    /// Delay and lag of the torque that the design has [s].
+    /// Delay and lag of the torque that the design has (s).
     pub actuator: Actuator,
     /// Lines of its encoder.
     pub lines: f64,
-    /// Rated torque [N m].
+    /// Rated torque (N m).
     pub rated_torque: f64,
-    /// Largest torque [N m].
+    /// Largest torque (N m).
     pub torque_limit: f64,
-    /// The ramp of the speed setpoint [rad/s2].
+    /// The ramp of the speed setpoint (rad/s2).
     pub ramp: f64,
     /// The gains of its speed loop.
     pub speed_loop: SpeedLoopDesign,
-    /// From when to when nothing excites the swing at the end of the run [s]; the run goes on until then.
+    /// From when to when nothing excites the swing at the end of the run (s); the run goes on until then.
     pub free: (f64, f64),
 }
 

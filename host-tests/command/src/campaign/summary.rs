@@ -60,7 +60,7 @@ impl Influence {
 pub struct Unstable {
     /// Its number.
     pub draw: u64,
-    /// Decay of its swing \[1/s\].
+    /// Decay of its swing (1/s).
     pub decay: f64,
     /// Swing left at the end of the run, rms of rated torque.
     pub swing: f64,

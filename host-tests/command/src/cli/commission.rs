@@ -37,7 +37,7 @@ pub struct Commission {
     /// For a file: speed of the test, of the largest speed [default: 0.2]
     #[arg(long, value_name = "SHARE")]
     speed: Option<f64>,
-    /// For a file: travel either way [rad] [default: 10000]
+    /// For a file: travel either way (rad) [default: 10000]
     #[arg(long, value_name = "RAD")]
     travel: Option<f64>,
     /// For a file: dry friction of the load, of the largest torque [default: 0]
@@ -46,7 +46,7 @@ pub struct Commission {
     /// For a file: rated torque, of the largest torque [default: 0.5]
     #[arg(long, value_name = "SHARE")]
     rated: Option<f64>,
-    /// For a file: where the resonance is looked for [Hz] [default: 0.2 of the antiresonance to 2.5 of the resonance,
+    /// For a file: where the resonance is looked for (Hz) [default: 0.2 of the antiresonance to 2.5 of the resonance,
     /// at most a tenth of the rate]
     #[arg(long, value_name = "HZ", num_args = 2, value_names = ["LOW", "HIGH"])]
     band: Option<Vec<f64>>,

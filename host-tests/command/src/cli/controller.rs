@@ -20,7 +20,7 @@ pub struct Plan {
     pub observer: &'static str,
     /// Ticks a second.
     pub rate_hz: u32,
-    /// Inertias \[kg m2\]: motor's side and load's side, or one.
+    /// Inertias (kg m2): motor's side and load's side, or one.
     pub inertias: Vec<f64>,
     /// The shaft between the two masses and the step that follows it.
     pub shaft: Option<Shaft>,
@@ -30,7 +30,7 @@ pub struct Plan {
     pub poles: Vec<Pole>,
     /// Largest size of a pole.
     pub spectral_radius: f64,
-    /// Predicted standard deviation of the innovation \[rad\].
+    /// Predicted standard deviation of the innovation (rad).
     pub innovation: f64,
     /// The speed loop, for two masses.
     pub speed_loop: Option<SpeedLoop>,
@@ -105,15 +105,15 @@ impl Predicted {
 /// The shaft between the two masses.
 #[derive(Clone, Debug, Serialize)]
 pub struct Shaft {
-    /// Stiffness \[N m/rad\].
+    /// Stiffness (N m/rad).
     pub stiffness: f64,
-    /// Damping \[N m s/rad\].
+    /// Damping (N m s/rad).
     pub damping: f64,
-    /// Whole free angle \[rad\].
+    /// Whole free angle (rad).
     pub gap: f64,
-    /// Resonance \[rad/s\].
+    /// Resonance (rad/s).
     pub resonance: f64,
-    /// Antiresonance \[rad/s\].
+    /// Antiresonance (rad/s).
     pub antiresonance: f64,
     /// Worst-case error of the reduction, over the first jump of the motor's speed.
     pub reduction_error: f64,
@@ -123,7 +123,7 @@ pub struct Shaft {
     pub semi_implicit_error: Option<f64>,
     /// The bound up to which the semi-implicit step is taken.
     pub semi_implicit_threshold: f64,
-    /// Predicted standard deviation of the shaft torque \[N m\].
+    /// Predicted standard deviation of the shaft torque (N m).
     pub torque_standard_deviation: f64,
 }
 
@@ -158,13 +158,13 @@ pub struct Pole {
 /// The speed loop.
 #[derive(Clone, Debug, Serialize)]
 pub struct SpeedLoop {
-    /// Gain on the error of the motor's speed \[N m s/rad\].
+    /// Gain on the error of the motor's speed (N m s/rad).
     pub proportional: f64,
-    /// Integral gain \[N m/rad\].
+    /// Integral gain (N m/rad).
     pub integral: f64,
-    /// Gain on the damping \[N m s/rad\].
+    /// Gain on the damping (N m s/rad).
     pub damping: f64,
-    /// Natural frequency of the speed \[rad/s\].
+    /// Natural frequency of the speed (rad/s).
     pub bandwidth: f64,
     /// Margins with the observer and all the machine's vibrations in the loop; `null` where it is unstable.
     pub margins: Option<Margins>,
@@ -221,9 +221,9 @@ pub struct Margins {
     pub gain_up: Option<f64>,
     /// Factor by which the gain may shrink.
     pub gain_down: f64,
-    /// Phase margin \[rad\]; `null` where the gain crosses 1 nowhere.
+    /// Phase margin (rad); `null` where the gain crosses 1 nowhere.
     pub phase: Option<f64>,
-    /// Dead time more that destabilises \[s\]; `null` as well.
+    /// Dead time more that destabilises (s); `null` as well.
     pub delay: Option<f64>,
     /// Smallest distance of the response from -1.
     pub modulus: f64,

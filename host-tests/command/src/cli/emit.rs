@@ -77,10 +77,10 @@ pub const {name}_SPEED_LOOP: SpeedLoopDesign = {name}_MODEL.speed_loop({name}_RA
     let _ = write!(
         text,
         "
-/// Largest motor torque [N m].
+/// Largest motor torque (N m).
 pub const {name}_TORQUE: f64 = {:?};
 
-/// Largest motor speed [rad/s].
+/// Largest motor speed (rad/s).
 pub const {name}_SPEED: f64 = {:?};
 ",
         machine.limits.torque, machine.limits.speed

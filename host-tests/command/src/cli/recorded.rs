@@ -11,7 +11,7 @@ pub struct Recorded {
     /// Samples a second, where no column holds the time
     #[arg(long, value_name = "HZ")]
     rate: Option<f64>,
-    /// Torque per current of the motor [N m/A]
+    /// Torque per current of the motor (N m/A)
     #[arg(long, value_name = "NM_PER_A")]
     pub torque_constant: Option<f64>,
     /// Counts on a turn, for angles in counts
@@ -20,10 +20,10 @@ pub struct Recorded {
     /// Name a column: QUANTITY=HEADING or QUANTITY=HEADING:UNIT, as `torque=AI3:Nm`
     #[arg(long = "column", value_name = "NAME")]
     columns: Vec<String>,
-    /// Begin at this time from the first row [s]
+    /// Begin at this time from the first row (s)
     #[arg(long, value_name = "S")]
     from: Option<f64>,
-    /// End at this time from the first row [s]
+    /// End at this time from the first row (s)
     #[arg(long, value_name = "S")]
     to: Option<f64>,
 }

@@ -74,7 +74,7 @@ pub struct Replay {
     /// Keep the torque from each sample to the next, as of a command; a measured one runs straight
     #[arg(long, conflicts_with_all = ["teeth", "fluctuation", "phasors"])]
     held: bool,
-    /// Time by which the torque acts after its sample [s]
+    /// Time by which the torque acts after its sample (s)
     #[arg(long, value_name = "S", default_value_t = 0.0, conflicts_with_all = ["teeth", "fluctuation", "phasors"])]
     delay: f64,
     /// Write the estimates of every tick, the windows or the readings as a table

@@ -14,7 +14,7 @@ impl Encoder {
         Encoder { counts: f64::from(counts) }
     }
 
-    /// The angle as the drive reads it, 2^32 per turn: the count that `angle` [rad] lies in.
+    /// The angle as the drive reads it, 2^32 per turn: the count that `angle` (rad) lies in.
     pub fn read(&self, angle: f64) -> u32 {
         let count = (angle / TAU * self.counts).floor();
         let turn = (count / self.counts).rem_euclid(1.0);

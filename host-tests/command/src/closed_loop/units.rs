@@ -17,22 +17,22 @@ impl Units {
         Units { words, bases }
     }
 
-    /// A torque [N m] as a word.
+    /// A torque (N m) as a word.
     pub fn torque_word(&self, torque: f64) -> u32 {
         self.word(torque, self.bases.torque)
     }
 
-    /// A speed [rad/s] as a word.
+    /// A speed (rad/s) as a word.
     pub fn speed_word(&self, speed: f64) -> u32 {
         self.word(speed, self.bases.speed)
     }
 
-    /// A word as a torque [N m].
+    /// A word as a torque (N m).
     pub fn torque(&self, word: u32) -> f64 {
         self.value(word, self.bases.torque)
     }
 
-    /// A word as a speed [rad/s].
+    /// A word as a speed (rad/s).
     pub fn speed(&self, word: u32) -> f64 {
         self.value(word, self.bases.speed)
     }

@@ -13,17 +13,17 @@ use driveline_solver::noise::Noise;
 /// A moment of a course.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Moment {
-    /// Time \[s\].
+    /// Time (s).
     pub time: f64,
     /// Stage, by its number.
     pub stage: u32,
-    /// Torque of the motor \[N m\].
+    /// Torque of the motor (N m).
     pub torque: f64,
-    /// Torque of the shaft \[N m\].
+    /// Torque of the shaft (N m).
     pub shaft: f64,
-    /// Speed of the motor \[rad/s\].
+    /// Speed of the motor (rad/s).
     pub speed: f64,
-    /// Angle of the motor from the start \[rad\].
+    /// Angle of the motor from the start (rad).
     pub angle: f64,
 }
 
@@ -32,7 +32,7 @@ pub struct Moment {
 pub struct Course {
     /// Its moments, one in a few milliseconds.
     pub moments: Vec<Moment>,
-    /// Largest size of the shaft's torque \[N m\].
+    /// Largest size of the shaft's torque (N m).
     pub peak: f64,
     /// The same in each stage.
     pub peaks: [f64; 7],
@@ -53,7 +53,7 @@ pub struct Course {
 /// Stage numbers that end a course.
 const DONE: u32 = 5;
 
-/// Longest course \[s\].
+/// Longest course (s).
 const LONGEST: f64 = 3600.0;
 
 /// Runs a test on a plant. `seen` is given every tick's input and output.

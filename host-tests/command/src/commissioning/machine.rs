@@ -34,11 +34,11 @@ pub struct Case {
     pub settings: TestSettings,
     /// Counts of the encoder on a turn.
     pub counts: u32,
-    /// Eccentricity of the encoder: amplitude and phase \[rad\].
+    /// Eccentricity of the encoder: amplitude and phase (rad).
     pub eccentricity: [f64; 2],
-    /// Standard deviation of the motor's torque from its command, white, in every tick \[N m\].
+    /// Standard deviation of the motor's torque from its command, white, in every tick (N m).
     pub torque_noise: f64,
-    /// Rated torque \[N m\].
+    /// Rated torque (N m).
     pub rated_torque: f64,
     /// Which shaft's torque must stay below half of rated.
     pub shaft: usize,
@@ -160,13 +160,13 @@ pub fn named(name: &str) -> Result<Case, String> {
 pub struct Trial {
     /// Speed of the test, of the file's largest.
     pub speed: f64,
-    /// Travel \[rad\].
+    /// Travel (rad).
     pub travel: f64,
     /// Dry friction at the far end, of the file's largest torque.
     pub friction: f64,
     /// Rated torque, of the file's largest.
     pub rated: f64,
-    /// Where the resonance is looked for \[Hz\]; else from a fifth of the antiresonance to two and a half times the
+    /// Where the resonance is looked for (Hz); else from a fifth of the antiresonance to two and a half times the
     /// resonance.
     pub band: Option<[f64; 2]>,
 }

@@ -43,25 +43,25 @@ impl Truth {
         Truth { figures }
     }
 
-    /// With Coulomb \[N m\] and viscous friction \[N m s/rad\].
+    /// With Coulomb (N m) and viscous friction (N m s/rad).
     pub fn friction(mut self, coulomb: f64, viscous: f64) -> Self {
         (self.figures[8], self.figures[9]) = (coulomb, viscous);
         self
     }
 
-    /// With a weight \[N m\].
+    /// With a weight (N m).
     pub fn weight(mut self, weight: f64) -> Self {
         self.figures[10] = weight;
         self
     }
 
-    /// With an eccentricity of the encoder: amplitude and phase \[rad\].
+    /// With an eccentricity of the encoder: amplitude and phase (rad).
     pub fn eccentricity(mut self, eccentricity: [f64; 2]) -> Self {
         self.figures[12..].copy_from_slice(&eccentricity);
         self
     }
 
-    /// With a gap \[rad\].
+    /// With a gap (rad).
     pub fn gap(mut self, gap: f64) -> Self {
         self.figures[11] = gap;
         self

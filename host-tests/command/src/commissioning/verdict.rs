@@ -41,7 +41,7 @@ impl Row {
 pub struct Verdict {
     /// The machine.
     pub machine: String,
-    /// Duration \[s\].
+    /// Duration (s).
     pub seconds: f64,
     /// Largest torque of the shaft, of rated; half is allowed.
     pub peak: f64,
@@ -55,8 +55,8 @@ pub struct Verdict {
     pub gains: Vec<Row>,
     /// Measurements in QEMU.
     pub target: Option<Target>,
-    /// Responses upwards and downwards: frequency \[rad/s\], acceleration per torque (real, imaginary), standard
-    /// deviation [1/(kg m2)].
+    /// Responses upwards and downwards: frequency (rad/s), acceleration per torque (real, imaginary), standard
+    /// deviation (1/(kg m2)).
     pub responses: [Vec<[f64; 4]>; 2],
     #[serde(skip)]
     summary: String,

@@ -60,13 +60,13 @@ impl ApproximateObserver {
         Ok(ApproximateObserver { observer: GearedObserver::at_rest(&config, 0, 0.0), config })
     }
 
-    /// A tick against a closed brake: at rest at this angle [2^-32 turn], the shaft carrying this torque [N m].
+    /// A tick against a closed brake: at rest at this angle (2^-32 turn), the shaft carrying this torque (N m).
     pub fn hold(&mut self, angle: u32, torque: f64) -> [f64; 3] {
         self.observer = GearedObserver::at_rest(&self.config, angle, torque);
         self.estimate()
     }
 
-    /// A tick with the angle at its end [2^-32 turn] and the motor's torque during it [N m]: shaft torque, load speed
+    /// A tick with the angle at its end (2^-32 turn) and the motor's torque during it [N m]: shaft torque, load speed
     /// and load torque [N m, rad/s, N m].
     pub fn tick(&mut self, angle: u32, torque: f64) -> [f64; 3] {
         self.observer.step(&self.config, angle, torque);

@@ -9,7 +9,7 @@ use super::scenario::{Action, Machine, Scenario};
 use crate::closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 
-/// Travel of the belt per angle of the motor [m/rad].
+/// Travel of the belt per angle of the motor (m/rad).
 const TRAVEL: f64 = 0.8 / (2.0 * 20.0);
 
 /// Resistance to motion of the loaded belt at the motor [N m]: 2 % of the weight of 60 t.
@@ -19,7 +19,7 @@ const RESISTANCE: f64 = 0.02 * 60_000.0 * 9.80665 * TRAVEL;
 const STIFFNESS: f64 = 6.0e5 * TRAVEL * TRAVEL;
 const DAMPING: f64 = 4.0e3 * TRAVEL * TRAVEL;
 
-/// The strand's pull at the motor [N m].
+/// The strand's pull at the motor (N m).
 fn strand(plant: &Body) -> f64 {
     plant.shaft_torque(1)
 }

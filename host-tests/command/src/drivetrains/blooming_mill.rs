@@ -20,7 +20,7 @@ const SPINDLES: usize = 1;
 /// Friction of the roll bearings and the pinion stand [N m]: 5 % of rated torque.
 const FRICTION: f64 = 0.05 * BloomingMill::RATING.torque;
 
-/// Rolling torque of a middle pass [N m].
+/// Rolling torque of a middle pass (N m).
 pub const ROLLING: f64 = 0.55 * BloomingMill::RATING.torque;
 
 fn spindle_torque(plant: &Body) -> f64 {

@@ -12,19 +12,19 @@ use super::scenario::{Action, Machine, Scenario};
 use crate::closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 
-/// Gravity [m/s2], the standard value of ISO 80000-3.
+/// Gravity (m/s2), the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665;
 
-/// Travel per angle of the motors [m/rad].
+/// Travel per angle of the motors (m/rad).
 const TRAVEL: f64 = 0.5 / (2.0 * 30.0);
 
 const LOAD: f64 = 15_000.0;
 const BRIDGE: f64 = 25_000.0;
 
-/// Stiffness of the load's swing, at the motors [N m/rad].
+/// Stiffness of the load's swing, at the motors (N m/rad).
 const PENDULUM: f64 = LOAD * GRAVITY / 10.0 * TRAVEL * TRAVEL;
 
-/// Travelling resistance at the motors [N m], 6 per mille of the weight.
+/// Travelling resistance at the motors (N m), 6 per mille of the weight.
 const RESISTANCE: f64 = 0.006 * (LOAD + BRIDGE) * GRAVITY * TRAVEL;
 
 /// Its known part: commissioning identified it to within a tenth.
@@ -33,7 +33,7 @@ const TOLD: f64 = 0.9 * RESISTANCE;
 /// Wind on the load at the motors [N m]: 300 N.
 const WIND: f64 = 300.0 * TRAVEL;
 
-/// Unknown part of the travelling resistance [N m].
+/// Unknown part of the travelling resistance (N m).
 fn unknown(plant: &Body) -> f64 {
     match plant.motor_speed() {
         // At rest its reported torque is the motor's.

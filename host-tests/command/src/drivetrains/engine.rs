@@ -33,7 +33,7 @@ pub struct Options {
     pub quick: bool,
 }
 
-/// How long a quick run is [s].
+/// How long a quick run is (s).
 const QUICK: f64 = 2.0;
 
 /// Flash and RAM of the image that holds no drive, on a board.

@@ -20,13 +20,13 @@ const PINION: usize = 6;
 /// Motor turns per turn of the driven machine.
 const RATIO: f64 = 50.0 / 21.0;
 
-/// Rated torque at the driven machine [N m].
+/// Rated torque at the driven machine (N m).
 const RATED: f64 = GearDrive::RATING.torque * RATIO;
 
 /// Load of the driven machine at rated speed, of rated torque, growing with the square of the speed.
 const ROTARY: f64 = 0.4;
 
-/// Error of every second tooth [m]: the pitch deviation of grade 5 of ISO 1328-1, `0.3 (m + 0.4 sqrt(d)) + 4` in um, m
+/// Error of every second tooth (m): the pitch deviation of grade 5 of ISO 1328-1, `0.3 (m + 0.4 sqrt(d)) + 4` in um, m
 /// and d in mm.
 pub const TOOTH_ERROR: f64 = 6.3e-6;
 
@@ -76,7 +76,7 @@ fn pair(error: f64) -> GearPair {
     }
 }
 
-/// The drive at rest, with this error on every second tooth [m].
+/// The drive at rest, with this error on every second tooth (m).
 #[must_use]
 pub fn train(error: f64) -> Train {
     let mut program = Vec::new();

@@ -12,7 +12,7 @@ use super::scenario::{Action, Machine, Scenario};
 use crate::closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
 
-/// Gravity [m/s2], the standard value of ISO 80000-3.
+/// Gravity (m/s2), the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665;
 
 const MASS: f64 = 12_000.0;
@@ -21,17 +21,17 @@ const FALLS: f64 = 2.0;
 const RATIO: f64 = 31.5;
 const ROPE: f64 = 2.9e6;
 const ROPE_DAMPING: f64 = 3.6e3;
-/// Of the rope with these figures [m].
+/// Of the rope with these figures (m).
 const LENGTH: f64 = 12.0;
 const EFFICIENCY: f64 = 0.94;
 const MOTOR_SHAFT: f64 = 5.0e4;
 
-/// Speed at which the slack rope is taken up [rad/s].
+/// Speed at which the slack rope is taken up (rad/s).
 const CREEP: f64 = 10.0;
 
-/// Travel of the load per angle of the motor [m/rad].
+/// Travel of the load per angle of the motor (m/rad).
 const TRAVEL: f64 = DIAMETER / (2.0 * FALLS * RATIO);
-/// Torque of the weight at the motor [N m].
+/// Torque of the weight at the motor (N m).
 const WEIGHT: f64 = MASS * GRAVITY * TRAVEL;
 /// The nodes of load and brake drum, and the rope's shaft.
 const LOAD: usize = 2;
@@ -150,7 +150,7 @@ pub fn test_lifts(by: &Departure) -> Result<Vec<Scenario>, PlantError> {
     ])
 }
 
-/// A load [kg] from 30 m to 5 m of rope at rated speed, named for the learners.
+/// A load (kg) from 30 m to 5 m of rope at rated speed, named for the learners.
 ///
 /// # Errors
 /// A figure of the plant that is out of range.
@@ -195,7 +195,7 @@ fn lift(
     })
 }
 
-/// Travel of the load [m] at times 50 ms apart, by the ramped setpoint.
+/// Travel of the load (m) at times 50 ms apart, by the ramped setpoint.
 fn wound(speeds: &[(f64, f64)], duration: f64) -> Vec<(f64, f64)> {
     const EVERY: f64 = 0.05;
     let ramp = Hoist::<10_000>::RAMP * EVERY;

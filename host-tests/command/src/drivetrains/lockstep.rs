@@ -15,17 +15,17 @@ use driveline_solver::noise::Noise;
 /// True values, estimates and exchanged words of one tick.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Moment {
-    /// Time [s].
+    /// Time (s).
     pub time: f64,
-    /// Torque commanded [N m].
+    /// Torque commanded (N m).
     pub torque: f64,
-    /// Speed of the motor [rad/s].
+    /// Speed of the motor (rad/s).
     pub motor_speed: f64,
     /// Shaft torque, load speed, load torque as the plant has them [N m, rad/s, N m].
     pub truth: [f64; 3],
     /// The same as the drive estimates them.
     pub estimate: [f64; 3],
-    /// Angular momentum of the whole machine about the motor's shaft [N m s]; NaN where a crank changes an inertia.
+    /// Angular momentum of the whole machine about the motor's shaft (N m s); NaN where a crank changes an inertia.
     pub momentum: f64,
     /// A gap is open or a rope slack.
     pub open: bool,

@@ -17,9 +17,9 @@ use crate::closed_loop::units::Units;
 /// One tick of a recorded run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recorded {
-    /// Motor angle as the drive read it [2^-32 turn].
+    /// Motor angle as the drive read it (2^-32 turn).
     pub angle: u32,
-    /// Torque reported to the drive, or held against the brake [N m].
+    /// Torque reported to the drive, or held against the brake (N m).
     pub torque: f64,
     /// The governor was released.
     pub released: bool,
@@ -28,7 +28,7 @@ pub struct Recorded {
 }
 
 /// The errors of an observer with this step on a recorded run, torques of their peaks in the run, the speed of the
-/// rated one [rad/s]. An estimate that is no longer finite makes them infinite.
+/// rated one (rad/s). An estimate that is no longer finite makes them infinite.
 ///
 /// # Errors
 /// For a gear out of its range.

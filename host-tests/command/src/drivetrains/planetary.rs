@@ -11,7 +11,7 @@ use super::scenario::{Action, Machine, Scenario};
 use crate::closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 
-/// Friction of the belt at the motor [N m], half of rated torque.
+/// Friction of the belt at the motor (N m), half of rated torque.
 const BELT: f64 = 177.0;
 
 /// Carrier's speed over the sun's [Wang 1989 example 1-4].
@@ -21,7 +21,7 @@ const CARRIER: f64 = 20.0 / (20.0 + 90.0);
 const STIFFNESS: f64 = 79.3e9 * PI * 0.090 * 0.090 * 0.090 * 0.090 / (32.0 * 1.2) * CARRIER * CARRIER;
 const DAMPING: f64 = 120.0 * CARRIER * CARRIER;
 
-/// The torque behind the set's loss [N m].
+/// The torque behind the set's loss (N m).
 fn shaft(plant: &Body) -> f64 {
     STIFFNESS * plant.twist(0) + DAMPING * (plant.speed(0) - plant.speed(1))
 }

@@ -61,7 +61,7 @@ impl Body {
         }
     }
 
-    /// Angle of the motor [rad].
+    /// Angle of the motor (rad).
     pub fn motor_angle(&self) -> f64 {
         match self.chain() {
             Ok(plant) => plant.motor_angle(),
@@ -69,12 +69,12 @@ impl Body {
         }
     }
 
-    /// Speed of the motor [rad/s].
+    /// Speed of the motor (rad/s).
     pub fn motor_speed(&self) -> f64 {
         self.speed(0)
     }
 
-    /// Speed of a node, referred to the motor [rad/s].
+    /// Speed of a node, referred to the motor (rad/s).
     pub fn speed(&self, node: usize) -> f64 {
         match self.chain() {
             Ok(plant) => plant.speed(node),
@@ -90,7 +90,7 @@ impl Body {
         }
     }
 
-    /// Inertia of a node, referred to the motor [kg m2]; NaN where a crank changes it.
+    /// Inertia of a node, referred to the motor (kg m2); NaN where a crank changes it.
     pub fn inertia(&self, node: usize) -> f64 {
         match self.chain() {
             Ok(plant) => plant.inertia(node),
@@ -98,7 +98,7 @@ impl Body {
         }
     }
 
-    /// Angular momentum of all nodes about the motor's shaft [N m s]; NaN where a crank changes an inertia.
+    /// Angular momentum of all nodes about the motor's shaft (N m s); NaN where a crank changes an inertia.
     pub fn momentum(&self) -> f64 {
         (0..self.nodes()).map(|node| self.inertia(node) * self.speed(node)).sum()
     }
@@ -127,7 +127,7 @@ impl Body {
         }
     }
 
-    /// Torque of a shaft of a chain as [`Plant::shaft_torque`], or force of a link of a train [N m or N].
+    /// Torque of a shaft of a chain as [`Plant::shaft_torque`], or force of a link of a train (N m or N).
     pub fn shaft_torque(&self, shaft: usize) -> f64 {
         match self.chain() {
             Ok(plant) => plant.shaft_torque(shaft),
@@ -135,7 +135,7 @@ impl Body {
         }
     }
 
-    /// Torque on a node from outside, against positive motion, referred to the motor [N m].
+    /// Torque on a node from outside, against positive motion, referred to the motor (N m).
     pub fn load_torque(&self, node: usize) -> f64 {
         match self.chain() {
             Ok(plant) => plant.load_torque(node),
@@ -143,7 +143,7 @@ impl Body {
         }
     }
 
-    /// Torque of a shaft of a chain as [`Plant::torque_behind_gear`], or force of a link of a train [N m or N].
+    /// Torque of a shaft of a chain as [`Plant::torque_behind_gear`], or force of a link of a train (N m or N).
     pub fn torque_behind_gear(&self, shaft: usize) -> f64 {
         match self.chain() {
             Ok(plant) => plant.torque_behind_gear(shaft),
@@ -151,7 +151,7 @@ impl Body {
         }
     }
 
-    /// Changes a node's load torque, referred to the motor [N m].
+    /// Changes a node's load torque, referred to the motor (N m).
     pub fn set_load_torque(&mut self, node: usize, torque: f64) {
         match self {
             Body::Chain(chain) => chain.set_load_torque(node, torque),
@@ -160,7 +160,7 @@ impl Body {
         }
     }
 
-    /// Closes a node's brake with this torque [N m]; 0 opens it.
+    /// Closes a node's brake with this torque (N m); 0 opens it.
     ///
     /// # Panics
     /// For a train, whose frictions are parts of it: a scene that brakes one so is written wrongly.
@@ -172,7 +172,7 @@ impl Body {
         }
     }
 
-    /// Winds a rope up or pays it out: stiffness [N m/rad] and damping [N m s/rad] of a shaft of a chain.
+    /// Winds a rope up or pays it out: stiffness (N m/rad) and damping (N m s/rad) of a shaft of a chain.
     ///
     /// # Panics
     /// For a train, whose links stay as they are: a scene that winds one is written wrongly.
@@ -184,7 +184,7 @@ impl Body {
         }
     }
 
-    /// Runs on by `dt` [s] under a torque of the motor [N m].
+    /// Runs on by `dt` (s) under a torque of the motor (N m).
     pub fn advance(&mut self, torque: f64, dt: f64) {
         match self {
             Body::Chain(chain) => chain.advance(torque, dt),

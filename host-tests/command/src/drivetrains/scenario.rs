@@ -9,13 +9,13 @@ use driveline_report::Fact;
 /// Something that happens at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
-    /// The drive's setpoint changes [rad/s].
+    /// The drive's setpoint changes (rad/s).
     Setpoint(f64),
     /// The governor is released.
     Release,
-    /// A node's load torque changes to this [N m].
+    /// A node's load torque changes to this (N m).
     Load(usize, f64),
-    /// A node's brake closes with this torque [N m]; 0 opens it.
+    /// A node's brake closes with this torque (N m); 0 opens it.
     Brake(usize, f64),
     /// A rope is wound up or paid out: a shaft has this stiffness and damping now [N m/rad, N m s/rad].
     Rope(usize, f64, f64),
@@ -30,7 +30,7 @@ pub enum Action {
 pub struct Law {
     /// The node.
     pub node: usize,
-    /// Torque, referred to the motor [N m], for the plant as it is.
+    /// Torque, referred to the motor (N m), for the plant as it is.
     pub torque: fn(&Body) -> f64,
 }
 
@@ -41,16 +41,16 @@ pub struct Scenario {
     pub name: &'static str,
     /// The machine at the start.
     pub plant: Body,
-    /// Actions, in the order of time [s].
+    /// Actions, in the order of time (s).
     pub actions: Vec<(f64, Action)>,
-    /// Torque that the drive holds until it is released [N m].
+    /// Torque that the drive holds until it is released (N m).
     pub held: f64,
-    /// Duration [s].
+    /// Duration (s).
     pub duration: f64,
     /// Whether its errors count among the variant's figures; what lies outside what the observer is made for is shown,
     /// not counted.
     pub counted: bool,
-    /// Events marked in the plot [s].
+    /// Events marked in the plot (s).
     pub marks: Vec<(f64, &'static str)>,
     /// A load torque that follows the speed, as a fan's does, or the angle, as a press's; held over each tick.
     pub law: Option<Law>,
@@ -72,21 +72,21 @@ pub struct Machine {
     pub scenarios: Vec<Scenario>,
     /// Its encoder.
     pub encoder: Encoder,
-    /// Standard deviation of the drive's reported torque [N m].
+    /// Standard deviation of the drive's reported torque (N m).
     pub torque_noise: f64,
     /// The node of the load.
     pub load: usize,
-    /// The torque that the drive calls the shaft's [N m].
+    /// The torque that the drive calls the shaft's (N m).
     pub shaft_torque: fn(&Body) -> f64,
-    /// The torque that the drive calls the load's [N m].
+    /// The torque that the drive calls the load's (N m).
     pub load_torque: fn(&Body) -> f64,
     /// A brake on the motor's side; while it slips its torque is reported to the drive with the motor's, as
     /// [`Action::Brake`] sets it.
     pub told_brake: Option<usize>,
     /// Dry friction on the motor's side, reported to the drive with the motor's torque while it turns, as identified in
-    /// commissioning [N m].
+    /// commissioning (N m).
     pub told_friction: f64,
-    /// Rated speed of the motor [rad/s].
+    /// Rated speed of the motor (rad/s).
     pub rated_speed: f64,
     /// Bases of its fixed-point variants.
     pub bases: Bases,

@@ -10,10 +10,10 @@ use super::scenario::{Action, Machine, Scenario};
 use crate::closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, PlantError, Shaft, Start};
 
-/// Gravity [m/s2], the standard value of ISO 80000-3.
+/// Gravity (m/s2), the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665;
 
-/// Travel per angle of the motor [m/rad].
+/// Travel per angle of the motor (m/rad).
 const TRAVEL: f64 = 2.0 / (2.0 * 15.0);
 
 const SKIP: f64 = 5_000.0;
@@ -22,24 +22,24 @@ const MOTOR_SHAFT: f64 = 6.0e5;
 const ROPE: f64 = 3.9e5 * TRAVEL * TRAVEL;
 const ROPE_DAMPING: f64 = 1.3e3 * TRAVEL * TRAVEL;
 
-/// When the emergency brake is called for, and how long it takes to close [s].
+/// When the emergency brake is called for, and how long it takes to close (s).
 const EMERGENCY: f64 = 9.0;
 const CLOSING: f64 = 0.3;
 
 /// When the brake opens, when a stop is called for while hoisting, and how much later than that the brake is called for
-/// once the drive has stopped the winch \[s\].
+/// once the drive has stopped the winch (s).
 const RELEASE: f64 = 0.2;
 const STOPPING: f64 = 6.0;
 const STOPPED: f64 = 1.8;
 
-/// The rope's pull at the motor [N m], without the gear's loss.
+/// The rope's pull at the motor (N m), without the gear's loss.
 fn rope(plant: &Body) -> f64 {
     let twist = plant.twist(1);
     let rate = plant.speed(1) - plant.speed(2);
     if twist > 0.0 { (ROPE * twist + ROPE_DAMPING * rate).max(0.0) } else { 0.0 }
 }
 
-/// An emergency while hoisting: the setpoint goes to zero at once, and the brake is called for `later` \[s\].
+/// An emergency while hoisting: the setpoint goes to zero at once, and the brake is called for `later` (s).
 fn emergency_stop(name: &'static str, plant: Body, later: f64) -> Scenario {
     let mut actions =
         vec![(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
@@ -147,5 +147,5 @@ pub fn machine() -> Result<Machine, PlantError> {
     })
 }
 
-/// From the call for the brake until shortly before the winch stands [s].
+/// From the call for the brake until shortly before the winch stands (s).
 const STOP: f64 = 1.05;

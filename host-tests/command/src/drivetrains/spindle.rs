@@ -12,13 +12,13 @@ use super::scenario::{Action, Machine, Scenario};
 use crate::closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 
-/// Shear modulus of steel [Pa].
+/// Shear modulus of steel (Pa).
 const STEEL: f64 = 79.3e9;
 
-/// Torque of the cut [N m].
+/// Torque of the cut (N m).
 const CUT: f64 = 45.0;
 
-/// Stiffness of the shaft from its diameters [N m/rad], by Simpson's rule along the taper [Wang 1989 §1-3].
+/// Stiffness of the shaft from its diameters (N m/rad), by Simpson's rule along the taper [Wang 1989 §1-3].
 fn stiffness() -> f64 {
     let bore = 0.022_f64.powi(4);
     let straight = 0.360 / (0.046_f64.powi(4) - bore);

@@ -25,20 +25,20 @@ const SHAFT: usize = 0;
 /// The springs between box and frame; their elongation is what the one moves against the other.
 pub const SPRINGS: usize = 1;
 
-/// Gravity along the throw, at 45 degrees [m/s2]; the standard value of ISO 80000-3.
+/// Gravity along the throw, at 45 degrees (m/s2); the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665 * core::f64::consts::FRAC_1_SQRT_2;
 
-/// Stiffness of the cardan shaft, 60 mm by 1 m of steel [N m/rad].
+/// Stiffness of the cardan shaft, 60 mm by 1 m of steel (N m/rad).
 const STIFFNESS: f64 = 79.3e9 * PI * 0.060 * 0.060 * 0.060 * 0.060 / 32.0;
 
 /// Damping in proportion to the stiffness: 3 % of critical at the upper resonance.
 const SPRING_DAMPING: f64 = 1.6e-3;
 
-/// Friction of the charge on the deck [N s/m], and of bearings and oil at the exciter [N m s/rad].
+/// Friction of the charge on the deck (N s/m), and of bearings and oil at the exciter (N m s/rad).
 const CHARGE: f64 = 4.0e3;
 const BEARINGS: f64 = 1.2;
 
-/// More charge: torque at the exciter [N m].
+/// More charge: torque at the exciter (N m).
 const MORE: f64 = 100.0;
 
 /// The screen at rest, its unbalances hanging.

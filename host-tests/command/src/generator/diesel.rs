@@ -15,7 +15,7 @@ use core::f64::consts::TAU;
 pub const CYLINDERS: usize = 6;
 /// Firing order 1-5-3-6-2-4: by how many firing intervals each cylinder fires after the first.
 const FIRES: [f64; CYLINDERS] = [0.0, 4.0, 2.0, 5.0, 1.0, 3.0];
-/// Bore, stroke [m], compression ratio, crank radius over rod length: an engine of 12.4 l.
+/// Bore, stroke (m), compression ratio, crank radius over rod length: an engine of 12.4 l.
 const BORE: f64 = 0.126;
 const STROKE: f64 = 0.166;
 const COMPRESSION: f64 = 17.0;
@@ -27,11 +27,11 @@ const BURNING: f64 = 60.0 / 360.0 * TAU;
 const UNEVEN: [f64; CYLINDERS] = [0.02, -0.01, 0.015, -0.02, 0.01, -0.015];
 /// True torque of a rack position: the rack's calibration is 3 % off.
 const CALIBRATION: f64 = 0.97;
-/// Share of the rated torque that burns without charge pressure, what full charge adds, and the charger's lag [s].
+/// Share of the rated torque that burns without charge pressure, what full charge adds, and the charger's lag (s).
 const NATURAL: f64 = 0.75;
 const CHARGED: f64 = 0.45;
 const CHARGER_LAG: f64 = 0.8;
-/// Ambient pressure [Pa], and what full charge adds to it.
+/// Ambient pressure (Pa), and what full charge adds to it.
 const AMBIENT: f64 = 1.0e5;
 const CHARGE: f64 = 1.8e5;
 
@@ -42,7 +42,7 @@ pub struct Diesel {
     lag: f64,
     /// Torque of combustion over the cycle per unit of its mean, from the top dead centre of its firing.
     burning: Vec<f64>,
-    /// Torque of compression and expansion per pascal of charge pressure [N m/Pa].
+    /// Torque of compression and expansion per pascal of charge pressure (N m/Pa).
     motored: Vec<f64>,
     rack: f64,
     charge: f64,
@@ -68,7 +68,7 @@ fn volume_and_lever(angle: f64) -> (f64, f64) {
 }
 
 impl Diesel {
-    /// An engine at rest of a rated torque [N m], whose rack has a lag [s].
+    /// An engine at rest of a rated torque (N m), whose rack has a lag (s).
     pub fn new(rated_torque: f64, lag: f64) -> Self {
         let (least, _) = volume_and_lever(0.0);
         let (most, _) = volume_and_lever(0.5 * TAU);
@@ -119,12 +119,12 @@ impl Diesel {
         self.seized = true;
     }
 
-    /// The torque that the rack's position stands for [N m].
+    /// The torque that the rack's position stands for (N m).
     pub fn rack(&self) -> f64 {
         self.rack
     }
 
-    /// Runs on by `dt` with the rack commanded to a torque, the crank at `angle` [rad] in the middle of the step: the
+    /// Runs on by `dt` with the rack commanded to a torque, the crank at `angle` (rad) in the middle of the step: the
     /// torque of each cylinder.
     pub fn advance(&mut self, command: f64, angle: f64, dt: f64) -> [f64; CYLINDERS] {
         if !self.seized {

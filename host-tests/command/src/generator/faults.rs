@@ -52,9 +52,9 @@ pub struct Outcome {
     pub wire: Wire,
     /// What.
     pub fault: Fault,
-    /// How long [s]; none for good.
+    /// How long (s); none for good.
     pub lasting: Option<f64>,
-    /// The trip and how long after the fault it came [s].
+    /// The trip and how long after the fault it came (s).
     pub trip: Option<(String, f64)>,
     /// Lowest and highest frequency from the fault to the trip or the end, of rated.
     pub frequency: [f64; 2],
@@ -71,7 +71,7 @@ pub struct Outcome {
 pub enum Documented {
     /// It rides through, and the frequency stays within these of rated.
     RidesThrough([f64; 2]),
-    /// It trips for one of these reasons, within a time \[s\].
+    /// It trips for one of these reasons, within a time (s).
     Trips(&'static [Trip], f64),
 }
 
@@ -121,9 +121,9 @@ impl Outcome {
     }
 }
 
-/// When the fault comes [s].
+/// When the fault comes (s).
 const AT: f64 = 3.0;
-/// How long a passing one lasts [s].
+/// How long a passing one lasts (s).
 pub const PASSING: f64 = 0.005;
 
 /// A set at half load, found turning.

@@ -13,10 +13,10 @@ use crate::closed_loop::units::Units;
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::PlantError;
 
-/// Actions on a genset and their times [s].
+/// Actions on a genset and their times (s).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
-    /// Speed at which it is found turning [rad/s].
+    /// Speed at which it is found turning (rad/s).
     pub speed: f64,
     /// When the run switch is on.
     pub on: f64,
@@ -33,7 +33,7 @@ pub struct Program {
 /// One tick.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Moment {
-    /// Time [s].
+    /// Time (s).
     pub time: f64,
     /// The generator's frequency over the last period of it, of rated.
     pub frequency: f64,

@@ -67,7 +67,7 @@ pub struct Set {
 }
 
 impl Set {
-    /// A set that turns at `speed` [rad/s], without load.
+    /// A set that turns at `speed` (rad/s), without load.
     ///
     /// # Errors
     /// A figure of the plant that is out of range, which only a changed set can bring.
@@ -113,22 +113,22 @@ impl Set {
         }
     }
 
-    /// Angle of the flywheel [rad].
+    /// Angle of the flywheel (rad).
     pub fn flywheel_angle(&self) -> f64 {
         self.plant.motor_angle() - (0..self.flywheel).map(|shaft| self.plant.twist(shaft)).sum::<f64>()
     }
 
-    /// Speed of the flywheel [rad/s].
+    /// Speed of the flywheel (rad/s).
     pub fn flywheel_speed(&self) -> f64 {
         self.plant.speed(self.flywheel)
     }
 
-    /// Angle of the generator [rad].
+    /// Angle of the generator (rad).
     pub fn generator_angle(&self) -> f64 {
         self.flywheel_angle() - self.plant.twist(self.flywheel)
     }
 
-    /// Speed of the generator [rad/s].
+    /// Speed of the generator (rad/s).
     pub fn generator_speed(&self) -> f64 {
         self.plant.speed(self.flywheel + 1)
     }

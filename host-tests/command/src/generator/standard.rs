@@ -26,7 +26,7 @@ pub struct Class {
     pub drop: f64,
     /// Rise on the loss of the whole load.
     pub rise: f64,
-    /// Recovery time [s].
+    /// Recovery time (s).
     pub recovery: f64,
     /// Width of the band that counts as recovered.
     pub tolerance: f64,
@@ -50,7 +50,7 @@ pub const TRIP: f64 = 1.1;
 /// A load that came or went.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Step {
-    /// When [s].
+    /// When (s).
     pub time: f64,
     /// Load before and after, of rated.
     pub load: [f64; 2],
@@ -58,11 +58,11 @@ pub struct Step {
     pub drop: f64,
     /// How far it rose above.
     pub rise: f64,
-    /// Time until it stays within +-1.75 % of rated [s], the band of class G1.
+    /// Time until it stays within +-1.75 % of rated (s), the band of class G1.
     pub coarse: f64,
-    /// Time until it stays within +-1 % of rated [s], the band of classes G2 and G3.
+    /// Time until it stays within +-1 % of rated (s), the band of classes G2 and G3.
     pub recovery: f64,
-    /// Time until it stays within +-0.10 % of rated [s].
+    /// Time until it stays within +-0.10 % of rated (s).
     pub precise: f64,
 }
 
@@ -180,7 +180,7 @@ fn within(difference: f64, limit: f64) -> bool {
     difference <= limit + f64::EPSILON
 }
 
-/// How much of a stretch's end counts as steady [s].
+/// How much of a stretch's end counts as steady (s).
 const SETTLED: f64 = 2.0;
 
 /// The figures of a run whose loads changed at these times, the first of them the load it had before.

@@ -22,7 +22,7 @@ pub struct Cause {
     pub what: &'static str,
     /// The trip.
     pub trip: Trip,
-    /// When it is done, and until when the trip has to have come, after it [s].
+    /// When it is done, and until when the trip has to have come, after it (s).
     at: f64,
     within: f64,
     act: Act,
@@ -84,7 +84,7 @@ pub const CAUSES: [Cause; 10] = [
 pub struct Latched {
     /// Actions.
     pub what: &'static str,
-    /// The trip that came and how long after the cause [s].
+    /// The trip that came and how long after the cause (s).
     pub trip: Option<(String, f64)>,
     /// Least and largest torque commanded up to it, of rated.
     pub torque: [f64; 2],

@@ -13,7 +13,7 @@ pub struct Turbine {
 }
 
 impl Turbine {
-    /// A turbine without steam, of a rated torque [N m] and speed [rad/s], with the lags of valve and chest [s].
+    /// A turbine without steam, of a rated torque (N m) and speed (rad/s), with the lags of valve and chest (s).
     pub fn new(rated_torque: f64, rated_speed: f64, lags: [f64; 2]) -> Self {
         Turbine { rated_torque, rated_speed, lags, valve: 0.0, chest: 0.0, seized: false }
     }
@@ -23,7 +23,7 @@ impl Turbine {
         self.seized = true;
     }
 
-    /// The torque that the chest's pressure stands for [N m].
+    /// The torque that the chest's pressure stands for (N m).
     pub fn chest(&self) -> f64 {
         self.chest
     }

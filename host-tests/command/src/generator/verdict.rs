@@ -65,7 +65,7 @@ pub struct Verdict {
     pub instructions: Spread,
     /// Whether the host gives the same bits over the same inputs.
     pub bit_exact: bool,
-    /// Gain margin upwards, phase margin [degrees] and modulus margin of the design.
+    /// Gain margin upwards, phase margin (degrees) and modulus margin of the design.
     pub margins: [f64; 3],
     /// The run.
     #[serde(skip)]
@@ -83,7 +83,7 @@ pub struct Verdicts {
     pub trips: Vec<(String, Latched)>,
 }
 
-/// The loads of a set's run: time [s], share of rated power.
+/// The loads of a set's run: time (s), share of rated power.
 pub const fn loads(kind: Kind) -> &'static [(f64, f64)] {
     match kind {
         // A turbocharged engine's steps: half, then what its charge pressure allows.

@@ -31,7 +31,7 @@ pub struct Setting {
     pub motion: Motion,
     /// The torque between samples.
     pub torque: Torque,
-    /// Time between samples \[s\]; of a table of responses any.
+    /// Time between samples (s); of a table of responses any.
     pub period: f64,
 }
 
@@ -50,7 +50,7 @@ pub struct Estimate {
     pub unlikely: f64,
     /// The lines that were used.
     pub lines: usize,
-    /// Their lowest frequency and the highest \[rad/s\].
+    /// Their lowest frequency and the highest (rad/s).
     pub band: [f64; 2],
 }
 
@@ -69,15 +69,15 @@ pub struct Figures {
     pub motor_friction: Figure,
     /// Viscous friction of the load.
     pub load_friction: Figure,
-    /// Resonance \[rad/s\].
+    /// Resonance (rad/s).
     pub resonance: Figure,
-    /// Antiresonance \[rad/s\].
+    /// Antiresonance (rad/s).
     pub antiresonance: Figure,
     /// Damping ratio of the resonance.
     pub damping_ratio: Figure,
     /// Damping of a shaft that takes as much from the swing as damping and friction.
     pub swing_damping: Figure,
-    /// Dead time of the torque \[s\].
+    /// Dead time of the torque (s).
     pub delay: Figure,
 }
 

@@ -5,17 +5,17 @@ use nalgebra::Complex;
 /// Two masses on a shaft, the viscous friction of each, and the dead time of the torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Model {
-    /// Inertia on the motor's side \[kg m2\].
+    /// Inertia on the motor's side (kg m2).
     pub motor: f64,
-    /// Inertia on the load's side \[kg m2\].
+    /// Inertia on the load's side (kg m2).
     pub load: f64,
-    /// Stiffness of the shaft \[N m/rad\].
+    /// Stiffness of the shaft (N m/rad).
     pub stiffness: f64,
-    /// Damping of the shaft \[N m s/rad\].
+    /// Damping of the shaft (N m s/rad).
     pub damping: f64,
-    /// Viscous friction of motor and load \[N m s/rad\].
+    /// Viscous friction of motor and load (N m s/rad).
     pub friction: [f64; 2],
-    /// Time by which the torque acts after its sample \[s\].
+    /// Time by which the torque acts after its sample (s).
     pub delay: f64,
 }
 
@@ -55,26 +55,26 @@ pub enum Torque {
 const IMAGES: i32 = 2;
 
 impl Model {
-    /// The moment of inertia that the shaft twists against \[kg m2\].
+    /// The moment of inertia that the shaft twists against (kg m2).
     #[must_use]
     pub fn reduced(&self) -> f64 {
         self.motor * self.load / (self.motor + self.load)
     }
 
-    /// Resonance, without damping \[rad/s\].
+    /// Resonance, without damping (rad/s).
     #[must_use]
     pub fn resonance(&self) -> f64 {
         (self.stiffness / self.reduced()).sqrt()
     }
 
-    /// Antiresonance, without damping \[rad/s\].
+    /// Antiresonance, without damping (rad/s).
     #[must_use]
     pub fn antiresonance(&self) -> f64 {
         (self.stiffness / self.load).sqrt()
     }
 
     /// The damping of a shaft that would take as much from the swing as this one and the friction together
-    /// \[N m s/rad\].
+    /// (N m s/rad).
     #[must_use]
     pub fn swing_damping(&self) -> f64 {
         let share = self.load / (self.motor + self.load);
@@ -87,14 +87,14 @@ impl Model {
         0.5 * self.swing_damping() / (self.reduced() * self.resonance())
     }
 
-    /// The motor's speed per torque \[rad/s per N m\] at `s`.
+    /// The motor's speed per torque (rad/s per N m) at `s`.
     fn speed(&self, s: Complex<f64>) -> Complex<f64> {
         let shaft = s.inv() * self.stiffness + self.damping;
         let load = s * self.load + self.friction[1];
         (s * self.motor + self.friction[0] + shaft * load / (shaft + load)).inv()
     }
 
-    /// The motion per sample of the torque at a frequency \[rad/s\]; samples are `period` \[s\] apart.
+    /// The motion per sample of the torque at a frequency (rad/s); samples are `period` (s) apart.
     #[must_use]
     pub fn response(&self, frequency: f64, motion: Motion, torque: Torque, period: f64) -> Complex<f64> {
         let one = Complex::new(1.0, 0.0);

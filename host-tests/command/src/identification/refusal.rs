@@ -82,7 +82,7 @@ pub enum Refusal {
 
 /// Ratio of variances from which a resonance is significant, as in commissioning.
 pub const LEAST: f64 = 12.0;
-/// Largest share of the torque that may be left unexplained \[%\].
+/// Largest share of the torque that may be left unexplained (%).
 pub const MOST: f64 = 40.0;
 
 /// Signals that can tell nothing.

@@ -11,11 +11,11 @@ use super::model::{Model, Motion};
 /// A line of the spectrum, or of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// Frequency \[rad/s\].
+    /// Frequency (rad/s).
     pub frequency: f64,
-    /// Amplitude of the torque \[N m\].
+    /// Amplitude of the torque (N m).
     pub torque: Complex<f64>,
-    /// Amplitude of the motion \[rad/s, rad or rad/s2\].
+    /// Amplitude of the motion (rad/s, rad or rad/s2).
     pub motion: Complex<f64>,
     /// Part of the motion's noise in this line, of its power in all: of an angle whose speed is its difference.
     pub noise: f64,
@@ -42,7 +42,7 @@ fn spectrum(signal: &[f64], planner: &mut FftPlanner<f64>) -> Vec<Complex<f64>> 
     buffer.iter().map(|amplitude| amplitude * unit).collect()
 }
 
-/// The lines of a recording, samples of torque and motion at the same times, `period` \[s\] apart. An angle is taken as
+/// The lines of a recording, samples of torque and motion at the same times, `period` (s) apart. An angle is taken as
 /// the mean speed from sample to sample, so that it need not return.
 #[must_use]
 pub fn lines(torque: &[f64], values: &[f64], motion: Motion, period: f64) -> Vec<Line> {

@@ -52,13 +52,13 @@ pub struct Drive {
     pub encoder_lines: u32,
     /// Ticks a second.
     pub rate_hz: u32,
-    /// Rms error of the motor's torque \[N m\].
+    /// Rms error of the motor's torque (N m).
     pub torque_accuracy: f64,
-    /// Change of the load torque within a second \[N m\].
+    /// Change of the load torque within a second (N m).
     pub load_torque_step: f64,
-    /// Largest torque \[N m\].
+    /// Largest torque (N m).
     pub torque: f64,
-    /// Largest speed \[rad/s\].
+    /// Largest speed (rad/s).
     pub speed: f64,
 }
 
@@ -92,7 +92,7 @@ impl Drive {
     }
 }
 
-/// Lines of the encoder behind an angle \[rad\]: a line has four counts, and the smallest steps are of one count. The
+/// Lines of the encoder behind an angle (rad): a line has four counts, and the smallest steps are of one count. The
 /// file rounds each of them, up or down, and their mean is right: where it is so uncertain, a power of two that near is
 /// meant, 20 % off at most.
 fn encoder_lines(angle: &[f64]) -> Option<u32> {

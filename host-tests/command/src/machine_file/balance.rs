@@ -35,8 +35,8 @@
 //! | `[[correction]]` | `weights` that were put on, an amount and an angle for each plane, then `rpm` and `readings` with them |
 //! | `[[influence]]` | `plane` and `coefficients`, an amplitude and phase for each reading, instead of a trial run |
 //! | `[[holes]]` | `plane`, `angles` or `count` (and `first`), `weights` to choose from, `removing = true` for drilling |
-//! | `[rotor]` | `mass` \[kg\], `rpm` in service, `grade` \[mm/s\], `radius` \[m\] of the weights |
-//! | `span`, `centre`, `planes_at` of `[rotor]` | along the rotor from bearing A \[m\]: bearing B, the centre of mass, each plane; the grade is then split between the bearings |
+//! | `[rotor]` | `mass` (kg), `rpm` in service, `grade` (mm/s), `radius` (m) of the weights |
+//! | `span`, `centre`, `planes_at` of `[rotor]` | along the rotor from bearing A (m): bearing B, the centre of mass, each plane; the grade is then split between the bearings |
 //! | `[amplitudes]` | of one plane, instead of `[baseline]`, without phases: `baseline`, `weight`, `runs` of an angle and an amplitude |
 //!
 //! A plane may have several `[[trial]]`: all of them count, by least squares. Where trial weights stay, `weight` is
@@ -81,7 +81,7 @@ pub struct BalanceFile {
     pub measured: Measured,
     /// Holes of the planes that have some.
     pub holes: Vec<PlaneHoles>,
-    /// Planes whose weight is split between two angles \[degrees\].
+    /// Planes whose weight is split between two angles (degrees).
     pub splits: Vec<(usize, [f64; 2])>,
     /// The rotor, for its grade.
     pub rotor: Option<Rotor>,
@@ -98,7 +98,7 @@ pub enum Measured {
         baseline: Vec<Complex<f64>>,
         /// The last run.
         last: Vec<Complex<f64>>,
-        /// Speed of each reading \[rpm\]; empty where none is given.
+        /// Speed of each reading (rpm); empty where none is given.
         rpm: Vec<f64>,
         /// Weights on the rotor: corrections, and trial weights that stay.
         on: Vec<Complex<f64>>,
@@ -187,7 +187,7 @@ impl WeightUnit {
         }
     }
 
-    /// Unbalance of a weight of one \[kg m\]; none where that takes a radius which is not given.
+    /// Unbalance of a weight of one (kg m); none where that takes a radius which is not given.
     pub fn unbalance(self, radius: Option<f64>) -> Option<f64> {
         match self {
             Self::Gram => radius.map(|radius| radius * 1e-3),
@@ -206,7 +206,7 @@ impl WeightUnit {
 pub struct PlaneHoles {
     /// The plane.
     pub plane: usize,
-    /// Angles \[degrees\].
+    /// Angles (degrees).
     pub degrees: Vec<f64>,
     /// Weights to choose from.
     pub weights: Vec<f64>,
@@ -219,13 +219,13 @@ pub struct PlaneHoles {
 /// The rotor.
 #[derive(Clone, Debug)]
 pub struct Rotor {
-    /// Mass \[kg\].
+    /// Mass (kg).
     pub mass: f64,
-    /// Highest service speed \[rpm\].
+    /// Highest service speed (rpm).
     pub rpm: f64,
-    /// Balance quality grade \[mm/s\].
+    /// Balance quality grade (mm/s).
     pub grade: f64,
-    /// Radius of the weights \[m\].
+    /// Radius of the weights (m).
     pub radius: Option<f64>,
     /// Where everything is along the rotor.
     pub along: Option<Along>,
@@ -234,11 +234,11 @@ pub struct Rotor {
 /// Places along a rotor, from bearing A.
 #[derive(Clone, Debug)]
 pub struct Along {
-    /// Bearing B \[m\].
+    /// Bearing B (m).
     pub span: f64,
-    /// Centre of mass \[m\].
+    /// Centre of mass (m).
     pub centre: f64,
-    /// Each plane \[m\].
+    /// Each plane (m).
     pub planes: Vec<f64>,
 }
 
@@ -523,7 +523,7 @@ fn refused(table: &Table<'_>, refusal: Error) -> Diagnostic {
     table.wrong(key, format!("{expected} ({refusal})"))
 }
 
-/// A run, its readings, and the speed of each [rpm].
+/// A run, its readings, and the speed of each (rpm).
 type Typed = (Run<f64, ROWS>, Vec<Complex<f64>>, Vec<f64>);
 
 /// What all runs of a file have in common.
@@ -531,7 +531,7 @@ struct Common {
     rows: usize,
     convention: AngleConvention,
     run_out: Vec<Complex<f64>>,
-    /// Speeds of the baseline \[rpm\], empty without any; none before it is read.
+    /// Speeds of the baseline (rpm), empty without any; none before it is read.
     baseline: Option<Vec<f64>>,
 }
 

@@ -25,7 +25,7 @@ pub enum Class {
     MachineTool,
 }
 
-/// A minute of arc [rad].
+/// A minute of arc (rad).
 const ARCMINUTE: f64 = PI / 10_800.0;
 
 /// The range of a ratio for which a loop is designed.

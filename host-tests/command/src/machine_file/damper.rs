@@ -18,11 +18,11 @@ pub struct DamperRing {
     pub ratio: f64,
     /// Whether it has a spring.
     pub tuned: bool,
-    /// Inertia on its own shaft \[kg m2\].
+    /// Inertia on its own shaft (kg m2).
     pub inertia: f64,
     /// Mode that it damps, from 0.
     pub mode: usize,
-    /// Stiffness \[N m/rad\] and damping \[N m s/rad\] on its own shaft, where the file has them.
+    /// Stiffness (N m/rad) and damping (N m s/rad) on its own shaft, where the file has them.
     stiffness: Option<f64>,
     damping: Option<f64>,
 }

@@ -24,7 +24,7 @@ pub struct Designs {
     pub rigid: RigidDesign,
     /// The speed loop.
     pub speed_loop: SpeedLoopDesign,
-    /// Acceleration of the setpoint \[rad/s2\].
+    /// Acceleration of the setpoint (rad/s2).
     pub ramp: f64,
     /// Errors of the observer of two masses over the tolerances.
     pub two_masses_errors: PredictedErrors,

@@ -21,51 +21,51 @@ pub const KINDS: &str = "\"motor\", \"shaft\", \"section\", \"rotor\", \"crank\"
 pub enum Element {
     /// The motor's own rotor. Every machine begins with it.
     Motor {
-        /// Inertia \[kg m2\].
+        /// Inertia (kg m2).
         inertia: f64,
     },
     /// A rotor on the present shaft: a brake drum, a gear wheel, a coupling, a roll.
     Rotor {
-        /// Inertia \[kg m2\].
+        /// Inertia (kg m2).
         inertia: f64,
     },
     /// An elastic shaft to the next mass.
     Shaft {
-        /// Stiffness \[N m/rad\].
+        /// Stiffness (N m/rad).
         stiffness: f64,
-        /// Damping \[N m s/rad\]; 0 where the file is silent.
+        /// Damping (N m s/rad); 0 where the file is silent.
         damping: f64,
     },
     /// A piece of a shaft from its dimensions; pieces in a row are a stepped shaft.
     Section {
-        /// Length \[m\].
+        /// Length (m).
         length: f64,
-        /// Outer diameter, where it begins \[m\].
+        /// Outer diameter, where it begins (m).
         diameter: f64,
-        /// Outer diameter where it ends \[m\]; the same where the file is silent.
+        /// Outer diameter where it ends (m); the same where the file is silent.
         end: f64,
-        /// Diameter of the bore \[m\]; 0 where the file is silent.
+        /// Diameter of the bore (m); 0 where the file is silent.
         bore: f64,
-        /// Shear modulus \[Pa\]; steel's where the file is silent.
+        /// Shear modulus (Pa); steel's where the file is silent.
         modulus: f64,
-        /// Damping \[N m s/rad\]; 0 where the file is silent.
+        /// Damping (N m s/rad); 0 where the file is silent.
         damping: f64,
     },
     /// A crank drive on the present shaft, as the mean of its inertia.
     Crank {
-        /// Inertia of the crank \[kg m2\].
+        /// Inertia of the crank (kg m2).
         inertia: f64,
-        /// Radius of the crank \[m\].
+        /// Radius of the crank (m).
         radius: f64,
-        /// Length of the rod \[m\].
+        /// Length of the rod (m).
         rod: f64,
-        /// Mass of the rod \[kg\]; 0 where the file is silent, as the next two.
+        /// Mass of the rod (kg); 0 where the file is silent, as the next two.
         rod_mass: f64,
-        /// Distance of the connecting rod's centre of mass from the crank pin \[m\].
+        /// Distance of the connecting rod's centre of mass from the crank pin (m).
         rod_centre: f64,
-        /// Inertia of the connecting rod about its centre of mass \[kg m2\].
+        /// Inertia of the connecting rod about its centre of mass (kg m2).
         rod_inertia: f64,
-        /// Mass of the slider \[kg\].
+        /// Mass of the slider (kg).
         slider: f64,
     },
     /// A gear; what follows turns `ratio` times slower.
@@ -90,19 +90,19 @@ pub enum Element {
         sun_teeth: u32,
         /// Teeth of the ring.
         ring_teeth: u32,
-        /// Module \[m\].
+        /// Module (m).
         module: f64,
         /// Number of planets.
         planets: u32,
-        /// Inertia of the sun \[kg m2\].
+        /// Inertia of the sun (kg m2).
         sun: f64,
-        /// Inertia of a planet about its own axis \[kg m2\].
+        /// Inertia of a planet about its own axis (kg m2).
         planet: f64,
-        /// Mass of a planet \[kg\].
+        /// Mass of a planet (kg).
         planet_mass: f64,
-        /// Inertia of the carrier \[kg m2\].
+        /// Inertia of the carrier (kg m2).
         carrier: f64,
-        /// Inertia of the ring \[kg m2\]; 0 where the file is silent.
+        /// Inertia of the ring (kg m2); 0 where the file is silent.
         ring: f64,
         /// The member on the present shaft; the sun where the file is silent.
         #[serde(serialize_with = "named")]
@@ -115,61 +115,61 @@ pub enum Element {
     },
     /// A belt to the next mass.
     Belt {
-        /// Diameter of the pulley on the motor's side \[m\].
+        /// Diameter of the pulley on the motor's side (m).
         driving: f64,
-        /// Diameter of the pulley on the load's side \[m\].
+        /// Diameter of the pulley on the load's side (m).
         driven: f64,
-        /// Stiffness of one strand \[N/m\].
+        /// Stiffness of one strand (N/m).
         stiffness: f64,
-        /// Damping of one strand \[N s/m\]; 0 where the file is silent.
+        /// Damping of one strand (N s/m); 0 where the file is silent.
         damping: f64,
         /// Efficiency; 1 where the file is silent.
         efficiency: f64,
     },
     /// A drum or a pinion: turning becomes travel.
     Drum {
-        /// Diameter \[m\].
+        /// Diameter (m).
         diameter: f64,
     },
     /// A screw: turning becomes travel.
     Screw {
-        /// Travel a turn \[m\].
+        /// Travel a turn (m).
         lead: f64,
     },
     /// A rope from the drum to the load.
     Rope {
         /// Falls that carry the load.
         falls: u32,
-        /// Stiffness at the load \[N/m\].
+        /// Stiffness at the load (N/m).
         stiffness: f64,
-        /// Damping at the load \[N s/m\]; 0 where the file is silent.
+        /// Damping at the load (N s/m); 0 where the file is silent.
         damping: f64,
     },
     /// A mass that hangs: inertia and weight.
     Lifted {
-        /// Mass \[kg\].
+        /// Mass (kg).
         mass: f64,
     },
     /// A mass that moves on the level: inertia only.
     Driven {
-        /// Mass \[kg\].
+        /// Mass (kg).
         mass: f64,
     },
     /// A mass that swings under what travels.
     Swinging {
-        /// Mass \[kg\].
+        /// Mass (kg).
         mass: f64,
-        /// Length of the pendulum \[m\].
+        /// Length of the pendulum (m).
         length: f64,
     },
     /// Free travel along the load's path.
     Slack {
-        /// Travel \[m\].
+        /// Travel (m).
         travel: f64,
     },
     /// A backlash in series with the shaft beside it.
     Backlash {
-        /// Whole free angle between the flanks \[rad\].
+        /// Whole free angle between the flanks (rad).
         gap: f64,
     },
 }

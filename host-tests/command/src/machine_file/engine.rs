@@ -93,7 +93,7 @@ impl Engine {
         Excitation { name: NAME.to_owned(), ratio: self.ratio, orders: self.orders.clone() }
     }
 
-    /// Torque of one cylinder \[N m\], gas and masses, of an order at a speed of the crankshaft \[rad/s\]; the angle
+    /// Torque of one cylinder (N m), gas and masses, of an order at a speed of the crankshaft (rad/s); the angle
     /// counts from its firing.
     pub fn torque(&self, order: f64, speed: f64) -> Harmonic {
         let at = |order: f64| order.round() as usize;
@@ -162,7 +162,7 @@ fn places(table: &mut Table<'_>, count: usize, masses: &[Turning]) -> Result<(Ve
     }
 }
 
-/// The indicator diagram over a cycle \[Pa\]: the file's, or the typical one of its compression and peak pressure.
+/// The indicator diagram over a cycle (Pa): the file's, or the typical one of its compression and peak pressure.
 fn pressure(table: &mut Table<'_>, crank: &CrankSlider, cycle: WorkingCycle) -> Result<Vec<f64>, Diagnostic> {
     if table.has("pressure") {
         let pressure = table.numbers("pressure", Quantity { unit: "Pa", ..Quantity::ANY })?;

@@ -9,7 +9,7 @@ use super::table::Table;
 /// Name of the engine's excitation in the diagram of critical speeds.
 pub const ENGINE: &str = "engine";
 
-/// The running range, speeds of the motor \[rad/s\].
+/// The running range, speeds of the motor (rad/s).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Running {
     /// Least.

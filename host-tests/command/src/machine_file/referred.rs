@@ -75,7 +75,7 @@ impl MachineFile {
     }
 
     /// The machine as a plant that runs in lock-step: it hangs on its shafts, which carry its weight, with dry friction
-    /// \[N m at the motor\] at its far end. A gear before the first shaft loses nothing.
+    /// (N m at the motor) at its far end. A gear before the first shaft loses nothing.
     ///
     /// # Errors
     /// What the plant refuses.

@@ -66,26 +66,26 @@ const MOST: usize = 64;
 pub struct RotorFile {
     /// Name: letters, digits, `-`, `_` and spaces, at most 40.
     pub name: String,
-    /// Places of the nodes along the shaft \[m\].
+    /// Places of the nodes along the shaft (m).
     pub places: Vec<f64>,
     /// The equations; its stations are all nodes.
     pub model: Model,
     /// Its natural vibrations.
     pub modal: Modal,
-    /// Node, unbalance \[kg m\].
+    /// Node, unbalance (kg m).
     pub unbalance: Vec<(usize, Complex<f64>)>,
-    /// Node and angle \[degrees\] of each sensor.
+    /// Node and angle (degrees) of each sensor.
     pub sensors: Vec<(usize, f64)>,
-    /// Discs: node and mass \[kg\].
+    /// Discs: node and mass (kg).
     pub discs: Vec<(usize, f64)>,
     /// Nodes of the bearings.
     pub bearings: Vec<usize>,
-    /// Highest speed of interest \[rad/s\].
+    /// Highest speed of interest (rad/s).
     pub highest: f64,
 }
 
 impl RotorFile {
-    /// The unbalance at every node \[kg m\].
+    /// The unbalance at every node (kg m).
     #[must_use]
     pub fn unbalances(&self) -> Vec<Complex<f64>> {
         let mut all = vec![Complex::new(0.0, 0.0); self.places.len()];

@@ -78,7 +78,7 @@ impl Branch {
 
 /// The machine as a whole, its branches included.
 impl MachineFile {
-    /// Inertias \[kg m2\] at the motor: the chain's, then those of the branches in their order.
+    /// Inertias (kg m2) at the motor: the chain's, then those of the branches in their order.
     pub fn masses(&self) -> &[f64] {
         self.train.as_ref().map_or(self.chain.masses(), |train| train.masses())
     }
@@ -113,7 +113,7 @@ impl MachineFile {
         self.train.as_ref().map_or_else(|| self.chain.try_rigid(), |train| Ok(train.rigid()))
     }
 
-    /// Torque of the weights at the motor \[N m\].
+    /// Torque of the weights at the motor (N m).
     pub fn gravity_torque(&self) -> f64 {
         self.train.as_ref().map_or(self.chain.gravity_torque(), |train| train.gravity_torque())
     }

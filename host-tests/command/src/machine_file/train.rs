@@ -3,7 +3,7 @@
 //! ```toml
 //! name = "two motors on one ring"
 //!
-//! [[coordinate]]           # an angle [rad] or a way [m]
+//! [[coordinate]]           # an angle (rad) or a way (m)
 //! name = "motor"
 //! inertia = 1.0            # kg m2, or kg
 //! speed = 0.0              # rad/s at the start; `angle` and `viscous` may be given too

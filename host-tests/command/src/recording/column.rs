@@ -7,25 +7,25 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quantity {
-    /// Time of the row \[s\].
+    /// Time of the row (s).
     Time,
-    /// Torque of the motor \[N m\].
+    /// Torque of the motor (N m).
     Torque,
-    /// Current of the motor that makes torque \[A\].
+    /// Current of the motor that makes torque (A).
     Current,
-    /// Angle of the motor \[rad\].
+    /// Angle of the motor (rad).
     Angle,
-    /// Speed of the motor \[rad/s\].
+    /// Speed of the motor (rad/s).
     Speed,
-    /// Angular acceleration of the motor \[rad/s2\].
+    /// Angular acceleration of the motor (rad/s2).
     Acceleration,
-    /// Angle of the load, at the motor \[rad\].
+    /// Angle of the load, at the motor (rad).
     LoadAngle,
-    /// Speed of the load, at the motor \[rad/s\].
+    /// Speed of the load, at the motor (rad/s).
     LoadSpeed,
-    /// Torque of the shaft, at the motor \[N m\].
+    /// Torque of the shaft, at the motor (N m).
     ShaftTorque,
-    /// Load torque, at the motor \[N m\].
+    /// Load torque, at the motor (N m).
     LoadTorque,
     /// Level of a pickup at a toothed wheel, of which the edges count.
     Teeth,
@@ -33,11 +33,11 @@ pub enum Quantity {
     Mark,
     /// Vibration, in the unit of its column.
     Vibration,
-    /// Frequency of a response \[rad/s\].
+    /// Frequency of a response (rad/s).
     Frequency,
     /// Size of a response in SI units.
     Magnitude,
-    /// Phase of a response \[rad\].
+    /// Phase of a response (rad).
     Phase,
     /// Real part of a response.
     Real,
@@ -226,7 +226,7 @@ impl Column {
     /// A column by its heading.
     ///
     /// # Errors
-    /// See [`Unusable`].
+    /// See `Unusable`.
     pub fn of_heading(index: usize, heading: &str, scales: Scales) -> Result<Self, Unusable> {
         let (name, unit) = parted(heading);
         let lower = name.to_lowercase();
@@ -238,7 +238,7 @@ impl Column {
     /// A column that the user names: its quantity, in the unit that the user gives, or else its heading.
     ///
     /// # Errors
-    /// [`Unusable::Fault`].
+    /// `Unusable::Fault`.
     pub fn named(
         index: usize,
         heading: &str,
@@ -253,7 +253,7 @@ impl Column {
     /// A column of a quantity and a unit.
     ///
     /// # Errors
-    /// [`Unusable::Fault`].
+    /// `Unusable::Fault`.
     pub fn of(
         index: usize,
         heading: &str,

@@ -17,13 +17,13 @@ const HIGHEST: f64 = 1e100;
 pub struct Asked {
     /// Samples a second, where there is no column of time.
     pub rate: Option<f64>,
-    /// Torque per current [N m/A].
+    /// Torque per current (N m/A).
     pub torque_constant: Option<f64>,
     /// Counts on a turn of the encoder.
     pub counts: Option<f64>,
     /// Columns by name: `quantity=heading` or `quantity=heading:unit`.
     pub columns: Vec<String>,
-    /// The part that is used \[s\].
+    /// The part that is used (s).
     pub window: [Option<f64>; 2],
     /// Rows come when something happens, not at a rate.
     pub uneven: bool,
@@ -34,7 +34,7 @@ pub struct Asked {
 pub struct Recording {
     /// Name of the file as the user typed it.
     pub name: String,
-    /// Time between samples \[s\]; none in a table of a frequency response.
+    /// Time between samples (s); none in a table of a frequency response.
     pub period: f64,
     /// The columns that are used.
     pub columns: Vec<Column>,

@@ -28,7 +28,7 @@ fn irregular(ends: &[f64]) -> f64 {
     (durations.iter().enumerate().map(off).sum::<f64>() / count).sqrt() / mean
 }
 
-/// The windows of an angle \[rad\] from `start` \[s\] on, its samples a `period` apart.
+/// The windows of an angle (rad) from `start` (s) on, its samples a `period` apart.
 ///
 /// # Errors
 /// A cycle, or a number of cycles, that the library refuses.

@@ -15,16 +15,16 @@ const EDGES: usize = 6;
 /// What tells the rotor's angle.
 #[derive(Clone, Copy, Debug)]
 pub enum Turning<'r> {
-    /// Its angle \[rad\], and where its zero is.
+    /// Its angle (rad), and where its zero is.
     Angle(&'r [f64], f64),
-    /// The samples that first show a mark, and how long before each that passed \[step\].
+    /// The samples that first show a mark, and how long before each that passed (step).
     Marks(&'r [(usize, f64)]),
 }
 
 /// A reading with its place in the recording.
 #[derive(Clone, Debug)]
 pub struct Taken {
-    /// When it ends \[s\].
+    /// When it ends (s).
     pub until: f64,
     /// Turns of the rotor a second; none where nothing was measured.
     pub speed: Option<f64>,
@@ -41,7 +41,7 @@ impl Taken {
     }
 }
 
-/// All readings of samples from `start` \[s\] on, a `period` apart; the one that the recording's end cut off is there,
+/// All readings of samples from `start` (s) on, a `period` apart; the one that the recording's end cut off is there,
 /// refused as incomplete, where there is no other.
 ///
 /// # Errors
@@ -92,7 +92,7 @@ pub fn readings(
     Ok(taken)
 }
 
-/// Where the angle \[rad\] stands as the mark passes, on average, whether or not it comes round between two samples;
+/// Where the angle (rad) stands as the mark passes, on average, whether or not it comes round between two samples;
 /// none where it is at no one place, or passes more than
 /// once a turn: two marks, or a shaft's angle behind a gear.
 pub fn zero(angle: &[f64], marks: &[(usize, f64)]) -> Option<f64> {

@@ -17,15 +17,15 @@ use super::signals::{Signals, turned};
 pub struct Course {
     /// `f32` or `fixed`.
     pub number: &'static str,
-    /// Speed of the motor \[rad/s\].
+    /// Speed of the motor (rad/s).
     pub motor_speed: Vec<f64>,
-    /// Torque of the shaft \[N m\].
+    /// Torque of the shaft (N m).
     pub shaft_torque: Vec<f64>,
-    /// Speed of the load \[rad/s\].
+    /// Speed of the load (rad/s).
     pub load_speed: Vec<f64>,
-    /// Load torque \[N m\].
+    /// Load torque (N m).
     pub load_torque: Vec<f64>,
-    /// Measured less predicted angle of the motor \[rad\].
+    /// Measured less predicted angle of the motor (rad).
     pub innovation: Vec<f64>,
     /// Faults of each tick.
     pub faults: Vec<Faults>,
@@ -38,7 +38,7 @@ pub struct Replayed {
     pub signals: Signals,
     /// The estimates of each number.
     pub courses: Vec<Course>,
-    /// Deviation of the innovation that the design predicts \[rad\].
+    /// Deviation of the innovation that the design predicts (rad).
     pub predicted: f64,
     /// Ticks at the start that errors leave out: ten time constants of the observer's slowest pole, a tenth of the
     /// recording at most.
@@ -62,7 +62,7 @@ struct Units {
     name: &'static str,
     torque: f64,
     speed: f64,
-    /// Of [`Number::to_real`] of an innovation \[rad\].
+    /// Of [`Number::to_real`] of an innovation (rad).
     angle: f64,
 }
 
@@ -74,7 +74,7 @@ const UNIT: f64 = 268_435_456.0;
 const DOUBLINGS: i32 = 12;
 
 /// Runs the observer over a recording, in `f32` and in fixed point, behind a gear with losses and the time between
-/// samples \[s\] where there is one. `tick` counts.
+/// samples (s) where there is one. `tick` counts.
 ///
 /// # Errors
 /// The library's sentence, where constants do not fit.

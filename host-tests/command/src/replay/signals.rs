@@ -18,26 +18,26 @@ pub enum Between {
 /// Inputs of each tick, and the measured motion of the load where there is one.
 #[derive(Clone, Debug)]
 pub struct Signals {
-    /// Time from the first sample \[s\].
+    /// Time from the first sample (s).
     pub time: Vec<f64>,
-    /// Angle of the motor \[rad\].
+    /// Angle of the motor (rad).
     pub angle: Vec<f64>,
-    /// Mean torque over the tick that ends with the sample \[N m\].
+    /// Mean torque over the tick that ends with the sample (N m).
     pub torque: Vec<f64>,
-    /// Speed of the motor \[rad/s\].
+    /// Speed of the motor (rad/s).
     pub motor_speed: Vec<f64>,
-    /// Measured speed of the load \[rad/s\].
+    /// Measured speed of the load (rad/s).
     pub load_speed: Option<Vec<f64>>,
-    /// Torque of the shaft, measured or from the measured twist \[N m\].
+    /// Torque of the shaft, measured or from the measured twist (N m).
     pub shaft_torque: Option<Vec<f64>>,
     /// Whether the shaft torque has no zero of its own: two encoders whose zeros differ.
     pub floating: bool,
-    /// Measured load torque \[N m\].
+    /// Measured load torque (N m).
     pub load_torque: Option<Vec<f64>>,
 }
 
 impl Signals {
-    /// The signals of a recording of a machine. The torque acts `delay` \[s\] after its sample.
+    /// The signals of a recording of a machine. The torque acts `delay` (s) after its sample.
     ///
     /// # Errors
     /// A recording without torque, or without angle and speed of the motor.
@@ -81,7 +81,7 @@ impl Signals {
     }
 }
 
-/// An angle \[rad\] as 2^32 per turn.
+/// An angle (rad) as 2^32 per turn.
 pub fn turned(angle: f64) -> u32 {
     // the remainder is below one, the product below 2^32 but for rounding, which the cast saturates
     ((angle / TAU).rem_euclid(1.0) * 4_294_967_296.0) as u32

@@ -14,7 +14,7 @@ use super::run::{Course, Replayed};
 pub struct Summary {
     /// `f32` or `fixed`.
     pub number: &'static str,
-    /// Rms innovation \[rad\].
+    /// Rms innovation (rad).
     pub innovation: f64,
     /// The same over that which the design predicts.
     pub innovation_ratio: f64,

@@ -8,13 +8,13 @@ use driveline::wheel::{CycleTimes, Stage, ToothedWheel, ToothedWheelConfig};
 
 use super::window::{Windowed, Windows, doubt};
 
-/// Clock that the edges are timed with \[Hz\]: a turn at the lowest speed takes a hundredth of its range.
+/// Clock that the edges are timed with (Hz): a turn at the lowest speed takes a hundredth of its range.
 const CLOCK: f64 = 1e7;
 
 /// Lowest speed of an angle [rad/s]: 19 r/min, far below an engine's cranking.
 const LOWEST: f64 = 2.0;
 
-/// Angles of a wheel's teeth \[turn\].
+/// Angles of a wheel's teeth (turn).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wheel(Vec<f64>);
 
@@ -78,7 +78,7 @@ pub struct Turned {
     pub windows: Vec<Windowed>,
 }
 
-/// Runs the wheel over the times of its edges \[s\].
+/// Runs the wheel over the times of its edges (s).
 ///
 /// # Errors
 /// A sentence: a wheel that the library refuses, or one whose number of teeth this command does not have.

@@ -16,7 +16,7 @@ pub struct Windows {
 /// A window of cycles.
 #[derive(Clone, Debug)]
 pub struct Windowed {
-    /// Time at which its last cycle was known to be over \[s\].
+    /// Time at which its last cycle was known to be over (s).
     pub until: f64,
     /// Its cycles.
     pub cycles: u32,
@@ -29,7 +29,7 @@ pub struct Windowed {
 /// A doubt.
 pub const DIFFER: &str = "the cycles differ by more than their ripple: a stop, a reversal, another load";
 
-/// Angle by which a good wheel's teeth are out of place \[rad\]: a tenth of a degree, 0.2 mm at a radius of 100 mm.
+/// Angle by which a good wheel's teeth are out of place (rad): a tenth of a degree, 0.2 mm at a radius of 100 mm.
 const TEETH: f64 = 1.75e-3;
 
 /// What speaks against a ripple by the times of teeth, over a cycle of so many turns: its orders explain angles of

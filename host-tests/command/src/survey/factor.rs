@@ -12,9 +12,9 @@ pub struct Factor {
     pub scenario: String,
     /// Whether a gap was open or a rope slack in it.
     pub opened: bool,
-    /// Peak of the true shaft torque [N m].
+    /// Peak of the true shaft torque (N m).
     pub peak: f64,
-    /// Peak of what the shaft would carry between rigid inertias under the same torques [N m].
+    /// Peak of what the shaft would carry between rigid inertias under the same torques (N m).
     pub rigid: f64,
 }
 

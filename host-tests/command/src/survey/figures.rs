@@ -138,7 +138,7 @@ pub struct Survey {
     pub sweeps: Vec<Sweep>,
     /// Failed jobs.
     pub failures: Vec<Failure>,
-    /// How long it all took [s].
+    /// How long it all took (s).
     pub seconds: f64,
     /// Whether it was only tried out: two seconds of each drivetrain, unproven, and a coarse sweep.
     pub quick: bool,

@@ -231,7 +231,7 @@ struct Parts {
 }
 
 impl Parts {
-    /// Adds a run's: `edge` [rad/s] parts fast from slow, and a gap counts for `settling` [s] after it has closed.
+    /// Adds a run's: `edge` (rad/s) parts fast from slow, and a gap counts for `settling` (s) after it has closed.
     fn add(&mut self, moments: &[Moment], k: usize, edge: Option<f64>, settling: f64) {
         let errors: Vec<f64> = moments.iter().map(|moment| moment.error()[k]).collect();
         let period = moments.get(1).map_or(0.0, |second| second.time - moments[0].time);

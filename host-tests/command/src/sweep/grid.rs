@@ -3,13 +3,13 @@
 use driveline::design::{ExactStep, Matrix, SemiImplicitStep, StandardDeviation, StepChoice, TwoMassDesign};
 use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 
-/// Period of every tick [s]: 10 kHz. Only omega T enters the step; the period sets the scale of the speeds.
+/// Period of every tick (s): 10 kHz. Only omega T enters the step; the period sets the scale of the speeds.
 pub const PERIOD: f64 = 1e-4;
 
 /// One machine at one rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// Natural frequency times the tick [rad].
+    /// Natural frequency times the tick (rad).
     pub omega_t: f64,
     /// Load inertia over motor inertia.
     pub inertia_ratio: f64,
@@ -32,12 +32,12 @@ impl Place {
         )
     }
 
-    /// Natural frequency [rad/s].
+    /// Natural frequency (rad/s).
     pub fn omega(&self) -> f64 {
         self.omega_t / PERIOD
     }
 
-    /// Motion of the slower of the pair in a tick: the angle turned [rad], or the share that decays where the
+    /// Motion of the slower of the pair in a tick: the angle turned (rad), or the share that decays where the
     /// shaft is overdamped.
     pub fn slowest(&self) -> f64 {
         let zeta = self.damping;

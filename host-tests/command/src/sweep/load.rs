@@ -1,6 +1,6 @@
 //! Load program of the sweep: a load step, and a motor torque about it.
 
-/// Load torque [N m].
+/// Load torque (N m).
 pub const LOAD_TORQUE: f64 = 0.25;
 
 /// Motor torques: the load's, more by a level for `hold` ticks and less by it for as many, then another level. The
@@ -23,7 +23,7 @@ impl Torques {
         Torques { hold, left: hold, level: 0.5, rising: true, random: 0x9e37_79b9_7f4a_7c15 }
     }
 
-    /// The torque of the next tick [N m].
+    /// The torque of the next tick (N m).
     #[inline]
     pub fn next(&mut self) -> f64 {
         if self.left == 0 {

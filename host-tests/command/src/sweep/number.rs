@@ -18,7 +18,7 @@ pub trait Swept: Number {
     fn of(value: f64, base: f64) -> Self;
     /// To SI units.
     fn value(self, base: f64) -> f64;
-    /// The correction gain that turns an innovation of [`KICK`] into `value`.
+    /// The correction gain that turns an innovation of `KICK` into `value`.
     fn kick(value: f64, base: f64) -> Self::Coefficient;
     /// A coefficient as stored, times what its operand is widened by.
     fn widened_coefficient(c: Self::Coefficient) -> f64;

@@ -48,14 +48,14 @@ impl Course {
     /// Bases that the run fits in, a power of two for the torque so that every torque is held exactly, and no smaller a
     /// speed than the torque would reach in two ticks with this inertia: fixed point holds no coefficient above 1/2.
     ///
-    /// `slip` [rad/s] is a lower bound of the speed's base.
+    /// `slip` (rad/s) is a lower bound of the speed's base.
     pub fn bases(&self, machine: &Machine, inertia: f64, slip: f64) -> Bases {
         let torque = self.torque_base();
         let speed = (1.1 * self.speed).max(2.1 * PERIOD * torque / inertia).max(slip);
         Bases::new(machine, torque, speed)
     }
 
-    /// Base of the torque [N m].
+    /// Base of the torque (N m).
     pub fn torque_base(&self) -> f64 {
         (1.1 * self.torque).log2().ceil().exp2()
     }

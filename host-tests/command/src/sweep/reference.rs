@@ -11,11 +11,11 @@ type Three = [[f64; 3]; 3];
 /// The state that every step is compared with.
 #[derive(Clone, Copy, Debug)]
 pub struct Truth {
-    /// Motor speed [rad/s].
+    /// Motor speed (rad/s).
     pub motor_speed: f64,
-    /// Shaft torque [N m].
+    /// Shaft torque (N m).
     pub shaft_torque: f64,
-    /// Load speed [rad/s].
+    /// Load speed (rad/s).
     pub load_speed: f64,
     /// Square root of twice the kinetic and the strain energy.
     pub size: f64,
@@ -52,7 +52,7 @@ impl Reference {
         }
     }
 
-    /// A tick under a motor torque [N m].
+    /// A tick under a motor torque (N m).
     #[inline]
     pub fn tick(&mut self, torque: f64) {
         let [motor, load] = self.inertias;

@@ -13,9 +13,9 @@ pub type Increments = [[f64; 2]; 2];
 /// Initial state of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
-    /// A load torque [N m], from the next tick on.
+    /// A load torque (N m), from the next tick on.
     LoadTorque(f64),
-    /// A shaft torque [N m] of a twisted shaft, and free motion from then on.
+    /// A shaft torque (N m) of a twisted shaft, and free motion from then on.
     ShaftTorque(f64),
 }
 
@@ -30,7 +30,7 @@ pub trait Step<N: Swept>: Observer<N> + Copy {
     /// What the number's format cannot hold.
     fn config(design: &TwoMassDesign, bases: Bases) -> Result<Self::Config, Error>;
 
-    /// The constants with corrections that set a state when the angle has turned by [`KICK`].
+    /// The constants with corrections that set a state when the angle has turned by `KICK`.
     fn kicked(config: &Self::Config, design: &TwoMassDesign, bases: Bases, start: Start) -> Self::Config;
 
     /// The step of the free pair as stored: twist and twist rate, or twist rate and shaft torque.

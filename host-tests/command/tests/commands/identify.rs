@@ -14,7 +14,7 @@ use driveline_solver::plant::{Chain, Shaft};
 use serde_json::Value;
 
 const BENCH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/recordings/two-mass-bench.csv");
-/// The bench as others found it, by both encoders: inertias \[kg m2\], stiffness \[N m/rad\] and damping \[N m s/rad\].
+/// The bench as others found it, by both encoders: inertias (kg m2), stiffness (N m/rad) and damping (N m s/rad).
 const INERTIAS: [f64; 2] = [2.747e-3, 2.746e-3];
 const SHAFT: [f64; 2] = [315.0, 5.8e-3];
 const RESONANCES: [f64; 2] = [76.2, 53.9];

@@ -25,7 +25,7 @@ fn refused(folder: &Path, arguments: &[&str]) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
-/// Speed of the wheels [rad/s].
+/// Speed of the wheels (rad/s).
 const SPEED: f64 = 80.0;
 
 /// Ripple of the slowness.

@@ -58,7 +58,7 @@ impl Press {
         }
     }
 
-    /// What an encoder of 2048 lines shows [2^-32 turn].
+    /// What an encoder of 2048 lines shows (2^-32 turn).
     fn seen(&self) -> u32 {
         let counts = (self.angle / TAU * 8192.0).round() as i64;
         ((counts as u64) << 19) as u32
@@ -70,7 +70,7 @@ impl Press {
     }
 }
 
-/// Root mean square errors of load torque and shaft torque [N m] and of speed [rad/s] over a second in which the motor
+/// Root mean square errors of load torque and shaft torque (N m) and of speed (rad/s) over a second in which the motor
 /// holds 100 rad/s against an arc of load on each turn of the crank; the first half, in which the estimate settles, is
 /// left out.
 fn errors<N: Number, O: Observer<N>>(config: &O::Config, torque_base: f64, speed_base: f64) -> [f64; 3] {

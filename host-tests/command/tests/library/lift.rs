@@ -4,20 +4,20 @@ use std::f64::consts::TAU;
 
 use driveline_solver::plant::{Chain, Plant, Shaft, Start};
 
-/// Gravity [m/s2], the standard value of ISO 80000-3.
+/// Gravity (m/s2), the standard value of ISO 80000-3.
 const GRAVITY: f64 = 9.80665;
 
 /// A load on a rope: the hoist's figures once more, by own arithmetic.
 pub struct Lift {
     pub plant: Plant,
-    /// Torque of the weight at the motor [N m].
+    /// Torque of the weight at the motor (N m).
     pub weight: f64,
     /// Stiffness and damping of the rope at the motor.
     rope: [f64; 2],
 }
 
 impl Lift {
-    /// A load [kg] on a rope [m] at rest, as a brake holds it.
+    /// A load (kg) on a rope (m) at rest, as a brake holds it.
     pub fn new(mass: f64, length: f64) -> Self {
         let travel = 0.8 / (2.0 * 2.0 * 31.5);
         let square = travel * travel;
@@ -40,8 +40,8 @@ impl Lift {
         (stiffness * self.plant.twist(1) + damping * rate).max(0.0)
     }
 
-    /// An incremental encoder of 2048 lines, switched on at the start, with an eccentricity (amplitude and phase [rad])
-    /// and a random error [rad].
+    /// An incremental encoder of 2048 lines, switched on at the start, with an eccentricity (amplitude and phase (rad))
+    /// and a random error (rad).
     pub fn encoder(&self, [amplitude, phase]: [f64; 2], error: f64) -> u32 {
         let angle = self.plant.motor_angle();
         let read = angle + amplitude * ((angle - phase).cos() - phase.cos()) + error;

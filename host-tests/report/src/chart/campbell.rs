@@ -18,7 +18,7 @@ pub struct Ray {
 /// Where a ray meets a natural frequency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crossing {
-    /// Speed of the motor \[rad/s\].
+    /// Speed of the motor (rad/s).
     pub speed: f64,
     /// Hz.
     pub frequency: f64,
@@ -28,7 +28,7 @@ pub struct Crossing {
     pub title: String,
 }
 
-/// Draws natural frequencies \[Hz\] level, rays rising, the running range \[rad/s\] as a band, and the crossings.
+/// Draws natural frequencies (Hz) level, rays rising, the running range (rad/s) as a band, and the crossings.
 pub fn campbell(natural: &[f64], rays: &[Ray], running: Option<(f64, f64)>, crossings: &[Crossing]) -> String {
     let mut svg = Svg::new(WIDTH, HEIGHT);
     // up to a quarter more than the greatest speed; without a running range, to where the lowest mode meets its last

@@ -102,7 +102,7 @@ pub struct Line {
     pub values: Vec<f64>,
 }
 
-/// Draws lines over time \[s\]; `quantity` is what stands at the axis. `marks` are times of events.
+/// Draws lines over time (s); `quantity` is what stands at the axis. `marks` are times of events.
 pub fn over_time(time: &[f64], drawn: &[Line], quantity: &str, marks: &[f64]) -> String {
     let curve = |line: &Line| Curve { class: line.class.clone(), values: line.values.clone() };
     Lines {

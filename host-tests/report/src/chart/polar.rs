@@ -16,7 +16,7 @@ pub struct Arrow {
     pub name: String,
     /// Length.
     pub amplitude: f64,
-    /// Angle \[degrees\].
+    /// Angle (degrees).
     pub degrees: f64,
 }
 

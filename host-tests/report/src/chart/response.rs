@@ -13,11 +13,11 @@ pub struct Response {
     pub name: String,
     /// Style class: `truth` for the whole chain, `s0`, `s1` and so on for reductions.
     pub class: String,
-    /// Speed per torque \[rad/s per N m\] at each frequency.
+    /// Speed per torque (rad/s per N m) at each frequency.
     pub amplitude: Vec<f64>,
 }
 
-/// Draws curves over frequency \[Hz\], both axes logarithmic.
+/// Draws curves over frequency (Hz), both axes logarithmic.
 pub fn response(frequency: &[f64], curves: &[Response]) -> String {
     let mut svg = Svg::new(WIDTH, HEIGHT);
     // Undamped peaks have no height: the axis spans what lies between the first and last percent.

@@ -13,11 +13,11 @@ use super::material::Material;
 /// A round section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
-    /// Length of the element [m].
+    /// Length of the element (m).
     pub length: f64,
-    /// Outer diameter [m].
+    /// Outer diameter (m).
     pub outer: f64,
-    /// Bore [m], 0 where it is solid.
+    /// Bore (m), 0 where it is solid.
     pub bore: f64,
     /// Material.
     pub material: Material,
@@ -34,12 +34,12 @@ pub(super) struct Beam {
 }
 
 impl Section {
-    /// Area [m2].
+    /// Area (m2).
     pub(super) fn area(&self) -> f64 {
         PI / 4.0 * (self.outer.powi(2) - self.bore.powi(2))
     }
 
-    /// Second moment of area about a diameter [m4].
+    /// Second moment of area about a diameter (m4).
     pub(super) fn second_moment(&self) -> f64 {
         PI / 64.0 * (self.outer.powi(4) - self.bore.powi(4))
     }

@@ -3,9 +3,9 @@
 /// Stiffness and damping of a support, forces along `x` and `y` by motions along `x` and `y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bearing {
-    /// Stiffness [N/m], rows the force.
+    /// Stiffness (N/m), rows the force.
     pub stiffness: [[f64; 2]; 2],
-    /// Damping [N s/m], rows the force.
+    /// Damping (N s/m), rows the force.
     pub damping: [[f64; 2]; 2],
 }
 

@@ -20,7 +20,7 @@ pub enum WhirlSense {
 /// A natural whirl at a speed.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Natural {
-    /// Damped frequency [rad/s].
+    /// Damped frequency (rad/s).
     pub frequency: f64,
     /// Size of the eigenvalue [rad/s]: the frequency without its damping.
     pub undamped: f64,
@@ -33,7 +33,7 @@ pub struct Natural {
 /// Natural whirls at some speeds.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Campbell {
-    /// Speeds [rad/s].
+    /// Speeds (rad/s).
     pub speeds: Vec<f64>,
     /// The whirls at each speed, lowest first.
     pub whirls: Vec<Vec<Natural>>,
@@ -42,7 +42,7 @@ pub struct Campbell {
 /// A critical speed without damping.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Critical {
-    /// Speed [rad/s].
+    /// Speed (rad/s).
     pub speed: f64,
     /// Sense of the whirl. On supports that are alike in all directions unbalance excites forward whirls only.
     pub sense: WhirlSense,
@@ -81,7 +81,7 @@ impl Modal {
         all
     }
 
-    /// The `count` lowest natural whirls at each of some speeds [rad/s].
+    /// The `count` lowest natural whirls at each of some speeds (rad/s).
     ///
     /// # Errors
     /// A speed that is not finite.

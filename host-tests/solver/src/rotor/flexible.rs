@@ -13,16 +13,16 @@ use super::model::{Direction, Model};
 /// A rigid disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
-    /// Mass [kg].
+    /// Mass (kg).
     pub mass: f64,
-    /// Moment of inertia about the shaft [kg m2].
+    /// Moment of inertia about the shaft (kg m2).
     pub polar: f64,
-    /// Moment of inertia about a diameter [kg m2].
+    /// Moment of inertia about a diameter (kg m2).
     pub diametral: f64,
 }
 
 impl Disc {
-    /// A disc of outer diameter, bore and width [m].
+    /// A disc of outer diameter, bore and width (m).
     #[must_use]
     pub fn of(outer: f64, bore: f64, width: f64, material: Material) -> Self {
         let mass = material.density * PI / 4.0 * (outer.powi(2) - bore.powi(2)) * width;
@@ -51,7 +51,7 @@ impl FlexibleRotor {
         Self::default()
     }
 
-    /// A solid shaft of one diameter [m], its length [m] cut into equal elements.
+    /// A solid shaft of one diameter (m), its length (m) cut into equal elements.
     #[must_use]
     pub fn uniform(elements: usize, length: f64, diameter: f64, material: Material) -> Self {
         let section = Section { length: length / elements as f64, outer: diameter, bore: 0.0, material };
@@ -93,7 +93,7 @@ impl FlexibleRotor {
         self
     }
 
-    /// Places of the nodes along the shaft [m].
+    /// Places of the nodes along the shaft (m).
     #[must_use]
     pub fn places(&self) -> Vec<f64> {
         let ends = self.elements.iter().scan(0.0, |end, section| {

@@ -12,7 +12,7 @@ use super::model::Model;
 /// A rotor in modal coordinates.
 #[derive(Clone, Debug)]
 pub struct Modal {
-    /// Natural frequencies at rest, lowest first [rad/s].
+    /// Natural frequencies at rest, lowest first (rad/s).
     pub(super) frequency: DVector<f64>,
     pub(super) damping: DMatrix<f64>,
     pub(super) gyroscopic: DMatrix<f64>,
@@ -68,13 +68,13 @@ impl Modal {
         self.frequency.len()
     }
 
-    /// Natural frequencies at rest and without damping, lowest first [rad/s].
+    /// Natural frequencies at rest and without damping, lowest first (rad/s).
     #[must_use]
     pub fn frequencies(&self) -> Vec<f64> {
         self.frequency.iter().copied().collect()
     }
 
-    /// `A` of `x' = A x + B f` at a speed [rad/s], `x = (w eta, eta')`.
+    /// `A` of `x' = A x + B f` at a speed (rad/s), `x = (w eta, eta')`.
     pub(super) fn system(&self, speed: f64) -> DMatrix<f64> {
         let r = self.count();
         let mut a = DMatrix::zeros(2 * r, 2 * r);

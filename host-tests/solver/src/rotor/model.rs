@@ -12,7 +12,7 @@ pub enum Direction {
     X,
     /// Along `y`.
     Y,
-    /// At this angle from `x` towards `y` [rad].
+    /// At this angle from `x` towards `y` (rad).
     At(f64),
 }
 
@@ -85,8 +85,8 @@ impl Model {
         self.sensors.len()
     }
 
-    /// Displacement at each sensor [m], as complex amplitudes of `Re(X exp(i phi))`, at a constant speed [rad/s] with
-    /// an unbalance [kg m] at
+    /// Displacement at each sensor (m), as complex amplitudes of `Re(X exp(i phi))`, at a constant speed (rad/s) with
+    /// an unbalance (kg m) at
     /// each station.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ impl Model {
         Ok((influence * DVector::from_column_slice(unbalance)).iter().copied().collect())
     }
 
-    /// Influence coefficients [m/(kg m)] at a speed [rad/s]: a row a sensor, a column a station.
+    /// Influence coefficients (m/(kg m)) at a speed [rad/s]: a row a sensor, a column a station.
     ///
     /// # Errors
     /// An undamped rotor on a critical speed.

@@ -7,7 +7,7 @@ use super::error::{RotorError, check, positive};
 use super::flexible::validate_bearing;
 use super::model::{Direction, Model};
 
-/// A rigid rotor under construction. Places along the shaft are distances [m] from the centre of gravity.
+/// A rigid rotor under construction. Places along the shaft are distances (m) from the centre of gravity.
 #[derive(Clone, Debug)]
 pub struct RigidRotor {
     mass: f64,
@@ -19,8 +19,8 @@ pub struct RigidRotor {
 }
 
 impl RigidRotor {
-    /// A rotor of a mass [kg] and moments of inertia about its axis and about a diameter through its centre of gravity
-    /// [kg m2].
+    /// A rotor of a mass (kg) and moments of inertia about its axis and about a diameter through its centre of gravity
+    /// (kg m2).
     #[must_use]
     pub const fn new(mass: f64, polar: f64, diametral: f64) -> Self {
         RigidRotor { mass, polar, diametral, bearings: Vec::new(), stations: Vec::new(), sensors: Vec::new() }

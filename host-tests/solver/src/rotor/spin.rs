@@ -7,15 +7,15 @@ use super::error::{RotorError, check};
 /// The turning of a shaft over a tick: angle and speed at both ends, a cubic between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
-    /// Angle at the start [rad].
+    /// Angle at the start (rad).
     pub angle: f64,
-    /// Speed at the start [rad/s].
+    /// Speed at the start (rad/s).
     pub speed: f64,
-    /// Angle at the end [rad].
+    /// Angle at the end (rad).
     pub end_angle: f64,
-    /// Speed at the end [rad/s].
+    /// Speed at the end (rad/s).
     pub end_speed: f64,
-    /// Duration [s].
+    /// Duration (s).
     pub duration: f64,
 }
 
@@ -41,7 +41,7 @@ pub struct Ripple {
     pub order: f64,
     /// Amplitude, as a share of the speed.
     pub share: f64,
-    /// Phase [rad].
+    /// Phase (rad).
     pub phase: f64,
 }
 
@@ -54,13 +54,13 @@ pub struct Spin {
 }
 
 impl Spin {
-    /// A constant speed [rad/s].
+    /// A constant speed (rad/s).
     #[must_use]
     pub fn steady(speed: f64) -> Self {
         Spin { points: vec![(0.0, speed, 0.0)], ripples: Vec::new() }
     }
 
-    /// Straight lines between points of time [s] and speed [rad/s]; before the first and after the last the speed
+    /// Straight lines between points of time (s) and speed (rad/s); before the first and after the last the speed
     /// stays.
     ///
     /// # Errors
@@ -119,7 +119,7 @@ impl Spin {
         (mean + turned, speed * factor)
     }
 
-    /// The turning from a time on for a duration [s].
+    /// The turning from a time on for a duration (s).
     #[must_use]
     pub fn turn(&self, time: f64, duration: f64) -> Turn {
         let (angle, speed) = self.at(time);

@@ -31,7 +31,7 @@ type Step = DMatrix<f64>;
 #[derive(Clone, Debug)]
 pub(super) struct Steps {
     modal: Modal,
-    /// Duration of a tick [s].
+    /// Duration of a tick (s).
     pub tick: f64,
     spacing: f64,
     known: BTreeMap<i64, Step>,

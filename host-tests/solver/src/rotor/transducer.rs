@@ -6,11 +6,11 @@ use crate::noise::Noise;
 /// Quantity that a sensor measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transducer {
-    /// Displacement [m].
+    /// Displacement (m).
     Displacement,
-    /// Velocity [m/s].
+    /// Velocity (m/s).
     Velocity,
-    /// Acceleration [m/s2].
+    /// Acceleration (m/s2).
     Acceleration,
 }
 
@@ -24,7 +24,7 @@ pub struct Faulty {
     lag: f64,
     /// Standard deviation of the noise, in the sensor's unit.
     noise: f64,
-    /// Run-out [m]: order, amplitude, phase [rad] of what a displacement sensor sees of a surface that is not round.
+    /// Run-out [m]: order, amplitude, phase (rad) of what a displacement sensor sees of a surface that is not round.
     run_out: Vec<(f64, f64, f64)>,
     /// Largest reading; beyond it the sensor clips.
     range: f64,
@@ -39,7 +39,7 @@ impl Faulty {
         Faulty { kind, gain: 1.0, lag: 0.0, noise: 0.0, run_out: Vec::new(), range, source: Noise::new(seed) }
     }
 
-    /// A sensitivity that is off by this share, such as 0.05, and a phase that is off by this angle [rad], lagging
+    /// A sensitivity that is off by this share, such as 0.05, and a phase that is off by this angle (rad), lagging
     /// where positive.
     ///
     /// The phase is that of a zero mark or sensor that stands elsewhere than is thought: the same at every speed.
@@ -57,7 +57,7 @@ impl Faulty {
         self
     }
 
-    /// Run-out of an order: amplitude [m] and phase [rad]. Sensors of velocity and acceleration, which stand on the
+    /// Run-out of an order: amplitude (m) and phase (rad). Sensors of velocity and acceleration, which stand on the
     /// bearing, do not see it.
     #[must_use]
     pub fn run_out(mut self, order: f64, amplitude: f64, phase: f64) -> Self {
@@ -72,7 +72,7 @@ impl Faulty {
         self
     }
 
-    /// Its reading of a motion at the shaft's `angle` [rad] and `speed` [rad/s].
+    /// Its reading of a motion at the shaft's `angle` (rad) and `speed` (rad/s).
     ///
     /// The lag is that of what turns with the shaft: `x cos(lag) - x'/Omega sin(lag)` is `Re(X exp(i (phi - lag)))`
     /// for `x = Re(X exp(i phi))`.

@@ -10,11 +10,11 @@ use super::stepping::{INSTANTS, Steps, force_per_unbalance};
 /// Displacement, velocity and acceleration at a sensor [m, m/s, m/s2].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// Displacement [m].
+    /// Displacement (m).
     pub displacement: f64,
-    /// Velocity [m/s].
+    /// Velocity (m/s).
     pub velocity: f64,
-    /// Acceleration [m/s2].
+    /// Acceleration (m/s2).
     pub acceleration: f64,
 }
 
@@ -34,13 +34,13 @@ pub struct Whirl {
 }
 
 impl Whirl {
-    /// A rotor at rest with ticks of a duration [s] and no unbalance.
+    /// A rotor at rest with ticks of a duration (s) and no unbalance.
     #[must_use]
     pub fn new(modal: Modal, tick: f64) -> Self {
         Self::with_spacing(modal, tick, None)
     }
 
-    /// The same with a grid of speeds of this spacing [rad/s], see the module's text.
+    /// The same with a grid of speeds of this spacing (rad/s), see the module's text.
     pub(super) fn with_spacing(modal: Modal, tick: f64, spacing: Option<f64>) -> Self {
         let (n, stations) = (2 * modal.count(), modal.stations.len());
         Whirl {
@@ -52,7 +52,7 @@ impl Whirl {
         }
     }
 
-    /// Sets the unbalance [kg m] of every station, from the next tick on.
+    /// Sets the unbalance (kg m) of every station, from the next tick on.
     ///
     /// # Errors
     /// Another number of them than of stations.
@@ -68,13 +68,13 @@ impl Whirl {
         Ok(())
     }
 
-    /// The unbalance of every station [kg m].
+    /// The unbalance of every station (kg m).
     #[must_use]
     pub fn unbalance(&self) -> &[Complex<f64>] {
         &self.unbalance
     }
 
-    /// Duration of a tick [s].
+    /// Duration of a tick (s).
     #[must_use]
     pub fn tick(&self) -> f64 {
         self.steps.tick

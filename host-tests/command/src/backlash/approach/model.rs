@@ -13,7 +13,7 @@ pub type State = SVector<f64, 5>;
 /// A matrix of states.
 pub type Square = SMatrix<f64, 5, 5>;
 
-/// Variance of an angle rounded to a count \[rad2\].
+/// Variance of an angle rounded to a count (rad2).
 pub const MEASUREMENT: f64 = {
     let count = TAU / (4 * LINES) as f64;
     count * count / 12.0
@@ -24,13 +24,13 @@ pub const MEASUREMENT: f64 = {
 pub struct Model {
     /// The machine.
     pub machine: TwoMass,
-    /// Half the gap \[rad\].
+    /// Half the gap (rad).
     pub half_gap: f64,
     /// Steps in contact and in free flight, with what the motor's torque does.
     pub contact: (Square, State),
     /// As [`contact`](Self::contact), without a shaft.
     pub free: (Square, State),
-    /// Variance of the motor's torque in a tick, and what the load's gains in one [N2 m2].
+    /// Variance of the motor's torque in a tick, and what the load's gains in one (N2 m2).
     pub noise: [f64; 2],
 }
 
@@ -120,7 +120,7 @@ fn linear(machine: &TwoMass, period: f64) -> (Square, State) {
     (transition, moved(&State::zeros(), 1.0))
 }
 
-/// An encoder's angle without its wraps \[rad\], from the middle of its counts.
+/// An encoder's angle without its wraps (rad), from the middle of its counts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unwrapped {
     last: u32,

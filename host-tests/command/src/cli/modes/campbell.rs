@@ -17,13 +17,13 @@ pub const NEAR: f64 = 0.1;
 pub struct Critical {
     /// Mode, from 1.
     pub mode: usize,
-    /// Its frequency \[Hz\].
+    /// Its frequency (Hz).
     pub hz: f64,
     /// The excitation.
     pub excitation: String,
     /// Its order.
     pub order: f64,
-    /// Speed of the motor \[rad/s\]: `ratio omega/order`.
+    /// Speed of the motor (rad/s): `ratio omega/order`.
     pub speed: f64,
     /// How far it lies outside the running range, as a share of the end that is nearer; negative inside; `null`
     /// without a range.
@@ -32,14 +32,14 @@ pub struct Critical {
     pub flagged: bool,
     /// Phasor sum of an engine's order over the shape, the largest amplitude 1; `null` of other excitations.
     pub phasor_sum: Option<f64>,
-    /// Torque of one cylinder of this order \[N m\]; `null` likewise.
+    /// Torque of one cylinder of this order (N m); `null` likewise.
     pub torque: Option<f64>,
-    /// Largest torque of a shaft while the machine dwells there \[N m at the motor\]; `null` likewise, or without
+    /// Largest torque of a shaft while the machine dwells there (N m at the motor); `null` likewise, or without
     /// damping.
     pub shaft_torque: Option<f64>,
 }
 
-/// All critical speeds of natural frequencies \[rad/s\], the lowest first.
+/// All critical speeds of natural frequencies (rad/s), the lowest first.
 pub fn critical_speeds(natural: &[f64], running: Option<&Running>, excitations: &[Excitation]) -> Vec<Critical> {
     let mut all = Vec::new();
     for (mode, &omega) in natural.iter().enumerate() {

@@ -25,7 +25,7 @@ pub struct Vibration {
     pub shafts: Vec<Spring>,
     /// Natural vibrations of the free machine, lowest first.
     pub resonances: Vec<Resonance>,
-    /// Natural frequencies with the motor locked \[rad/s\], lowest first.
+    /// Natural frequencies with the motor locked (rad/s), lowest first.
     pub antiresonances: Vec<f64>,
     /// The two masses that can stand for it.
     pub reductions: Vec<Reduction>,
@@ -44,7 +44,7 @@ pub struct Vibration {
 pub struct Mass {
     /// Labels of what it is made of.
     pub name: String,
-    /// Inertia \[kg m2\].
+    /// Inertia (kg m2).
     pub inertia: f64,
 }
 
@@ -53,24 +53,24 @@ pub struct Mass {
 pub struct Spring {
     /// Labels of what it is made of.
     pub name: String,
-    /// Stiffness \[N m/rad\].
+    /// Stiffness (N m/rad).
     pub stiffness: f64,
-    /// Damping \[N m s/rad\].
+    /// Damping (N m s/rad).
     pub damping: f64,
-    /// Whole free angle \[rad\].
+    /// Whole free angle (rad).
     pub gap: f64,
 }
 
 /// A natural vibration.
 #[derive(Clone, Debug, Serialize)]
 pub struct Resonance {
-    /// Frequency \[rad/s\].
+    /// Frequency (rad/s).
     pub frequency: f64,
-    /// Frequency \[Hz\].
+    /// Frequency (Hz).
     pub hz: f64,
     /// Damping ratio.
     pub damping_ratio: f64,
-    /// Square of the mass-normalised shape at the motor \[1/(kg m2)\].
+    /// Square of the mass-normalised shape at the motor (1/(kg m2)).
     pub residue: f64,
     /// Amplitude of each mass, the largest 1.
     pub shape: Vec<f64>,
@@ -81,13 +81,13 @@ pub struct Resonance {
 pub struct Reduction {
     /// How they were found.
     pub by: String,
-    /// Inertia on the motor's side \[kg m2\].
+    /// Inertia on the motor's side (kg m2).
     pub motor_inertia: f64,
-    /// Inertia on the load's side \[kg m2\].
+    /// Inertia on the load's side (kg m2).
     pub load_inertia: f64,
-    /// Stiffness \[N m/rad\].
+    /// Stiffness (N m/rad).
     pub stiffness: f64,
-    /// Damping \[N m s/rad\].
+    /// Damping (N m s/rad).
     pub damping: f64,
     /// Relative error of the first resonance, signed.
     pub resonance_error: f64,
@@ -95,7 +95,7 @@ pub struct Reduction {
     pub antiresonance_error: f64,
     /// Relative error of the static compliance at the motor, signed.
     pub compliance_error: f64,
-    /// Lowest frequency left out \[rad/s\]; `null` where none is.
+    /// Lowest frequency left out (rad/s); `null` where none is.
     pub next_mode: Option<f64>,
     /// Its share at the motor.
     pub next_share: f64,

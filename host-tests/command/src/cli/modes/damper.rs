@@ -19,18 +19,18 @@ pub struct Damped {
     pub kind: &'static str,
     /// Mode that it damps, from 1.
     pub mode: usize,
-    /// Frequency of that mode \[Hz\].
+    /// Frequency of that mode (Hz).
     pub hz: f64,
     /// Inertia of the ring over that of the mode at the mass.
     pub mass_ratio: f64,
-    /// Stiffness on its own shaft \[N m/rad\]; 0 of a viscous one.
+    /// Stiffness on its own shaft (N m/rad); 0 of a viscous one.
     pub stiffness: f64,
-    /// Damping on its own shaft \[N m s/rad\].
+    /// Damping on its own shaft (N m s/rad).
     pub damping: f64,
     /// Amplitude over the static angle in the fixed points, of one mass with the best damper.
     pub fixed_amplitude: f64,
     /// Largest angle of the mass per torque on it, from half to twice the frequency, both at the motor
-    /// \[rad/(N m)\]; `null` where no damping limits it.
+    /// (rad/(N m)); `null` where no damping limits it.
     pub without: Option<f64>,
     /// The same with the damper.
     pub with: Option<f64>,

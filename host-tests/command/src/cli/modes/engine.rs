@@ -13,9 +13,9 @@ use driveline_report::{Section, Table};
 /// Free forces and moments of an engine.
 #[derive(Clone, Debug, Serialize)]
 pub struct FreeForces {
-    /// Speed of the crankshaft \[rad/s\].
+    /// Speed of the crankshaft (rad/s).
     pub speed: f64,
-    /// Firing angle of each cylinder \[degrees\].
+    /// Firing angle of each cylinder (degrees).
     pub firing: Vec<f64>,
     /// First and second order.
     pub orders: [Order; 2],
@@ -26,11 +26,11 @@ pub struct FreeForces {
 pub struct Order {
     /// Order.
     pub order: u32,
-    /// Force that rotates with the crank \[N\].
+    /// Force that rotates with the crank (N).
     pub force_forward: f64,
-    /// Force that rotates against it \[N\].
+    /// Force that rotates against it (N).
     pub force_backward: f64,
-    /// Moment about the middle of the cylinders \[N m\], alike; `null` without positions.
+    /// Moment about the middle of the cylinders (N m), alike; `null` without positions.
     pub moment_forward: Option<f64>,
     /// Moment that rotates against the crank.
     pub moment_backward: Option<f64>,

@@ -4,7 +4,7 @@ use driveline_report::chart::{Station, mode_shape};
 use driveline_report::format::significant;
 use driveline_report::{Arrangement, Figure};
 
-/// The shapes, each as its frequency \[Hz\] and the amplitudes of the stations in any scale; none where nothing
+/// The shapes, each as its frequency (Hz) and the amplitudes of the stations in any scale; none where nothing
 /// vibrates.
 pub fn shapes<'m>(stations: &[Station], modes: impl Iterator<Item = (f64, &'m [f64])>) -> Option<Figure> {
     let drawn = |(index, (hz, shape)): (usize, (f64, &[f64]))| {

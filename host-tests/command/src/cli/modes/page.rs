@@ -19,7 +19,7 @@ const POINTS: usize = 1_600;
 /// Least damping ratio that a response is drawn with: an undamped peak has no height.
 const DRAWN_DAMPING: f64 = 1e-3;
 
-/// A vibration as the motor sees it: frequency \[rad/s\], damping ratio, residue \[1/(kg m2)\].
+/// A vibration as the motor sees it: frequency (rad/s), damping ratio, residue (1/(kg m2)).
 type Seen = (f64, f64, f64);
 
 /// The page as HTML.
@@ -68,7 +68,7 @@ pub fn page(machine: &MachineFile, vibration: &Vibration) -> String {
     .page()
 }
 
-/// Frequencies \[Hz\] from below the first antiresonance to above the last resonance, dense enough for the peaks.
+/// Frequencies (Hz) from below the first antiresonance to above the last resonance, dense enough for the peaks.
 fn frequencies(vibration: &Vibration) -> Vec<f64> {
     let (Some(&low), Some(high)) = (vibration.antiresonances.first(), vibration.resonances.last()) else {
         return Vec::new();

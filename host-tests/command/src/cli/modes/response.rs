@@ -14,7 +14,7 @@ const UNDAMPED: f64 = 1e-12;
 /// Masses and the springs with dampers between them.
 #[derive(Clone)]
 pub struct Response {
-    /// Inertias \[kg m2\].
+    /// Inertias (kg m2).
     inertia: Vec<f64>,
     springs: Vec<Spring>,
 }
@@ -26,9 +26,9 @@ struct Spring {
     from: usize,
     /// Index of the other.
     to: usize,
-    /// Stiffness \[N m/rad\].
+    /// Stiffness (N m/rad).
     stiffness: f64,
-    /// Damping \[N m s/rad\].
+    /// Damping (N m s/rad).
     damping: f64,
 }
 
@@ -54,7 +54,7 @@ impl Response {
         damped
     }
 
-    /// Angles \[rad\] of the masses under torques \[N m\] of a frequency \[rad/s\]; none where they grow without end.
+    /// Angles (rad) of the masses under torques (N m) of a frequency (rad/s); none where they grow without end.
     fn angles(&self, omega: f64, torques: &[Complex<f64>]) -> Option<DVector<Complex<f64>>> {
         let inertial = self.inertia.iter().map(|inertia| Complex::from(-inertia * omega * omega));
         let mut matrix = DMatrix::from_diagonal(&DVector::from_iterator(self.inertia.len(), inertial));
@@ -69,7 +69,7 @@ impl Response {
         matrix.lu().solve(&DVector::from_column_slice(torques))
     }
 
-    /// Largest torque of a shaft \[N m\] under torques \[N m\] of a frequency \[rad/s\]: `|(k + i omega d) dq|`; none
+    /// Largest torque of a shaft (N m) under torques (N m) of a frequency (rad/s): `|(k + i omega d) dq|`; none
     /// where it grows without end.
     pub fn shaft_torque(&self, omega: f64, torques: &[Complex<f64>]) -> Option<f64> {
         let angles = self.angles(omega, torques)?;
@@ -78,14 +78,14 @@ impl Response {
         Some(self.springs.iter().map(torque).fold(0.0, f64::max))
     }
 
-    /// Angle of a mass per torque on it \[rad/(N m)\]; infinite at an undamped resonance.
+    /// Angle of a mass per torque on it (rad/(N m)); infinite at an undamped resonance.
     fn receptance(&self, mass: usize, omega: f64) -> f64 {
         let mut torques = vec![Complex::from(0.0); self.inertia.len()];
         torques[mass] = Complex::from(1.0);
         self.angles(omega, &torques).map_or(f64::INFINITY, |angles| angles[mass].norm())
     }
 
-    /// Largest angle of a mass per torque on it \[rad/(N m)\] between two frequencies \[rad/s\]; none where an
+    /// Largest angle of a mass per torque on it (rad/(N m)) between two frequencies (rad/s); none where an
     /// undamped resonance lies between them.
     pub fn largest(&self, mass: usize, [low, high]: [f64; 2]) -> Option<f64> {
         let at = |omega: f64| self.receptance(mass, omega);
@@ -114,7 +114,7 @@ impl Response {
         largest.is_finite().then_some(largest)
     }
 
-    /// Damped vibrations: the eigenvalues `-decay + i omega` \[1/s\] of the equations in `sqrt(J) q'` and
+    /// Damped vibrations: the eigenvalues `-decay + i omega` (1/s) of the equations in `sqrt(J) q'` and
     /// `sqrt(k) dq`, whose rounding is that of the highest frequency and not of its square.
     fn vibrations(&self) -> Option<Vec<Complex<f64>>> {
         let masses = self.inertia.len();
@@ -137,7 +137,7 @@ impl Response {
 }
 
 impl Spring {
-    /// `k + i omega d` \[N m/rad\] at a frequency \[rad/s\].
+    /// `k + i omega d` (N m/rad) at a frequency (rad/s).
     fn dynamic_stiffness(&self, omega: f64) -> Complex<f64> {
         Complex::new(self.stiffness, omega * self.damping)
     }

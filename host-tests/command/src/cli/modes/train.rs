@@ -30,9 +30,9 @@ pub struct TrainVibration {
 /// A natural vibration.
 #[derive(Clone, Debug, Serialize)]
 pub struct TrainResonance {
-    /// Frequency \[rad/s\].
+    /// Frequency (rad/s).
     pub frequency: f64,
-    /// Frequency \[Hz\].
+    /// Frequency (Hz).
     pub hz: f64,
     /// Share of each coordinate in the kinetic energy, and the sign it moves with: comparable between angles and
     /// ways.

@@ -82,7 +82,7 @@ impl WheelOptions {
     }
 }
 
-/// Least residue of the windows that are to be used \[rad\].
+/// Least residue of the windows that are to be used (rad).
 fn unexplained(turned: &Turned) -> Option<f64> {
     let residues = turned.windows.iter().filter_map(|window| Some(window.ripple.as_ref().ok()?.quality.residue));
     residues.min_by(f64::total_cmp)

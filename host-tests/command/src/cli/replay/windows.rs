@@ -60,7 +60,7 @@ fn fitted(ripple: &Ripple) -> &[Order] {
     &orders[..last.map_or(0, |last| last + 1)]
 }
 
-/// Speed over the angle of the cycle [r/min].
+/// Speed over the angle of the cycle (r/min).
 fn per_minute(ripple: &Ripple) -> f64 {
     60.0 / TAU * ripple.speed.mean
 }

@@ -19,7 +19,7 @@ const OVERFLOW: f64 = 1e30;
 pub struct Simulation {
     /// The machine's name.
     pub name: String,
-    /// Length of the run \[s\].
+    /// Length of the run (s).
     pub time: f64,
     /// Extremes of the speeds.
     pub coordinates: Vec<Moved>,
@@ -32,7 +32,7 @@ pub struct Simulation {
     pub proof: Option<[f64; 2]>,
     /// Why the run is not proven.
     pub not_proven: Option<String>,
-    /// Times of the lines \[s\].
+    /// Times of the lines (s).
     #[serde(skip)]
     pub times: Vec<f64>,
     /// Of each coordinate, its speed at those times.
@@ -43,7 +43,7 @@ pub struct Simulation {
     pub forces: Vec<Vec<f64>>,
 }
 
-/// Extremes of a speed \[rad/s or m/s\].
+/// Extremes of a speed (rad/s or m/s).
 #[derive(Clone, Debug, Serialize)]
 pub struct Moved {
     /// Name.
@@ -56,18 +56,18 @@ pub struct Moved {
     pub last: f64,
 }
 
-/// Extremes of the force of a link \[N m or N\].
+/// Extremes of the force of a link (N m or N).
 #[derive(Clone, Debug, Serialize)]
 pub struct Carried {
     /// Name.
     pub name: String,
     /// Least.
     pub least: f64,
-    /// When \[s\].
+    /// When (s).
     pub least_time: f64,
     /// Greatest.
     pub greatest: f64,
-    /// When \[s\].
+    /// When (s).
     pub greatest_time: f64,
     /// The static force that the dynamic factor is reckoned from.
     pub static_force: f64,
@@ -82,7 +82,7 @@ pub struct Carried {
 /// An event.
 #[derive(Clone, Debug, Serialize)]
 pub struct Happened {
-    /// When \[s\].
+    /// When (s).
     pub time: f64,
     /// What, in a word or two.
     pub what: String,

@@ -128,7 +128,7 @@ const ROUND: BacklashTakeUpConfig<f64, SymmetricLimitConfig<f64>> = BacklashTake
     limit: SymmetricLimitConfig { torque: 100.0 },
 };
 
-/// A shaft torque \[N m\], everything at rest.
+/// A shaft torque (N m), everything at rest.
 fn carrying(shaft_torque: f64) -> Estimate<f64> {
     Estimate { shaft_torque, ..Estimate::default() }
 }

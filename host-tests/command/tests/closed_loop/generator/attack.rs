@@ -71,7 +71,7 @@ type Constants<N> = SpeedGovernorConfigOf<
     MovingAverage<N, 32>,
 >;
 
-/// A number with its constants: two governors to switch between, with a slew of the torque [N m/s].
+/// A number with its constants: two governors to switch between, with a slew of the torque (N m/s).
 trait Wired: Number {
     const UNIT: [f64; 2];
     fn governors(slew: f64) -> [Constants<Self>; 2];

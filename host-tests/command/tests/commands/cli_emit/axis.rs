@@ -30,8 +30,8 @@ pub const FEED_AXIS_OBSERVER: TwoMassDesign = FEED_AXIS_MODEL.observer(
 /// The speed loop.
 pub const FEED_AXIS_SPEED_LOOP: SpeedLoopDesign = FEED_AXIS_MODEL.speed_loop(FEED_AXIS_RATE, SpeedLoopTuning::of(&FEED_AXIS_MODEL));
 
-/// Largest motor torque [N m].
+/// Largest motor torque (N m).
 pub const FEED_AXIS_TORQUE: f64 = 60.0;
 
-/// Largest motor speed [rad/s].
+/// Largest motor speed (rad/s).
 pub const FEED_AXIS_SPEED: f64 = 300.0;

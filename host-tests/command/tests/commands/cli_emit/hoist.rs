@@ -28,8 +28,8 @@ pub const HOIST_OBSERVER: TwoMassDesign = HOIST_MODEL.observer(
 /// The speed loop.
 pub const HOIST_SPEED_LOOP: SpeedLoopDesign = HOIST_MODEL.speed_loop(HOIST_RATE, SpeedLoopTuning::of(&HOIST_MODEL));
 
-/// Largest motor torque [N m].
+/// Largest motor torque (N m).
 pub const HOIST_TORQUE: f64 = 1350.0;
 
-/// Largest motor speed [rad/s].
+/// Largest motor speed (rad/s).
 pub const HOIST_SPEED: f64 = 155.0;

@@ -29,8 +29,8 @@ pub const ROLLING_MILL_OBSERVER: TwoMassDesign = ROLLING_MILL_MODEL.observer(
 /// The speed loop.
 pub const ROLLING_MILL_SPEED_LOOP: SpeedLoopDesign = ROLLING_MILL_MODEL.speed_loop(ROLLING_MILL_RATE, SpeedLoopTuning::of(&ROLLING_MILL_MODEL));
 
-/// Largest motor torque [N m].
+/// Largest motor torque (N m).
 pub const ROLLING_MILL_TORQUE: f64 = 400000.0;
 
-/// Largest motor speed [rad/s].
+/// Largest motor speed (rad/s).
 pub const ROLLING_MILL_SPEED: f64 = 12.0;

@@ -44,8 +44,8 @@ pub const TWIN_SCREW_SHIP_OBSERVER: TwoMassDesign = TWIN_SCREW_SHIP_MODEL.observ
 /// The speed loop.
 pub const TWIN_SCREW_SHIP_SPEED_LOOP: SpeedLoopDesign = TWIN_SCREW_SHIP_MODEL.speed_loop(TWIN_SCREW_SHIP_RATE, SpeedLoopTuning::of(&TWIN_SCREW_SHIP_MODEL));
 
-/// Largest motor torque [N m].
+/// Largest motor torque (N m).
 pub const TWIN_SCREW_SHIP_TORQUE: f64 = 100000.0;
 
-/// Largest motor speed [rad/s].
+/// Largest motor speed (rad/s).
 pub const TWIN_SCREW_SHIP_SPEED: f64 = 60.0;

@@ -4,7 +4,7 @@ use driveline::balancing::{Action, Complex, InRun, InRunConfig};
 
 use super::noise::Noise;
 
-/// The largest correction of the head \[kg m\], as the grinding spindle's.
+/// The largest correction of the head (kg m), as the grinding spindle's.
 const CAPACITY: f64 = 1.5e-3;
 /// The grinding spindle's settings.
 const CONFIG: InRunConfig<f64, 1> = InRunConfig {
@@ -18,7 +18,7 @@ const CONFIG: InRunConfig<f64, 1> = InRunConfig {
 };
 /// 3000 r/min.
 const SPEED: f64 = 100.0 * std::f64::consts::PI;
-/// Residual of 25 kg at that speed in G2.5 \[kg m\]: 2.5e-3 m/s of the centre of mass.
+/// Residual of 25 kg at that speed in G2.5 (kg m): 2.5e-3 m/s of the centre of mass.
 const G2_5: f64 = 2.5e-3 * 25.0 / SPEED;
 
 /// What disturbs a start, each as a share.

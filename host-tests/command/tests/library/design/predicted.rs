@@ -47,7 +47,7 @@ fn predicted(observer: LoopObserver<'_>, encoder: Encoder, tolerance: &Tolerance
 
 const EXACT: Encoder = Encoder::counts(u32::MAX);
 
-/// Shaft torque, load speed and load torque that an observer gives for each tick's angle \[rad\] and torque.
+/// Shaft torque, load speed and load torque that an observer gives for each tick's angle (rad) and torque.
 fn estimates(two: bool, ticks: usize, mut tick: impl FnMut(usize) -> (f64, f64), speed: f64) -> Vec<[f64; 3]> {
     fn run<O: Observer<f64>>(
         config: &O::Config,

@@ -9,7 +9,7 @@ use driveline::machine::{
 
 /// A third of a turn.
 const THIRD: f64 = TAU / 3.0;
-/// Distance of two throws \[m\].
+/// Distance of two throws (m).
 const PITCH: f64 = 0.13;
 
 /// An arrangement, and the largest and smallest value of its first and second order: forces in units of one cylinder's,

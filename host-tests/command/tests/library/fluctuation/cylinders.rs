@@ -16,12 +16,12 @@ const POINTS: usize = 360;
 struct Simulated {
     cylinders: usize,
     inertia: f64,
-    /// Mean torque [N m].
+    /// Mean torque (N m).
     torque: f64,
     speed: f64,
     /// Standard deviation of a single combustion, relative.
     combustion: f64,
-    /// Of an edge's place \[degree\].
+    /// Of an edge's place (degree).
     edge: f64,
 }
 

@@ -23,17 +23,17 @@ pub struct Part {
 /// A prescribed motion.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    /// Speed at the beginning [rad/s]; negative backwards.
+    /// Speed at the beginning (rad/s); negative backwards.
     pub speed: f64,
-    /// Its change [rad/s2].
+    /// Its change (rad/s2).
     pub ramp: f64,
     /// Turns to the cycle.
     pub turns: f64,
     /// The orders.
     pub parts: Vec<Part>,
-    /// Angle now [rad].
+    /// Angle now (rad).
     pub phi: f64,
-    /// Time now [s].
+    /// Time now (s).
     pub time: f64,
 }
 

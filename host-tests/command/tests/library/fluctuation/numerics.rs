@@ -93,7 +93,7 @@ impl Turning {
         (((self.phase >> 32) as u32).wrapping_add(self.ripple[index]), self.speeds[index])
     }
 
-    /// The mean speed, exactly [rad/s].
+    /// The mean speed, exactly (rad/s).
     fn speed(&self) -> f64 {
         self.step as f64 / 18_446_744_073_709_551_616.0 * TAU / PERIOD
     }

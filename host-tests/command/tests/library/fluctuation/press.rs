@@ -12,11 +12,11 @@ use super::rig::{BINS, PERIOD};
 /// `J(phi) phi'' + J'(phi) phi'^2/2 = a - b phi' - M(phi)`.
 #[derive(Clone, Copy, Debug)]
 pub struct Machine {
-    /// Inertia: mean, and the cosine of twice the angle [kg m2].
+    /// Inertia: mean, and the cosine of twice the angle (kg m2).
     pub inertia: [f64; 2],
     /// The motor's line [N m, N m s/rad].
     pub motor: [f64; 2],
-    /// Load: always, and the height of a smooth hill of a third of a turn about 160 degrees [N m].
+    /// Load: always, and the height of a smooth hill of a third of a turn about 160 degrees (N m).
     pub load: [f64; 2],
 }
 
@@ -33,7 +33,7 @@ impl Machine {
         (torque - 0.5 * slope * speed * speed) / self.inertia(phi)
     }
 
-    /// Goes on in so many steps of `h` [s] by Runge and Kutta's fourth order.
+    /// Goes on in so many steps of `h` (s) by Runge and Kutta's fourth order.
     fn advance(&self, phi: &mut f64, speed: &mut f64, h: f64, steps: u32) {
         for _ in 0..steps {
             let (x, v) = (*phi, *speed);

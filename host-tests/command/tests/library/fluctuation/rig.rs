@@ -15,17 +15,17 @@ use super::motion::Motion;
 /// Bins of the waveform.
 pub const BINS: usize = 64;
 
-/// Inertia of the motor [kg m2].
+/// Inertia of the motor (kg m2).
 pub const MOTOR: f64 = 2.0;
-/// Inertia of the load [kg m2].
+/// Inertia of the load (kg m2).
 pub const LOAD: f64 = 4.0;
 /// Stiffness between them [N m/rad]: a resonance of 61 Hz.
 pub const STIFFNESS: f64 = 2.0e5;
-/// Rated speed [rad/s], 1500 r/min.
+/// Rated speed (rad/s), 1500 r/min.
 pub const RATED: f64 = 157.0;
-/// Constant torque of the motor [N m].
+/// Constant torque of the motor (N m).
 pub const TORQUE: f64 = 300.0;
-/// Time between ticks [s].
+/// Time between ticks (s).
 pub const PERIOD: f64 = 1e-4;
 
 const MACHINE: TwoMass = TwoMass::new(Inertia(MOTOR), Inertia(LOAD), Stiffness(STIFFNESS), Damping(0.0));

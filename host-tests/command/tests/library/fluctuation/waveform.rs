@@ -33,7 +33,7 @@ fn window<N: Built>(motion: &mut Motion, cycle: Cycle, cycles: u32, highest: usi
     (window, ripple)
 }
 
-/// By how far an order's phase is off, wrapped [degrees]; the cycle began `turn` turns of the motor later than the
+/// By how far an order's phase is off, wrapped (degrees); the cycle began `turn` turns of the motor later than the
 /// motion's.
 fn off(ripple: &Ripple, motion: &Motion, part: &Part, turn: u32) -> f64 {
     let backwards = if motion.speed < 0.0 { 0.5 * TAU } else { 0.0 };

@@ -49,28 +49,28 @@ impl<M: Machine> Machine for Plain<M> {
 
 /// A machine as it may be, and what happens to it.
 struct Case {
-    /// From the motor to the load [kg m2].
+    /// From the motor to the load (kg m2).
     inertias: Vec<f64>,
     /// Stiffness and damping of the shafts between.
     shafts: Vec<[f64; 2]>,
-    /// Gap of the last shaft \[rad\].
+    /// Gap of the last shaft (rad).
     gap: f64,
-    /// Coulomb friction of the last inertia [N m].
+    /// Coulomb friction of the last inertia (N m).
     friction: f64,
-    /// Setpoint from the start and from half the run on [rad/s].
+    /// Setpoint from the start and from half the run on (rad/s).
     setpoints: [f64; 2],
     /// Torque that acts over the torque that is commanded.
     torque_gain: f64,
     /// Load torque on the last inertia [N m]: from, over, and how much.
     load: [f64; 3],
-    /// How long the run is \[s\].
+    /// How long the run is (s).
     duration: f64,
-    /// Largest torque that the last shaft has to carry [N m].
+    /// Largest torque that the last shaft has to carry (N m).
     required: f64,
 }
 
 impl Case {
-    /// Dynamic part of the last shaft's torque [N m].
+    /// Dynamic part of the last shaft's torque (N m).
     ///
     /// Euler's symplectic rule in eight steps a tick: the frequency of the fastest vibration, 540 rad/s at 10 kHz, is
     /// right to 2e-6.
@@ -148,7 +148,7 @@ fn ratios<M: Machine, O: Observer<f32>, F: LoopFilter<f32>>(
 
 /// A load of 3 t to 16.5 t on 4 m to 12 m of rope; bridge and motors within 10 %, torque constant within 3 %.
 fn crane(within: &mut dyn FnMut(f64) -> f64) -> Case {
-    // Travel per angle of the motors [m/rad].
+    // Travel per angle of the motors (m/rad).
     let square = (0.5_f64 / 60.0).powi(2);
     let (mass, rope) = (9_750.0 * within(0.69), 8.0 * within(0.5));
     Case {

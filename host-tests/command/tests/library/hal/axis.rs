@@ -16,7 +16,7 @@ pub type Observer = GearedObserver<SemiImplicitObserver<f32>>;
 pub const CONFIG: &ConfigOf<Drive<f32, Observer, (), SpeedLoop<f32>>> =
     <Of<Hoist<10_000>, Reduced<f32>> as Constants>::CONFIG;
 
-/// The speed at which the motor turns [rad/s], and what is wanted of it: more, so that there is torque.
+/// The speed at which the motor turns (rad/s), and what is wanted of it: more, so that there is torque.
 pub const SPEED: f64 = 30.0;
 pub const WANTED: f32 = 31.0;
 

@@ -5,7 +5,7 @@ use driveline_solver::noise::Noise;
 
 /// A drive of 750 N m and 155 rad/s, updated every 10 ms.
 const CONFIG: RunUpConfig = RunUpConfig::new(750.0, 155.0, [0.5, 2.5], 0.01);
-/// By the drawings [kg m2].
+/// By the drawings (kg m2).
 const TOLD: f32 = 1.2;
 
 /// What is fed to the learner.

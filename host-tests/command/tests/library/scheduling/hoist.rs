@@ -12,7 +12,7 @@ use driveline_solver::noise::Noise;
 
 use crate::lift::Lift;
 
-/// Interval of the scheduling [s].
+/// Interval of the scheduling (s).
 const EVERY: f64 = 0.05;
 const MASS: LoadMassConfig = LoadMassConfig::new(TRAVEL, 0.2, EVERY, [500.0, 13_000.0]);
 

@@ -17,7 +17,7 @@ use super::rig::{RATED_SPEED, REDUCED, TORQUE_LIMIT};
 
 use super::rig::{Rig, Scaled, for_every_variant};
 
-/// Time in which the estimates recover [s].
+/// Time in which the estimates recover (s).
 const RECOVERY: f64 = 0.45;
 
 /// What a float can hold and fixed point cannot.

@@ -19,7 +19,7 @@ fn torque(tick: u32) -> f64 {
 }
 
 /// Coasts from a held torque and compares the mean speed with its closed form; `resolution` is a number's error in a
-/// tick [rad/s].
+/// tick (rad/s).
 fn coasts<N: Scaled, O: Observer<N>>(config: &O::Config, resolution: impl Fn(f64) -> f64) {
     let held = 400.0;
     let (jm, jl) = (REDUCED.motor_inertia, REDUCED.load_inertia);

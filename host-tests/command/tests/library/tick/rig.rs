@@ -14,7 +14,7 @@ use driveline_firmware::scene::composed::GovernedVariant;
 use driveline_firmware::scenes::hoist::Hoist;
 use driveline_solver::plant::{Chain, Plant, Shaft};
 
-/// The hoist's rated speed [rad/s] and largest torque [N m], its two masses, and its bases of fixed point.
+/// The hoist's rated speed (rad/s) and largest torque (N m), its two masses, and its bases of fixed point.
 pub const RATED_SPEED: f64 = Hoist::<10_000>::RATING.speed;
 pub const TORQUE_LIMIT: f64 = Hoist::<10_000>::RATING.torque_limit;
 pub const REDUCED: TwoMass = Hoist::<10_000>::TWO_MASS;
@@ -25,13 +25,13 @@ pub const WEIGHT: f64 = 12_000.0 * 9.806_65 * 0.8 / (2.0 * 2.0 * 31.5);
 
 /// A number with the hoist's bases.
 pub trait Scaled: Number {
-    /// Of a torque [N m].
+    /// Of a torque (N m).
     fn of_torque(torque: f64) -> Self;
-    /// Of a speed [rad/s].
+    /// Of a speed (rad/s).
     fn of_speed(speed: f64) -> Self;
-    /// As a torque [N m].
+    /// As a torque (N m).
     fn torque(self) -> f64;
-    /// As a speed [rad/s].
+    /// As a speed (rad/s).
     fn speed(self) -> f64;
 }
 
@@ -112,9 +112,9 @@ pub struct Rig<V: GovernedVariant> {
     pub plant: Plant,
     /// The drive.
     pub drive: DriveOf<V>,
-    /// Torque that the machine was given during the last tick [N m].
+    /// Torque that the machine was given during the last tick (N m).
     pub applied: f64,
-    /// Setpoint [rad/s].
+    /// Setpoint (rad/s).
     pub setpoint: f64,
 }
 
@@ -173,7 +173,7 @@ where
         command
     }
 
-    /// Errors of the estimates before the next sample: motor speed, load speed [rad/s], shaft and load torque [N m].
+    /// Errors of the estimates before the next sample: motor speed, load speed (rad/s), shaft and load torque (N m).
     pub fn errors(&self, command: &Seen<V::Number>, before: &Plant) -> [f64; 4] {
         let estimate = &command.estimate;
         [

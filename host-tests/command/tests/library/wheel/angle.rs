@@ -10,7 +10,7 @@ const TEETH: Teeth<58> = Teeth::gap(60, 2);
 const WHEEL: ToothedWheelConfig<58> = ToothedWheelConfig::new(&TEETH, TIMING);
 const RUN: Run = Run { speed: 20.0, ripple: 0.0, order: 2.0, jitter: 0.0, seed: 1 };
 
-/// Rms and largest error of the angle \[degree\] and its own rms deviation in ticks of 1 ms, and the share of the ticks
+/// Rms and largest error of the angle (degree) and its own rms deviation in ticks of 1 ms, and the share of the ticks
 /// with an angle from `from` turns on.
 struct Errors {
     rms: f64,

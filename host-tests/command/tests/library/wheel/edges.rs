@@ -10,7 +10,7 @@ pub const CLOCK: f64 = 1e6;
 /// One turn to the cycle, down to 19 r/min.
 pub const TIMING: ToothClock = ToothClock { turns: 1, clock: CLOCK, lowest_speed: 2.0 };
 
-/// A wheel's speed: its mean \[turn/s\], and the relative amplitude of a ripple of so many periods to the turn.
+/// A wheel's speed: its mean (turn/s), and the relative amplitude of a ripple of so many periods to the turn.
 #[derive(Clone, Copy)]
 pub struct Run {
     pub speed: f64,
@@ -38,7 +38,7 @@ impl Random {
 }
 
 impl Run {
-    /// Time at which the wheel has turned so far \[s\]: t = (x - r/(2 pi n) (cos(2 pi n x) - 1))/v, the integral of a
+    /// Time at which the wheel has turned so far (s): t = (x - r/(2 pi n) (cos(2 pi n x) - 1))/v, the integral of a
     /// slowness (1 + r sin(2 pi n x))/v.
     pub fn time(&self, turns: f64) -> f64 {
         let angle = TAU * self.order * turns;
@@ -55,7 +55,7 @@ impl Run {
         low
     }
 
-    /// Times of the edges over so many turns \[s\].
+    /// Times of the edges over so many turns (s).
     pub fn edges<const TEETH: usize>(&self, teeth: &Teeth<TEETH>, turns: usize) -> Vec<f64> {
         let mut random = Random(self.seed);
         let places = (0..turns).flat_map(|turn| teeth.angles.iter().map(move |angle| turn as f64 + angle));

@@ -8,7 +8,7 @@ use super::edges::{CLOCK, TIMING, clock};
 use super::other_teeth::nothing_but;
 use crate::recordings::recording;
 
-/// Rising edges of a column \[s\], or all times of a list [ms].
+/// Rising edges of a column (s), or all times of a list (ms).
 fn edges(file: &str, column: usize) -> Option<Vec<f64>> {
     let text = std::fs::read_to_string(recording(&format!("engines/{file}"))?).unwrap();
     if file.ends_with("edges_ms") {

@@ -3,7 +3,7 @@
 use driveline_solver::plant::train::converge::{Recording, prove};
 use driveline_solver::plant::train::{Coordinate, Link, Source, Train};
 
-/// Motor, load [kg m2], its weight [N m] and the shaft [N m/rad].
+/// Motor, load (kg m2), its weight (N m) and the shaft (N m/rad).
 const MOTOR: f64 = 0.5;
 const LOAD: f64 = 2.0;
 const WEIGHT: f64 = 60.0;
