@@ -25,7 +25,10 @@ fn ended_well(ended: &Output) -> String {
 /// Cargo in a project. Its dependencies are compiled once for all projects and runs of this test.
 fn in_project(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(cargo());
-    command.args(arguments).current_dir(folder).env("CARGO_TARGET_DIR", target_directory().unwrap().join("projects"));
+    command
+        .args(arguments)
+        .current_dir(folder)
+        .env("CARGO_TARGET_DIR", target_directory().unwrap().join("exported/target"));
     // flags of this test's own cargo
     command.env_remove("RUSTFLAGS").env_remove("CARGO_ENCODED_RUSTFLAGS").output().unwrap()
 }

@@ -1,8 +1,8 @@
 //! Building an image with cargo.
 //!
-//! In target directories of its own, `target/firmware/<the compiler's target>`, so that a test or a command that is
-//! itself run by cargo does not wait for cargo's lock, and images for two cores can be built at once. For one of them
-//! it is one image at a time: they share its directory, and each is copied out before the next variant overwrites it.
+//! In two target directories of its own, `target/firmware/fpu` for cores with an FPU and `target/firmware/no-fpu` for
+//! the others. A test or a command that is itself run by cargo does not wait for cargo's lock, and two images can be
+//! built at once. In each directory it is one image at a time: it is copied out before the next variant overwrites it.
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader};
@@ -51,11 +51,12 @@ pub fn build(
     let images = target.join("images");
     let place = |what: String| move |error| BuildError::Io { place: what, error };
     fs::create_dir_all(&images).map_err(place(format!("making {}", images.display())))?;
-    let lock = images.join(format!(".{}.lock", board.target));
+    let lane = if board.target.ends_with("hf") { "fpu" } else { "no-fpu" };
+    let lock = images.join(format!(".{lane}.lock"));
     let held = File::create(&lock).map_err(place(format!("making {}", lock.display())))?;
     held.lock().map_err(place(format!("locking {}", lock.display())))?;
 
-    let firmware = target.join("firmware").join(board.target);
+    let firmware = target.join("firmware").join(lane);
     let of_core = if board.core == "m7" { ",m7" } else { "" };
     let arguments = [
         "build",
