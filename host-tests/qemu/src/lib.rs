@@ -1,5 +1,6 @@
 //! Firmware images of `driveline`: built, linked to the host in QEMU, measured; and the set-up of a machine for that.
 
+pub mod cache;
 pub mod children;
 pub mod clone;
 pub mod image;

@@ -1,6 +1,8 @@
-//! Cargo as a step: its exit code, or the sum of its test results.
+//! Cargo or another program as a step: its exit code, or the sum of its test results.
 
+use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use super::{Count, Failed, Voice};
@@ -10,25 +12,31 @@ use driveline_qemu::setup;
 
 /// Runs cargo as one check.
 pub fn passes(arguments: &[&str], voice: &Voice) -> Result<Count, Failed> {
-    let (success, _) = run(arguments, voice)?;
-    if success { Ok(Count { passed: 1, failed: 0 }) } else { Err(Failed::whole(refused(arguments))) }
+    program_passes(&setup::cargo(), arguments, voice)
+}
+
+/// Runs any program as one check.
+pub fn program_passes(program: &OsStr, arguments: &[&str], voice: &Voice) -> Result<Count, Failed> {
+    let (success, _) = run(program, arguments, voice)?;
+    if success { Ok(Count { passed: 1, failed: 0 }) } else { Err(Failed::whole(refused(program, arguments))) }
 }
 
 /// Runs `cargo test` and counts what its runners report, which is passed on as it comes.
 pub fn tests(arguments: &[&str], voice: &Voice) -> Result<Count, Failed> {
-    let (success, mut count) = run(arguments, voice)?;
+    let cargo = setup::cargo();
+    let (success, mut count) = run(&cargo, arguments, voice)?;
     if success {
         return Ok(count);
     }
     // a test that does not compile reports no result
     count.failed = count.failed.max(1);
-    Err(Failed { count, message: refused(arguments) })
+    Err(Failed { count, message: refused(&cargo, arguments) })
 }
 
-fn run(arguments: &[&str], voice: &Voice) -> Result<(bool, Count), Failed> {
-    let failed = |error: std::io::Error| Failed::whole(format!("cargo {}: {error}", arguments.join(" ")));
+fn run(program: &OsStr, arguments: &[&str], voice: &Voice) -> Result<(bool, Count), Failed> {
+    let failed = |error: std::io::Error| Failed::whole(format!("{}: {error}", line(program, arguments)));
     let root = workspace().map_err(Failed::whole)?;
-    let mut command = Command::new(setup::cargo());
+    let mut command = Command::new(program);
     command.args(arguments).current_dir(root).stdin(Stdio::null()).stdout(Stdio::piped());
     if arguments.iter().any(|argument| argument.starts_with("--target=")) {
         // these would replace the linker script that .cargo/config.toml names
@@ -56,8 +64,14 @@ fn result(line: &str) -> Option<(u64, u64)> {
     Some((number("passed")?, number("failed")?))
 }
 
-fn refused(arguments: &[&str]) -> String {
-    format!("cargo {} did not pass", arguments.join(" "))
+fn refused(program: &OsStr, arguments: &[&str]) -> String {
+    format!("{} did not pass", line(program, arguments))
+}
+
+/// What to type.
+fn line(program: &OsStr, arguments: &[&str]) -> String {
+    let name = Path::new(program).file_name().unwrap_or(program);
+    format!("{} {}", name.display(), arguments.join(" "))
 }
 
 #[cfg(test)]

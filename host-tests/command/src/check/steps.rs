@@ -8,18 +8,19 @@ use driveline_firmware::scenes::VARIANTS;
 
 use super::comparison::Comparison;
 use super::{Count, Failed, Step, Voice, cargo};
-use driveline_qemu::clone::workspace;
+use driveline_qemu::clone::{target_directory, workspace};
 use driveline_qemu::image::{ON_NUCLEO, Program, belongs, build};
 use driveline_qemu::measure::budgets::Budgets;
 use driveline_qemu::measure::{Cost, self_test};
 use driveline_qemu::setup;
 
 /// All steps; the firmware, which is built board beside board, before the tests that use its images one by one.
-pub const STEPS: [Step; 8] = [
+pub const STEPS: [Step; 9] = [
     Step { name: "setup", repeat: "cargo driveline check --only setup", run: setup_step },
     Step { name: "format", repeat: "cargo fmt --check", run: format },
     Step { name: "clippy", repeat: "cargo driveline check --only clippy", run: clippy },
-    Step { name: "packages", repeat: "cargo package --workspace --no-verify --allow-dirty --offline", run: packages },
+    Step { name: "packages", repeat: "cargo driveline check --only packages", run: packages },
+    Step { name: "book", repeat: "mdbook build doc", run: book },
     Step { name: "firmware", repeat: "cargo driveline check --only firmware", run: firmware },
     Step { name: "tests", repeat: "cargo test --workspace --exclude driveline-defmt-log --no-fail-fast", run: tests },
     Step { name: "self-tests", repeat: "cargo driveline check --only self-tests", run: self_tests },
@@ -49,14 +50,13 @@ fn format(voice: &Voice) -> Result<Count, Failed> {
     cargo::passes(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), voice)
 }
 
-/// The host's workspace, the library with every feature and its documentation, then the firmware as each core sees it.
+/// The workspace with every feature of the library, its documentation, then the firmware as each core sees it.
 fn clippy(voice: &Voice) -> Result<Count, Failed> {
-    let host = ["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"];
-    let mut count = cargo::passes(&host, voice)?;
-    let features = ["clippy", "--package=driveline", "--all-features", "--", "-D", "warnings"];
-    count.passed += cargo::passes(&features, voice)?.passed;
-    let links = ["rustdoc", "--package=driveline", "--all-features", "--", "-D", "warnings"];
-    count.passed += cargo::passes(&links, voice)?.passed;
+    // the other crates ask for all other features
+    let all = "--features=driveline/defmt";
+    let mut count = cargo::passes(&["clippy", "--workspace", "--all-targets", all, "--", "-D", "warnings"], voice)?;
+    let deny = "--config=build.rustdocflags=['-D','warnings']";
+    count.passed += cargo::passes(&["doc", deny, "--workspace", "--no-deps", all], voice)?.passed;
     for board in BOARDS {
         let target = format!("--target={}", board.target);
         // the board with a motor is linted with the others of its core, of which the binaries for QEMU take theirs
@@ -70,9 +70,15 @@ fn clippy(voice: &Voice) -> Result<Count, Failed> {
     Ok(count)
 }
 
-/// Every crate can be packaged for the registry; what they are packed from has been compiled by the step before.
+/// Every crate can be published, in order; what they are packed from has been compiled by the step before.
 fn packages(voice: &Voice) -> Result<Count, Failed> {
-    cargo::passes(&["package", "--workspace", "--no-verify", "--allow-dirty", "--offline"], voice)
+    cargo::passes(&["publish", "--workspace", "--dry-run", "--no-verify", "--allow-dirty"], voice)
+}
+
+/// The book builds; a test checks its links.
+fn book(voice: &Voice) -> Result<Count, Failed> {
+    let place = target_directory().map_err(Failed::whole)?.join("book").display().to_string();
+    cargo::program_passes(&setup::mdbook(), &["build", "doc", "--dest-dir", &place], voice)
 }
 
 fn tests(voice: &Voice) -> Result<Count, Failed> {

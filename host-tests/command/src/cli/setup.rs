@@ -7,7 +7,7 @@ use super::{Failure, say, say_json};
 use driveline_qemu::clone::workspace;
 use driveline_qemu::setup::{Need, ensure, missing};
 
-/// Install what is missing: Rust targets, rustfmt, clippy, QEMU for Arm.
+/// Install what is missing: Rust targets, rustfmt, clippy, QEMU for Arm, mdbook.
 ///
 /// Uses rustup and the system's package manager where it may; otherwise the exact command to type is printed. The other
 /// commands install what they need by themselves. Nothing is ever removed.

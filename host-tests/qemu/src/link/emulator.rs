@@ -31,10 +31,7 @@ impl Emulator {
 
     /// The folder of the private copy: `driveline/qemu` in the user's cache, else among temporary files.
     pub fn folder() -> PathBuf {
-        let cache = env::var_os("XDG_CACHE_HOME").map(PathBuf::from).filter(|path| path.is_absolute());
-        let home = || env::var_os("HOME").filter(|home| !home.is_empty());
-        let cache = cache.or_else(|| Some(PathBuf::from(home()?).join(".cache")));
-        cache.unwrap_or_else(env::temp_dir).join("driveline").join("qemu")
+        crate::cache::folder("qemu")
     }
 
     /// A command that starts it.

@@ -1,10 +1,11 @@
 //! Prerequisites beside Rust: found, and installed where permitted.
 //!
-//! Needed: the compiler's targets of the boards, `rustfmt` and `clippy`, and QEMU for Arm. Rust's own parts come
-//! through `rustup`, QEMU through the system's package manager as root or through `sudo` without a password. Nothing is
-//! ever removed: where `apt-get` would have to, or may not be used, QEMU is unpacked into the user's cache. A failed
-//! installation is an error with the command to type.
+//! Needed: the compiler's targets of the boards, `rustfmt` and `clippy`, QEMU for Arm, and `mdbook` for the check.
+//! Rust's own parts come through `rustup`, QEMU through the system's package manager as root or through `sudo` without
+//! a password. Nothing is ever removed: where `apt-get` would have to, or may not be used, QEMU is unpacked into the
+//! user's cache. `mdbook` is compiled into that cache. A failed installation is an error with the command to type.
 
+mod book;
 mod packages;
 mod private_copy;
 mod programs;
@@ -17,7 +18,9 @@ use std::process::Command;
 use driveline_firmware::board::{BOARDS, FURTHER, Facts};
 
 use crate::link::{Emulator, QEMU};
+pub use book::mdbook;
 use packages::{Manager, Rights};
+pub use programs::cargo;
 use programs::succeeds;
 use runner::Runner;
 
@@ -30,6 +33,8 @@ pub enum Need {
     Component(&'static str, &'static str),
     /// QEMU for Arm.
     Qemu,
+    /// `mdbook`, which builds the book.
+    Book,
 }
 
 /// Something that is needed and could not be installed.
@@ -45,10 +50,10 @@ pub struct SetupError {
 }
 
 impl Need {
-    /// All that is needed: to build for every board, to run in QEMU, to check the source.
+    /// All that is needed: to build for every board, to run in QEMU, to check the source and the book.
     pub fn all() -> Vec<Need> {
         let mut all = Self::to_build(BOARDS.iter().chain(FURTHER));
-        all.extend([Need::Component("rustfmt", "fmt"), Need::Component("clippy", "clippy"), Need::Qemu]);
+        all.extend([Need::Component("rustfmt", "fmt"), Need::Component("clippy", "clippy"), Need::Qemu, Need::Book]);
         all
     }
 
@@ -71,6 +76,7 @@ impl Need {
             Need::Target(target) => has_target(target),
             Need::Component(_, subcommand) => succeeds(&cargo(), &[subcommand, "--version"]),
             Need::Qemu => Emulator::find().is_some_and(|emulator| emulator.answers()),
+            Need::Book => book::answers(&mdbook()),
         }
     }
 
@@ -80,6 +86,7 @@ impl Need {
             Need::Target(target) => format!("the Rust target {target}"),
             Need::Component(name, _) => (*name).into(),
             Need::Qemu => QEMU.into(),
+            Need::Book => "mdbook".into(),
         }
     }
 }
@@ -104,6 +111,11 @@ fn install(need: &Need, runner: &mut Runner) -> Result<(), SetupError> {
         Need::Target(target) => rustup(need, &["rustup", "target", "add", target], runner),
         Need::Component(name, _) => rustup(need, &["rustup", "component", "add", name], runner),
         Need::Qemu => qemu(runner),
+        Need::Book => book::install(runner).map_err(|reason| SetupError {
+            what: need.name(),
+            reason,
+            command: book::command().join(" "),
+        }),
     }?;
     let command = "cargo driveline setup".to_owned();
     let reason = "it was installed and is still not found".to_owned();
@@ -161,11 +173,6 @@ fn installed(manager: Manager, rights: Rights, runner: &mut Runner) -> Result<()
         runner.say(&trial.sentence());
     }
     runner.run(&command)
-}
-
-/// The cargo that runs this program, else the one on the path.
-pub fn cargo() -> std::ffi::OsString {
-    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
 /// Whether the compiler has a standard library for a target; queries the compiler, so that it works without rustup.
