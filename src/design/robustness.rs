@@ -43,7 +43,11 @@ pub enum LoopObserver<'a> {
 }
 
 impl LoopObserver<'_> {
-    const fn close(&self, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<ClosedLoop, Error> {
+    /// The speed loop with this observer in it.
+    ///
+    /// # Errors
+    /// As [`ClosedLoop::of`].
+    pub const fn close(&self, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<ClosedLoop, Error> {
         match self {
             Self::TwoMass(design) => ClosedLoop::of(design, speed_loop, actuator),
             Self::Placed(design) => ClosedLoop::of_placed(design, speed_loop, actuator),

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use clap::{Args, Subcommand};
 
+use super::design::cause;
 use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
 use crate::campaign::compare::compare;
@@ -147,6 +148,10 @@ impl Campaign {
             .map_err(|error| error.to_string())
             .and_then(|machine| Drive::named(scene, &machine, self.drive.as_deref()))
             .map_err(Failure::usage)?;
+        let refused = scene.file().and_then(|file| file.designs.rigid_refused()).filter(|_| self.drive.is_none());
+        if let Some(lacks) = refused.filter(|_| !self.json) {
+            say(format_args!("two-mass: one mass would do, but lacks margin: with it, {}", cause(lacks)));
+        }
         let tolerances = self.tolerances(scene).map_err(Failure::usage)?;
         if let Some(number) = self.draw {
             return self.one(scene, &drive, &Draw::new(&tolerances, self.seed, number));

@@ -2,14 +2,14 @@
 
 use driveline::design::{
     ClosedLoop, Error, EstimateError, LoopObserver, ObserverChoice, ObserverSelection, Penalty, Plant, PredictedErrors,
-    RigidDesign, Robustness, SpeedLoopDesign, StepChoice, TwoMassDesign,
+    RigidDesign, StepChoice,
 };
 use driveline::machine::TwoMass;
 use driveline_report::format::{percent, significant};
 use serde::Serialize;
 
 use crate::machine_file::MachineFile;
-use crate::machine_file::designs::Designs;
+use crate::machine_file::designs::{Designs, NEGLECTED};
 
 /// The controller of a machine, in SI units at the motor.
 #[derive(Clone, Debug, Serialize)]
@@ -60,6 +60,8 @@ pub struct Predicted {
     pub observer: &'static str,
     /// Whether it is simpler than the one that the load cycle alone asks for.
     pub is_simpler: bool,
+    /// What the loop with one mass lacks of the margins, where that alone rules it out; `null` otherwise.
+    pub rigid_refused: Option<&'static str>,
     /// Of the observer of two masses.
     pub two_masses: Causes,
     /// Of the observer of one mass.
@@ -95,7 +97,9 @@ impl Predicted {
         };
         Self {
             observer: name(designs.selected.chosen),
-            is_simpler: designs.selected.chosen != designs.nominal.chosen,
+            is_simpler: designs.selected.chosen == ObserverChoice::Rigid
+                && designs.nominal.chosen != ObserverChoice::Rigid,
+            rigid_refused: designs.rigid_refused(),
             two_masses: causes(&designs.two_masses_errors),
             one_mass: causes(&designs.rigid_errors),
         }
@@ -178,26 +182,16 @@ pub struct SpeedLoop {
     pub spectral_radius: f64,
 }
 
-/// Two masses are stable, the machine is not.
-const NEGLECTED: &str = "the speed loop with its observer is unstable by a vibration that the two masses leave out: \
-    give its shafts their damping, or take less bandwidth";
-
 impl SpeedLoop {
-    fn of(
-        machine: &MachineFile,
-        two: &TwoMass,
-        observer: &TwoMassDesign,
-        governor: &SpeedLoopDesign,
-    ) -> Result<Self, Error> {
+    fn of(machine: &MachineFile, designs: &Designs) -> Result<Self, Error> {
+        let Designs { two, two_masses, speed_loop: governor, two_masses_lack, .. } = designs;
         let (actuator, tolerance) = (machine.actuator(), &machine.tolerance());
-        let closed = ClosedLoop::of(observer, governor, actuator)?;
-        let margins = Margins::of(machine, two, &closed);
-        let observer = LoopObserver::TwoMass(observer);
+        let observer = LoopObserver::TwoMass(two_masses);
+        let margins = Margins::of(machine, two, &observer.close(governor, actuator)?);
         let least = two.least_margins(observer, governor, actuator, tolerance);
-        let robust = two.try_robust(observer, governor, actuator, tolerance, &Robustness::USUAL);
-        let no_margins = margins.as_ref().err().map(|error| match robust {
-            Ok(()) => NEGLECTED,
-            Err(_) => error.message(),
+        let no_margins = margins.as_ref().err().map(|error| match two_masses_lack {
+            Some(NEGLECTED) => NEGLECTED,
+            _ => error.message(),
         });
         Ok(Self {
             proportional: governor.proportional,
@@ -208,7 +202,7 @@ impl SpeedLoop {
             margins: margins.ok(),
             // those of two masses, which mean nothing where the whole machine is unstable
             least_margins: least.ok().filter(|_| no_margins.is_none()).map(|least| LeastMargins::of(&least)),
-            not_robust: robust.err().map(Error::message).or(no_margins),
+            not_robust: *two_masses_lack,
             spectral_radius: governor.spectral_radius,
         })
     }
@@ -295,7 +289,7 @@ impl Plan {
         match machine.two_masses() {
             Some(two) => {
                 let designs = Designs::of(machine, &two)?;
-                let speed_loop = SpeedLoop::of(machine, &two, &designs.two_masses, &designs.speed_loop)?;
+                let speed_loop = SpeedLoop::of(machine, &designs)?;
                 Ok(Self::two_mass(machine, &designs, speed_loop).warned(machine))
             }
             None => {

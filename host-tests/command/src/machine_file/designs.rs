@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use driveline::configure::Rating;
 use driveline::design::{
     Actuator, Disturbance, Encoder, Error, LoadCycle, LoopObserver, ObserverChoice, ObserverSelection, Operation,
-    PredictedErrors, Rate, Requirement, RigidDesign, SpeedLoopDesign, SpeedLoopTuning, Spread, Tolerance,
-    TwoMassDesign,
+    Plant, PredictedErrors, Rate, Requirement, RigidDesign, Robustness, SpeedLoopDesign, SpeedLoopTuning, Spread,
+    StepChoice, Tolerance, TwoMassDesign,
 };
 use driveline::machine::{Match, TwoMass};
 
@@ -32,9 +32,18 @@ pub struct Designs {
     pub rigid_errors: PredictedErrors,
     /// The observer that the load cycle needs.
     pub nominal: ObserverSelection,
-    /// The observer over the tolerances.
+    /// The observer over the tolerances, of those whose loop has the usual margins.
     pub selected: ObserverSelection,
+    /// What the speed loop on two masses lacks of the usual margins, with all the machine's vibrations; `None` where it
+    /// has all.
+    pub two_masses_lack: Option<&'static str>,
+    /// The same with the observer of one mass.
+    pub rigid_lacks: Option<&'static str>,
 }
+
+/// Two masses are stable, the machine is not.
+pub const NEGLECTED: &str = "the speed loop with its observer is unstable by a vibration that the two masses leave \
+    out: give its shafts their damping, or take less bandwidth";
 
 impl Designs {
     /// Of a machine as two masses.
@@ -54,8 +63,38 @@ impl Designs {
         let rigid_errors = errors(LoopObserver::Rigid(&rigid));
         let period = 1.0 / f64::from(machine.control.rate_hz);
         let nominal = two.select_observer(&operation.cycle, &Requirement::USUAL, period);
-        let selected = nominal.over_tolerances(&rigid_errors.total(), &two_masses_errors.total());
-        Ok(Self { two: *two, two_masses, rigid, speed_loop, ramp, two_masses_errors, rigid_errors, nominal, selected })
+        let two_masses_lack = machine.lacks(two, LoopObserver::TwoMass(&two_masses), &speed_loop)?;
+        let rigid_lacks = machine.lacks(two, LoopObserver::Rigid(&rigid), &speed_loop)?;
+        let as_good = nominal.over_tolerances(&rigid_errors.total(), &two_masses_errors.total());
+        let selected = match as_good.chosen {
+            ObserverChoice::Rigid if rigid_lacks.is_some() => ObserverSelection {
+                chosen: match two_masses.chosen {
+                    StepChoice::SemiImplicit => ObserverChoice::SemiImplicit,
+                    StepChoice::Exact => ObserverChoice::Exact,
+                },
+                ..as_good
+            },
+            _ => as_good,
+        };
+        Ok(Self {
+            two: *two,
+            two_masses,
+            rigid,
+            speed_loop,
+            ramp,
+            two_masses_errors,
+            rigid_errors,
+            nominal,
+            selected,
+            two_masses_lack,
+            rigid_lacks,
+        })
+    }
+
+    /// Why one mass is not selected although its errors would do: what its loop lacks.
+    pub fn rigid_refused(&self) -> Option<&'static str> {
+        let as_good = self.nominal.over_tolerances(&self.rigid_errors.total(), &self.two_masses_errors.total());
+        self.rigid_lacks.filter(|_| as_good.chosen == ObserverChoice::Rigid)
     }
 
     /// Whether one mass is chosen over the tolerances.
@@ -106,6 +145,24 @@ impl MachineFile {
         let bandwidth = self.actuator.bandwidth;
         let lag = bandwidth.map_or(0.0, |bandwidth| 1.0 / (2.0 * PI * bandwidth));
         Actuator { delay: self.actuator.delay, lag }
+    }
+
+    /// What a speed loop lacks within the tolerances: 6 dB, 30 degrees, stability with two masses or with all the
+    /// machine's vibrations. `None` where it has all.
+    ///
+    /// # Errors
+    /// An actuator or a rate that the loop cannot have.
+    fn lacks(
+        &self,
+        two: &TwoMass,
+        observer: LoopObserver<'_>,
+        speed_loop: &SpeedLoopDesign,
+    ) -> Result<Option<&'static str>, Error> {
+        let closed = observer.close(speed_loop, self.actuator())?;
+        let robust = two.try_robust(observer, speed_loop, self.actuator(), &self.tolerance(), &Robustness::USUAL);
+        let plant = Plant::of_modes(two.total_inertia(), &self.modes());
+        let neglected = (!closed.is_stable(&plant, 1.0)).then_some(NEGLECTED);
+        Ok(robust.err().map(Error::message).or(neglected))
     }
 
     /// Range of a factor, where it has one.
