@@ -10,6 +10,7 @@
 //!
 //! A draw depends on its number and the seed alone, so that neither threads nor shards change a result.
 
+mod blow;
 pub mod compare;
 mod draw;
 pub mod drive;
@@ -21,6 +22,7 @@ mod plain;
 mod preparation;
 pub mod real;
 pub mod record;
+pub mod ring_down;
 pub mod run;
 pub mod scenes;
 mod statistics;

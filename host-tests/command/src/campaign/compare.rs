@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::figure::{Figure, Outcome};
 use super::record::Settings;
@@ -22,15 +22,25 @@ pub struct Ratio {
     /// The second's.
     pub second: (f64, f64),
     /// Median of the ratios.
+    #[serde(serialize_with = "finite_or_word")]
     pub median: f64,
     /// Nine ratios of ten are not worse.
+    #[serde(serialize_with = "finite_or_word")]
     pub p90: f64,
     /// The worst.
+    #[serde(serialize_with = "finite_or_word")]
     pub worst: f64,
     /// The draw of the worst.
     pub worst_draw: u64,
     /// Share of the draws in which the first drive is not worse than the second.
     pub not_worse: f64,
+}
+
+/// Of a decay beside a swing that does not decay. JSON has no number for it.
+const INFINITE: &str = "infinite";
+
+fn finite_or_word<S: Serializer>(ratio: &f64, to: S) -> Result<S::Ok, S::Error> {
+    if *ratio == f64::INFINITY { to.serialize_str(INFINITE) } else { to.serialize_f64(*ratio) }
 }
 
 /// Two campaigns over the same draws.
@@ -53,7 +63,7 @@ const COMPARED: [Figure; 7] = [
     Figure::LoadTorque,
     Figure::Peak,
     Figure::DynamicPeak,
-    Figure::Decay,
+    Figure::RingDown,
     Figure::Residual,
 ];
 
@@ -78,9 +88,9 @@ pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
     let ratio = |figure: Figure| {
         let pairs = first.1.iter().filter_map(|(number, one)| Some((*number, one, second.1.get(number)?)));
         // a part of a peak that is not there has no ratio; beside a swing that does not decay any decay is better
-        let pairs = pairs.filter(|(_, _, other)| figure == Figure::Decay || !(other.of(figure) <= 0.0));
+        let pairs = pairs.filter(|(_, _, other)| figure.is_decay() || !(other.of(figure) <= 0.0));
         let over = |one: f64, other: f64| match one / other {
-            _ if figure == Figure::Decay && other <= 0.0 => {
+            _ if figure.is_decay() && other <= 0.0 => {
                 if one >= other {
                     f64::INFINITY
                 } else {
@@ -136,7 +146,8 @@ impl Comparison {
             "first not worse in",
         ]);
         for r in &self.ratios {
-            let [median, p90, worst] = [r.median, r.p90, r.worst].map(significant);
+            let ratio = |ratio: f64| if ratio == f64::INFINITY { INFINITE.to_owned() } else { significant(ratio) };
+            let [median, p90, worst] = [r.median, r.p90, r.worst].map(ratio);
             let text = |value: f64| if r.unit.is_empty() { percent(value) } else { significant(value) };
             let [first, second] = [r.first, r.second].map(|(median, p90)| format!("{}, {}", text(median), text(p90)));
             let draw = r.worst_draw.to_string();

@@ -47,8 +47,10 @@ figures! {
     Peak = "peak of the shaft torque", "";
     /// What the peak exceeds the torque by that load and ramp require, of rated torque.
     DynamicPeak = "dynamic part of the peak", "";
-    /// Decay of the swing at the end of the run.
-    Decay = "decay of the swing", "1/s";
+    /// Decay of the slowest swing after a blow on the load.
+    RingDown = "decay of the slowest swing", "1/s";
+    /// Decay of the motion that is left at the end of the run.
+    Decay = "decay of the motion at the end", "1/s";
     /// Swing of the shaft torque that is left at the end of the run, rms, of rated torque.
     Residual = "swing left at the end", "";
     /// The same where it is sustained without noise and errors of the encoder; 0 where it decays.
@@ -58,9 +60,14 @@ figures! {
 }
 
 impl Figure {
+    /// Whether more of it is better.
+    pub const fn is_decay(self) -> bool {
+        matches!(self, Self::Decay | Self::RingDown)
+    }
+
     /// A number that grows as the figure gets worse: of the decay its negative.
     pub const fn badness(self, value: f64) -> f64 {
-        if matches!(self, Self::Decay) { -value } else { value }
+        if self.is_decay() { -value } else { value }
     }
 }
 
@@ -90,6 +97,13 @@ impl Outcome {
     /// Whether a swing of more than 5 % of rated torque is left at the end, for whatever reason.
     pub fn swings(&self) -> bool {
         !(self.of(Figure::Residual) <= 0.05)
+    }
+
+    /// With the decay of the slowest swing [1/s].
+    #[must_use]
+    pub const fn with_ring_down(mut self, decay: f64) -> Self {
+        self.0[Figure::RingDown as usize] = decay;
+        self
     }
 
     /// With the swing that is left in a run without noise and errors of the encoder: sustained where its amplitude
@@ -174,6 +188,11 @@ impl Gathering {
         }
     }
 
+    /// Mean of the shaft torque in the second half of the free part [N m].
+    pub fn carried(&self) -> f64 {
+        self.last.1 / self.last.0
+    }
+
     /// The figures.
     pub fn outcome(&self) -> Outcome {
         let Scale { torque, speed, free, .. } = self.scale;
@@ -192,6 +211,7 @@ impl Gathering {
             rms(0) / self.peak,
             self.peak / torque,
             (self.peak - self.required) / torque,
+            0.0,
             decay(self.energy.1 / self.energy.0, free.1 - free.0),
             (squares / count - mean * mean).max(0.0).sqrt() / torque,
             0.0,

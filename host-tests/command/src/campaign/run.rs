@@ -2,6 +2,7 @@
 
 use driveline_firmware::scene::Input;
 
+use super::blow::End;
 use super::draw::Draw;
 use super::drive::Drive;
 use super::figure::{Gathering, Outcome, Scale};
@@ -10,7 +11,7 @@ use super::scenes::CampaignScene;
 use crate::closed_loop::actuator::ActuatorErrors;
 use crate::closed_loop::encoder_errors::EncoderErrors;
 use crate::closed_loop::ticks::Ticks;
-use crate::drivetrains::lockstep::{Imperfections, follow};
+use crate::drivetrains::lockstep::{Imperfections, LockStep, follow};
 use crate::drivetrains::scenario::{Machine, Scenario};
 
 /// Runs a draw. One that swings at the end runs again without noise and errors of the encoder, to find out whether the
@@ -28,18 +29,19 @@ pub fn run(scene: &CampaignScene, drive: &Drive, draw: &Draw) -> Result<Outcome,
     imperfections.actuator.lag += scene.actuator.lag;
     let prepared = preparation(scene.name, drive, &draw.departure()).map_err(|error| wrong(&error))?;
     let follow = |machine: &Machine, imperfections: &Imperfections| {
-        let mut ticking = drive.start(scene, machine).map_err(|error| wrong(&error))?;
-        follow_draw(scene, drive, machine, &prepared, &scenario, imperfections, &mut ticking)
-            .map_err(|error| wrong(&error))
+        let ticking = drive.start(scene, machine).map_err(|error| wrong(&error))?;
+        follow_draw(scene, drive, machine, &prepared, &scenario, imperfections, ticking).map_err(|error| wrong(&error))
     };
-    let outcome = follow(&machine, &imperfections)?;
+    let (outcome, end) = follow(&machine, &imperfections)?;
+    let decay = end.ring_down(scene, drive, &machine, &scenario).map_err(|error| wrong(&error))?;
+    let outcome = outcome.with_ring_down(decay);
     if !outcome.swings() {
         return Ok(outcome);
     }
     let encoder = EncoderErrors::default();
     let actuator = ActuatorErrors { cogging: 0.0, ..imperfections.actuator };
     let quiet = Machine { torque_noise: 0.0, ..scene.departing(&draw.departure()).map_err(|error| wrong(&error))? };
-    let quiet = follow(&quiet, &Imperfections { encoder, actuator, ..imperfections })?;
+    let (quiet, _) = follow(&quiet, &Imperfections { encoder, actuator, ..imperfections })?;
     Ok(outcome.with_sustained(&quiet, scene.free.1 - scene.free.0))
 }
 
@@ -50,8 +52,8 @@ fn follow_draw(
     prepared: &[Scenario],
     scenario: &Scenario,
     imperfections: &Imperfections,
-    ticking: &mut Box<dyn Ticks>,
-) -> std::io::Result<Outcome> {
+    mut ticking: Box<dyn Ticks>,
+) -> std::io::Result<(Outcome, End)> {
     let units = drive.units(machine);
     let mut plant = scenario.plant.unrecorded();
     let mut gathering = Gathering::new(Scale {
@@ -62,18 +64,22 @@ fn follow_draw(
     });
     let step = scene.ramp / f64::from(drive.rate_hz());
     let mut ramped = 0.0_f64;
+    let mut inputs = Vec::new();
     for (before, run) in (1..).zip(prepared) {
         // other noise in each run
         let imperfections = Imperfections { seed: imperfections.seed ^ before, ..*imperfections };
         let mut plant = run.plant.unrecorded();
-        follow(machine, run, &units, drive.rate_hz(), &imperfections, ticking, &mut plant, |_, _| {})?;
+        let each = |_: &_, (input, _)| inputs.push(input);
+        follow(machine, run, &units, drive.rate_hz(), &imperfections, &mut ticking, &mut plant, each)?;
     }
     let each = |moment: &_, (input, _): (Input, _)| {
         let target = if input.flags & Input::RELEASED == 0 { ramped } else { units.speed(input.setpoint) };
         let change = (target - ramped).clamp(-step, step);
         ramped += change;
         gathering.add(moment, change / step * scene.ramp);
+        inputs.push(input);
     };
-    follow(machine, scenario, &units, drive.rate_hz(), imperfections, ticking, &mut plant, each)?;
-    Ok(gathering.outcome())
+    let mut between = LockStep::new(&plant, imperfections, drive.rate_hz());
+    between.follow(machine, scenario, &units, &mut ticking, &mut plant, each)?;
+    Ok((gathering.outcome(), End { plant, between, inputs, carried: gathering.carried() }))
 }

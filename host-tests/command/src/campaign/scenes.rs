@@ -39,6 +39,8 @@ pub struct CampaignScene {
     pub speed_loop: SpeedLoopDesign,
     /// From when to when nothing excites the swing at the end of the run (s); the run goes on until then.
     pub free: (f64, f64),
+    /// Resonance of its two masses [rad/s].
+    pub resonance: f64,
 }
 
 /// Where a scene's machine comes from.
@@ -68,6 +70,7 @@ impl CampaignScene {
             ramp: case.designs.ramp,
             speed_loop: case.designs.speed_loop,
             free: case.free(),
+            resonance: case.designs.two.resonance(),
         })
     }
 
@@ -108,6 +111,7 @@ impl CampaignScene {
             ramp: M::RAMP,
             speed_loop: M::SPEED_LOOP,
             free,
+            resonance: M::TWO_MASS.resonance(),
         }
     }
 

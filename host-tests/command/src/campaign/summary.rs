@@ -114,7 +114,7 @@ impl Drawn {
 
 /// The figures that the factors are ranked by.
 const RANKED: [Figure; 5] =
-    [Figure::ShaftTorque, Figure::LoadSpeed, Figure::LoadTorque, Figure::DynamicPeak, Figure::Decay];
+    [Figure::ShaftTorque, Figure::LoadSpeed, Figure::LoadTorque, Figure::DynamicPeak, Figure::RingDown];
 
 /// Factors of a figure in the table.
 const SHOWN: usize = 4;

@@ -104,92 +104,157 @@ pub fn follow(
     imperfections: &Imperfections,
     drive: &mut impl Ticks,
     plant: &mut Body,
-    mut seen: impl FnMut(&Moment, (Input, Output)),
+    seen: impl FnMut(&Moment, (Input, Output)),
 ) -> io::Result<()> {
-    let period = 1.0 / f64::from(rate_hz);
-    let ticks = (scenario.duration * f64::from(rate_hz)).round() as usize;
-    let node = machine.load;
-    let start = plant.motor_angle();
-    let mut noise = Noise::new(1_u64.wrapping_add(imperfections.seed));
-    // apart from the torque's noise, which is the same with all imperfections
-    let mut timing = Noise::new(!imperfections.seed);
-    let mut actuator = Actuator::new(imperfections.actuator, period);
-    let mut actions = scenario.actions.iter().peekable();
-    let (mut setpoint, mut released) = (0.0, false);
-    let (mut command, mut reported) = (0.0, 0.0_f64);
-    let (mut tripped, mut brake) = (false, 0.0);
-    // a request waits for a tick that runs
-    let mut asked = [0; 2];
-    for tick in 0..ticks {
-        let time = tick as f64 * period;
-        // An action belongs to the tick that it falls on: half a period of slack against rounding.
-        while let Some((_, action)) = actions.next_if(|(at, _)| *at < time + 0.5 * period) {
-            match *action {
-                Action::Setpoint(speed) => setpoint = speed,
-                Action::Release => released = true,
-                Action::Load(node, torque) => plant.set_load_torque(node, torque),
-                Action::Brake(node, torque) => {
-                    plant.set_brake(node, torque);
-                    if machine.told_brake == Some(node) {
-                        brake = torque;
-                    }
-                }
-                Action::Rope(shaft, stiffness, damping) => plant.set_shaft(shaft, stiffness, damping),
-                Action::Panel(key, value) => asked = [key, value.to_bits()],
-                Action::Trip => tripped = true,
-            }
+    LockStep::new(plant, imperfections, rate_hz).follow(machine, scenario, units, drive, plant, seen)
+}
+
+/// What a plant and a drive have between them, from a run's start on.
+#[derive(Clone, Debug)]
+pub struct LockStep {
+    imperfections: Imperfections,
+    period: f64,
+    noise: Noise,
+    /// Apart from the torque's noise, which is the same with all imperfections.
+    timing: Noise,
+    actuator: Actuator,
+    /// Angle of the motor at the start \[rad\].
+    start: f64,
+    setpoint: f64,
+    released: bool,
+    command: f64,
+    reported: f64,
+    tripped: bool,
+    brake: f64,
+    /// A request waits for a tick that runs.
+    asked: [u32; 2],
+}
+
+impl LockStep {
+    /// At a plant's start.
+    pub fn new(plant: &Body, imperfections: &Imperfections, rate_hz: u32) -> Self {
+        let period = 1.0 / f64::from(rate_hz);
+        Self {
+            imperfections: *imperfections,
+            period,
+            noise: Noise::new(1_u64.wrapping_add(imperfections.seed)),
+            timing: Noise::new(!imperfections.seed),
+            actuator: Actuator::new(imperfections.actuator, period),
+            start: plant.motor_angle(),
+            setpoint: 0.0,
+            released: false,
+            command: 0.0,
+            reported: 0.0,
+            tripped: false,
+            brake: 0.0,
+            asked: [0; 2],
         }
-        if let Some(law) = scenario.law {
-            let torque = (law.torque)(plant);
-            plant.set_load_torque(law.node, torque);
-        }
-        let torque_noise = machine.torque_noise * noise.normal();
-        let missed = imperfections.missed_ticks > 0.0 && 0.5 * (timing.uniform() + 1.0) < imperfections.missed_ticks;
-        let exchanged = if missed {
-            None
-        } else {
-            // Reported torque of brake and friction in the tick that has ended. At rest friction balances the motor;
-            // the torque of a closed brake is then unknown.
-            let (friction, brake) = if released { (machine.told_friction, brake) } else { (0.0, 0.0) };
-            let slipping = match plant.motor_speed() {
-                0.0 => -reported.clamp(-friction, friction),
-                speed => -(friction + brake) * speed.signum(),
-            };
-            let late = if imperfections.encoder.jitter > 0.0 { timing.normal() } else { 0.0 };
-            let angle = imperfections.encoder.seen(plant.motor_angle() - start, plant.motor_speed(), late);
-            let input = Input {
-                angle: machine.encoder.read(angle),
-                torque: units.torque_word(reported + slipping + torque_noise),
-                setpoint: if released { units.speed_word(setpoint) } else { units.torque_word(scenario.held) },
-                flags: if released { Input::RELEASED } else { 0 },
-                asked: std::mem::take(&mut asked),
-                ..Input::default()
-            };
-            let output = drive.tick(&input)?;
-            command = units.torque(output.torque);
-            Some((input, output))
-        };
-        let applied;
-        (applied, reported) = if tripped { (0.0, 0.0) } else { actuator.torques(command, plant.motor_angle()) };
-        if let Some((input, output)) = exchanged {
-            let moment = Moment {
-                time,
-                torque: applied,
-                motor_speed: plant.motor_speed(),
-                truth: [(machine.shaft_torque)(plant), plant.speed(node), (machine.load_torque)(plant)],
-                estimate: [
-                    units.torque(output.shaft_torque),
-                    units.speed(output.load_speed),
-                    units.torque(output.load_torque),
-                ],
-                momentum: plant.momentum(),
-                open: plant.is_open(),
-                faults: output.faults,
-                instructions: output.instructions,
-            };
-            seen(&moment, (input, output));
-        }
-        plant.advance(applied, period);
     }
-    Ok(())
+
+    /// Goes on with a scenario to its end, as [`follow`].
+    ///
+    /// # Errors
+    /// What the drive's link says.
+    pub fn follow(
+        &mut self,
+        machine: &Machine,
+        scenario: &Scenario,
+        units: &Units,
+        drive: &mut impl Ticks,
+        plant: &mut Body,
+        mut seen: impl FnMut(&Moment, (Input, Output)),
+    ) -> io::Result<()> {
+        let Self {
+            imperfections,
+            period,
+            noise,
+            timing,
+            actuator,
+            start,
+            setpoint,
+            released,
+            command,
+            reported,
+            tripped,
+            brake,
+            asked,
+        } = self;
+        let period = *period;
+        let ticks = (scenario.duration / period).round() as usize;
+        let node = machine.load;
+        let mut actions = scenario.actions.iter().peekable();
+        for tick in 0..ticks {
+            let time = tick as f64 * period;
+            // An action belongs to the tick that it falls on: half a period of slack against rounding.
+            while let Some((_, action)) = actions.next_if(|(at, _)| *at < time + 0.5 * period) {
+                match *action {
+                    Action::Setpoint(speed) => *setpoint = speed,
+                    Action::Release => *released = true,
+                    Action::Load(node, torque) => plant.set_load_torque(node, torque),
+                    Action::Brake(node, torque) => {
+                        plant.set_brake(node, torque);
+                        if machine.told_brake == Some(node) {
+                            *brake = torque;
+                        }
+                    }
+                    Action::Rope(shaft, stiffness, damping) => plant.set_shaft(shaft, stiffness, damping),
+                    Action::Panel(key, value) => *asked = [key, value.to_bits()],
+                    Action::Trip => *tripped = true,
+                }
+            }
+            if let Some(law) = scenario.law {
+                let torque = (law.torque)(plant);
+                plant.set_load_torque(law.node, torque);
+            }
+            let torque_noise = machine.torque_noise * noise.normal();
+            let missed =
+                imperfections.missed_ticks > 0.0 && 0.5 * (timing.uniform() + 1.0) < imperfections.missed_ticks;
+            let exchanged = if missed {
+                None
+            } else {
+                // Reported torque of brake and friction in the tick that has ended. At rest friction balances the motor;
+                // the torque of a closed brake is then unknown.
+                let (friction, brake) = if *released { (machine.told_friction, *brake) } else { (0.0, 0.0) };
+                let slipping = match plant.motor_speed() {
+                    0.0 => -reported.clamp(-friction, friction),
+                    speed => -(friction + brake) * speed.signum(),
+                };
+                let late = if imperfections.encoder.jitter > 0.0 { timing.normal() } else { 0.0 };
+                let angle = imperfections.encoder.seen(plant.motor_angle() - *start, plant.motor_speed(), late);
+                let input = Input {
+                    angle: machine.encoder.read(angle),
+                    torque: units.torque_word(*reported + slipping + torque_noise),
+                    setpoint: if *released { units.speed_word(*setpoint) } else { units.torque_word(scenario.held) },
+                    flags: if *released { Input::RELEASED } else { 0 },
+                    asked: std::mem::take(asked),
+                    ..Input::default()
+                };
+                let output = drive.tick(&input)?;
+                *command = units.torque(output.torque);
+                Some((input, output))
+            };
+            let applied;
+            (applied, *reported) = if *tripped { (0.0, 0.0) } else { actuator.torques(*command, plant.motor_angle()) };
+            if let Some((input, output)) = exchanged {
+                let moment = Moment {
+                    time,
+                    torque: applied,
+                    motor_speed: plant.motor_speed(),
+                    truth: [(machine.shaft_torque)(plant), plant.speed(node), (machine.load_torque)(plant)],
+                    estimate: [
+                        units.torque(output.shaft_torque),
+                        units.speed(output.load_speed),
+                        units.torque(output.load_torque),
+                    ],
+                    momentum: plant.momentum(),
+                    open: plant.is_open(),
+                    faults: output.faults,
+                    instructions: output.instructions,
+                };
+                seen(&moment, (input, output));
+            }
+            plant.advance(applied, period);
+        }
+        Ok(())
+    }
 }

@@ -13,6 +13,7 @@ mod machine_file;
 #[path = "../references/mod.rs"]
 mod references;
 mod replay;
+mod ring_down;
 mod rotor;
 #[path = "../../../report/tests/report/sample.rs"]
 mod sample;

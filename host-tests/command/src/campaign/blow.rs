@@ -1,0 +1,128 @@
+//! A blow on the load at the end of a run, and the decay of the swing that answers it.
+//!
+//! Two copies of the run go on, in one of which the load is given a short blow of torque. Noise, errors of the encoder,
+//! cogging and whatever still settles are the same in both. The difference of the plants' own shaft torques is the
+//! answer to the blow alone.
+//!
+//! A machine with a gap is first struck as it is. A swing of which more than half is left after two thirds of the time
+//! is sustained: the decay is that of its rms, but at most zero. Where it dies away, the machine is struck again under a load
+//! that keeps the gap closed.
+
+use core::f64::consts::TAU;
+
+use driveline_firmware::scene::Input;
+
+use super::drive::Drive;
+use super::ring_down::slowest;
+use super::scenes::CampaignScene;
+use crate::closed_loop::ticks::Ticks;
+use crate::drivetrains::lockstep::{LockStep, Moment};
+use crate::drivetrains::plant::Body;
+use crate::drivetrains::scenario::{Action, Machine, Scenario};
+
+/// Most of the answer's swing, of rated torque: the drive's torque stays within its limit.
+const SWING: f64 = 0.2;
+/// The same, of the shaft torque that is carried, where a rope would go slack.
+const OF_CARRIED: f64 = 0.5;
+/// Load that keeps a gap closed, of rated torque.
+const CLOSING: f64 = 0.3;
+/// Periods of the resonance that it settles for: at a damping ratio of 0.05 to a twentieth.
+const SETTLING: f64 = 10.0;
+/// Samples of a period of the resonance, where its ticks are so many.
+const OF_PERIOD: f64 = 24.0;
+/// Swing of the shaft torque that noise makes at the most, rms of rated torque.
+const NOISE: f64 = 0.02;
+/// Samples of an answer: ten periods of the resonance or more.
+const SAMPLES: usize = 240;
+
+/// A run at its end.
+pub struct End {
+    /// The plant.
+    pub plant: Body,
+    /// What it and the drive have between them.
+    pub between: LockStep,
+    /// All that the drive was given, by which another is brought to the same state.
+    pub inputs: Vec<Input>,
+    /// Mean of the shaft torque before the end [N m].
+    pub carried: f64,
+}
+
+impl End {
+    /// Decay of the slowest swing after a blow [1/s]: zero or below where it is sustained, the resonance where nothing
+    /// swings.
+    ///
+    /// # Errors
+    /// What the drive says.
+    pub fn ring_down(
+        &self,
+        scene: &CampaignScene,
+        drive: &Drive,
+        machine: &Machine,
+        scenario: &Scenario,
+    ) -> Result<f64, String> {
+        let (rate, gap) = (f64::from(drive.rate_hz()), self.plant.has_backlash());
+        let period = TAU / scene.resonance;
+        // an eighth of a period excites machines of up to four times the resonance
+        let lasts = period / 8.0;
+        let ticks = (period * rate / OF_PERIOD).round().max(1.0) as usize;
+        let after = |closing: f64, blow: f64| {
+            let settled = if closing == 0.0 { 0.0 } else { SETTLING * period };
+            let load = |torque: f64| Action::Load(machine.load, scenario.held + closing + torque);
+            let skipped = ((settled + lasts) * rate).ceil() as usize;
+            let after = Scenario {
+                actions: vec![(0.0, load(0.0)), (settled, load(blow)), (settled + lasts, load(0.0))],
+                duration: (skipped + SAMPLES * ticks) as f64 / rate,
+                ..scenario.clone()
+            };
+            let torques = self.go_on(scene, drive, machine, &after)?;
+            let mean = |ticks: &[f64]| ticks.iter().sum::<f64>() / ticks.len() as f64;
+            Ok::<Vec<f64>, String>(torques[skipped..].chunks_exact(ticks).map(mean).collect())
+        };
+        let every = ticks as f64 / rate;
+        let most = SWING * scene.rated_torque;
+        if gap {
+            let swing = after(0.0, 0.5 * most)?;
+            let [first, last] = [&swing[..SAMPLES / 3], &swing[SAMPLES - SAMPLES / 3..]].map(deviation);
+            if last > NOISE * scene.rated_torque && last > 0.5 * first {
+                let decay = (first / last).ln() / ((SAMPLES - SAMPLES / 3) as f64 * every);
+                return Ok(decay.clamp(-scene.resonance, 0.0));
+            }
+        }
+        let (closing, most) = match (gap, scenario.held != 0.0) {
+            (true, _) => ((CLOSING * scene.rated_torque).copysign(self.carried), most),
+            (false, true) => (0.0, most.min(OF_CARRIED * self.carried.abs())),
+            (false, false) => (0.0, most),
+        };
+        // a load torque b swings the shaft by at most 2 b
+        let (struck, left) = (after(closing, 0.5 * most)?, after(closing, 0.0)?);
+        let answer: Vec<f64> = struck.iter().zip(&left).map(|(struck, left)| struck - left).collect();
+        Ok(slowest(&answer, every, scene.resonance))
+    }
+
+    /// The shaft torques of a copy that goes on with a scenario [N m], a tick each.
+    fn go_on(
+        &self,
+        scene: &CampaignScene,
+        drive: &Drive,
+        machine: &Machine,
+        scenario: &Scenario,
+    ) -> Result<Vec<f64>, String> {
+        let mut ticking = drive.start(scene, machine)?;
+        let mut follow = || {
+            for input in &self.inputs {
+                ticking.tick(input)?;
+            }
+            let (mut plant, mut between, mut torques) = (self.plant.clone(), self.between.clone(), Vec::new());
+            let each = |moment: &Moment, _| torques.push(moment.truth[0]);
+            between.follow(machine, scenario, &drive.units(machine), &mut ticking, &mut plant, each)?;
+            Ok(torques)
+        };
+        follow().map_err(|error: std::io::Error| error.to_string())
+    }
+}
+
+/// Standard deviation.
+fn deviation(values: &[f64]) -> f64 {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64).sqrt()
+}
