@@ -5,8 +5,8 @@
 //! answer to the blow alone.
 //!
 //! A machine with a gap is first struck as it is. A swing of which more than half is left after two thirds of the time
-//! is sustained: the decay is that of its rms, but at most zero. Where it dies away, the machine is struck again under a load
-//! that keeps the gap closed.
+//! is sustained: the decay is that of its rms, but at most zero. Where it dies away, the machine is struck again under
+//! a load that keeps the gap closed.
 
 use core::f64::consts::TAU;
 
@@ -43,12 +43,12 @@ pub struct End {
     pub between: LockStep,
     /// All that the drive was given, by which another is brought to the same state.
     pub inputs: Vec<Input>,
-    /// Mean of the shaft torque before the end [N m].
+    /// Mean of the shaft torque before the end (N m).
     pub carried: f64,
 }
 
 impl End {
-    /// Decay of the slowest swing after a blow [1/s]: zero or below where it is sustained, the resonance where nothing
+    /// Decay of the slowest swing after a blow (1/s): zero or below where it is sustained, the resonance where nothing
     /// swings.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ impl End {
         Ok(slowest(&answer, every, scene.resonance))
     }
 
-    /// The shaft torques of a copy that goes on with a scenario [N m], a tick each.
+    /// The shaft torques of a copy that goes on with a scenario (N m), a tick each.
     fn go_on(
         &self,
         scene: &CampaignScene,

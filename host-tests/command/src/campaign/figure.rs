@@ -99,7 +99,7 @@ impl Outcome {
         !(self.of(Figure::Residual) <= 0.05)
     }
 
-    /// With the decay of the slowest swing [1/s].
+    /// With the decay of the slowest swing (1/s).
     #[must_use]
     pub const fn with_ring_down(mut self, decay: f64) -> Self {
         self.0[Figure::RingDown as usize] = decay;
@@ -188,7 +188,7 @@ impl Gathering {
         }
     }
 
-    /// Mean of the shaft torque in the second half of the free part [N m].
+    /// Mean of the shaft torque in the second half of the free part (N m).
     pub fn carried(&self) -> f64 {
         self.last.1 / self.last.0
     }

@@ -8,9 +8,9 @@ use nalgebra::{Complex, DMatrix, DVector, SymmetricEigen};
 /// A part `amplitude exp(-decay t) cos(frequency t + phase)` of a signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
-    /// Decay [1/s].
+    /// Decay (1/s).
     pub decay: f64,
-    /// Frequency [rad/s].
+    /// Frequency (rad/s).
     pub frequency: f64,
     /// Amplitude at the first sample, in the signal's unit.
     pub amplitude: f64,
@@ -77,7 +77,7 @@ fn amplitudes(signal: &[f64], poles: &DVector<Complex<f64>>) -> Vec<Complex<f64>
     fitted.map_or_else(|_| vec![Complex::new(0.0, 0.0); poles.len()], |fitted| fitted.iter().copied().collect())
 }
 
-/// Decay [1/s] of the slowest swing of a signal, negative where it grows; `none` where nothing swings.
+/// Decay (1/s) of the slowest swing of a signal, negative where it grows; `none` where nothing swings.
 pub fn slowest(signal: &[f64], every: f64, none: f64) -> f64 {
     let swings: Vec<Part> = parts(signal, every).into_iter().filter(Part::swings).collect();
     let largest = swings.iter().map(|swing| swing.amplitude).fold(0.0, f64::max);

@@ -39,7 +39,7 @@ pub struct CampaignScene {
     pub speed_loop: SpeedLoopDesign,
     /// From when to when nothing excites the swing at the end of the run (s); the run goes on until then.
     pub free: (f64, f64),
-    /// Resonance of its two masses [rad/s].
+    /// Resonance of its two masses (rad/s).
     pub resonance: f64,
 }
 

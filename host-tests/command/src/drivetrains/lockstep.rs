@@ -118,7 +118,7 @@ pub struct LockStep {
     /// Apart from the torque's noise, which is the same with all imperfections.
     timing: Noise,
     actuator: Actuator,
-    /// Angle of the motor at the start \[rad\].
+    /// Angle of the motor at the start (rad).
     start: f64,
     setpoint: f64,
     released: bool,
@@ -212,8 +212,8 @@ impl LockStep {
             let exchanged = if missed {
                 None
             } else {
-                // Reported torque of brake and friction in the tick that has ended. At rest friction balances the motor;
-                // the torque of a closed brake is then unknown.
+                // Reported torque of brake and friction in the tick that has ended. At rest friction balances the
+                // motor; the torque of a closed brake is then unknown.
                 let (friction, brake) = if *released { (machine.told_friction, *brake) } else { (0.0, 0.0) };
                 let slipping = match plant.motor_speed() {
                     0.0 => -reported.clamp(-friction, friction),
