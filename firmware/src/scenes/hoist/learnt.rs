@@ -7,7 +7,7 @@
 
 use driveline::configure::{Family, Machine, ScheduleOf, Units};
 use driveline::drive::{ConfigOf, Drive};
-use driveline::governor::SpeedLoop;
+use driveline::governor::{SetpointLag, SpeedLoop};
 use driveline::learning::{
     Correction, EccentricityConfig, EccentricityObserver, GearLoss, GearLossConfig, RunUp, RunUpConfig,
     TorqueCalibration, TorqueConstant, TorqueConstantConfig,
@@ -22,7 +22,9 @@ use crate::scene::composed::{Beside, Composed, OverWords, output};
 use crate::scene::{Input, Output};
 
 type M = Hoist<10_000>;
-type HoistDrive<N> = Drive<N, EccentricityObserver<N, GearedObserver<SemiImplicitObserver<N>>>, (), SpeedLoop<N>>;
+/// The ramp's setpoint lags by the loop's own time constant, so that a ramp leaves less of a swing.
+type Loop<N> = SpeedLoop<N, SetpointLag<N>>;
+type HoistDrive<N> = Drive<N, EccentricityObserver<N, GearedObserver<SemiImplicitObserver<N>>>, (), Loop<N>>;
 
 /// The drive with its schedule and learners, at 10 kHz.
 pub type Learnt<N> = Composed<HoistDrive<N>, Follower<N>>;
