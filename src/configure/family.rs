@@ -2,7 +2,7 @@
 
 use super::{Configure, Machine};
 use crate::balancing::Balancer;
-use crate::design::{Disturbance, PlacedObserver, SpeedLoopDesign};
+use crate::design::{Disturbance, PlacedObserver, SpeedLoopDesign, SpeedLoopTuning};
 use crate::drive::Drive;
 use crate::fluctuation::Fluctuation;
 use crate::governor::{DampingLag, DampingLagConfig, Governor, LoopFilter, SetpointLag, SpeedLoop, SpeedLoopConfig};
@@ -95,15 +95,21 @@ pub trait Family<const A: usize, const B: usize>: Machine {
         }
         observers
     };
+    /// Active damping at the points: the gain on the twist rate over the proportional one. A swing decays the faster
+    /// the larger it is; the observer's lag leaves the less margin, mostly where the resonance is low. 0.1 as in
+    /// [`SpeedLoopTuning::of`].
+    const DAMPING: [[f64; B]; A] = [[SpeedLoopTuning::TWIST_GAIN; B]; A];
     /// The speed loops at the points: [`TwoMass::try_limited_speed_loop`] with the bandwidth of
-    /// [`Machine::SPEED_LOOP`]. A lag of its damping is in proportion to the period of the member's resonance.
+    /// [`Machine::SPEED_LOOP`] and the [`DAMPING`](Self::DAMPING). A lag of its damping is in proportion to the period
+    /// of the member's resonance.
     const SPEED_LOOPS: [[SpeedLoopDesign; B]; A] = {
         let mut loops = [[Self::SPEED_LOOP; B]; A];
+        let bandwidth = Self::SPEED_LOOP.bandwidth;
         let mut i = 0;
         while i < A {
             let mut j = 0;
             while j < B {
-                match Self::MEMBERS[i][j].try_limited_speed_loop(Self::RATE, Self::SPEED_LOOP.bandwidth) {
+                match Self::MEMBERS[i][j].try_limited_speed_loop(Self::RATE, bandwidth, Self::DAMPING[i][j]) {
                     Ok(design) => {
                         let period = Self::TWO_MASS.resonance() / Self::MEMBERS[i][j].resonance();
                         loops[i][j] = design.with_damping_lag(Self::SPEED_LOOP.damping_lag * period);

@@ -27,6 +27,8 @@ sentences! {
     Noise => "the measurement noise must have a positive definite covariance",
     Bandwidth => "the bandwidth of the speed loop must be above zero and below the antiresonance of the machine",
     DampingRatio => "the damping ratios of the speed loop must be above zero and finite",
+    TwistGain => "the gain on the twist rate must be above zero and finite (of the proportional gain): 0.1 for much \
+        margin, 0.3 for a swing that decays soon",
     Actuator => "the actuator's delay and lag must be zero or above and finite (s), its engine must have cylinders and \
         turn",
     OptimumFactor => "the symmetrical-optimum factor of the governor must be above 1 and finite: from 2 (fast) to 4 \

@@ -40,13 +40,22 @@ impl SpeedLoopTuning {
     /// damps the shaft of a heavy load well and that of a light load little.
     #[must_use]
     pub const fn of(machine: &TwoMass) -> Self {
-        let mut tuning = Self::USUAL;
+        Self::USUAL.with_twist_gain(machine, Self::TWIST_GAIN)
+    }
+
+    /// The gain on the twist rate over the proportional one that [`of`](Self::of) takes.
+    pub const TWIST_GAIN: f64 = 0.1;
+
+    /// With the damping ratio of the shaft, from 1e-3 to 1e3, at which the gain on the twist rate is this ratio of the
+    /// proportional one: the larger, the faster a swing decays, and the less margin the observer's lag leaves.
+    pub(super) const fn with_twist_gain(self, machine: &TwoMass, ratio: f64) -> Self {
+        let mut tuning = self;
         let (mut low, mut high) = (1e-3, 1e3);
         let mut halving = 0;
         while halving < 40 {
             tuning.shaft_damping = sqrt(low * high);
             let [proportional, _, damping, _] = machine.speed_loop_gains(&tuning);
-            if damping > 0.1 * proportional {
+            if damping > ratio * proportional {
                 high = tuning.shaft_damping;
             } else {
                 low = tuning.shaft_damping;

@@ -47,7 +47,7 @@ pub mod panel {
 /// Ticks between two updates of the learners.
 const TICKS: u32 = 10;
 /// A change of speed and the settling after it (s), at the most: the load is known to be none.
-const PAUSE: f64 = 30.0;
+const PAUSE: f64 = 50.0;
 /// Learners of torque offset and inertia, and what they have found.
 pub struct NoLoadLearner<N: Number, M> {
     torque: TorqueConstant,

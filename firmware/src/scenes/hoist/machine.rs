@@ -41,6 +41,14 @@ impl<const RATE_HZ: u32> Family<5, 4> for Hoist<RATE_HZ> {
     /// A third of the scene's: on the schedule a load of 12 t that is half as heavy again within a second is followed
     /// as well, and the noise in a steady load is halved.
     const SCHEDULED_DISTURBANCE: Disturbance = Disturbance { load_torque_step: 90.0, ..Self::DISTURBANCE };
+    /// As much as 6 dB and 30 degrees leave: the least for the heaviest load on the longest rope.
+    const DAMPING: [[f64; 4]; 5] = [
+        [0.20, 0.22, 0.27, 0.30],
+        [0.22, 0.27, 0.35, 0.45],
+        [0.27, 0.35, 0.45, 0.50],
+        [0.35, 0.45, 0.50, 0.50],
+        [0.50, 0.50, 0.50, 0.50],
+    ];
     const MEMBERS: [[TwoMass; 4]; 5] = {
         let mut members = [[Self::TWO_MASS; 4]; 5];
         let mut i = 0;

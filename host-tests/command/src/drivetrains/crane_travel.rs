@@ -60,7 +60,7 @@ pub fn machine() -> Result<Machine, PlantError> {
     departing(&Departure::NONE)
 }
 
-/// A run for the learners with an empty hook: a step of the speed on 40 m there and back, then a short way there. The
+/// A run for the learners with an empty hook: a step of the speed on 67 m there and back, then a short way there. The
 /// travelling resistance is that of the lighter crane.
 ///
 /// # Errors
@@ -75,7 +75,7 @@ pub fn empty_hook(by: &Departure) -> Result<Scenario, PlantError> {
     let mut actions = vec![(0.1, Action::Release), (0.1, Action::Panel(panel::NO_LOAD, 1.0))];
     let mut time = 0.2;
     for (speed, lasts) in
-        [(slow, 20.0), (fast, 20.0), (slow, 22.0), (-slow, 24.0), (-fast, 20.0), (-slow, 22.0), (slow, 24.0)]
+        [(slow, 33.0), (fast, 33.0), (slow, 35.0), (-slow, 37.0), (-fast, 33.0), (-slow, 35.0), (slow, 37.0)]
     {
         actions.push((time, Action::Setpoint(speed)));
         time += lasts;

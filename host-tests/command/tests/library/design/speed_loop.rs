@@ -89,3 +89,29 @@ fn errors_name_the_parameter() {
     assert_eq!(design(200, usual), Error::SpeedLoopUnstable);
     assert_eq!(Error::SpeedLoopUnstable.to_string(), Error::SpeedLoopUnstable.message());
 }
+
+/// A member's loop has the active damping that its family states, and no more bandwidth than it may; what is no ratio
+/// and no bandwidth is refused with its own sentence.
+#[test]
+fn a_limited_loop_has_the_active_damping_that_is_stated() {
+    let machine = rig(0.01);
+    let of = |bandwidth: f64, ratio: f64| machine.try_limited_speed_loop(Rate::hz(20_000), bandwidth, ratio);
+    let slow = 0.2 * machine.antiresonance();
+    for ratio in [0.05, 0.1, 0.25, 0.5] {
+        let design = of(slow, ratio).unwrap();
+        // forty halvings of six decades: to 1e-11 in the damping ratio, a few times that in the gains
+        assert!((design.damping / design.proportional / ratio - 1.0).abs() < 1e-9, "{ratio}: {design:?}");
+        assert!((design.bandwidth / slow - 1.0).abs() < 1e-15);
+    }
+    let fast = of(10.0 * slow, 0.1).unwrap();
+    assert!((fast.bandwidth / machine.antiresonance() - SpeedLoopTuning::USUAL.bandwidth).abs() < 1e-15);
+    let tuning = SpeedLoopTuning::of(&machine);
+    assert_eq!(fast, machine.speed_loop(Rate::hz(20_000), tuning));
+    for ratio in [-1.0, 0.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(of(slow, ratio), Err(Error::TwistGain), "{ratio}");
+        assert!(Error::TwistGain.to_string().starts_with("the gain on the twist rate must be above zero"));
+    }
+    for bandwidth in [-1.0, 0.0, f64::NAN] {
+        assert_eq!(of(bandwidth, 0.1), Err(Error::Bandwidth), "{bandwidth}");
+    }
+}
