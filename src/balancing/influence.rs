@@ -76,13 +76,6 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANE
         Ok(())
     }
 
-    /// Discards the coefficients of a plane.
-    pub fn forget(&mut self, plane: usize) {
-        if let Some(known) = self.known.get_mut(plane) {
-            *known = false;
-        }
-    }
-
     /// Learns a plane from a trial run: the readings before, the readings with the trial weight, and the weight.
     ///
     /// Where trial weights are taken off again, `before` is the baseline; where they stay, the run before this one.
