@@ -1,6 +1,8 @@
 //! A scene's report, put together from its runs.
 
 use std::error::Error;
+use std::sync::mpsc::{self, Sender};
+use std::thread;
 
 use driveline_firmware::board::Facts;
 
@@ -85,17 +87,9 @@ impl Plan {
             notes: facts::notes(&self.machine, self.options.quick),
             ..Report::default()
         };
-        let mut bases: Vec<(Facts, (u64, u64))> = Vec::new();
+        let bases = self.bases(says)?;
         for candidate in &self.candidates {
-            let known = bases.iter().find(|(board, _)| board.core == candidate.board.core);
-            let base = match known {
-                Some(&(_, base)) => base,
-                None => {
-                    let base = engine::empty(candidate.board, says)?;
-                    bases.push((candidate.board, base));
-                    base
-                }
-            };
+            let base = bases.iter().find(|(core, _)| *core == candidate.board.core).ok_or("no empty image")?.1;
             let ran = engine::run(&self.machine, candidate, base, self.options, says)?;
             self.add(&mut report, candidate, &ran)?;
             step();
@@ -112,6 +106,34 @@ impl Plan {
             step();
         }
         Ok(report)
+    }
+
+    /// Flash and RAM of the image without a drive, for each core; a core beside the other.
+    fn bases(&self, says: &dyn Fn(&str)) -> Result<Vec<(&'static str, (u64, u64))>, String> {
+        let mut boards: Vec<Facts> = Vec::new();
+        for board in self.boards() {
+            if boards.iter().all(|known| known.core != board.core) {
+                boards.push(*board);
+            }
+        }
+        let (said, heard) = mpsc::channel();
+        thread::scope(|scope| {
+            let base = |board: Facts, said: Sender<String>| {
+                // whoever listens has gone only where this scope ends by a panic
+                let says = |text: &str| drop(said.send(text.to_owned()));
+                let base = engine::empty(board, &says).map_err(|error| error.to_string())?;
+                Ok((board.core, base))
+            };
+            let spawn = |board: Facts| {
+                let said = said.clone();
+                scope.spawn(move || base(board, said))
+            };
+            let threads: Vec<_> = boards.into_iter().map(spawn).collect();
+            drop(said);
+            heard.iter().for_each(|text| says(&text));
+            let joined = threads.into_iter().map(|thread| thread.join());
+            joined.map(|base| base.map_err(|_| "a board's thread panicked".to_owned())?).collect()
+        })
     }
 
     /// A variant's figures, its courses where they are worth a plot, and the other steps on its inputs.
