@@ -1,8 +1,8 @@
 //! State observers: shaft torque, load speed and load torque from motor angle and torque.
 //!
-//! Every observer predicts the tick that has just ended from the torque applied during it, compares the
-//! predicted motor angle with the measured one, and corrects each state by a constant gain times the difference, the
-//! *innovation*. The gains are the steady state of a Kalman filter, found at compile time.
+//! Every observer predicts the tick that has just ended from the torque applied during it. It compares the predicted
+//! motor angle with the measured one and corrects each state by a constant gain times the difference, the *innovation*.
+//! The gains are the steady state of a Kalman filter, found at compile time.
 //!
 //! | observer | states | for |
 //! |---|---|---|

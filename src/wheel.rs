@@ -11,9 +11,9 @@
 //! # Place
 //! The wheel is described by the angles of its teeth ([`crate::settings::Teeth`]). While the place is unknown, the
 //! ratio of each interval to the one before excludes the places where it cannot occur. The place that is left must then
-//! hold for a turn, for two where there is jitter or where the teeth are few, every tooth within half a pitch of where
-//! the smoothed speed expects it: a wheel with other teeth gives no angle. A wheel that once was found to be the one
-//! described is found again at its next gap.
+//! hold for a turn, for two where there is jitter or where the teeth are few. Every tooth must come within half a pitch
+//! of where the smoothed speed expects it: a wheel with other teeth gives no angle. A wheel that once was found to be
+//! the one described is found again at its next gap.
 //!
 //! # Speed
 //! The passage of the next tooth is predicted from a smoothed time and a smoothed speed, which are corrected by the

@@ -1,8 +1,8 @@
 //! Interface of loop, bench and self-test to a scene, in words of 32 bits.
 //!
 //! A scene is a drive composed from parts, with its constants; a variant has a name in the table of scenes. Every word
-//! is the bit pattern of the scene's own number type (`f32` in SI units, or fixed point per unit of the scene's
-//! limits), so that host and target can be compared bit for bit and the link needs no conversion.
+//! is the bit pattern of the scene's own number type: `f32` in SI units, or fixed point per unit of the scene's limits.
+//! So host and target can be compared bit for bit, and the link needs no conversion.
 
 pub mod balanced;
 pub mod composed;

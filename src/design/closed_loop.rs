@@ -6,10 +6,10 @@
 //! The loop is cut at the torque on the machine. A gain above 1 there is a torque constant that is larger than
 //! described, or inertias and stiffness that are all smaller.
 //!
-//! With `phi` and `omega` the mean angle and speed, `delta` and `v` twist and twist rate, all states of the observer
-//! follow from the torque `tau` of the ended tick and from the innovation `i` by the model's own step. Eliminating `i`
-//! from `theta_m - theta_m^ = (1 - K_1) i` leaves the governor's torque as `u = -(Q tau + P theta_m)/D_o`, with `D_o`
-//! the polynomial of the observer's poles; all of it in closed form, in `z - 1`.
+//! `phi` and `omega` are the mean angle and speed, `delta` and `v` twist and twist rate. All states of the observer
+//! follow by the model's own step from the torque `tau` of the ended tick and from the innovation `i`. Eliminating `i`
+//! from `theta_m - theta_m^ = (1 - K_1) i` leaves the governor's torque as `u = -(Q tau + P theta_m)/D_o`. `D_o` is the
+//! polynomial of the observer's poles; all of it is in closed form, in `z - 1`.
 
 use super::margins::{Margins, OpenLoop};
 use super::plant::{Plant, Twist};
@@ -257,8 +257,8 @@ impl ClosedLoop {
         Ok(found)
     }
 
-    /// By which factors motor inertia, load inertia and stiffness of two masses may differ, one at a time, from the
-    /// most to the least that the loop tolerates; 0 and infinity where it tolerates a hundredth and a hundred times.
+    /// Ranges of motor inertia, load inertia and stiffness of two masses that the loop tolerates, one at a time, as
+    /// factors from the least to the most. 0 and infinity stand where it tolerates a hundredth and a hundred times.
     #[must_use]
     pub const fn ranges(&self, machine: &TwoMass) -> Ranges {
         let mut range = [[1.0; 2]; 3];

@@ -7,9 +7,9 @@ use crate::machine::{Chain, Modes, TwoMass};
 const MODES: usize = crate::machine::CAPACITY - 1;
 
 /// Share of a vibration in the motor's acceleration, over that of the whole inertia, below which it is no part of the
-/// loop: a vibration of quality Q changes the loop's gain at its peak by at most Q times its share, and Q is below 1e4
-/// for any shaft of steel, so the loop changes by less than 1e-5. A node at the motor is found with a share of 1e-30,
-/// not zero, and its undamped poles, which no torque of the motor moves, would count as unstable.
+/// loop. A vibration of quality Q changes the loop's gain at its peak by at most Q times its share. Q is below 1e4 for
+/// any shaft of steel, so the loop changes by less than 1e-5. A node at the motor is found with a share of 1e-30, not
+/// zero. Its undamped poles, which no torque of the motor moves, would count as unstable.
 const NEGLIGIBLE: f64 = 1e-9;
 
 /// A vibration, its shape normalised to unit modal mass.

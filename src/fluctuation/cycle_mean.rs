@@ -13,9 +13,9 @@
 //! It is renewed at the end of every segment of the cycle. The mean comes from two angles and the ticks between them by
 //! one division in integers, the same bits in every number; nothing is summed up, so nothing drifts.
 //!
-//! There is none before a first whole cycle, nor after the angle was lost or the direction has changed, nor while the
-//! machine takes more than four times as long for a segment as it did on average: then a governor has to act on the
-//! speed as it is.
+//! There is none before a first whole cycle, nor after the angle was lost or the direction has changed. Nor is there
+//! one while the machine takes more than four times as long for a segment as it did on average. Then a governor has to
+//! act on the speed as it is.
 
 use super::position::{Crossing, Position};
 use super::{CycleConfig, Fluctuation};

@@ -7,8 +7,8 @@
 //! which are interpolated. A cycle, and a turn of a longer one, must have 96 ticks: the work at its end takes half of
 //! them.
 //!
-//! The speeds are the observer's. A ripple much faster than the observer is smaller in them than it is, and their noise
-//! makes the largest value too large and the least too small by two or three of its standard deviations; where delta is
+//! The speeds are the observer's. A ripple much faster than the observer is smaller in them than it is. Their noise
+//! makes the largest value too large and the least too small by two or three of its standard deviations. Where delta is
 //! not far above that, take a [`super::Waveform`].
 
 use core::f64::consts::{PI, TAU};

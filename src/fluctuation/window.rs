@@ -264,9 +264,9 @@ impl Ramp {
         (self.slope / (k * k), -self.slowness / k)
     }
 
-    /// The orders of the ripple over its mean, from the integrals of slowness times cos(n theta) and sin(n theta) over
-    /// a window of so many ticks, in its direction of travel, and from the ripple as it was `known` before: the
-    /// slowness is the trend times the ripple, so that each order of the ripple also shows in the others.
+    /// The orders of the ripple over its mean, in the direction of travel. `integrals` are those of slowness times
+    /// cos(n theta) and sin(n theta) over a window of so many ticks; `known` is the ripple as it was before. The
+    /// slowness is the trend times the ripple, so each order of the ripple also shows in the others.
     fn taken_off(&self, known: &Series, integrals: &Series, ticks: f64, highest: usize) -> Series {
         // Contribution of the orders m and -m of the ripple to order n and the mean; half of an order belongs to each.
         let leaked = |n: f64| {

@@ -72,9 +72,9 @@ impl<N: Number, A: LoopFilter<N>, B: LoopFilter<N>> LoopFilter<N> for (A, B) {
 /// on the speed alone.
 ///
 /// From setpoint to speed a proportional and integral loop has a zero at -k_i/k_p. With it the torque overshoots by an
-/// eighth of the accelerating torque at the ends of a ramp (`e^-2` at a damping ratio of 1), and a ramp that begins at
-/// once lets the shaft swing with the whole accelerating torque. The lag's pole lies on the zero: no overshoot is left,
-/// and of the swing the part `1/sqrt(1 + (omega k_p/k_i)^2)`. The price is that the speed follows the ramp later by
+/// eighth of the accelerating torque at the ends of a ramp (`e^-2` at a damping ratio of 1). A ramp that begins at once
+/// lets the shaft swing with the whole accelerating torque. The lag's pole lies on the zero: no overshoot is left, and
+/// of the swing the part `1/sqrt(1 + (omega k_p/k_i)^2)`. The price is that the speed follows the ramp later by
 /// k_p/k_i, about 2/bandwidth at a damping ratio of 1. The response to load torques is that without it.
 ///
 /// The state is the distance to the ramp, which decays to nothing: no bit of the setpoint is lost.

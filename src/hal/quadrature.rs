@@ -64,9 +64,9 @@ impl<C> Quadrature<C> {
         }
     }
 
-    /// Records the encoder's index pulse at `count`. The place of the first one is kept: a later one that is more than
-    /// a count off it, by a whole number of turns, shows that counts were lost or gained, all at once or one by one,
-    /// and the next reading reports it. A single count is within the width of the index.
+    /// Records the encoder's index pulse at `count`. The place of the first one is kept. A later one more than a count
+    /// off it, by a whole number of turns, shows that counts were lost or gained, all at once or one by one. The next
+    /// reading reports it. A single count is within the width of the index.
     ///
     /// The interrupt of the index must not come between two readings that are more than a turn apart.
     pub fn index(&mut self, count: u32) {

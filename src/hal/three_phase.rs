@@ -5,8 +5,8 @@
 //! takes its share, as a DC motor's does. That is enough for a small machine. A large one has a drive that controls its
 //! current.
 //!
-//! The three voltages are shifted together by half of their largest and least, which does not change what is between
-//! the terminals and makes them fit a bridge 2/sqrt(3) times as well as three sines do.
+//! The three voltages are shifted together by half of the sum of their largest and least. That does not change what is
+//! between the terminals, and they fit a bridge 2/sqrt(3) times as well as three sines do.
 
 use embedded_hal::pwm::SetDutyCycle;
 

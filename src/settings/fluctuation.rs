@@ -154,9 +154,9 @@ impl CycleMeanConfig<Fixed> {
     /// [`new`](Self::new), with an error instead of a panic.
     ///
     /// # Errors
-    /// As [`CycleConfig::try_new`], [`Error::Value`] for segments that are no power of two, or too few or too many for
-    /// the cycle, and [`Error::Coefficient`] for a motor that turns by less than a count of 2^-32 turns in a tick at
-    /// its base.
+    /// As [`CycleConfig::try_new`]. [`Error::Value`] for segments that are no power of two, or too few or too many for
+    /// the cycle. [`Error::Coefficient`] for a motor that turns by less than a count of 2^-32 turns in a tick at its
+    /// base.
     pub const fn try_new<const SEGMENTS: usize>(cycle: Cycle, period: f64, bases: Bases) -> Result<Self, Error> {
         let (cycle, angle) = get!(mean_cycle(cycle, SEGMENTS, period, bases));
         let speed = Format::fixed(bases).speed_of_turn(period);

@@ -74,8 +74,8 @@ constants! {
 }
 
 constants! {
-    /// [`Error`] for a smallest torque (N m) above zero or not finite, a point or a slope that the float does not hold,
-    /// a point beyond twice its base, or a slope of 2 bases of the torque per base of the speed or more.
+    /// [`Error`] for a smallest torque (N m) above zero or not finite, and a point or a slope that the float does not
+    /// hold. Also for a point beyond twice its base, or a slope of 2 bases of the torque per base of the speed or more.
     impl[const K: usize] CurveConfig[, K], new, try_new(curve: &TorqueCurve<K>, min: f64), |format| {
         let ([min, _], []) = get!(To::part(between(min, format.bases.torque, &format), LIMIT));
         let ([none], [flat]) = get!(To::part(Ok(([0.0], [0.0])), CURVE));

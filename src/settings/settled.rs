@@ -1,12 +1,12 @@
 //! Rounded coefficients of the twist's free motion that do not let a swing grow.
 
-/// The free pair's four coefficients, n11, n12, n21, n22, next to their nearest ones `rounded` and at most one `unit`
-/// from each, such that rounding has taken nothing off the pair's damping and no pole lies outside the unit circle.
+/// The free pair's four coefficients n11, n12, n21, n22, at most one `unit` each from the nearest ones, `rounded`.
+/// Rounding then takes nothing off the pair's damping, and no pole lies outside the unit circle.
 ///
-/// The poles are those of 1 + N: the square of the size of a complex pair is 1 + e with e = trace + determinant of N,
-/// which rounding each coefficient to nearest leaves off by about a unit in the last place, in either direction. In
-/// `f32` an undamped swing then grows threefold in 1e8 ticks. Of the 81 neighbours the one is taken whose e is next
-/// below the exact one. Real poles are left alone: those of a damped pair are far from the circle.
+/// The poles are those of 1 + N. The square of the size of a complex pair is 1 + e with e = trace + determinant of N.
+/// Rounding each coefficient to nearest leaves e off by about a unit in the last place, in either direction. In `f32`
+/// an undamped swing then grows threefold in 1e8 ticks. Of the 81 neighbours the one is taken whose e is next below the
+/// exact one. Real poles are left alone: those of a damped pair are far from the circle.
 pub(super) const fn settled(exact: [f64; 4], rounded: [f64; 4], unit: [f64; 4]) -> [f64; 4] {
     let (trace, excess) = invariants(exact);
     // Complex, or a double pole: an undamped pair's next to half the sample rate.

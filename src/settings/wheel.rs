@@ -217,8 +217,8 @@ impl<const TEETH: usize> ToothedWheelConfig<TEETH> {
     /// The constants of a wheel.
     ///
     /// # Errors
-    /// [`Error::Value`] for fewer than two teeth, angles that do not rise, more than 128 teeth of which no part
-    /// repeats, a cycle of no turns or more than 8, or a clock or a speed that is not positive.
+    /// [`Error::Value`] for fewer than two teeth, angles that do not rise, or more than 128 teeth of which no part
+    /// repeats. Also for a cycle of no turns or more than 8, and a clock or a speed that is not positive.
     pub const fn try_new(teeth: &Teeth<TEETH>, timing: ToothClock) -> Result<Self, Error> {
         let ToothClock { turns, clock, lowest_speed } = timing;
         if TEETH < 2 || TEETH > 10_000 {

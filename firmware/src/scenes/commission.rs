@@ -142,9 +142,9 @@ pub fn figures(identified: &CommissioningResult) -> [Figure; 14] {
     ]
 }
 
-/// The observer's five gains (per radian: rad, rad/s, rad, rad/s, N m) and the speed loop's three (proportional
-/// (N m s/rad), integral (N m/rad), active damping (N m s/rad)) for a machine, by the functions that the compiler
-/// uses for the other scenes; `None` where it cannot be controlled.
+/// Gains for a machine, by the functions that the compiler uses for the other scenes; `None` where it cannot be
+/// controlled. The observer's five are per radian: rad, rad/s, rad, rad/s, N m. The speed loop's three are proportional
+/// (N m s/rad), integral (N m/rad) and active damping (N m s/rad).
 pub fn design(machine: &TwoMass, settings: &TestSettings) -> Option<[f64; 8]> {
     let disturbance = Disturbance {
         torque_accuracy: settings.torque_accuracy,

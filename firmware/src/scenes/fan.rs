@@ -1,8 +1,8 @@
 //! A fan: motor, coupling, impeller. The smallest drive: one mass.
 //!
-//! A 45 kW, four-pole motor at 1480 r/min (290 N m; makers' tables give 0.3 to 0.4 kg m2 for frame size 225) on a
-//! flexible coupling of 0.12 MN m/rad, as catalogues have it for that torque, and the impeller of a radial fan of 0.9
-//! m. Its setpoint takes 10 s to rated speed.
+//! A 45 kW, four-pole motor at 1480 r/min has 290 N m, and 0.3 to 0.4 kg m2 by makers' tables for frame size 225. The
+//! coupling has 0.12 MN m/rad, as catalogues have it for that torque; the impeller is that of a radial fan of 0.9 m.
+//! The setpoint takes 10 s to rated speed.
 
 use driveline::configure::{Machine, Rating};
 use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};

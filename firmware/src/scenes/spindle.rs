@@ -1,10 +1,10 @@
 //! A machine tool's spindle with a torsional resonance of 800 Hz.
 //!
-//! A motor spindle of 22 kW (70 N m up to 3000 r/min, 12 000 r/min at most), rotor 0.012 kg m2, drives the tool's side,
-//! 0.004 kg m2 with drawbar, holder and a face mill, over a shaft whose stiffness follows from its diameters: 46 mm on
-//! 360 mm of length and a taper to 60 mm on 120 mm, bored by 22 mm for the drawbar. That is the size that makers of
-//! such spindles give; they are not those of one machine. The encoder is a sine encoder of 512 lines, interpolated 1024
-//! times.
+//! A motor spindle of 22 kW gives 70 N m up to 3000 r/min and turns at 12 000 r/min at most. Its rotor of 0.012 kg m2
+//! drives 0.004 kg m2 on the tool's side: drawbar, holder and a face mill. The shaft's stiffness follows from its
+//! diameters: 46 mm on 360 mm of length and a taper to 60 mm on 120 mm, bored by 22 mm for the drawbar. That is the
+//! size that makers of such spindles give; it is not one machine. The sine encoder has 512 lines, each interpolated
+//! 1024 times.
 
 use driveline::configure::{Machine, Rating};
 use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};

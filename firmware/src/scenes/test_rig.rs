@@ -1,12 +1,12 @@
 //! A rig for a bench: a 200 W servo motor turns a disc over a thin steel rod. Its drive has all four parts.
 //!
-//! The motor is of the size that makers' lists give (0.64 N m, 3000 r/min, 1.9 N m for a moment, 0.28 kg cm2, encoder
-//! outputs of 2500 lines), on it half a coupling of 0.04 kg cm2. The rod is 5 mm thick and 150 mm long; the disc, of
-//! steel, 100 mm wide and 10 mm thick. Its drive controls the current and takes the torque as a voltage of +-10 V, here
-//! for +-1.27 N m: at that the rod is stressed by 52 MPa. Two velocity sensors stand on the disc's bearings, and the
-//! disc has holes for weights in two planes. A crank on the disc's face stretches a spring, whose torque swings once
-//! and twice a turn. A small balancing head on the disc's shaft can take the place of the weights. All can be bought or
-//! turned; it is no machine that exists.
+//! The motor is of the size that makers' lists give: 0.64 N m, 1.9 N m for a moment, 3000 r/min, 0.28 kg cm2. Its
+//! encoder outputs have 2500 lines; half a coupling of 0.04 kg cm2 sits on its shaft. The rod is 5 mm thick and 150 mm
+//! long; the disc, of steel, 100 mm wide and 10 mm thick. Its drive controls the current and takes the torque as a
+//! voltage of +-10 V, here for +-1.27 N m: at that the rod is stressed by 52 MPa. Two velocity sensors stand on the
+//! disc's bearings, and the disc has holes for weights in two planes. A crank on the disc's face stretches a spring,
+//! whose torque swings once and twice a turn. A small balancing head on the disc's shaft can take the place of the
+//! weights. All can be bought or turned; it is no machine that exists.
 
 use driveline::balancing::{InRunConfig, Steadiness};
 use driveline::configure::{HasVibration, Machine, Rating};

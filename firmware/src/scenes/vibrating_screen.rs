@@ -1,10 +1,10 @@
 //! A dual-mass vibrating screen that runs up through its resonances.
 //!
-//! A screen box of 8 t with its charge, for a deck of 2.4 m by 6 m, stands on springs on a frame of 5 t, and that on
-//! springs on the ground, so that little reaches the ground. Two unbalanced shafts that turn against each other shake
-//! the box along a line at 45 degrees: 40 kg m together give 5 mm to either side at 970 r/min, five times gravity, as
-//! makers have it for such screens. A motor of 30 kW on the ground (295 N m, 1.2 kg m2) turns them through a cardan
-//! shaft of 60 mm by 1 m. The figures are not those of one machine.
+//! A screen box of 8 t with its charge, for a deck of 2.4 m by 6 m, stands on springs on a frame of 5 t. The frame
+//! stands on springs on the ground, so that little reaches the ground. Two unbalanced shafts that turn against each
+//! other shake the box along a line at 45 degrees. Together they have 40 kg m, which gives 5 mm to either side at 970
+//! r/min: five times gravity, as makers have it for such screens. A motor of 30 kW on the ground (295 N m, 1.2 kg m2)
+//! turns them through a cardan shaft of 60 mm by 1 m. The figures are not those of one machine.
 //!
 //! On the way up the machine passes both resonances of its springs, where a motor that is too weak would stay: what it
 //! gives goes into the swing (Sommerfeld's effect). The governor bars both ranges and passes them by a quick ramp. At

@@ -1,10 +1,10 @@
 //! A pseudo-random run of inputs, the same bits on host and target.
 //!
 //! A machine that wanders: its speed walks within +-0.005 turns a tick, its torque and setpoint within +-8 (SI units,
-//! or one part in 16 of the fixed-point range), the governor is released after 16 ticks and again after every
-//! 1024th. Now and then a sample is bad: the angle jumps or stands still, torque or setpoint are any bits. Only the
-//! good angle is continuous; nothing is in closed loop. It is for comparing bits and counting instructions, not for
-//! judging control.
+//! or one part in 16 of the fixed-point range). The governor is released after 16 ticks and again after every 1024th.
+//! Now and then a sample is bad: the angle jumps or stands still, torque or setpoint are any bits. Only the good angle
+//! is continuous; nothing is in closed loop. It is for comparing bits and counting instructions, not for judging
+//! control.
 
 use crate::Words;
 use crate::scene::Input;
