@@ -1,9 +1,9 @@
 //! Fatigue: cycles of the shaft torque by rainflow counting, and the damage that they do.
 //!
 //! The torque is sorted into classes of equal width, which it leaves by a quarter of one: smaller reversals are none. A
-//! tick looks for a reversal and does one step of the four-point method, so the work at the end of a cycle, which may
-//! close many others, is spread over the ticks. Reversals wait in a queue until then. Damage, divisions and powers are
-//! left to the time between the ticks.
+//! tick looks for a reversal and does one step of the four-point method. The end of a cycle may close many others, so
+//! its work is spread over the ticks. Reversals wait in a queue until then. Damage, divisions and powers are left to
+//! the time between the ticks.
 //!
 //! | term | meaning | unit |
 //! |---|---|---|

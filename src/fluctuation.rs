@@ -14,8 +14,8 @@
 //!
 //! [`ToothWindow`] takes the times of a [toothed wheel](crate::wheel)'s teeth instead of the angles of ticks and gives
 //! the same [`Ripple`]. From a ripple and the machine's constants follow speed and torque of the load
-//! ([`Ripple::load_side`]) and the required flywheel ([`Ripple::flywheel`]), from that of an engine the contribution of
-//! each cylinder ([`Ripple::cylinders`]).
+//! ([`Ripple::load_side`]) and the required flywheel ([`Ripple::flywheel`]). From that of an engine follows the
+//! contribution of each cylinder ([`Ripple::cylinders`]).
 //!
 //! Lengthy calculations (divisions, sines, the waveform from its bins) are done by a `reading` between the ticks, in
 //! `f64`.

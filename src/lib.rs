@@ -22,9 +22,9 @@
 //! [`machine`] describes the machine and [`design`] its control (both `const fn` in `f64`); [`settings`] converts a
 //! design to a [`number`] type. [`observer`], [`fluctuation`], [`governor`] and [`balancing`] are the parts of a
 //! [`drive`], composed by type: a part that a machine does not need is `()` and costs nothing. [`scheduling`] follows a
-//! load and a rope that change, [`learning`] finds losses and errors while the machine works, [`fatigue`] counts the
-//! cycles of the shaft torque, [`commissioning`] identifies the machine by a test. [`sample`] holds inputs and outputs
-//! of a tick, [`fault`] its flags.
+//! load and a rope that change, and [`learning`] finds losses and errors while the machine works. [`fatigue`] counts
+//! the cycles of the shaft torque; [`commissioning`] identifies the machine by a test. [`sample`] holds inputs and
+//! outputs of a tick, [`fault`] its flags.
 //!
 //! # Glossary
 //! | term | meaning | unit |

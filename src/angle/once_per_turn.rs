@@ -2,8 +2,8 @@
 //!
 //! Between pulses the angle grows with the speed of the turns before. Each pulse corrects angle and speed with the
 //! gains of a straight line through the pulses so far, with a memory of twelve turns (alpha-beta filter of growing
-//! memory). So of the error of a pulse that is only known to a tick less is left in the angle, and next to none on
-//! average over the turns of a reading.
+//! memory). A pulse is only known to a tick. Less than that error is left in the angle, and next to none on average
+//! over the turns of a reading.
 
 /// Turns of memory.
 const MEMORY: usize = 12;

@@ -48,8 +48,8 @@ impl Rating {
         }
     }
 
-    /// Acceleration of the setpoint (rad/s2): rated speed in two seconds, or the acceleration of this inertia
-    /// (kg m2) by half of the torque limit where that is less, so that the other half remains for the load.
+    /// Acceleration of the setpoint (rad/s2): rated speed in two seconds. Where that is more, it is the acceleration of
+    /// this inertia (kg m2) by half of the torque limit, so that the other half remains for the load.
     #[must_use]
     pub const fn ramp(&self, inertia: f64) -> f64 {
         let (usual, possible) = (self.speed / 2.0, 0.5 * self.torque_limit / inertia);

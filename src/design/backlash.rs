@@ -6,8 +6,8 @@
 //!
 //! How far the twist is to wander and how long the searching gains stand is one pair of numbers, [`BacklashTuning`], in
 //! units of the gap and of the resonance's period. [`BacklashTuning::USUAL`] was found by search over two-mass machines
-//! of 5 to 150 Hz, motor to load from 3:1 to 1:4, gaps of a third to the whole of the twist under rated torque, and
-//! random reversals; the optimum is flat: half or twice of either costs an eighth of the error at most.
+//! of 5 to 150 Hz, motor to load from 3:1 to 1:4. The gaps were a third to the whole of the twist under rated torque,
+//! the reversals random. The optimum is flat: half or twice of either costs an eighth of the error at most.
 
 use super::tuning::{Disturbance, Encoder, Rate};
 use super::{Error, ExactStep, Kalman, Matrix, TwoMassDesign};

@@ -35,7 +35,7 @@ pub struct BacklashTakeUpDesign {
     pub approach_speed: f64,
     /// Largest torque while the gap is open (N m).
     pub torque: f64,
-    /// Damping of the twist rate while the gap is open [N m s/rad]: torque over approach speed.
+    /// Damping of the twist rate while the gap is open (N m s/rad): torque over approach speed.
     pub braking: f64,
     /// Rate at which the largest torque rises on the driven flank (N m/s).
     pub slew: f64,

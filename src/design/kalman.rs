@@ -28,8 +28,8 @@ impl<const N: usize, const M: usize> Kalman<N, M> {
     /// The states may have very different units: the equation is solved in the units that make F balanced.
     ///
     /// # Errors
-    /// [`Error::Noise`] where R is not invertible or not positive on its diagonal, [`Error::NotConverged`] where there
-    /// is no stabilising solution, [`Error::NotStabilising`] where the gain leaves a pole on or outside the unit
+    /// [`Error::Noise`] where R is not invertible or not positive on its diagonal. [`Error::NotConverged`] where there
+    /// is no stabilising solution. [`Error::NotStabilising`] where the gain leaves a pole on or outside the unit
     /// circle.
     pub const fn design(f: &Matrix<N, N>, h: &Matrix<M, N>, q: &Matrix<N, N>, r: &Matrix<M, M>) -> Result<Self, Error> {
         let mut j = 0;

@@ -1,7 +1,7 @@
 //! Robustness of a speed loop: margins at the described machine, stability within its tolerances.
 //!
 //! The characteristic polynomial is linear in each of load inertia, stiffness and torque, not in all together, and the
-//! sampled machine is neither, so ends that are stable do not make a range stable. A wide range is dangerous: as the
+//! sampled machine is neither. So ends that are stable do not make a range stable. A wide range is dangerous: as the
 //! resonance moves through it, the loop's phase there may be bad in the middle alone. Hence a range is sampled at
 //! points of which each is at most twice the one before. The usual ranges have their two ends.
 
@@ -94,8 +94,8 @@ impl TwoMass {
     /// Whether a speed loop on this machine, with its observer in it, has the required margins, and is stable within
     /// the tolerances.
     ///
-    /// Nothing but stability is tested: at the nominal machine with the gain at both ends of its margin and the phase
-    /// at its margin, and at all points of the tolerances, 32 for the usual ones.
+    /// Nothing but stability is tested. The nominal machine is tested with the gain at both ends of its margin and with
+    /// the phase at its margin. The tolerances are tested at all their points, 32 for the usual ones.
     ///
     /// # Errors
     /// [`Error::Tolerance`] for one that is out of range; [`Error::LoopUnstable`], [`Error::LoopGain`],

@@ -71,8 +71,8 @@ impl Encoder {
         Self { counts: counts as u64, amplitudes: [0.0; 2], periods: 1, jitter: 0.0 }
     }
 
-    /// With an interpolation error: its amplitude as a fraction of a signal period, and the signal periods on a turn
-    /// (the lines of the scale, 1 for a resolver or a magnetic encoder of one pole pair).
+    /// With an interpolation error: its amplitude as a fraction of a signal period, and the signal periods on a turn.
+    /// These are the lines of the scale, or 1 for a resolver or a magnetic encoder of one pole pair.
     #[must_use]
     pub const fn interpolation(mut self, periods: u32, error: f64) -> Self {
         self.amplitudes[0] = error * core::f64::consts::TAU / periods as f64;

@@ -74,7 +74,7 @@ const CERTAIN: f64 = 2.0;
 
 impl Ripple {
     /// The cylinders in the firing order, from a ripple whose orders reach half the number of cylinders, and from the
-    /// mean torque of the engine's gases [N m]: that of the load, friction included.
+    /// mean torque of the engine's gases (N m): that of the load, friction included.
     ///
     /// `teeth` is the number that a cycle was measured by: the deviation takes the scatter of its teeth as independent.
     /// With fewer orders every cylinder is [`CylinderVerdict::Uncertain`], its deviation NaN.

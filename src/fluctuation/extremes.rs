@@ -394,7 +394,7 @@ impl<N: Ranked> Extremes<N> {
         }
     }
 
-    /// The cycle that was finished last, `None` until there is one since the last disturbance or change of direction,
+    /// The cycle that was finished last. `None` until there is one since the last disturbance or change of direction,
     /// and for a cycle in which an estimated speed was no number or changed its sign.
     ///
     /// Not for the tick: it divides, in `f64`.
@@ -515,7 +515,7 @@ impl Fluctuations {
 pub struct Reading {
     /// Mean by time (rad/s), of motor and load alike; negative backwards.
     pub mean: f64,
-    /// The mean less that of the cycle before [rad/s]: the part that is not periodic, which a governor mends and a
+    /// The mean less that of the cycle before (rad/s): the part that is not periodic, which a governor mends and a
     /// flywheel does not.
     pub change: Option<f64>,
     /// How long the cycle took (s).

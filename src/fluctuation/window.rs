@@ -26,7 +26,7 @@ pub struct Window<N: Summed, const BINS: usize> {
 pub struct Ripple {
     /// Mean speed by time (rad/s); negative backwards.
     pub mean: f64,
-    /// Acceleration of the cycle's mean speed over the window [rad/s2]: the part that is not periodic, which a governor
+    /// Acceleration of the cycle's mean speed over the window (rad/s2): the part that is not periodic, which a governor
     /// mends and a flywheel does not; 0 over a single cycle.
     pub acceleration: f64,
     /// The motor's speed over the angle of the cycle (rad/s), its trend taken off.
@@ -49,8 +49,8 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// quarter of the bins.
     ///
     /// The integral of a function of the angle over time is, bin by bin, that of the parabola nearest to it. The parts
-    /// of a tick at the two ends of the window are put right, and the trend of the slowness, a sawtooth over the cycle,
-    /// is taken off, as that of a steady acceleration.
+    /// of a tick at the two ends of the window are put right. The trend of the slowness, a sawtooth over the cycle, is
+    /// taken off, as that of a steady acceleration.
     ///
     /// Not for the tick: some thousand operations in `f64`, and sines.
     ///

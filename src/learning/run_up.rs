@@ -54,8 +54,8 @@ impl RunUpConfig {
     /// rated speed within ten seconds.
     ///
     /// # Panics
-    /// At compile time in a constant, for an interval that leaves fewer than ten updates in a window, a rating that is
-    /// not positive, and inertias that do not rise from above zero.
+    /// At compile time in a constant, for an interval that leaves fewer than ten updates in a window. Also for a rating
+    /// that is not positive and for inertias that do not rise from above zero.
     pub const fn new(torque: f64, speed: f64, range: [f64; 2], every: f64) -> Self {
         assert!(every > 0.0 && every <= 0.05, "a run-up needs an update every 50 ms or more often");
         assert!(torque > 0.0 && speed > 0.0, "the rated torque and speed must be above zero");

@@ -1,9 +1,9 @@
 //! Natural frequencies and mode shapes of a chain, with the motor free and with the motor locked.
 //!
-//! With B the incidence matrix (a shaft's twist from the angles), the frequencies are the singular values of
-//! `sqrt(k) B / sqrt(J)`, and the left singular vectors of its transpose over `sqrt(J)` are the mass-normalised mode
-//! shapes. One-sided Jacobi rotations find them without ever forming `inv(J) K`, which loses a third of the lowest
-//! frequency at stiffness ratios of 1e15 [Demmel and Veselić 1992, SIAM J. Matrix Anal. Appl. 13(4)].
+//! B is the incidence matrix: a shaft's twist from the angles. The frequencies are the singular values of `sqrt(k) B /
+//! sqrt(J)`. The left singular vectors of its transpose over `sqrt(J)` are the mass-normalised mode shapes. One-sided
+//! Jacobi rotations find them without ever forming `inv(J) K`, which loses a third of the lowest frequency at stiffness
+//! ratios of 1e15 [Demmel and Veselić 1992, SIAM J. Matrix Anal. Appl. 13(4)].
 
 use super::chain::{CAPACITY, Chain};
 use crate::math::sqrt;

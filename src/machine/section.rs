@@ -81,8 +81,8 @@ impl Section {
     /// Integral of `dx/(D^4 - d^4)` over the section (1/m3).
     ///
     /// A cylinder and a solid cone in closed form. A bored cone in partial fractions has the difference of two near
-    /// equal terms where the taper is slight, so it goes by Gauss and Legendre's rule of 16 points on 8 equal pieces:
-    /// within 1e-12 up to ends as two to one and a bore of nine tenths of the thin end.
+    /// equal terms where the taper is slight. It is integrated by Gauss and Legendre's rule of 16 points on 8 equal
+    /// pieces: within 1e-12 up to ends as two to one and a bore of nine tenths of the thin end.
     const fn slenderness(&self) -> f64 {
         let (l, a, b, bore) = (self.length.0, self.diameter[0].0, self.diameter[1].0, self.bore.0);
         if a == b {

@@ -1,9 +1,9 @@
 //! The two-mass observer of a machine with backlash: contact on either flank, free flight between, the crossing split
 //! within the tick.
 //!
-//! With delta the twist from the middle of the gap and h half the gap, the shaft's stretch is x = delta - h on the
-//! right flank, delta + h on the left one, and zero between. In contact the pair of stretch and twist rate v moves as
-//! in [`TwoMassObserver`](super::TwoMassObserver); in free flight, with s the twist forcing,
+//! delta is the twist from the middle of the gap, h half the gap. The shaft's stretch is x = delta - h on the right
+//! flank, delta + h on the left one, and zero between. In contact the pair of stretch and twist rate v moves as in
+//! [`TwoMassObserver`](super::TwoMassObserver). In free flight, with s the twist forcing,
 //!
 //! ```text
 //! delta' = delta + T v + T^2/2 s        v' = v + T s

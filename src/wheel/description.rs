@@ -8,7 +8,7 @@ use super::place::{RATIOS, Set};
 pub struct Tooth {
     /// Its angle (2^-32 turn).
     pub angle: u32,
-    /// The same less that of the tooth before [2^-32 turn]: its span.
+    /// The same less that of the tooth before (2^-32 turn): its span.
     pub span: u32,
     /// Half of the least of the spans before and behind it (2^-32 turn).
     pub slack: u32,

@@ -1,9 +1,9 @@
 //! A belt conveyor of 400 m with a soft start.
 //!
-//! A 75 kW, four-pole motor (485 N m, 1.6 kg m2 with its coupling and brake disc) turns a drum of 0.8 m behind a gear
-//! of 20 and moves the belt at 3.1 m/s. Belt, load and idlers of 60 t hang on the carrying strand, whose elasticity
-//! from the drum to the load's middle is 0.6 MN/m. The figures are of the size that makers give for a steel-cord
-//! conveyor of that length, not those of one machine. The gear's loss is part of the resistance to motion.
+//! A 75 kW, four-pole motor has 485 N m, and 1.6 kg m2 with its coupling and brake disc. It turns a drum of 0.8 m
+//! behind a gear of 20 and moves the belt at 3.1 m/s. Belt, load and idlers of 60 t hang on the carrying strand, whose
+//! elasticity from the drum to the load's middle is 0.6 MN/m. The figures are of the size that makers give for a
+//! steel-cord conveyor of that length, not those of one machine. The gear's loss is part of the resistance to motion.
 //!
 //! A belt must not be jerked: the strand swings at 0.5 Hz, and a slack strand leaves the drum. So the setpoint reaches
 //! rated speed in 12 s, and the speed loop damps the swing.

@@ -26,8 +26,8 @@ pub const LINES: usize = 24;
 /// Ticks a second.
 pub const RATE_HZ: u32 = 10_000;
 
-/// Torque of the hoist's test load at the motor [N m]: 3 t of 9.80665 m/s2 on a drum of 0.8 m, two falls and a gear of
-/// 31.5, as the crane's driver reckons it.
+/// Torque of the hoist's test load at the motor (N m), as the crane's driver reckons it: 3 t of 9.80665 m/s2 on a drum
+/// of 0.8 m, two falls and a gear of 31.5.
 pub const HELD: f64 = 3_000.0 * 9.80665 * 0.8 / (2.0 * 2.0 * 31.5);
 
 /// Data on the hoist.

@@ -5,10 +5,10 @@
 //! makers' tables give for such parts, not those of one set. The rack follows its command with a lag of 20 ms, an
 //! electric actuator's, and the engine's torque follows the rack when the next cylinder has fired.
 //!
-//! The turbine, at the generator's shaft: 1500 r/min, acceleration time 8 s (twice the stored energy over the rated
-//! power: 4 s of inertia constant, as is usual for such sets), a stiff coupling; the valve has a lag of 0.1 s and the
-//! steam chest one of 0.25 s, the values that are usual for the model TGOV1 without reheat [IEEE PES-TR1 2013 §2.1].
-//! The observer's input is the torque of the chest's pressure.
+//! The turbine, at the generator's shaft: 1500 r/min, a stiff coupling, an acceleration time of 8 s. That is twice the
+//! stored energy over the rated power: 4 s of inertia constant, as is usual for such sets. The valve has a lag of 0.1 s
+//! and the steam chest one of 0.25 s, the values that are usual for the model TGOV1 without reheat [IEEE PES-TR1 2013
+//! §2.1]. The observer's input is the torque of the chest's pressure.
 //!
 //! # The loss of the turbine's whole load
 //! By the time the valve can have closed the steam has gone on driving: rated torque for the sum of the lags, 0.35 s,
@@ -102,7 +102,7 @@ pub const DIESEL_CHAIN: Chain = Chain::motor(Inertia(4.4)).shaft(Stiffness(5.0e4
 
 const DIESEL_MACHINE: TwoMassMachine = DIESEL_CHAIN.reduce(Match::ResonanceAntiresonance);
 
-/// Rated torque of the diesel [N m]: 400 kW.
+/// Rated torque of the diesel (N m): 400 kW.
 pub const DIESEL_TORQUE: f64 = 4.0e5 / RATED_SPEED;
 
 /// Lag of the rack (s).
@@ -114,7 +114,7 @@ pub const TORQUE_DELAY: f64 = 0.0065;
 /// Dead time that the governor allows for (s), which has to bear with every phase of the firing.
 pub const FIRING_DELAY: f64 = Actuator::firing_delay(6, true, RATED_SPEED);
 
-/// Delay of the speed filter [s]: half of its interval.
+/// Delay of the speed filter (s): half of its interval.
 const VIEW_DELAY: f64 = 0.5 * FIRING as f64 * PERIOD;
 
 /// The diesel set. Its critical speed is that of the engine's order 1.5 on the coupling, 844 r/min; order 3, the
@@ -142,7 +142,7 @@ pub const DIESEL: Set = Set {
     barred: BarredSpeeds::new(&[DIESEL_MACHINE.resonance()], &[1.5], USUAL_MARGIN, 0.9 * RATED_SPEED),
 };
 
-/// Rated torque of the turbine at the generator's shaft [N m]: 2 MW.
+/// Rated torque of the turbine at the generator's shaft (N m): 2 MW.
 pub const TURBINE_TORQUE: f64 = 2.0e6 / RATED_SPEED;
 
 /// Lags of the turbine's valve and of its steam chest (s).

@@ -1,9 +1,9 @@
 //! A mine's skip winch with an emergency brake.
 //!
-//! A 250 kW motor at 600 r/min (4 kN m) lifts a skip of 5 t at 4.2 m/s: gear 15, drum 2 m, 150 m of rope of 36 mm (58
-//! MN of E A, as ropemakers' tables have it), so that the skip hangs on 0.39 MN/m and swings at 1.4 Hz. The brake's
-//! disc sits on the motor's shaft, and holds twice the weight: it stops the descending skip with 4.4 m/s2. The figures
-//! are of the size of a small shaft's winch, not those of one machine.
+//! A 250 kW motor at 600 r/min (4 kN m) lifts a skip of 5 t at 4.2 m/s behind a gear of 15 and a drum of 2 m. The rope
+//! is 150 m long and 36 mm thick, with 58 MN of E A by ropemakers' tables. So the skip hangs on 0.39 MN/m and swings at
+//! 1.4 Hz. The brake's disc sits on the motor's shaft, and holds twice the weight: it stops the descending skip with
+//! 4.4 m/s2. The figures are of the size of a small shaft's winch, not those of one machine.
 //!
 //! When the supply fails the brake closes and the inverter is off; the drive's input is the brake's torque plus the
 //! motor's, and it goes on estimating: the rope's force matters most then.
@@ -61,7 +61,7 @@ impl Machine for SkipWinch {
         Screening { max_coast: Self::RATE_HZ / 25, ..Self::RATING.screening(Self::ENCODER, Self::RATE) };
 }
 
-/// Torque of the brake at the motor [N m]: twice the weight's.
+/// Torque of the brake at the motor (N m): twice the weight's.
 pub const BRAKE_TORQUE: f64 = 6_540.0;
 
 /// Counts of the encoder on a turn.

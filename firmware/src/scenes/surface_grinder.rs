@@ -1,10 +1,10 @@
 //! A surface grinder whose drive has all four parts: it observes, measures the fluctuation, governs and balances.
 //!
-//! A 22 kW, eight-pole motor at 735 r/min (286 N m; makers' tables give 0.5 kg m2 for frame size 225) turns a vertical
-//! spindle with a wheel of segments, 500 mm in diameter, through a soft rubber coupling of 400 N m. Its half at the
-//! motor has 0.02 kg m2; 4.9 kN m/rad and a relative damping of a half are assumed. Chuck, segments and spindle have
-//! 1.9 kg m2. The motor's encoder has 2048 sine periods on a turn, each interpolated to 64 counts. The figures are of
-//! the size of such machines; they are not those of one.
+//! A 22 kW, eight-pole motor at 735 r/min has 286 N m, and 0.5 kg m2 by makers' tables for frame size 225. Through a
+//! soft rubber coupling of 400 N m it turns a vertical spindle with a wheel of segments, 500 mm in diameter. The
+//! coupling's half at the motor has 0.02 kg m2; 4.9 kN m/rad and a relative damping of a half are assumed. Chuck,
+//! segments and spindle have 1.9 kg m2. The motor's encoder has 2048 sine periods on a turn, each interpolated to 64
+//! counts. The figures are of the size of such machines; they are not those of one.
 //!
 //! One segment stands proud of the others: the torque of the cut swings once and twice a turn, on either side of the
 //! coupling's resonance of 17 Hz. The cut acts as a torque alone. A force of it on the spindle once a turn would be

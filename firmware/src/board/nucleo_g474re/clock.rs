@@ -5,7 +5,7 @@ use stm32_metapac::pwr::vals::Vos;
 use stm32_metapac::rcc::vals::{Adcsel, Hpre, Pllm, Plln, Pllr, Pllsrc, Sw, Uartsel};
 use stm32_metapac::{FLASH, PWR, RCC};
 
-/// Clock of the core, the buses and the timers [Hz]: 24 MHz / 6 x 85 / 2.
+/// Clock of the core, the buses and the timers (Hz): 24 MHz / 6 x 85 / 2.
 pub const CLOCK_HZ: u32 = 170_000_000;
 
 /// Starts the clocks. Without a crystal it waits indefinitely, all outputs off.

@@ -23,7 +23,7 @@ const PLANE: f64 = 0.28;
 const BEARING: f64 = 0.45;
 /// Grade that it is found in.
 const FOUND: f64 = 16.0;
-/// Trial weights [kg m]: 1.4 times what is permitted in a plane in grade 6.3.
+/// Trial weights (kg m): 1.4 times what is permitted in a plane in grade 6.3.
 const TRIAL: f64 = 5e-3;
 /// Time that the speed is given to settle (s).
 const SETTLE: f64 = 2.0;
@@ -42,7 +42,7 @@ fn model() -> Result<Model, BalancingError> {
         .build()?)
 }
 
-/// Permissible unbalance of a plane in a grade [kg m]: each carries half the rotor.
+/// Permissible unbalance of a plane in a grade (kg m): each carries half the rotor.
 fn permissible(grade: f64) -> f64 {
     0.5 * ROTOR[0] * grade * 1e-3 / BalancedFan::RATING.speed
 }

@@ -21,7 +21,7 @@ use driveline_solver::rotor::{
 /// The unbalance as it is found, and the trial weights [kg m, degrees].
 const FOUND: [(f64, f64); 3] = [(1.8e-4, 35.0), (4.2e-4, 250.0), (2.5e-4, 160.0)];
 const TRIAL: [(f64, f64); 3] = [(3e-4, 0.0), (4e-4, 90.0), (3e-4, 45.0)];
-/// Time for the whirl of a run-up to die down [s]: seven times 1/(1 % of 135 rad/s).
+/// Time for the whirl of a run-up to die down (s): seven times 1/(1 % of 135 rad/s).
 const SETTLE: f64 = 5.0;
 /// Vibrations of the rotor that run in time, of 52; the other ones' share of the steady vibration is stated by the
 /// tests.

@@ -34,11 +34,11 @@ const SWING: [f64; 2] = [0.8, 0.3];
 /// Time for speed and whirl to settle at first, for the speed after the cut has begun, and for the whirl after the head
 /// has moved (s).
 const SETTLE: [f64; 3] = [1.5, 3.0, 0.2];
-/// Rate at which the head moves its correction [kg m/s]: its whole capacity in a second.
+/// Rate at which the head moves its correction (kg m/s): its whole capacity in a second.
 const RATE: f64 = scene::CAPACITY;
 /// Where head and wheel are, from the centre of gravity (m).
 const WHEEL: f64 = 0.25;
-/// Longest wait for a window of turns [s]: three windows.
+/// Longest wait for a window of turns (s): three windows.
 const PATIENCE: f64 = 3.0 * 32.0 * TAU / SPEED;
 
 /// Stiffness of the coupling (N m/rad); with its damping of 3.6 N m s/rad half of the energy of a swing at the

@@ -18,7 +18,7 @@ use driveline_solver::noise::Noise;
 use driveline_solver::plant::{Chain, Shaft};
 use driveline_solver::rotor::{Bearing, Direction, Faulty, Modal, Model, Polar, RigidRotor, Transducer, Whirl};
 
-/// Rate at which the head moves its correction [kg m/s]: its whole capacity in a second.
+/// Rate at which the head moves its correction (kg m/s): its whole capacity in a second.
 const RATE: f64 = scene::CAPACITY;
 /// Time for speed and whirl to settle at first, and for the whirl after the head has moved (s).
 const SETTLE: [f64; 2] = [1.5, 0.2];

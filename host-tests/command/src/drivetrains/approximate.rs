@@ -66,7 +66,7 @@ impl ApproximateObserver {
         self.estimate()
     }
 
-    /// A tick with the angle at its end (2^-32 turn) and the motor's torque during it [N m]: shaft torque, load speed
+    /// A tick with the angle at its end (2^-32 turn) and the motor's torque during it (N m): shaft torque, load speed
     /// and load torque [N m, rad/s, N m].
     pub fn tick(&mut self, angle: u32, torque: f64) -> [f64; 3] {
         self.observer.step(&self.config, angle, torque);

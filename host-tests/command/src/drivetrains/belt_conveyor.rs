@@ -12,7 +12,7 @@ use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 /// Travel of the belt per angle of the motor (m/rad).
 const TRAVEL: f64 = 0.8 / (2.0 * 20.0);
 
-/// Resistance to motion of the loaded belt at the motor [N m]: 2 % of the weight of 60 t.
+/// Resistance to motion of the loaded belt at the motor (N m): 2 % of the weight of 60 t.
 const RESISTANCE: f64 = 0.02 * 60_000.0 * 9.80665 * TRAVEL;
 
 /// Stiffness and damping of the strand at the motor.

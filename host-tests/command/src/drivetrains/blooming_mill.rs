@@ -17,7 +17,7 @@ use driveline_solver::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Star
 const LOAD: usize = 2;
 const SPINDLES: usize = 1;
 
-/// Friction of the roll bearings and the pinion stand [N m]: 5 % of rated torque.
+/// Friction of the roll bearings and the pinion stand (N m): 5 % of rated torque.
 const FRICTION: f64 = 0.05 * BloomingMill::RATING.torque;
 
 /// Rolling torque of a middle pass (N m).

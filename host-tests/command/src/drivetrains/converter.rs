@@ -15,9 +15,9 @@ const RATIO: f64 = 690.0;
 const LOAD: usize = 2;
 const TRUNNION: usize = 1;
 
-/// Friction of trunnion bearings and gears [N m]: a tenth of rated torque.
+/// Friction of trunnion bearings and gears (N m): a tenth of rated torque.
 const FRICTION: f64 = 700.0;
-/// Torque of the bath on either side of its dead centre [N m]: a third of rated torque.
+/// Torque of the bath on either side of its dead centre (N m): a third of rated torque.
 const BATH: f64 = 2_400.0;
 
 fn trunnion_torque(plant: &Body) -> f64 {

@@ -30,7 +30,7 @@ const RESISTANCE: f64 = 0.006 * (LOAD + BRIDGE) * GRAVITY * TRAVEL;
 /// Its known part: commissioning identified it to within a tenth.
 const TOLD: f64 = 0.9 * RESISTANCE;
 
-/// Wind on the load at the motors [N m]: 300 N.
+/// Wind on the load at the motors (N m): 300 N.
 const WIND: f64 = 300.0 * TRAVEL;
 
 /// Unknown part of the travelling resistance (N m).

@@ -9,7 +9,7 @@ use super::scenario::{Action, Law, Machine, Scenario};
 use crate::closed_loop::sensors::Encoder;
 use driveline_solver::plant::{Chain, PlantError, Shaft};
 
-/// Torque of the air at rated speed [N m]: nine tenths of rated torque.
+/// Torque of the air at rated speed (N m): nine tenths of rated torque.
 const AIR: f64 = 261.0;
 
 fn coupling(plant: &Body) -> f64 {

@@ -22,9 +22,9 @@ pub const CRANK: usize = 1;
 const SHAFT: usize = 0;
 const STIFFNESS: f64 = 1.6e7 / (RATIO * RATIO);
 const DAMPING: f64 = 2_100.0 / (RATIO * RATIO);
-/// Friction of bearings and gibs at the crank [N m s/rad]: 20 N m at the motor at rated speed, a tenth of rated torque.
+/// Friction of bearings and gibs at the crank (N m s/rad): 20 N m at the motor at rated speed, a tenth of rated torque.
 const FRICTION: f64 = 20.0 * RATIO * RATIO / PunchPress::RATING.speed;
-/// Torque of the punch at the crank (N m), and the angles before the bottom between which it acts [rad]: 800 kN at the
+/// Torque of the punch at the crank (N m), and the angles before the bottom between which it acts (rad): 800 kN at the
 /// middle of them.
 const PUNCH: f64 = 25_800.0;
 const FROM: f64 = 44.0 / 360.0 * TAU;
@@ -35,7 +35,7 @@ const PLATE: std::ops::Range<f64> = 3.0..7.0;
 /// About when that is (s).
 const SECONDS: [f64; 2] = [4.0, 7.6];
 
-/// Torque of the punch on the crank (N m) at an angle of it [rad]: a die with shear takes it up and lets it go
+/// Torque of the punch on the crank (N m) at an angle of it (rad): a die with shear takes it up and lets it go
 /// smoothly.
 fn punch(angle: f64) -> f64 {
     let way = (angle + FROM).rem_euclid(TAU) / OVER;

@@ -13,7 +13,7 @@ use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft};
 /// Rolling torque (N m).
 const ROLLING: f64 = 1.2e5;
 
-/// Time in which the strip fills the gap between the rolls [s]: 50 mm of contact and a wedge of a head of 50 mm, at 2
+/// Time in which the strip fills the gap between the rolls (s): 50 mm of contact and a wedge of a head of 50 mm, at 2
 /// m/s.
 const BITE: f64 = 0.05;
 

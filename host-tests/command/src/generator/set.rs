@@ -133,7 +133,7 @@ impl Set {
         self.plant.speed(self.flywheel + 1)
     }
 
-    /// Torque reported to the drive [N m]: the rack's position, or the chest's pressure.
+    /// Torque reported to the drive (N m): the rack's position, or the chest's pressure.
     pub fn told(&self) -> f64 {
         match &self.mover {
             Mover::Diesel(diesel) => diesel.rack(),
@@ -141,7 +141,7 @@ impl Set {
         }
     }
 
-    /// Torque of the load now [N m]: constant power, and the torque of a tenth of rated speed below that.
+    /// Torque of the load now (N m): constant power, and the torque of a tenth of rated speed below that.
     pub fn load_torque(&self) -> f64 {
         self.power / self.generator_speed().max(0.1 * RATED_SPEED)
     }

@@ -28,7 +28,7 @@ impl Turbine {
         self.chest
     }
 
-    /// Runs on by `dt` with the valve commanded to a torque, at a speed [rad/s]: its torque.
+    /// Runs on by `dt` with the valve commanded to a torque, at a speed (rad/s): its torque.
     pub fn advance(&mut self, command: f64, speed: f64, dt: f64) -> f64 {
         let [valve, chest] = self.lags;
         if !self.seized {

@@ -11,7 +11,7 @@ use super::window::{Windowed, Windows, doubt};
 /// Clock that the edges are timed with (Hz): a turn at the lowest speed takes a hundredth of its range.
 const CLOCK: f64 = 1e7;
 
-/// Lowest speed of an angle [rad/s]: 19 r/min, far below an engine's cranking.
+/// Lowest speed of an angle (rad/s): 19 r/min, far below an engine's cranking.
 const LOWEST: f64 = 2.0;
 
 /// Angles of a wheel's teeth (turn).

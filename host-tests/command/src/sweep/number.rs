@@ -2,7 +2,7 @@
 
 use driveline::number::{Coefficient, Fixed, Number};
 
-/// Angle by which a state is set from outside [2^-32 turn]: half of the largest that fixed point corrects by.
+/// Angle by which a state is set from outside (2^-32 turn): half of the largest that fixed point corrects by.
 pub const KICK: u32 = 1 << 25;
 
 /// A number that a sweep runs in.

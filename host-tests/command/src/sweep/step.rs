@@ -59,7 +59,7 @@ impl<N: Swept, S: Step<N>> OpenLoop<N, S> {
         Ok(OpenLoop { config, observer, bases, number: core::marker::PhantomData })
     }
 
-    /// One tick under a motor torque [N m]: predict and correct, by gains of zero.
+    /// One tick under a motor torque (N m): predict and correct, by gains of zero.
     #[inline]
     pub fn tick(&mut self, torque: f64) {
         self.observer.step(&self.config, KICK, N::of(torque, self.bases.torque));

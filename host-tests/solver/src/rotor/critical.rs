@@ -22,7 +22,7 @@ pub enum WhirlSense {
 pub struct Natural {
     /// Damped frequency (rad/s).
     pub frequency: f64,
-    /// Size of the eigenvalue [rad/s]: the frequency without its damping.
+    /// Size of the eigenvalue (rad/s): the frequency without its damping.
     pub undamped: f64,
     /// Damping ratio; negative where the whirl grows.
     pub damping_ratio: f64,

@@ -99,7 +99,7 @@ impl Model {
         Ok((influence * DVector::from_column_slice(unbalance)).iter().copied().collect())
     }
 
-    /// Influence coefficients (m/(kg m)) at a speed [rad/s]: a row a sensor, a column a station.
+    /// Influence coefficients (m/(kg m)) at a speed (rad/s): a row a sensor, a column a station.
     ///
     /// # Errors
     /// An undamped rotor on a critical speed.

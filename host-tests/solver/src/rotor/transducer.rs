@@ -24,7 +24,7 @@ pub struct Faulty {
     lag: f64,
     /// Standard deviation of the noise, in the sensor's unit.
     noise: f64,
-    /// Run-out [m]: order, amplitude, phase (rad) of what a displacement sensor sees of a surface that is not round.
+    /// Run-out (m): order, amplitude, phase (rad) of what a displacement sensor sees of a surface that is not round.
     run_out: Vec<(f64, f64, f64)>,
     /// Largest reading; beyond it the sensor clips.
     range: f64,

@@ -16,7 +16,7 @@ pub struct Part {
     pub n: f64,
     /// Amplitude over the speed.
     pub amplitude: f64,
-    /// Phase [rad]: the order is `amplitude cos(n theta - phase)`.
+    /// Phase (rad): the order is `amplitude cos(n theta - phase)`.
     pub phase: f64,
 }
 
@@ -60,7 +60,7 @@ impl Motion {
         (self.speed + self.ramp * time) * (1.0 + self.ripple(phi)[0])
     }
 
-    /// Goes on by `dt` [s]: Runge and Kutta's fourth order, in steps that turn by less than 2 mrad of the highest
+    /// Goes on by `dt` (s): Runge and Kutta's fourth order, in steps that turn by less than 2 mrad of the highest
     /// order; its error is below 1e-13 rad a step.
     pub fn advance(&mut self, dt: f64) {
         let highest = self.parts.iter().fold(1.0_f64, |most, part| most.max(part.n / self.turns));

@@ -19,7 +19,7 @@ pub const BINS: usize = 64;
 pub const MOTOR: f64 = 2.0;
 /// Inertia of the load (kg m2).
 pub const LOAD: f64 = 4.0;
-/// Stiffness between them [N m/rad]: a resonance of 61 Hz.
+/// Stiffness between them (N m/rad): a resonance of 61 Hz.
 pub const STIFFNESS: f64 = 2.0e5;
 /// Rated speed (rad/s), 1500 r/min.
 pub const RATED: f64 = 157.0;

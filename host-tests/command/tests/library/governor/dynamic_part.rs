@@ -61,7 +61,7 @@ struct Case {
     setpoints: [f64; 2],
     /// Torque that acts over the torque that is commanded.
     torque_gain: f64,
-    /// Load torque on the last inertia [N m]: from, over, and how much.
+    /// Load torque on the last inertia (N m): from, over, and how much.
     load: [f64; 3],
     /// How long the run is (s).
     duration: f64,

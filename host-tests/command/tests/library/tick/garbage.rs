@@ -16,7 +16,7 @@ use proptest::prelude::*;
 
 use super::rig::{Scaled, Seen, check};
 
-/// Time in which the estimates are right again [s]: the angle is lost after 20 ms and caught by two angles that differ;
+/// Time in which the estimates are right again (s): the angle is lost after 20 ms and caught by two angles that differ;
 /// what the restart leaves fades with a time constant below 40 ms, of which ten fit.
 const RECOVERY: f64 = 0.5;
 

@@ -12,7 +12,7 @@ use super::rig::{BASES, REDUCED};
 
 use super::rig::Scaled;
 
-/// Torque of each tick [N m]: as much above the load's as below it, so that the shaft swings and no speed meets the
+/// Torque of each tick (N m): as much above the load's as below it, so that the shaft swings and no speed meets the
 /// rails of fixed point.
 fn torque(tick: u32) -> f64 {
     if (tick / 700).is_multiple_of(2) { 1_200.0 } else { -400.0 }

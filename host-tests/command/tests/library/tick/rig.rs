@@ -20,7 +20,7 @@ pub const TORQUE_LIMIT: f64 = Hoist::<10_000>::RATING.torque_limit;
 pub const REDUCED: TwoMass = Hoist::<10_000>::TWO_MASS;
 pub const BASES: Bases = Hoist::<10_000>::BASES;
 
-/// Weight of the load at the motor [N m]: 12 t under 9.80665 m/s2 on a drum of 0.8 m, two falls and a gear of 31.5.
+/// Weight of the load at the motor (N m): 12 t under 9.80665 m/s2 on a drum of 0.8 m, two falls and a gear of 31.5.
 pub const WEIGHT: f64 = 12_000.0 * 9.806_65 * 0.8 / (2.0 * 2.0 * 31.5);
 
 /// A number with the hoist's bases.
@@ -138,7 +138,7 @@ where
         Rig { plant: plant.unwrap(), drive: Drive::new(V::CONFIG, 0), applied: 0.0, setpoint: RATED_SPEED }
     }
 
-    /// Lifting at a steady speed [rad/s]: three seconds cover the ramp of two and what settles after it.
+    /// Lifting at a steady speed (rad/s): three seconds cover the ramp of two and what settles after it.
     pub fn lifting(speed: f64) -> Self {
         let mut rig = Rig::at_rest();
         rig.setpoint = speed;
