@@ -59,8 +59,8 @@ pub const LINES: u32 = 512;
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 524_288;
 
-/// Observer selection for a tool that hits the work within 3 ms, three times a second; twelve samples on a swing are
-/// too few for the semi-implicit step.
+/// Observer selection for a tool that hits the work within 3 ms, three times a second, on the machine as described;
+/// twelve samples on a swing are too few for the semi-implicit step. Over the tolerances one mass is better.
 pub const fn selection() -> ObserverSelection {
     Spindle::TWO_MASS.select_observer(
         &LoadCycle {
@@ -76,9 +76,9 @@ pub const fn selection() -> ObserverSelection {
     )
 }
 
-/// One mass.
+/// One mass: the choice over the tolerances.
 pub type Rigid<N> = Governed<N, observer::RigidObserver<N>>;
-/// Two masses, exact step: the design's choice.
+/// Two masses, exact step: what the load cycle alone asks for.
 pub type Exact<N> = Governed<N, TwoMassObserver<N>>;
 
 variants! {

@@ -201,8 +201,8 @@ fn a_file_of_other_settings_is_refused_and_kept() {
         (&["--seed", "2"][..], "it has `seed 1`, this one `seed 2`"),
         (&["--tolerance", "jitter=0"], "it has `tolerance jitter=0..0.0000002`, this one `tolerance jitter=0..0`"),
         (
-            &["--drive", "f32/rigid/10000"],
-            "it has `variant spindle/f32/exact/10000`, this one `variant spindle/f32/rigid/10000`",
+            &["--drive", "f32/exact/10000"],
+            "it has `variant spindle/f32/rigid/10000`, this one `variant spindle/f32/exact/10000`",
         ),
         (&["--tolerance", "jiter=0"], "there is no factor `jiter`"),
         (&["--tolerance", "delay=9"], "lies from 0 to 3, ticks"),
@@ -410,6 +410,22 @@ fn a_no_load_run_halves_the_error_of_crane_and_mill() {
             let torque = [&learnt, &told].map(|outcome| outcome.of(Figure::ShaftTorque));
             assert!(torque[0] <= 0.5 * torque[1], "{name}, draw {number}: shaft torque {torque:?}");
             assert_eq!((learnt.of(Figure::Flagged), learnt.is_unstable()), (0.0, false));
+        }
+    }
+}
+
+/// The spindle's own choice, one mass, is not worse than two masses: the aim is 95 % of the draws. Chosen on seed 1.
+#[test]
+fn the_spindle_is_best_observed_as_one_mass() {
+    let scene = SCENES.iter().find(|scene| scene.name == "spindle").unwrap();
+    let machine = scene.departing(&Departure::NONE).unwrap();
+    let [chosen, two] = [None, Some("f32/exact/10000")].map(|name| Drive::named(scene, &machine, name).unwrap());
+    assert_eq!(chosen.name(scene.name), "spindle/f32/rigid/10000");
+    for number in 0..20 {
+        let draw = Draw::new(&scene.tolerances(), 3, number);
+        let [one, two] = [&chosen, &two].map(|drive| run(scene, drive, &draw).unwrap());
+        for figure in [Figure::ShaftTorque, Figure::LoadSpeed, Figure::LoadTorque] {
+            assert!(one.of(figure) <= two.of(figure), "draw {number}: {}", figure.name());
         }
     }
 }
