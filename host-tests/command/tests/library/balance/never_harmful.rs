@@ -137,8 +137,10 @@ fn balanced(noise: &mut Noise, disturbed: Disturbance) -> (f64, f64, bool) {
 }
 
 /// 2,000 starts, 200 of each kind: none ends worse than 1.02 times what was there, none passes 1.3 times on the way.
-/// G2.5
-/// is reached in nine of ten where the bearings hold still and the readings are good to 2 %.
+/// G2.5 is reached in nine of ten where the bearings hold still and the readings are good to 2 %.
+///
+/// The constants are tuned on other seeds, 1 to 100 and 1001 to 1800. Of the 200 times 2,000 starts of seeds 101 to 300,
+/// two did harm, of seeds 215 and 270, both with restless bearings. Here run the first ten of these seeds.
 #[test]
 fn two_thousand_starts_end_no_worse() {
     let plain = Disturbance { noise: 0.005, ..Disturbance::default() };
@@ -156,24 +158,26 @@ fn two_thousand_starts_end_no_worse() {
         ("bearings", Disturbance { bearings: 0.2, ..plain }, false),
         ("all", all, false),
     ];
-    let mut noise = Noise::new(99);
-    let mut balanced_of_still = [0, 0];
-    for (name, disturbed, still) in kinds {
-        let (mut worst, mut highest, mut good) = (0.0_f64, 0.0_f64, 0);
-        for _ in 0..200 {
-            let (end, peak, within) = balanced(&mut noise, disturbed);
-            (worst, highest) = (worst.max(end), highest.max(peak));
-            good += u32::from(within);
+    for seed in 101..=110 {
+        let mut noise = Noise::new(seed);
+        let mut balanced_of_still = [0, 0];
+        for (name, disturbed, still) in kinds {
+            let (mut worst, mut highest, mut good) = (0.0_f64, 0.0_f64, 0);
+            for _ in 0..200 {
+                let (end, peak, within) = balanced(&mut noise, disturbed);
+                (worst, highest) = (worst.max(end), highest.max(peak));
+                good += u32::from(within);
+            }
+            println!("{seed}, {name}: worst end {worst:.3}, highest {highest:.3}, within G2.5 {good} of 200");
+            assert!(worst <= 1.02, "{name}: {worst}");
+            assert!(highest <= 1.3, "{name}: {highest}");
+            if still {
+                balanced_of_still = [balanced_of_still[0] + good, balanced_of_still[1] + 200];
+            }
         }
-        println!("{name}: worst end {worst:.3}, highest {highest:.3}, within G2.5 {good} of 200");
-        assert!(worst <= 1.02, "{name}: {worst}");
-        assert!(highest <= 1.3, "{name}: {highest}");
-        if still {
-            balanced_of_still = [balanced_of_still[0] + good, balanced_of_still[1] + 200];
-        }
+        let [good, still] = balanced_of_still;
+        assert!(10 * good >= 9 * still, "{good} of {still}");
     }
-    let [good, still] = balanced_of_still;
-    assert!(10 * good >= 9 * still, "{good} of {still}");
 }
 
 /// After an abort the influence is still there: the correction needs no probe.
