@@ -4,7 +4,10 @@ sentences! {
     /// Why the test did not begin, was ended, or why its data do not support an answer.
     Error:
     Rate => "the rate of the ticks must be positive and finite",
-    EncoderLines => "the encoder must have at least one line, and no more counts than 2^31 on a turn",
+    EncoderLines => "the encoder must have at least one line",
+    EncoderCounts => "the encoder must have no more counts than 2^31 on a turn",
+    EncoderAccuracy => "the accuracy of the encoder must be zero or above and finite: interpolation error (fraction of \
+        a signal period), eccentricity (rad), jitter (s) and its speed (rad/s)",
     Torque => "the test's torque must be positive and finite, and within the shaft's bring the first guess of the \
         inertia to the test's speed in half an hour (N m)",
     ShaftTorque => "the largest torque of the shaft must be above the holding torque of the load, and finite (N m)",

@@ -109,7 +109,10 @@ impl TestConfig {
         let Ok(resolution) = settings.encoder.resolution() else { return Err(Error::EncoderLines) };
         let [low, high] = settings.band;
         if resolution < TAU / 2_147_483_648.0 {
-            return Err(Error::EncoderLines);
+            return Err(Error::EncoderCounts);
+        }
+        if settings.encoder.variance().is_err() {
+            return Err(Error::EncoderAccuracy);
         }
         if !positive(settings.torque) {
             return Err(Error::Torque);

@@ -165,6 +165,8 @@ fn settings_out_of_range() {
     };
     assert_eq!(with(&|s| s.rate = Rate::hz(0)), Error::Rate);
     assert_eq!(with(&|s| s.encoder = Encoder::lines(0)), Error::EncoderLines);
+    assert_eq!(with(&|s| s.encoder = Encoder::lines(1 << 30)), Error::EncoderCounts);
+    assert_eq!(with(&|s| s.encoder = Encoder::lines(2048).eccentricity(-1e-3)), Error::EncoderAccuracy);
     assert_eq!(with(&|s| s.torque = -1.0), Error::Torque);
     assert_eq!(with(&|s| s.held = f64::NAN), Error::Held);
     assert_eq!(with(&|s| s.held = 40.0), Error::ShaftTorque);
