@@ -112,14 +112,15 @@ impl Replay {
         let sheet = Destination::page_unless(self.json, self.html.as_deref(), &format!("{}-replay", slug(&self.file)));
         let table = self.csv.as_deref().map(|path| Destination::chosen("table", path));
         check(&[&self.file], table.iter().chain(&sheet))?;
-        let Shown { text, json, csv, sheet: page } = shown(self.recorded.asked()?)?;
+        let Shown { text, json, csv, untold, sheet: page } = shown(self.recorded.asked()?)?;
         if self.json {
             say_json(&json)?
         } else {
             say(text)
         }
         table.map_or(Ok(()), |table| table.write_and_say(&csv, self.json))?;
-        sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page.page(), self.json))
+        sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page.page(), self.json))?;
+        untold.map_or(Ok(()), |untold| Err(Failure::failed(untold)))
     }
 
     fn observer(&self, path: &Path) -> Result<(), Failure> {

@@ -211,6 +211,8 @@ pub struct Column {
     pub quantity: Quantity,
     /// Factor to SI units; a level in decibels has none.
     pub factor: Option<f64>,
+    /// Whether it is in counts of an encoder.
+    pub counted: bool,
 }
 
 /// Why a heading is of no use.
@@ -283,6 +285,7 @@ impl Column {
                 None => return Err(fault(format!("the unit `{unit}` in the heading `{heading}`"))),
             },
         };
+        let counted = factor.is_nan() && quantity != Quantity::Magnitude;
         let factor = match (factor.is_nan(), quantity) {
             (false, _) => Some(factor),
             (true, Quantity::Magnitude) => None,
@@ -295,7 +298,7 @@ impl Column {
                 })?,
             ),
         };
-        Ok(Self { index, heading: heading.to_owned(), quantity, factor })
+        Ok(Self { index, heading: heading.to_owned(), quantity, factor, counted })
     }
 
     /// A value in SI units.

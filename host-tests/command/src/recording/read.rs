@@ -68,6 +68,10 @@ impl Recording {
     /// A sentence: neither is there, or nobody says what torque a current makes.
     pub fn torque(&self, constant: Option<f64>) -> Result<Vec<f64>, Diagnostic> {
         if let Some(torque) = self.signal(Quantity::Torque) {
+            if constant.is_some() {
+                let found = "--torque-constant beside a column of the torque";
+                return Err(self.fault(found, "one of the two; --column torque=HEADING names the column"));
+            }
             return Ok(torque.to_vec());
         }
         match (self.signal(Quantity::Current), constant) {
@@ -322,6 +326,10 @@ fn columns(
                 return Err(Diagnostic::at(source, place(index), "", found, expected));
             }
         }
+    }
+    if asked.counts.is_some() && !columns.iter().any(|column| column.counted) {
+        let expected = "a column in counts, such as `angle_counts`; an angle in another unit needs no counts";
+        return Err(Diagnostic::of_file(source.name, "--counts without a column in counts".to_owned(), expected));
     }
     Ok((columns, unused))
 }

@@ -72,6 +72,8 @@ impl FromStr for Wheel {
 pub struct Turned {
     /// Edges.
     pub edges: usize,
+    /// Teeth on a turn.
+    pub teeth: usize,
     /// Those after which the place was known.
     pub known: usize,
     /// The windows; the last one may have fewer cycles.
@@ -114,7 +116,7 @@ fn run<const TEETH: usize, const CYCLE: usize>(
     teeth.angles.copy_from_slice(&wheel.0);
     let config = ToothedWheelConfig::try_new(&teeth, ToothClock { turns, clock: CLOCK, lowest_speed: LOWEST })?;
     let first = edges.first().copied().unwrap_or(0.0);
-    let mut turned = Turned { edges: edges.len(), ..Turned::default() };
+    let mut turned = Turned { edges: edges.len(), teeth: TEETH, ..Turned::default() };
     let mut wheel = ToothedWheel::<CycleTimes<CYCLE>>::default();
     let mut window = ToothWindow::default();
     let mut close = |window: &mut ToothWindow<CYCLE>, until: f64| {

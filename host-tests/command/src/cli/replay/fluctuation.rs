@@ -63,6 +63,7 @@ impl FluctuationOptions {
                 "windows": found.iter().map(as_json).collect::<Vec<_>>(),
             }),
             csv: csv(&found),
+            untold: highest(&found).is_none().then(|| "the record tells no fluctuation".to_owned()),
             sheet: sheet(&found, &recording.name, "Speed fluctuation", Vec::new()),
         })
     }

@@ -118,6 +118,7 @@ impl PhasorOptions {
                 }),
             }),
             csv: csv(&taken),
+            untold: total.is_none().then(|| "the record tells no phasor".to_owned()),
             sheet: Sheet {
                 name: recording.name.clone(),
                 kicker: "Phasors".to_owned(),

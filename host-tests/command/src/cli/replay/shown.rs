@@ -10,6 +10,8 @@ pub struct Shown {
     pub json: serde_json::Value,
     /// With `--csv`.
     pub csv: String,
+    /// What the record does not tell; none where it tells something.
+    pub untold: Option<String>,
     /// The page.
     pub sheet: Sheet,
 }

@@ -57,14 +57,13 @@ impl WheelOptions {
         let level = recording.signal(Quantity::Teeth);
         let other = level.and_then(|_| turn(&wheel, windows, &edges(&recording, !falling).ok()?).ok());
         let here = unexplained(&turned);
-        if let Some(there) = other.as_ref().and_then(unexplained)
-            && here.is_none_or(|here| there < 0.3 * here)
-        {
+        let better = other.as_ref().and_then(unexplained).filter(|there| here.is_none_or(|here| *there < 0.3 * here));
+        if let Some(there) = better {
             let (option, there) = (if falling { "without" } else { "with" }, significant(there.to_degrees()));
             let _ = write!(text, "; {option} --falling the other edges leave a residual of {there} deg");
         }
         if turned.windows.is_empty() {
-            let _ = write!(text, "; no cycle: is the wheel the one described, and does it turn above 19 r/min?");
+            let _ = write!(text, "; no cycle: {}", why_none(&turned, windows, &times));
         }
         let fact = Fact { name: "synchronised at".to_owned(), value: known };
         Ok(Shown {
@@ -74,11 +73,35 @@ impl WheelOptions {
                 "edges": turned.edges,
                 "edges_with_place": turned.known,
                 "turns_to_a_cycle": windows.turns,
+                "better_edges": better.map(|residue| json!({ "falling": !falling, "residue": residue })),
                 "windows": turned.windows.iter().map(as_json).collect::<Vec<_>>(),
             }),
             csv: csv(&turned.windows),
+            untold: highest(&turned.windows).is_none().then(|| "the record tells no speed of this wheel".to_owned()),
             sheet: sheet(&turned.windows, &recording.name, "Toothed wheel", vec![fact]),
         })
+    }
+}
+
+/// Edges further apart than so many median ones are a stop: a gap is of a few teeth.
+const STOP: f64 = 20.0;
+
+/// Why no cycle was found.
+fn why_none(turned: &Turned, windows: Windows, times: &[f64]) -> String {
+    // a turn to find the place, and the cycle from one gap to the next
+    let needed = turned.teeth * (windows.turns as usize + 2);
+    let mut steps: Vec<(f64, f64)> = times.windows(2).map(|pair| (pair[1] - pair[0], pair[0])).collect();
+    steps.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let median = steps.get(steps.len() / 2).map_or(0.0, |step| step.0);
+    match steps.last() {
+        _ if turned.edges < needed => {
+            let (edges, teeth) = (turned.edges, turned.teeth);
+            format!("the recording is too short, {edges} edges of {teeth} on a turn, expected {needed} or more")
+        }
+        Some((longest, since)) if *longest > STOP * median => {
+            format!("the edges stay away for {} s from {since:.3} s on", significant(*longest))
+        }
+        _ => "is the wheel the one described, and does it turn above 19 r/min?".to_owned(),
     }
 }
 
