@@ -139,14 +139,14 @@ pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
 /// A figure of the plant that is out of range.
 pub fn test_lifts(by: &Departure) -> Result<Vec<Scenario>, PlantError> {
     let up = Hoist::<10_000>::RATING.speed;
-    let (fall, steps) = (0.45 * up, 30.0);
-    let lifts = [(0.2, up), (4.7, -up), (10.7, up), (16.7, -up), (22.7, up)];
-    let changes = (0..6).map(|k| (steps + 2.8 * f64::from(k), if k % 2 == 0 { fall } else { up }));
+    let (fall, steps, lasts) = (0.45 * up, 33.5, 3.5);
+    let lifts = [(0.2, up), (5.4, -up), (12.1, up), (18.8, -up), (25.5, up)];
+    let changes = (0..6).map(|k| (steps + lasts * f64::from(k), if k % 2 == 0 { fall } else { up }));
     let course: Vec<(f64, f64)> = lifts.into_iter().chain(changes).collect();
     let load = |mass: f64| Departure { load: mass / MASS, rope: 1.0, ..*by };
     Ok(vec![
-        lift("empty hook", &load(500.0), Some(500.0), &lifts, 28.0)?,
-        lift("test weight", &load(MASS), Some(MASS), &course, steps + 6.0 * 2.8)?,
+        lift("empty hook", &load(500.0), Some(500.0), &lifts, 31.5)?,
+        lift("test weight", &load(MASS), Some(MASS), &course, steps + 6.0 * lasts)?,
     ])
 }
 
