@@ -12,11 +12,12 @@
 //!
 //! Margins are those of the full loop: two masses, sampled, with dead time, lag and feed-forward. P is the machine, A
 //! the actuator, C the controller, F the lag of the estimated load torque and g its share. The observer finds the load
-//! from the machine's motion and from the torque that acts. The loop cut at the actuator is therefore `A (C P + g F)/(1
-//! - g F A)`. The closed loop is that of `A C P` alone, as long as the actuator matches its model; the margins cover
-//! the mismatch. At g = 1 the feed-forward integrates by itself. With a virtual inertia of the share s the estimated
-//! acceleration is that of the reported torque plus, delayed, that of the machine's motion. The loop is then `A (C P +
-//! s F)/(1 + s (1 - F) A)`.
+//! from the machine's motion and from the torque that acts. The loop cut at the actuator is therefore
+//! `A (C P + g F)/(1 - g F A)`. The closed loop is that of `A C P` alone, as long as the actuator matches its model;
+//! the margins cover the mismatch. At g = 1 the feed-forward integrates by itself. With a virtual inertia of the share
+//! s the estimated acceleration is that of the reported torque plus, delayed, that of the machine's motion. The loop is
+//! then
+//! `A (C P + s F)/(1 + s (1 - F) A)`.
 
 use super::late_loop::{Late, LateLoop};
 use super::margins::{Margins, OpenLoop};

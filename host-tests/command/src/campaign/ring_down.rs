@@ -33,7 +33,7 @@ const SIGNAL: f64 = 0.02;
 const COUNTS: f64 = 0.2;
 
 /// The parts of a signal that is sampled every so many seconds, each pair of poles once. None of a signal that is zero,
-/// not finite or shorter than twice the [`COLUMNS`].
+/// not finite or shorter than twice `COLUMNS`.
 pub fn parts(signal: &[f64], every: f64) -> Vec<Part> {
     if signal.len() < 2 * COLUMNS || signal.iter().any(|value| !value.is_finite()) {
         return Vec::new();
