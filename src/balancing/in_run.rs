@@ -5,14 +5,14 @@
 //! Wittenmark, *Adaptive Control*, 7.3). It is larger where the influence is too uncertain to be identified by it. It
 //! is never larger than four standard deviations of that uncertainty allow within the bound.
 //!
-//! Without a first estimate the head stands still for three readings: their change is the machine's own. The first move
-//! is the probe: a weight that is known to change the vibration by less than the bound allows. Later moves are bounded
-//! by the identified influence, and go no more than a few times as far as weights that were read.
+//! Without a first estimate the head stands still for three further readings: their change is the machine's own. The
+//! first move is the probe: a weight that is known to change the vibration by less than the bound allows. Later moves
+//! are bounded by the identified influence, and go no more than a few times as far as weights that were read.
 //!
-//! A correction waits until a second move has confirmed the estimate. It must not make the vibration worse within its
-//! uncertainty. Where readings change by themselves by too much, the head goes back to where it began. A change that
-//! an identified influence does not explain is a jump of the unbalance: the influence stays, and the correction
-//! follows. What was best before it is best no longer.
+//! A correction waits until a second move has confirmed the estimate. It is made only where it cannot make the
+//! vibration worse within its uncertainty. Where readings change by themselves by too much, the head goes back to where
+//! it began. A change that an identified influence does not explain is a jump of the unbalance: the influence stays,
+//! and the correction follows. What was best before it is best no longer.
 
 use core::fmt;
 
@@ -229,6 +229,8 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         (self.aborted, self.start, self.speed) = (None, None, None);
         (self.weights, self.rest, self.moved) = (*weights, *weights, [zero(); PLANES]);
         (self.stalled, self.probes, self.failures, self.jumped) = (0, 0, 0, false);
+        // what wandered may stand still now
+        (self.scatter, self.rested) = (T::zero(), 0);
     }
 
     /// Takes a steady reading with the present weights and its variance (0 where unknown), and returns the next action.
@@ -368,7 +370,9 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         let surprise = innovation.largest > innovation.deviation * real(DEVIATIONS);
         // what the readings change by themselves: all of it where nothing has moved, or what the prediction leaves
         let beyond = if still { innovation.largest * real(0.7) } else { innovation.largest - innovation.predicted };
-        let beyond = beyond.max(T::zero()) / level.max(self.level);
+        let largest = level.max(self.level);
+        // a dead sensor reads zero twice
+        let beyond = if largest > T::zero() { beyond.max(T::zero()) / largest } else { T::zero() };
         if surprise && self.estimate.confirmed() {
             self.failures += 1;
             self.stalled = 0;

@@ -12,7 +12,7 @@
 //!
 //! which is the zero-order-hold solution to the last digit of the number type. The coefficients are those of the
 //! *increment*, which keeps the resolution of a slow mode that is sampled fast. In `f32` a coefficient cos(omega T) has
-//! lost its frequency where 1 - cos(omega T) has not. Angular momentum is a state, so it is kept whatever the
+//! lost the mode's frequency where 1 - cos(omega T) has not. Angular momentum is a state, so it is kept whatever the
 //! stiffness. The motor turns by the mean speed's trapezium plus its share of the twist's increment, again exactly.
 
 use super::{AngleTracker, Observer, Prediction};

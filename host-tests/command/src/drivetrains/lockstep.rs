@@ -21,7 +21,7 @@ pub struct Moment {
     pub torque: f64,
     /// Speed of the motor (rad/s).
     pub motor_speed: f64,
-    /// Shaft torque, load speed, load torque as the plant has them [N m, rad/s, N m].
+    /// Shaft torque, load speed, load torque as the plant has them (N m, rad/s, N m).
     pub truth: [f64; 3],
     /// The same as the drive estimates them.
     pub estimate: [f64; 3],

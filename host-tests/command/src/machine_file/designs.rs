@@ -147,8 +147,8 @@ impl MachineFile {
         Actuator { delay: self.actuator.delay, lag }
     }
 
-    /// What a speed loop lacks within the tolerances: 6 dB, 30 degrees, stability with two masses or with all the
-    /// machine's vibrations. `None` where it has all.
+    /// What a speed loop lacks: 6 dB and 30 degrees at the nominal machine, stability within the tolerances, with two
+    /// masses or with all the machine's vibrations. `None` where it has all.
     ///
     /// # Errors
     /// An actuator or a rate that the loop cannot have.

@@ -206,6 +206,38 @@ fn an_abort_is_left_with_what_was_learnt() {
     assert!(((to - other) / (needed - other)).re > 0.1, "{to}");
 }
 
+/// Readings that wander by a quarter end a run. Once they hold still the run goes on when it is told to, and balances.
+#[test]
+fn a_run_that_was_given_up_for_wandering_can_be_resumed() {
+    let needed = Complex::new(0.8e-3, 0.5e-3);
+    let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [Complex::new(0.0, 0.0)]).unwrap();
+    let reading = |head: Complex<f64>| [(head - needed) * 900.0, (head - needed) * Complex::new(0.0, 500.0)];
+    let mut head = Complex::new(0.0, 0.0);
+    let wanders = (0..30).any(|step| {
+        let bearings = if step % 2 == 0 { 1.0 } else { 1.25 };
+        match run.advise(&reading(head).map(|z| z * bearings), 0.0) {
+            Action::Set([to]) => head = to,
+            Action::Hold => {}
+            Action::Abort([to], _) => {
+                head = to;
+                return true;
+            }
+        }
+        false
+    });
+    assert!(wanders, "it was not given up");
+    run.resume(&[head]);
+    for _ in 0..20 {
+        match run.advise(&reading(head), 0.0) {
+            Action::Set([to]) => head = to,
+            Action::Hold => {}
+            Action::Abort(_, reason) => panic!("{reason}"),
+        }
+    }
+    // the target is a hundredth, and the correction of a tenth that is left is smaller than twice the error assumed
+    assert!((head - needed).norm() < 0.1 * needed.norm(), "{head}");
+}
+
 /// A reading of another speed is asked for again, and teaches nothing.
 #[test]
 fn a_reading_of_another_speed_is_not_used() {
