@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args};
 use driveline::configure::Rating;
-use driveline::design::Rate;
+use driveline::design::{Encoder, Rate};
 use driveline::settings::Gear;
 use serde_json::json;
 
@@ -25,6 +25,7 @@ use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
 use crate::machine_file::{MachineFile, printable, read};
 use crate::recording::{Asked, Recording, read_recording};
+use crate::replay::wheel::Followed;
 use crate::replay::{Between, Design, Replayed, Signals, csv, page, replay, summaries, table};
 use driveline_report::Fact;
 use driveline_report::format::significant;
@@ -34,29 +35,35 @@ use driveline_report::format::significant;
 /// The library's own code runs as on the drive. With `--machine` that is the observer, in `f32` and in fixed point,
 /// designed from the machine file at the recording's rate: estimates, innovation, flags, and errors where the load was
 /// measured. Columns are found by quantity and unit: torque or current and angle or speed of the motor; `load_angle`,
-/// `load_speed`, `shaft_torque` and `load_torque`, at the motor's shaft, are what the estimates are compared with.
+/// `load_speed`, `shaft_torque` and `load_torque`, at the motor's shaft, are what the estimates are compared with. With
+/// `--teeth` as well the angle is that of a toothed wheel on the motor.
 ///
-/// With `--teeth` it is the toothed wheel: speed and ripple from the times of its edges, in a column of `time` and one
-/// of the pickup's level (`crank`, `teeth`), or with a row for each edge.
+/// With `--teeth` alone it is the toothed wheel: speed and ripple from the times of its edges: in columns of `time` and
+/// of the pickup's level (`crank`, `teeth`), in one of `tooth_time`, or with a row for each edge.
 ///
 /// With `--fluctuation` it is the speed's fluctuation over a cycle of a recorded `angle`, as a drive measures it.
 ///
 /// With `--phasors` it is the vibration at the rotor's speed: a column of `vibration`, and the rotor's `angle` or a
 /// `mark` once a turn.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("part").required(true).args(["machine", "teeth", "fluctuation", "phasors"]))]
+#[command(group = ArgGroup::new("part").required(true).multiple(true)
+    .args(["machine", "teeth", "fluctuation", "phasors"]))]
+#[command(group = ArgGroup::new("edged").multiple(true).args(["teeth", "phasors"]))]
+#[command(group = ArgGroup::new("driven").multiple(true).args(["held", "delay", "torque_constant"])
+    .requires("machine").conflicts_with_all(["fluctuation", "phasors"]))]
 #[command(after_help = "Examples:
   cargo driveline example bench-log > bench.csv
   cargo driveline identify bench.csv --rate 2500 --torque-constant 0.564 --to 5 --toml bench.toml
   cargo driveline replay bench.csv --machine bench.toml --rate 2500 --torque-constant 0.564 --delay 1.2e-4 --from 5
   cargo driveline replay crank.csv --teeth 60-2 --cycle 2
+  cargo driveline replay motor.csv --machine bench.toml --teeth 60-2
   cargo driveline replay press.csv --fluctuation --cycles 4
   cargo driveline replay rotor.csv --phasors --rate 952")]
 pub struct Replay {
     /// The recording: a CSV file
     file: PathBuf,
     /// The machine: a TOML file of elements from the motor to the load
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["fluctuation", "phasors"])]
     machine: Option<PathBuf>,
     #[command(flatten)]
     wheel: WheelOptions,
@@ -67,15 +74,15 @@ pub struct Replay {
     #[command(flatten)]
     phasors: PhasorOptions,
     /// Take the edges, or the mark, where the level falls
-    #[arg(long, conflicts_with_all = ["machine", "fluctuation"])]
+    #[arg(long, requires = "edged", conflicts_with = "fluctuation")]
     falling: bool,
     #[command(flatten)]
     recorded: Recorded,
     /// Keep the torque from each sample to the next, as of a command; a measured one runs straight
-    #[arg(long, conflicts_with_all = ["teeth", "fluctuation", "phasors"])]
+    #[arg(long)]
     held: bool,
     /// Time by which the torque acts after its sample (s)
-    #[arg(long, value_name = "S", default_value_t = 0.0, conflicts_with_all = ["teeth", "fluctuation", "phasors"])]
+    #[arg(long, value_name = "S", default_value_t = 0.0)]
     delay: f64,
     /// Write the estimates of every tick, the windows or the readings as a table
     #[arg(long, value_name = "PATH")]
@@ -144,10 +151,19 @@ impl Replay {
             let sentence = format!("--delay {delay:?}: expected seconds below the recording's length of {length} s");
             return Err(Failure::usage(sentence));
         }
+        let teeth = self.wheel.teeth.as_deref();
+        let wheel = teeth.map(|teeth| WheelOptions::followed(teeth, &recording, self.falling)).transpose()?;
         let two = machine.two_masses();
         let constant = self.recorded.torque_constant;
         let between = if self.held { Between::Held } else { Between::Straight };
-        let signals = Signals::of(&recording, two.as_ref(), constant, between, self.delay)?;
+        let signals = Signals::of(
+            &recording,
+            two.as_ref(),
+            constant,
+            between,
+            self.delay,
+            wheel.as_ref().map(|wheel| wheel.angles.clone()),
+        )?;
         let gap: f64 = machine.chain.shafts().iter().map(|shaft| shaft.gap).sum();
         if gap > 0.0 && !self.json {
             let (file, gap) = (printable(&path.display().to_string(), 200), significant(gap));
@@ -162,7 +178,7 @@ impl Replay {
                 progress.at(done);
             }
         };
-        let replayed = self.run(path, &machine, &recording, signals, tick)?;
+        let replayed = self.run(path, &machine, &recording, signals, wheel.as_ref(), tick)?;
         drop(progress);
         if self.json {
             let predicted = replayed.predicted;
@@ -175,21 +191,36 @@ impl Replay {
                 "gap_ignored": gap,
                 "settling": replayed.settling,
                 "predicted_innovation": predicted,
+                "wheel": wheel.as_ref().map(|wheel| {
+                    json!({
+                        "ticks_with_angle": wheel.known(),
+                        "deviation": wheel.deviation,
+                        "tick_deviation": wheel.in_a_tick(),
+                    })
+                }),
                 "numbers": summaries(&replayed),
             }))?;
         } else {
             say(table(&replayed));
+            if let Some(wheel) = &wheel {
+                let [known, deviation] = in_words(wheel, recording.len());
+                say(format!("wheel: an angle in {known} ticks, deviation {deviation}"));
+            }
             if replayed.signals.floating && replayed.signals.shaft_torque.is_some() {
                 say("shaft torque: against the twist of two encoders, whose zeros are not known: means apart");
             }
         }
         destination.map_or(Ok(()), |table| table.write_and_say(&csv(&replayed), self.json))?;
         let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
-        let facts = vec![
+        let mut facts = vec![
             fact("samples", recording.len().to_string()),
             fact("samples a second", significant(1.0 / recording.period)),
             fact("innovation predicted", format!("{} rad", significant(replayed.predicted))),
         ];
+        if let Some(wheel) = &wheel {
+            let [known, deviation] = in_words(wheel, recording.len());
+            facts.extend([fact("ticks with an angle", known), fact("the wheel's deviation", deviation)]);
+        }
         sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page(&name, &machine.name, facts, &replayed), self.json))
     }
 
@@ -199,6 +230,7 @@ impl Replay {
         machine: &MachineFile,
         recording: &Recording,
         signals: Signals,
+        wheel: Option<&Followed>,
         tick: impl FnMut(),
     ) -> Result<Replayed, Failure> {
         let refused = |error: driveline::design::Error| {
@@ -206,6 +238,7 @@ impl Replay {
             Failure::usage(format!("{file}: no observer can be designed at the recording's rate: {error}"))
         };
         let (_, encoder, disturbance) = machine.tuning();
+        let encoder = wheel.map_or(encoder, |wheel| Encoder::counts(u32::MAX).jitter(wheel.in_a_tick(), 1.0));
         let rate = Rate::every(recording.period);
         let (design, inertia) = match machine.two_masses() {
             Some(two) => {
@@ -220,7 +253,8 @@ impl Replay {
         let efficiency = machine.chain.efficiency();
         let gear = if efficiency < 1.0 {
             // the gear sticks within a few counts, as in a campaign
-            let deadband = 8.0 * encoder.resolution().map_err(refused)?;
+            let count = encoder.resolution().map_err(refused)?;
+            let deadband = 8.0 * wheel.map_or(count, |wheel| 12_f64.sqrt() * wheel.in_a_tick());
             Some((Gear { efficiency, inertia, deadband }, recording.period))
         } else {
             None
@@ -230,4 +264,9 @@ impl Replay {
         replay(signals, &design, gear.as_ref(), &screening, [torque, speed], tick)
             .map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
     }
+}
+
+/// Ticks with an angle, and its deviation.
+fn in_words(wheel: &Followed, ticks: usize) -> [String; 2] {
+    [format!("{} of {ticks}", wheel.known()), format!("{} deg", significant(wheel.deviation.to_degrees()))]
 }

@@ -9,6 +9,8 @@ use std::fmt;
 pub enum Quantity {
     /// Time of the row (s).
     Time,
+    /// Time at which a tooth passed a pickup, on the clock of the rows but not of any of them (s).
+    ToothTime,
     /// Torque of the motor (N m).
     Torque,
     /// Current of the motor that makes torque (A).
@@ -46,8 +48,9 @@ pub enum Quantity {
 }
 
 /// Names, as `--column` takes them.
-const NAMES: [(&str, Quantity); 18] = [
+const NAMES: [(&str, Quantity); 19] = [
     ("time", Quantity::Time),
+    ("tooth-time", Quantity::ToothTime),
     ("torque", Quantity::Torque),
     ("current", Quantity::Current),
     ("angle", Quantity::Angle),
@@ -125,7 +128,7 @@ impl Quantity {
 
     fn units(self) -> Units {
         match self {
-            Self::Time => TIME,
+            Self::Time | Self::ToothTime => TIME,
             Self::Torque | Self::ShaftTorque | Self::LoadTorque => TORQUE,
             Self::Current => CURRENT,
             Self::Angle | Self::LoadAngle => ANGLE,
@@ -143,8 +146,8 @@ impl Quantity {
     /// Whether a heading without a unit is taken as in SI units: quantities that have hardly another one, and those
     /// that are not converted.
     fn has_default(self) -> bool {
-        use Quantity::{Imaginary, Magnitude, Mark, Real, Teeth, Time, Vibration};
-        matches!(self, Time | Magnitude | Real | Imaginary | Teeth | Mark | Vibration)
+        use Quantity::{Imaginary, Magnitude, Mark, Real, Teeth, Time, ToothTime, Vibration};
+        matches!(self, Time | ToothTime | Magnitude | Real | Imaginary | Teeth | Mark | Vibration)
     }
 
     fn of_words(words: &[&str]) -> Option<Self> {
@@ -165,7 +168,7 @@ impl Quantity {
         } else if any(&["imaginary", "imag", "im"]) {
             Some(Self::Imaginary)
         } else if any(&["time", "t", "timestamp"]) {
-            Some(Self::Time)
+            Some(if any(&["teeth", "tooth", "edge"]) { Self::ToothTime } else { Self::Time })
         } else if any(&["current", "iq", "i", "q"]) {
             // another motor's
             (!load).then_some(Self::Current)

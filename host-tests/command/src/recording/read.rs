@@ -245,8 +245,15 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
             let expected = format!("{expected}, as in the first line");
             return Err(Diagnostic::at(source, at(usize::MAX), "", format!("{found} columns"), expected));
         }
+        // the times of the teeth are a column of their own length
+        let is_tooth = |column: &Column| column.quantity == Quantity::ToothTime;
+        let has = |tooth| columns.iter().any(|of| is_tooth(of) == tooth && !record[of.index].is_empty());
+        let has_row = !has(true) || has(false);
         for (column, signal) in columns.iter().zip(&mut signals) {
             let field = &record[column.index];
+            if field.is_empty() && (is_tooth(column) || !has_row) {
+                continue;
+            }
             let number = field.parse().ok().map(|raw| column.value(raw)).filter(|value: &f64| value.is_finite());
             let key = printable(&column.heading, 40);
             let Some(number) = number else {
@@ -260,11 +267,18 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
             }
             signal.push(number);
         }
-        lines.push(record.position().map_or(0, csv::Position::line));
+        if has_row {
+            lines.push(record.position().map_or(0, csv::Position::line));
+        }
     }
     let mut recording = Recording { name: name.to_owned(), period: f64::NAN, columns, unused, lines, signals };
     if recording.signal(Quantity::Frequency).is_none() {
         cut(&mut recording, asked);
+        let teeth = recording.signal(Quantity::ToothTime).unwrap_or_default();
+        if let Some(pair) = teeth.windows(2).find(|pair| pair[1] < pair[0]) {
+            let found = format!("a time of a tooth that falls, {} s after {} s", pair[1], pair[0]);
+            return Err(recording.fault(found, "the teeth in the order of their times"));
+        }
         recording.period = if asked.uneven { rising(&recording, asked)? } else { period(&recording, asked)? };
     }
     Ok(recording)
@@ -338,7 +352,8 @@ fn columns(
 /// the samples come at the rate.
 fn rising(recording: &Recording, asked: &Asked) -> Result<f64, Diagnostic> {
     let Some(time) = recording.signal(Quantity::Time) else {
-        return period(recording, asked);
+        let has_own = recording.signal(Quantity::ToothTime).is_some();
+        return if has_own { Ok(f64::NAN) } else { period(recording, asked) };
     };
     match time.windows(2).position(|pair| !(pair[1] >= pair[0])) {
         Some(at) => {
@@ -395,5 +410,14 @@ fn cut(recording: &mut Recording, asked: &Asked) {
     let end = asked.window[1].map_or(count, index).min(count);
     let begin = asked.window[0].map_or(0, index).min(end);
     recording.lines = recording.lines[begin..end].to_vec();
-    recording.signals.iter_mut().for_each(|signal| *signal = signal[begin..end].to_vec());
+    let first = recording.signal(Quantity::Time).or(recording.signal(Quantity::ToothTime));
+    let first = first.and_then(|times| times.first().copied()).unwrap_or(0.0);
+    let [from, to] = [asked.window[0].unwrap_or(f64::NEG_INFINITY), asked.window[1].unwrap_or(f64::INFINITY)];
+    for (column, signal) in recording.columns.iter().zip(&mut recording.signals) {
+        if column.quantity == Quantity::ToothTime {
+            signal.retain(|time| (from..to).contains(&(time - first)));
+        } else {
+            *signal = signal[begin..end].to_vec();
+        }
+    }
 }

@@ -42,7 +42,7 @@ pub fn page(name: &str, machine: &str, facts: Vec<Fact>, replayed: &Replayed) ->
         ),
         facts,
         figures: vec![
-            figure("Motor speed", "motor speed, rad/s", &course.motor_speed, Some(&signals.motor_speed)),
+            figure("Motor speed", "motor speed, rad/s", &course.motor_speed, signals.motor_speed.as_ref()),
             figure("Load speed", "load speed, rad/s", &course.load_speed, signals.load_speed.as_ref()),
             figure("Shaft torque", "shaft torque, N m", &course.shaft_torque, signals.shaft_torque.as_ref()),
             figure("Load torque", "load torque, N m", &course.load_torque, signals.load_torque.as_ref()),

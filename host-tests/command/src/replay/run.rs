@@ -10,7 +10,7 @@ use driveline::observer::{
 use driveline::sample::Sample;
 use driveline::settings::{Bases, Error, Gear, Screening};
 
-use super::signals::{Signals, turned};
+use super::signals::Signals;
 
 /// The estimates of one number over the recording, in SI units.
 #[derive(Clone, Debug, Default)]
@@ -25,7 +25,7 @@ pub struct Course {
     pub load_speed: Vec<f64>,
     /// Load torque (N m).
     pub load_torque: Vec<f64>,
-    /// Measured less predicted angle of the motor (rad).
+    /// Measured less predicted angle of the motor (rad); NaN without an angle.
     pub innovation: Vec<f64>,
     /// Faults of each tick.
     pub faults: Vec<Faults>,
@@ -40,8 +40,8 @@ pub struct Replayed {
     pub courses: Vec<Course>,
     /// Deviation of the innovation that the design predicts (rad).
     pub predicted: f64,
-    /// Ticks at the start that errors leave out: ten time constants of the observer's slowest pole, a tenth of the
-    /// recording at most.
+    /// Ticks at the start that errors leave out: those before the first angle, then ten time constants of the
+    /// observer's slowest pole, a tenth of the recording at most.
     pub settling: usize,
 }
 
@@ -125,6 +125,7 @@ pub fn replay(
     };
     let slowest = -10.0 / radius.ln();
     let settling = if slowest.is_finite() { (slowest as usize).min(signals.time.len() / 10) } else { 0 };
+    let settling = settling + signals.angle.iter().position(Option::is_some).unwrap_or(0);
     Ok(Replayed { signals, courses: courses.into(), predicted, settling })
 }
 
@@ -142,22 +143,28 @@ where
     O: Observer<N>,
 {
     let config = Config { limits, observer: config, fluctuation: (), governor: (), balancer: () };
-    let begin = signals.angle.first().copied().map_or(0, turned);
+    let begin = signals.angle.iter().flatten().next().copied().unwrap_or(0);
     let mut drive = Drive::<N, O>::new(&config, begin);
     // a machine that turns already
-    let speed = signals.motor_speed.first().copied().unwrap_or(0.0);
+    let speed = signals.motor_speed.as_ref().and_then(|speed| speed.first().copied()).unwrap_or(0.0);
     drive.observer_mut().restart(&config.observer, begin, N::ZERO, N::of_real(speed / units.speed));
     let mut course = Course { number: units.name, ..Course::default() };
     for (angle, torque) in signals.angle.iter().zip(&signals.torque) {
-        let sample = Sample { angle: turned(*angle), torque: N::of_real(torque / units.torque), setpoint: N::ZERO };
-        let innovation = drive.observer().predict(&config.observer, sample.angle, sample.torque).innovation();
-        let command = drive.tick(&config, &sample);
+        let torque = N::of_real(torque / units.torque);
+        let (innovation, command) = match *angle {
+            Some(angle) => {
+                let innovation = drive.observer().predict(&config.observer, angle, torque).innovation();
+                let command = drive.tick(&config, &Sample { angle, torque, setpoint: N::ZERO });
+                (units.angle * innovation.to_real(), command)
+            }
+            None => (f64::NAN, drive.coast(&config, torque, N::ZERO)),
+        };
         let estimate = drive.estimate(&config);
         course.motor_speed.push(units.speed * estimate.motor_speed.to_real());
         course.shaft_torque.push(units.torque * estimate.shaft_torque.to_real());
         course.load_speed.push(units.speed * estimate.load_speed.to_real());
         course.load_torque.push(units.torque * estimate.load_torque.to_real());
-        course.innovation.push(units.angle * innovation.to_real());
+        course.innovation.push(innovation);
         course.faults.push(command.faults);
         tick();
     }

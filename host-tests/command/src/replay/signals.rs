@@ -20,15 +20,15 @@ pub enum Between {
 pub struct Signals {
     /// Time from the first sample (s).
     pub time: Vec<f64>,
-    /// Angle of the motor (rad).
-    pub angle: Vec<f64>,
+    /// Angle of the motor (2^-32 turn); none where a toothed wheel has none.
+    pub angle: Vec<Option<u32>>,
     /// Mean torque over the tick that ends with the sample (N m).
     pub torque: Vec<f64>,
-    /// Speed of the motor (rad/s).
-    pub motor_speed: Vec<f64>,
+    /// Speed of the motor (rad/s), where it or its angle was recorded.
+    pub motor_speed: Option<Vec<f64>>,
     /// Measured speed of the load (rad/s).
     pub load_speed: Option<Vec<f64>>,
-    /// Torque of the shaft, measured or from the measured twist (N m).
+    /// Torque of the shaft (N m): measured, from the measured twist, or that of the motor less what accelerates it.
     pub shaft_torque: Option<Vec<f64>>,
     /// Whether the shaft torque has no zero of its own: two encoders whose zeros differ.
     pub floating: bool,
@@ -37,7 +37,8 @@ pub struct Signals {
 }
 
 impl Signals {
-    /// The signals of a recording of a machine. The torque acts `delay` (s) after its sample.
+    /// The signals of a recording of a machine. The torque acts `delay` (s) after its sample. Where there is a toothed
+    /// wheel its angle in each tick is the motor's.
     ///
     /// # Errors
     /// A recording without torque, or without angle and speed of the motor.
@@ -47,32 +48,45 @@ impl Signals {
         torque_constant: Option<f64>,
         between: Between,
         delay: f64,
+        wheel: Option<Vec<Option<u32>>>,
     ) -> Result<Self, Diagnostic> {
         let period = recording.period;
         let torque = recording.torque(torque_constant)?;
-        let angle = match (recording.signal(Quantity::Angle), recording.signal(Quantity::Speed)) {
-            (Some(angle), _) => unwrapped(angle),
-            (None, Some(speed)) => integral(speed, period),
-            (None, None) => {
-                return Err(recording.fault(recording.found(), "a column of the motor's angle or speed"));
-            }
+        let integrated = || recording.signal(Quantity::Speed).map(|speed| integral(speed, period));
+        let motion = recording.signal(Quantity::Angle).map(unwrapped).or_else(integrated);
+        let Some(angle) = wheel.or_else(|| Some(motion.as_ref()?.iter().copied().map(turned).map(Some).collect()))
+        else {
+            return Err(recording.fault(recording.found(), "a column of the motor's angle or speed"));
         };
         let measured = |quantity| recording.signal(quantity).map(<[f64]>::to_vec);
-        let motor_speed = measured(Quantity::Speed).unwrap_or_else(|| derivative(&angle, period));
+        let motor_speed = measured(Quantity::Speed).or_else(|| Some(derivative(motion.as_ref()?, period)));
         let load_angle = recording.signal(Quantity::LoadAngle).map(unwrapped);
         let load_speed =
             measured(Quantity::LoadSpeed).or_else(|| load_angle.as_ref().map(|angle| derivative(angle, period)));
         let sensor = measured(Quantity::ShaftTorque);
-        let twisted = machine.zip(load_angle.zip(load_speed.as_ref())).map(|(machine, (load_angle, load_speed))| {
-            let twist = angle.iter().zip(&load_angle).map(|(motor, load)| motor - load);
+        let both =
+            machine.zip(motion.as_ref().zip(load_angle.as_ref())).zip(motor_speed.as_ref().zip(load_speed.as_ref()));
+        let twisted = both.map(|((machine, (motor_angle, load_angle)), (motor_speed, load_speed))| {
+            let twist = motor_angle.iter().zip(load_angle).map(|(motor, load)| motor - load);
             let rate = motor_speed.iter().zip(load_speed).map(|(motor, load)| motor - load);
             twist.zip(rate).map(|(twist, rate)| machine.stiffness * twist + machine.damping * rate).collect()
         });
+        // of the motor's own balance J a = T - T_s; the torque is that of the two ticks about the sample
+        let torque = over_ticks(&torque, between, delay / period);
+        let around = torque.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).chain(torque.last().copied());
+        let balance = |(machine, acceleration): (&TwoMass, &[f64])| {
+            around
+                .zip(acceleration)
+                .map(|(torque, acceleration)| torque - machine.motor_inertia * acceleration)
+                .collect()
+        };
+        let floating = sensor.is_none() && twisted.is_some();
+        let balanced = machine.zip(recording.signal(Quantity::Acceleration)).map(balance);
         Ok(Self {
-            time: (0..angle.len()).map(|sample| period * sample as f64).collect(),
-            torque: over_ticks(&torque, between, delay / period),
-            floating: sensor.is_none(),
-            shaft_torque: sensor.or(twisted),
+            time: (0..recording.len()).map(|sample| period * sample as f64).collect(),
+            torque,
+            floating,
+            shaft_torque: sensor.or(twisted).or(balanced),
             load_torque: measured(Quantity::LoadTorque),
             angle,
             motor_speed,

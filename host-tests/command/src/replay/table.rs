@@ -43,7 +43,9 @@ fn summary(replayed: &Replayed, course: &Course) -> Summary {
         let size = rms(truth, true);
         (size > 0.0).then(|| rms(&errors, floating) / size)
     };
-    let innovation = rms(course.innovation.get(skip..).unwrap_or_default(), false);
+    let innovation = course.innovation.get(skip..).unwrap_or_default();
+    let innovation: Vec<f64> = innovation.iter().copied().filter(|innovation| innovation.is_finite()).collect();
+    let innovation = rms(&innovation, false);
     // of the whole recording: a flag of the first ticks is one, too
     let ticks = |fault: Faults| course.faults.iter().filter(|faults| faults.contains(fault)).count();
     let faults = Faults::NAMES.iter().map(|(fault, name)| (*name, ticks(*fault))).filter(|(_, count)| *count > 0);

@@ -10,6 +10,7 @@ mod elements;
 mod engine;
 mod identify;
 mod machine_file;
+mod motor_wheel;
 #[path = "../references/mod.rs"]
 mod references;
 mod replay;

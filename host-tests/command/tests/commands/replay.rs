@@ -174,7 +174,13 @@ fn another_wheel_gives_nothing_and_is_said_to() {
     let stops = (0..5).flat_map(|turn| (0..58).map(move |at| f64::from(turn) * 3.0 + f64::from(at) / 60.0));
     let stops: String = stops.map(|time| format!("{time:.6}\n")).collect();
     fs::write(folder.path().join("stops.csv"), format!("time_s\n{stops}")).unwrap();
-    for (file, word) in [("short.csv", "too short, 116 edges"), ("stops.csv", "the edges stay away for")] {
+    // a clock of one step
+    fs::write(folder.path().join("at-once.csv"), format!("time_s\n{}", "1.5\n".repeat(290))).unwrap();
+    for (file, word) in [
+        ("short.csv", "too short, 116 edges"),
+        ("stops.csv", "the edges stay away for"),
+        ("at-once.csv", "289 of 290 edges are at the time of the one before"),
+    ] {
         let output = replay(folder.path(), &[file, "--teeth", "60-2", "--html", "page.html"]);
         let said = String::from_utf8(output.stdout).unwrap();
         assert!(said.contains(word) && !said.contains("described"), "{file}: {said}");
@@ -183,6 +189,7 @@ fn another_wheel_gives_nothing_and_is_said_to() {
     for (wheel, word) in [
         ("60-2x", "expected a wheel such as"),
         ("5:9", "expected places from 0 to 4"),
+        ("36:1,1", "the place 1 twice"),
         ("0,400", "expected a wheel such as"),
         ("90,0,180", "must rise"),
         ("9999-2", "expected one of 3, 4, 7"),
@@ -198,14 +205,25 @@ fn another_wheel_gives_nothing_and_is_said_to() {
     fs::write(folder.path().join("flat.csv"), "time_s,crank\n1,0\n2,0\n3,0\n").unwrap();
     assert!(refused(folder.path(), &["flat.csv", "--teeth", "8-1"]).contains("found 0 edges"));
     for arguments in [
-        &["log.csv", "--teeth", "60-2", "--held"][..],
-        &["log.csv", "--teeth", "60-2", "--turns", "3"],
+        &["log.csv", "--teeth", "60-2", "--turns", "3"][..],
         &["log.csv", "--phasors", "--cycles", "3"],
         &["log.csv", "--phasors", "--teeth", "60-2"],
-        &["log.csv", "--teeth", "60-2", "--machine", "m.toml"],
+        &["log.csv", "--phasors", "--fluctuation"],
+        &["log.csv", "--teeth", "60-2", "--machine", "m.toml", "--cycle", "2"],
+        &["log.csv", "--fluctuation", "--falling"],
     ] {
         assert!(refused(folder.path(), arguments).contains("cannot be used with"), "{arguments:?}");
     }
+    for options in [&["--held"][..], &["--delay", "1e-4"], &["--torque-constant", "0.5"]] {
+        for part in [&["--teeth", "60-2"][..], &["--fluctuation"], &["--phasors"]] {
+            let said = refused(folder.path(), &[&["log.csv"], part, options].concat());
+            assert!(said.contains("--machine <FILE>") || said.contains("cannot be used with"), "{options:?}: {said}");
+        }
+    }
+    assert!(refused(folder.path(), &["log.csv", "--machine", "m.toml", "--falling"]).contains("--teeth <WHEEL>"));
+    assert!(
+        refused(folder.path(), &["stops.csv", "--teeth", "60-2", "--falling"]).contains("without a pickup's level")
+    );
     assert!(refused(folder.path(), &["log.csv", "--teeth", "60-2", "--csv", "log.csv"]).contains("its own input"));
 }
 
@@ -243,6 +261,22 @@ fn a_magnetic_pickups_steep_edge_is_found_at_every_speed() {
         // from peak to peak twice the root of the squares of four, 6e-4, and more for the tail
         assert!(of("delta") < 1e-3 && window["doubtful"] == false, "{window}");
     }
+    assert!(found["lost_after"].is_null(), "{found}");
+    // the magnet goes: from 3 s on a thousandth of the swing is left
+    let weak = |(row, line): (usize, &str)| match line.parse::<f64>() {
+        Ok(level) if row > 60_000 => format!("{:.5}\n", 1e-3 * level),
+        _ => format!("{line}\n"),
+    };
+    let faded: String =
+        fs::read_to_string(folder.path().join("log.csv")).unwrap().lines().enumerate().map(weak).collect();
+    fs::write(folder.path().join("faded.csv"), faded).unwrap();
+    let gone = json(folder.path(), &[&["faded.csv"], &arguments[1..], &["--falling"]].concat());
+    // the last edge before, up to a gap of 1.3 ms
+    let lost = gone["lost_after"].as_f64().unwrap();
+    assert!((2.998..=3.0).contains(&lost), "{lost}");
+    let command = [&["faded.csv"], &arguments[1..], &["--falling", "--html", "page.html"]].concat();
+    let said = String::from_utf8(replay(folder.path(), &command).stdout).unwrap();
+    assert!(said.contains(&format!("; lost first after {lost:.3} s")), "{said}");
     // a spike is no level
     let text = fs::read_to_string(folder.path().join("log.csv")).unwrap().replacen("\n0.0", "\n200.0", 1);
     fs::write(folder.path().join("spike.csv"), text).unwrap();
@@ -399,6 +433,14 @@ fn a_vibrations_phasor_is_read_by_the_angle_and_by_a_mark() {
     fs::write(folder.path().join("twice.csv"), twice).unwrap();
     let said = refused(folder.path(), &["twice.csv", "--phasors", "--rate", "1000"]);
     assert!(said.contains("marks at different angles"), "{said}");
+    // without a mark there is no edge to choose
+    let alone: String = text
+        .lines()
+        .map(|line| format!("{},{}\n", line.split(',').next().unwrap(), line.rsplit(',').next().unwrap()))
+        .collect();
+    fs::write(folder.path().join("alone.csv"), alone).unwrap();
+    let said = refused(folder.path(), &["alone.csv", "--phasors", "--rate", "1000", "--falling"]);
+    assert!(said.contains("--falling without a column of a mark"), "{said}");
     // beyond the sensor's range no reading is to be used
     let found = json(folder.path(), &["both.csv", "--phasors", "--rate", "1000", "--range", "2.0"]);
     assert!(found["mean"].is_null() && found["readings"][0]["refused"].as_str().unwrap().contains("range"), "{found}");

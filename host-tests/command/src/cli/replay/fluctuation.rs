@@ -18,7 +18,7 @@ use crate::replay::window::Windows;
 #[derive(Debug, Args)]
 pub struct FluctuationOptions {
     /// The fluctuation of the speed instead, from a recorded angle
-    #[arg(long)]
+    #[arg(long, conflicts_with = "phasors")]
     pub fluctuation: bool,
 }
 

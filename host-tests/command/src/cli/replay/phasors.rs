@@ -60,6 +60,10 @@ impl PhasorOptions {
             // of two values: half a step ago on average
             *since = if *since == 0.0 { 0.5 } else { *since };
         }
+        if falling && recording.signal(Quantity::Mark).is_none() {
+            let expected = "a column of a `mark` once a turn; --column mark=HEADING names one";
+            return Err(recording.fault("--falling without a column of a mark", expected).into());
+        }
         let (turning, origin) = match (recording.signal(Quantity::Angle), &marks) {
             (Some(angle), None) => (Turning::Angle(angle, 0.0), "the angle's"),
             (Some(angle), Some(marks)) => {
