@@ -80,6 +80,12 @@ pub trait Scene {
         let output = self.tick(input);
         Output { answer: self.panel(input.asked), ..output }
     }
+
+    /// A copy that goes on from the same state; none of a scene that cannot be copied.
+    #[cfg(not(target_os = "none"))]
+    fn copy(&self) -> Option<alloc::boxed::Box<dyn Scene>> {
+        None
+    }
 }
 
 #[cfg(not(target_os = "none"))]
@@ -90,6 +96,10 @@ impl<S: Scene + ?Sized> Scene for alloc::boxed::Box<S> {
 
     fn panel(&mut self, asked: [u32; 2]) -> u32 {
         (**self).panel(asked)
+    }
+
+    fn copy(&self) -> Option<alloc::boxed::Box<dyn Scene>> {
+        (**self).copy()
     }
 }
 

@@ -62,10 +62,21 @@ pub trait Beside<D: OverWords>: Sized {
     fn panel(&mut self, _drive: &mut D, _config: &mut &'static ConfigOf<D>, _asked: [u32; 2]) -> u32 {
         0
     }
+
+    /// A copy, as [`Scene::copy`].
+    #[cfg(not(target_os = "none"))]
+    fn copy(&self) -> Option<Self> {
+        None
+    }
 }
 
 impl<D: OverWords> Beside<D> for () {
     fn start(_: &mut D, _: &ConfigOf<D>) -> Self {}
+
+    #[cfg(not(target_os = "none"))]
+    fn copy(&self) -> Option<Self> {
+        Some(())
+    }
 }
 
 /// A drive with its constants, and what stands beside it.
@@ -91,7 +102,11 @@ impl<D: Composition<Config: 'static>, B> Composed<D, B> {
     }
 }
 
-impl<D: OverWords + Composition<Config: 'static>, B: Beside<D>> FromConfig for Composed<D, B> {
+impl<D, B> FromConfig for Composed<D, B>
+where
+    D: OverWords + Composition<Config: 'static> + Clone + 'static,
+    B: Beside<D> + 'static,
+{
     type Drive = D;
 
     fn from_config(config: &'static ConfigOf<D>) -> Self {
@@ -102,7 +117,11 @@ impl<D: OverWords + Composition<Config: 'static>, B: Beside<D>> FromConfig for C
     }
 }
 
-impl<D: OverWords + Composition<Config: 'static>, B: Beside<D>> Scene for Composed<D, B> {
+impl<D, B> Scene for Composed<D, B>
+where
+    D: OverWords + Composition<Config: 'static> + Clone + 'static,
+    B: Beside<D> + 'static,
+{
     #[inline(always)]
     fn tick(&mut self, input: &Input) -> Output {
         self.beside.tick(&mut self.drive, self.config, input)
@@ -110,6 +129,12 @@ impl<D: OverWords + Composition<Config: 'static>, B: Beside<D>> Scene for Compos
 
     fn panel(&mut self, asked: [u32; 2]) -> u32 {
         self.beside.panel(&mut self.drive, &mut self.config, asked)
+    }
+
+    #[cfg(not(target_os = "none"))]
+    fn copy(&self) -> Option<alloc::boxed::Box<dyn Scene>> {
+        let beside = self.beside.copy()?;
+        Some(alloc::boxed::Box::new(Composed { config: self.config, drive: self.drive.clone(), beside }))
     }
 }
 

@@ -171,4 +171,9 @@ where
         }
         0
     }
+
+    #[cfg(not(target_os = "none"))]
+    fn copy(&self) -> Option<Self> {
+        Some(NoLoadLearner { ..*self })
+    }
 }

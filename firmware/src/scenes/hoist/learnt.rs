@@ -73,6 +73,7 @@ pub mod panel {
 }
 
 /// What changes between the ticks: constants of the drive, load, rope, and what is learnt.
+#[derive(Clone)]
 pub struct Follower<N: Correction + Stiction> {
     config: ConfigOf<HoistDrive<N>>,
     calibration: TorqueCalibration<N>,
@@ -221,6 +222,11 @@ macro_rules! follower {
                     }
                 }
                 self.answer(drive, asked)
+            }
+
+            #[cfg(not(target_os = "none"))]
+            fn copy(&self) -> Option<Self> {
+                Some(self.clone())
             }
         }
     };

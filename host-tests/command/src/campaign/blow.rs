@@ -10,12 +10,12 @@
 
 use core::f64::consts::TAU;
 
-use driveline_firmware::scene::Input;
+use driveline_firmware::scene::Scene;
 
 use super::drive::Drive;
 use super::ring_down::slowest;
 use super::scenes::CampaignScene;
-use crate::closed_loop::ticks::Ticks;
+use crate::closed_loop::ticks::OnHost;
 use crate::drivetrains::lockstep::{LockStep, Moment};
 use crate::drivetrains::plant::Body;
 use crate::drivetrains::scenario::{Action, Machine, Scenario};
@@ -41,8 +41,8 @@ pub struct End {
     pub plant: Body,
     /// What it and the drive have between them.
     pub between: LockStep,
-    /// All that the drive was given, by which another is brought to the same state.
-    pub inputs: Vec<Input>,
+    /// The drive.
+    pub ticking: OnHost<Box<dyn Scene>>,
     /// Mean of the shaft torque before the end (N m).
     pub carried: f64,
 }
@@ -74,7 +74,7 @@ impl End {
                 duration: (skipped + SAMPLES * ticks) as f64 / rate,
                 ..scenario.clone()
             };
-            let torques = self.go_on(scene, drive, machine, &after)?;
+            let torques = self.go_on(drive, machine, &after)?;
             let mean = |ticks: &[f64]| ticks.iter().sum::<f64>() / ticks.len() as f64;
             Ok::<Vec<f64>, String>(torques[skipped..].chunks_exact(ticks).map(mean).collect())
         };
@@ -100,24 +100,12 @@ impl End {
     }
 
     /// The shaft torques of a copy that goes on with a scenario (N m), a tick each.
-    fn go_on(
-        &self,
-        scene: &CampaignScene,
-        drive: &Drive,
-        machine: &Machine,
-        scenario: &Scenario,
-    ) -> Result<Vec<f64>, String> {
-        let mut ticking = drive.start(scene, machine)?;
-        let mut follow = || {
-            for input in &self.inputs {
-                ticking.tick(input)?;
-            }
-            let (mut plant, mut between, mut torques) = (self.plant.clone(), self.between.clone(), Vec::new());
-            let each = |moment: &Moment, _| torques.push(moment.truth[0]);
-            between.follow(machine, scenario, &drive.units(machine), &mut ticking, &mut plant, each)?;
-            Ok(torques)
-        };
-        follow().map_err(|error: std::io::Error| error.to_string())
+    fn go_on(&self, drive: &Drive, machine: &Machine, scenario: &Scenario) -> Result<Vec<f64>, String> {
+        let mut ticking = OnHost(self.ticking.0.copy().ok_or("a drive whose state cannot be copied")?);
+        let (mut plant, mut between, mut torques) = (self.plant.clone(), self.between.clone(), Vec::new());
+        let each = |moment: &Moment, _| torques.push(moment.truth[0]);
+        let followed = between.follow(machine, scenario, &drive.units(machine), &mut ticking, &mut plant, each);
+        followed.map(|()| torques).map_err(|error| error.to_string())
     }
 }
 

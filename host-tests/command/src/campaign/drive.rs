@@ -1,12 +1,13 @@
 //! A drive that a campaign runs.
 
 use driveline_firmware::Words;
+use driveline_firmware::scene::Scene;
 use driveline_firmware::scenes::{Row, VARIANTS, find};
 
 use super::file::FileObserver;
 use super::plain::PlainLoop;
 use super::scenes::CampaignScene;
-use crate::closed_loop::ticks::{OnHost, Ticks};
+use crate::closed_loop::ticks::OnHost;
 use crate::closed_loop::units::Units;
 use crate::drivetrains::scenario::Machine;
 
@@ -84,14 +85,14 @@ impl Drive {
     ///
     /// # Errors
     /// A sentence: constants that `f32` does not hold.
-    pub fn start(&self, scene: &CampaignScene, machine: &Machine) -> Result<Box<dyn Ticks>, String> {
-        match (self, scene.file()) {
-            (Self::Variant(row), _) => Ok(Box::new(OnHost(row.start()))),
-            (Self::File(observer, _), Some(file)) => file.start(*observer),
-            (Self::File(..), None) => Err(format!("`{}` is no machine file", scene.name)),
+    pub fn start(&self, scene: &CampaignScene, machine: &Machine) -> Result<OnHost<Box<dyn Scene>>, String> {
+        Ok(OnHost(match (self, scene.file()) {
+            (Self::Variant(row), _) => row.start(),
+            (Self::File(observer, _), Some(file)) => file.start(*observer)?,
+            (Self::File(..), None) => return Err(format!("`{}` is no machine file", scene.name)),
             (Self::Plain(_), _) => {
-                Ok(Box::new(PlainLoop::new(scene.speed_loop, scene.torque_limit, scene.ramp, machine.bases)))
+                Box::new(PlainLoop::new(scene.speed_loop, scene.torque_limit, scene.ramp, machine.bases))
             }
-        }
+        }))
     }
 }

@@ -1,7 +1,5 @@
 //! A machine file as a scene of campaigns: its plant, a run that its load cycle makes, and its drives.
 
-use std::io;
-
 use driveline::design::SpeedLoopDesign;
 use driveline::drive::{Config, ConfigOf, Drive, Limits};
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
@@ -10,11 +8,10 @@ use driveline::observer::{
 };
 use driveline::sample::Sample;
 use driveline::settings::{Bases, Gear, SpeedLoopSettings};
-use driveline_firmware::scene::{Input, Output};
+use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_solver::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
 
 use crate::closed_loop::sensors::Encoder;
-use crate::closed_loop::ticks::Ticks;
 use crate::drivetrains::departure::Departure;
 use crate::drivetrains::plant::Body;
 use crate::drivetrains::scenario::{Action, Machine, Scenario};
@@ -164,7 +161,7 @@ impl FileCase {
     ///
     /// # Errors
     /// A sentence: constants that `f32` does not hold.
-    pub fn start(&self, observer: FileObserver) -> Result<Box<dyn Ticks>, String> {
+    pub fn start(&self, observer: FileObserver) -> Result<Box<dyn Scene>, String> {
         let Designs { two, two_masses, rigid, speed_loop, ramp, .. } = &self.designs;
         let sentence = |error: driveline::settings::Error| error.to_string();
         let (rate, encoder, _) = self.machine.tuning();
@@ -235,18 +232,21 @@ struct Observed<O: Observer<f32>> {
     config: ConfigOf<Driven<O>>,
 }
 
-impl<O: Observer<f32> + 'static> Observed<O>
+impl<O> Observed<O>
 where
-    O::Config: 'static,
+    O: Observer<f32, Config: Clone + 'static> + Clone + 'static,
 {
-    fn boxed(limits: Limits<f32>, observer: O::Config, governor: SpeedLoopConfig<f32>) -> Box<dyn Ticks> {
+    fn boxed(limits: Limits<f32>, observer: O::Config, governor: SpeedLoopConfig<f32>) -> Box<dyn Scene> {
         let config = Config { limits, observer, fluctuation: (), governor, balancer: () };
         Box::new(Self { drive: Driven::<O>::new(&config, 0), config })
     }
 }
 
-impl<O: Observer<f32>> Ticks for Observed<O> {
-    fn tick(&mut self, input: &Input) -> io::Result<Output> {
+impl<O> Scene for Observed<O>
+where
+    O: Observer<f32, Config: Clone + 'static> + Clone + 'static,
+{
+    fn tick(&mut self, input: &Input) -> Output {
         let [torque, setpoint] = [input.torque, input.setpoint].map(f32::from_bits);
         let command = if input.flags & Input::RELEASED == 0 {
             self.drive.hold(&self.config, input.angle, setpoint)
@@ -254,7 +254,7 @@ impl<O: Observer<f32>> Ticks for Observed<O> {
             self.drive.tick(&self.config, &Sample { angle: input.angle, torque, setpoint })
         };
         let estimate = self.drive.estimate(&self.config);
-        Ok(Output {
+        Output {
             torque: command.torque.to_bits(),
             motor_speed: estimate.motor_speed.to_bits(),
             shaft_torque: estimate.shaft_torque.to_bits(),
@@ -262,7 +262,11 @@ impl<O: Observer<f32>> Ticks for Observed<O> {
             load_torque: estimate.load_torque.to_bits(),
             faults: command.faults.bits(),
             ..Output::default()
-        })
+        }
+    }
+
+    fn copy(&self) -> Option<Box<dyn Scene>> {
+        Some(Box::new(Self { drive: self.drive.clone(), config: self.config.clone() }))
     }
 }
 

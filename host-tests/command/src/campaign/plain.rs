@@ -1,13 +1,11 @@
 //! A plain loop to compare with: proportional and integral on a speed that is filtered from the encoder.
 
 use core::f64::consts::TAU;
-use std::io;
 
 use driveline::design::SpeedLoopDesign;
 use driveline_firmware::Words;
-use driveline_firmware::scene::{Input, Output};
+use driveline_firmware::scene::{Input, Output, Scene};
 
-use crate::closed_loop::ticks::Ticks;
 use crate::closed_loop::units::Units;
 use driveline::settings::Bases;
 
@@ -38,8 +36,8 @@ impl PlainLoop {
     }
 }
 
-impl Ticks for PlainLoop {
-    fn tick(&mut self, input: &Input) -> io::Result<Output> {
+impl Scene for PlainLoop {
+    fn tick(&mut self, input: &Input) -> Output {
         let SpeedLoopDesign { period, proportional, integral, bandwidth, .. } = self.gains;
         let turned = f64::from(input.angle.wrapping_sub(self.angle) as i32) * (TAU / 4_294_967_296.0);
         self.angle = input.angle;
@@ -58,6 +56,10 @@ impl Ticks for PlainLoop {
             self.integral += integral * period / proportional * (torque - wanted);
             torque
         };
-        Ok(Output { torque: self.units.torque_word(torque), ..Output::default() })
+        Output { torque: self.units.torque_word(torque), ..Output::default() }
+    }
+
+    fn copy(&self) -> Option<Box<dyn Scene>> {
+        Some(Box::new(self.clone()))
     }
 }

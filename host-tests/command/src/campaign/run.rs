@@ -1,6 +1,6 @@
 //! The run of a draw: the library's own code on the host against the drawn machine.
 
-use driveline_firmware::scene::Input;
+use driveline_firmware::scene::{Input, Scene};
 
 use super::blow::End;
 use super::draw::Draw;
@@ -10,7 +10,7 @@ use super::preparation::preparation;
 use super::scenes::CampaignScene;
 use crate::closed_loop::actuator::ActuatorErrors;
 use crate::closed_loop::encoder_errors::EncoderErrors;
-use crate::closed_loop::ticks::Ticks;
+use crate::closed_loop::ticks::OnHost;
 use crate::drivetrains::lockstep::{Imperfections, LockStep, follow};
 use crate::drivetrains::scenario::{Machine, Scenario};
 
@@ -52,7 +52,7 @@ fn follow_draw(
     prepared: &[Scenario],
     scenario: &Scenario,
     imperfections: &Imperfections,
-    mut ticking: Box<dyn Ticks>,
+    mut ticking: OnHost<Box<dyn Scene>>,
 ) -> std::io::Result<(Outcome, End)> {
     let units = drive.units(machine);
     let mut plant = scenario.plant.unrecorded();
@@ -64,22 +64,19 @@ fn follow_draw(
     });
     let step = scene.ramp / f64::from(drive.rate_hz());
     let mut ramped = 0.0_f64;
-    let mut inputs = Vec::new();
     for (before, run) in (1..).zip(prepared) {
         // other noise in each run
         let imperfections = Imperfections { seed: imperfections.seed ^ before, ..*imperfections };
         let mut plant = run.plant.unrecorded();
-        let each = |_: &_, (input, _)| inputs.push(input);
-        follow(machine, run, &units, drive.rate_hz(), &imperfections, &mut ticking, &mut plant, each)?;
+        follow(machine, run, &units, drive.rate_hz(), &imperfections, &mut ticking, &mut plant, |_, _| {})?;
     }
     let each = |moment: &_, (input, _): (Input, _)| {
         let target = if input.flags & Input::RELEASED == 0 { ramped } else { units.speed(input.setpoint) };
         let change = (target - ramped).clamp(-step, step);
         ramped += change;
         gathering.add(moment, change / step * scene.ramp);
-        inputs.push(input);
     };
     let mut between = LockStep::new(&plant, imperfections, drive.rate_hz());
     between.follow(machine, scenario, &units, &mut ticking, &mut plant, each)?;
-    Ok((gathering.outcome(), End { plant, between, inputs, carried: gathering.carried() }))
+    Ok((gathering.outcome(), End { plant, between, ticking, carried: gathering.carried() }))
 }

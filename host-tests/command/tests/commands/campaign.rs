@@ -15,11 +15,10 @@ use cargo_driveline::campaign::{
 };
 use cargo_driveline::closed_loop::actuator::{Actuator, ActuatorErrors};
 use cargo_driveline::closed_loop::encoder_errors::EncoderErrors;
-use cargo_driveline::closed_loop::ticks::Ticks;
 use cargo_driveline::drivetrains::departure::Departure;
 use cargo_driveline::drivetrains::lockstep::follow;
 use cargo_driveline::machine_file::parse;
-use driveline_firmware::scene::Input;
+use driveline_firmware::scene::{Input, Scene as _};
 
 /// The spindle is the shortest run.
 fn campaign(folder: &Path, arguments: &[&str]) -> Output {
@@ -329,9 +328,8 @@ fn the_plain_loop_is_its_law() {
     let machine = scene.departing(&Draw::nominal().departure()).unwrap();
     let units = Drive::Plain(10_000).units(&machine);
     let mut plain = PlainLoop::new(scene.speed_loop, scene.torque_limit, scene.ramp, machine.bases);
-    let mut tick = |flags: u32, setpoint: u32| {
-        units.torque(plain.tick(&Input { flags, setpoint, ..Input::default() }).unwrap().torque)
-    };
+    let mut tick =
+        |flags: u32, setpoint: u32| units.torque(plain.tick(&Input { flags, setpoint, ..Input::default() }).torque);
     assert_eq!(tick(0, units.torque_word(64.0)), 64.0);
     let loop_ = scene.speed_loop;
     let step = scene.ramp * loop_.period;
