@@ -7,6 +7,10 @@
 //! A machine with a gap is first struck as it is. A swing of which more than half is left after two thirds of the time
 //! is sustained: the decay is that of its rms, but at most zero. Where it dies away, the machine is struck again under
 //! a load that keeps the gap closed.
+//!
+//! A hoist that carries next to nothing is struck by next to nothing, so that its rope stays taut. The blow then moves
+//! the motor by less than a count of the encoder. Now and then one copy reads a count more, its torque differs, and the
+//! shaft carries the load's share of that. A swing below this floor is the reading's, not the blow's, and is left out.
 
 use core::f64::consts::TAU;
 
@@ -30,7 +34,7 @@ const CLOSING: f64 = 0.3;
 const SETTLING: f64 = 10.0;
 /// Samples of a period of the resonance, where its ticks are so many.
 const OF_PERIOD: f64 = 24.0;
-/// Swing of the shaft torque that noise makes at the most, rms of rated torque.
+/// Swing of the torque that noise makes at the most, rms of rated torque. A count of the encoder is a part of it.
 const NOISE: f64 = 0.02;
 /// Samples of an answer: ten periods of the resonance or more.
 const SAMPLES: usize = 240;
@@ -48,18 +52,21 @@ pub struct End {
 }
 
 impl End {
-    /// Decay of the slowest swing after a blow (1/s): zero or below where it is sustained, the resonance where nothing
-    /// swings.
+    /// Decay of the slowest swing after a blow (1/s): zero or below where it is sustained, NaN where the answer is not
+    /// finite. None where nothing swings.
     ///
     /// # Errors
-    /// What the drive says.
+    /// What the drive says; a load torque that follows the motion, in whose place the blow would come.
     pub fn ring_down(
         &self,
         scene: &CampaignScene,
         drive: &Drive,
         machine: &Machine,
         scenario: &Scenario,
-    ) -> Result<f64, String> {
+    ) -> Result<Option<f64>, String> {
+        if scenario.law.is_some() {
+            return Err(format!("`{}` has a load torque that follows the motion: expected none", scenario.name));
+        }
         let (rate, gap) = (f64::from(drive.rate_hz()), self.plant.has_backlash());
         let period = TAU / scene.resonance;
         // an eighth of a period excites machines of up to four times the resonance
@@ -85,7 +92,7 @@ impl End {
             let [first, last] = [&swing[..SAMPLES / 3], &swing[SAMPLES - SAMPLES / 3..]].map(deviation);
             if last > NOISE * scene.rated_torque && last > 0.5 * first {
                 let decay = (first / last).ln() / ((SAMPLES - SAMPLES / 3) as f64 * every);
-                return Ok(decay.clamp(-scene.resonance, 0.0));
+                return Ok(Some(decay.min(0.0)));
             }
         }
         let (closing, most) = match (gap, scenario.held != 0.0) {
@@ -96,7 +103,9 @@ impl End {
         // a load torque b swings the shaft by at most 2 b
         let (struck, left) = (after(closing, 0.5 * most)?, after(closing, 0.0)?);
         let answer: Vec<f64> = struck.iter().zip(&left).map(|(struck, left)| struck - left).collect();
-        Ok(slowest(&answer, every, scene.resonance))
+        let inertia = |from: usize| (from..self.plant.nodes()).map(|node| self.plant.inertia(node)).sum::<f64>();
+        let floor = NOISE * scene.rated_torque * inertia(machine.load) / inertia(0);
+        Ok(slowest(&answer, every, floor))
     }
 
     /// The shaft torques of a copy that goes on with a scenario (N m), a tick each.

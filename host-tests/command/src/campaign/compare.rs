@@ -32,8 +32,10 @@ pub struct Ratio {
     pub worst: f64,
     /// The draw of the worst.
     pub worst_draw: u64,
-    /// Share of the draws in which the first drive is not worse than the second.
+    /// Share of the draws with a ratio in which the first drive is not worse than the second.
     pub not_worse: f64,
+    /// Draws without a ratio: where nothing swings, or where there is no part of the peak.
+    pub none: u64,
 }
 
 /// Of a decay beside a swing that does not decay. JSON has no number for it.
@@ -86,9 +88,10 @@ pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
         return Err(format!("both files are of one drive, {}: expected those of two drives", a.variant));
     }
     let ratio = |figure: Figure| {
-        let pairs = first.1.iter().filter_map(|(number, one)| Some((*number, one, second.1.get(number)?)));
+        let found =
+            |(number, one): (&u64, &Outcome)| Some((*number, one.found(figure)?, second.1.get(number)?.found(figure)?));
         // a part of a peak that is not there has no ratio; beside a swing that does not decay any decay is better
-        let pairs = pairs.filter(|(_, _, other)| figure.is_decay() || !(other.of(figure) <= 0.0));
+        let pairs = first.1.iter().filter_map(found).filter(|(_, _, other)| figure.is_decay() || !(*other <= 0.0));
         let over = |one: f64, other: f64| match one / other {
             _ if figure.is_decay() && other <= 0.0 => {
                 if one >= other {
@@ -99,8 +102,7 @@ pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
             }
             ratio => ratio,
         };
-        let mut ratios: Vec<(f64, u64)> =
-            pairs.map(|(number, one, other)| (over(one.of(figure), other.of(figure)), number)).collect();
+        let mut ratios: Vec<(f64, u64)> = pairs.map(|(number, one, other)| (over(one, other), number)).collect();
         // not a number is worst
         let badness = |ratio: f64| if ratio.is_nan() { f64::INFINITY } else { figure.badness(ratio) };
         ratios.sort_by(|x, y| badness(x.0).total_cmp(&badness(y.0)));
@@ -108,7 +110,7 @@ pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
         let good = sorted.iter().filter(|ratio| badness(**ratio) <= figure.badness(1.0)).count();
         let worst = ratios.last().copied().unwrap_or((f64::NAN, 0));
         let spread = |outcomes: &BTreeMap<u64, Outcome>| {
-            let mut values: Vec<f64> = outcomes.values().map(|outcome| outcome.of(figure)).collect();
+            let mut values: Vec<f64> = outcomes.values().filter_map(|outcome| outcome.found(figure)).collect();
             values.sort_by(|x, y| badness(*x).total_cmp(&badness(*y)));
             (quantile(&values, 0.5), quantile(&values, 0.9))
         };
@@ -122,6 +124,7 @@ pub fn compare(first: &Done, second: &Done) -> Result<Comparison, String> {
             worst: worst.0,
             worst_draw: worst.1,
             not_worse: good as f64 / sorted.len().max(1) as f64,
+            none: a.draws - sorted.len() as u64,
         }
     };
     Ok(Comparison {
@@ -144,6 +147,7 @@ impl Comparison {
             "worst",
             "draw",
             "first not worse in",
+            "no ratio",
         ]);
         for r in &self.ratios {
             let ratio = |ratio: f64| if ratio == f64::INFINITY { INFINITE.to_owned() } else { significant(ratio) };
@@ -151,9 +155,21 @@ impl Comparison {
             let text = |value: f64| if r.unit.is_empty() { percent(value) } else { significant(value) };
             let [first, second] = [r.first, r.second].map(|(median, p90)| format!("{}, {}", text(median), text(p90)));
             let draw = r.worst_draw.to_string();
-            table.row([r.name.to_owned(), first, second, median, p90, worst, draw, percent(r.not_worse)]);
+            table.row([
+                r.name.to_owned(),
+                first,
+                second,
+                median,
+                p90,
+                worst,
+                draw,
+                percent(r.not_worse),
+                r.none.to_string(),
+            ]);
         }
         let title = format!("{} over {}, {}", self.first, self.second, counted(self.draws, "draw"));
-        Section::new(title, "Ratios of the same draw. For the decay, lower is worse.", table)
+        let text = "Ratios of the same draw. For the decay, lower is worse. A draw has no ratio where nothing swings, \
+                    or where there is no part of the peak.";
+        Section::new(title, text, table)
     }
 }

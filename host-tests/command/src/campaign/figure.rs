@@ -47,7 +47,7 @@ figures! {
     Peak = "peak of the shaft torque", "";
     /// What the peak exceeds the torque by that load and ramp require, of rated torque.
     DynamicPeak = "dynamic part of the peak", "";
-    /// Decay of the slowest swing after a blow on the load.
+    /// Decay of the slowest swing after a blow on the load; infinite where nothing swings.
     RingDown = "decay of the slowest swing", "1/s";
     /// Decay of the motion that is left at the end of the run.
     Decay = "decay of the motion at the end", "1/s";
@@ -84,6 +84,12 @@ impl Outcome {
         self.0[figure as usize]
     }
 
+    /// A figure, where there is one: where nothing swings there is no decay.
+    pub fn found(&self, figure: Figure) -> Option<f64> {
+        let value = self.of(figure);
+        (figure != Figure::RingDown || value != f64::INFINITY).then_some(value)
+    }
+
     /// Whether all figures are the same to the bit.
     pub fn is_same(&self, other: &Self) -> bool {
         self.0.map(f64::to_bits) == other.0.map(f64::to_bits)
@@ -91,7 +97,8 @@ impl Outcome {
 
     /// Whether the loop did not hold: a figure that is not finite, or a swing that the loop sustains.
     pub fn is_unstable(&self) -> bool {
-        self.0.iter().any(|figure| !figure.is_finite()) || self.of(Figure::Sustained) > 0.0
+        let mut found = Figure::ALL.iter().filter_map(|&figure| self.found(figure));
+        found.any(|value| !value.is_finite()) || self.of(Figure::Sustained) > 0.0
     }
 
     /// Whether a swing of more than 5 % of rated torque is left at the end, for whatever reason.
@@ -99,10 +106,10 @@ impl Outcome {
         !(self.of(Figure::Residual) <= 0.05)
     }
 
-    /// With the decay of the slowest swing (1/s).
+    /// With the decay of the slowest swing (1/s); none where nothing swings.
     #[must_use]
-    pub const fn with_ring_down(mut self, decay: f64) -> Self {
-        self.0[Figure::RingDown as usize] = decay;
+    pub fn with_ring_down(mut self, decay: Option<f64>) -> Self {
+        self.0[Figure::RingDown as usize] = decay.unwrap_or(f64::INFINITY);
         self
     }
 

@@ -23,7 +23,7 @@ fn the_parts_of_a_sum_of_exponentials_are_found() {
             3.0 * (-2.5 * t).exp() * (17.0 * t + 0.4).cos() + (-0.8 * t).exp() * (41.0 * t).sin() - (-6.0 * t).exp()
         })
         .collect();
-    let mut found = parts(&signal, every);
+    let mut found = parts(&signal, every).unwrap();
     found.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     let expected = [(6.0, 0.0, 1.0), (2.5, 17.0, 3.0), (0.8, 41.0, 1.0)];
     assert_eq!(found.len(), 3, "{found:?}");
@@ -32,13 +32,19 @@ fn the_parts_of_a_sum_of_exponentials_are_found() {
         assert!((part.decay - decay).abs() < 1e-5 && (part.frequency - frequency).abs() < 1e-5, "{part:?}");
         assert!((part.amplitude - amplitude).abs() < 1e-4, "{part:?}");
     }
-    assert!((slowest(&signal, every, 50.0) - 0.8).abs() < 1e-5);
+    assert!((slowest(&signal, every, 0.0).unwrap() - 0.8).abs() < 1e-5);
+    // the slower one has an amplitude of 1, the other of 3
+    assert!((slowest(&signal, every, 2.0).unwrap() - 2.5).abs() < 1e-5);
+    assert_eq!(slowest(&signal, every, 4.0), None);
     // nothing swings: a creep, and no signal at all
     let creep: Vec<f64> = (0..240).map(|k| (-0.05 * f64::from(k)).exp()).collect();
-    assert_eq!([slowest(&creep, every, 50.0), slowest(&[0.0; 240], every, 50.0)], [50.0; 2]);
+    assert_eq!([slowest(&creep, every, 0.0), slowest(&[0.0; 240], every, 0.0)], [None; 2]);
     // one that grows
     let growing: Vec<f64> = signal.iter().rev().copied().collect();
-    assert!(slowest(&growing, every, 50.0) < 0.0);
+    assert!(slowest(&growing, every, 0.0).unwrap() < 0.0);
+    // one that overflows, and one that is shorter than the order that is looked for
+    let overflows: Vec<f64> = signal.iter().map(|value| value * f64::MAX).collect();
+    assert!([&overflows[..], &signal[..100]].iter().all(|signal| slowest(signal, every, 0.0).unwrap().is_nan()));
 }
 
 /// Two free masses on a damped shaft after a blow on one: the twist decays at `d/2 (1/J1 + 1/J2)` [Pfützner 1980
@@ -62,7 +68,7 @@ fn a_free_machine_rings_down_as_its_damping_says() {
         (0..10).map(|_| tick()).sum::<f64>() / 10.0
     };
     let signal: Vec<f64> = (0..240).map(|_| mean()).collect();
-    let found = slowest(&signal, every, resonance);
+    let found = slowest(&signal, every, 0.0).unwrap();
     assert!((found / decay - 1.0).abs() < 1e-6, "{found} 1/s for {decay}");
 }
 
@@ -127,6 +133,24 @@ fn a_swing_that_a_gap_sustains_does_not_decay() {
         assert!(two_masses.of(Figure::RingDown) > 0.0, "draw {number}: {two_masses:?}");
     }
     assert!(sustained > 0);
+}
+
+/// A hoist of 1 kg carries 0.06 N m, so that a blow that its rope bears moves the motor by 1e-4 of a count. The rope is
+/// damped more than critically, `d > 2 sqrt(k m)`: nothing swings. The counts that one copy reads and the other not
+/// swung by -100 to 14 1/s.
+#[test]
+fn nothing_swings_in_a_hoist_that_carries_next_to_nothing() {
+    let (mass, load) = (1.0, "mass = 12000.0");
+    let (stiffness, damping) = (2.9e6, 3.6e3);
+    assert!(damping > 2.0 * f64::sqrt(stiffness * mass));
+    let text = include_str!("../../machines/hoist.toml").replace(load, "mass = 1.0");
+    let scene = CampaignScene::of_file(parse("hoist", &text).unwrap()).unwrap();
+    let machine = scene.departing(&Departure::NONE).unwrap();
+    let drive = Drive::named(&scene, &machine, Some("two-mass")).unwrap();
+    for number in [2, 3, 5, 7, 14] {
+        let outcome = run(&scene, &drive, &Draw::new(&scene.tolerances(), 1, number)).unwrap();
+        assert_eq!((outcome.found(Figure::RingDown), outcome.is_unstable()), (None, false), "draw {number}");
+    }
 }
 
 /// A loop that decays beside one that does not: the ratio has no number.
