@@ -64,6 +64,16 @@ impl Drive {
         }
     }
 
+    /// What the loop of a machine file's drive lacks of the usual margins; `None` of the others.
+    pub fn lacks(&self, scene: &CampaignScene) -> Option<&'static str> {
+        let designs = &scene.file()?.designs;
+        match self {
+            Self::File(FileObserver::TwoMass, _) => designs.two_masses_lack,
+            Self::File(FileObserver::Rigid, _) => designs.rigid_lacks,
+            Self::Variant(_) | Self::Plain(_) => None,
+        }
+    }
+
     /// Ticks a second.
     pub const fn rate_hz(&self) -> u32 {
         match self {

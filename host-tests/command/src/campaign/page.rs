@@ -1,12 +1,12 @@
 //! The page of a campaign.
 
+use super::draw::Draw;
 use super::figure::Figure;
 use super::statistics::quantile;
 use super::summary::Summary;
 use crate::machine_file::factor::Factor;
 use driveline_report::chart::{Curve, Lines};
-use driveline_report::format::significant;
-use driveline_report::{Fact, Figure as Drawing, Key, Sheet};
+use driveline_report::{Figure as Drawing, Key, Sheet};
 
 /// The errors on the page.
 const ERRORS: [Figure; 3] = [Figure::ShaftTorque, Figure::LoadSpeed, Figure::LoadTorque];
@@ -17,24 +17,13 @@ const POINTS: usize = 1_000;
 impl Summary {
     /// The page as HTML.
     pub fn page(&self) -> String {
-        let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
-        let mut facts = vec![
-            fact("variant", self.variant.clone()),
-            fact("draws", self.draws.to_string()),
-            fact("seed", self.seed.to_string()),
-            fact("unstable draws", self.unstable.len().to_string()),
-        ];
-        for (name, (low, high)) in &self.tolerances {
-            let unit = Factor::named(name).map_or("", Factor::unit);
-            facts.push(fact(name, format!("{} to {} {unit}", significant(*low), significant(*high))));
-        }
         Sheet {
             name: self.variant.split('/').next().unwrap_or_default().to_owned(),
             kicker: "machines within their tolerances".to_owned(),
             summary: "The library's own code in closed loop with the full solver, over machines drawn from the \
                       tolerances of one design. Encoder, inverter and timing have their errors too."
                 .to_owned(),
-            facts,
+            facts: self.facts(),
             figures: std::iter::once(self.errors()).chain(ERRORS.iter().filter_map(|&f| self.strongest(f))).collect(),
             tables: self.tables(),
         }
@@ -45,7 +34,7 @@ impl Summary {
     fn errors(&self) -> Drawing {
         let shares: Vec<f64> = (1..=99).map(f64::from).collect();
         let curve = |(at, &figure): (usize, &Figure)| {
-            let mut values = self.drawn.figure(figure);
+            let mut values: Vec<f64> = self.drawn.found(figure).into_iter().map(|(_, value)| value).collect();
             values.sort_by(f64::total_cmp);
             let class = format!("s{at}");
             Curve { class, values: shares.iter().map(|share| 100.0 * quantile(&values, share / 100.0)).collect() }
@@ -74,9 +63,9 @@ impl Summary {
         let influence = self.influences.iter().find(|influence| influence.figure == figure.name())?;
         let factor = Factor::named(influence.factor)?;
         let (low, high) = *self.tolerances.get(influence.factor)?;
-        let values = self.drawn.factor(factor).into_iter().zip(self.drawn.figure(figure));
-        let points = values.zip(&self.drawn.draws).take(POINTS);
-        let points = points.map(|((x, y), (draw, _))| (x, 100.0 * y, "s0".to_owned(), format!("draw {}", draw.number)));
+        let point =
+            |(draw, y): (&Draw, f64)| (draw.value(factor), 100.0 * y, "s0".to_owned(), format!("draw {}", draw.number));
+        let points = self.drawn.found(figure).into_iter().take(POINTS).map(point);
         let lines = Lines {
             label: format!("{} over {}", figure.name(), factor.name()),
             along: format!("{}, {}", factor.name(), factor.unit()),

@@ -26,6 +26,8 @@ pub struct Settings {
     pub tolerances: Vec<Tolerance>,
     /// The nominal machine's outcome.
     pub nominal: Outcome,
+    /// What the loop of a machine file's drive lacks of the usual margins.
+    pub lacks: Option<String>,
 }
 
 /// First line of a file.
@@ -45,6 +47,9 @@ impl Settings {
             let _ = writeln!(text, "# tolerance {tolerance}");
         }
         let _ = writeln!(text, "# nominal{}", numbers(&self.nominal));
+        if let Some(lacks) = &self.lacks {
+            let _ = writeln!(text, "# lacks {lacks}");
+        }
         let names: Vec<&str> = Figure::ALL.iter().map(|figure| figure.name()).collect();
         let _ = writeln!(text, "# columns: draw; {}", names.join("; "));
         text
@@ -61,6 +66,7 @@ impl Settings {
             seed: one("seed ")?.parse().ok()?,
             tolerances: tolerances.ok()?,
             nominal: outcome(one("nominal ")?)?,
+            lacks: one("lacks ").map(ToOwned::to_owned),
         })
     }
 
@@ -177,7 +183,14 @@ impl Record {
             file.write_all(begin.as_bytes()).map_err(system)?;
             BTreeMap::new()
         } else {
-            let (_, outcomes, whole) = parse(path, &text)?;
+            let (theirs, outcomes, whole) = parse(path, &text)?;
+            // the nominal run depends on the drive and the machine alone
+            if theirs.variant == settings.variant && !theirs.nominal.is_same(&settings.nominal) {
+                return Err(format!(
+                    "{name} was written before the machine, by its file or by this program, changed: its nominal run \
+                     has other figures; name another file with --results"
+                ));
+            }
             if let Some((ours, theirs)) = begin.lines().zip(text.lines()).find(|(ours, theirs)| ours != theirs) {
                 let differ = |line: &str| line.trim_start_matches("# ").to_owned();
                 return Err(format!(

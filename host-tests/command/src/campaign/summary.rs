@@ -10,7 +10,7 @@ use super::record::Settings;
 use super::statistics::{FEWEST_OF_RANGE, median_range, noise_of_largest, quantile, rank_correlation};
 use crate::machine_file::factor::{Factor, Tolerance};
 use driveline_report::format::{counted, percent, significant};
-use driveline_report::{Section, Table};
+use driveline_report::{Fact, Section, Table};
 
 /// A figure over the draws.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -19,8 +19,10 @@ pub struct Distribution {
     pub name: &'static str,
     /// Unit; empty for a fraction.
     pub unit: &'static str,
-    /// Of the machine that the drive was designed for.
-    pub nominal: f64,
+    /// Of the machine that the drive was designed for; `null` where it has no such figure.
+    pub nominal: Option<f64>,
+    /// Draws that have no such figure, and are left out: where nothing swings there is no decay.
+    pub none: u64,
     /// Median over the draws.
     pub median: f64,
     /// Range of the median with 95 % confidence; NaN of fewer than six draws.
@@ -73,6 +75,8 @@ pub struct Unstable {
 pub struct Summary {
     /// The variant, as `hoist/f32/reduced/10000`.
     pub variant: String,
+    /// What the loop of a machine file's drive lacks of the usual margins; `null` where it has all.
+    pub lacks: Option<String>,
     /// Number of draws.
     pub draws: u64,
     /// Seed of the draws.
@@ -101,14 +105,9 @@ pub(super) struct Drawn {
 }
 
 impl Drawn {
-    /// A factor of all draws.
-    pub fn factor(&self, factor: Factor) -> Vec<f64> {
-        self.draws.iter().map(|(draw, _)| draw.value(factor)).collect()
-    }
-
-    /// A figure of all draws.
-    pub fn figure(&self, figure: Figure) -> Vec<f64> {
-        self.draws.iter().map(|(_, outcome)| outcome.of(figure)).collect()
+    /// The draws that have a figure, with it.
+    pub fn found(&self, figure: Figure) -> Vec<(&Draw, f64)> {
+        self.draws.iter().filter_map(|(draw, outcome)| Some((draw, outcome.found(figure)?))).collect()
     }
 }
 
@@ -125,7 +124,7 @@ const LISTED: usize = 20;
 impl Summary {
     /// Of a campaign that is done.
     pub fn of(settings: &Settings, outcomes: &BTreeMap<u64, Outcome>) -> Self {
-        let Settings { variant, draws, seed, tolerances, nominal } = settings.clone();
+        let Settings { variant, draws, seed, tolerances, nominal, lacks } = settings.clone();
         let drawn = |(&number, &outcome): (&u64, &Outcome)| (Draw::new(&tolerances, seed, number), outcome);
         let drawn = Drawn { tolerances: tolerances.clone(), draws: outcomes.iter().map(drawn).collect() };
         let unstable = drawn.draws.iter().filter(|(_, outcome)| outcome.is_unstable());
@@ -139,6 +138,7 @@ impl Summary {
             .collect();
         Self {
             variant,
+            lacks,
             draws,
             seed,
             tolerances: tolerances.iter().map(|t| (t.factor.name(), (t.low, t.high))).collect(),
@@ -150,6 +150,25 @@ impl Summary {
         }
     }
 
+    /// The campaign in single figures.
+    pub fn facts(&self) -> Vec<Fact> {
+        let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
+        let mut facts = vec![fact("variant", self.variant.clone())];
+        facts.extend(self.lacks.iter().map(|lacks| fact("lacks", lacks.clone())));
+        facts.push(fact("draws", self.draws.to_string()));
+        facts.push(fact("seed", self.seed.to_string()));
+        facts.push(fact("unstable draws", self.unstable.len().to_string()));
+        let none: u64 = self.figures.iter().map(|figure| figure.none).sum();
+        if none > 0 {
+            facts.push(fact("draws without a swing", none.to_string()));
+        }
+        for (name, (low, high)) in &self.tolerances {
+            let unit = Factor::named(name).map_or("", Factor::unit);
+            facts.push(fact(name, format!("{} to {} {unit}", significant(*low), significant(*high))));
+        }
+        facts
+    }
+
     /// The figures as tables.
     pub fn tables(&self) -> Vec<Section> {
         let mut figures =
@@ -158,10 +177,23 @@ impl Summary {
             let text = |value: f64| if d.unit.is_empty() { percent(value) } else { significant(value) };
             let name = if d.unit.is_empty() { d.name.to_owned() } else { format!("{}, {}", d.name, d.unit) };
             let (low, high) = d.median_range;
-            let is_known = self.drawn.draws.len() >= FEWEST_OF_RANGE;
+            let found = self.drawn.draws.len() - d.none as usize;
+            let is_known = found >= FEWEST_OF_RANGE;
             let range = if is_known { format!("{} to {}", text(low), text(high)) } else { "–".to_owned() };
-            let draw = d.worst_draw.to_string();
-            figures.row([name, text(d.nominal), text(d.median), range, text(d.p90), text(d.worst), draw]);
+            let nominal = d.nominal.map_or_else(String::new, text);
+            if found == 0 {
+                figures.row([name, nominal]);
+            } else {
+                figures.row([
+                    name,
+                    nominal,
+                    text(d.median),
+                    range,
+                    text(d.p90),
+                    text(d.worst),
+                    d.worst_draw.to_string(),
+                ]);
+            }
         }
         let mut ranks = Table::new(["figure", "factor", "rank correlation", "with its departure's size"]);
         for figure in RANKED {
@@ -182,7 +214,8 @@ impl Summary {
         }
         let errors = "Torques of rated torque, speeds of rated speed, over the whole run. The median of all machines \
                       lies in its range with 95 % confidence; fewer than six draws have none. For the decay, lower \
-                      is worse; below zero it may be that of noise, where no swing is sustained by the loop.";
+                      is worse; below zero it may be that of noise, where no swing is sustained by the loop. Draws \
+                      in which nothing swings have no decay.";
         let strongest = format!(
             "The {SHOWN} strongest factors of each figure by Spearman's rank correlation: with the value itself, and \
              with the size of its departure from nominal. Where no factor matters, the largest of a figure's is below \
@@ -208,23 +241,23 @@ impl Summary {
 }
 
 fn distribution(drawn: &Drawn, figure: Figure, nominal: &Outcome) -> Distribution {
-    let values = drawn.figure(figure);
+    let mut found = drawn.found(figure);
     // from the best to the worst; not a number is worst
     let badness = |value: f64| if value.is_nan() { f64::INFINITY } else { figure.badness(value) };
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| badness(values[a]).total_cmp(&badness(values[b])));
-    let sorted: Vec<f64> = order.iter().map(|&at| values[at]).collect();
-    let worst = order.last().copied();
+    found.sort_by(|a, b| badness(a.1).total_cmp(&badness(b.1)));
+    let sorted: Vec<f64> = found.iter().map(|&(_, value)| value).collect();
+    let worst = found.last();
     let (one, other) = median_range(&sorted);
     Distribution {
         name: figure.name(),
         unit: figure.unit(),
-        nominal: nominal.of(figure),
+        nominal: nominal.found(figure),
+        none: (drawn.draws.len() - found.len()) as u64,
         median: quantile(&sorted, 0.5),
         median_range: (one.min(other), one.max(other)),
         p90: quantile(&sorted, 0.9),
-        worst: worst.map_or(f64::NAN, |at| values[at]),
-        worst_draw: worst.map_or(0, |at| drawn.draws[at].0.number),
+        worst: worst.map_or(f64::NAN, |&(_, value)| value),
+        worst_draw: worst.map_or(0, |(draw, _)| draw.number),
     }
 }
 
@@ -239,11 +272,12 @@ fn noise(drawn: &Drawn) -> f64 {
 }
 
 fn influences(drawn: &Drawn, figure: Figure) -> Vec<Influence> {
-    let values = drawn.figure(figure);
-    let noise = noise(drawn);
+    let found = drawn.found(figure);
+    let values: Vec<f64> = found.iter().map(|&(_, value)| value).collect();
+    let noise = noise_of_largest(found.len(), 2 * varied(drawn).count());
     let mut all: Vec<Influence> = varied(drawn)
         .map(|&Tolerance { factor, .. }| {
-            let factors = drawn.factor(factor);
+            let factors: Vec<f64> = found.iter().map(|(draw, _)| draw.value(factor)).collect();
             let departures: Vec<f64> = factors.iter().map(|value| (value - factor.nominal()).abs()).collect();
             let (with_value, with_departure) =
                 (rank_correlation(&factors, &values), rank_correlation(&departures, &values));

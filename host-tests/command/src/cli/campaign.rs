@@ -6,7 +6,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use clap::{Args, Subcommand};
 
-use super::design::cause;
 use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
 use crate::campaign::compare::compare;
@@ -18,8 +17,8 @@ use crate::campaign::scenes::{CampaignScene, SCENES};
 use crate::campaign::{Draw, Figure, Outcome, Summary, Tolerance, work};
 use crate::drivetrains::departure::Departure;
 use crate::machine_file::read;
-use driveline_report::Table;
-use driveline_report::format::{counted, percent, significant};
+use driveline_report::format::{percent, significant};
+use driveline_report::{Fact, Table};
 
 /// Run a scene's drive in closed loop with many machines drawn from its tolerances.
 ///
@@ -59,18 +58,18 @@ pub struct Campaign {
     #[arg(long, value_name = "RANGE")]
     tolerance: Vec<String>,
     /// Run one draw alone and print its values and figures
-    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["shard", "results", "threads", "html"])]
+    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["draws", "shard", "results", "threads", "html"])]
     draw: Option<u64>,
     /// Run part K of N alone, to be merged
     #[arg(long, value_name = "K/N", conflicts_with = "html")]
     shard: Option<String>,
-    /// File of results, which grows by a line with each draw [default: report/SCENE.draws]
+    /// File of results, which grows by a line with each draw [default: report/SCENE-DRIVE.draws]
     #[arg(long, value_name = "PATH")]
     results: Option<PathBuf>,
     /// Number of threads [default: one a core]
     #[arg(long, value_name = "COUNT")]
     threads: Option<usize>,
-    /// File of the page [default: report/SCENE-campaign.html]
+    /// File of the page [default: report/SCENE-DRIVE-campaign.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Print JSON, and write a page only with --html
@@ -98,7 +97,7 @@ struct Merge {
     /// File of all results
     #[arg(long, value_name = "PATH")]
     results: Option<PathBuf>,
-    /// File of the page [default: report/SCENE-campaign.html]
+    /// File of the page [default: report/SCENE-DRIVE-campaign.html]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Print JSON, and write a page only with --html
@@ -148,9 +147,13 @@ impl Campaign {
             .map_err(|error| error.to_string())
             .and_then(|machine| Drive::named(scene, &machine, self.drive.as_deref()))
             .map_err(Failure::usage)?;
-        let refused = scene.file().and_then(|file| file.designs.rigid_refused()).filter(|_| self.drive.is_none());
-        if let Some(lacks) = refused.filter(|_| !self.json) {
-            say(format_args!("two-mass: one mass would do, but lacks margin: with it, {}", cause(lacks)));
+        let remark = scene.file().and_then(|file| file.designs.remark()).filter(|_| self.drive.is_none());
+        if let Some(remark) = remark.filter(|_| !self.json) {
+            say(format_args!("{}: {remark}", drive.name(name)));
+        }
+        let lacks = drive.lacks(scene);
+        if let Some(lacks) = lacks.filter(|_| !self.json) {
+            say(format_args!("warning: {lacks}"));
         }
         let tolerances = self.tolerances(scene).map_err(Failure::usage)?;
         if let Some(number) = self.draw {
@@ -163,18 +166,19 @@ impl Campaign {
             return Err(Failure::usage(format!("--draws must be at most {MOST_DRAWS}, not {}", self.draws)));
         }
         let shard = self.shard.as_deref().map(Shard::parse).transpose().map_err(Failure::usage)?;
+        let stem = self.stem(scene, &drive.name(name));
         let usual = match shard {
-            Some(Shard { which, of }) => format!("report/{name}-{which}-of-{of}.draws"),
-            None => format!("report/{name}.draws"),
+            Some(Shard { which, of }) => format!("report/{stem}-{which}-of-{of}.draws"),
+            None => format!("report/{stem}.draws"),
         };
         let path = self.results.clone().unwrap_or_else(|| PathBuf::from(usual));
-        let page = Destination::page_unless(self.json || shard.is_some(), self.html.as_deref(), &page_name(name));
+        let page = Destination::page_unless(self.json || shard.is_some(), self.html.as_deref(), &page_name(&stem));
         let results = Destination::chosen("results", &path);
         check(&[], [&results].into_iter().chain(&page))?;
         results.make_folder()?;
         let nominal = run(scene, &drive, &Draw::nominal()).map_err(Failure::failed)?;
-        let settings =
-            Settings { variant: drive.name(scene.name), draws: self.draws, seed: self.seed, tolerances, nominal };
+        let (variant, lacks) = (drive.name(name), lacks.map(ToOwned::to_owned));
+        let settings = Settings { variant, draws: self.draws, seed: self.seed, tolerances, nominal, lacks };
         let mut record = Record::open(&path, &settings).map_err(Failure::usage)?;
         self.draw(scene, &drive, &settings, shard, &mut record)?;
         if let Some(Shard { which, of }) = shard {
@@ -186,6 +190,16 @@ impl Campaign {
         }
         results.write(&settings.file(&record.outcomes))?;
         show(&Summary::of(&settings, &record.outcomes), page.as_ref(), self.json)
+    }
+
+    /// What results and page are named after: the variant, and a machine file by its own name. A scene or another file
+    /// may be of a machine of the same name.
+    fn stem(&self, scene: &CampaignScene, variant: &str) -> String {
+        let path = Path::new(self.scene.as_deref().unwrap_or_default());
+        match (scene.file().and(path.file_name()), variant.split_once('/')) {
+            (Some(file), Some((_, drive))) => format!("{}-{drive}", file.display()),
+            _ => stem(variant),
+        }
     }
 
     /// The scene of a name, or of a machine file.
@@ -244,13 +258,13 @@ impl Campaign {
         let nominal = run(scene, drive, &Draw::nominal()).map_err(Failure::failed)?;
         if self.json {
             let values: BTreeMap<&str, f64> = draw.values.iter().map(|(f, v)| (f.name(), *v)).collect();
-            let figures = |outcome: &Outcome| -> BTreeMap<&str, f64> {
-                Figure::ALL.iter().map(|&figure| (figure.name(), outcome.of(figure))).collect()
+            let figures = |outcome: &Outcome| -> BTreeMap<&str, Option<f64>> {
+                Figure::ALL.iter().map(|&figure| (figure.name(), outcome.found(figure))).collect()
             };
             return say_json(&serde_json::json!({
                 "variant": drive.name(scene.name), "seed": self.seed, "draw": draw.number, "values": values,
                 "figures": figures(&outcome), "nominal": figures(&nominal),
-                "unstable": outcome.is_unstable(),
+                "unstable": outcome.is_unstable(), "lacks": drive.lacks(scene),
             }));
         }
         let mut values = Table::new(["factor", "value", "unit", "nominal"]);
@@ -259,8 +273,12 @@ impl Campaign {
         }
         let mut figures = Table::new(["figure", "value", "nominal"]);
         for &figure in Figure::ALL {
-            let text = |value: f64| if figure.unit().is_empty() { percent(value) } else { significant(value) };
-            figures.row([figure.name().to_owned(), text(outcome.of(figure)), text(nominal.of(figure))]);
+            let text = |outcome: &Outcome| match outcome.found(figure) {
+                None => "nothing swings".to_owned(),
+                Some(value) if figure.unit().is_empty() => percent(value),
+                Some(value) => significant(value),
+            };
+            figures.row([figure.name().to_owned(), text(&outcome), text(&nominal)]);
         }
         say(format_args!("{}, seed {}, draw {}\n{values}\n{figures}", drive.name(scene.name), self.seed, draw.number));
         if outcome.is_unstable() {
@@ -274,7 +292,7 @@ impl Merge {
     fn execute(&self) -> Result<(), Failure> {
         let (settings, outcomes) = merge(&self.files).map_err(Failure::usage)?;
         let results = self.results.as_deref().map(|path| Destination::chosen("results", path));
-        let page = Destination::page_unless(self.json, self.html.as_deref(), &page_name(settings.scene()));
+        let page = Destination::page_unless(self.json, self.html.as_deref(), &page_name(&stem(&settings.variant)));
         let sources: Vec<&Path> = self.files.iter().map(PathBuf::as_path).collect();
         check(&sources, results.iter().chain(&page))?;
         results.map_or(Ok(()), |results| results.write(&settings.file(&outcomes)))?;
@@ -295,15 +313,22 @@ impl Compare {
     }
 }
 
-fn page_name(scene: &str) -> String {
-    format!("{scene}-campaign")
+/// A variant's name as that of a file.
+fn stem(variant: &str) -> String {
+    variant.replace('/', "-")
+}
+
+fn page_name(stem: &str) -> String {
+    format!("{stem}-campaign")
 }
 
 fn show(summary: &Summary, page: Option<&Destination>, json: bool) -> Result<(), Failure> {
     if json {
         say_json(summary)?;
     } else {
-        say(format_args!("{}, {}, seed {}", summary.variant, counted(summary.draws, "draw"), summary.seed));
+        let mut facts = Table::new(["campaign", ""]);
+        summary.facts().into_iter().for_each(|Fact { name, value }| facts.row([name, value]));
+        say(facts);
         summary.tables().into_iter().for_each(say);
     }
     page.map_or(Ok(()), |page| page.write_and_say(&summary.page(), json))

@@ -54,14 +54,14 @@ pub struct Needed {
 }
 
 /// Errors that are predicted over the tolerances, rms, and the observer that is selected by them.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Predicted {
     /// The selected observer: `rigid` where one mass is as good.
     pub observer: &'static str,
     /// Whether it is simpler than the one that the load cycle alone asks for.
     pub is_simpler: bool,
-    /// What the loop with one mass lacks of the margins, where that alone rules it out; `null` otherwise.
-    pub rigid_refused: Option<&'static str>,
+    /// Which observers' loops lack margins: one mass that would do otherwise, or both; `null` otherwise.
+    pub remark: Option<String>,
     /// Of the observer of two masses.
     pub two_masses: Causes,
     /// Of the observer of one mass.
@@ -99,7 +99,7 @@ impl Predicted {
             observer: name(designs.selected.chosen),
             is_simpler: designs.selected.chosen == ObserverChoice::Rigid
                 && designs.nominal.chosen != ObserverChoice::Rigid,
-            rigid_refused: designs.rigid_refused(),
+            remark: designs.remark(),
             two_masses: causes(&designs.two_masses_errors),
             one_mass: causes(&designs.rigid_errors),
         }

@@ -174,17 +174,9 @@ fn over_tolerances(machine: &MachineFile, predicted: &Predicted) -> String {
         }
     }
     let class = Class::ALL.into_iter().find(|(_, class)| *class == machine.class).map_or("general", |(name, _)| name);
-    let why = match predicted.rigid_refused {
-        Some(lacks) => format!("; one mass would do, but lacks margin: with it, {}", cause(lacks)),
-        None if predicted.is_simpler => ": one mass is as good over the tolerances".to_owned(),
-        None => String::new(),
-    };
-    format!("\n{table}observer over the tolerances, class {class}: {}{why}\n", predicted.observer)
-}
-
-/// A sentence without its remedy.
-pub(super) fn cause(sentence: &str) -> &str {
-    sentence.split_once(':').map_or(sentence, |(cause, _)| cause)
+    let simpler = if predicted.is_simpler { ": one mass is as good over the tolerances" } else { "" };
+    let remark = predicted.remark.as_ref().map_or_else(String::new, |remark| format!("; {remark}"));
+    format!("\n{table}observer over the tolerances, class {class}: {}{simpler}{remark}\n", predicted.observer)
 }
 
 /// Margins that there are not, and why.

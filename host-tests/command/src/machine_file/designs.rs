@@ -32,13 +32,15 @@ pub struct Designs {
     pub rigid_errors: PredictedErrors,
     /// The observer that the load cycle needs.
     pub nominal: ObserverSelection,
-    /// The observer over the tolerances, of those whose loop has the usual margins.
+    /// The observer over the tolerances: of those whose loop has the usual margins, where one has them.
     pub selected: ObserverSelection,
     /// What the speed loop on two masses lacks of the usual margins, with all the machine's vibrations; `None` where it
     /// has all.
     pub two_masses_lack: Option<&'static str>,
     /// The same with the observer of one mass.
     pub rigid_lacks: Option<&'static str>,
+    /// Whether the errors of one mass would do, but its loop lacks margins that two masses have.
+    pub is_rigid_refused: bool,
 }
 
 /// Two masses are stable, the machine is not.
@@ -66,15 +68,12 @@ impl Designs {
         let two_masses_lack = machine.lacks(two, LoopObserver::TwoMass(&two_masses), &speed_loop)?;
         let rigid_lacks = machine.lacks(two, LoopObserver::Rigid(&rigid), &speed_loop)?;
         let as_good = nominal.over_tolerances(&rigid_errors.total(), &two_masses_errors.total());
-        let selected = match as_good.chosen {
-            ObserverChoice::Rigid if rigid_lacks.is_some() => ObserverSelection {
-                chosen: match two_masses.chosen {
-                    StepChoice::SemiImplicit => ObserverChoice::SemiImplicit,
-                    StepChoice::Exact => ObserverChoice::Exact,
-                },
-                ..as_good
-            },
-            _ => as_good,
+        let is_rigid_refused =
+            as_good.chosen == ObserverChoice::Rigid && rigid_lacks.is_some() && two_masses_lack.is_none();
+        let chosen = match two_masses.chosen {
+            _ if !is_rigid_refused => as_good.chosen,
+            StepChoice::SemiImplicit => ObserverChoice::SemiImplicit,
+            StepChoice::Exact => ObserverChoice::Exact,
         };
         Ok(Self {
             two: *two,
@@ -85,16 +84,23 @@ impl Designs {
             two_masses_errors,
             rigid_errors,
             nominal,
-            selected,
+            selected: ObserverSelection { chosen, ..as_good },
             two_masses_lack,
             rigid_lacks,
+            is_rigid_refused,
         })
     }
 
-    /// Why one mass is not selected although its errors would do: what its loop lacks.
-    pub fn rigid_refused(&self) -> Option<&'static str> {
-        let as_good = self.nominal.over_tolerances(&self.rigid_errors.total(), &self.two_masses_errors.total());
-        self.rigid_lacks.filter(|_| as_good.chosen == ObserverChoice::Rigid)
+    /// Which observers' loops lack margins, without the remedies: one mass that would do otherwise, or both.
+    pub fn remark(&self) -> Option<String> {
+        let cause = |sentence: &'static str| sentence.split_once(':').map_or(sentence, |(cause, _)| cause);
+        match (self.rigid_lacks.map(cause), self.two_masses_lack.map(cause)) {
+            (Some(one), None) if self.is_rigid_refused => {
+                Some(format!("one mass would do, but lacks margin: with it, {one}"))
+            }
+            (Some(one), Some(two)) => Some(format!("neither has the margins: with one mass, {one}; with two, {two}")),
+            _ => None,
+        }
     }
 
     /// Whether one mass is chosen over the tolerances.

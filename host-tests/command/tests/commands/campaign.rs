@@ -128,6 +128,15 @@ fn a_machine_file_has_campaigns() {
         let error = outcome["figures"][0]["nominal"].as_f64().unwrap();
         assert!(error > 0.0 && error < 0.05, "{error}");
     }
+    // another machine in the file, and more draws of it
+    let changed = text.replace("inertia = 0.0045", "inertia = 0.0046");
+    fs::write(folder.path().join("axis.toml"), format!("{changed}\n[tolerance]\nclass = \"machine-tool\"\n")).unwrap();
+    let refused = campaign(folder.path(), &["axis.toml", "--draws", "3", "--results", "one", "--drive", "rigid"]);
+    let sentence = String::from_utf8_lossy(&refused.stderr);
+    assert!(
+        sentence.contains("one was written before the machine, by its file or by this program, changed"),
+        "{sentence}"
+    );
     let refused = campaign(folder.path(), &["axis.toml", "--drive", "f32/rigid/10000"]);
     assert!(String::from_utf8_lossy(&refused.stderr).contains("expected two-mass, rigid or plain"));
     // a worm behind the last mass, whose losses no shaft carries
@@ -156,7 +165,16 @@ fn an_observer_whose_loop_lacks_margin_is_not_selected() {
     let unstable = |summary: &serde_json::Value| summary["unstable"].as_array().unwrap().len();
     let rigid = run(&["--results", "rigid", "--drive", "rigid"]);
     assert_eq!(unstable(&rigid), 5);
+    let cause = "the speed loop with its observer is unstable";
+    assert!(rigid["lacks"].as_str().unwrap().starts_with(cause));
+    let merged = campaign(folder.path(), &["merge", "rigid", "--json"]);
+    assert_eq!(serde_json::from_slice::<serde_json::Value>(&merged.stdout).unwrap(), rigid);
+    let one = campaign(folder.path(), &["roll.toml", "--draw", "0", "--drive", "rigid", "--json"]);
+    assert!(serde_json::from_slice::<serde_json::Value>(&one.stdout).unwrap()["lacks"] == rigid["lacks"]);
+    let shown = campaign(folder.path(), &["roll.toml", "--draw", "0", "--drive", "rigid"]);
+    assert!(String::from_utf8_lossy(&shown.stdout).contains(&format!("warning: {cause}")));
     let usual = run(&["--results", "usual"]);
+    assert!(usual["lacks"].is_null());
     assert_eq!((usual["variant"].as_str(), unstable(&usual)), (Some("roll/two-mass"), 0));
     let said = "one mass would do, but lacks margin: with it, the speed loop with its observer is unstable";
     let shown = campaign(folder.path(), &["roll.toml", "--draws", "5", "--results", "usual"]);
@@ -164,6 +182,41 @@ fn an_observer_whose_loop_lacks_margin_is_not_selected() {
     let mut design = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
     let shown = design.args(["design", "roll.toml"]).current_dir(folder.path()).output().unwrap();
     assert!(String::from_utf8_lossy(&shown.stdout).contains(said));
+}
+
+/// One kilogram on the hoist's rope: neither observer's loop holds at its tolerances, and none replaces the other.
+#[test]
+fn a_lack_of_both_observers_is_stated() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = include_str!("../../machines/hoist.toml").replace("mass = 12000.0", "mass = 1.0");
+    fs::write(folder.path().join("light.toml"), text).unwrap();
+    let shown = campaign(folder.path(), &["light.toml", "--draws", "1"]);
+    let mut design = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let designed = design.args(["design", "light.toml"]).current_dir(folder.path()).output().unwrap();
+    let [shown, designed] = [shown, designed].map(|output| String::from_utf8(output.stdout).unwrap());
+    for shown in [&shown, &designed] {
+        assert!(shown.contains("neither has the margins: with one mass, the speed loop"), "{shown}");
+    }
+    assert!(shown.contains("warning: the speed loop with its observer is unstable at its tolerances"), "{shown}");
+}
+
+/// A scene, its drives, and a file of a machine of the same name have results of their own.
+#[test]
+fn results_of_scene_drive_and_file_do_not_collide() {
+    let folder = tempfile::tempdir().unwrap();
+    let axis = include_str!("../../machines/axis.toml").replace("name = \"feed axis\"", "name = \"spindle\"");
+    fs::write(folder.path().join("spindle.toml"), axis).unwrap();
+    for (scene, drive, name) in [
+        ("spindle", "f32/rigid/10000", "spindle-f32-rigid-10000"),
+        ("spindle", "plain", "spindle-plain"),
+        ("spindle.toml", "plain", "spindle.toml-plain"),
+    ] {
+        let output = campaign(folder.path(), &[scene, "--drive", drive, "--draws", "1", "--json"]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(folder.path().join(format!("report/{name}.draws")).exists(), "{name}");
+    }
+    let both = campaign(folder.path(), &["spindle", "--draw", "1", "--draws", "5"]);
+    assert_eq!(both.status.code(), Some(2));
 }
 
 /// A motor that holds four fifths of the weight: behind a worm that keeps 0.7 of the power backwards the load stays,
