@@ -6,7 +6,7 @@
 //! same thing with other terms:
 //!
 //! `J_j v_j' = torques_j - viscous_j v_j - sum_l c_lj F_l`, `F_l = k_l(t) x_l + d_l dx_l/dt`, `x_l = sum_j c_lj q_j -
-//! error - half the gap` `[Pfützner 1980 (1.6)]`, `[Tang 1994 ch. 1]`; with a crank `J w' + J'(phi) w^2/2` stands on
+//! error - half the gap` `[Pfützner 1980 (1.6)]`, `[Tang 1994 (1.5)]`; with a crank `J w' + J'(phi) w^2/2` stands on
 //! the left `[Wang 1989 (1-15)]`.
 //!
 //! Between events (a flank met or left, a stop, a slip, a switch of stiffness, a corner of a torque) the motion is
@@ -58,6 +58,7 @@ mod series;
 mod signal;
 mod sized;
 mod source;
+mod spur_pair;
 mod start;
 mod state;
 mod stiffest;
@@ -73,6 +74,7 @@ pub use modes::TrainModes;
 pub use motion::Motion;
 pub use signal::Signal;
 pub use source::{Source, Waveform};
+pub use spur_pair::{SpurBearing, SpurPair, SpurWheel};
 pub use stiffest::Stiffest;
 pub use unbalance::Unbalance;
 

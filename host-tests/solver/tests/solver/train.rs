@@ -10,6 +10,7 @@ mod losses;
 mod modes;
 mod mover;
 mod proof;
+mod spur_pair;
 mod start;
 mod transfer;
 mod unbalance;

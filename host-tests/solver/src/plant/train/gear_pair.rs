@@ -1,8 +1,8 @@
-//! The torsion-lateral gear pair: two wheels that turn, move and tilt on their shafts and bearings, between a motor
-//! and a load that turn. Fourteen coordinates in linear form `[Tang 1994 (1.6)]`.
+//! The torsion-lateral gear pair between a motor and a load: two wheels, helical or spur, that turn, move and tilt on
+//! their shafts and bearings. Derived; fourteen coordinates as [`SpurPair`](super::SpurPair) has, but others: the
+//! turning of the motor, the six motions of each wheel, and the turning of the load.
 //!
-//! The source counts the coordinates; the choice here is the turning of the motor, the six motions of each wheel, and
-//! the turning of the load. Axes of each wheel: `x` along the line of centres from pinion to wheel, `y` across it in
+//! Axes of each wheel: `x` along the line of centres from pinion to wheel, `y` across it in
 //! the sense of the pinion's drive at the pitch point, `z` along the shaft. Each wheel turns positively in its
 //! driving sense.
 //!

@@ -145,6 +145,12 @@ impl Motion {
                     }
                 }
                 let last = series.len() - 1;
+                if let Some(variation) = &link.variation {
+                    let error = variation.over(link.stiffness, self.now, stretch.length, self.mode.edge(l)).1;
+                    for k in 0..last {
+                        series[k] += link.damping * (k + 1) as f64 / stretch.length * error[k + 1];
+                    }
+                }
                 series[last] = 0.0;
                 Some(series.map(|v| v * carried(l)))
             }

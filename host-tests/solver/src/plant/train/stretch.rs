@@ -158,13 +158,16 @@ impl Stretch {
                     let (mut sum, mut sizes) = (0.0, 0.0);
                     for i in 0..=k {
                         let at = if i == 0 { origin } else { 0.0 };
+            let mut opening = (0.0, 0.0);
                         sum += stiffness[k - i] * (elongation.value[i] - at - error[i]);
                         sizes += stiffness[k - i].abs() * (elongation.size[i] + at.abs() + error[i].abs());
                     }
                     (sum, sizes)
                 }
             };
-            let (force, force_size) = (force + link.damping * rate, force_size + link.damping * rate_size);
+            // the damper feels the flanks, which the error parts
+            let force = force + link.damping * (rate - opening.0);
+            let force_size = force_size + link.damping * (rate_size + opening.1);
             self.strain[l].put(k, force, force_size);
             if mode.carries(train, l) {
                 for (i, &(at, share)) in link.terms.iter().enumerate() {
@@ -172,6 +175,7 @@ impl Stretch {
                     net[at] -= factor * force;
                     size[at] += factor.abs() * force_size;
                 }
+                    opening = (error[k + 1] / step, error[k + 1].abs() / step);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! The torsion-lateral gear pair of fourteen coordinates `[Tang 1994 (1.6)]`.
+//! The torsion-lateral gear pair between a motor and a load.
 
 use driveline_solver::plant::modes::System;
 use driveline_solver::plant::train::converge::{Recording, prove};

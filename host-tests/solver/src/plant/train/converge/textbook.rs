@@ -90,21 +90,21 @@ impl<'a> Double<'a> {
         y[self.train.links.len() + self.train.coordinates.len() + j]
     }
 
-    /// Stiffness and error of a link.
-    fn law(&self, t: f64, l: usize) -> (f64, f64) {
+    /// Stiffness and error of a link, and the rate of the error.
+    fn law(&self, t: f64, l: usize) -> (f64, f64, f64) {
         let link = &self.train.links[l];
         match &link.variation {
-            None => (link.stiffness, 0.0),
+            None => (link.stiffness, 0.0, 0.0),
             Some(Variation::Zones(zones)) => {
                 let cycle: f64 = zones.iter().map(|zone| zone.duration).sum();
                 let mut left = self.middle.rem_euclid(cycle);
                 for zone in zones {
                     if left < zone.duration {
-                        return (zone.stiffness, zone.error_force / zone.stiffness);
+                        return (zone.stiffness, zone.error_force / zone.stiffness, 0.0);
                     }
                     left -= zone.duration;
                 }
-                (zones[0].stiffness, zones[0].error_force / zones[0].stiffness)
+                (zones[0].stiffness, zones[0].error_force / zones[0].stiffness, 0.0)
             }
             Some(Variation::Teeth(teeth)) => {
                 // the middle of the zone says how many pairs share the load
@@ -112,9 +112,9 @@ impl<'a> Double<'a> {
                 let pitches = 0.5 * (teeth.edge(ahead - 1) + teeth.edge(ahead)) * teeth.count / TAU;
                 let faulty = pitches.floor().rem_euclid(2.0) == 0.0;
                 if pitches - pitches.floor() < teeth.contact_ratio - 1.0 {
-                    (teeth.double, 0.5 * teeth.error)
+                    (teeth.double, 0.5 * teeth.error, 0.0)
                 } else {
-                    (teeth.single, if faulty { teeth.error } else { 0.0 })
+                    (teeth.single, if faulty { teeth.error } else { 0.0 }, 0.0)
                 }
             }
             Some(Variation::Harmonics { frequency, stiffness, error }) => {
@@ -122,7 +122,12 @@ impl<'a> Double<'a> {
                     let phase = TAU * frequency * h.order * t;
                     h.cosine * phase.cos() + h.sine * phase.sin()
                 };
-                (link.stiffness + stiffness.iter().map(turn).sum::<f64>(), error.iter().map(turn).sum())
+                let rate = |h: &super::super::Harmonic| {
+                    let omega = TAU * frequency * h.order;
+                    omega * (h.sine * (omega * t).cos() - h.cosine * (omega * t).sin())
+                };
+                let stiffness = link.stiffness + stiffness.iter().map(turn).sum::<f64>();
+                (stiffness, error.iter().map(turn).sum(), error.iter().map(rate).sum())
             }
         }
     }
@@ -131,9 +136,9 @@ impl<'a> Double<'a> {
     fn strain(&self, t: f64, y: &[f64], l: usize) -> f64 {
         let link = &self.train.links[l];
         let reach = if link.rope { link.gap } else { 0.5 * link.gap * self.side[l] };
-        let (k, error) = self.law(t, l);
+        let (k, error, opening) = self.law(t, l);
         let rate: f64 = link.terms.iter().map(|&(at, c)| c * self.speed(y, at)).sum();
-        k * (y[l] - reach - error) + link.damping * rate
+        k * (y[l] - reach - error) + link.damping * (rate - opening)
     }
 
     /// Force that the link carries.
