@@ -70,7 +70,7 @@ pub use friction::Friction;
 pub use gear_pair::{GearBody, GearPair};
 pub use link::Link;
 pub use mesh::{Harmonic, Teeth, Variation, Zone};
-pub use modes::TrainModes;
+pub use modes::{Decay, TrainModes};
 pub use motion::Motion;
 pub use signal::Signal;
 pub use source::{Source, Waveform};

@@ -1,9 +1,14 @@
 //! Natural frequencies and shapes of a train with every link in contact at its mean stiffness.
 
-use super::Train;
+use nalgebra::{DMatrix, Schur};
+
 use super::rank::Elimination;
+use super::{Source, Train};
 use crate::plant::error::PlantError;
 use crate::plant::modes::jacobi::{norm, orthogonal};
+
+/// Share of the fastest rate below which an eigenvalue of the damped equations is rounding, taken a thousandfold.
+const ROUNDING: f64 = 1e-12;
 
 /// Natural frequencies and shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,6 +17,23 @@ pub struct TrainModes {
     pub omega: Vec<f64>,
     /// Of each mode, the amplitude of every coordinate, scaled to `sum J q^2 = 1`.
     pub shapes: Vec<Vec<f64>>,
+}
+
+/// A damped vibration, or a decay without one: an eigenvalue `-decay + i omega`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Decay {
+    /// 1/s; below zero where the motion grows.
+    pub decay: f64,
+    /// rad/s, zero or above.
+    pub omega: f64,
+}
+
+impl Decay {
+    /// Damping ratio: 1 of a decay without vibration.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        self.decay / self.decay.hypot(self.omega)
+    }
 }
 
 impl TrainModes {
@@ -69,6 +91,42 @@ impl Train {
         let (omega, scaled): (Vec<f64>, Vec<Vec<f64>>) = modes.into_iter().unzip();
         let shape = |shape: Vec<f64>| shape.iter().zip(&root).map(|(x, root)| x / root).collect();
         Ok(TrainModes { omega, shapes: scaled.into_iter().map(shape).collect() })
+    }
+
+    /// Damped vibrations and decays about standstill, the slowest first; one of each conjugate pair, and none of what
+    /// neither swings nor decays. Of the torques, lines alone count, with their slopes. They are the eigenvalues of the
+    /// equations in `sqrt(J) v` and `sqrt(k) x`, whose rounding is that of the highest rate and not of its square.
+    ///
+    /// # Errors
+    /// [`PlantError`] as [`build`](Self::build).
+    pub fn decays(&self) -> Result<Vec<Decay>, PlantError> {
+        self.validate()?;
+        let n = self.coordinates.len();
+        let root: Vec<f64> = self.inertias().iter().map(|inertia| inertia.sqrt()).collect();
+        let size = n + self.links.len();
+        let mut state = DMatrix::zeros(size, size);
+        for (j, coordinate) in self.coordinates.iter().enumerate() {
+            let slope = |source: &Source| if let Source::Line { slope, .. } = source { *slope } else { 0.0 };
+            let fall = coordinate.viscous + coordinate.sources.iter().map(slope).sum::<f64>();
+            state[(j, j)] = -fall / (root[j] * root[j]);
+        }
+        for (l, link) in self.links.iter().enumerate() {
+            for &(at, share) in &link.terms {
+                let strain = share * link.mean_stiffness().sqrt() / root[at];
+                (state[(n + l, at)], state[(at, n + l)]) = (strain, -strain);
+                for &(other, theirs) in &link.terms {
+                    state[(at, other)] -= share * theirs * link.damping / (root[at] * root[other]);
+                }
+            }
+        }
+        // far more steps than the two or three of an eigenvalue
+        let all = Schur::try_new(state, f64::EPSILON, 10_000).map(|schur| schur.complex_eigenvalues());
+        let all = all.ok_or(PlantError::Count { name: "eigenvalues found", found: 0, expected: size })?;
+        let fastest = all.iter().map(|value| value.norm()).fold(0.0, f64::max);
+        let moves = all.iter().filter(|value| value.norm() > ROUNDING * fastest && value.im >= 0.0);
+        let mut decays: Vec<Decay> = moves.map(|value| Decay { decay: -value.re, omega: value.im }).collect();
+        decays.sort_by(|a, b| a.decay.hypot(a.omega).total_cmp(&b.decay.hypot(b.omega)));
+        Ok(decays)
     }
 
     /// Inertia of every coordinate, kg m2 or kg, with what a crank adds at its starting angle.

@@ -1,7 +1,7 @@
 //! Natural frequencies of trains whose inertias and stiffnesses lie far apart.
 
 use driveline_solver::noise::Noise;
-use driveline_solver::plant::train::{Coordinate, Link, Train};
+use driveline_solver::plant::train::{Coordinate, Link, Source, Train};
 
 /// A tree of coordinates: for each but the first the one before it, the stiffness and the ratio of its link; and
 /// springs to the ground.
@@ -144,4 +144,46 @@ fn what_nothing_holds_is_rigid_and_an_external_gear_is_a_gear() {
     // k (1/J + r^2/J), rounded a few times
     assert!((external.omega[2] / 40f64.sqrt() - 1.0).abs() < 1e-14);
     assert!((external.omega[2] / internal.omega[2] - 1.0).abs() < 1e-14);
+}
+
+/// Damping in proportion to stiffness and inertia, `d = b k` and `c = a J`, gives each mode the decay
+/// `(a + b w^2)/2` and the frequency `sqrt(w^2 - decay^2)` [Pfützner 1980 §1.1]; a fast one only decays, twice.
+#[test]
+fn damped_vibrations_of_proportional_damping_are_the_closed_form() {
+    let (a, b) = (0.4, 3.0e-3);
+    let inertia = [0.5, 2.0, 0.1, 3.0];
+    let train = inertia.iter().fold(Train::new(), |t, &j| t.coordinate(Coordinate::new(j).viscous(a * j)));
+    let shafts = [4.0e3, 9.0e4, 700.0];
+    let shaft = |(at, &k): (usize, &f64)| Link::shaft(at, at + 1, k).damping(b * k);
+    let train = shafts.iter().enumerate().map(shaft).fold(train, Train::link);
+    let mut expected = vec![(a, 0.0)];
+    for omega in train.modes().unwrap().omega.into_iter().filter(|omega| *omega > 0.0) {
+        let decay = 0.5 * (a + b * omega * omega);
+        if decay < omega {
+            expected.push((decay, (omega * omega - decay * decay).sqrt()));
+        } else {
+            let apart = (decay * decay - omega * omega).sqrt();
+            expected.extend([(decay - apart, 0.0), (decay + apart, 0.0)]);
+        }
+    }
+    assert!(expected.iter().filter(|one| one.1 == 0.0).count() > 2 && expected.iter().any(|one| one.1 > 0.0));
+    expected.sort_by(|a, b| a.0.hypot(a.1).total_cmp(&b.0.hypot(b.1)));
+    let found = train.decays().unwrap();
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    let top = expected.iter().map(|one| one.0.hypot(one.1)).fold(0.0, f64::max);
+    for (found, (decay, omega)) in found.iter().zip(&expected) {
+        // rounding of the largest eigenvalue, some hundred times the smallest difference here
+        let off = (found.decay - decay).hypot(found.omega - omega);
+        assert!(off < 1e-12 * top, "{found:?} {decay} {omega}");
+        assert!((found.damping_ratio() - decay / decay.hypot(*omega)).abs() < 1e-9, "{found:?}");
+    }
+}
+
+/// A motor's falling characteristic damps as friction to the ground does: `J w' = -slope w`. One that rises runs away.
+#[test]
+fn the_slope_of_a_line_is_damping() {
+    let motor = |slope| Coordinate::new(2.0).source(Source::Line { stall: 10.0, slope });
+    let decay = |slope| Train::new().coordinate(motor(slope)).decays().unwrap()[0];
+    assert!((decay(6.0).decay - 3.0).abs() < 1e-15 && (decay(-6.0).decay + 3.0).abs() < 1e-15);
+    assert!(Train::new().coordinate(motor(0.0)).decays().unwrap().is_empty());
 }
