@@ -12,7 +12,7 @@ use crate::machine_file::{TrainFile, read_train};
 use driveline_report::chart::{Line, over_time};
 use driveline_report::format::significant;
 use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
-use result::Simulation;
+use result::{Pieces, Simulation};
 
 /// Lines of the events' table.
 const EVENTS: usize = 40;
@@ -23,7 +23,7 @@ const DRAWN: usize = 6;
 ///
 /// The file names coordinates and the links between them, or elements from the motor to the load; torques, friction,
 /// the start and the run. Every run is done again by a second integrator; one that does not agree to 1e-8 of its
-/// peaks is refused.
+/// peaks is refused. A run in which roundings grow beyond that is proven in pieces, and says so.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline example gear-pair > gear-pair.toml
@@ -75,20 +75,30 @@ impl Simulate {
 
 fn proof(simulation: &Simulation) -> String {
     match (simulation.proof, &simulation.not_proven) {
-        (Some([integrator, tightened]), _) => format!(
-            "proven: a second integrator deviates by {integrator:.1e} of the peaks, ten times closer events by \
-             {tightened:.1e}"
-        ),
+        (Some([integrator, tightened]), _) => {
+            let proven = format!(
+                "proven: a second integrator deviates by {integrator:.1e} of the peaks, ten times closer events by \
+                 {tightened:.1e}"
+            );
+            let Some(Pieces { from, pieces, shortest }) = simulation.sensitive else { return proven };
+            format!(
+                "{proven}; sensitive: from {} s on in pieces, {pieces} of them, since roundings grow beyond 1e-8 \
+                 within {} s; its extremes are those of one run among many",
+                significant(from),
+                significant(shortest)
+            )
+        }
         (None, reason) => format!("not proven: {}", reason.as_deref().unwrap_or("unknown")),
     }
 }
 
 fn tables(simulation: &Simulation) -> Vec<Section> {
-    let mut forces = Table::new(["link", "least N m", "at s", "greatest N m", "at s", "static N m", "K", "contacts"]);
+    let mut forces =
+        Table::new(["link", "least N m", "at s", "greatest N m", "at s", "static N m", "K", "elastic K", "contacts"]);
     for link in &simulation.links {
         let numbers = [link.least, link.least_time, link.greatest, link.greatest_time, link.static_force];
-        let factor = link.dynamic_factor.map_or_else(|| "none".to_owned(), significant);
-        let rest = [factor, link.contacts.to_string()];
+        let factor = |factor: Option<f64>| factor.map_or_else(|| "none".to_owned(), significant);
+        let rest = [factor(link.dynamic_factor), factor(link.elastic_factor), link.contacts.to_string()];
         forces.row([link.name.clone()].into_iter().chain(numbers.map(significant)).chain(rest));
     }
     let mut speeds = Table::new(["coordinate", "least rad/s", "greatest rad/s", "at the end rad/s"]);
@@ -97,7 +107,8 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
         speeds.row([coordinate.name.clone()].into_iter().chain(numbers.map(significant)));
     }
     let text = "Torques of links between angles; along a line of action or a way, forces in N. The dynamic factor K is \
-                the greatest size over the static force: that of the file, or the mean of the second half of the run. \
+                the greatest size over the static force: that of the file, or the mean of the second half of the run; \
+                elastic, of the spring without its damper. \
                 Extremes are found between the lines of the run, not on them.";
     let mut all = vec![Section::new("Forces", text, forces), Section::new("Speeds", "Of ways in m/s.", speeds)];
     if !simulation.events.is_empty() {

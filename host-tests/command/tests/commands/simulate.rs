@@ -74,12 +74,12 @@ fn the_machines_in_the_repository_run_and_are_proven() {
     }
 }
 
+/// Lightly damped and lightly loaded, between both flanks, for a long time: chaos. No run is the only one of its start.
 #[test]
-fn a_run_that_cannot_be_confirmed_is_refused_with_a_sentence() {
+fn a_sensitive_run_is_proven_in_pieces_and_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("rattle.toml");
     let text = std::fs::read_to_string(machine("gear-pair")).unwrap();
-    // lightly damped and lightly loaded, between both flanks, for a long time: chaos
     let text = text
         .replace("damping = 3561.695654463696", "damping = 10.0")
         .replace("gap = 1.6e-4", "gap = 4e-6")
@@ -90,14 +90,60 @@ fn a_run_that_cannot_be_confirmed_is_refused_with_a_sentence() {
     std::fs::write(&file, text).unwrap();
     let file = file.to_str().unwrap();
     let output = simulate(&[file, "--json"]);
-    assert_eq!(output.status.code(), Some(1));
-    let error: serde_json::Value = serde_json::from_slice(&output.stderr).unwrap();
-    let sentence = error["error"].as_str().unwrap();
-    assert!(sentence.contains("the run is refused") && sentence.contains("the second integrator"), "{sentence}");
-    let output = simulate(&[file, "--json", "--unproven"]);
-    assert!(output.status.success());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert!(found["proof"].is_null());
+    assert!(found["sensitive"]["pieces"].as_u64().unwrap() > 0 && found["proof"][0].as_f64().unwrap() <= 1e-8);
+    assert!(found["sensitive"]["from"].as_f64().unwrap() < 0.2);
+    let said = String::from_utf8(simulate(&[file]).stdout).unwrap();
+    assert!(said.contains("sensitive: from") && said.contains("one run among many"), "{said}");
+    let output = simulate(&[file, "--json", "--unproven"]);
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(output.status.success() && found["proof"].is_null() && found["sensitive"].is_null());
+}
+
+/// The gear pair that is shipped, for fifty times its time.
+#[test]
+fn the_gear_pair_runs_for_a_second() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("second.toml");
+    let text = std::fs::read_to_string(machine("gear-pair")).unwrap();
+    std::fs::write(&file, text.replace("time = 0.02", "time = 1.0")).unwrap();
+    let output = simulate(&[file.to_str().unwrap(), "--json"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(found["proof"][0].as_f64().unwrap() <= 1e-8 && found["sensitive"].is_null(), "{}", found["proof"]);
+}
+
+/// Two masses on a damped shaft under a torque: with `w` and `D` of the free swing, the elastic torque overshoots to
+/// `1 + exp(-pi D/sqrt(1 - D^2))` of the static one; `modes` shows the same eigenvalue.
+#[test]
+fn the_elastic_factor_and_the_damped_vibration_of_a_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("damped.toml");
+    let text = STEP.replace("stiffness = 850.0", "stiffness = 850.0\nstatic = 20.0\ndamping = 2.0");
+    std::fs::write(&file, text).unwrap();
+    let path = file.to_str().unwrap();
+    let found: serde_json::Value = serde_json::from_slice(&simulate(&[path, "--json"]).stdout).unwrap();
+    let shares = 1.0 / 1.2 + 1.0 / 0.3;
+    let (omega, decay) = ((850.0_f64 * shares).sqrt(), 0.5 * 2.0 * shares);
+    let damped = (omega * omega - decay * decay).sqrt();
+    let expected = 1.0 + (-std::f64::consts::PI * decay / damped).exp();
+    let shaft = &found["links"][0];
+    // roundings of the run
+    assert!((shaft["elastic_factor"].as_f64().unwrap() - expected).abs() < 1e-12, "{shaft} {expected}");
+    assert!(shaft["dynamic_factor"].as_f64().unwrap() > expected);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let output = command.args(["modes", path, "--json"]).output().unwrap();
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let one = &found["damped"][0];
+    assert_eq!(found["damped"].as_array().unwrap().len(), 1, "{found}");
+    // an eigenvalue of a matrix of three
+    assert!((one["decay"].as_f64().unwrap() / decay - 1.0).abs() < 1e-12, "{one}");
+    assert!((one["frequency"].as_f64().unwrap() / damped - 1.0).abs() < 1e-12, "{one}");
+    std::fs::write(&file, STEP).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["modes", path, "--json"]).output().unwrap();
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(found["damped"].as_array().unwrap().is_empty(), "{found}");
 }
 
 #[test]
@@ -263,7 +309,10 @@ fn hanging(element: &str) -> String {
 fn worms_planetary_sets_and_gears_lose_power_in_a_run() {
     let worm = "[[element]]\nkind = \"worm\"\nratio = 10.0\nefficiency = 0.7\nback_efficiency = 0.5\n";
     let gear = "[[element]]\nkind = \"gear\"\nratio = 10.0\nefficiency = 0.9\n";
-    for (element, back) in [(worm, 0.5), (gear, 0.9)] {
+    // 1 + 81/9 = 10 from sun to carrier; of its own inertias a part in 1e12 is left
+    let set = "[[element]]\nkind = \"planetary\"\nsun_teeth = 9\nring_teeth = 81\nmodule = 0.001\nplanets = 3\n\
+        sun = 1e-12\nplanet = 1e-12\nplanet_mass = 1e-12\ncarrier = 1e-12\nefficiency = 0.8\n";
+    for (element, back) in [(worm, 0.5), (gear, 0.9), (set, 0.8)] {
         let file = parse_train("hanging.toml", &hanging(element)).unwrap();
         let mut motion = file.motion.clone();
         motion.advance(0.2);
@@ -274,6 +323,21 @@ fn worms_planetary_sets_and_gears_lose_power_in_a_run() {
         // a swing that lets the power turn round for a moment would leave a share; it has none here
         assert!((momentum / (-back * weight * 0.2) - 1.0).abs() < 1e-9, "{back}: {momentum}");
     }
+}
+
+/// A belt carries its own losses: driven back, of its torque `F` on the load the motor gets `eta F`, and keeps with the
+/// load `J_1 w_1 + eta J_2 w_2 = -eta W t`, the load's side at the motor by the ratio of the pulleys.
+#[test]
+fn a_belt_loses_power_in_a_run() {
+    let belt = "[[element]]\nkind = \"belt\"\ndriving = 0.1\ndriven = 0.4\nstiffness = 4e6\nefficiency = 0.9\n";
+    let shaft = "[[element]]\nkind = \"shaft\"\nstiffness = 9.0e4\n";
+    let file = parse_train("hanging.toml", &hanging(belt).replace(shaft, "")).unwrap();
+    let mut motion = file.motion.clone();
+    motion.advance(0.2);
+    let load = (2.0 + 100.0 * 0.2 * 0.2) / 16.0;
+    let weight = 100.0 * 9.80665 * 0.2 / 4.0;
+    let momentum = 0.5 * motion.speed(0) + 0.9 * load * motion.speed(1);
+    assert!((momentum / (-0.9 * weight * 0.2) - 1.0).abs() < 1e-9, "{momentum}");
 }
 
 /// Losses that no shaft can carry are refused by the element's name.

@@ -24,7 +24,7 @@ mod recording;
 mod rerun;
 mod textbook;
 
-pub use proof::{BOUND, Deviation, NotProven, Proof};
+pub use proof::{BOUND, Deviation, NotProven, Proof, Sensitive};
 pub use recording::Recording;
 
 use recording::{Step, sample};
@@ -43,7 +43,7 @@ pub fn prove(run: &Recording) -> Result<Proof, NotProven> {
             return Err(NotProven::Deviates { from, found: largest, time });
         }
     }
-    Ok(Proof { integrator, tightened })
+    Ok(Proof { integrator, tightened, sensitive: None })
 }
 
 fn tightened(run: &Recording) -> Vec<Vec<f64>> {

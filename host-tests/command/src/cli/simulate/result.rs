@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::cli::{Failure, Progress};
 use crate::machine_file::TrainFile;
 use driveline_solver::plant::train::Signal;
-use driveline_solver::plant::train::converge::{Recording, prove_telling};
+use driveline_solver::plant::train::converge::{Recording, Sensitive, prove_in_pieces};
 use driveline_solver::plant::{EventKind, Place};
 
 /// Product of the fastest rate and the time between two looks at the progress, at most.
@@ -30,6 +30,8 @@ pub struct Simulation {
     /// Deviation of the second integrator, and of the solver with events located ten times closer, as shares of the
     /// peaks; none where the proof was left out or did not succeed.
     pub proof: Option<[f64; 2]>,
+    /// Where roundings grow beyond the bound of the proof; `null` of a run that is proven as a whole.
+    pub sensitive: Option<Pieces>,
     /// Why the run is not proven.
     pub not_proven: Option<String>,
     /// Times of the lines (s).
@@ -41,6 +43,23 @@ pub struct Simulation {
     /// Of each link, its force at those times.
     #[serde(skip)]
     pub forces: Vec<Vec<f64>>,
+}
+
+/// How a sensitive run is proven: in pieces, each from the state that the run has where it begins.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Pieces {
+    /// Up to here the run follows from its start (s).
+    pub from: f64,
+    /// Pieces after it.
+    pub pieces: usize,
+    /// The shortest time in which a rounding grew beyond the bound (s).
+    pub shortest: f64,
+}
+
+impl From<Sensitive> for Pieces {
+    fn from(sensitive: Sensitive) -> Self {
+        Self { from: sensitive.from, pieces: sensitive.restarts, shortest: sensitive.shortest }
+    }
 }
 
 /// Extremes of a speed (rad/s or m/s).
@@ -75,6 +94,8 @@ pub struct Carried {
     pub static_from: &'static str,
     /// Dynamic factor: the greatest size over the static force; none where that is nothing.
     pub dynamic_factor: Option<f64>,
+    /// The same of its spring alone, without its damper.
+    pub elastic_factor: Option<f64>,
     /// How often it came into contact or left it.
     pub contacts: usize,
 }
@@ -106,7 +127,7 @@ impl Simulation {
         let mut start = file.motion.clone();
         let (n, links) = (start.coordinates(), start.links());
         let signals: Vec<Signal> = (0..n).map(Signal::Speed).chain((0..links).map(Signal::Force)).collect();
-        signals.iter().for_each(|&signal| start.watch(signal));
+        signals.iter().copied().chain((0..links).map(Signal::Elastic)).for_each(|signal| start.watch(signal));
         let mut times = vec![0.0];
         let mut rows: Vec<Vec<f64>> = start.read_all(&signals).into_iter().map(|value| vec![value]).collect();
         let mut run = Recording::new(start);
@@ -142,8 +163,8 @@ impl Simulation {
         }
         progress.says("proving by the second integrator");
         let (proof, not_proven) = if proven {
-            match prove_telling(&run, |share| progress.at(100 + (100.0 * share) as u64)) {
-                Ok(proof) => (Some([proof.integrator.largest, proof.tightened.largest]), None),
+            match prove_in_pieces(&run, |share| progress.at(100 + (100.0 * share) as u64)) {
+                Ok(proof) => (Some(proof), None),
                 Err(error) => (None, Some(error.to_string())),
             }
         } else {
@@ -169,6 +190,9 @@ impl Simulation {
                 least_time: 0.0,
             });
             let size = e.peak.abs().max(e.least.abs());
+            let elastic = motion.extremes(Signal::Elastic(l)).map_or(0.0, |e| e.peak.abs().max(e.least.abs()));
+            let factor =
+                |greatest: f64| (static_force.abs() > 1e-9 * size && size > 0.0).then(|| greatest / static_force.abs());
             let contacts = motion.events().iter().filter(|event| event.kind == EventKind::Contact);
             Carried {
                 name: file.links[l].clone(),
@@ -178,7 +202,8 @@ impl Simulation {
                 greatest_time: e.peak_time,
                 static_force,
                 static_from,
-                dynamic_factor: (static_force.abs() > 1e-9 * size && size > 0.0).then(|| size / static_force.abs()),
+                dynamic_factor: factor(size),
+                elastic_factor: factor(elastic),
                 contacts: contacts.filter(|event| event.place == Place::Shaft(l)).count(),
             }
         };
@@ -188,7 +213,8 @@ impl Simulation {
             coordinates: (0..n).map(moved).collect(),
             links: (0..links).map(carried).collect(),
             events: motion.events().iter().map(|event| happened(file, event)).collect(),
-            proof,
+            proof: proof.map(|proof| [proof.integrator.largest, proof.tightened.largest]),
+            sensitive: proof.and_then(|proof| proof.sensitive).map(Pieces::from),
             not_proven,
             times,
             speeds: rows,

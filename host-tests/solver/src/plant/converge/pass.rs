@@ -1,18 +1,22 @@
-//! DOP853 over short pieces, events found by integrating up to them again and again.
+//! DOP853 from event to event; events found by integrating up to them again.
 
+use differential_equations::error::Error;
+use differential_equations::interpolate::Interpolation;
+use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
 use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
-use differential_equations::prelude::ExplicitRungeKutta;
 
 use super::proof::NotProven;
 
-/// Relative tolerance of the integrator; a run of 1e5 pieces may gather 1e-8 of it at the very worst.
+/// Relative tolerance of the integrator; a run of 1e5 steps may gather 1e-8 of it at the very worst.
 const TOLERANCE: f64 = 1e-13;
 /// A guard below this share of its size has fallen.
 const FALLEN: f64 = 1e-12;
 /// An event of a chain is found within this time, s.
 pub(super) const CLOSE: f64 = 1e-15;
-/// Product of the fastest rate and a piece, at most.
-pub(in crate::plant) const REACH: f64 = 0.25;
+/// Product of the fastest rate and a step, at most: no guard turns twice in less than a radian.
+pub(in crate::plant) const REACH: f64 = 1.0;
+/// Events within one longest step after which a run is given up.
+const MOST_EVENTS: usize = 1000;
 
 /// Equations with events, as an ordinary integrator needs them.
 pub(in crate::plant) trait Hybrid {
@@ -29,185 +33,326 @@ pub(in crate::plant) trait Hybrid {
     fn change(&mut self, t: f64, y: &mut [f64], change: Self::Change);
 }
 
-/// The equations in multiples of the scale, for one error tolerance to fit all.
-struct Scaled<'a, H> {
+/// The equations from a time on, s.
+struct Onward<'a, H> {
     machine: &'a H,
-    scale: &'a [f64],
-    /// Where the integrator's time zero lies, s.
     origin: f64,
 }
 
-impl<H: Hybrid> ODE<f64, Vec<f64>> for Scaled<'_, H> {
-    fn diff(&self, t: f64, z: &Vec<f64>, dz: &mut Vec<f64>) {
-        let y: Vec<f64> = z.iter().zip(self.scale).map(|(z, s)| z * s).collect();
-        self.machine.rate(self.origin + t, &y, dz);
-        dz.iter_mut().zip(self.scale).for_each(|(d, s)| *d /= s);
+impl<H: Hybrid> ODE<f64, Vec<f64>> for Onward<'_, H> {
+    fn diff(&self, t: f64, y: &Vec<f64>, dy: &mut Vec<f64>) {
+        self.machine.rate(self.origin + t, y, dy);
     }
 }
 
-/// How a piece is integrated.
-pub(in crate::plant) struct Pass {
-    /// Sizes of the states over the run, to measure errors by.
-    pub scale: Vec<f64>,
-    /// Longest piece, s.
+type Dop853 = ExplicitRungeKutta<Ordinary, DormandPrince, f64, Vec<f64>, 8, 12, 16>;
+
+/// How a run is integrated.
+pub(in crate::plant) struct Pass<C> {
+    /// Errors that a step may have, per state.
+    tolerance: Vec<f64>,
+    /// Longest step, s.
     pub longest: f64,
     /// An event is found within this time, s.
-    pub close: f64,
+    close: f64,
+    /// The step that the integrator would take next, s.
+    step: f64,
+    live: Option<Live<C>>,
 }
 
-impl Pass {
-    /// From corner to corner, in pieces.
-    pub fn between<H: Hybrid>(&self, machine: &mut H, y: &mut Vec<f64>, from: f64, to: f64) -> Result<(), NotProven> {
-        let pieces = ((to - from) / self.longest).ceil().max(1.0);
-        let piece = (to - from) / pieces;
-        for i in 0..pieces as usize {
-            self.piece(machine, y, from + i as f64 * piece, piece)?;
+/// The integrator between two calls, with the time of its origin, s.
+struct Live<C> {
+    method: Dop853,
+    origin: f64,
+    look: Look<C>,
+}
+
+impl<C: Copy> Pass<C> {
+    /// With the sizes of the states over the run, to measure errors by.
+    pub fn new(scale: &[f64], longest: f64, close: f64) -> Self {
+        let tolerance = scale.iter().map(|size| TOLERANCE * size).collect();
+        Self { tolerance, longest, close, step: longest, live: None }
+    }
+
+    /// Begins anew: state or equations are not those of the last call's end.
+    pub fn anew(&mut self) {
+        self.live = None;
+    }
+
+    /// From corner to corner, through all events between them; on from the last call, unless begun anew.
+    pub fn between<H: Hybrid<Change = C>>(
+        &mut self,
+        machine: &mut H,
+        y: &mut Vec<f64>,
+        from: f64,
+        to: f64,
+    ) -> Result<(), NotProven> {
+        let (mut now, mut since, mut events) = (from, from, 0);
+        while let Some((after, change)) = self.smooth(machine, y, now, to)? {
+            now = after;
+            machine.change(now, y, change);
+            self.anew();
+            events += 1;
+            if now - since > self.longest {
+                (since, events) = (now, 0);
+            }
+            if events == MOST_EVENTS {
+                return Err(NotProven::Integrator { time: now, reason: "a thousand events in one step".into() });
+            }
         }
         Ok(())
     }
 
-    fn piece<H: Hybrid>(&self, machine: &mut H, y: &mut Vec<f64>, t: f64, length: f64) -> Result<(), NotProven> {
-        let (mut now, mut left) = (t, length);
-        for _ in 0..1000 {
-            let ahead = self.integrate(machine, y, now, left)?;
-            let Some((after, change)) = first_change(self, machine, y, &ahead, now, left)? else {
-                *y = ahead;
-                return Ok(());
-            };
-            *y = self.integrate(machine, y, now, after)?;
-            (now, left) = (now + after, left - after);
-            machine.change(now, y, change);
+    fn begin<H: Hybrid<Change = C>>(&self, machine: &H, y: &Vec<f64>, t: f64, h: f64) -> Result<Dop853, NotProven> {
+        let tolerance = self.tolerance.clone();
+        let mut method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(tolerance).max_steps(usize::MAX).h0(h);
+        let begun = method.init(&Onward { machine, origin: t }, 0.0, f64::MAX, y);
+        begun.map_err(|e| NotProven::Integrator { time: t, reason: format!("{e:?}") })?;
+        Ok(method)
+    }
+
+    /// On to the time `to` or up to the first change, and when that is.
+    fn smooth<H: Hybrid<Change = C>>(
+        &mut self,
+        machine: &H,
+        y: &mut Vec<f64>,
+        t: f64,
+        to: f64,
+    ) -> Result<Option<(f64, C)>, NotProven> {
+        if to <= t {
+            return Ok(None);
         }
-        Err(NotProven::Integrator { time: now, reason: "a thousand events in one piece".into() })
+        let mut live = match self.live.take() {
+            Some(live) => live,
+            None => Live {
+                method: self.begin(machine, y, t, self.step)?,
+                origin: t,
+                look: Look::of(machine, t, y, self.longest),
+            },
+        };
+        let (method, origin) = (&mut live.method, live.origin);
+        // the integrator refuses a step of less than 1e-14 of the one before
+        while to - (origin + method.t()) > 1e-14 * (to - t) {
+            let now = origin + method.t();
+            let whole = to - now;
+            let wanted = self.step.min(self.longest);
+            method.set_h(wanted.min(whole));
+            let before = method.t();
+            let taken = method.step(&Onward { machine, origin });
+            taken.map_err(|e| NotProven::Integrator { time: now, reason: format!("{e:?}") })?;
+            if method.t() == before {
+                self.step = method.h();
+                continue;
+            }
+            // a step that the end cut short says nothing of a shorter one
+            self.step = if wanted <= whole { method.h() } else { self.step.max(method.h()) };
+            if !live.look.guards.is_empty() {
+                let look = Look::of(machine, origin + method.t(), method.y(), self.longest);
+                let watch = Watch { pass: self, machine, y, now, left: method.t() - before };
+                if let Some((at, change)) = watch.first_change(&live.look, &look, method)? {
+                    *y = self.integrate(machine, y, now, at)?;
+                    return Ok(Some((now + at, change)));
+                }
+                live.look = look;
+            }
+            y.clone_from(method.y());
+        }
+        self.live = Some(live);
+        Ok(None)
     }
 
     /// The state `length` seconds after `t`, with no event on the way.
-    pub fn integrate<H: Hybrid>(&self, machine: &H, y: &[f64], t: f64, length: f64) -> Result<Vec<f64>, NotProven> {
+    fn integrate<H: Hybrid<Change = C>>(
+        &self,
+        machine: &H,
+        y: &Vec<f64>,
+        t: f64,
+        length: f64,
+    ) -> Result<Vec<f64>, NotProven> {
         if length <= 0.0 {
-            return Ok(y.to_vec());
+            return Ok(y.clone());
         }
-        let equations = Scaled { machine, scale: &self.scale, origin: t };
-        let start: Vec<f64> = y.iter().zip(&self.scale).map(|(y, s)| y / s).collect();
-        let failed = |reason: String| NotProven::Integrator { time: t, reason };
-        let mut method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE).h0(length);
-        method.init(&equations, 0.0, length, &start).map_err(|e| failed(format!("{e:?}")))?;
-        // the integrator refuses a step of less than 1e-14 of the one before
+        let mut method = self.begin(machine, y, t, length)?;
         while length - method.t() > 1e-14 * length {
             let h = method.h().min(length - method.t());
             method.set_h(h);
-            method.step(&equations).map_err(|e| failed(format!("{e:?}")))?;
+            let taken = method.step(&Onward { machine, origin: t });
+            taken.map_err(|e| NotProven::Integrator { time: t, reason: format!("{e:?}") })?;
         }
-        Ok(method.y().iter().zip(&self.scale).map(|(z, s)| z * s).collect())
+        Ok(method.y().clone())
     }
 }
 
-/// The first guard to fall within `left` seconds, and after how long. `ahead` is the state at the end.
-fn first_change<H: Hybrid>(
-    pass: &Pass,
-    machine: &H,
-    y: &[f64],
-    ahead: &[f64],
-    now: f64,
-    left: f64,
-) -> Result<Option<(f64, H::Change)>, NotProven> {
-    let (before, after) = (machine.guards(now, y), machine.guards(now + left, ahead));
-    let mut first: Option<(f64, H::Change)> = None;
-    for (index, (start, end)) in before.iter().zip(&after).enumerate() {
-        let fallen = -FALLEN * start.1.max(end.1);
-        let watch = Watch { pass, machine, y, now, left, index, fallen };
-        let Some((a, b)) = watch.bracket(start.0, end.0, ahead)? else {
-            continue;
-        };
-        if first.is_some_and(|(earliest, _)| a >= earliest) {
-            continue;
-        }
-        let at = watch.close_in(a, b)?;
-        if first.is_none_or(|(earliest, _)| at < earliest) {
-            first = Some((at, start.2));
-        }
-    }
-    Ok(first)
+/// The guards at a time, and their changes along the tangent over a thousandth of the longest step.
+struct Look<C> {
+    guards: Vec<(f64, f64, C)>,
+    slopes: Vec<f64>,
 }
 
-/// One guard over one piece.
-struct Watch<'a, H> {
-    pass: &'a Pass,
+impl<C: Copy> Look<C> {
+    fn of<H: Hybrid<Change = C>>(machine: &H, t: f64, y: &[f64], longest: f64) -> Self {
+        let guards = machine.guards(t, y);
+        if guards.is_empty() {
+            return Self { guards, slopes: Vec::new() };
+        }
+        let mut moved = vec![0.0; y.len()];
+        machine.rate(t, y, &mut moved);
+        moved.iter_mut().zip(y).for_each(|(rate, y)| *rate = y + *rate * 1e-3 * longest);
+        let ahead = machine.guards(t + 1e-3 * longest, &moved);
+        let slopes = ahead.iter().zip(&guards).map(|(ahead, guard)| ahead.0 - guard.0).collect();
+        Self { guards, slopes }
+    }
+}
+
+/// The guards over one step.
+struct Watch<'a, H: Hybrid> {
+    pass: &'a Pass<H::Change>,
     machine: &'a H,
-    y: &'a [f64],
+    y: &'a Vec<f64>,
     now: f64,
     left: f64,
-    index: usize,
-    /// Value below which the guard has fallen, not above zero.
-    fallen: f64,
 }
 
 impl<H: Hybrid> Watch<'_, H> {
-    fn value(&self, after: f64) -> Result<f64, NotProven> {
+    /// The first guard to fall, and after how long.
+    fn first_change(
+        &self,
+        before: &Look<H::Change>,
+        after: &Look<H::Change>,
+        step: &mut Dop853,
+    ) -> Result<Option<(f64, H::Change)>, NotProven> {
+        let mut first: Option<(f64, H::Change)> = None;
+        for (index, (start, end)) in before.guards.iter().zip(&after.guards).enumerate() {
+            let fallen = -FALLEN * start.1.max(end.1);
+            let slopes = [before.slopes[index], after.slopes[index]];
+            let Some(bracket) = self.bracket(index, fallen, [start.0, end.0], slopes)? else { continue };
+            if first.is_some_and(|(earliest, _)| bracket[0].0 >= earliest) {
+                continue;
+            }
+            let at = self.close_in(index, bracket, step)?;
+            if first.is_none_or(|(earliest, _)| at < earliest) {
+                first = Some((at, start.2));
+            }
+        }
+        Ok(first)
+    }
+
+    fn value(&self, index: usize, after: f64) -> Result<f64, NotProven> {
         let there = self.pass.integrate(self.machine, self.y, self.now, after)?;
-        Ok(self.machine.guards(self.now + after, &there)[self.index].0)
+        Ok(self.machine.guards(self.now + after, &there)[index].0)
     }
 
-    /// Change of the guard over a thousandth of the piece, along the tangent.
-    fn slope(&self, y: &[f64], after: f64) -> f64 {
-        let t = self.now + after;
-        let mut rate = vec![0.0; y.len()];
-        self.machine.rate(t, y, &mut rate);
-        let moved: Vec<f64> = y.iter().zip(&rate).map(|(y, r)| y + r * 1e-3 * self.left).collect();
-        self.machine.guards(t, &moved)[self.index].0 - self.machine.guards(t, y)[self.index].0
+    fn slope(&self, index: usize, after: f64) -> Result<f64, NotProven> {
+        let there = self.pass.integrate(self.machine, self.y, self.now, after)?;
+        Ok(Look::of(self.machine, self.now + after, &there, self.pass.longest).slopes[index])
     }
 
-    /// An interval in which the guard goes from standing to fallen; none if it stands throughout.
-    fn bracket(&self, start: f64, end: f64, ahead: &[f64]) -> Result<Option<(f64, f64)>, NotProven> {
-        if start < self.fallen {
-            return Ok(Some((0.0, 0.0)));
+    /// An interval in which the guard goes from standing to fallen, with its values; none if it stands throughout.
+    /// Below `fallen`, which is not above zero, it has fallen.
+    fn bracket(
+        &self,
+        index: usize,
+        fallen: f64,
+        [start, end]: [f64; 2],
+        slopes: [f64; 2],
+    ) -> Result<Option<[(f64, f64); 2]>, NotProven> {
+        let now = (0.0, start);
+        if start < fallen {
+            return Ok(Some([now, now]));
         }
-        let stands = start > -self.fallen;
-        let falling = self.slope(self.y, 0.0) < 0.0;
-        if end < self.fallen {
-            let from = if stands || falling { 0.0 } else { self.last_above()? };
-            let to = if stands || !falling { self.left } else { 0.0 };
-            return Ok(Some((from, to)));
+        let stands = start > -fallen;
+        let falling = slopes[0] < 0.0;
+        if end < fallen {
+            let from = if stands || falling { now } else { self.last_above(index)? };
+            let to = if stands || !falling { (self.left, end) } else { now };
+            return Ok(Some([from, to]));
         }
-        if falling && self.slope(ahead, self.left) > 0.0 {
-            let bottom = self.bottom()?;
-            let dips = self.value(bottom)? < self.fallen;
-            return Ok(dips.then_some((0.0, if stands { bottom } else { 0.0 })));
+        if falling && slopes[1] > 0.0 {
+            // where the tangents at both ends meet a convex guard lies above them
+            let share = self.left / (1e-3 * self.pass.longest);
+            let [down, up] = [slopes[0] * share, slopes[1] * share];
+            let meet = (start * up - end * down + down * up) / (up - down);
+            if stands && meet > 0.5 * start.min(end) {
+                return Ok(None);
+            }
+            let bottom = self.bottom(index, slopes)?;
+            let lowest = self.value(index, bottom)?;
+            return Ok((lowest < fallen).then_some([now, if stands { (bottom, lowest) } else { now }]));
         }
         Ok(None)
     }
 
     /// Of a guard that leaves zero upwards and comes back: the last of some samples above zero.
-    fn last_above(&self) -> Result<f64, NotProven> {
+    fn last_above(&self, index: usize) -> Result<(f64, f64), NotProven> {
         for sample in (1..16).rev() {
             let at = self.left * f64::from(sample) / 16.0;
-            if self.value(at)? > 0.0 {
+            let value = self.value(index, at)?;
+            if value > 0.0 {
+                return Ok((at, value));
+            }
+        }
+        Ok((0.0, 0.0))
+    }
+
+    /// Where a guard that falls first and rises last is lowest.
+    fn bottom(&self, index: usize, slopes: [f64; 2]) -> Result<f64, NotProven> {
+        // at the bottom an error of 1e-7 of the step changes the guard by 1e-14 of its fall
+        let rising = |at| self.slope(index, at).map(|slope| -slope);
+        falls([(0.0, -slopes[0]), (self.left, -slopes[1])], 1e-7 * self.left, rising)
+    }
+
+    /// The fallen end of the bracket when it is shut: sought by the interpolation of the step, and from there by one
+    /// step of Newton's with an integration up to it; where that is no small step, by integrations alone.
+    fn close_in(&self, index: usize, bracket: [(f64, f64); 2], step: &mut Dop853) -> Result<f64, NotProven> {
+        let (close, begun) = (self.pass.close, step.t() - self.left);
+        if bracket[1].0 - bracket[0].0 <= close {
+            return Ok(bracket[1].0);
+        }
+        let near = falls(bracket, 1e-9 * self.left, |at| {
+            let there = step.interpolate((begun + at).min(step.t()))?;
+            Ok::<f64, Error<f64, Vec<f64>>>(self.machine.guards(self.now + at, &there)[index].0)
+        });
+        if let Ok(near) = near {
+            let there = self.pass.integrate(self.machine, self.y, self.now, near)?;
+            let look = Look::of(self.machine, self.now + near, &there, self.pass.longest);
+            let off = look.guards[index].0 / -look.slopes[index] * 1e-3 * self.pass.longest;
+            let at = near + off + 0.5 * close;
+            // the square of this is far below what is wanted
+            if off.abs() < 1e-7 * self.left && (bracket[0].0..=bracket[1].0).contains(&at) {
                 return Ok(at);
             }
         }
-        Ok(0.0)
+        falls(bracket, close, |at| self.value(index, at))
     }
+}
 
-    /// Where a guard that falls first and rises last is lowest, by halving on its slope.
-    fn bottom(&self) -> Result<f64, NotProven> {
-        let (mut a, mut b) = (0.0, self.left);
-        // at the bottom an error of 1e-7 of the piece changes the guard by 1e-14 of its fall
-        while b - a > 1e-7 * self.left {
-            let middle = 0.5 * (a + b);
-            let there = self.pass.integrate(self.machine, self.y, self.now, middle)?;
-            if self.slope(&there, middle) < 0.0 { a = middle } else { b = middle }
+/// Where a function falls below zero between two places, given with its values there: the far end of an interval of at
+/// most `close`. By false position after Illinois, halved every fourth time.
+fn falls<E>(
+    [(mut a, mut at_a), (mut b, mut at_b)]: [(f64, f64); 2],
+    close: f64,
+    mut of: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<f64, E> {
+    // whether `b` was the last to move, and how often
+    let (mut near, mut round) = (true, 0);
+    while b - a > close {
+        // half of what is wanted beyond the guess, on the side of the end that is still far
+        let guess = b - at_b * (b - a) / (at_b - at_a) + if near { -0.5 * close } else { 0.5 * close };
+        round += 1;
+        let at = if round % 4 > 0 && guess > a && guess < b { guess } else { 0.5 * (a + b) };
+        if at <= a || at >= b {
+            break;
         }
-        Ok(b)
-    }
-
-    /// The fallen end of the bracket, halved until it is shut.
-    fn close_in(&self, mut a: f64, mut b: f64) -> Result<f64, NotProven> {
-        while b - a > self.pass.close {
-            let middle = 0.5 * (a + b);
-            if middle <= a || middle >= b {
-                break;
-            }
-            if self.value(middle)? < 0.0 { b = middle } else { a = middle }
+        let found = of(at)?;
+        let falls = found < 0.0;
+        if falls {
+            (b, at_b) = (at, found);
+            at_a *= if near { 0.5 } else { 1.0 };
+        } else {
+            (a, at_a) = (at, found);
+            at_b *= if near { 1.0 } else { 0.5 };
         }
-        Ok(b)
+        near = falls;
     }
+    Ok(b)
 }

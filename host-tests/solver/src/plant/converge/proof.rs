@@ -5,7 +5,7 @@ pub const BOUND: f64 = 1e-8;
 
 /// A deviation between two runs, as a share of the peak of its quantity over the run (of all speeds, of each shaft's
 /// torque).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Deviation {
     /// The largest over all ticks and quantities.
     pub largest: f64,
@@ -20,6 +20,20 @@ pub struct Proof {
     pub integrator: Deviation,
     /// Against the solver with its events located ten times closer.
     pub tightened: Deviation,
+    /// Of a run whose deviations grow beyond [`BOUND`]: it is proven in pieces.
+    pub sensitive: Option<Sensitive>,
+}
+
+/// A run in which roundings grow: it is one of many that its start could have become. A check that lost it went on
+/// from its own state, so that each piece is proven, and not that the pieces belong to the start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensitive {
+    /// Up to here, s, the run is proven from its start.
+    pub from: f64,
+    /// How often the check that was lost the soonest went on.
+    pub restarts: usize,
+    /// The shortest time in which a rounding grew beyond the bound, s.
+    pub shortest: f64,
 }
 
 /// Why a run does not stand.

@@ -5,14 +5,14 @@ use super::super::solver::Plant;
 use super::pass::{CLOSE, Pass, REACH};
 use super::proof::NotProven;
 use super::recording::{Recording, Step};
-use super::textbook::Machine;
+use super::textbook::{Change, Machine};
 
 /// Runs the recording again; one sample per tick.
 pub(super) fn rerun(run: &Recording) -> Result<Vec<Vec<f64>>, NotProven> {
     let plant = &run.start;
     let mut y = plant.x.clone();
     let mut machine = Machine::new(plant, &y);
-    let mut pass = Pass { scale: scale(run, plant), longest: REACH / fastest(&plant.chain), close: CLOSE };
+    let mut pass = Pass::new(&scale(run, plant), REACH / fastest(&plant.chain), CLOSE);
     let mut samples = Vec::new();
     let mut start = plant.time();
     let mut fresh = true;
@@ -23,7 +23,7 @@ pub(super) fn rerun(run: &Recording) -> Result<Vec<Vec<f64>>, NotProven> {
                 if std::mem::take(&mut fresh) {
                     (0..plant.nodes()).for_each(|j| machine.judge(start, &y, j));
                 }
-                tick(&pass, &mut machine, &mut y, start, dt)?;
+                tick(&mut pass, &mut machine, &mut y, start, dt)?;
                 start += dt;
                 samples.push(sample(&machine, start, &y));
             }
@@ -71,7 +71,13 @@ fn fastest(chain: &Chain) -> f64 {
     rates.fold(0.0, f64::max)
 }
 
-fn tick(pass: &Pass, machine: &mut Machine, y: &mut Vec<f64>, start: f64, dt: f64) -> Result<(), NotProven> {
+fn tick(
+    pass: &mut Pass<Change>,
+    machine: &mut Machine,
+    y: &mut Vec<f64>,
+    start: f64,
+    dt: f64,
+) -> Result<(), NotProven> {
     let mut corners = vec![start, start + dt];
     let within = |t: &f64| *t > start && *t < start + dt;
     for node in &machine.chain.nodes {
@@ -83,5 +89,8 @@ fn tick(pass: &Pass, machine: &mut Machine, y: &mut Vec<f64>, start: f64, dt: f6
     }
     corners.extend(machine.chain.law.corner_after(start).filter(within));
     corners.sort_by(f64::total_cmp);
-    corners.windows(2).try_for_each(|pair| pass.between(machine, y, pair[0], pair[1]))
+    corners.windows(2).try_for_each(|pair| {
+        pass.anew();
+        pass.between(machine, y, pair[0], pair[1])
+    })
 }

@@ -55,6 +55,7 @@ impl Motion {
                 self.now = end;
             } else if let Some((_, action)) = found {
                 events += 1;
+                self.fired += 1;
                 self.fire(action);
                 if events == MOST_EVENTS {
                     self.log(EventKind::Unresolved, Place::Node(0), 0);

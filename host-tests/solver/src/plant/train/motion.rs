@@ -24,7 +24,7 @@ pub struct Motion {
     pub(super) state: State,
     pub(super) mode: Mode,
     /// Time at the last end of a tick, s, with what its rounding has lost.
-    clock: (f64, f64),
+    pub(super) clock: (f64, f64),
     /// Now, s.
     pub(super) now: f64,
     /// Torques held from outside.
@@ -34,6 +34,8 @@ pub struct Motion {
     pub(super) event_tolerance: f64,
     pub(super) events: Vec<Event>,
     pub(super) watches: Vec<Watch>,
+    /// Guards that fell, those that are not told as events included.
+    pub(super) fired: u64,
     leap: Option<Leap>,
     refused: u64,
 }
@@ -103,6 +105,7 @@ impl Motion {
             event_tolerance: EVENT_TOLERANCE.0.min(EVENT_TOLERANCE.1 / rate),
             events: Vec::new(),
             watches: Vec::new(),
+            fired: 0,
             leap,
             refused: 0,
         }

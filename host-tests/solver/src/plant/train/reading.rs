@@ -93,15 +93,15 @@ impl Motion {
     /// Any signal; NaN for one that is not there.
     #[must_use]
     pub fn read(&self, signal: Signal) -> f64 {
-        // a run of no length: only the coefficients of order zero are looked at
-        let stretch = self.stretch(self.longest(1.0));
-        self.series(&stretch, signal).map_or(f64::NAN, |series| series[0])
+        self.read_all(&[signal])[0]
     }
 
     /// Several signals at once, for less than one by one.
     #[must_use]
     pub fn read_all(&self, signals: &[Signal]) -> Vec<f64> {
-        let stretch = self.stretch(self.longest(1.0));
+        // only the coefficients of order zero are looked at
+        let length = self.longest(1.0);
+        let stretch = Stretch::now(&self.train, &self.mode, &self.state, &self.held, self.now, length);
         signals.iter().map(|&signal| self.series(&stretch, signal).map_or(f64::NAN, |series| series[0])).collect()
     }
 

@@ -30,22 +30,33 @@ enum Law {
 impl Stretch {
     /// From a state at the time `t`, at most `length` long: shorter where its series would not converge to rounding.
     pub fn new(train: &Train, mode: &Mode, state: &State, held: &[f64], t: f64, length: f64) -> Self {
+        let mut stretch = Self::of(train, state, length);
+        stretch.solve(train, mode, held, t, TERMS - 1);
+        stretch.shorten();
+        stretch
+    }
+
+    /// The lowest terms alone: what is there now, and its rates.
+    pub fn now(train: &Train, mode: &Mode, state: &State, held: &[f64], t: f64, length: f64) -> Self {
+        let mut stretch = Self::of(train, state, length);
+        stretch.solve(train, mode, held, t, 1);
+        stretch
+    }
+
+    fn of(train: &Train, state: &State, length: f64) -> Self {
         let new = |values: &[f64]| values.iter().map(|&v| Sized::new(v)).collect::<Vec<_>>();
         let empty = |count: usize| (0..count).map(|_| Sized::new(0.0)).collect::<Vec<_>>();
-        let mut stretch = Self {
+        Self {
             length,
             elongation: new(&state.elongation),
             speed: new(&state.speed),
             angle: new(&state.angle),
             strain: empty(train.links.len()),
             friction: empty(train.frictions.len()),
-        };
-        stretch.solve(train, mode, held, t);
-        stretch.shorten();
-        stretch
+        }
     }
 
-    fn solve(&mut self, train: &Train, mode: &Mode, held: &[f64], t: f64) {
+    fn solve(&mut self, train: &Train, mode: &Mode, held: &[f64], t: f64, orders: usize) {
         let h = self.length;
         let n = train.coordinates.len();
         let laws: Vec<Law> = train
@@ -79,7 +90,7 @@ impl Stretch {
         let mut unbalances = coupling::Work::of(train, &self.angle, &self.speed);
         let mut net = vec![0.0; n];
         let mut size = vec![0.0; n];
-        for k in 0..TERMS - 1 {
+        for k in 0..orders {
             let step = h / (k + 1) as f64;
             for (j, coordinate) in train.coordinates.iter().enumerate() {
                 let (angle, speed) = (&self.angle[j].value, &self.speed[j].value);
@@ -147,6 +158,7 @@ impl Stretch {
             }
             let elongation = &mut self.elongation[l];
             elongation.put(k + 1, step * rate, step * rate_size);
+            let mut opening = (0.0, 0.0);
             let origin = link.origin(if mode.contact[l] == TRAILING { 1 } else { mode.contact[l] });
             let (force, force_size) = match &laws[l] {
                 Law::Fixed(stiffness) => {
@@ -158,10 +170,10 @@ impl Stretch {
                     let (mut sum, mut sizes) = (0.0, 0.0);
                     for i in 0..=k {
                         let at = if i == 0 { origin } else { 0.0 };
-            let mut opening = (0.0, 0.0);
                         sum += stiffness[k - i] * (elongation.value[i] - at - error[i]);
                         sizes += stiffness[k - i].abs() * (elongation.size[i] + at.abs() + error[i].abs());
                     }
+                    opening = (error[k + 1] / step, error[k + 1].abs() / step);
                     (sum, sizes)
                 }
             };
@@ -175,7 +187,6 @@ impl Stretch {
                     net[at] -= factor * force;
                     size[at] += factor.abs() * force_size;
                 }
-                    opening = (error[k + 1] / step, error[k + 1].abs() / step);
             }
         }
     }

@@ -23,6 +23,7 @@ pub enum Change {
 const TRAILING: f64 = 0.5;
 
 /// Parameters and discrete state. The continuous state is elongations, speeds, angles.
+#[derive(Clone)]
 pub struct Double<'a> {
     train: &'a Train,
     pub held: Vec<f64>,
@@ -32,9 +33,15 @@ pub struct Double<'a> {
     flow: Vec<f64>,
     /// Of each friction: the way it slides, 0 while it sticks.
     way: Vec<f64>,
+    /// The frictions that stick, and their forces per torque over the root of the inertia of each coordinate.
+    stuck: Vec<usize>,
+    holding: DMatrix<f64>,
     arcs: Vec<(usize, usize, i64)>,
     /// Links whose teeth follow an angle, and the edge ahead of each.
     teeth: Vec<(usize, i64)>,
+    pub settled: bool,
+    /// Whether the discrete state is another one than when this was last cleared.
+    pub changed: bool,
 }
 
 impl<'a> Double<'a> {
@@ -53,9 +60,13 @@ impl<'a> Double<'a> {
             side: side.collect(),
             flow: vec![1.0; train.links.len()],
             way: vec![0.0; train.frictions.len()],
+            stuck: Vec::new(),
+            holding: DMatrix::zeros(0, 0),
             arcs: arcs.to_vec(),
             teeth: super::super::motion::teeth_of(train),
             held,
+            settled: false,
+            changed: true,
             middle: 0.0,
             train,
         }
@@ -63,6 +74,7 @@ impl<'a> Double<'a> {
 
     /// Directions of the frictions and flows at the start.
     pub fn settle(&mut self, t: f64, y: &[f64]) {
+        (self.settled, self.changed) = (true, true);
         for l in 0..self.train.links.len() {
             let strain = self.strain(t, y, l);
             let toward = strain * self.train.links[l].terms[0].1;
@@ -75,6 +87,7 @@ impl<'a> Double<'a> {
             let over = self.over(y, s);
             self.way[s] = if over == 0.0 { 0.0 } else { over.signum() };
         }
+        self.hold();
         for s in 0..self.way.len() {
             if self.way[s] == 0.0 {
                 self.judge(t, y, s);
@@ -189,6 +202,9 @@ impl<'a> Double<'a> {
 
     fn loss(&self, l: usize) -> f64 {
         let (eta, back) = (self.train.links[l].efficiency, self.train.links[l].back_efficiency);
+        if !self.train.links[l].is_lossy() {
+            return 1.0;
+        }
         let gear = self.train.frictions.iter().position(|friction| friction.losses.contains(&l));
         let power = gear.map_or(0.0, |s| self.way[s]) * self.flow[l];
         if power == 0.0 {
@@ -200,17 +216,30 @@ impl<'a> Double<'a> {
         }
     }
 
+    /// Gathers what sticks: its accelerations must vanish, by the least of forces; rows scaled by the root of inertia.
+    fn hold(&mut self) {
+        self.stuck = (0..self.way.len()).filter(|&s| self.way[s] == 0.0).collect();
+        if self.stuck.is_empty() {
+            return;
+        }
+        let root = |j: usize| self.train.coordinates[j].inertia.sqrt();
+        let rows = DMatrix::from_fn(self.train.coordinates.len(), self.stuck.len(), |j, column| {
+            let terms = &self.train.frictions[self.stuck[column]].terms;
+            terms.iter().find(|term| term.0 == j).map_or(0.0, |term| term.1 / root(j))
+        });
+        let svd = rows.svd(true, true);
+        let size = svd.singular_values.max();
+        self.holding = svd.pseudo_inverse(1e-9 * size).unwrap_or_else(|_| DMatrix::zeros(0, 0));
+    }
+
     /// Torques on the coordinates but for the frictions that stick, and the forces of those.
-    fn balance(&self, t: f64, y: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    fn balance(&self, t: f64, y: &[f64], net: &mut [f64]) -> Vec<f64> {
         let train = self.train;
-        let mut net: Vec<f64> = (0..train.coordinates.len())
-            .map(|j| {
-                let coordinate = &train.coordinates[j];
-                let sources = coordinate.sources.iter().enumerate();
-                let torque: f64 = sources.map(|(s, source)| self.torque(t, y, j, s, source)).sum();
-                self.held[j] + torque - coordinate.viscous * self.speed(y, j)
-            })
-            .collect();
+        for (j, coordinate) in train.coordinates.iter().enumerate() {
+            let sources = coordinate.sources.iter().enumerate();
+            let torque: f64 = sources.map(|(s, source)| self.torque(t, y, j, s, source)).sum();
+            net[j] = self.held[j] + torque - coordinate.viscous * self.speed(y, j);
+        }
         for (l, link) in train.links.iter().enumerate() {
             let force = self.carried(t, y, l);
             for (i, &(at, c)) in link.terms.iter().enumerate() {
@@ -222,26 +251,12 @@ impl<'a> Double<'a> {
                 net[at] -= c * way * friction.kinetic;
             }
         }
-        let stuck: Vec<usize> = (0..self.way.len()).filter(|&s| self.way[s] == 0.0).collect();
         let mut forces = vec![0.0; self.way.len()];
-        if !stuck.is_empty() {
-            // accelerations of what sticks must vanish: rows scaled by the root of inertia, solved by least squares
-            let n = net.len();
-            let root = |j: usize| train.coordinates[j].inertia.sqrt();
-            let rows = DMatrix::from_fn(stuck.len(), n, |r, j| {
-                let terms = &train.frictions[stuck[r]].terms;
-                terms.iter().find(|term| term.0 == j).map_or(0.0, |term| term.1 / root(j))
-            });
-            let push = DVector::from_fn(n, |j, _| -net[j] / root(j));
-            let svd = rows.transpose().svd(true, true);
-            let size = svd.singular_values.max();
-            if let Ok(solution) = svd.solve(&push, 1e-9 * size) {
-                for (&s, force) in stuck.iter().zip(solution.iter()) {
-                    forces[s] = *force;
-                }
-            }
+        for (row, &s) in self.stuck.iter().enumerate() {
+            let push = |(j, net): (usize, &f64)| -net / train.coordinates[j].inertia.sqrt() * self.holding[(row, j)];
+            forces[s] = net.iter().enumerate().map(push).sum();
         }
-        (net, forces)
+        forces
     }
 
     /// How far a friction that sticks is from slipping to each side.
@@ -259,10 +274,12 @@ impl<'a> Double<'a> {
 
     fn judge(&mut self, t: f64, y: &[f64], s: usize) {
         self.way[s] = 0.0;
-        let force = self.balance(t, y).1[s];
+        self.hold();
+        let force = self.balance(t, y, &mut vec![0.0; self.train.coordinates.len()])[s];
         for side in [1.0, -1.0] {
             if self.margin(t, y, s, force, side) < 0.0 {
                 self.way[s] = side;
+                self.hold();
                 return;
             }
         }
@@ -304,25 +321,25 @@ impl Hybrid for Double<'_> {
         for (l, link) in self.train.links.iter().enumerate() {
             out[l] = link.terms.iter().map(|&(at, c)| c * self.speed(y, at)).sum();
         }
-        let (net, forces) = self.balance(t, y);
-        let mut torques = Vec::with_capacity(n);
+        let net = &mut out[links..links + n];
+        let forces = self.balance(t, y, net);
+        for &s in &self.stuck {
+            for &(at, c) in &self.train.frictions[s].terms {
+                net[at] += c * forces[s];
+            }
+        }
+        let torques = if self.train.unbalances.is_empty() { Vec::new() } else { net.to_vec() };
         for (j, coordinate) in self.train.coordinates.iter().enumerate() {
-            let sticking = self.train.frictions.iter().zip(&forces);
-            let share = |(friction, force): (&super::super::Friction, &f64)| {
-                friction.terms.iter().find(|term| term.0 == j).map_or(0.0, |term| term.1 * force)
-            };
-            let torque = net[j] + sticking.map(share).sum::<f64>();
-            torques.push(torque);
             let speed = self.speed(y, j);
             let (inertia, slope) = coordinate.crank.map_or((0.0, 0.0), |crank| whole_inertia(&crank, self.angle(y, j)));
-            out[links + j] = (torque - 0.5 * slope * speed * speed) / (coordinate.inertia + inertia);
+            out[links + j] = (out[links + j] - 0.5 * slope * speed * speed) / (coordinate.inertia + inertia);
             out[links + n + j] = speed;
         }
-        if !self.train.unbalances.is_empty() {
+        if !torques.is_empty() {
             self.unbalanced(y, &torques, out);
         }
-        for (friction, _) in self.train.frictions.iter().zip(&self.way).filter(|(_, way)| **way == 0.0) {
-            if let [(at, _)] = friction.terms[..] {
+        for &s in &self.stuck {
+            if let [(at, _)] = self.train.frictions[s].terms[..] {
                 out[links + at] = 0.0;
             }
         }
@@ -355,7 +372,11 @@ impl Hybrid for Double<'_> {
                 }
             }
         }
-        let forces = if self.way.contains(&0.0) { self.balance(t, y).1 } else { vec![0.0; self.way.len()] };
+        let forces = if self.stuck.is_empty() {
+            Vec::new()
+        } else {
+            self.balance(t, y, &mut vec![0.0; self.train.coordinates.len()])
+        };
         for (s, friction) in self.train.frictions.iter().enumerate() {
             let way = self.way[s];
             if way != 0.0 {
@@ -384,6 +405,7 @@ impl Hybrid for Double<'_> {
     }
 
     fn change(&mut self, t: f64, y: &mut [f64], change: Change) {
+        self.changed = true;
         match change {
             Change::Side(l, side) => {
                 self.side[l] = side;
@@ -392,7 +414,10 @@ impl Hybrid for Double<'_> {
                 }
             }
             Change::Flow(l) => self.flow[l] = -self.flow[l],
-            Change::Loose(s, side) => self.way[s] = side,
+            Change::Loose(s, side) => {
+                self.way[s] = side;
+                self.hold();
+            }
             Change::Rest(s) => {
                 let friction = &self.train.frictions[s];
                 if let [(at, _)] = friction.terms[..] {
