@@ -49,6 +49,7 @@ mod friction;
 mod gear_pair;
 mod leap;
 mod link;
+mod linkage;
 mod mesh;
 mod modes;
 mod motion;
@@ -61,6 +62,7 @@ mod source;
 mod spur_pair;
 mod start;
 mod state;
+mod steady;
 mod stiffest;
 mod stretch;
 mod unbalance;
@@ -69,12 +71,14 @@ pub use crank::Crank;
 pub use friction::Friction;
 pub use gear_pair::{GearBody, GearPair};
 pub use link::Link;
+pub use linkage::{FourBar, Orders};
 pub use mesh::{Harmonic, Teeth, Variation, Zone};
 pub use modes::{Decay, TrainModes};
 pub use motion::Motion;
 pub use signal::Signal;
 pub use source::{Source, Waveform};
 pub use spur_pair::{SpurBearing, SpurPair, SpurWheel};
+pub use steady::Cycle;
 pub use stiffest::Stiffest;
 pub use unbalance::Unbalance;
 
@@ -89,6 +93,7 @@ pub struct Coordinate {
     speed: f64,
     angle: f64,
     crank: Option<Crank>,
+    law: Option<Orders>,
     sources: Vec<Source>,
 }
 
@@ -96,7 +101,7 @@ impl Coordinate {
     /// Of this inertia, kg m2, or mass, kg, above zero; at rest at zero.
     #[must_use]
     pub fn new(inertia: f64) -> Self {
-        Self { inertia, viscous: 0.0, speed: 0.0, angle: 0.0, crank: None, sources: Vec::new() }
+        Self { inertia, viscous: 0.0, speed: 0.0, angle: 0.0, crank: None, law: None, sources: Vec::new() }
     }
 
     /// With viscous friction to the ground, N m s/rad, zero or above.
@@ -127,11 +132,28 @@ impl Coordinate {
         self
     }
 
+    /// With an inertia by its angle beside its own, kg m2: of a mechanism behind it.
+    #[must_use]
+    pub fn inertia_law(mut self, law: Orders) -> Self {
+        self.law = Some(law);
+        self
+    }
+
     /// With a torque more.
     #[must_use]
     pub fn source(mut self, source: Source) -> Self {
         self.sources.push(source);
         self
+    }
+
+    fn is_cranked(&self) -> bool {
+        self.crank.is_some() || self.law.is_some()
+    }
+
+    /// Inertia at an angle, rad, with what a crank or a law adds; kg m2 or kg.
+    fn inertia_at(&self, angle: f64) -> f64 {
+        let crank = self.crank.map_or(0.0, |crank| crank.inertia(angle).0);
+        self.inertia + crank + self.law.as_ref().map_or(0.0, |law| law.at(angle))
     }
 }
 
@@ -199,6 +221,10 @@ impl Train {
             finite("speed at the start", place, coordinate.speed)?;
             finite("angle at the start", place, coordinate.angle)?;
             coordinate.crank.map_or(Ok(()), |crank| crank.validate(place))?;
+            if let Some(law) = &coordinate.law {
+                let least = law.least();
+                in_range("law of inertia", place, least, least + coordinate.inertia > 0.0, "an inertia above zero")?;
+            }
             coordinate.sources.iter().try_for_each(|source| source.validate(place))?;
         }
         for (l, link) in self.links.iter().enumerate() {
@@ -210,7 +236,7 @@ impl Train {
         for unbalance in &self.unbalances {
             self.validate_unbalance(unbalance)?;
         }
-        let cranked = |at: usize| self.coordinates[at].crank.is_some();
+        let cranked = |at: usize| self.coordinates[at].is_cranked();
         let lossy = self.links.iter().filter(|link| link.is_lossy()).map(|link| link.terms[0].0);
         let rubbing = self.frictions.iter().flat_map(|friction| friction.terms.iter().map(|term| term.0));
         match lossy.chain(rubbing).find(|&at| cranked(at)) {
@@ -250,7 +276,7 @@ impl Train {
         )?;
         let lossy = self.links.iter().filter(|link| link.is_lossy()).map(|link| link.terms[0].0);
         let rubbing = self.frictions.iter().flat_map(|friction| friction.terms.iter().map(|term| term.0));
-        let cranked = (0..n).filter(|&at| self.coordinates[at].crank.is_some());
+        let cranked = (0..n).filter(|&at| self.coordinates[at].is_cranked());
         match lossy.chain(rubbing).chain(cranked).find(|&at| at == unbalance.turning || at == unbalance.way) {
             Some(at) => Err(PlantError::Parameter {
                 name: "unbalance with dry friction, a lossy gear or a crank",

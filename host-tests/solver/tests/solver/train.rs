@@ -6,6 +6,7 @@ mod against_chain;
 mod crank;
 mod gear_pair;
 mod linear;
+mod linkage;
 mod losses;
 mod modes;
 mod mover;

@@ -3,6 +3,8 @@
 
 use super::super::error::{PlantError, in_range, not_negative, positive};
 use super::super::event::Place;
+use super::linkage::Orders;
+use super::mesh::Harmonic;
 use super::series::{Series, Turn, ZERO, product, quotient, root};
 
 /// Crank, rod and slider on a coordinate. The slider's way is `r cos phi + sqrt(l^2 - r^2 sin^2 phi)`.
@@ -48,6 +50,40 @@ impl Crank {
         not_negative("rod inertia", place, self.rod_inertia)?;
         let centre = self.rod_centre;
         in_range("rod's centre of gravity", place, centre, (0.0..=1.0).contains(&centre), "from 0 to 1")
+    }
+}
+
+/// The inertia of a coordinate over a stretch beside its own, and half its slope.
+#[derive(Debug, Clone)]
+pub(super) struct Varying {
+    crank: Option<(Crank, Box<Work>)>,
+    law: Vec<(Harmonic, Turn)>,
+    pub inertia: Series,
+    pub half_slope: Series,
+}
+
+impl Varying {
+    /// Of a crank, a law, or both; none without either.
+    pub fn of(crank: Option<Crank>, law: Option<&Orders>) -> Option<Self> {
+        if crank.is_none() && law.is_none() {
+            return None;
+        }
+        let crank = crank.map(|crank| (crank, Box::new(Work::new())));
+        let law = law.iter().flat_map(|law| &law.0).map(|h| (*h, Turn::new(h.order))).collect();
+        Some(Self { crank, law, inertia: ZERO, half_slope: ZERO })
+    }
+
+    /// Fills in coefficient `k` from the angle's coefficients up to it.
+    pub fn extend(&mut self, angle: &Series, k: usize) {
+        if let Some((crank, work)) = &mut self.crank {
+            work.extend(crank, angle, k);
+            (self.inertia[k], self.half_slope[k]) = (work.inertia[k], work.half_slope[k]);
+        }
+        for (h, turn) in &mut self.law {
+            turn.extend(angle, k);
+            self.inertia[k] += h.cosine * turn.cosine[k] + h.sine * turn.sine[k];
+            self.half_slope[k] += 0.5 * h.order * (h.sine * turn.cosine[k] - h.cosine * turn.sine[k]);
+        }
     }
 }
 

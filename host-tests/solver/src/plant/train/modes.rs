@@ -129,9 +129,9 @@ impl Train {
         Ok(decays)
     }
 
-    /// Inertia of every coordinate, kg m2 or kg, with what a crank adds at its starting angle.
+    /// Inertia of every coordinate, kg m2 or kg, with what a crank or a law adds at its starting angle.
     #[must_use]
     pub fn inertias(&self) -> Vec<f64> {
-        self.coordinates.iter().map(|c| c.inertia + c.crank.map_or(0.0, |k| k.inertia(c.angle).0)).collect()
+        self.coordinates.iter().map(|c| c.inertia_at(c.angle)).collect()
     }
 }

@@ -1,7 +1,5 @@
 //! The running train: state, mode, and its way through time.
 
-use std::f64::consts::TAU;
-
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::leap::Leap;
@@ -74,10 +72,10 @@ impl Motion {
         let mut arcs = Vec::new();
         for (j, coordinate) in train.coordinates.iter().enumerate() {
             for (s, source) in coordinate.sources.iter().enumerate() {
-                if let Source::Arc { from, to, .. } = source {
-                    let turn = (coordinate.angle / TAU).floor();
-                    let within = coordinate.angle - turn * TAU;
-                    let passed = i64::from(within >= *from) + i64::from(within >= *to);
+                if let Some((from, to, period)) = source.arc() {
+                    let turn = (coordinate.angle / period).floor();
+                    let within = coordinate.angle - turn * period;
+                    let passed = i64::from(within >= from) + i64::from(within >= to);
                     arcs.push((j, s, 2 * turn as i64 + passed));
                 }
             }
@@ -198,9 +196,9 @@ impl Motion {
     /// The angle, rad, of an end of an arc; even numbers begin it, odd ones end it.
     pub(super) fn arcs_end(&self, arc: usize, passed: i64) -> f64 {
         let (j, s, _) = self.mode.arcs[arc];
-        let Source::Arc { from, to, .. } = &self.train.coordinates[j].sources[s] else { return f64::INFINITY };
+        let Some((from, to, period)) = self.train.coordinates[j].sources[s].arc() else { return f64::INFINITY };
         let within = if passed.rem_euclid(2) == 0 { from } else { to };
-        passed.div_euclid(2) as f64 * TAU + within
+        passed.div_euclid(2) as f64 * period + within
     }
 }
 

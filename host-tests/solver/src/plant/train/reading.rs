@@ -41,7 +41,7 @@ impl Motion {
     /// Inertia of a coordinate, kg m2; NaN for one that is not there, or whose crank changes it.
     #[must_use]
     pub fn inertia(&self, coordinate: usize) -> f64 {
-        let coordinate = self.train.coordinates.get(coordinate).filter(|coordinate| coordinate.crank.is_none());
+        let coordinate = self.train.coordinates.get(coordinate).filter(|coordinate| !coordinate.is_cranked());
         coordinate.map_or(f64::NAN, |coordinate| coordinate.inertia)
     }
 

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::super::error::{PlantError, finite, in_range, positive};
 use super::super::event::Place;
 use super::super::excitation::LoadProgram;
+use super::linkage::Orders;
 use super::mesh::Harmonic;
 use super::series::{Series, Turn, ZERO, add_harmonic, product, quotient};
 
@@ -52,6 +53,18 @@ pub enum Source {
         from: f64,
         /// Where it ends.
         to: f64,
+    },
+    /// Orders of the coordinate's own angle over an arc of so many turns, rad, `from` below `to`: a force over a part
+    /// of a stroke, times the slope of its way; or a torque over an arc of a cycle of two turns.
+    Stroke {
+        /// On the arc; a constant is order zero.
+        torque: Orders,
+        /// Where it begins, from zero.
+        from: f64,
+        /// Where it ends, up to the end of the turns.
+        to: f64,
+        /// Turns of a cycle, 1 or more.
+        turns: u32,
     },
     /// Orders of the coordinate's own angle: the gas torque of an engine `[Pfützner 1980 ch. 1]`.
     Orders(Vec<Harmonic>),
@@ -162,10 +175,21 @@ impl Source {
         }
     }
 
-    pub(super) fn work(&self) -> Work {
+    /// Start, end and period of an arc, rad.
+    pub(super) fn arc(&self) -> Option<(f64, f64, f64)> {
+        match self {
+            Self::Arc { from, to, .. } => Some((*from, *to, TAU)),
+            Self::Stroke { from, to, turns, .. } => Some((*from, *to, TAU * f64::from(*turns))),
+            _ => None,
+        }
+    }
+
+    pub(super) fn work(&self, on_arc: bool) -> Work {
+        let turns = |orders: &[Harmonic]| Work::Turns(orders.iter().map(|h| Turn::new(h.order)).collect());
         match self {
             Self::Kloss { .. } => Work::Quotient(Box::new([ZERO; 3])),
-            Self::Orders(orders) => Work::Turns(orders.iter().map(|h| Turn::new(h.order)).collect()),
+            Self::Orders(orders) => turns(orders),
+            Self::Stroke { torque, .. } if on_arc => turns(&torque.0),
             _ => Work::Nothing,
         }
     }
@@ -183,7 +207,7 @@ impl Source {
                 ratio[k] = quotient(slip, over, ratio, k);
                 2.0 * breakdown * at * ratio[k]
             }
-            (Self::Orders(orders), Work::Turns(turns)) => {
+            (Self::Orders(orders) | Self::Stroke { torque: Orders(orders), .. }, Work::Turns(turns)) => {
                 let mut sum = 0.0;
                 for (harmonic, turn) in orders.iter().zip(turns) {
                     turn.extend(angle, k);
@@ -241,6 +265,12 @@ impl Source {
                 in_range("start of an arc", place, *from, (0.0..TAU).contains(from), "from 0 to less than 2 pi")?;
                 in_range("end of an arc", place, *to, to > from && *to < TAU, "after its start, below 2 pi")?;
                 all(&[*torque])
+            }
+            Self::Stroke { torque, from, to, turns } => {
+                let end = TAU * f64::from(*turns);
+                in_range("start of an arc", place, *from, (0.0..end).contains(from), "from 0 to less than its turns")?;
+                in_range("end of an arc", place, *to, to > from && *to < end, "after its start, within its turns")?;
+                harmonics(&torque.0)
             }
             Self::Orders(orders) => harmonics(orders),
         }

@@ -1,11 +1,12 @@
 //! The motion over a stretch as its Taylor series, order by order, with what rounding may have done to it.
 
 use super::Train;
+use super::crank::Varying;
 use super::series::{Series, TERMS, ZERO, product, value};
 use super::sized::Sized;
 use super::source::Work as SourceWork;
 use super::state::{Mode, State, TRAILING};
-use super::{coupling, crank, series};
+use super::{coupling, series};
 
 /// Negligible share of the largest coefficient.
 const LEFT_OUT: f64 = 1e-17;
@@ -73,16 +74,16 @@ impl Stretch {
             .collect();
         let mut applied = vec![ZERO; n];
         let mut works: Vec<Vec<SourceWork>> = Vec::with_capacity(n);
-        let mut cranks: Vec<Option<(crank::Work, Sized)>> = Vec::with_capacity(n);
+        let mut cranks: Vec<Option<(Varying, Sized)>> = Vec::with_capacity(n);
         for (j, coordinate) in train.coordinates.iter().enumerate() {
             applied[j][0] = held[j];
             for (s, source) in coordinate.sources.iter().enumerate() {
                 source.add_over(&mut applied[j], t, h, mode.on_arc(j, s));
             }
-            works.push(coordinate.sources.iter().map(super::Source::work).collect());
-            cranks.push(coordinate.crank.map(|description| {
-                let mut work = crank::Work::new();
-                work.extend(&description, &self.angle[j].value, 0);
+            let sources = coordinate.sources.iter().enumerate();
+            works.push(sources.map(|(s, source)| source.work(mode.on_arc(j, s))).collect());
+            cranks.push(Varying::of(coordinate.crank, coordinate.law.as_ref()).map(|mut work| {
+                work.extend(&self.angle[j].value, 0);
                 let momentum = (coordinate.inertia + work.inertia[0]) * self.speed[j].value[0];
                 (work, Sized::new(momentum))
             }));
@@ -113,8 +114,8 @@ impl Stretch {
                 work.extend(train, k, step, &net, &size, [&mut self.angle, &mut self.speed]);
             }
             for (j, coordinate) in train.coordinates.iter().enumerate() {
-                match (&mut cranks[j], coordinate.crank) {
-                    (Some((work, momentum)), Some(description)) => {
+                match &mut cranks[j] {
+                    Some((work, momentum)) => {
                         // (J w)' = net + J' w^2 / 2
                         let speed = &mut self.speed[j];
                         let mut square = ZERO;
@@ -123,14 +124,14 @@ impl Stretch {
                         }
                         let push = net[j] + product(&work.half_slope, &square, k);
                         momentum.put(k + 1, step * push, step * size[j]);
-                        work.extend(&description, &self.angle[j].value, k + 1);
+                        work.extend(&self.angle[j].value, k + 1);
                         let mut inertia = work.inertia;
                         inertia[0] += coordinate.inertia;
                         let next = series::quotient(&momentum.value, &inertia, &speed.value, k + 1);
                         speed.put(k + 1, next, next.abs().max(momentum.size[k + 1] / inertia[0]));
                     }
-                    _ if unbalances.is_some() => {}
-                    _ => {
+                    None if unbalances.is_some() => {}
+                    None => {
                         let rate = step / coordinate.inertia;
                         self.speed[j].put(k + 1, rate * net[j], rate * size[j]);
                     }

@@ -182,8 +182,18 @@ impl<'a> Double<'a> {
                 if at == 0.0 { 0.0 } else { 2.0 * breakdown / (at / slip + slip / at) }
             }
             Source::Arc { torque, .. } => {
-                let on = self.arcs.iter().any(|arc| arc.0 == j && arc.1 == s && arc.2.rem_euclid(2) == 1);
-                if on { *torque } else { 0.0 }
+                if self.on_arc(j, s) {
+                    *torque
+                } else {
+                    0.0
+                }
+            }
+            Source::Stroke { torque, .. } => {
+                if self.on_arc(j, s) {
+                    series(torque, angle)[0]
+                } else {
+                    0.0
+                }
             }
             Source::Orders(orders) => {
                 let turn = |h: &super::super::Harmonic| {
@@ -193,6 +203,10 @@ impl<'a> Double<'a> {
                 orders.iter().map(turn).sum()
             }
         }
+    }
+
+    fn on_arc(&self, j: usize, s: usize) -> bool {
+        self.arcs.iter().any(|arc| arc.0 == j && arc.1 == s && arc.2.rem_euclid(2) == 1)
     }
 
     fn over(&self, y: &[f64], s: usize) -> f64 {
@@ -308,8 +322,12 @@ impl<'a> Double<'a> {
 
     fn arc_end(&self, arc: usize, passed: i64) -> f64 {
         let (j, s, _) = self.arcs[arc];
-        let Source::Arc { from, to, .. } = &self.train.coordinates[j].sources[s] else { return f64::INFINITY };
-        TAU * passed.div_euclid(2) as f64 + if passed.rem_euclid(2) == 0 { *from } else { *to }
+        let (from, to, period) = match &self.train.coordinates[j].sources[s] {
+            Source::Arc { from, to, .. } => (from, to, TAU),
+            Source::Stroke { from, to, turns, .. } => (from, to, TAU * f64::from(*turns)),
+            _ => return f64::INFINITY,
+        };
+        period * passed.div_euclid(2) as f64 + if passed.rem_euclid(2) == 0 { *from } else { *to }
     }
 }
 
@@ -331,7 +349,12 @@ impl Hybrid for Double<'_> {
         let torques = if self.train.unbalances.is_empty() { Vec::new() } else { net.to_vec() };
         for (j, coordinate) in self.train.coordinates.iter().enumerate() {
             let speed = self.speed(y, j);
-            let (inertia, slope) = coordinate.crank.map_or((0.0, 0.0), |crank| whole_inertia(&crank, self.angle(y, j)));
+            let angle = self.angle(y, j);
+            let (mut inertia, mut slope) = coordinate.crank.map_or((0.0, 0.0), |crank| whole_inertia(&crank, angle));
+            if let Some(law) = &coordinate.law {
+                let [more, steeper] = series(law, angle);
+                (inertia, slope) = (inertia + more, slope + steeper);
+            }
             out[links + j] = (out[links + j] - 0.5 * slope * speed * speed) / (coordinate.inertia + inertia);
             out[links + n + j] = speed;
         }
@@ -429,6 +452,14 @@ impl Hybrid for Double<'_> {
             Change::Tooth(i, step) => self.teeth[i].1 += step,
         }
     }
+}
+
+/// Value and derivative of a series at an angle.
+fn series(orders: &super::super::Orders, angle: f64) -> [f64; 2] {
+    orders.0.iter().fold([0.0; 2], |[value, slope], h| {
+        let (sine, cosine) = (h.order * angle).sin_cos();
+        [value + h.cosine * cosine + h.sine * sine, slope + h.order * (h.sine * cosine - h.cosine * sine)]
+    })
 }
 
 /// Inertia of slider and rod at an angle, and its derivative, from the squares of speeds written out `[Wang 1989

@@ -1,0 +1,95 @@
+//! The steady cycle of a machine whose torques and inertias follow an angle.
+
+use std::f64::consts::TAU;
+
+use super::motion::Motion;
+use super::signal::Signal;
+
+/// Share by which two extrapolated cycles may differ for the machine to be called steady.
+const STEADY: f64 = 1e-10;
+/// Share of a cycle before whose end trials begin.
+const NEAR: f64 = 0.02;
+
+/// The cycle that a machine settles to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cycle {
+    /// Greatest speed of the coordinate, rad/s.
+    pub greatest: f64,
+    /// Least speed, rad/s.
+    pub least: f64,
+    /// s.
+    pub time: f64,
+    /// Mean speed over the time, rad/s.
+    pub mean: f64,
+    /// Cycles that were run.
+    pub cycles: usize,
+}
+
+impl Cycle {
+    /// Coefficient of speed fluctuation: greatest less least speed over the mean.
+    #[must_use]
+    pub fn delta(&self) -> f64 {
+        (self.greatest - self.least) / self.mean
+    }
+}
+
+impl Motion {
+    /// Runs on by cycles of so many turns of a coordinate until they repeat, `most` at most. What is left of a start
+    /// dies out by the same share from cycle to cycle, and is taken off by Aitken's extrapolation. None where the
+    /// coordinate stops, runs backwards or does not settle.
+    pub fn steady_cycle(&mut self, coordinate: usize, turns: u32, most: usize) -> Option<Cycle> {
+        let mut last: Vec<[f64; 3]> = Vec::new();
+        let mut before: Option<[f64; 3]> = None;
+        for cycles in 1..=most {
+            let begun = self.time();
+            self.watch(Signal::Speed(coordinate));
+            self.turn(coordinate, TAU * f64::from(turns))?;
+            let extremes = self.extremes(Signal::Speed(coordinate))?;
+            last.push([extremes.peak, extremes.least, self.time() - begun]);
+            let [.., a, b, c] = &last[..] else { continue };
+            let end: [f64; 3] = std::array::from_fn(|i| aitken(a[i], b[i], c[i]));
+            let alike = |other: [f64; 3]| end.iter().zip(other).all(|(x, y)| (x - y).abs() <= STEADY * x.abs());
+            if before.is_some_and(alike) {
+                let [greatest, least, time] = end;
+                return Some(Cycle { greatest, least, time, mean: TAU * f64::from(turns) / time, cycles });
+            }
+            before = Some(end);
+        }
+        None
+    }
+
+    /// On until a coordinate has turned by an angle, rad.
+    fn turn(&mut self, coordinate: usize, angle: f64) -> Option<()> {
+        let end = self.angle(coordinate) + angle;
+        // half of what is left at the speed of the moment does not go beyond the end, unless the speed doubles
+        while end - self.angle(coordinate) > NEAR * angle {
+            let speed = self.speed(coordinate);
+            if !(speed > 0.0) {
+                return None;
+            }
+            self.advance(0.5 * (end - self.angle(coordinate)) / speed);
+        }
+        let mut time = (end - self.angle(coordinate)) / self.speed(coordinate);
+        for _ in 0..8 {
+            let mut trial = self.clone();
+            trial.watches.clear();
+            trial.advance(time);
+            time += (end - trial.angle(coordinate)) / trial.speed(coordinate);
+        }
+        if !(time.is_finite() && time > 0.0) {
+            return None;
+        }
+        self.advance(time);
+        Some(())
+    }
+}
+
+/// The limit of a sequence whose differences fall off by the same share.
+fn aitken(a: f64, b: f64, c: f64) -> f64 {
+    let (first, second) = (b - a, c - b);
+    // differences of roundings have no share
+    if second.abs() >= first.abs() || first.abs() < 1e-13 * c.abs() {
+        return c;
+    }
+    c + second * second / (first - second)
+}
