@@ -81,9 +81,35 @@ fn book(voice: &Voice) -> Result<Count, Failed> {
     cargo::program_passes(&setup::mdbook(), &["build", "doc", "--dest-dir", &place], voice)
 }
 
+/// Compiled once. The tests of images then wait for the compilers that they start, one after the other; all other tests
+/// run beside them.
 fn tests(voice: &Voice) -> Result<Count, Failed> {
     // what decodes logs is built by the test that calls it
-    cargo::tests(&["test", "--workspace", "--exclude=driveline-defmt-log", "--no-fail-fast"], voice)
+    let all = ["test", "--workspace", "--exclude=driveline-defmt-log", "--no-fail-fast"];
+    cargo::passes(&[&all[..], &["--no-run"]].concat(), voice)?;
+    let of_images = || cargo::tests(&[&all[..], &["--test=images"]].concat(), voice);
+    let results = std::thread::scope(|scope| {
+        let images = scope.spawn(of_images);
+        // their names begin with the program's
+        let others = cargo::tests(&[&all[..], &["--", "--skip=images::"]].concat(), voice);
+        [others, images.join().unwrap_or_else(|_| Err(Failed::whole("the images' thread panicked")))]
+    });
+    together(results)
+}
+
+/// Several results as one.
+fn together(results: impl IntoIterator<Item = Result<Count, Failed>>) -> Result<Count, Failed> {
+    let (mut sum, mut messages) = (Count::default(), Vec::new());
+    for result in results {
+        let (count, message) = match result {
+            Ok(count) => (count, None),
+            Err(Failed { count, message }) => (count, Some(message)),
+        };
+        sum.passed += count.passed;
+        sum.failed += count.failed;
+        messages.extend(message);
+    }
+    if messages.is_empty() { Ok(sum) } else { Err(Failed { count: sum, message: messages.join("\n") }) }
 }
 
 /// Every image links: no panic can be reached in any.

@@ -1,12 +1,16 @@
 //! Firmware images: built, read and run in QEMU.
 
-mod balance;
-mod export;
-mod fmu;
-mod hal;
-mod image;
-mod leave_out;
-mod link;
-mod link_log;
-mod new_project;
-mod panic;
+/// Each test is called by this name too: `check` runs them beside all others.
+#[path = "."]
+mod images {
+    mod balance;
+    mod export;
+    mod fmu;
+    mod hal;
+    mod image;
+    mod leave_out;
+    mod link;
+    mod link_log;
+    mod new_project;
+    mod panic;
+}
