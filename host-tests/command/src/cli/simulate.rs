@@ -111,6 +111,13 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
                 elastic, of the spring without its damper. \
                 Extremes are found between the lines of the run, not on them.";
     let mut all = vec![Section::new("Forces", text, forces), Section::new("Speeds", "Of ways in m/s.", speeds)];
+    if let Some(cycle) = &simulation.cycle {
+        let mut steady = Table::new(["coordinate", "delta", "least rad/s", "greatest rad/s", "mean rad/s", "time s"]);
+        let numbers = [cycle.delta, cycle.least, cycle.greatest, cycle.mean, cycle.time].map(significant);
+        steady.row([cycle.name.clone()].into_iter().chain(numbers));
+        let text = format!("Repeats after {} cycles from the end of the run.", cycle.cycles);
+        all.push(Section::new("Steady cycle", text, steady));
+    }
     if !simulation.events.is_empty() {
         let mut events = Table::new(["time s", "what", "where"]);
         for event in simulation.events.iter().take(EVENTS) {

@@ -114,6 +114,8 @@ impl Quantity {
     pub const TERMS: Self = Quantity { least: 1.0, most: 500.0, whole: true, ..positive("") };
     /// Order of an excitation: times per turn.
     pub const ORDER: Self = Quantity { least: 1e-3, most: 1e4, ..positive("") };
+    /// Turns of a cycle.
+    pub const TURNS: Self = Quantity { least: 1.0, most: 100.0, whole: true, ..positive("") };
     /// A number that is not negative.
     pub const SIZE: Self = not_negative("");
     /// Stiffness of any link, N m/rad or N/m; zero leaves a damper alone.

@@ -39,7 +39,8 @@
 //! | table | keys (those in brackets may be left out) |
 //! |---|---|
 //! | `[[coordinate]]` | `name`, `inertia`, (`speed`, `angle`, `viscous`), (`[coordinate.crank]` with `radius`, `rod`,
-//! `slider_mass`, (`rod_mass`, `rod_inertia`, `rod_centre`)) |
+//! `slider_mass`, (`rod_mass`, `rod_inertia`, `rod_centre`), or `[coordinate.four_bar]` with `crank`, `coupler`,
+//! `rocker`, `ground`, (`coupler_mass`, `coupler_centre`, `coupler_inertia`, `rocker_inertia`)), (`inertia_table`) |
 //! | `[[link]]` | `name`, `stiffness`, and `between` with (`ratio`), or `ground`, or `terms` as `[[share, ...]]` in
 //! the order of `of`; (`damping`, `gap`, `rope`, `efficiency`, `back_efficiency`, `elongation`, `static`) |
 //! | `[link.spur]` | `frequency` Hz, `contact_ratio`, `double`, `single` N/m, (`error` m) |
@@ -49,10 +50,12 @@
 //! | `[[torque]]` | `on`, `kind` and its keys: `constant` `torque`; `line` `stall` `slope`; `parabola` `a` `b` `c`;
 //! `kloss` `breakdown` `slip` `synchronous`; `starting` `torque` `time` `power`; `steps` and `table` `points`;
 //! `triangle`, `square`, `sawtooth up`, `sawtooth down`, `rectified` `height` `period` `terms`; `arc` `torque` `from`
-//! `to`; `orders` `harmonics` |
+//! `to` (`turns`); `stroke` `force` (`from` `to`); `orders` `harmonics` |
 //! | `[start]` | `kind`: `rest`, `slack`, or `pretensioned` with `held` |
-//! | `[run]` | `time` s, `step` s, a whole number of which is the time; `modes` does without it |
+//! | `[run]` | `time` s, `step` s, a whole number of which is the time, (`cycle`, `cycle_turns`); `modes` does without
+//! it |
 
+use std::f64::consts::TAU;
 use std::path::Path;
 
 use toml::de::DeTable;
@@ -66,7 +69,7 @@ use super::referred::referred;
 use super::source::Source;
 use super::table::Table;
 use driveline_solver::plant::train::{
-    Coordinate, Crank, Friction, Harmonic, Link, Motion, Source as Torque, Train, Variation,
+    Coordinate, Crank, FourBar, Friction, Harmonic, Link, Motion, Orders, Source as Torque, Train, Variation,
 };
 use driveline_solver::plant::train::{Teeth, Waveform};
 use driveline_solver::plant::{LoadProgram, Place, PlantError};
@@ -101,6 +104,8 @@ pub struct TrainFile {
     pub time: f64,
     /// s.
     pub step: f64,
+    /// The coordinate whose steady cycle is wanted, and its turns.
+    pub cycle: Option<(usize, u32)>,
     /// Why a run of this length cannot be solved, where the train is too stiff for it; its modes can be found all the
     /// same.
     pub too_stiff: Option<Diagnostic>,
@@ -159,7 +164,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     let table: &DeTable<'_> = parsed.get_ref();
     let mut root = Table::root(source, table);
     let title = named(source, &mut root)?;
-    let mut file = Reading { names: Vec::new(), links: Vec::new(), static_force: Vec::new() };
+    let mut file = Reading { names: Vec::new(), ways: Vec::new(), links: Vec::new(), static_force: Vec::new() };
     let (mut coordinates, mut links) = (Vec::new(), Vec::new());
     let (mut places, mut link_places) = (Vec::new(), Vec::new());
     // of elements, which become coordinates and links by their labels
@@ -192,6 +197,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         ]);
         file.static_force = vec![None; referred.links.len()];
         (file.names, coordinates) = referred.coordinates.into_iter().unzip();
+        file.ways = vec![None; file.names.len()];
         (file.links, links) = referred.links.into_iter().unzip();
         for (on, torque) in machine.engine.iter().flat_map(Engine::sources) {
             coordinates[on] = coordinates[on].clone().source(torque);
@@ -247,8 +253,8 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         start.finish()?;
     }
     let (running, excitations) = excitations(&mut root)?;
-    let (time, step) = if asked == Asked::Modes && !root.has("run") {
-        (0.0, 0.0)
+    let (time, step, cycle) = if asked == Asked::Modes && !root.has("run") {
+        (0.0, 0.0, None)
     } else {
         let mut run = root.table("run")?;
         let time = run.number("time", Quantity::TIME)?;
@@ -262,8 +268,10 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             let near = time / lines;
             return Err(run.wrong("step", format!("a time that divides the run into whole steps, such as {near}")));
         }
+        let turns = run.number_or("cycle_turns", Quantity::TURNS, 1.0)? as u32;
+        let cycle = if run.has("cycle") { Some((file.named(&mut run, "cycle")?, turns)) } else { None };
         run.finish()?;
-        (time, step)
+        (time, step, cycle)
     };
     root.finish()?;
     let motion = train.clone().build().map_err(|error| refused(error, whole.clone()))?;
@@ -280,7 +288,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         });
         Diagnostic::at(source, span.unwrap_or(&whole).clone(), name.clone(), found, expected)
     });
-    let Reading { names, links, static_force } = file;
+    let Reading { names, links, static_force, .. } = file;
     Ok(TrainFile {
         name: title,
         coordinates: names,
@@ -290,6 +298,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         motion,
         time,
         step,
+        cycle,
         running,
         excitations,
         too_stiff,
@@ -324,7 +333,7 @@ fn too_stiff(motion: &Motion, time: f64) -> Option<(Place, String, String)> {
 const STARTS: &str = "\"rest\", \"slack\" or \"pretensioned\"";
 const KINDS: &str = "\"constant\", \"line\", \"parabola\", \"kloss\", \"starting\", \"steps\", \"table\", \
                      \"triangle\", \
-                     \"square\", \"sawtooth up\", \"sawtooth down\", \"rectified\", \"arc\" or \"orders\"";
+                     \"square\", \"sawtooth up\", \"sawtooth down\", \"rectified\", \"arc\", \"stroke\" or \"orders\"";
 
 /// A refusal of the solver as what was found and what was expected.
 fn said(error: &PlantError) -> (String, String) {
@@ -340,6 +349,8 @@ fn said(error: &PlantError) -> (String, String) {
 /// The names read so far.
 struct Reading {
     names: Vec<String>,
+    /// Of each coordinate, the way of the slider (m) or the angle of the rocker (rad) by its own angle.
+    ways: Vec<Option<Orders>>,
     links: Vec<String>,
     static_force: Vec<Option<f64>>,
 }
@@ -351,6 +362,8 @@ impl Reading {
             .speed(table.number_or("speed", Quantity::ANY, 0.0)?)
             .angle(table.number_or("angle", Quantity::ANY, 0.0)?)
             .viscous(table.number_or("viscous", Quantity::DAMPER, 0.0)?);
+        let mut way = None;
+        let mut law = Vec::new();
         if let Some(mut crank) = table.table_if("crank")? {
             let radius = crank.number("radius", Quantity::DIAMETER)?;
             let rod = crank.number("rod", Quantity::DIAMETER)?;
@@ -365,9 +378,25 @@ impl Reading {
                 ..Crank::new(radius, rod, crank.number("slider_mass", Quantity::SIZE)?)
             });
             crank.finish()?;
+            let reach = move |angle: f64| (rod * rod - (radius * angle.sin()).powi(2)).sqrt();
+            way = Some(Orders::sampled(|angle| radius * angle.cos() + reach(angle)));
+        } else if let Some(bars) = table.table_if("four_bar")? {
+            let (inertia, rocker) = four_bar(bars)?;
+            (law, way) = (inertia.0, Some(rocker));
+        }
+        if table.has("inertia_table") {
+            let values = table.numbers("inertia_table", Quantity::SIZE)?;
+            if values.len() < 3 || values.len() % 2 == 0 || values.len() > 1001 {
+                return Err(table.wrong("inertia_table", "an odd number of values at even angles of a turn, 3 to 1001"));
+            }
+            law.extend(Orders::of(&values).0);
+        }
+        if !law.is_empty() {
+            coordinate = coordinate.inertia_law(Orders(law));
         }
         table.finish()?;
         self.names.push(name);
+        self.ways.push(way);
         Ok(coordinate)
     }
 
@@ -520,11 +549,33 @@ impl Reading {
                 })
             }
             "arc" => {
-                let turn = Quantity { most: std::f64::consts::TAU, ..Quantity::SIZE };
-                Torque::Arc {
-                    torque: any(&mut table, "torque")?,
-                    from: table.number("from", turn)?,
-                    to: table.number("to", turn)?,
+                let torque = any(&mut table, "torque")?;
+                let turns = table.number_or("turns", Quantity::TURNS, 1.0)? as u32;
+                let turn = Quantity { most: TAU * f64::from(turns), ..Quantity::SIZE };
+                let (from, to) = (table.number("from", turn)?, table.number("to", turn)?);
+                if turns == 1 {
+                    Torque::Arc { torque, from, to }
+                } else {
+                    let constant = Harmonic { order: 0.0, cosine: torque, sine: 0.0 };
+                    Torque::Stroke { torque: Orders(vec![constant]), from, to, turns }
+                }
+            }
+            "stroke" => {
+                let force = any(&mut table, "force")?;
+                let Some(way) = &self.ways[on] else {
+                    return Err(table.wrong("on", "a coordinate with a `crank` or a `four_bar`"));
+                };
+                let torque = way.slope().times(force);
+                if table.has("from") || table.has("to") {
+                    let turn = Quantity { most: TAU, ..Quantity::SIZE };
+                    Torque::Stroke {
+                        torque,
+                        from: table.number("from", turn)?,
+                        to: table.number("to", turn)?,
+                        turns: 1,
+                    }
+                } else {
+                    Torque::Orders(torque.0)
                 }
             }
             "orders" => Torque::Orders(harmonics(&mut table, "harmonics")?),
@@ -533,6 +584,30 @@ impl Reading {
         table.finish()?;
         Ok((on, torque))
     }
+}
+
+/// The inertia (kg m2) of a four-bar by the angle of its crank, and the angle (rad) of its rocker.
+fn four_bar(mut table: Table<'_>) -> Result<(Orders, Orders), Diagnostic> {
+    let bars = FourBar {
+        crank: table.number("crank", Quantity::DIAMETER)?,
+        coupler: table.number("coupler", Quantity::DIAMETER)?,
+        rocker: table.number("rocker", Quantity::DIAMETER)?,
+        ground: table.number("ground", Quantity::DIAMETER)?,
+    };
+    if !bars.is_crank_rocker() {
+        let expected = "the shortest bar, shorter with the longest one than the two others together";
+        return Err(table.wrong("crank", expected));
+    }
+    let mass = table.number_or("coupler_mass", Quantity::SIZE, 0.0)?;
+    let centre = bars.coupler * table.number_or("coupler_centre", Quantity { most: 1.0, ..Quantity::SIZE }, 0.5)?;
+    let coupler_inertia = table.number_or("coupler_inertia", Quantity::SIZE, 0.0)?;
+    let rocker_inertia = table.number_or("rocker_inertia", Quantity::SIZE, 0.0)?;
+    table.finish()?;
+    let [coupler, rocker] = [0, 1].map(|bar| Orders::sampled(|angle| bars.angles(angle)[bar]));
+    let x = Orders::sampled(|angle| bars.crank * angle.cos() + centre * bars.angles(angle)[0].cos());
+    let y = Orders::sampled(|angle| bars.crank * angle.sin() + centre * bars.angles(angle)[0].sin());
+    let moved = [(mass, &x), (mass, &y), (coupler_inertia, &coupler), (rocker_inertia, &rocker)];
+    Ok((Orders::inertia(&moved), rocker))
 }
 
 fn harmonics(table: &mut Table<'_>, key: &'static str) -> Result<Vec<Harmonic>, Diagnostic> {

@@ -350,3 +350,89 @@ fn losses_without_a_shaft_are_refused_by_name() {
     let said = parse_train("stiff.toml", &format!("{text}{}", settings())).unwrap_err().to_string();
     assert!(said.contains("gearbox") && said.contains("no shaft behind it"), "{said}");
 }
+
+/// A file of one crank with its run, and what is put in for the mechanism and the torque over its stroke.
+fn press(mechanism: &str, stroke: &str) -> String {
+    format!(
+        "name = \"press\"\n[[coordinate]]\nname = \"crank\"\n{mechanism}\
+         [[torque]]\non = \"crank\"\nkind = \"stroke\"\n{stroke}\
+         [run]\ntime = 1.0\nstep = 1e-2\ncycle = \"crank\"\n"
+    )
+}
+
+/// The steady cycles of a four-bar press and of a slider: their coefficients are those of shooting with Runge-Kutta
+/// over the closed forms of the velocities, `host-tests/solver/tests/solver/train/linkage.rs`.
+#[test]
+fn the_steady_cycle_of_a_press_has_the_fluctuation_of_shooting() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = |stall: f64, slope: f64| {
+        format!("[[torque]]\non = \"crank\"\nkind = \"line\"\nstall = {stall:?}\nslope = {slope:?}\n")
+    };
+    let bars = "inertia = 6.0\nspeed = 15.0\n[coordinate.four_bar]\ncrank = 0.1\ncoupler = 0.35\nrocker = 0.3\n\
+        ground = 0.4\ncoupler_inertia = 0.4\nrocker_inertia = 2.5\n";
+    let slider = "inertia = 12.0\nspeed = 30.0\n[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 40.0\n";
+    let cases = [
+        (press(bars, "force = -300.0\nfrom = 0.8\nto = 2.4\n") + &line(400.0, 20.0), 0.059_542_048_661),
+        (press(slider, "force = -9000.0\nfrom = 3.6\nto = 5.2\n") + &line(900.0, 20.0), 0.049_523_572_944),
+    ];
+    for (text, expected) in cases {
+        let file = folder.path().join("press.toml");
+        std::fs::write(&file, &text).unwrap();
+        let output = simulate(&[file.to_str().unwrap(), "--json"]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let delta = found["cycle"]["delta"].as_f64().unwrap();
+        assert!((delta / expected - 1.0).abs() < 1e-7, "{delta} {expected}");
+        let said = String::from_utf8(simulate(&[file.to_str().unwrap()]).stdout).unwrap();
+        assert!(said.contains("Steady cycle"), "{said}");
+    }
+    // without a line nothing brings it to a speed of its own
+    let text = press(slider, "force = -9000.0\nfrom = 3.6\nto = 5.2\n").replace("speed = 30.0", "speed = 300.0");
+    let file = folder.path().join("press.toml");
+    std::fs::write(&file, text).unwrap();
+    let output = simulate(&[file.to_str().unwrap()]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && said.contains("does not settle to a cycle"), "{said}");
+}
+
+/// A slider's weight over the whole turn takes `m g` times its way from the energy; a table of inertia with the values
+/// of the crank's closed form does what the crank does; a torque over an arc of two turns does its work once in two.
+#[test]
+fn weights_tables_of_inertia_and_arcs_of_two_turns_do_their_work() {
+    let (r, l) = (0.08_f64, 0.3_f64);
+    let way = |angle: f64| r * angle.cos() + (l * l - (r * angle.sin()).powi(2)).sqrt();
+    let inertia = |angle: f64| {
+        let (sine, cosine) = angle.sin_cos();
+        40.0 * (-r * sine - r * r * sine * cosine / (l * l - r * r * sine * sine).sqrt()).powi(2)
+    };
+    let crank = "inertia = 12.0\nspeed = 30.0\n[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 40.0\n";
+    let table: Vec<f64> = (0..101).map(|i| inertia(std::f64::consts::TAU * f64::from(i) / 101.0)).collect();
+    let table = format!("inertia = 12.0\nspeed = 30.0\ninertia_table = {table:?}\n");
+    let arc = "[[torque]]\non = \"crank\"\nkind = \"arc\"\ntorque = 70.0\nfrom = 0.7\nto = 8.0\nturns = 2\n";
+    let weighted = press(crank, "force = -392.0\n") + arc;
+    let stroke = "[[torque]]\non = \"crank\"\nkind = \"stroke\"\nforce = -392.0\n";
+    for (text, weight) in [
+        (weighted.clone(), 392.0),
+        (press(&table, "").replace("[[torque]]\non = \"crank\"\nkind = \"stroke\"\n", "") + arc, 0.0),
+    ] {
+        let mut motion = parse_train("press.toml", &text).unwrap().motion;
+        for step in 1..=400 {
+            motion.advance(2e-3);
+            let (angle, speed) = (motion.angle(0), motion.speed(0));
+            let double = angle.rem_euclid(2.0 * std::f64::consts::TAU);
+            let pairs = (angle / (2.0 * std::f64::consts::TAU)).floor();
+            let work = 70.0 * (pairs * 7.3 + double.clamp(0.7, 8.0) - 0.7) + weight * (way(0.0) - way(angle));
+            let energy = 0.5 * (12.0 + inertia(angle)) * speed * speed;
+            // inertia of 1e-12 by its series; roundings of the run
+            assert!((energy / (0.5 * 12.0 * 900.0 + work) - 1.0).abs() < 1e-10, "{step}: {energy} {work}");
+        }
+    }
+    let refused = |text: String| parse_train("press.toml", &text).unwrap_err().to_string();
+    let said = refused(weighted.replace("[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 40.0\n", ""));
+    assert!(said.contains("a `crank` or a `four_bar`"), "{said}");
+    let said = refused(press("inertia = 1.0\ninertia_table = [1.0, 2.0]\n", "").replace(stroke, ""));
+    assert!(said.contains("an odd number of values"), "{said}");
+    let bars = "inertia = 6.0\n[coordinate.four_bar]\ncrank = 0.31\ncoupler = 0.35\nrocker = 0.3\nground = 0.4\n";
+    let said = refused(press(bars, "force = 1.0\n"));
+    assert!(said.contains("the shortest bar"), "{said}");
+}

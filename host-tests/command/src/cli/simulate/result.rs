@@ -4,12 +4,15 @@ use serde::Serialize;
 
 use crate::cli::{Failure, Progress};
 use crate::machine_file::TrainFile;
-use driveline_solver::plant::train::Signal;
 use driveline_solver::plant::train::converge::{Recording, Sensitive, prove_in_pieces};
+use driveline_solver::plant::train::{Cycle, Motion, Signal};
 use driveline_solver::plant::{EventKind, Place};
 
 /// Product of the fastest rate and the time between two looks at the progress, at most.
 const BETWEEN_LOOKS: f64 = 1e4;
+
+/// Cycles after which a machine that has not settled is given up.
+const CYCLES: usize = 2000;
 
 /// A speed or force that no machine reaches.
 const OVERFLOW: f64 = 1e30;
@@ -34,6 +37,8 @@ pub struct Simulation {
     pub sensitive: Option<Pieces>,
     /// Why the run is not proven.
     pub not_proven: Option<String>,
+    /// The steady cycle; `null` where the file asks for none.
+    pub cycle: Option<Steady>,
     /// Times of the lines (s).
     #[serde(skip)]
     pub times: Vec<f64>,
@@ -60,6 +65,25 @@ impl From<Sensitive> for Pieces {
     fn from(sensitive: Sensitive) -> Self {
         Self { from: sensitive.from, pieces: sensitive.restarts, shortest: sensitive.shortest }
     }
+}
+
+/// The cycle that a coordinate settles to.
+#[derive(Clone, Debug, Serialize)]
+pub struct Steady {
+    /// Name.
+    pub name: String,
+    /// Coefficient of speed fluctuation: greatest less least speed over the mean.
+    pub delta: f64,
+    /// Greatest speed (rad/s).
+    pub greatest: f64,
+    /// Least speed (rad/s).
+    pub least: f64,
+    /// Mean speed over the time (rad/s).
+    pub mean: f64,
+    /// Length of a cycle (s).
+    pub time: f64,
+    /// Cycles after the run until they repeated.
+    pub cycles: usize,
 }
 
 /// Extremes of a speed (rad/s or m/s).
@@ -171,6 +195,7 @@ impl Simulation {
             (None, Some("the proof was left out".to_owned()))
         };
         let motion = run.motion();
+        let cycle = file.cycle.map(|(at, turns)| steady(file, motion.clone(), at, turns)).transpose()?;
         let moved = |j: usize| {
             let extremes = motion.extremes(Signal::Speed(j));
             let (least, greatest) = extremes.map_or((f64::NAN, f64::NAN), |e| (e.least, e.peak));
@@ -216,6 +241,7 @@ impl Simulation {
             proof: proof.map(|proof| [proof.integrator.largest, proof.tightened.largest]),
             sensitive: proof.and_then(|proof| proof.sensitive).map(Pieces::from),
             not_proven,
+            cycle,
             times,
             speeds: rows,
             forces,
@@ -240,6 +266,19 @@ impl Simulation {
         }
         text
     }
+}
+
+/// The steady cycle after the run.
+fn steady(file: &TrainFile, mut motion: Motion, at: usize, turns: u32) -> Result<Steady, Failure> {
+    let name = file.coordinates[at].clone();
+    let Some(cycle) = motion.steady_cycle(at, turns, CYCLES) else {
+        return Err(Failure::failed(format!(
+            "\"{name}\" does not settle to a cycle of {turns} turns within {CYCLES} of them after the run; expected \
+             torques that keep it turning forwards, and a run up to near its steady speed"
+        )));
+    };
+    let Cycle { greatest, least, time, mean, cycles } = cycle;
+    Ok(Steady { name, delta: cycle.delta(), greatest, least, mean, time, cycles })
 }
 
 fn happened(file: &TrainFile, event: &driveline_solver::plant::Event) -> Happened {

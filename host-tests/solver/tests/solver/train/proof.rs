@@ -170,3 +170,24 @@ fn a_second_of_a_gear_pair_at_its_resonance_is_proven() {
     let motion = proven("gear pair", train.build().unwrap(), 1e-5, 100_000);
     assert!(motion.events().len() > 7000, "{}", motion.events().len());
 }
+
+/// A mass swings by `-cos t` beside a stop that it misses or meets by a billionth of its swing, over a tick of a whole
+/// period: met at `acos(-reach)`, or never.
+#[test]
+fn a_stop_that_is_grazed_is_met_or_missed() {
+    for (reach, met) in [(1.0 - 1e-9, true), (1.0 + 1e-9, false)] {
+        let train = Train::new()
+            .coordinate(Coordinate::new(1.0))
+            .link(Link::ground(0, 1.0).elongated(-1.0))
+            .link(Link::ground(0, 50.0).rope().gap(reach).elongated(-1.0));
+        let mut run = Recording::new(train.build().unwrap());
+        run.advance(6.0);
+        let contact = run.motion().events().iter().find(|event| event.new == 1);
+        assert_eq!(contact.is_some(), met, "{reach}: {:?}", run.motion().events());
+        if let Some(contact) = contact {
+            // the speed there is 4.5e-5: a rounding of the place moves the time by 1e-11
+            assert!((contact.time - (-reach).acos()).abs() < 1e-10, "{contact:?}");
+        }
+        prove(&run).unwrap();
+    }
+}
