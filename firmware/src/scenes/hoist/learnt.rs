@@ -33,18 +33,20 @@ pub type Learnt<N> = Composed<HoistDrive<N>, Follower<N>>;
 const LEARNER_TICKS: u32 = 100;
 const SCHEDULE_TICKS: u32 = 500;
 const ECCENTRICITY_TICKS: u32 = 1_000;
+/// Time between two updates of the learners (s).
+const EVERY: f64 = LEARNER_TICKS as f64 / M::RATE_HZ as f64;
 
 /// Filtered over 0.2 s, from an empty hook to a tenth over the largest load.
 const MASS: LoadMassConfig = LoadMassConfig::new(TRAVEL, 0.2, 0.05, [500.0, 13_000.0]);
 /// A gearbox of this size loses from 1 % to 15 %.
 const EFFICIENCY: [f64; 2] = [0.85, 0.99];
-const LOSS: GearLossConfig = GearLossConfig::new(M::RATING.torque, M::RATING.speed, EFFICIENCY, 0.01);
-const TORQUE: TorqueConstantConfig = TorqueConstantConfig::new(M::RATING.torque, M::RATING.speed, EFFICIENCY, 0.01);
+const LOSS: GearLossConfig = GearLossConfig::new(M::RATING.torque, M::RATING.speed, EFFICIENCY, EVERY);
+const TORQUE: TorqueConstantConfig = TorqueConstantConfig::new(M::RATING.torque, M::RATING.speed, EFFICIENCY, EVERY);
 /// Inertia in front of the rope, by the drawings, and how far the motor's may be from it.
 const MOTOR: f64 = M::TWO_MASS.motor_inertia;
 const MOTOR_RANGE: [f32; 2] = [0.75, 1.25];
 /// From an empty hook behind the lightest motor to the largest load behind the heaviest.
-const RUN_UP: RunUpConfig = RunUpConfig::new(M::RATING.torque, M::RATING.speed, [0.7 * MOTOR, 2.1 * MOTOR], 0.01);
+const RUN_UP: RunUpConfig = RunUpConfig::new(M::RATING.torque, M::RATING.speed, [0.7 * MOTOR, 2.1 * MOTOR], EVERY);
 /// Up to a tenth of a degree, from ten turns at rated speed.
 ///
 /// Generic and called through a constant pointer for the reason given at [`at_rest`](crate::scene::at_rest).
@@ -87,6 +89,8 @@ pub struct Follower<N: Correction + Stiction> {
     /// Motor's inertia over that of the drawings.
     motor: f32,
     ticks: u32,
+    /// At the learners' last update (rad/s).
+    speed: f32,
     /// Of the last tick.
     reported: N,
     /// Whether the brake has been closed since the learners' last update.
@@ -96,23 +100,26 @@ pub struct Follower<N: Correction + Stiction> {
 macro_rules! follower {
     ($number:ident) => {
         impl Follower<$number> {
-            /// Takes the torque of the last tick: every 10 ms.
+            /// Takes the torque of the last tick: every 10 ms. A loop that creeps into its setpoint accelerates motor
+            /// and load all the while, which is no part of the load torque.
             fn learn(&mut self, estimate: &Estimate<f32>) {
+                let speed = estimate.motor_speed;
+                let change = speed - core::mem::replace(&mut self.speed, speed);
                 if core::mem::take(&mut self.held) {
                     self.loss.interrupt();
                     self.torque.interrupt();
                     self.run_up.interrupt();
                     return;
                 }
-                let speed = estimate.motor_speed;
                 let reported = self.reported.to_torque::<M>();
-                self.torque.update(&TORQUE, reported, speed);
+                let load = self.named.map_or(0.0, |mass| mass * const { (TRAVEL * TRAVEL) as f32 });
+                let accelerating = (self.motor * MOTOR as f32 + load) * change * const { (1.0 / EVERY) as f32 };
+                self.torque.update(&TORQUE, reported - accelerating, speed);
                 let torque = self.torque.gain() * reported + self.torque.offset();
                 self.loss.update(&LOSS, torque, speed);
                 let friction = (self.loss.friction() * estimate.shaft_torque.abs()).copysign(speed);
-                if let Some(mass) = self.named {
+                if self.named.is_some() {
                     self.run_up.update(&RUN_UP, torque - friction, speed);
-                    let load = mass * const { (TRAVEL * TRAVEL) as f32 };
                     let motor = (self.run_up.inertia() - load) * const { (1.0 / MOTOR) as f32 };
                     let [least, most] = MOTOR_RANGE;
                     if self.run_up.is_learnt() && motor >= least && motor <= most {
@@ -179,6 +186,7 @@ macro_rules! follower {
                     named: None,
                     motor: 1.0,
                     ticks: 0,
+                    speed: 0.0,
                     reported: <$number>::ZERO,
                     held: true,
                 }

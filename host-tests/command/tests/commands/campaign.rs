@@ -426,15 +426,16 @@ fn statistics_are_those_of_known_examples() {
     assert!(decay(1.0, 2.0).abs() < 1e-12);
 }
 
-/// Three hoists of the tolerances: with a torque constant that is known to 0.3 % the shaft torque is right to 0.5 % of
-/// rated, where 5 % of torque constant make percents; the load speed's noise is 0.1 to 0.2 %.
+/// Four hoists of the tolerances: with a torque constant that is known to 0.3 % the shaft torque is right to 0.5 % of
+/// rated, where 5 % of torque constant make percents; the load speed's noise is 0.1 to 0.2 %. The last one's speed
+/// creeps into its setpoint in the first window of a lift: taken for load, its acceleration hid the constant.
 #[test]
 fn a_drive_with_learners_finds_its_machine_before_the_run() {
     let scene = SCENES.iter().find(|scene| scene.name == "hoist").unwrap();
     let machine = scene.departing(&Departure::NONE).unwrap();
     let [learnt, told] =
         ["f32/learnt/10000", "f32/reduced/10000"].map(|name| Drive::named(scene, &machine, Some(name)).unwrap());
-    for number in [0, 2, 5] {
+    for number in [0, 2, 5, 457] {
         let draw = Draw::new(&scene.tolerances(), 1, number);
         let [learnt, told] = [&learnt, &told].map(|drive| run(scene, drive, &draw).unwrap());
         let [torque, speed] = [Figure::ShaftTorque, Figure::LoadSpeed].map(|f| (learnt.of(f), told.of(f)));
