@@ -6,11 +6,17 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use cargo_driveline::closed_loop::actuator::ActuatorErrors;
+use cargo_driveline::closed_loop::units::Units;
+use cargo_driveline::drivetrains::departure::Departure;
+use cargo_driveline::drivetrains::lockstep::{Imperfections, follow};
+use cargo_driveline::drivetrains::{blooming_mill, crane_travel};
 use driveline_firmware::board::{BOARDS, Facts};
+use driveline_firmware::scene::no_load::panel;
 use driveline_firmware::scene::{Input, Output, Scene};
 use driveline_firmware::scenes::{VARIANTS, find};
 use driveline_firmware::self_test::inputs::Program as Inputs;
-use driveline_qemu::image::{Program, board, build};
+use driveline_qemu::image::{Program, belongs, board, build};
 use driveline_qemu::link::{Link, Summary};
 
 /// Runs a variant on the host, over so many inputs from a seed.
@@ -176,4 +182,38 @@ fn working_in(folder: &Path) -> usize {
     let processes = std::fs::read_dir("/proc").unwrap().flatten();
     let place = |process: std::fs::DirEntry| std::fs::read_link(process.path().join("cwd")).ok();
     processes.filter_map(place).filter(|place| place.starts_with(folder)).count()
+}
+
+/// The learners' runs, in closed loop with the plant of a heavier motor whose torque is off: the inputs of the
+/// self-tests name no run without load, and then nothing is learnt.
+#[test]
+fn no_load_runs_have_the_hosts_bits() {
+    let by = Departure { motor_inertia: 1.1, ..Departure::NONE };
+    let crane = (crane_travel::departing(&by).unwrap(), crane_travel::empty_hook(&by).unwrap());
+    let mill = (blooming_mill::departing(&by).unwrap(), blooming_mill::uncoupled(&by).unwrap());
+    for (variants, (machine, scenario)) in [
+        (["crane-travel/f32/learnt/1000", "crane-travel/fixed/learnt/1000"], crane),
+        (["blooming-mill/f32/learnt/10000", "blooming-mill/fixed/learnt/10000"], mill),
+    ] {
+        for variant in variants {
+            let (row, board) = (find(variant).unwrap(), *BOARDS.iter().rfind(|board| belongs(variant, board)).unwrap());
+            let image = build(variant, board, Program::ControlLoop, |_| {}).unwrap();
+            let mut link = Link::start(&image).unwrap();
+            let units = Units::new(row.words(), machine.bases);
+            let offset = machine.torque_noise;
+            let actuator = ActuatorErrors { offset, ..ActuatorErrors::default() };
+            let imperfections = Imperfections { actuator, ..Imperfections::default() };
+            let (mut plant, mut words) = (scenario.plant.unrecorded(), Vec::new());
+            let each = |_: &_, exchanged| words.push(exchanged);
+            follow(&machine, &scenario, &units, row.rate_hz, &imperfections, &mut link, &mut plant, each).unwrap();
+            for (key, told) in [(panel::OFFSET, 0.0), (panel::INERTIA, 1.0)] {
+                let input = Input { asked: [key, 0], ..Input::default() };
+                let output = link.exchange(&input).unwrap();
+                assert_ne!(f32::from_bits(output.answer), told, "{variant} has learnt nothing");
+                words.push((input, output));
+            }
+            link.finish().unwrap();
+            assert!(row.gives(&words), "{variant} on {} and on the host have different bits", board.name);
+        }
+    }
 }
