@@ -27,7 +27,8 @@ pub enum Unusable {
     Teeth,
     /// The speed changes by more than a tenth from one cycle to the next, or the motor stops.
     Trend,
-    /// Too few ticks to a cycle: fewer than 12 to a quarter of a turn, or to the segment that the cycle is in.
+    /// Too few ticks to a cycle: fewer than 12 to a quarter of a turn, or to the segment that the cycle is in. Fewer
+    /// than 18 to a quarter of a turn where a cycle is not a turn, or the window has fewer than eight cycles.
     Ticks,
 }
 
@@ -38,6 +39,10 @@ impl Unusable {
     pub(super) const TOOTH: f64 = 0.7;
     /// Fewest ticks to a segment of the cycle: 24 pass at the end of a cycle, in which the motor may turn by two.
     pub(super) const TICKS: f64 = 12.0;
+    /// Fewest ticks to a turn where its half is not the other half of the cycle: 30 pass between the end of a cycle and
+    /// that of its first segment being noticed, in which the motor must turn by less than half a turn; with a fifth of
+    /// the speed to spare. In a window of few cycles the ripple that is sought hides the place of its ends.
+    pub(super) const OF_A_TURN: f64 = 72.0;
 
     /// The sentence.
     pub const fn message(&self) -> &'static str {
@@ -48,8 +53,8 @@ impl Unusable {
                 "the speed changes by more than a tenth in a cycle: hold it, or take fewer turns to a cycle"
             }
             Unusable::Ticks => {
-                "a quarter of a turn has fewer than 12 ticks: raise the rate of the ticks, or take the times of \
-                teeth"
+                "a quarter of a turn has fewer than 12 ticks, or 18 where the cycle is not a turn or there are fewer \
+                than eight cycles: raise the rate of the ticks, or take the times of teeth"
             }
         }
     }

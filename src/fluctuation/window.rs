@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::extremes::{Extreme, Fluctuations};
+use super::position::RADIANS;
 use super::quality::{Quality, Unusable};
 use super::series::{GRID, Order, Series, circle};
 use super::{Bin, Edge, Summed, WaveformConfig};
@@ -48,9 +49,9 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
     /// The waveform of the motor's speed with the orders up to `highest`, which counts at most [`MAX_ORDER`] and a
     /// quarter of the bins.
     ///
-    /// The integral of a function of the angle over time is, bin by bin, that of the parabola nearest to it. The parts
-    /// of a tick at the two ends of the window are put right. The trend of the slowness, a sawtooth over the cycle, is
-    /// taken off, as that of a steady acceleration.
+    /// The integral of a function of the angle over time is, bin by bin, that of the parabola nearest to it. At the two
+    /// ends of the window the parts between a cycle's end and the first tick counted are put right. The trend of the
+    /// slowness, a sawtooth over the cycle, is taken off, as that of a steady acceleration.
     ///
     /// Not for the tick: some thousand operations in `f64`, and sines.
     ///
@@ -66,35 +67,34 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
             *order = self.counted(f64::from(n));
             order.sin *= sign;
         }
-        // How far the motor turns in a tick at both ends, which the parts of a tick there need, is known from the
+        // The time from a cycle's end to the tick that noticed it, and the integrals over it, are known from the
         // waveform that they belong to.
         let [first, _, _, last] = self.edges;
         let whole = f64::from(last.tick.wrapping_sub(first.tick).max(1));
-        if whole < cycles * Unusable::TICKS * (f64::from(config.cycle.last_segment) + 1.0) {
+        let cycle = whole / cycles;
+        let is_turn = (config.cycle.angle - TAU).abs() < 1e-9;
+        let few = !(is_turn && self.cycles >= 8) && cycle * TAU < Unusable::OF_A_TURN * config.cycle.angle;
+        if few || cycle < Unusable::TICKS * (f64::from(config.cycle.last_segment) + 1.0) {
             return Err(Unusable::Ticks);
         }
-        let mut turned = [cycles * config.cycle.angle / whole; 2];
         let mut ticks = whole;
         let mut slowness = Series { mean: 1.0, ..Series::default() };
-        let mut ramp = Ramp::default();
+        let mut ramp = Ramp { ends: [TAU * cycles / whole; 2], ..Ramp::default() };
         for _ in 0..ROUNDS {
-            let ends = self.ends(turned);
+            let ends = self.ends(&slowness, ramp.ends, config.cycle.angle);
             ticks = ends.ticks;
             ramp = Ramp::of(ends.ticks, ends.opening, ends.closing, self.cycles);
             let mut integrals = counted;
             for (n, order) in (1_u32..).zip(integrals.orders.iter_mut().take(highest)) {
-                for (part, weight, turned) in [(ends.parts[0], 1.0, turned[0]), (ends.parts[1], -1.0, turned[1])] {
-                    // The integral over the part: that at its middle, times sin(x)/x of half of it.
-                    let half = f64::from(n) * 0.5 * part * turned * (TAU / config.cycle.angle);
-                    let (s, c) = sin_cos(half);
-                    let mean = if half.abs() > 1e-3 { s / half } else { 1.0 };
-                    order.cos += weight * part * mean * c;
-                    order.sin += weight * part * mean * s;
+                for (part, weight) in ends.parts.iter().zip([1.0, -1.0]) {
+                    let n = f64::from(n);
+                    let (cos, sin) = part.integral(&slowness, n);
+                    let (beyond_cos, beyond_sin) = part.sampled(&slowness, n);
+                    order.cos += weight * (cos + beyond_cos);
+                    order.sin += weight * (sin + beyond_sin);
                 }
             }
             slowness = ramp.taken_off(&slowness, &integrals, ticks, highest);
-            let edge = slowness.at(0.0);
-            turned = ramp.ends.map(|speed| speed / edge * (config.cycle.angle / TAU));
         }
         for order in &mut slowness.orders {
             order.sin *= sign;
@@ -158,18 +158,24 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         sum
     }
 
-    /// The two ends of the window where the motor turns by so much in a tick there (rad).
-    fn ends(&self, turned: [f64; 2]) -> Ends {
+    /// The two ends of the window, by the ripple and the speeds without it there (2 pi to the cycle, over ticks).
+    fn ends(&self, ripple: &Series, [from, to]: [f64; 2], angle: f64) -> Ends {
         let [first, second, last_but_one, last] = self.edges;
-        let [from, to] = turned;
-        let between = |early: &Edge<N>, late: &Edge<N>, from: f64, to: f64| {
-            f64::from(late.tick.wrapping_sub(early.tick)) + (early.fraction(from) - late.fraction(to))
+        let part = |edge: &Edge<N>, speed| Part { turned: f64::from(edge.beyond) * RADIANS * TAU / angle, speed };
+        let late = |edge: &Edge<N>, speed| part(edge, speed).integral(ripple, 0.0).0;
+        let between = |early: &Edge<N>, late_edge: &Edge<N>, from: f64, to: f64| {
+            f64::from(late_edge.tick.wrapping_sub(early.tick)) + (late(early, from) - late(late_edge, to))
+        };
+        // half a tick less
+        let counted = |edge: &Edge<N>, speed| {
+            let Part { turned, .. } = part(edge, speed);
+            Part { turned: turned - 0.5 * speed / ripple.at(turned), speed }
         };
         Ends {
             ticks: between(&first, &last, from, to),
             opening: between(&first, &second, from, from),
             closing: between(&last_but_one, &last, to, to),
-            parts: [first.fraction(from) - 0.5, last.fraction(to) - 0.5],
+            parts: [counted(&first, from), counted(&last, to)],
         }
     }
 }
@@ -222,7 +228,53 @@ struct Ends {
     closing: f64,
     /// From the first end of a cycle to half a tick before the first tick that was counted; from the last end to half a
     /// tick before the first that was not.
-    parts: [f64; 2],
+    parts: [Part; 2],
+}
+
+/// From a cycle's end on.
+struct Part {
+    /// How far the motor turned (2 pi to the cycle).
+    turned: f64,
+    /// Its speed without the ripple (the same, over ticks).
+    speed: f64,
+}
+
+impl Part {
+    /// Integral of e^(j n theta) over the time (ticks).
+    fn integral(&self, ripple: &Series, n: f64) -> (f64, f64) {
+        let order = |k: f64| {
+            let (sin, cos) = sin_cos(k * self.turned);
+            if k == 0.0 { (self.turned, 0.0) } else { (sin / k, (1.0 - cos) / k) }
+        };
+        let (re, im) = times_ripple(ripple, n, order);
+        let (a, b) = order(n);
+        ((a + re) / self.speed, (b + im) / self.speed)
+    }
+
+    /// By how much the sum over the ticks of e^(j n theta) is beyond its integral, up to here: the integral's
+    /// antiderivative times `x/sin x` less 1, with x half of the order's turn in a tick.
+    fn sampled(&self, ripple: &Series, n: f64) -> (f64, f64) {
+        let turn = n * self.speed / ripple.at(self.turned);
+        let square = 0.25 * turn * turn;
+        let share = square * (1.0 / 6.0 + square * (7.0 / 360.0 + square * 31.0 / 15_120.0)) / turn;
+        let (sin, cos) = sin_cos(n * self.turned);
+        (share * sin, -share * cos)
+    }
+}
+
+/// Integral of the ripple's orders times e^(j n theta), from that of e^(j k theta): half of an order belongs to each of
+/// n - m and n + m.
+fn times_ripple(ripple: &Series, n: f64, integral: impl Fn(f64) -> (f64, f64)) -> (f64, f64) {
+    let mut sum = (0.0, 0.0);
+    for (m, order) in (1_u32..).zip(ripple.orders.iter().take(ripple.highest())) {
+        let m = f64::from(m);
+        for (k, re, im) in [(n - m, order.cos, order.sin), (n + m, order.cos, -order.sin)] {
+            let (a, b) = integral(k);
+            sum.0 += 0.5 * (re * a - im * b);
+            sum.1 += 0.5 * (re * b + im * a);
+        }
+    }
+    sum
 }
 
 /// How often the trend and the ends are put right anew, by the ripple that is then known; each round is closer by the
@@ -261,27 +313,17 @@ impl Ramp {
 
     /// Integral of the trend times e^(j k theta), without that of its mean.
     fn integral(&self, k: f64) -> (f64, f64) {
-        (self.slope / (k * k), -self.slowness / k)
+        if k == 0.0 { (0.0, 0.0) } else { (self.slope / (k * k), -self.slowness / k) }
     }
 
     /// The orders of the ripple over its mean, in the direction of travel. `integrals` are those of slowness times
     /// cos(n theta) and sin(n theta) over a window of so many ticks; `known` is the ripple as it was before. The
     /// slowness is the trend times the ripple, so each order of the ripple also shows in the others.
     fn taken_off(&self, known: &Series, integrals: &Series, ticks: f64, highest: usize) -> Series {
-        // Contribution of the orders m and -m of the ripple to order n and the mean; half of an order belongs to each.
+        // Contribution of the trend and of the ripple's orders to order n and the mean.
         let leaked = |n: f64| {
-            let mut sum = if n == 0.0 { (0.0, 0.0) } else { self.integral(n) };
-            for (m, order) in (1_u32..).zip(known.orders.iter().take(highest)) {
-                let m = f64::from(m);
-                for (k, re, im) in [(n - m, order.cos, order.sin), (n + m, order.cos, -order.sin)] {
-                    if k != 0.0 {
-                        let (a, b) = self.integral(k);
-                        sum.0 += 0.5 * (re * a - im * b);
-                        sum.1 += 0.5 * (re * b + im * a);
-                    }
-                }
-            }
-            sum
+            let (own, sum) = (self.integral(n), times_ripple(known, n, |k| self.integral(k)));
+            (own.0 + sum.0, own.1 + sum.1)
         };
         let whole = ticks - leaked(0.0).0;
         let mut ripple = Series { mean: 1.0, ..Series::default() };

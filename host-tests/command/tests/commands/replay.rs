@@ -34,7 +34,11 @@ const RIPPLE: f64 = 0.01;
 
 /// When an angle passes whose slowness is `(1 + h cos(n theta))/w`.
 fn passes(theta: f64, order: f64) -> f64 {
-    (theta + RIPPLE / order * (order * theta).sin()) / SPEED
+    passes_at(SPEED, theta, order)
+}
+
+fn passes_at(speed: f64, theta: f64, order: f64) -> f64 {
+    (theta + RIPPLE / order * (order * theta).sin()) / speed
 }
 
 /// Levels of a pickup: each tooth is as wide as half a place of `places`.
@@ -375,6 +379,41 @@ fn an_angles_fluctuation_is_that_of_its_motion() {
     for other in ["--machine", "--teeth"] {
         let said = refused(folder.path(), &["log.csv", "--fluctuation", other, "60-2"]);
         assert!(said.contains("cannot be used with"), "{said}");
+    }
+}
+
+/// What is promised of ticks, 3 % of delta or 0.0005, at every speed with the usual orders and cycles; a window of too
+/// few ticks says so.
+#[test]
+fn delta_by_ticks_is_right_or_refused_at_any_speed() {
+    let folder = tempfile::tempdir().unwrap();
+    let delta = 2.0 * RIPPLE / (1.0 - RIPPLE * RIPPLE);
+    for rate in [10_000.0, 2_000.0] {
+        for speed in [60.0, 110.0, 130.0, 157.0, 170.0, 200.0, 220.0, 250.0] {
+            for (turns, order) in [("1", 2.0), ("2", 1.0), ("2", 0.5)] {
+                let (mut text, mut theta) = (String::from("angle_rad\n"), 0.0);
+                for sample in 0..(40.0 * TAU / speed * rate) as u32 {
+                    // each step of this is closer by a hundredth
+                    for _ in 0..6 {
+                        theta += speed * (f64::from(sample) / rate - passes_at(speed, theta, order));
+                    }
+                    writeln!(text, "{theta:.9}").unwrap();
+                }
+                fs::write(folder.path().join("log.csv"), text).unwrap();
+                let arguments = ["log.csv", "--fluctuation", "--cycle", turns, "--rate", &rate.to_string()];
+                let found = json(folder.path(), &arguments);
+                let a_turn = rate * TAU / speed;
+                let windows = found["windows"].as_array().unwrap();
+                assert!(!windows.is_empty(), "{rate} Hz, {speed} rad/s, {turns} turns");
+                for window in windows {
+                    // a two-turn cycle needs 72 ticks to a turn
+                    let few = a_turn < if turns == "1" { 48.0 } else { 72.0 };
+                    assert_eq!(window["unusable"].is_string(), few, "{rate} Hz, {speed} rad/s, {turns}: {window}");
+                    let off = window["delta"].as_f64().map_or(0.0, |found| (found - delta).abs());
+                    assert!(off < 5e-4_f64.max(0.03 * delta), "{rate} Hz, {speed} rad/s, {turns} turns: {window}");
+                }
+            }
+        }
     }
 }
 

@@ -46,7 +46,7 @@ impl FluctuationOptions {
             None if found.is_empty() => {
                 let (cycles, turns) = (windows.cycles, counted(windows.turns.into(), "turn"));
                 let needed =
-                    "all turned one way, from an end of a cycle on, with 12 samples or more to a quarter of a turn";
+                    "all turned one way, from an end of a cycle on, with 12 or 18 samples to a quarter of a turn";
                 write!(text, "no window of {cycles} cycles of {turns}: {needed}")
             }
             None => write!(text, "no window is to be used"),
