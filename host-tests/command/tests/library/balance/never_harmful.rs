@@ -180,19 +180,24 @@ fn two_thousand_starts_end_no_worse() {
     }
 }
 
+/// A correction, and the readings of two sensors with a head.
+const NEEDED: Complex<f64> = Complex::new(0.8e-3, 0.5e-3);
+
+fn reading(head: Complex<f64>) -> [Complex<f64>; 2] {
+    [(head - NEEDED) * 900.0, (head - NEEDED) * Complex::new(0.0, 500.0)]
+}
+
 /// After an abort the influence is still there: the correction needs no probe.
 #[test]
 fn an_abort_is_left_with_what_was_learnt() {
-    let needed = Complex::new(0.8e-3, 0.5e-3);
     let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [Complex::new(0.0, 0.0)]).unwrap();
-    let reading = |head: Complex<f64>| [(head - needed) * 900.0, (head - needed) * Complex::new(0.0, 500.0)];
     let mut head = Complex::new(0.0, 0.0);
     for _ in 0..8 {
         if let Action::Set([to]) = run.advise(&reading(head), 0.0) {
             head = to;
         }
     }
-    assert!((head - needed).norm() < 0.05 * needed.norm());
+    assert!((head - NEEDED).norm() < 0.05 * NEEDED.norm());
     // the sensors come loose: it aborts, and stays aborted until it is told to go on
     let loose = [Complex::new(9.0, 0.0), Complex::new(0.0, 9.0)];
     let aborted = (0..30)
@@ -203,15 +208,13 @@ fn an_abort_is_left_with_what_was_learnt() {
     run.resume(&[other]);
     let Action::Set([to]) = run.advise(&reading(other), 0.0) else { panic!("it has not gone on") };
     // the sensors that came loose have cast doubt on the influence: towards the correction, if not all the way
-    assert!(((to - other) / (needed - other)).re > 0.1, "{to}");
+    assert!(((to - other) / (NEEDED - other)).re > 0.1, "{to}");
 }
 
 /// Readings that wander by a quarter end a run. Once they hold still the run goes on when it is told to, and balances.
 #[test]
 fn a_run_that_was_given_up_for_wandering_can_be_resumed() {
-    let needed = Complex::new(0.8e-3, 0.5e-3);
     let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [Complex::new(0.0, 0.0)]).unwrap();
-    let reading = |head: Complex<f64>| [(head - needed) * 900.0, (head - needed) * Complex::new(0.0, 500.0)];
     let mut head = Complex::new(0.0, 0.0);
     let wanders = (0..30).any(|step| {
         let bearings = if step % 2 == 0 { 1.0 } else { 1.25 };
@@ -235,7 +238,7 @@ fn a_run_that_was_given_up_for_wandering_can_be_resumed() {
         }
     }
     // the target is a hundredth, and the correction of a tenth that is left is smaller than twice the error assumed
-    assert!((head - needed).norm() < 0.1 * needed.norm(), "{head}");
+    assert!((head - NEEDED).norm() < 0.1 * NEEDED.norm(), "{head}");
 }
 
 /// A reading of another speed is asked for again, and teaches nothing.
