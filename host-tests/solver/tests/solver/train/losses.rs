@@ -1,7 +1,9 @@
 //! Gears that lose power, each with a closed form.
 
+use driveline_solver::noise::Noise;
+use driveline_solver::plant::LoadProgram;
 use driveline_solver::plant::train::converge::{Recording, prove};
-use driveline_solver::plant::train::{Coordinate, Link, Source, Train};
+use driveline_solver::plant::train::{Coordinate, Friction, Link, Source, Train};
 
 /// Motor, load (kg m2), its weight (N m) and the shaft (N m/rad).
 const MOTOR: f64 = 0.5;
@@ -96,4 +98,57 @@ fn a_lossy_gear_at_rest_stays_there() {
     run.advance(1.0);
     assert_eq!((run.motion().events().len(), run.motion().speed(0)), (0, 0.0));
     prove(&run).unwrap();
+}
+
+/// A motor behind an open gap, two lossy gears at rest and a load that pulls at a worm: of all forces that hold what
+/// stands one is nothing, and rounding beside the others. It was taken for a slip, a thousand times in one step.
+#[test]
+fn a_lossy_gear_without_torque_rests_before_a_worm_that_holds() {
+    let train = Train::new()
+        .coordinate(Coordinate::new(0.123_511_865).source(Source::Constant(9.963_614)))
+        .coordinate(Coordinate::new(0.388_107_614_542_295))
+        .coordinate(Coordinate::new(7.138_967_971_294_607_5))
+        .coordinate(Coordinate::new(0.289_061_928_140_530_17).source(Source::Constant(-33.436_595_546_257_1)))
+        .link(Link::geared(0, 1, 1.67, 4233.0).damping(1.26).gap(0.007_87).efficiency(0.68))
+        .link(Link::shaft(1, 2, 3_389.596_759_493_806_5).damping(0.715_782_117_412_273_6).efficiency(0.967))
+        .link(
+            Link::geared(2, 3, 2.749_199_974_861_346_7, 247.671_635_132_561_68)
+                .damping(1.865_747_226_572_344)
+                .efficiency(0.717_022_262_714_741_6)
+                .back_efficiency(-0.198_344_014_098_950_42),
+        )
+        .friction(Friction::ground(3, 5.114_580_798_758_894).breakaway(6.242_363_768_273_733));
+    let mut run = Recording::new(train.build().unwrap());
+    (0..300).for_each(|_| run.advance(2e-3));
+    prove(&run).unwrap();
+}
+
+/// Gears, worms, backlash and brakes at random, from rest and from motion, pushed both ways: every run is proven.
+#[test]
+fn lossy_trains_at_random_are_proven() {
+    let mut noise = Noise::new(7);
+    for number in 0..60 {
+        let mut u = || noise.uniform();
+        let masses = 2 + (1.5 * (u() + 1.0)) as usize;
+        let push: Vec<(f64, f64)> = (0..6).map(|i| (0.1 * f64::from(i), 60.0 * u())).collect();
+        let push = if u() > 0.0 { LoadProgram::steps(&push) } else { LoadProgram::table(&push) };
+        let mut train = Train::new().coordinate(Coordinate::new(10f64.powf(u())).source(Source::Program(push)));
+        for before in 0..masses - 1 {
+            let load = Coordinate::new(10f64.powf(u())).source(Source::Constant(40.0 * u()));
+            train = train.coordinate(if u() > 0.5 { load.speed(5.0 * u()) } else { load });
+            let ratio = if u() > 0.3 { 1.0 } else { 3.0 * u() + 0.01 };
+            let eta = 0.8 + 0.19 * u();
+            let back = if u() > 0.5 { eta - 0.5 - 0.5 * u() } else { eta };
+            let gap = if u() > 0.4 { 0.02 * (1.1 + u()) } else { 0.0 };
+            let link = Link::geared(before, before + 1, ratio, 10f64.powf(3.0 + u())).damping(1.0 + u());
+            train = train.link(link.efficiency(eta).back_efficiency(back).gap(gap));
+        }
+        if u() > 0.0 {
+            let kinetic = 5.0 * (u() + 1.0);
+            train = train.friction(Friction::ground(masses - 1, kinetic).breakaway(kinetic * (1.5 + 0.5 * u())));
+        }
+        let mut run = Recording::new(train.build().unwrap());
+        (0..300).for_each(|_| run.advance(2e-3));
+        prove(&run).unwrap_or_else(|error| panic!("{number}: {error}"));
+    }
 }

@@ -22,6 +22,9 @@ pub enum Change {
 /// Side of a rope that is stretched but whose damper has stopped pulling.
 const TRAILING: f64 = 0.5;
 
+/// Share of the largest force that holds something within which another is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Parameters and discrete state. The continuous state is elongations, speeds, angles.
 #[derive(Clone)]
 pub struct Double<'a> {
@@ -241,9 +244,14 @@ impl<'a> Double<'a> {
             let terms = &self.train.frictions[self.stuck[column]].terms;
             terms.iter().find(|term| term.0 == j).map_or(0.0, |term| term.1 / root(j))
         });
+        let touched: Vec<bool> = rows.row_iter().map(|row| row.iter().any(|share| *share != 0.0)).collect();
         let svd = rows.svd(true, true);
         let size = svd.singular_values.max();
         self.holding = svd.pseudo_inverse(1e-9 * size).unwrap_or_else(|_| DMatrix::zeros(0, 0));
+        // what drives the others may be large beside a force that is nothing, and is not to enter by a rounding
+        for (j, _) in touched.iter().enumerate().filter(|(_, touched)| !**touched) {
+            self.holding.column_mut(j).fill(0.0);
+        }
     }
 
     /// Torques on the coordinates but for the frictions that stick, and the forces of those.
@@ -289,9 +297,9 @@ impl<'a> Double<'a> {
     fn judge(&mut self, t: f64, y: &[f64], s: usize) {
         self.way[s] = 0.0;
         self.hold();
-        let force = self.balance(t, y, &mut vec![0.0; self.train.coordinates.len()])[s];
+        let forces = self.balance(t, y, &mut vec![0.0; self.train.coordinates.len()]);
         for side in [1.0, -1.0] {
-            if self.margin(t, y, s, force, side) < 0.0 {
+            if self.margin(t, y, s, forces[s], side) < -ROUNDING * largest(&forces) {
                 self.way[s] = side;
                 self.hold();
                 return;
@@ -407,8 +415,9 @@ impl Hybrid for Double<'_> {
                 all.push((way * self.over(y, s), size.max(friction.surface.abs()), Change::Rest(s)));
                 continue;
             }
+            // solved for all that sticks: each has the rounding of the largest
+            let size = largest(&forces).max(friction.breakaway);
             for side in [1.0, -1.0] {
-                let size = forces[s].abs().max(friction.breakaway);
                 all.push((self.margin(t, y, s, forces[s], side), size, Change::Loose(s, side)));
             }
         }
@@ -452,6 +461,10 @@ impl Hybrid for Double<'_> {
             Change::Tooth(i, step) => self.teeth[i].1 += step,
         }
     }
+}
+
+fn largest(forces: &[f64]) -> f64 {
+    forces.iter().fold(0.0, |most, force| most.max(force.abs()))
 }
 
 /// Value and derivative of a series at an angle.
