@@ -228,7 +228,9 @@ impl Motion {
         let breakaway = self.train.frictions[s].breakaway;
         let stretch = self.stretch(self.longest(f64::MAX));
         for side in [1, -1] {
-            if self.hold(&stretch, s, side, breakaway).0[0] < 0.0 {
+            // what is nothing but for its rounding lets go only if it falls
+            let (room, rounding) = self.hold(&stretch, s, side, breakaway);
+            if first_fall(&room, &rounding, 1.0) == Some(0.0) {
                 self.mode.slip[s] = side;
             }
         }

@@ -1,9 +1,9 @@
 //! Gears that lose power, each with a closed form.
 
 use driveline_solver::noise::Noise;
-use driveline_solver::plant::LoadProgram;
 use driveline_solver::plant::train::converge::{Recording, prove};
 use driveline_solver::plant::train::{Coordinate, Friction, Link, Source, Train};
+use driveline_solver::plant::{EventKind, LoadProgram};
 
 /// Motor, load (kg m2), its weight (N m) and the shaft (N m/rad).
 const MOTOR: f64 = 0.5;
@@ -120,6 +120,46 @@ fn a_lossy_gear_without_torque_rests_before_a_worm_that_holds() {
         .friction(Friction::ground(3, 5.114_580_798_758_894).breakaway(6.242_363_768_273_733));
     let mut run = Recording::new(train.build().unwrap());
     (0..300).for_each(|_| run.advance(2e-3));
+    prove(&run).unwrap();
+}
+
+/// The torque of a worm that holds passes through zero: within its rounding it lets nothing slip, where it used to slip
+/// and stop without end.
+#[test]
+fn a_worm_holds_while_its_torque_turns_round() {
+    let push = [30.622_988_148_394_175, 22.574_451_382_204_394, -48.909_123_241_399_33];
+    let push: Vec<(f64, f64)> = push.iter().enumerate().map(|(i, &torque)| (0.1 * i as f64, torque)).collect();
+    let train = Train::new()
+        .coordinate(Coordinate::new(0.793_125_057_103_708_8).source(Source::Program(LoadProgram::steps(&push))))
+        .coordinate(Coordinate::new(6.059_910_419_030_047))
+        .coordinate(Coordinate::new(9.802_084_926_960_157))
+        .coordinate(
+            Coordinate::new(1.276_159_244_231_222_2)
+                .speed(-2.753_333_514_177_484)
+                .source(Source::Constant(13.447_605_598_692_46)),
+        )
+        .link(
+            Link::geared(0, 1, 1.383_996_684_024_492_4, 125.635_411_360_637_53)
+                .damping(0.800_927_224_009_084_3)
+                .efficiency(0.849_154_304_119_648_4),
+        )
+        .link(
+            Link::shaft(1, 2, 170.952_391_148_317_56)
+                .damping(0.189_540_973_985_578_9)
+                .gap(0.034_310_312_308_166_4)
+                .efficiency(0.680_549_569_478_950_8),
+        )
+        .link(
+            Link::shaft(2, 3, 8_042.885_604_239_457)
+                .damping(0.787_541_303_787_739_7)
+                .efficiency(0.710_292_367_930_640_4)
+                .back_efficiency(-0.225_053_405_775_051_29),
+        )
+        .friction(Friction::ground(0, 1.403_953_782_516_311_8).breakaway(2.530_087_262_700_649))
+        .friction(Friction::ground(1, 2.365_155_063_754_623_5).breakaway(3.462_855_766_107_738_4));
+    let mut run = Recording::new(train.build().unwrap());
+    (0..100).for_each(|_| run.advance(2e-3));
+    assert!(run.motion().events().iter().all(|event| event.kind != EventKind::Unresolved));
     prove(&run).unwrap();
 }
 
