@@ -81,17 +81,15 @@ fn book(voice: &Voice) -> Result<Count, Failed> {
     cargo::program_passes(&setup::mdbook(), &["build", "doc", "--dest-dir", &place], voice)
 }
 
-/// Compiled once. The tests of images then wait for the compilers that they start, one after the other; all other tests
-/// run beside them.
+/// All tests; what decodes logs is built by the test that calls it.
+const TESTS: [&str; 4] = ["test", "--workspace", "--exclude=driveline-defmt-log", "--no-fail-fast"];
+
+/// The tests of images wait for the compilers that they start, one after the other; all other tests run beside them.
 fn tests(voice: &Voice) -> Result<Count, Failed> {
-    // what decodes logs is built by the test that calls it
-    let all = ["test", "--workspace", "--exclude=driveline-defmt-log", "--no-fail-fast"];
-    cargo::passes(&[&all[..], &["--no-run"]].concat(), voice)?;
-    let of_images = || cargo::tests(&[&all[..], &["--test=images"]].concat(), voice);
     let results = std::thread::scope(|scope| {
-        let images = scope.spawn(of_images);
+        let images = scope.spawn(|| cargo::tests(&[&TESTS[..], &["--test=images"]].concat(), voice));
         // their names begin with the program's
-        let others = cargo::tests(&[&all[..], &["--", "--skip=images::"]].concat(), voice);
+        let others = cargo::tests(&[&TESTS[..], &["--", "--skip=images::"]].concat(), voice);
         [others, images.join().unwrap_or_else(|_| Err(Failed::whole("the images' thread panicked")))]
     });
     together(results)
@@ -112,8 +110,17 @@ fn together(results: impl IntoIterator<Item = Result<Count, Failed>>) -> Result<
     if messages.is_empty() { Ok(sum) } else { Err(Failed { count: sum, message: messages.join("\n") }) }
 }
 
-/// Every image links: no panic can be reached in any.
+/// Every image links: no panic can be reached in any. Two processors are never both busy with images to the end: the
+/// test programs are compiled beside them.
 fn firmware(voice: &Voice) -> Result<Count, Failed> {
+    let (linked, compiled) = std::thread::scope(|scope| {
+        let compiled = scope.spawn(|| cargo::passes(&[&TESTS[..], &["--no-run"]].concat(), voice));
+        (images(voice), compiled.join().unwrap_or_else(|_| Err(Failed::whole("the compiler's thread panicked"))))
+    });
+    together([linked, compiled])
+}
+
+fn images(voice: &Voice) -> Result<Count, Failed> {
     let linked = each(|variant, board| {
         let image = |board: Facts, program| {
             build(variant, board, program, |_| {}).map_err(|error| error.to_string())?;
