@@ -436,3 +436,19 @@ fn weights_tables_of_inertia_and_arcs_of_two_turns_do_their_work() {
     let said = refused(press(bars, "force = 1.0\n"));
     assert!(said.contains("the shortest bar"), "{said}");
 }
+
+/// The modes of a train need no `[run]`: two masses on a shaft, `sqrt(k (1/J_1 + 1/J_2))`.
+#[test]
+fn modes_of_a_train_need_no_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("modes.toml");
+    std::fs::write(&file, STEP.replace("[run]\ntime = 0.5\nstep = 1e-3\n", "")).unwrap();
+    let path = file.to_str().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_cargo-driveline")).args(["modes", path, "--json"]).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let omega = found["resonances"][0]["frequency"].as_f64().unwrap();
+    // some roundings
+    assert!((omega / (850.0_f64 * (1.0 / 1.2 + 1.0 / 0.3)).sqrt() - 1.0).abs() < 1e-14, "{omega}");
+    assert_eq!((found["rigid_motions"].as_u64(), found["resonances"].as_array().unwrap().len()), (Some(1), 1));
+}

@@ -165,8 +165,14 @@ impl Simulation {
             let motion = run.motion();
             if motion.events().last().is_some_and(|event| event.kind == EventKind::Unresolved) {
                 let at = motion.time();
+                let mut before = motion.events().iter().rev().filter(|event| event.kind != EventKind::Unresolved);
+                let Happened { what, place, .. } = before.next().map_or_else(
+                    || Happened { time: at, what: "nothing told".to_owned(), place: "none".to_owned() },
+                    |event| happened(file, event),
+                );
                 return Err(Failure::failed(format!(
-                    "more than a thousand events in the step that ends at {at} s: the run cannot be resolved"
+                    "more than a thousand events in the step that ends at {at} s, the last of them at \"{place}\" \
+                     ({what}): the run cannot be resolved; expected damping or friction that ends them"
                 )));
             }
             let values = motion.read_all(&signals);
