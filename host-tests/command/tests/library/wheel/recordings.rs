@@ -74,49 +74,89 @@ fn a_noisy_pickup_gives_the_angle_from_the_second_gap_on() {
     assert!(f64::from(known) > 0.95 * f64::from(ticks) && rms < 4.0, "{known} of {ticks}, {rms}");
 }
 
-/// The ripple of the last cycles.
+/// The ripple of the last cycle, and the edge that ends it.
 fn ripple<const WHEEL: usize, const CYCLE: usize>(
     teeth: &Teeth<WHEEL>,
     turns: u32,
     edges: &[f64],
-    cycles: usize,
     highest: usize,
-) -> Ripple {
+) -> (Ripple, usize) {
     let config = ToothedWheelConfig::new(teeth, ToothClock { turns, ..TIMING });
     let mut wheel = ToothedWheel::<CycleTimes<CYCLE>>::default();
-    let mut all = Vec::new();
-    for edge in edges {
+    let mut last = None;
+    for (at, edge) in edges.iter().enumerate() {
         wheel.tooth(&config, (edge * CLOCK) as i64 as u32);
-        all.extend(wheel.take());
+        last = wheel.take().map(|cycle| (cycle, at)).or(last);
     }
+    let (cycle, end) = last.unwrap();
     let mut window = ToothWindow::default();
-    for cycle in &all[all.len().saturating_sub(cycles)..] {
-        window.add(&config, cycle);
-    }
-    window.ripple(&config, &ToothErrors::NONE, highest).unwrap()
+    window.add(&config, &cycle);
+    (window.ripple(&config, &ToothErrors::NONE, highest).unwrap(), end)
 }
 
-/// Three equal thirds of 12-2: speed, and the third order of a turn as it was read from the recording.
+/// Delta, and the amplitude of the highest order but two over the mean, by least squares over the same edges: of
+/// `t = c0 + c1 x + sum (a_n sin n x - b_n cos n x)/n`, x the angle of the cycle. The slowness is its derivative.
+fn least_squares(places: &[f64], times: &[f64], highest: usize) -> [f64; 2] {
+    let mean = std::f64::consts::TAU / (times[times.len() - 1] - times[0]);
+    let rows = nalgebra::DMatrix::from_fn(times.len(), 2 + 2 * highest, |at, column| {
+        let n = (column / 2) as f64;
+        match column {
+            0 => 1.0,
+            1 => places[at],
+            _ if column % 2 == 0 => (n * places[at]).sin() / n,
+            _ => -(n * places[at]).cos() / n,
+        }
+    });
+    let times = nalgebra::DVector::from_fn(times.len(), |at, _| times[at] - times[0]);
+    let found = rows.svd(true, true).solve(&times, 1e-12).unwrap();
+    let slowness = |x: f64| -> f64 {
+        let order = |n: usize| found[2 * n] * (n as f64 * x).cos() + found[2 * n + 1] * (n as f64 * x).sin();
+        found[1] + (1..=highest).map(order).sum::<f64>()
+    };
+    let speed = |x: f64| 1.0 / slowness(x) / mean;
+    let grid = || (0..2000).map(|at| std::f64::consts::TAU * f64::from(at) / 2000.0);
+    let [most, least] = [grid().map(speed).fold(0.0, f64::max), grid().map(speed).fold(f64::INFINITY, f64::min)];
+    let n = (highest - 2) as f64;
+    let part = |wave: fn(f64) -> f64| grid().map(|x| speed(x) * wave(n * x)).sum::<f64>() / 1000.0;
+    [most - least, part(f64::cos).hypot(part(f64::sin))]
+}
+
+/// Three equal thirds of 12-2: speed, delta and sixth order of the last two turns.
 #[test]
 fn a_wheel_of_three_gaps_gives_speed_and_ripple() {
     let Some(edges) = edges("nissan_vq40_cranking-1.csv", 1) else { return };
     let teeth = Teeth::<30>::without(36, &[10, 11, 22, 23, 34, 35]);
-    let ripple = ripple::<30, 30>(&teeth, 1, &edges, 4, 7);
-    let third = ripple.speed.order(3).amplitude() / ripple.mean;
-    println!("{} r/min, {} {third}", ripple.speed.mean * 9.5493, ripple.motor.delta);
-    // The recording's own figures, of another cycle: 243 r/min over the angle, rounded by up to 0.2 %, beside which two
-    // cycles differ by 0.2 %; 0.113.
-    assert!((ripple.speed.mean * 9.5493 / 243.0 - 1.0).abs() < 4e-3, "{ripple:?}");
-    assert!((third / 0.113 - 1.0).abs() < 0.02, "{ripple:?}");
+    let (ripple, end) = ripple::<30, 60>(&teeth, 2, &edges, 8);
+    let cycle = &edges[end - 60..=end];
+    let places: Vec<f64> =
+        (0..=60).map(|tooth| std::f64::consts::TAU * f64::from(tooth / 10 * 12 + tooth % 10) / 72.0).collect();
+    let (speed, [delta, sixth]) =
+        (2.0 * std::f64::consts::TAU / (cycle[60] - cycle[0]), least_squares(&places, cycle, 8));
+    let found = ripple.speed.order(6).amplitude() / ripple.mean;
+    println!("{} for {speed} rad/s, delta {} for {delta}, {found} for {sixth}", ripple.mean, ripple.motor.delta);
+    // what is asked of the recordings
+    assert!((ripple.mean / speed - 1.0).abs() < 1e-3, "{ripple:?}");
+    assert!((ripple.motor.delta / delta - 1.0).abs() < 0.02, "{ripple:?} {delta}");
+    assert!((found / sixth - 1.0).abs() < 0.02, "{ripple:?} {sixth}");
 }
 
 #[test]
 fn an_additional_tooth_gives_the_speed() {
     let Some(edges) = edges("cranking_honda_k24a2_no_plugs.csv", 1) else { return };
-    let ripple = ripple::<13, 13>(&Teeth::extra(12, 340.0), 1, &edges, 1, 3);
+    let (ripple, _) = ripple::<13, 13>(&Teeth::extra(12, 340.0), 1, &edges, 3);
     // 12 intervals of the last turn whose end was recorded: 318 ms.
     let last = edges.len() - 1;
     let turn = (0..12).map(|k| edges[last - k] - edges[last - k - 13]).sum::<f64>() / 12.0;
+    assert!((ripple.mean * turn / std::f64::consts::TAU - 1.0).abs() < 1e-3, "{ripple:?} {turn}");
+}
+
+/// Four teeth that repeat after half a turn, as the recording has them: the speed of the last whole turn.
+#[test]
+fn four_uneven_teeth_give_the_speed() {
+    let Some(edges) = edges("nb2-cranking-good.csv", 1) else { return };
+    let (ripple, end) = ripple::<4, 4>(&Teeth::degrees([0.0, 110.0, 180.0, 290.0]), 1, &edges, 1);
+    let turn = edges[end] - edges[end - 4];
+    println!("{} r/min", ripple.mean * 9.5493);
     assert!((ripple.mean * turn / std::f64::consts::TAU - 1.0).abs() < 1e-3, "{ripple:?} {turn}");
 }
 
