@@ -179,10 +179,10 @@ fn gas_torque_of_a_constant_pressure_and_of_a_whole_diagram() {
     assert_eq!(DIESEL.check(), Ok(()));
     let pressure = DIESEL.sample::<1440>(&crank, four);
     let orders = crank.gas_torque::<25>(bore, &pressure, four);
-    // the compiler has the same bits
-    const PRESSURE: [f64; 1440] = DIESEL.sample(&CRANK, WorkingCycle::FourStroke);
-    const ORDERS: [Harmonic; 25] = CRANK.gas_torque(Diameter(0.1), &PRESSURE, WorkingCycle::FourStroke);
-    assert_eq!(orders, ORDERS);
+    // the compiler has the same bits, of a diagram that does not take it seconds
+    const PRESSURE: [f64; 60] = DIESEL.sample(&CRANK, WorkingCycle::FourStroke);
+    const ORDERS: [Harmonic; 7] = CRANK.gas_torque(Diameter(0.1), &PRESSURE, WorkingCycle::FourStroke);
+    assert_eq!(crank.gas_torque(bore, &DIESEL.sample::<60>(&crank, four), four), ORDERS);
     // the work between two polytropes, derived: (p_peak - p_0 eps^n) V_c (1 - eps^(1-n))/(n - 1)
     let clearance = area * 0.1 / 16.0;
     let work = (1.2e7 - 1.6e5 * 17f64.powf(1.3)) * clearance * (1.0 - 17f64.powf(-0.3)) / 0.3;
