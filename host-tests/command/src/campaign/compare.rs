@@ -34,7 +34,7 @@ pub struct Ratio {
     pub worst_draw: u64,
     /// Share of the draws with a ratio in which the first drive is not worse than the second.
     pub not_worse: f64,
-    /// Draws without a ratio: where nothing swings, or where there is no part of the peak.
+    /// Draws without a ratio: where nothing swings, or where the peak has no dynamic part.
     pub none: u64,
 }
 
@@ -169,7 +169,7 @@ impl Comparison {
         }
         let title = format!("{} over {}, {}", self.first, self.second, counted(self.draws, "draw"));
         let text = "Ratios of the same draw. For the decay, lower is worse. A draw has no ratio where nothing swings, \
-                    or where there is no part of the peak.";
+                    or where the peak has no dynamic part.";
         Section::new(title, text, table)
     }
 }

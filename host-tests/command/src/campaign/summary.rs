@@ -154,7 +154,7 @@ impl Summary {
     pub fn facts(&self) -> Vec<Fact> {
         let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
         let mut facts = vec![fact("variant", self.variant.clone())];
-        facts.extend(self.lacks.iter().map(|lacks| fact("lacks", lacks.clone())));
+        facts.extend(self.lacks.iter().map(|lacks| fact("margins", lacks.clone())));
         facts.push(fact("draws", self.draws.to_string()));
         facts.push(fact("seed", self.seed.to_string()));
         facts.push(fact("unstable draws", self.unstable.len().to_string()));
