@@ -11,9 +11,11 @@ use super::proof::NotProven;
 const TOLERANCE: f64 = 1e-13;
 /// A guard below this share of its size has fallen.
 const FALLEN: f64 = 1e-12;
+/// Share of a step over which rates of guards are taken; the rounding of a guard is a 1e-13th of its size then.
+const SPAN: f64 = 1e-3;
 /// An event of a chain is found within this time, s.
 pub(super) const CLOSE: f64 = 1e-15;
-/// Product of the fastest rate and a step, at most: no guard turns twice in less than a radian.
+/// Product of the fastest rate and a step, at most: no guard turns twice in less than a radian of it.
 pub(in crate::plant) const REACH: f64 = 1.0;
 /// Events within one longest step after which a run is given up.
 const MOST_EVENTS: usize = 1000;
@@ -64,6 +66,8 @@ pub(in crate::plant) struct Pass<C> {
 struct Live<C> {
     method: Dop853,
     origin: f64,
+    /// Its last step, s.
+    last: f64,
     look: Look<C>,
 }
 
@@ -122,16 +126,17 @@ impl<C: Copy> Pass<C> {
         if to <= t {
             return Ok(None);
         }
-        let mut live = match self.live.take() {
+        // the integrator refuses a step of less than 1e-14 of the one before, such as to a corner next to a tick's end
+        let mut live = match self.live.take().filter(|live| to - t > 1e-12 * live.last) {
             Some(live) => live,
             None => Live {
                 method: self.begin(machine, y, t, self.step)?,
                 origin: t,
-                look: Look::of(machine, t, y, self.longest),
+                last: 0.0,
+                look: Look::of(machine, t, y, SPAN * self.step.min(self.longest).min(to - t)),
             },
         };
         let (method, origin) = (&mut live.method, live.origin);
-        // the integrator refuses a step of less than 1e-14 of the one before
         while to - (origin + method.t()) > 1e-14 * (to - t) {
             let now = origin + method.t();
             let whole = to - now;
@@ -144,11 +149,13 @@ impl<C: Copy> Pass<C> {
                 self.step = method.h();
                 continue;
             }
+            live.last = method.t() - before;
             // a step that the end cut short says nothing of a shorter one
             self.step = if wanted <= whole { method.h() } else { self.step.max(method.h()) };
             if !live.look.guards.is_empty() {
-                let look = Look::of(machine, origin + method.t(), method.y(), self.longest);
-                let watch = Watch { pass: self, machine, y, now, left: method.t() - before };
+                let left = live.last;
+                let look = Look::of(machine, origin + method.t(), method.y(), SPAN * left);
+                let watch = Watch { pass: self, machine, y, now, left };
                 if let Some((at, change)) = watch.first_change(&live.look, &look, method)? {
                     *y = self.integrate(machine, y, now, at)?;
                     return Ok(Some((now + at, change)));
@@ -183,23 +190,24 @@ impl<C: Copy> Pass<C> {
     }
 }
 
-/// The guards at a time, and their changes along the tangent over a thousandth of the longest step.
+/// The guards at a time, and their rates.
 struct Look<C> {
     guards: Vec<(f64, f64, C)>,
     slopes: Vec<f64>,
 }
 
 impl<C: Copy> Look<C> {
-    fn of<H: Hybrid<Change = C>>(machine: &H, t: f64, y: &[f64], longest: f64) -> Self {
+    /// The rates by a secant over the time `span`, s, along the tangent of the state.
+    fn of<H: Hybrid<Change = C>>(machine: &H, t: f64, y: &[f64], span: f64) -> Self {
         let guards = machine.guards(t, y);
         if guards.is_empty() {
             return Self { guards, slopes: Vec::new() };
         }
         let mut moved = vec![0.0; y.len()];
         machine.rate(t, y, &mut moved);
-        moved.iter_mut().zip(y).for_each(|(rate, y)| *rate = y + *rate * 1e-3 * longest);
-        let ahead = machine.guards(t + 1e-3 * longest, &moved);
-        let slopes = ahead.iter().zip(&guards).map(|(ahead, guard)| ahead.0 - guard.0).collect();
+        moved.iter_mut().zip(y).for_each(|(rate, y)| *rate = y + *rate * span);
+        let ahead = machine.guards(t + span, &moved);
+        let slopes = ahead.iter().zip(&guards).map(|(ahead, guard)| (ahead.0 - guard.0) / span).collect();
         Self { guards, slopes }
     }
 }
@@ -244,7 +252,7 @@ impl<H: Hybrid> Watch<'_, H> {
 
     fn slope(&self, index: usize, after: f64) -> Result<f64, NotProven> {
         let there = self.pass.integrate(self.machine, self.y, self.now, after)?;
-        Ok(Look::of(self.machine, self.now + after, &there, self.pass.longest).slopes[index])
+        Ok(Look::of(self.machine, self.now + after, &there, SPAN * self.left).slopes[index])
     }
 
     /// An interval in which the guard goes from standing to fallen, with its values; none if it stands throughout.
@@ -269,8 +277,7 @@ impl<H: Hybrid> Watch<'_, H> {
         }
         if falling && slopes[1] > 0.0 {
             // where the tangents at both ends meet a convex guard lies above them
-            let share = self.left / (1e-3 * self.pass.longest);
-            let [down, up] = [slopes[0] * share, slopes[1] * share];
+            let [down, up] = slopes.map(|slope| slope * self.left);
             let meet = (start * up - end * down + down * up) / (up - down);
             if stands && meet > 0.5 * start.min(end) {
                 return Ok(None);
@@ -314,12 +321,17 @@ impl<H: Hybrid> Watch<'_, H> {
         });
         if let Ok(near) = near {
             let there = self.pass.integrate(self.machine, self.y, self.now, near)?;
-            let look = Look::of(self.machine, self.now + near, &there, self.pass.longest);
-            let off = look.guards[index].0 / -look.slopes[index] * 1e-3 * self.pass.longest;
+            let look = Look::of(self.machine, self.now + near, &there, 1e-6 * self.left);
+            let (guard, slope) = (look.guards[index], -look.slopes[index]);
+            let off = guard.0 / slope;
             let at = near + off + 0.5 * close;
-            // the square of this is far below what is wanted
+            // the square of this is far below what is wanted, and so is its product with the secant's span
             if off.abs() < 1e-7 * self.left && (bracket[0].0..=bracket[1].0).contains(&at) {
-                return Ok(at);
+                // half of what is wanted lies beyond zero; a guard of some sums is right to some roundings
+                let rest = self.value(index, at)?;
+                if rest.abs() <= 1.5 * close * slope + 16.0 * f64::EPSILON * guard.1 {
+                    return Ok(at);
+                }
             }
         }
         falls(bracket, close, |at| self.value(index, at))

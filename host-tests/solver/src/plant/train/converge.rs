@@ -23,8 +23,10 @@ mod textbook;
 
 pub use crate::plant::converge::{BOUND, Deviation, NotProven, Proof, Sensitive};
 
+use super::linkage::Orders;
 use super::motion::Motion;
 use super::signal::Signal;
+use super::source::Source;
 use super::state::{Mode, State};
 use crate::plant::converge::pass::{Pass, REACH};
 use textbook::{Change, Double};
@@ -261,7 +263,8 @@ impl<'a> Integrator<'a> {
         let or_one = |size: &f64| if *size > 0.0 { *size } else { 1.0 };
         let scale = peaks[n..n + links].iter().chain(&peaks[..n]).chain(&peaks[n + 2 * links..]);
         let scale: Vec<f64> = scale.map(or_one).collect();
-        let pass = Pass::new(&scale, REACH / motion.rate.max(1e-3), 0.1 * motion.event_tolerance);
+        let rate = motion.rate + turning(motion, &peaks[..n]);
+        let pass = Pass::new(&scale, REACH / rate.max(1e-3), 0.1 * motion.event_tolerance);
         let double = Double::new(&motion.train, motion.held.clone(), &motion.mode.arcs);
         Self { start: motion, before: double.clone(), double, y, pass, now: motion.now }
     }
@@ -322,6 +325,22 @@ impl Again for Integrator<'_> {
     }
 }
 
+/// The fastest rate, 1/s, at which torques swing with the angles: order times peak speed. An order of a millionth of
+/// the largest turns nothing.
+fn turning(motion: &Motion, speeds: &[f64]) -> f64 {
+    let highest = |source: &Source| {
+        let orders = match source {
+            Source::Orders(orders) | Source::Stroke { torque: Orders(orders), .. } => orders.as_slice(),
+            _ => &[],
+        };
+        let most = orders.iter().map(|h| h.cosine.hypot(h.sine)).fold(0.0, f64::max);
+        let felt = orders.iter().filter(|h| h.cosine.hypot(h.sine) > 1e-6 * most);
+        felt.map(|h| h.order.abs()).fold(0.0, f64::max)
+    };
+    let coordinates = motion.train.coordinates.iter().zip(speeds);
+    coordinates.map(|(c, speed)| speed * c.sources.iter().map(highest).fold(0.0, f64::max)).fold(0.0, f64::max)
+}
+
 fn peaks(run: &Recording) -> Vec<f64> {
     let mut peaks = vec![0.0_f64; run.samples.first().map_or(0, Vec::len)];
     for sample in &run.samples {
@@ -368,7 +387,7 @@ impl Recording {
 #[cfg(test)]
 mod tests {
     use crate::plant::train::converge::*;
-    use crate::plant::train::{Coordinate, Link, Source, Train};
+    use crate::plant::train::{Coordinate, Link, Train};
 
     /// A ball between two walls a little apart, pushed back and forth: its impacts forget where it came from. Pieces
     /// begin with what was recorded, so that a recording that is wrong in one number by ten times the bound is found.

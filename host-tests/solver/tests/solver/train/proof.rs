@@ -191,3 +191,30 @@ fn a_stop_that_is_grazed_is_met_or_missed() {
         prove(&run).unwrap();
     }
 }
+
+/// A step of the torque at 1.5 ms, between ticks of 0.3 ms of which the fifth ends one rounding before it.
+#[test]
+fn a_corner_one_rounding_after_a_tick_is_taken() {
+    let steps = Source::Program(LoadProgram::steps(&[(0.0, 1.0), (0.0015, 5.0)]));
+    let train = Train::new().coordinate(Coordinate::new(1.0).source(steps));
+    let motion = proven("corner", train.build().unwrap(), 3e-4, 100);
+    // 1.5 ms at 1 N m, then 28.5 ms at 5 N m, to some roundings
+    assert!((motion.speed(0) - 0.144).abs() < 1e-14, "{}", motion.speed(0));
+}
+
+/// A clutch that slips for moments, by the orders of an engine alone: no link and no time sets a rate.
+fn clutch(orders: &[Harmonic]) -> Motion {
+    let engine = Coordinate::new(1.0).speed(100.0).source(Source::Orders(orders.to_vec()));
+    let train = Train::new().coordinate(engine).coordinate(Coordinate::new(2.0).speed(100.0));
+    train.friction(Friction::between(0, 1, 20.0).breakaway(40.0)).build().unwrap()
+}
+
+#[test]
+fn a_clutch_that_orders_of_an_angle_tear_loose_for_moments_is_proven_whatever_the_tick() {
+    let order = |order: f64, cosine: f64, sine: f64| Harmonic { order, cosine, sine };
+    let two = [order(2.0, 58.0, 0.0), order(4.0, 0.0, 30.0)];
+    for (orders, step) in [(&two[..], 1e-2), (&two[..], 2e-2), (&[order(4.0, 62.0, 0.0)], 2e-3)] {
+        let motion = proven("clutch", clutch(orders), step, (1.0 / step) as usize);
+        assert!(motion.events().len() > 20, "{}", motion.events().len());
+    }
+}
