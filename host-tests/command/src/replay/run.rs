@@ -25,7 +25,7 @@ pub struct Course {
     pub load_speed: Vec<f64>,
     /// Load torque (N m).
     pub load_torque: Vec<f64>,
-    /// Measured less predicted angle of the motor (rad); NaN without an angle.
+    /// Measured less predicted angle of the motor (rad); NaN without an angle, and at the first one.
     pub innovation: Vec<f64>,
     /// Faults of each tick.
     pub faults: Vec<Faults>,
@@ -143,21 +143,28 @@ where
     O: Observer<N>,
 {
     let config = Config { limits, observer: config, fluctuation: (), governor: (), balancer: () };
-    let begin = signals.angle.iter().flatten().next().copied().unwrap_or(0);
-    let mut drive = Drive::<N, O>::new(&config, begin);
-    // a machine that turns already
-    let speed = signals.motor_speed.as_ref().and_then(|speed| speed.first().copied()).unwrap_or(0.0);
-    drive.observer_mut().restart(&config.observer, begin, N::ZERO, N::of_real(speed / units.speed));
+    let mut drive = Drive::<N, O>::new(&config, 0);
+    let first = signals.angle.iter().position(Option::is_some);
     let mut course = Course { number: units.name, ..Course::default() };
-    for (angle, torque) in signals.angle.iter().zip(&signals.torque) {
+    for (at, (angle, torque)) in signals.angle.iter().zip(&signals.torque).enumerate() {
         let torque = N::of_real(torque / units.torque);
-        let (innovation, command) = match *angle {
+        let (innovation, faults) = match *angle {
+            Some(angle) if first == Some(at) => {
+                // a machine that turns already: the recorded speed, or that of its first two angles
+                let next = signals.angle.get(at + 1).copied().flatten().unwrap_or(angle);
+                let turned = || O::speed_of_turn(&config.observer, N::from_angle(next.wrapping_sub(angle) as i32));
+                let recorded = signals.motor_speed.as_ref().and_then(|speed| speed.get(at));
+                let speed = recorded.map_or_else(turned, |speed| N::of_real(speed / units.speed));
+                drive = Drive::new(&config, angle);
+                drive.observer_mut().restart(&config.observer, angle, N::ZERO, speed);
+                (f64::NAN, Faults::NONE)
+            }
             Some(angle) => {
                 let innovation = drive.observer().predict(&config.observer, angle, torque).innovation();
                 let command = drive.tick(&config, &Sample { angle, torque, setpoint: N::ZERO });
-                (units.angle * innovation.to_real(), command)
+                (units.angle * innovation.to_real(), command.faults)
             }
-            None => (f64::NAN, drive.coast(&config, torque, N::ZERO)),
+            None => (f64::NAN, drive.coast(&config, torque, N::ZERO).faults),
         };
         let estimate = drive.estimate(&config);
         course.motor_speed.push(units.speed * estimate.motor_speed.to_real());
@@ -165,7 +172,7 @@ where
         course.load_speed.push(units.speed * estimate.load_speed.to_real());
         course.load_torque.push(units.torque * estimate.load_torque.to_real());
         course.innovation.push(innovation);
-        course.faults.push(command.faults);
+        course.faults.push(faults);
         tick();
     }
     course

@@ -155,6 +155,33 @@ fn an_observer_by_a_wheel_is_as_good_as_its_design_says() {
     }
 }
 
+/// A recording that begins at 100 rad/s, without slip: the first two angles tell the speed.
+#[test]
+fn a_machine_that_turns_already_raises_no_flag() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("roll.toml"), machine()).unwrap();
+    let place = |tooth: u32| f64::from(60 * (tooth / 58) + tooth % 58);
+    let rows: String =
+        (0..1000).map(|at| format!("{:.4},0,{:.9}\n", f64::from(at) * 1e-3, TAU / 6000.0 * place(at))).collect();
+    fs::write(folder.path().join("log.csv"), format!("time_s,torque_Nm,tooth_time_s\n{rows}")).unwrap();
+    let found = json(folder.path(), &["log.csv", "--teeth", "60-2"]);
+    let known = found["wheel"]["ticks_with_angle"].as_u64().unwrap() as usize;
+    // two turns of 63 ms to find the place
+    assert!(known > 1000 - 2 * 63 - 20, "{known}");
+    let table = fs::read_to_string(folder.path().join("table.csv")).unwrap();
+    let headings: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    for number in ["f32", "fixed"] {
+        let column = |name: &str| headings.iter().position(|heading| *heading == format!("{number}_{name}")).unwrap();
+        let (faults, speed) = (column("faults"), column("motor_speed_rad_s"));
+        for row in table.lines().skip(1 + 1000 - known) {
+            let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+            assert_eq!(cells[faults], 0.0, "{number}: {row}");
+            // each end of a pitch of 1.05 ms is timed to 0.1 us: 1e-4 of the speed each
+            assert!((cells[speed] - 100.0).abs() < 0.02, "{number}: {row}");
+        }
+    }
+}
+
 /// What accelerates the motor is its torque less that of the shaft: the same error as against the shaft torque itself.
 #[test]
 fn a_measured_acceleration_tells_the_error_of_the_shaft_torque() {
