@@ -97,7 +97,7 @@ struct Merge {
     /// File of all results
     #[arg(long, value_name = "PATH")]
     results: Option<PathBuf>,
-    /// File of the page [default: report/SCENE-DRIVE-campaign.html]
+    /// File of the page [default: report/NAME-campaign.html, after --results or the first file]
     #[arg(long, value_name = "PATH")]
     html: Option<PathBuf>,
     /// Print JSON, and write a page only with --html
@@ -292,11 +292,23 @@ impl Merge {
     fn execute(&self) -> Result<(), Failure> {
         let (settings, outcomes) = merge(&self.files).map_err(Failure::usage)?;
         let results = self.results.as_deref().map(|path| Destination::chosen("results", path));
-        let page = Destination::page_unless(self.json, self.html.as_deref(), &page_name(&stem(&settings.variant)));
+        let page = Destination::page_unless(self.json, self.html.as_deref(), &page_name(&self.stem()));
         let sources: Vec<&Path> = self.files.iter().map(PathBuf::as_path).collect();
         check(&sources, results.iter().chain(&page))?;
         results.map_or(Ok(()), |results| results.write(&settings.file(&outcomes)))?;
         show(&Summary::of(&settings, &outcomes), page.as_ref(), self.json)
+    }
+
+    /// What the page is named after: the file of all results, or the first one less its shard. No file tells whether it
+    /// is of a scene or of a machine file.
+    fn stem(&self) -> String {
+        let file = self.results.as_ref().or(self.files.first());
+        let stem = file.and_then(|path| path.file_stem()).unwrap_or_default().to_string_lossy();
+        let whole = stem.rsplit_once("-of-").and_then(|(before, of)| {
+            let (whole, which) = before.rsplit_once('-')?;
+            Shard::parse(&format!("{which}/{of}")).is_ok().then(|| whole.to_owned())
+        });
+        whole.unwrap_or_else(|| stem.into_owned())
     }
 }
 

@@ -149,6 +149,30 @@ fn a_machine_file_has_campaigns() {
     assert!(String::from_utf8_lossy(&refused.stderr).contains("the losses of `drive` need a shaft behind it"));
 }
 
+#[test]
+fn merged_shards_have_the_page_of_the_whole_campaign() {
+    let folder = tempfile::tempdir().unwrap();
+    // the file's name is not the machine's, `roll`
+    fs::write(folder.path().join("mill.toml"), include_str!("../../machines/roll.toml")).unwrap();
+    let run = |arguments: &[&str]| {
+        let output = campaign(folder.path(), arguments);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    };
+    let draws = ["mill.toml", "--draws", "2", "--drive", "plain"];
+    let (page, own) = ("report/mill.toml-plain-campaign.html", "report/mine-campaign.html");
+    run(&draws);
+    let whole = fs::read(folder.path().join(page)).unwrap();
+    fs::remove_file(folder.path().join(page)).unwrap();
+    for shard in ["1/2", "2/2"] {
+        run(&[&draws[..], &["--shard", shard]].concat());
+    }
+    let [first, second] = ["report/mill.toml-plain-1-of-2.draws", "report/mill.toml-plain-2-of-2.draws"];
+    run(&["merge", first, second]);
+    assert!(fs::read(folder.path().join(page)).unwrap() == whole);
+    run(&["merge", first, second, "--results", "mine.draws"]);
+    assert!(fs::read(folder.path().join(own)).unwrap() == whole);
+}
+
 /// The README's roll: the errors of one mass are as good, but its loop swings without end in the nominal machine and in
 /// every draw. The expected refusal is that of the campaign's plant, which knows nothing of the margins.
 #[test]
