@@ -140,7 +140,7 @@ pub fn all() -> Result<Vec<Case>, String> {
         let course = transient.deviations()?.into_iter().fold(0.0, larger);
         add("trajectory, of peak", course, transient.rel_tol_peak);
         let found = match transient.proof()? {
-            Ok(proof) => proof.integrator.largest.max(proof.tightened.largest),
+            Ok(proof) => proof.largest(),
             Err(NotProven::Deviates { found, .. }) => found,
             Err(_) => f64::INFINITY,
         };

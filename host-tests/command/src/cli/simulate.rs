@@ -66,29 +66,34 @@ impl Simulate {
             say_json(&simulation)?;
         } else {
             tables(&simulation).into_iter().for_each(say);
-            say(proof(&simulation));
+            say(proof(&simulation).join("\n"));
         }
         csv.map_or(Ok(()), |csv| csv.write_and_say(&simulation.csv(), self.json))?;
         sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page(&file, &simulation), self.json))
     }
 }
 
-fn proof(simulation: &Simulation) -> String {
+/// A line, and a second one of a run that is proven in pieces.
+fn proof(simulation: &Simulation) -> Vec<String> {
     match (simulation.proof, &simulation.not_proven) {
-        (Some([integrator, tightened]), _) => {
-            let proven = format!(
-                "proven: a second integrator deviates by {integrator:.1e} of the peaks, ten times closer events by \
-                 {tightened:.1e}"
+        (Some((integrator, tightened)), _) => {
+            let closer = tightened.map_or_else(
+                || "no events".to_owned(),
+                |tightened| format!("ten times closer events by {tightened:.1e}"),
             );
-            let Some(Pieces { from, pieces, shortest }) = simulation.sensitive else { return proven };
-            format!(
-                "{proven}; sensitive: from {} s on in pieces, {pieces} of them, since roundings grow beyond 1e-8 \
-                 within {} s; its extremes are those of one run among many",
-                significant(from),
-                significant(shortest)
-            )
+            let mut lines =
+                vec![format!("proven: a second integrator deviates by {integrator:.1e} of the peaks, {closer}")];
+            if let Some(Pieces { from, pieces, shortest }) = simulation.sensitive {
+                lines.push(format!(
+                    "sensitive: proven from the start up to {} s, then in {pieces} pieces; roundings grow beyond 1e-8 \
+                     within {} s. The extremes are those of one possible run.",
+                    significant(from),
+                    significant(shortest)
+                ));
+            }
+            lines
         }
-        (None, reason) => format!("not proven: {}", reason.as_deref().unwrap_or("unknown")),
+        (None, reason) => vec![format!("not proven: {}", reason.as_deref().unwrap_or("unknown"))],
     }
 }
 
@@ -160,7 +165,7 @@ fn page(file: &TrainFile, simulation: &Simulation) -> String {
     let mut facts = vec![
         fact("length of the run", format!("{} s", significant(simulation.time))),
         fact("events", simulation.events.len().to_string()),
-        fact("proof", proof(simulation)),
+        fact("proof", proof(simulation).join("; ")),
     ];
     let factor = |l: &result::Carried| l.dynamic_factor.map(|k| (l.name.clone(), k));
     if let Some((name, k)) = simulation.links.iter().filter_map(factor).max_by(|a, b| a.1.total_cmp(&b.1)) {

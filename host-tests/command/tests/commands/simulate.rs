@@ -95,7 +95,7 @@ fn a_sensitive_run_is_proven_in_pieces_and_says_so() {
     assert!(found["sensitive"]["pieces"].as_u64().unwrap() > 0 && found["proof"][0].as_f64().unwrap() <= 1e-8);
     assert!(found["sensitive"]["from"].as_f64().unwrap() < 0.2);
     let said = String::from_utf8(simulate(&[file]).stdout).unwrap();
-    assert!(said.contains("sensitive: from") && said.contains("one run among many"), "{said}");
+    assert!(said.contains("sensitive: proven from the start up to") && said.contains("one possible run"), "{said}");
     let output = simulate(&[file, "--json", "--unproven"]);
     let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert!(output.status.success() && found["proof"].is_null() && found["sensitive"].is_null());
@@ -128,6 +128,8 @@ fn the_elastic_factor_and_the_damped_vibration_of_a_step() {
     let (omega, decay) = ((850.0_f64 * shares).sqrt(), 0.5 * 2.0 * shares);
     let damped = (omega * omega - decay * decay).sqrt();
     let expected = 1.0 + (-std::f64::consts::PI * decay / damped).exp();
+    // without an event none was located closer
+    assert!(found["proof"][1].is_null() && String::from_utf8(simulate(&[path]).stdout).unwrap().contains("no events"));
     let shaft = &found["links"][0];
     // roundings of the run
     assert!((shaft["elastic_factor"].as_f64().unwrap() - expected).abs() < 1e-12, "{shaft} {expected}");

@@ -30,9 +30,9 @@ pub struct Simulation {
     pub links: Vec<Carried>,
     /// The event.
     pub events: Vec<Happened>,
-    /// Deviation of the second integrator, and of the solver with events located ten times closer, as shares of the
-    /// peaks; none where the proof was left out or did not succeed.
-    pub proof: Option<[f64; 2]>,
+    /// Deviation of the second integrator as a share of the peaks, and of the solver with events located ten times
+    /// closer: `null` without an event. None where the proof was left out or did not succeed.
+    pub proof: Option<(f64, Option<f64>)>,
     /// Where roundings grow beyond the bound of the proof; `null` of a run that is proven as a whole.
     pub sensitive: Option<Pieces>,
     /// Why the run is not proven.
@@ -244,7 +244,7 @@ impl Simulation {
             coordinates: (0..n).map(moved).collect(),
             links: (0..links).map(carried).collect(),
             events: motion.events().iter().map(|event| happened(file, event)).collect(),
-            proof: proof.map(|proof| [proof.integrator.largest, proof.tightened.largest]),
+            proof: proof.map(|proof| (proof.integrator.largest, proof.tightened.map(|tightened| tightened.largest))),
             sensitive: proof.and_then(|proof| proof.sensitive).map(Pieces::from),
             not_proven,
             cycle,

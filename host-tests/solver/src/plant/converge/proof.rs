@@ -18,10 +18,18 @@ pub struct Deviation {
 pub struct Proof {
     /// Against the second integrator.
     pub integrator: Deviation,
-    /// Against the solver with its events located ten times closer.
-    pub tightened: Deviation,
+    /// Against the solver with its events located ten times closer; none of a run without events.
+    pub tightened: Option<Deviation>,
     /// Of a run whose deviations grow beyond [`BOUND`]: it is proven in pieces.
     pub sensitive: Option<Sensitive>,
+}
+
+impl Proof {
+    /// The larger deviation of the checks.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.tightened.map_or(0.0, |tightened| tightened.largest).max(self.integrator.largest)
+    }
 }
 
 /// A run in which roundings grow: it is one of many that its start could have become. A check that lost it went on
@@ -30,7 +38,7 @@ pub struct Proof {
 pub struct Sensitive {
     /// Up to here, s, the run is proven from its start.
     pub from: f64,
-    /// How often the check that was lost the soonest went on.
+    /// How often the check that was lost most often went on.
     pub restarts: usize,
     /// The shortest time in which a rounding grew beyond the bound, s.
     pub shortest: f64,
@@ -40,12 +48,14 @@ pub struct Sensitive {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotProven {
     /// A check came out otherwise.
-    #[error("the run deviates by {found:.1e} of peak from {from} at {time} s: expected at most {BOUND:.0e}")]
+    #[error("the run deviates by {found:.1e} of peak from {from} at {time} s: expected at most {expected:.0e}")]
     Deviates {
         /// Which check.
         from: &'static str,
         /// The deviation over the peak.
         found: f64,
+        /// What it may be.
+        expected: f64,
         /// Where, s.
         time: f64,
     },

@@ -86,7 +86,7 @@ fn chains_at_random_prove_their_convergence() {
         }
         events += run.plant().events().len();
         match prove(&run) {
-            Ok(proof) => largest = largest.max(proof.integrator.largest).max(proof.tightened.largest),
+            Ok(proof) => largest = largest.max(proof.largest()),
             Err(refused) => panic!("seed {seed}: {refused}\n{chain:#?}"),
         }
     }
