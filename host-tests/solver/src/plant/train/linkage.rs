@@ -13,6 +13,8 @@ use super::mesh::Harmonic;
 
 /// Share of the largest coefficient below which one is rounding.
 const ROUNDING: f64 = 1e-15;
+/// Share of the largest coefficient to which those of the last tenth of the orders fall off.
+const RESOLVED: f64 = 1e-10;
 
 /// A Fourier series by an angle: orders with cosine and sine, the mean as order zero.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -35,15 +37,28 @@ impl Orders {
         });
         let all: Vec<Harmonic> = all.collect();
         let most = all.iter().map(|h| h.cosine.hypot(h.sine)).fold(0.0, f64::max);
-        Self(all.into_iter().filter(|h| h.cosine.hypot(h.sine) > ROUNDING * most).collect())
+        // what is no number stays
+        let is_rounding = |h: &Harmonic| h.cosine.hypot(h.sine) <= ROUNDING * most;
+        Self(all.into_iter().filter(|h| !is_rounding(h)).collect())
     }
 
-    /// From a function of the angle (rad) with the period of a turn, sampled at 255 angles.
+    /// From a function of the angle (rad) with the period of a turn, sampled at 255 angles or at twice as many until
+    /// the coefficients of its slope have fallen off to 1e-10 of
+    /// the largest. Not a number, which no train takes, where 4095 do not
+    /// suffice.
     #[must_use]
     pub fn sampled(of: impl Fn(f64) -> f64) -> Self {
-        const COUNT: usize = 255;
-        let values: Vec<f64> = (0..COUNT).map(|i| of(TAU * i as f64 / COUNT as f64)).collect();
-        Self::of(&values)
+        let size = |h: &Harmonic| h.order.max(1.0) * h.cosine.hypot(h.sine);
+        for count in [255, 511, 1023, 2047, 4095] {
+            let values: Vec<f64> = (0..count).map(|i| of(TAU * f64::from(i) / f64::from(count))).collect();
+            let series = Self::of(&values);
+            let most = series.0.iter().map(size).fold(0.0, f64::max);
+            let last = 0.45 * f64::from(count);
+            if series.0.iter().all(|h| h.order < last || size(h) <= RESOLVED * most) {
+                return series;
+            }
+        }
+        Self(vec![Harmonic { order: 1.0, cosine: f64::NAN, sine: f64::NAN }])
     }
 
     /// Value at an angle, rad.
