@@ -29,6 +29,8 @@ impl Train {
         frictionless.frictions.clear();
         frictionless.links.clear();
         frictionless.unbalances.clear();
+        // what stands has no use for the inertia of a mechanism
+        frictionless.coordinates.iter_mut().for_each(|c| (c.crank, c.law) = (None, None));
         let n = self.coordinates.len();
         if held >= n {
             return Err(PlantError::Count { name: "locked coordinate", found: held, expected: n });

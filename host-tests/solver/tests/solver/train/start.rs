@@ -1,7 +1,7 @@
 //! The start conditions of `[Huang 1987 part 2]` by the train's solver: `data/backlash_transients.json`, made with 40
 //! digits.
 
-use driveline_solver::plant::train::{Coordinate, Friction, Link, Motion, Signal, Source, Train};
+use driveline_solver::plant::train::{Coordinate, Friction, Link, Motion, Orders, Signal, Source, Train};
 use driveline_solver::plant::{EventKind, LoadProgram};
 use serde::Deserialize;
 
@@ -137,4 +137,15 @@ fn after_a_sudden_loss_of_load_a_shaft_swings_about_its_inertia_share() {
         "{extremes:?}"
     );
     assert!(motion.events().iter().all(|event| event.kind != EventKind::Contact));
+}
+
+/// Behind a mechanism a link carries the load as behind any rotor.
+#[test]
+fn the_inertia_of_a_mechanism_takes_no_part_in_a_pretension() {
+    let law = Orders::sampled(|angle| 2.0 + angle.cos());
+    let press = Coordinate::new(1.0).angle(1.0).inertia_law(law).source(Source::Constant(-100.0));
+    let train = Train::new().coordinate(Coordinate::new(1.0)).coordinate(press).link(Link::shaft(0, 1, 1000.0));
+    let motion = train.pretensioned(0).unwrap().build().unwrap();
+    // solved to rounding
+    assert!((motion.force(0) - 100.0).abs() < 1e-11, "{}", motion.force(0));
 }
