@@ -7,6 +7,10 @@ use super::signal::Signal;
 
 /// Share by which two extrapolated cycles may differ for the machine to be called steady.
 const STEADY: f64 = 1e-10;
+/// Share by which a change from cycle to cycle falls off at least, and the change below which it is rounding.
+const FALLS: (f64, f64) = (0.9999, 1e-13);
+/// Times that a cycle may take of what it would at the speed of its start.
+const SLOWEST: f64 = 100.0;
 /// Share of a cycle before whose end trials begin.
 const NEAR: f64 = 0.02;
 
@@ -36,7 +40,8 @@ impl Cycle {
 impl Motion {
     /// Runs on by cycles of so many turns of a coordinate until they repeat, `most` at most. What is left of a start
     /// dies out by the same share from cycle to cycle, and is taken off by Aitken's extrapolation. None where the
-    /// coordinate stops, runs backwards or does not settle.
+    /// coordinate stops, runs backwards or goes on changing, and where a cycle takes a hundred times as long as it
+    /// would at the speed of its start.
     pub fn steady_cycle(&mut self, coordinate: usize, turns: u32, most: usize) -> Option<Cycle> {
         let mut last: Vec<[f64; 3]> = Vec::new();
         let mut before: Option<[f64; 3]> = None;
@@ -49,7 +54,11 @@ impl Motion {
             let [.., a, b, c] = &last[..] else { continue };
             let end: [f64; 3] = std::array::from_fn(|i| aitken(a[i], b[i], c[i]));
             let alike = |other: [f64; 3]| end.iter().zip(other).all(|(x, y)| (x - y).abs() <= STEADY * x.abs());
-            if before.is_some_and(alike) {
+            let falls = (0..3).all(|i| {
+                let (first, second) = ((b[i] - a[i]).abs(), (c[i] - b[i]).abs());
+                second <= FALLS.0 * first || second <= FALLS.1 * c[i].abs()
+            });
+            if falls && before.is_some_and(alike) {
                 let [greatest, least, time] = end;
                 return Some(Cycle { greatest, least, time, mean: TAU * f64::from(turns) / time, cycles });
             }
@@ -60,14 +69,23 @@ impl Motion {
 
     /// On until a coordinate has turned by an angle, rad.
     fn turn(&mut self, coordinate: usize, angle: f64) -> Option<()> {
-        let end = self.angle(coordinate) + angle;
-        // half of what is left at the speed of the moment does not go beyond the end, unless the speed doubles
+        let (begun, end) = (self.time(), self.angle(coordinate) + angle);
+        let whole = angle / self.speed(coordinate);
         while end - self.angle(coordinate) > NEAR * angle {
             let speed = self.speed(coordinate);
-            if !(speed > 0.0) {
+            if !(speed > 0.0 && self.time() - begun < SLOWEST * whole) {
                 return None;
             }
-            self.advance(0.5 * (end - self.angle(coordinate)) / speed);
+            let mut length = (0.5 * (end - self.angle(coordinate)) / speed).min(whole);
+            let mut after = self.clone();
+            after.advance(length);
+            // what speeds up goes beyond the end
+            while after.angle(coordinate) > end {
+                length *= 0.5;
+                after = self.clone();
+                after.advance(length);
+            }
+            *self = after;
         }
         let mut time = (end - self.angle(coordinate)) / self.speed(coordinate);
         for _ in 0..8 {

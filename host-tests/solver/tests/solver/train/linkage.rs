@@ -199,3 +199,40 @@ fn forces_over_a_stroke_and_torques_over_two_turns_give_their_work() {
     }
     prove(&run).unwrap();
 }
+
+/// Of an almost flat four-bar the ratio is steep: the series still has that of the closed form, or is no number.
+#[test]
+fn bars_near_their_change_point_are_sampled_until_their_series_converges() {
+    for ground in [0.4, 0.49, 0.4999] {
+        let bars = FourBar { crank: 0.1, coupler: 0.3, rocker: 0.3, ground };
+        let slope = Orders::sampled(|angle| bars.angles(angle)[1]).slope();
+        for angle in [0.0, 1.0, 3.0, 3.1, 3.13] {
+            let [coupler, rocker] = bars.angles(angle);
+            let expected = bars.crank * (coupler - angle).sin() / (bars.rocker * (coupler - rocker).sin());
+            // coefficients up to 1e-10 of the largest are left out, some hundreds of them
+            assert!((slope.at(angle) - expected).abs() < 1e-7, "{ground} {angle}: {} {expected}", slope.at(angle));
+        }
+    }
+    let flat = FourBar { crank: 0.1, coupler: 0.3, rocker: 0.3, ground: 0.499_999_999 };
+    let rocker = Orders::sampled(|angle| flat.angles(angle)[1]);
+    let press = Coordinate::new(1.0).inertia_law(Orders::inertia(&[(2.5, &rocker)]));
+    assert!(Train::new().coordinate(press).build().is_err());
+}
+
+/// A motor of 400 N m and 20 N m s/rad on 6 kg m2 settles to 20 rad/s, from a tenth of a second after rest as well.
+/// What coasts, turns backwards or gathers speed for ever does not.
+#[test]
+fn a_steady_cycle_is_found_from_rest_and_nowhere_else() {
+    let cycle = |coordinate: Coordinate, time: f64| {
+        let mut motion = Train::new().coordinate(coordinate).build().unwrap();
+        motion.advance(time);
+        motion.steady_cycle(0, 1, 2000)
+    };
+    let motor = |stall| Coordinate::new(6.0).source(Source::Line { stall, slope: 20.0 });
+    // 1e-10 of what is left of the start
+    assert!((cycle(motor(400.0), 0.1).unwrap().mean - 20.0).abs() < 2e-9);
+    assert_eq!(cycle(motor(-400.0), 5.0), None);
+    assert_eq!(cycle(Coordinate::new(1.0).speed(10.0).viscous(1.0), 1.0), None);
+    let drift = Coordinate::new(2e5).speed(157.0).source(Source::Constant(0.05));
+    assert_eq!(cycle(drift, 0.1), None);
+}
