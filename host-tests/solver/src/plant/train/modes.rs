@@ -7,7 +7,8 @@ use super::{Source, Train};
 use crate::plant::error::PlantError;
 use crate::plant::modes::jacobi::{norm, orthogonal};
 
-/// Share of the fastest rate below which an eigenvalue of the damped equations is rounding, taken a thousandfold.
+/// Share of the fastest rate below which an eigenvalue of the damped equations is left out. Its rounding is some 1e-15
+/// of that rate; what is a thousand times as large has three digits.
 const ROUNDING: f64 = 1e-12;
 
 /// Natural frequencies and shapes.
@@ -93,9 +94,10 @@ impl Train {
         Ok(TrainModes { omega, shapes: scaled.into_iter().map(shape).collect() })
     }
 
-    /// Damped vibrations and decays about standstill, the slowest first; one of each conjugate pair, and none of what
-    /// neither swings nor decays. Of the torques, lines alone count, with their slopes. They are the eigenvalues of the
-    /// equations in `sqrt(J) v` and `sqrt(k) x`, whose rounding is that of the highest rate and not of its square.
+    /// Damped vibrations and decays about standstill, the slowest first; one of each conjugate pair. None of what
+    /// neither swings nor decays, nor of what is slower than 1e-12 of the fastest. Of the torques, lines alone
+    /// count, with their slopes. They are the eigenvalues of the equations in `sqrt(J) v` and `sqrt(k) x`, whose
+    /// rounding is that of the highest rate and not of its square.
     ///
     /// # Errors
     /// [`PlantError`] as [`build`](Self::build).
