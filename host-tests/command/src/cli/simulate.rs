@@ -120,7 +120,8 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
         let mut steady = Table::new(["coordinate", "delta", "least rad/s", "greatest rad/s", "mean rad/s", "time s"]);
         let numbers = [cycle.delta, cycle.least, cycle.greatest, cycle.mean, cycle.time].map(significant);
         steady.row([cycle.name.clone()].into_iter().chain(numbers));
-        let text = format!("Repeats after {} cycles from the end of the run.", cycle.cycles);
+        let text =
+            format!("Repeats after {} cycles from the end of the run. The proof does not cover it.", cycle.cycles);
         all.push(Section::new("Steady cycle", text, steady));
     }
     if !simulation.events.is_empty() {

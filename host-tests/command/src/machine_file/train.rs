@@ -364,6 +364,9 @@ impl Reading {
             .viscous(table.number_or("viscous", Quantity::DAMPER, 0.0)?);
         let mut way = None;
         let mut law = Vec::new();
+        if table.has("crank") && table.has("four_bar") {
+            return Err(table.wrong("four_bar", "one of `crank` and `four_bar`"));
+        }
         if let Some(mut crank) = table.table_if("crank")? {
             let radius = crank.number("radius", Quantity::DIAMETER)?;
             let rod = crank.number("rod", Quantity::DIAMETER)?;
@@ -568,12 +571,11 @@ impl Reading {
                 let torque = way.slope().times(force);
                 if table.has("from") || table.has("to") {
                     let turn = Quantity { most: TAU, ..Quantity::SIZE };
-                    Torque::Stroke {
-                        torque,
-                        from: table.number("from", turn)?,
-                        to: table.number("to", turn)?,
-                        turns: 1,
+                    let (from, to) = (table.number("from", turn)?, table.number("to", turn)?);
+                    if to <= from {
+                        return Err(table.wrong("to", "an angle beyond `from`: a stroke does not pass angle 0"));
                     }
+                    Torque::Stroke { torque, from, to, turns: 1 }
                 } else {
                     Torque::Orders(torque.0)
                 }
@@ -595,19 +597,24 @@ fn four_bar(mut table: Table<'_>) -> Result<(Orders, Orders), Diagnostic> {
         ground: table.number("ground", Quantity::DIAMETER)?,
     };
     if !bars.is_crank_rocker() {
-        let expected = "the shortest bar, shorter with the longest one than the two others together";
+        let expected = "the shortest bar, which with the longest one is shorter than the other two together";
         return Err(table.wrong("crank", expected));
     }
     let mass = table.number_or("coupler_mass", Quantity::SIZE, 0.0)?;
     let centre = bars.coupler * table.number_or("coupler_centre", Quantity { most: 1.0, ..Quantity::SIZE }, 0.5)?;
     let coupler_inertia = table.number_or("coupler_inertia", Quantity::SIZE, 0.0)?;
     let rocker_inertia = table.number_or("rocker_inertia", Quantity::SIZE, 0.0)?;
-    table.finish()?;
     let [coupler, rocker] = [0, 1].map(|bar| Orders::sampled(|angle| bars.angles(angle)[bar]));
     let x = Orders::sampled(|angle| bars.crank * angle.cos() + centre * bars.angles(angle)[0].cos());
     let y = Orders::sampled(|angle| bars.crank * angle.sin() + centre * bars.angles(angle)[0].sin());
     let moved = [(mass, &x), (mass, &y), (coupler_inertia, &coupler), (rocker_inertia, &rocker)];
-    Ok((Orders::inertia(&moved), rocker))
+    let inertia = Orders::inertia(&moved);
+    if [&rocker, &inertia].into_iter().flat_map(|orders| &orders.0).any(|harmonic| harmonic.cosine.is_nan()) {
+        let expected = "bars that are not so near to lying in one line: their motion has more than 2,000 orders";
+        return Err(table.wrong("crank", expected));
+    }
+    table.finish()?;
+    Ok((inertia, rocker))
 }
 
 fn harmonics(table: &mut Table<'_>, key: &'static str) -> Result<Vec<Harmonic>, Diagnostic> {

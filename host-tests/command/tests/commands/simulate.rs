@@ -394,7 +394,29 @@ fn the_steady_cycle_of_a_press_has_the_fluctuation_of_shooting() {
     std::fs::write(&file, text).unwrap();
     let output = simulate(&[file.to_str().unwrap()]);
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && said.contains("does not settle to a cycle"), "{said}");
+    assert!(!output.status.success() && said.contains("does not settle to a cycle of 1 turn within"), "{said}");
+}
+
+/// What no mechanism is, is refused at its own key.
+#[test]
+fn a_mechanism_that_cannot_be_is_refused_at_its_key() {
+    let slider = "[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 40.0\n";
+    let bars = |ground: f64| {
+        let bars = "[coordinate.four_bar]\ncrank = 0.1\ncoupler = 0.3\nrocker = 0.3\nrocker_inertia = 1.0\n";
+        format!("{bars}ground = {ground:?}\n")
+    };
+    let inertia = "inertia = 1.0\nspeed = 30.0\n";
+    let stroke = "force = -1.0\nfrom = 0.8\nto = 2.4\n";
+    for (mechanism, stroke, said) in [
+        (format!("{slider}{}", bars(0.4)), stroke, "one of `crank` and `four_bar`"),
+        // they turn round up to 0.5, where they lie in one line
+        (bars(0.499_999_999), stroke, "not so near to lying in one line"),
+        (bars(0.6), stroke, "shorter than the other two together"),
+        (slider.to_owned(), "force = -1.0\nfrom = 5.5\nto = 1.0\n", "an angle beyond `from`"),
+    ] {
+        let error = parse_train("press.toml", &press(&format!("{inertia}{mechanism}"), stroke)).err().unwrap();
+        assert!(error.to_string().contains(said), "{error}");
+    }
 }
 
 /// A slider's weight over the whole turn takes `m g` times its way from the energy; a table of inertia with the values

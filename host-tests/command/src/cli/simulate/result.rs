@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::cli::{Failure, Progress};
 use crate::machine_file::TrainFile;
+use driveline_report::format::counted;
 use driveline_solver::plant::train::converge::{Recording, Sensitive, prove_in_pieces};
 use driveline_solver::plant::train::{Cycle, Motion, Signal};
 use driveline_solver::plant::{EventKind, Place};
@@ -279,8 +280,9 @@ fn steady(file: &TrainFile, mut motion: Motion, at: usize, turns: u32) -> Result
     let name = file.coordinates[at].clone();
     let Some(cycle) = motion.steady_cycle(at, turns, CYCLES) else {
         return Err(Failure::failed(format!(
-            "\"{name}\" does not settle to a cycle of {turns} turns within {CYCLES} of them after the run; expected \
-             torques that keep it turning forwards, and a run up to near its steady speed"
+            "\"{name}\" does not settle to a cycle of {} within {CYCLES} of them after the run; expected torques that \
+             keep it turning forwards at a speed that settles, and a run up to near that speed",
+            counted(turns.into(), "turn")
         )));
     };
     let Cycle { greatest, least, time, mean, cycles } = cycle;

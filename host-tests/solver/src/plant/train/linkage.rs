@@ -42,10 +42,9 @@ impl Orders {
         Self(all.into_iter().filter(|h| !is_rounding(h)).collect())
     }
 
-    /// From a function of the angle (rad) with the period of a turn, sampled at 255 angles or at twice as many until
-    /// the coefficients of its slope have fallen off to 1e-10 of
-    /// the largest. Not a number, which no train takes, where 4095 do not
-    /// suffice.
+    /// From a function of the angle (rad) with the period of a turn, sampled at 255 angles or more, until the last
+    /// coefficients of its slope are below 1e-10 of the largest. Where 4095 do not suffice it is not a number, which no
+    /// train takes.
     #[must_use]
     pub fn sampled(of: impl Fn(f64) -> f64) -> Self {
         let size = |h: &Harmonic| h.order.max(1.0) * h.cosine.hypot(h.sine);
