@@ -109,7 +109,7 @@ pub trait Machine {
 
     /// How brisk the speed loop is: [`SpeedLoopTuning::of`] the two masses, 0.4 of the antiresonance.
     ///
-    /// A machine that has more than one resonance within reach takes a bandwidth of 0.1.
+    /// A machine that has more than one resonance within reach takes [`SpeedLoopTuning::with_bandwidth`] 0.1.
     const TUNING: SpeedLoopTuning = SpeedLoopTuning::of(&Self::TWO_MASS);
     /// Delay and lag of the motor's torque: within the tick. The speed loop is tested with it.
     const ACTUATOR: Actuator = Actuator::DIRECT;

@@ -40,7 +40,13 @@ impl SpeedLoopTuning {
     /// damps the shaft of a heavy load well and that of a light load little.
     #[must_use]
     pub const fn of(machine: &TwoMass) -> Self {
-        Self::USUAL.with_twist_gain(machine, Self::TWIST_GAIN)
+        Self::with_bandwidth(machine, Self::USUAL.bandwidth)
+    }
+
+    /// The same with another bandwidth (of the antiresonance), above 0 and below 1.
+    #[must_use]
+    pub const fn with_bandwidth(machine: &TwoMass, bandwidth: f64) -> Self {
+        Self { bandwidth, ..Self::USUAL }.with_twist_gain(machine, Self::TWIST_GAIN)
     }
 
     /// The gain on the twist rate over the proportional one that [`of`](Self::of) takes.

@@ -148,6 +148,8 @@ pub struct MachineFile {
     pub limits: Limits,
     /// Delay and bandwidth of the torque.
     pub actuator: Actuator,
+    /// Natural frequency of the speed loop over the antiresonance.
+    pub bandwidth: f64,
     /// Its class, which tolerances that the file does not state come from.
     pub class: Class,
     /// The tolerances.

@@ -65,13 +65,14 @@ impl Drive {
     }
 
     /// What the loop of a machine file's drive lacks of the usual margins; `None` of the others.
-    pub fn lacks(&self, scene: &CampaignScene) -> Option<&'static str> {
+    pub fn lacks(&self, scene: &CampaignScene) -> Option<String> {
         let designs = &scene.file()?.designs;
-        match self {
+        let lack = match self {
             Self::File(FileObserver::TwoMass, _) => designs.two_masses_lack,
             Self::File(FileObserver::Rigid, _) => designs.rigid_lacks,
             Self::Variant(_) | Self::Plain(_) => None,
-        }
+        };
+        lack.map(|lack| lack.to_string())
     }
 
     /// Ticks a second.

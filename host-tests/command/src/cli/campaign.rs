@@ -152,7 +152,7 @@ impl Campaign {
             say(format_args!("{}: {remark}", drive.name(name)));
         }
         let lacks = drive.lacks(scene);
-        if let Some(lacks) = lacks.filter(|_| !self.json) {
+        if let Some(lacks) = lacks.as_ref().filter(|_| !self.json) {
             say(format_args!("warning: {lacks}"));
         }
         let tolerances = self.tolerances(scene).map_err(Failure::usage)?;
@@ -177,7 +177,7 @@ impl Campaign {
         check(&[], [&results].into_iter().chain(&page))?;
         results.make_folder()?;
         let nominal = run(scene, &drive, &Draw::nominal()).map_err(Failure::failed)?;
-        let (variant, lacks) = (drive.name(name), lacks.map(ToOwned::to_owned));
+        let variant = drive.name(name);
         let settings = Settings { variant, draws: self.draws, seed: self.seed, tolerances, nominal, lacks };
         let mut record = Record::open(&path, &settings).map_err(Failure::usage)?;
         self.draw(scene, &drive, &settings, shard, &mut record)?;

@@ -9,7 +9,7 @@ use driveline_report::format::{percent, significant};
 use serde::Serialize;
 
 use crate::machine_file::MachineFile;
-use crate::machine_file::designs::{Designs, NEGLECTED};
+use crate::machine_file::designs::{Designs, Lack};
 
 /// The controller of a machine, in SI units at the motor.
 #[derive(Clone, Debug, Serialize)]
@@ -56,8 +56,10 @@ pub struct Needed {
 /// Errors that are predicted over the tolerances, rms, and the observer that is selected by them.
 #[derive(Clone, Debug, Serialize)]
 pub struct Predicted {
-    /// The selected observer: `rigid` where one mass is as good.
+    /// The selected observer: `rigid` where one mass is as good. Drives of the file have it.
     pub observer: &'static str,
+    /// What its speed loop lacks; `null` where it has all margins.
+    pub lack: Option<String>,
     /// Whether it is simpler than the one that the load cycle alone asks for.
     pub is_simpler: bool,
     /// Which observers' loops lack margins: one mass that would do otherwise, or both; `null` otherwise.
@@ -97,6 +99,7 @@ impl Predicted {
         };
         Self {
             observer: name(designs.selected.chosen),
+            lack: designs.lack().map(|lack| lack.to_string()),
             is_simpler: designs.selected.chosen == ObserverChoice::Rigid
                 && designs.nominal.chosen != ObserverChoice::Rigid,
             remark: designs.remark(),
@@ -173,11 +176,11 @@ pub struct SpeedLoop {
     /// Margins with the observer and all the machine's vibrations in the loop; `null` where it is unstable.
     pub margins: Option<Margins>,
     /// Why there are no margins.
-    pub no_margins: Option<&'static str>,
+    pub no_margins: Option<String>,
     /// The least margins within the tolerances of two masses; `null` where the loop is unstable within them.
     pub least_margins: Option<LeastMargins>,
-    /// What the loop has not within the tolerances: 6 dB, 30 degrees, stability. `null` where it has all.
-    pub not_robust: Option<&'static str>,
+    /// What the loop on two masses has not within the tolerances: 6 dB, 30 degrees, stability. `null` where it has all.
+    pub not_robust: Option<String>,
     /// Largest size of a pole of the closed loop.
     pub spectral_radius: f64,
 }
@@ -189,20 +192,17 @@ impl SpeedLoop {
         let observer = LoopObserver::TwoMass(two_masses);
         let margins = Margins::of(machine, two, &observer.close(governor, actuator)?);
         let least = two.least_margins(observer, governor, actuator, tolerance);
-        let no_margins = margins.as_ref().err().map(|error| match two_masses_lack {
-            Some(NEGLECTED) => NEGLECTED,
-            _ => error.message(),
-        });
+        let no_margins = margins.as_ref().err().map(|&error| two_masses_lack.unwrap_or(Lack::of(error)).to_string());
         Ok(Self {
             proportional: governor.proportional,
             integral: governor.integral,
             damping: governor.damping,
             bandwidth: governor.bandwidth,
-            no_margins,
             margins: margins.ok(),
             // those of two masses, which mean nothing where the whole machine is unstable
             least_margins: least.ok().filter(|_| no_margins.is_none()).map(|least| LeastMargins::of(&least)),
-            not_robust: *two_masses_lack,
+            no_margins,
+            not_robust: two_masses_lack.map(|lack| lack.to_string()),
             spectral_radius: governor.spectral_radius,
         })
     }

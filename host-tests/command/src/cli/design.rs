@@ -53,7 +53,7 @@ impl Design {
         };
         let plan = Plan::of(&machine).map_err(refused)?;
         let speed_loop = plan.speed_loop.as_ref();
-        if let (Some(_), Some(why)) = (self.emit, speed_loop.and_then(|governor| governor.no_margins)) {
+        if let (Some(_), Some(why)) = (self.emit, speed_loop.and_then(|governor| governor.no_margins.as_ref())) {
             return Err(Failure::failed(format!("{}: no constants are printed: {why}", self.file.display())));
         }
         match (self.emit, self.json) {
@@ -108,15 +108,11 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
         let missed = |[torque, speed]: [f64; 2]| {
             format!("{} of the largest torque and {} of the largest speed", percent(torque), percent(speed))
         };
-        text.push_str(&format!(
-            "needed: the {} observer; without the shaft it would miss {}",
-            need.observer,
-            missed(need.without_shaft)
-        ));
+        text.push_str(&format!("errors by the load cycle alone: without the shaft {}", missed(need.without_shaft)));
         if need.without_gap != [0.0; 2] {
             text.push_str(&format!(", without the gap {}", missed(need.without_gap)));
         }
-        text.push_str(" (rms; 1 % and 0.15 % are allowed)\n\n");
+        text.push_str(&format!(" (rms; 1 % and 0.15 % are allowed): {} would do\n\n", words(need.observer)));
     }
     let mut states = Table::new(["state", "unit", "gain per rad of innovation", "predicted standard deviation"]);
     for state in &plan.states {
@@ -152,7 +148,7 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
             significant(governor.integral),
             significant(governor.damping),
             significant(governor.bandwidth / TAU),
-            governor.margins.as_ref().map_or_else(|| none("margins", governor.no_margins), margins),
+            governor.margins.as_ref().map_or_else(|| none("margins", governor.no_margins.as_ref()), margins),
             within_tolerances(machine, governor),
         ));
     }
@@ -176,12 +172,26 @@ fn over_tolerances(machine: &MachineFile, predicted: &Predicted) -> String {
     let class = Class::ALL.into_iter().find(|(_, class)| *class == machine.class).map_or("general", |(name, _)| name);
     let simpler = if predicted.is_simpler { ": one mass is as good over the tolerances" } else { "" };
     let remark = predicted.remark.as_ref().map_or_else(String::new, |remark| format!("; {remark}"));
-    format!("\n{table}observer over the tolerances, class {class}: {}{simpler}{remark}\n", predicted.observer)
+    let lack = predicted.lack.as_ref().map_or_else(String::new, |lack| format!("warning: {lack}\n"));
+    format!(
+        "\n{table}selected observer, over the tolerances of class {class}: {}{simpler}{remark}\n{lack}",
+        words(predicted.observer)
+    )
+}
+
+/// An observer in words.
+fn words(observer: &str) -> &'static str {
+    match observer {
+        "rigid" => "one mass",
+        "semi-implicit" => "two masses by the semi-implicit step",
+        "exact" => "two masses by the exact step",
+        _ => "two masses with the gap",
+    }
 }
 
 /// Margins that there are not, and why.
-fn none(which: &str, why: Option<&str>) -> String {
-    format!("{which}: none: {}\n", why.unwrap_or_default())
+fn none(which: &str, why: Option<&String>) -> String {
+    format!("{which}: none: {}\n", why.map_or("", |why| why))
 }
 
 /// The least margins within the tolerances, and a warning where the library would refuse the loop.
@@ -198,10 +208,10 @@ fn within_tolerances(machine: &MachineFile, speed_loop: &SpeedLoop) -> String {
         range(torque),
         counted(late.into(), "tick"),
     );
-    let refused = speed_loop.not_robust.map_or_else(String::new, |why| format!("warning: {why}\n"));
+    let refused = speed_loop.not_robust.as_ref().map_or_else(String::new, |why| format!("warning: {why}\n"));
     match &speed_loop.least_margins {
         None if speed_loop.margins.is_none() => String::new(),
-        None => none(&within, speed_loop.not_robust),
+        None => none(&within, speed_loop.not_robust.as_ref()),
         Some(least) => format!(
             "{within}: gain up {}, gain down {}, phase {}, delay {}, distance from -1 {}\n{refused}",
             factor(least.gain_up),

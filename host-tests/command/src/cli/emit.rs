@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use driveline::design::SpeedLoopTuning;
 use driveline::machine::Member;
 
 use crate::machine_file::{Branch, Element, MachineFile, Part};
@@ -65,12 +66,13 @@ pub const {name}_OBSERVER: {observer} = {name}_MODEL.observer(
         rate = machine.control.rate_hz,
     );
     if two {
+        let tuning = tuning(machine, &format!("&{name}_MODEL"));
         // Writing to a `String` cannot fail.
         let _ = write!(
             text,
             "
 /// The speed loop.
-pub const {name}_SPEED_LOOP: SpeedLoopDesign = {name}_MODEL.speed_loop({name}_RATE, SpeedLoopTuning::of(&{name}_MODEL));
+pub const {name}_SPEED_LOOP: SpeedLoopDesign = {name}_MODEL.speed_loop({name}_RATE, {tuning});
 "
         );
     }
@@ -93,6 +95,20 @@ pub(super) fn words(machine: &MachineFile) -> BTreeSet<&'static str> {
     let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
     let parts = machine.elements.iter().chain(branched);
     parts.flat_map(|part| words_of(&part.element)).copied().chain(["Chain"]).collect()
+}
+
+/// Whether the file names another bandwidth than the usual one.
+pub(super) fn has_tuning(machine: &MachineFile) -> bool {
+    machine.bandwidth != SpeedLoopTuning::USUAL.bandwidth
+}
+
+/// The speed loop's tuning for two masses.
+pub(super) fn tuning(machine: &MachineFile, two: &str) -> String {
+    if has_tuning(machine) {
+        format!("SpeedLoopTuning::with_bandwidth({two}, {:?})", machine.bandwidth)
+    } else {
+        format!("SpeedLoopTuning::of({two})")
+    }
 }
 
 /// The encoder with its accuracy.

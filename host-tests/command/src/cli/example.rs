@@ -35,7 +35,7 @@ const EXAMPLES: [(&str, &str, &str); 11] = [
     ("roll", "modes, design", include_str!("../../machines/roll.toml")),
     ("axis", "modes, design, commissioning", include_str!("../../machines/axis.toml")),
     ("mill", "modes, design", include_str!("../../machines/mill.toml")),
-    ("ship", "modes, design", include_str!("../../machines/ship.toml")),
+    ("ship", "modes", include_str!("../../machines/ship.toml")),
     ("gear-pair", "simulate, modes", include_str!("../../trains/gear-pair.toml")),
     ("hoist-start", "simulate, modes", include_str!("../../trains/hoist-start.toml")),
     ("tilting", "simulate, modes", include_str!("../../trains/tilting.toml")),

@@ -1,6 +1,7 @@
 //! The designs for a machine of a file, and the errors predicted over its tolerances.
 
 use std::f64::consts::PI;
+use std::fmt;
 
 use driveline::configure::Rating;
 use driveline::design::{
@@ -36,16 +37,49 @@ pub struct Designs {
     pub selected: ObserverSelection,
     /// What the speed loop on two masses lacks of the usual margins, with all the machine's vibrations; `None` where it
     /// has all.
-    pub two_masses_lack: Option<&'static str>,
+    pub two_masses_lack: Option<Lack>,
     /// The same with the observer of one mass.
-    pub rigid_lacks: Option<&'static str>,
+    pub rigid_lacks: Option<Lack>,
     /// Whether the errors of one mass would do, but its loop lacks margins that two masses have.
     pub is_rigid_refused: bool,
 }
 
-/// Two masses are stable, the machine is not.
-pub const NEGLECTED: &str = "the speed loop with its observer is unstable by a vibration that the two masses leave \
-    out: give its shafts their damping, or take less bandwidth";
+/// What a speed loop lacks, and the remedy in the words of a machine file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lack {
+    /// What is not there.
+    pub cause: &'static str,
+    /// What to change.
+    remedy: &'static str,
+}
+
+impl Lack {
+    /// Two masses are stable, the machine is not.
+    const NEGLECTED: Self = Self {
+        cause: "the speed loop with its observer is unstable by a vibration that the two masses leave out",
+        remedy: "give its shafts their damping, or take less `bandwidth` in `[speed_loop]`",
+    };
+
+    /// What the library says of a loop.
+    pub fn of(error: Error) -> Self {
+        let sentence = match error {
+            Error::LoopGain => "the speed loop with its observer has a gain margin below 6 dB",
+            Error::LoopPhase => "the speed loop with its observer has a phase margin below 30 degrees",
+            Error::LoopLate => "the speed loop with its observer is unstable with a torque as late as it may be",
+            other => other.message(),
+        };
+        Self {
+            cause: sentence.split_once(':').map_or(sentence, |(cause, _)| cause),
+            remedy: "take less `bandwidth` in `[speed_loop]` (0.4 unless named), or narrower values in `[tolerance]`",
+        }
+    }
+}
+
+impl fmt::Display for Lack {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.cause, self.remedy)
+    }
+}
 
 impl Designs {
     /// Of a machine as two masses.
@@ -56,7 +90,7 @@ impl Designs {
         let (rate, encoder, disturbance) = machine.tuning();
         let two_masses = two.try_observer(rate, encoder, disturbance)?;
         let rigid = machine.rigid()?.try_observer(rate, encoder, disturbance)?;
-        let speed_loop = two.try_speed_loop(rate, SpeedLoopTuning::of(two))?;
+        let speed_loop = two.try_speed_loop(rate, machine.speed_loop_tuning(two))?;
         let ramp = machine.rating().ramp(two.total_inertia());
         let (drawn, tolerance) = (machine.drawn_encoder(), machine.tolerance());
         let operation = machine.operation(two, ramp);
@@ -91,10 +125,14 @@ impl Designs {
         })
     }
 
+    /// What the selected observer's loop lacks of the usual margins; `None` where it has all.
+    pub const fn lack(&self) -> Option<Lack> {
+        if self.is_rigid() { self.rigid_lacks } else { self.two_masses_lack }
+    }
+
     /// Which observers' loops lack margins, without the remedies: one mass that would do otherwise, or both.
     pub fn remark(&self) -> Option<String> {
-        let cause = |sentence: &'static str| sentence.split_once(':').map_or(sentence, |(cause, _)| cause);
-        match (self.rigid_lacks.map(cause), self.two_masses_lack.map(cause)) {
+        match (self.rigid_lacks.map(|lack| lack.cause), self.two_masses_lack.map(|lack| lack.cause)) {
             (Some(one), None) if self.is_rigid_refused => {
                 Some(format!("one mass would do, but lacks margin: with it, {one}"))
             }
@@ -104,8 +142,8 @@ impl Designs {
     }
 
     /// Whether one mass is chosen over the tolerances.
-    pub fn is_rigid(&self) -> bool {
-        self.selected.chosen == ObserverChoice::Rigid
+    pub const fn is_rigid(&self) -> bool {
+        matches!(self.selected.chosen, ObserverChoice::Rigid)
     }
 }
 
@@ -141,6 +179,11 @@ impl MachineFile {
         self.encoder_of(rms(Factor::Interpolation), rms(Factor::Eccentricity), rms(Factor::Jitter))
     }
 
+    /// The speed loop's tuning: [`SpeedLoopTuning::with_bandwidth`].
+    fn speed_loop_tuning(&self, two: &TwoMass) -> SpeedLoopTuning {
+        SpeedLoopTuning::with_bandwidth(two, self.bandwidth)
+    }
+
     /// Rating of the motor.
     pub fn rating(&self) -> Rating {
         Rating { torque: self.limits.rated_torque, speed: self.limits.speed, torque_limit: self.limits.torque }
@@ -163,12 +206,12 @@ impl MachineFile {
         two: &TwoMass,
         observer: LoopObserver<'_>,
         speed_loop: &SpeedLoopDesign,
-    ) -> Result<Option<&'static str>, Error> {
+    ) -> Result<Option<Lack>, Error> {
         let closed = observer.close(speed_loop, self.actuator())?;
         let robust = two.try_robust(observer, speed_loop, self.actuator(), &self.tolerance(), &Robustness::USUAL);
         let plant = Plant::of_modes(two.total_inertia(), &self.modes());
-        let neglected = (!closed.is_stable(&plant, 1.0)).then_some(NEGLECTED);
-        Ok(robust.err().map(Error::message).or(neglected))
+        let neglected = (!closed.is_stable(&plant, 1.0)).then_some(Lack::NEGLECTED);
+        Ok(robust.err().map(Lack::of).or(neglected))
     }
 
     /// Range of a factor, where it has one.

@@ -75,6 +75,8 @@ impl Quantity {
     pub const INTERPOLATION: Self = Quantity { most: 0.5, ..not_negative("") };
     /// Amplitude of an angle's error once a turn.
     pub const ECCENTRICITY: Self = Quantity { most: 0.1, ..not_negative("rad") };
+    /// Natural frequency of a speed loop over the antiresonance.
+    pub const BANDWIDTH: Self = Quantity { least: 1e-3, most: 0.999, ..positive("of the antiresonance") };
     /// Control ticks a second.
     pub const RATE: Self = Quantity { least: 1.0, most: 10_000_000.0, whole: true, ..positive("Hz") };
     /// Torque.

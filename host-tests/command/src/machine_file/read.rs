@@ -5,6 +5,7 @@ use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
+use driveline::design::SpeedLoopTuning;
 use driveline::machine::{Chain, Ratio, Train};
 use toml::Spanned;
 use toml::de::DeTable;
@@ -124,6 +125,14 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         }
         None => Actuator::default(),
     };
+    let bandwidth = match root.table_if("speed_loop")? {
+        Some(mut table) => {
+            let bandwidth = table.number_or("bandwidth", Quantity::BANDWIDTH, SpeedLoopTuning::USUAL.bandwidth)?;
+            table.finish()?;
+            bandwidth
+        }
+        None => SpeedLoopTuning::USUAL.bandwidth,
+    };
     let lossy = chain.efficiency() < 1.0 || chain.back_efficiency() < 1.0;
     let gap = chain.shafts().iter().any(|shaft| shaft.gap > 0.0);
     let (class, tolerances) = tolerances(&mut root, encoder.accuracy, lossy, gap)?;
@@ -157,6 +166,7 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
         disturbance,
         limits,
         actuator,
+        bandwidth,
         class,
         tolerances,
         running,

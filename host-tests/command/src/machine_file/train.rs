@@ -191,6 +191,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             "limits",
             "duty",
             "actuator",
+            "speed_loop",
             "tolerance",
             "engine",
             "damper",

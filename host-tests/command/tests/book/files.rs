@@ -124,6 +124,7 @@ fn check(section: &Section, at: &Place, listings: &[Table], read: Reader) -> Vec
             "limits",
             "duty",
             "actuator",
+            "speed_loop",
             "tolerance",
         ]
     } else {

@@ -118,6 +118,26 @@ fn a_design_is_printed_as_text_json_and_rust() {
     assert!(rust.contains("pub const HOIST: Chain = Chain::motor(Inertia(0.62))"), "{rust}");
 }
 
+/// `design`, `campaign` and `new` select the same observer: here one mass would do, but its loop lacks phase. The
+/// sentences name keys of the file, not the library's constants.
+#[test]
+fn design_campaign_and_new_select_the_same_observer() {
+    let folder = tempfile::tempdir().unwrap();
+    let axis = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/axis.toml");
+    let plan = json(&out(&driveline(&["design", axis, "--json"])));
+    assert_eq!((&plan["need"]["observer"], &plan["predicted"]["observer"]), (&"rigid".into(), &"exact".into()));
+    let shown = out(&driveline(&["design", axis]));
+    assert!(shown.contains("two masses by the exact step; one mass would do, but lacks margin"), "{shown}");
+    assert!(!shown.contains("ROBUSTNESS") && !shown.contains("SpeedLoopTuning"), "{shown}");
+    let project = folder.path().join("axis");
+    let written = json(&out(&driveline(&["new", project.to_str().unwrap(), "--machine", axis, "--json"])));
+    assert_eq!(written["observer"], "GearedObserver<TwoMassObserver<Number>>");
+    let mut campaign = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let drawn =
+        campaign.args(["campaign", axis, "--draws", "2", "--json"]).current_dir(folder.path()).output().unwrap();
+    assert_eq!(json(&out(&drawn))["variant"], "feed-axis/two-mass", "{}", out(&drawn));
+}
+
 /// Nothing damps the ship's upper vibration, which the two masses leave out: no margins, a reason, and no constants.
 #[test]
 fn an_unstable_loop_is_said_and_not_emitted() {
@@ -125,6 +145,7 @@ fn an_unstable_loop_is_said_and_not_emitted() {
     let plan = json(&out(&driveline(&["design", ship, "--json"])));
     assert!(plan["speed_loop"]["margins"].is_null());
     assert!(plan["speed_loop"]["no_margins"].as_str().unwrap().contains("damping"), "{plan}");
+    assert!(plan["predicted"]["lack"].as_str().unwrap().contains("damping"), "{plan}");
     // margins of the two masses would say that the loop is sound
     assert!(plan["speed_loop"]["least_margins"].is_null() && plan["speed_loop"]["not_robust"].is_string(), "{plan}");
     let shown = out(&driveline(&["design", ship]));

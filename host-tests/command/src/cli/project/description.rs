@@ -2,12 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use driveline::design::{Actuator, Spread, Tolerance};
 use serde::Serialize;
 
 use super::{Part, PartOptions, Source};
 use crate::cli::Failure;
 use crate::cli::controller::Plan;
-use crate::cli::emit::{encoder, words, written};
+use crate::cli::emit::{encoder, has_tuning, tuning, words, written};
 use crate::machine_file::MachineFile;
 
 /// The number of a drive.
@@ -54,6 +55,13 @@ pub struct Project {
     torque_accuracy: String,
     load_torque_step: String,
     within: String,
+    /// Where the file names a bandwidth.
+    tuning: Option<String>,
+    /// Delay and lag (s), where the file has some.
+    actuator: Option<[String; 2]>,
+    /// Fields of the tolerance that are not the usual ones, in the words of Rust.
+    tolerance: Vec<String>,
+    designs: String,
     number: &'static str,
     observer: String,
     observers: String,
@@ -122,6 +130,7 @@ impl Project {
         let float = |value: f64| format!("{value:?}");
         let weight = machine.chain.gravity_torque();
         let seconds = 2.0 * machine.limits.speed / machine.limits.torque * machine.chain.total_inertia();
+        let (actuator, tolerance) = (machine.actuator(), tolerance(machine));
         let period = 1.0 / f64::from(machine.control.rate_hz);
         Ok(Project {
             name: name.to_owned(),
@@ -138,6 +147,10 @@ impl Project {
             torque_accuracy: float(machine.disturbance.torque_accuracy),
             load_torque_step: float(machine.disturbance.load_torque_step),
             within: float(machine.disturbance.within),
+            tuning: has_tuning(machine).then(|| tuning(machine, "&Self::TWO_MASS")),
+            actuator: (actuator != Actuator::DIRECT).then(|| [actuator.delay, actuator.lag].map(float)),
+            designs: designs(machine, &tolerance).join(", "),
+            tolerance,
             number: match number {
                 Number::Single => "f32",
                 Number::Fixed => "driveline::number::Fixed",
@@ -172,10 +185,10 @@ impl Project {
             solver: Source::find().dependency("host-tests/solver"),
             firmware: Source::find().dependency("firmware"),
             no_drive: match &plan {
-                Err(error) => Some(error.message()),
-                Ok(plan) => plan.speed_loop.as_ref().and_then(|design| design.not_robust),
+                Err(error) => Some(error.message().to_owned()),
+                Ok(plan) => plan.predicted.as_ref().and_then(|predicted| predicted.lack.clone()),
             }
-            .map(refused),
+            .map(|why| refused(&why)),
         })
     }
 
@@ -193,16 +206,46 @@ impl Project {
     }
 }
 
-/// The observer that the design selects, from the outside in: behind the gear's losses, where it has some.
+/// The tolerances that the speed loop is tested with, where they are not the usual ones.
+fn tolerance(machine: &MachineFile) -> Vec<String> {
+    let (own, usual) = (machine.tolerance(), Tolerance::USUAL);
+    let spreads = [
+        ("motor_inertia", own.motor_inertia, usual.motor_inertia),
+        ("load_inertia", own.load_inertia, usual.load_inertia),
+        ("stiffness", own.stiffness, usual.stiffness),
+        ("torque", own.torque, usual.torque),
+    ];
+    let spread = |(name, own, usual): (&str, Spread, Spread)| {
+        (own != usual).then(|| format!("{name}: Spread::between({:?}, {:?})", own.min, own.max))
+    };
+    let late = (own.late != usual.late).then(|| format!("late: {}", own.late));
+    let lag = (own.lag != usual.lag).then(|| format!("lag: {:?}", own.lag));
+    spreads.into_iter().filter_map(spread).chain(late).chain(lag).collect()
+}
+
+/// What the machine's file takes from `driveline::design`.
+fn designs(machine: &MachineFile, tolerance: &[String]) -> Vec<&'static str> {
+    let has = |word: &'static str, is: bool| is.then_some(word);
+    [
+        has("Actuator", machine.actuator() != Actuator::DIRECT),
+        Some("Disturbance"),
+        Some("Encoder"),
+        has("SpeedLoopTuning", has_tuning(machine)),
+        has("Spread", tolerance.iter().any(|field| field.contains("Spread"))),
+        has("Tolerance", !tolerance.is_empty()),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The observer that is selected over the tolerances, from the outside in: behind the gear's losses, where it has some.
 fn observers(machine: &MachineFile, plan: &Plan) -> Vec<&'static str> {
-    let exact = plan.shaft.as_ref().is_none_or(|shaft| shaft.step == "exact");
-    let selected = match plan.need.map(|need| need.observer) {
+    let selected = match plan.predicted.as_ref().map(|predicted| predicted.observer) {
         Some("rigid") => "RigidObserver",
         Some("backlash") => "BacklashObserver",
-        Some("exact") => "TwoMassObserver",
-        Some(_) => "SemiImplicitObserver",
-        None if exact => "TwoMassObserver",
-        None => "SemiImplicitObserver",
+        Some("semi-implicit") => "SemiImplicitObserver",
+        _ => "TwoMassObserver",
     };
     if machine.chain.efficiency() < 1.0 { vec!["GearedObserver", selected] } else { vec![selected] }
 }

@@ -23,7 +23,7 @@ pub const ROLLING_MILL_RATE: Rate = Rate::hz(4000);
 pub const ROLLING_MILL_OBSERVER: TwoMassDesign = ROLLING_MILL_MODEL.observer(
     ROLLING_MILL_RATE,
     Encoder::lines(4096),
-    Disturbance { torque_accuracy: 2000.0, load_torque_step: 100000.0, within: 0.02 },
+    Disturbance { torque_accuracy: 2000.0, load_torque_step: 100000.0, within: 0.5 },
 );
 
 /// The speed loop.
