@@ -13,6 +13,9 @@
 //! vibration worse within its uncertainty. Where readings change by themselves by too much, the head goes back to where
 //! it began. A change that an identified influence does not explain is a jump of the unbalance: the influence stays,
 //! and the correction follows. What was best before it is best no longer.
+//!
+//! A resumed run is judged by the first vibration of all: noise and target are shares of that. What was learnt has to
+//! be confirmed again, first at rest and then by a move that is safe without it.
 
 use core::fmt;
 
@@ -22,7 +25,7 @@ use super::error::Error;
 use super::influence::Influence;
 use super::matrix::{pick, put};
 use super::scalar::{Complex, Scalar, real, size, zero};
-use estimate::{DEVIATIONS, Estimate};
+use estimate::{DEVIATIONS, Estimate, INFORMATIVE};
 
 /// How far a machine may be moved while it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,7 +90,8 @@ impl fmt::Display for AbortReason {
 const GROWTH: f64 = 2.5;
 /// Growth times the influence's relative standard deviation, where that allows more.
 const CERTAIN: f64 = 0.6;
-/// Further readings at rest before the first probe: one small change does not show that a machine holds still.
+/// Further readings at rest before the first probe: one small change does not show that a machine holds still. Twice as
+/// many where it was resumed: most of those machines did not hold still before.
 const RESTED: u32 = 2;
 /// What readings may change by themselves, over their level, before the influence is confirmed.
 const RESTLESS: f64 = 0.08;
@@ -97,6 +101,8 @@ const PATIENCE: u32 = 8;
 const PROBES: u32 = 16;
 /// Square of what the vibration wanders from reading to reading, over the square of a reading's error.
 const WALK: f64 = 0.1;
+/// Share of the bound that a probe may use.
+const ALLOWED: f64 = 0.93;
 /// Least share of a correction that is worth a move.
 const LEAST_SHARE: f64 = 0.3;
 /// Relative change of the vibration for a relative change of the speed: acceleration by unbalance goes with the fourth
@@ -125,11 +131,14 @@ pub struct InRun<T: Scalar, const ROWS: usize, const PLANES: usize> {
     best: (T, [Complex<T>; PLANES]),
     /// Standard deviation of the readings beside their prediction, over the level.
     scatter: T,
+    /// Level of the very first reading, and whether it was resumed since.
+    first: T,
+    resumed: bool,
     /// Speed of the first reading.
     speed: Option<T>,
     /// The farthest that the heads have been from where they began, and were read.
     reach: T,
-    /// Further readings before the first probe.
+    /// Further readings to come before the first probe.
     rested: u32,
     stalled: u32,
     probes: u32,
@@ -175,9 +184,11 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
             start: None,
             best: (T::zero(), weights),
             scatter: T::zero(),
+            first: T::zero(),
+            resumed: false,
             speed: None,
             reach: T::zero(),
-            rested: 0,
+            rested: RESTED,
             stalled: 0,
             probes: 0,
             failures: 0,
@@ -223,14 +234,17 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         (self.estimate.influence(row, plane), self.estimate.deviation(plane))
     }
 
-    /// Begins again after an abort, from where the heads stand now. The influence learnt so far is kept; the next
-    /// reading is the first one.
+    /// Begins again after an abort, from where the heads stand now. A confirmed influence is kept. Before a correction
+    /// uses it, five further readings at rest and a move have to confirm it. The noise of the readings and the target
+    /// stay shares of the very first reading.
     pub fn resume(&mut self, weights: &[Complex<T>; PLANES]) {
         (self.aborted, self.start, self.speed) = (None, None, None);
         (self.weights, self.rest, self.moved) = (*weights, *weights, [zero(); PLANES]);
         (self.stalled, self.probes, self.failures, self.jumped) = (0, 0, 0, false);
         // what wandered may stand still now
-        (self.scatter, self.rested) = (T::zero(), 0);
+        (self.scatter, self.rested, self.reach) = (T::zero(), 2 * RESTED, T::zero());
+        self.estimate.distrust();
+        self.resumed = self.first > T::zero();
     }
 
     /// Takes a steady reading with the present weights and its variance (0 where unknown), and returns the next action.
@@ -273,13 +287,19 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         }
         let level = largest(reading, self.rows);
         let given = if variance > T::zero() { variance.sqrt() } else { T::zero() };
-        let own = |start: T| (start * self.config.noise).max(given).max(level * off);
+        let first = if self.resumed { self.first } else { T::zero() };
+        let share = self.config.noise;
+        let own = |start: T| (start.max(first) * share).max(given).max(level * off);
         let Some(start) = self.start else {
             self.level = level;
             (self.start, self.best) = (Some(level), (level, self.weights));
             self.estimate.restart(reading, own(level) * own(level));
-            let most = level * (self.config.bound - T::one()) * real(0.95) / self.config.probe;
-            return if self.estimate.begin(most) { Action::Set(self.weights) } else { self.correct(level, own(level)) };
+            if !self.resumed {
+                self.first = level;
+            }
+            let most = self.first * (self.config.bound - T::one()) * real(0.95) / self.config.probe;
+            let rest = self.estimate.begin(most) || self.resumed;
+            return if rest { Action::Set(self.weights) } else { self.correct(level, own(level)) };
         };
         // not by the reading itself: a jump would widen what it is judged by
         let foreseen = self.estimate.level_after(&self.moved).max(self.level);
@@ -319,7 +339,10 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
             self.estimate.doubt(real(4.0));
             return self.go(self.home());
         }
-        if level <= start * self.config.target {
+        // resumed where the largest move that is safe cannot be told from the readings' error
+        let change = start * (self.config.bound * real(ALLOWED) - T::one());
+        let faint = self.resumed && at_rest && !confirmed && change * real(INFORMATIVE) < own(start);
+        if level <= start.max(first) * self.config.target || faint {
             (self.stalled, self.probes, self.failures) = (0, 0, 0);
             return Action::Hold;
         }
@@ -333,8 +356,8 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
             // a jump stays, a disturbance goes: the next reading shows which
             return if self.estimate.confirmed() { Action::Set(self.weights) } else { self.go(self.rest) };
         }
-        if at_rest && self.rested < RESTED && self.probes == 0 && !confirmed {
-            self.rested += 1;
+        if at_rest && self.rested > 0 && self.probes == 0 && !confirmed {
+            self.rested -= 1;
             return Action::Set(self.weights);
         }
         self.correct(start, noise)
@@ -430,11 +453,14 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         if probing.is_none() {
             // within the readings' error nothing is left to gain
             if level - self.estimate.level_after(&correction) < noise {
-                (self.stalled, self.probes, self.failures) = (0, 0, 0);
                 // weights that are not better beyond doubt are not left there
                 let home = self.home();
                 let better = self.at_rest() - level > noise + noise;
-                return if better || self.weights == home { Action::Hold } else { self.go(home) };
+                if better || self.weights == home {
+                    (self.stalled, self.probes, self.failures) = (0, 0, 0);
+                    return Action::Hold;
+                }
+                return self.go(home);
             }
             let correction = self.reachable(correction);
             let mut share = T::one();
@@ -458,7 +484,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
         let start = start.min(self.at_rest());
         // learn by the largest move that is safe whichever way it goes: towards the correction where that is known
         // roughly, else on both sides of the weights that it began with
-        let allowed = start * self.config.bound * real(0.93);
+        let allowed = start * self.config.bound * real(ALLOWED);
         let mut step = [zero(); PLANES];
         let wanted = pick(&correction, plane, zero());
         if self.estimate.doubt_of(plane) < real(0.5) && size(wanted) > T::zero() && self.level <= start {

@@ -11,7 +11,7 @@ use crate::balancing::scalar::{Complex, Scalar, real, size, zero};
 /// Standard deviations that a move is bounded by.
 pub(super) const DEVIATIONS: f64 = 4.0;
 /// Largest deviation of a predicted change over it for which a move can confirm the influence.
-const INFORMATIVE: f64 = 0.4;
+pub(super) const INFORMATIVE: f64 = 0.4;
 /// Relative standard deviation of the influence above which a plane is probed: four of it leave little gain.
 const UNKNOWN: f64 = 0.2;
 
@@ -92,6 +92,21 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Estimate<T, ROWS, PLANES
             for q in 0..PLANES {
                 self.covariance.set(p, q, self.covariance.at(p, q).scale(factor));
             }
+        }
+        self.confirmed = [false; PLANES];
+    }
+
+    /// What the machine may have changed since: the influence is no more certain than a correction needs, and has to be
+    /// confirmed again. One that was not confirmed is forgotten.
+    pub(super) fn distrust(&mut self) {
+        if self.confirmed() {
+            for plane in 0..PLANES {
+                let (own, changed) = (self.deviation(plane), self.largest(plane) * real(UNKNOWN));
+                self.doubt_plane(plane, (own * own + changed * changed).sqrt());
+            }
+        } else {
+            self.known = false;
+            (self.influence, self.covariance) = (Matrix::new(), Matrix::new());
         }
         self.confirmed = [false; PLANES];
     }

@@ -89,64 +89,125 @@ fn turned(size: f64, noise: &mut Noise) -> Complex<f64> {
     Complex::from_polar(size, std::f64::consts::TAU * noise.even())
 }
 
-/// What came of a start: the vibration at its end and its largest on the way, over that with the head as it was, on the
-/// same bearings; whether G2.5 is reached, or a fifth of the vibration where the head cannot do more for both bearings.
-fn balanced(noise: &mut Noise, disturbed: Disturbance) -> (f64, f64, bool) {
-    let rotor = Rotor::random(noise);
-    let mut wheel = turned(CAPACITY * (0.1 + 0.8 * noise.even()), noise);
-    let nothing = Complex::new(0.0, 0.0);
-    let mut head = nothing;
-    let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [head]).unwrap();
-    let first = rotor.level(head, wheel, [1.0; 2]);
-    let (mut softer, mut walk) = ([1.0; 2], [0.0; 2]);
-    // what a jump itself makes is not the head's
-    let (mut highest, mut jumped) = (1.0_f64, 0.0_f64);
-    let jump = if disturbed.jump { 1 + (noise.even() * 20.0) as usize } else { usize::MAX };
-    for step in 0..30 {
-        for at in 0..2 {
-            walk[at] += disturbed.drift * (2.0 * noise.even() - 1.0);
-            softer[at] = (1.0 + walk[at]) * (1.0 + disturbed.bearings * (2.0 * noise.even() - 1.0));
-        }
-        wheel += turned(disturbed.thermal * wheel.norm() * noise.even(), noise);
-        if step == jump {
-            wheel += turned(0.3 * CAPACITY * noise.even(), noise);
-        }
-        // the head can balance all that there is
-        wheel *= (0.98 * CAPACITY / wheel.norm()).min(1.0);
-        let now = rotor.level(head, wheel, softer);
-        if step == jump {
-            jumped = now.max(first);
-        }
-        highest = highest.max(now / rotor.level(nothing, wheel, softer).max(jumped));
-        let speed = SPEED * (1.0 + disturbed.swing * (2.0 * noise.even() - 1.0));
-        let reading = rotor.reading(head, wheel, speed, softer).map(|truth| {
-            let off = disturbed.noise * first / 2_f64.sqrt();
-            truth + Complex::new(off * noise.normal(), off * noise.normal()) + turned(disturbed.hum * first, noise)
-        });
-        match run.advise_at(&reading, 0.0, speed) {
-            Action::Set([to]) => head += (to - head) * (1.0 + 0.01 * noise.normal()),
-            Action::Hold => {}
-            Action::Abort([to], _) => {
-                head = to;
-                break;
-            }
-        }
-    }
-    let end = rotor.level(head, wheel, softer) / rotor.level(nothing, wheel, softer).max(jumped);
-    (end, highest.max(end), (head + wheel).norm() < G2_5 || end < 0.2)
+/// A rotor with its unbalance, its head, and its bearings as they are now.
+struct Machine {
+    rotor: Rotor,
+    wheel: Complex<f64>,
+    head: Complex<f64>,
+    /// Stiffness of the bearings over the rotor's, and what of it stays.
+    softer: [f64; 2],
+    walk: [f64; 2],
+    /// Its first vibration.
+    first: f64,
+    /// Whether it was resumed.
+    resumed: bool,
 }
 
-/// 2,000 starts, 200 of each kind: none ends worse than 1.02 times what was there, none passes 1.3 times on the way.
-/// G2.5 is reached in nine of ten where the bearings hold still and the readings are good to 2 %.
-///
-/// The constants are tuned on other seeds, 1 to 300. Of 500 times 2,000 starts of seeds 501 to 1000 none did harm; the
-/// highest was between 1.2 and 1.25 times. Here run the first ten of these seeds.
-#[test]
-fn two_thousand_starts_end_no_worse() {
+/// What came of a run: the vibration at its end and its largest on the way, over that with the head as it was, on the
+/// same bearings; whether G2.5 is reached, or a fifth of the vibration where the head cannot do more for both bearings.
+struct Outcome {
+    end: f64,
+    highest: f64,
+    good: bool,
+    aborted: bool,
+}
+
+impl Machine {
+    fn random(noise: &mut Noise) -> Self {
+        let rotor = Rotor::random(noise);
+        let wheel = turned(CAPACITY * (0.1 + 0.8 * noise.even()), noise);
+        let head = Complex::new(0.0, 0.0);
+        let first = rotor.level(head, wheel, [1.0; 2]);
+        Machine { rotor, wheel, head, softer: [1.0; 2], walk: [0.0; 2], first, resumed: false }
+    }
+
+    /// The head can balance all that there is.
+    fn limit(&mut self) {
+        self.wheel *= (0.98 * CAPACITY / self.wheel.norm()).min(1.0);
+    }
+
+    /// What a halt of the machine may bring: nothing, another unbalance, other bearings, a head that was moved.
+    fn halted(&mut self, noise: &mut Noise) {
+        match (noise.even() * 4.0) as usize {
+            0 => {}
+            1 => self.wheel += turned(0.6 * CAPACITY * noise.even(), noise),
+            2 => self.walk = self.walk.map(|walk| walk + 0.2 * (2.0 * noise.even() - 1.0)),
+            _ => self.head = turned(0.9 * CAPACITY * noise.even(), noise),
+        }
+        self.limit();
+    }
+
+    /// Vibration with the head where it stood at first, on the bearings as they are. A resumed run may begin nearly
+    /// balanced. An unbalance that wanders then passes by zero with the head at rest, which is not the head's: of all
+    /// unbalances since it was resumed the largest counts.
+    fn at_rest(&self, rest: Complex<f64>, unbalances: &[Complex<f64>]) -> f64 {
+        let since = if self.resumed { 0 } else { unbalances.len() - 1 };
+        let levels = unbalances[since..].iter().map(|wheel| self.rotor.level(rest, *wheel, self.softer));
+        levels.fold(0.0, f64::max)
+    }
+
+    /// Goes on from where the head stands.
+    fn resume(&mut self, run: &mut InRun<f64, 2, 1>) {
+        run.resume(&[self.head]);
+        self.resumed = true;
+    }
+
+    /// A run from where the head stands: 30 readings, and more where it has not come to rest by then.
+    fn run(&mut self, run: &mut InRun<f64, 2, 1>, disturbed: Disturbance, noise: &mut Noise) -> Outcome {
+        let rest = self.head;
+        // what a jump itself makes is not the head's
+        let (mut highest, mut jumped, mut aborted) = (1.0_f64, 0.0_f64, false);
+        let jump = if disturbed.jump { 1 + (noise.even() * 20.0) as usize } else { usize::MAX };
+        let mut unbalances = Vec::new();
+        for step in 0..60 {
+            for at in 0..2 {
+                self.walk[at] += disturbed.drift * (2.0 * noise.even() - 1.0);
+                self.softer[at] = (1.0 + self.walk[at]) * (1.0 + disturbed.bearings * (2.0 * noise.even() - 1.0));
+            }
+            self.wheel += turned(disturbed.thermal * self.wheel.norm() * noise.even(), noise);
+            if step == jump {
+                self.wheel += turned(0.3 * CAPACITY * noise.even(), noise);
+            }
+            self.limit();
+            unbalances.push(self.wheel);
+            let now = self.rotor.level(self.head, self.wheel, self.softer);
+            if step == jump {
+                jumped = now.max(self.first);
+            }
+            highest = highest.max(now / self.at_rest(rest, &unbalances).max(jumped));
+            let speed = SPEED * (1.0 + disturbed.swing * (2.0 * noise.even() - 1.0));
+            let reading = self.rotor.reading(self.head, self.wheel, speed, self.softer).map(|truth| {
+                let off = disturbed.noise * self.first / 2_f64.sqrt();
+                truth
+                    + Complex::new(off * noise.normal(), off * noise.normal())
+                    + turned(disturbed.hum * self.first, noise)
+            });
+            let before = *run.weights();
+            match run.advise_at(&reading, 0.0, speed) {
+                Action::Set(to) if step < 29 || to != before => {
+                    self.head += (to[0] - self.head) * (1.0 + 0.01 * noise.normal());
+                }
+                Action::Set(_) | Action::Hold if step < 29 => {}
+                Action::Set(_) | Action::Hold => break,
+                Action::Abort([to], _) => {
+                    (self.head, aborted) = (to, true);
+                    break;
+                }
+            }
+        }
+        let there = self.at_rest(rest, &unbalances).max(jumped);
+        let end = self.rotor.level(self.head, self.wheel, self.softer) / there;
+        let good = (self.head + self.wheel).norm() < G2_5 || end < 0.2;
+        Outcome { end, highest: highest.max(end), good, aborted }
+    }
+}
+
+/// The kinds of disturbance: name, what, and whether bearings hold still with readings good to 2 %.
+fn kinds() -> [(&'static str, Disturbance, bool); 10] {
     let plain = Disturbance { noise: 0.005, ..Disturbance::default() };
     let all =
         Disturbance { noise: 0.01, hum: 0.03, drift: 0.01, bearings: 0.2, thermal: 0.01, swing: 0.005, jump: true };
-    let kinds = [
+    [
         ("plain", plain, true),
         ("noise", Disturbance { noise: 0.02, ..plain }, true),
         ("hum", Disturbance { hum: 0.02, ..plain }, true),
@@ -157,26 +218,90 @@ fn two_thousand_starts_end_no_worse() {
         ("drift", Disturbance { drift: 0.02, ..plain }, false),
         ("bearings", Disturbance { bearings: 0.2, ..plain }, false),
         ("all", all, false),
-    ];
+    ]
+}
+
+/// Of runs of a kind: the worst end, the highest on the way, and how many are good.
+#[derive(Default)]
+struct Judged {
+    end: f64,
+    highest: f64,
+    good: u32,
+    runs: u32,
+}
+
+impl Judged {
+    fn add(&mut self, outcome: &Outcome) {
+        (self.end, self.highest) = (self.end.max(outcome.end), self.highest.max(outcome.highest));
+        self.good += u32::from(outcome.good);
+        self.runs += 1;
+    }
+
+    fn no_harm(&self, name: &str) {
+        let Judged { end, highest, good, runs } = self;
+        println!("{name}: worst end {end:.3}, highest {highest:.3}, within G2.5 {good} of {runs}");
+        assert!(*end <= 1.02, "{name}: {end}");
+        assert!(*highest <= 1.3, "{name}: {highest}");
+    }
+}
+
+/// 2,000 starts, 200 of each kind: none ends worse than 1.02 times what was there, none passes 1.3 times on the way.
+/// G2.5 is reached in nine of ten where the bearings hold still and the readings are good to 2 %.
+///
+/// The constants are tuned on other seeds, 1 to 300. Of 500 times 2,000 starts of seeds 501 to 1000 none did harm; the
+/// highest was between 1.2 and 1.25 times. Here run the first ten of these seeds.
+#[test]
+fn two_thousand_starts_end_no_worse() {
     for seed in 501..=510 {
         let mut noise = Noise::new(seed);
-        let mut balanced_of_still = [0, 0];
-        for (name, disturbed, still) in kinds {
-            let (mut worst, mut highest, mut good) = (0.0_f64, 0.0_f64, 0);
+        let mut still = [0, 0];
+        for (name, disturbed, holds_still) in kinds() {
+            let mut judged = Judged::default();
             for _ in 0..200 {
-                let (end, peak, within) = balanced(&mut noise, disturbed);
-                (worst, highest) = (worst.max(end), highest.max(peak));
-                good += u32::from(within);
+                let mut machine = Machine::random(&mut noise);
+                let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [machine.head]).unwrap();
+                judged.add(&machine.run(&mut run, disturbed, &mut noise));
             }
-            println!("{seed}, {name}: worst end {worst:.3}, highest {highest:.3}, within G2.5 {good} of 200");
-            assert!(worst <= 1.02, "{name}: {worst}");
-            assert!(highest <= 1.3, "{name}: {highest}");
-            if still {
-                balanced_of_still = [balanced_of_still[0] + good, balanced_of_still[1] + 200];
+            judged.no_harm(&format!("{seed}, {name}"));
+            if holds_still {
+                still = [still[0] + judged.good, still[1] + judged.runs];
             }
         }
-        let [good, still] = balanced_of_still;
-        assert!(10 * good >= 9 * still, "{good} of {still}");
+        assert!(10 * still[0] >= 9 * still[1], "{still:?}");
+    }
+}
+
+/// The same starts, resumed: those that were aborted go on with the same machine, and all go on after a halt.
+///
+/// A resumed run may begin where the readings' error is as large as the vibration, with an influence that is true no
+/// more. Before an influence had to be confirmed again, 6 of the 7,056 aborted ones ended above 1.02 times what was
+/// there when they were resumed, and 49 passed 1.3 times; after a halt 27 and 592 of 20,000. Of seeds 6001 to 6100 no
+/// run of 270,570 does harm; the constants are tuned on seeds 511 to 3400.
+#[test]
+fn resumed_runs_end_no_worse() {
+    for seed in 501..=510 {
+        let (mut noise, mut later) = (Noise::new(seed), Noise::new(seed + 100_000));
+        let mut still = [0, 0];
+        for (name, disturbed, holds_still) in kinds() {
+            let (mut same, mut halted) = (Judged::default(), Judged::default());
+            for _ in 0..200 {
+                let mut machine = Machine::random(&mut noise);
+                let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [machine.head]).unwrap();
+                if machine.run(&mut run, disturbed, &mut noise).aborted {
+                    machine.resume(&mut run);
+                    same.add(&machine.run(&mut run, disturbed, &mut later));
+                }
+                machine.halted(&mut later);
+                machine.resume(&mut run);
+                halted.add(&machine.run(&mut run, disturbed, &mut later));
+            }
+            same.no_harm(&format!("{seed}, {name}, the same machine"));
+            halted.no_harm(&format!("{seed}, {name}, after a halt"));
+            if holds_still {
+                still = [still[0] + halted.good, still[1] + halted.runs];
+            }
+        }
+        assert!(10 * still[0] >= 9 * still[1], "{still:?}");
     }
 }
 
@@ -187,7 +312,7 @@ fn reading(head: Complex<f64>) -> [Complex<f64>; 2] {
     [(head - NEEDED) * 900.0, (head - NEEDED) * Complex::new(0.0, 500.0)]
 }
 
-/// After an abort the influence is still there: the correction needs no probe.
+/// After an abort the influence is still there: the first move is towards the correction, and needs no probe.
 #[test]
 fn an_abort_is_left_with_what_was_learnt() {
     let mut run = InRun::<f64, 2, 1>::new(CONFIG, 2, [Complex::new(0.0, 0.0)]).unwrap();
@@ -206,8 +331,12 @@ fn an_abort_is_left_with_what_was_learnt() {
     assert!(matches!(run.advise(&reading(head), 0.0), Action::Abort(..)));
     let other = Complex::new(-0.2e-3, 0.0);
     run.resume(&[other]);
+    for _ in 0..5 {
+        assert_eq!(run.advise(&reading(other), 0.0), Action::Set([other]));
+    }
     let Action::Set([to]) = run.advise(&reading(other), 0.0) else { panic!("it has not gone on") };
-    // the sensors that came loose have cast doubt on the influence: towards the correction, if not all the way
+    // a fifth of the vibration is allowed above it, and the influence may be 1.8 times what was learnt: a ninth of the
+    // way. From nothing known it would be the probe, a fiftieth of the capacity: less than a thirtieth
     assert!(((to - other) / (NEEDED - other)).re > 0.1, "{to}");
 }
 
