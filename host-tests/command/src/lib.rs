@@ -15,6 +15,7 @@ pub mod identification;
 pub mod machine_file;
 pub mod recording;
 pub mod replay;
+pub mod scope;
 pub mod survey;
 pub mod sweep;
 pub mod telemetry;

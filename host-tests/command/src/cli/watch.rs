@@ -3,6 +3,8 @@
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -12,6 +14,7 @@ use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, say, say_json};
 use crate::machine_file::printable;
+use crate::scope::{Scope, Store, serve};
 use crate::telemetry::{Decoder, Described, Told};
 use driveline_qemu::image::{Program, belongs, board, build};
 use driveline_qemu::link::Telling;
@@ -21,11 +24,13 @@ use driveline_report::format::significant;
 /// Watch a running drive: its telemetry from QEMU, a serial port, a file or standard input.
 ///
 /// Shows each channel's last value, least and most while frames come, and how many records the drive dropped. A serial
-/// port is set up beforehand, as by `stty -F /dev/ttyACM0 raw 921600`.
+/// port is set up beforehand, as by `stty -F /dev/ttyACM0 raw 921600`. With --web the same is a scope in the browser:
+/// plots with zoom, trigger, orders and phasors, on the loopback address only. Nothing is sent to the drive.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline watch --qemu hoist/f32/reduced/10000 --records 20000
   cargo driveline watch /dev/ttyACM0 --csv run.csv
+  cargo driveline watch /dev/ttyACM0 --web --rate 10000
   cargo driveline watch - --json < recorded.bin")]
 pub struct Watch {
     /// A serial port or a file; `-` is standard input
@@ -43,6 +48,17 @@ pub struct Watch {
     /// Stop after so many records
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     records: Option<u64>,
+    /// Serve a scope at this port of the loopback address until Ctrl-C; a free port without a number
+    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "0", require_equals = true)]
+    #[arg(conflicts_with = "json")]
+    web: Option<u16>,
+    /// Ticks a second, for times in the scope; a variant in QEMU has its own
+    #[arg(long, value_name = "HZ", requires = "web", value_parser = clap::value_parser!(u32).range(1..))]
+    rate: Option<u32>,
+    /// Records that the scope keeps, the last ones
+    #[arg(long, value_name = "COUNT", requires = "web", default_value_t = 6_000_000)]
+    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=100_000_000))]
+    keep: usize,
     /// Print {records, dropped, damaged, unknown, channels: [...]} at the end, and nothing before
     #[arg(long)]
     pub json: bool,
@@ -122,11 +138,12 @@ impl Watch {
         let sources: Vec<&Path> = self.source.iter().map(PathBuf::as_path).collect();
         check(&sources, &self.csv.as_deref().map(|path| Destination::chosen("table", path)))?;
         let mut source = self.open()?;
+        let mut live = self.web.map(|port| self.live(port)).transpose()?;
         let mut csv = self.csv.as_deref().map(Csv::open).transpose()?;
         let mut seen = Seen::default();
         let mut decoder = Decoder::default();
         let (mut drawn, mut lines) = (Instant::now(), 0);
-        let live = io::stderr().is_terminal() && !self.json;
+        let in_terminal = io::stderr().is_terminal() && !self.json;
         let mut bytes = vec![0; 65_536];
         let broken = loop {
             // a source that breaks off has ended, too: what it gave is kept, and then it is said
@@ -138,6 +155,9 @@ impl Watch {
             decoder.take(&bytes[..length], |decoder, told| {
                 if self.records.is_none_or(|most| seen.records < most) {
                     seen.add(decoder, &told);
+                    if let Some(live) = &mut live {
+                        live.waiting.push(told.clone());
+                    }
                     if let Some(csv) = &mut csv {
                         csv.waiting.push(told);
                     }
@@ -145,12 +165,15 @@ impl Watch {
             });
             (seen.damaged, seen.unknown) = (decoder.damaged, decoder.unknown);
             let ended = length == 0 || self.records.is_some_and(|most| seen.records >= most);
+            if let Some(live) = &mut live {
+                live.show(&decoder, &seen, ended);
+            }
             let due = ended || drawn.elapsed() >= DRAWN;
             if let Some(csv) = &mut csv {
                 csv.write(&decoder, ended, due)?;
             }
             if due {
-                if live {
+                if in_terminal {
                     lines = draw(&seen.lines(), lines);
                 }
                 drawn = Instant::now();
@@ -159,7 +182,10 @@ impl Watch {
                 break broken;
             }
         };
-        let name = self.source.as_deref().map_or("QEMU".into(), |path| path.display().to_string());
+        let name = self.name();
+        if let Some(live) = live.filter(|_| seen.records > 0) {
+            live.stay(broken.as_ref());
+        }
         if let Some(error) = broken {
             let kept = if seen.records > 0 { format!(", after {} records", seen.records) } else { String::new() };
             return Err(Failure::failed(format!("{name}: {error}{kept}")));
@@ -170,11 +196,35 @@ impl Watch {
         if self.json {
             say_json(&seen)
         } else {
-            if !live {
+            if !in_terminal {
                 seen.lines().iter().for_each(say);
             }
             Ok(())
         }
+    }
+
+    /// What is watched.
+    fn name(&self) -> String {
+        self.source.as_deref().map_or("QEMU".into(), |path| path.display().to_string())
+    }
+
+    /// Serves the scope.
+    fn live(&self, port: u16) -> Result<Live, Failure> {
+        let of_variant = || self.qemu.as_ref()?.rsplit('/').next()?.parse().ok();
+        let scope = Scope {
+            source: self.qemu.as_ref().map_or_else(|| self.name(), |variant| format!("{variant} in QEMU")),
+            rate_hz: self.rate.or_else(of_variant),
+            store: Store::new(self.keep),
+            channels: Vec::new(),
+            records: 0,
+            dropped: 0,
+            damaged: 0,
+            ended: None,
+        };
+        let scope = Arc::new(Mutex::new(scope));
+        let address = serve(&scope, port).map_err(|error| Failure::failed(format!("port {port}: {error}")))?;
+        eprintln!("the scope is at http://{address}/ until Ctrl-C");
+        Ok(Live { scope, waiting: Vec::new() })
     }
 
     fn open(&self) -> Result<Box<dyn Read>, Failure> {
@@ -203,6 +253,40 @@ impl Watch {
                 let file = File::open(path).map_err(|error| Failure::usage(format!("{}: {error}", path.display())))?;
                 Ok(Box::new(file))
             }
+        }
+    }
+}
+
+/// The scope that is served.
+struct Live {
+    scope: Arc<Mutex<Scope>>,
+    /// Records before the channels' descriptions wait for their units.
+    waiting: Vec<Told>,
+}
+
+impl Live {
+    /// Shows what has come.
+    fn show(&mut self, decoder: &Decoder, seen: &Seen, ended: bool) {
+        let described = self.waiting.first().is_some_and(|told| decoder.describes(told.words.len()));
+        let mut scope = self.scope.lock().unwrap_or_else(PoisonError::into_inner);
+        (scope.records, scope.dropped, scope.damaged) = (seen.records, seen.dropped, decoder.damaged);
+        if described || ended || self.waiting.len() >= PATIENCE {
+            scope.channels = (0..seen.channels.len()).map(|index| decoder.channel(index)).collect();
+            for told in self.waiting.drain(..) {
+                let values = told.words.iter().enumerate();
+                let values: Vec<f32> = values.map(|(index, &word)| decoder.channel(index).value(word) as f32).collect();
+                scope.store.push(told.tick, &values);
+            }
+        }
+    }
+
+    /// Keeps the page until the program is stopped.
+    fn stay(&self, broken: Option<&io::Error>) -> ! {
+        let why = broken.map_or_else(|| "no more records came".to_owned(), ToString::to_string);
+        eprintln!("{why}; the scope stays until Ctrl-C");
+        self.scope.lock().unwrap_or_else(PoisonError::into_inner).ended = Some(why);
+        loop {
+            thread::park();
         }
     }
 }

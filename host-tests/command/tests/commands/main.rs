@@ -18,6 +18,7 @@ mod ring_down;
 mod rotor;
 #[path = "../../../report/tests/report/sample.rs"]
 mod sample;
+mod scope;
 mod simulate;
 #[path = "../../../report/tests/report/sound.rs"]
 mod sound;
