@@ -11,6 +11,8 @@
 //! A hoist that carries next to nothing is struck by next to nothing, so that its rope stays taut. The blow then moves
 //! the motor by less than a count of the encoder. Now and then one copy reads a count more, its torque differs, and the
 //! shaft carries the load's share of that. A swing below this floor is the reading's, not the blow's, and is left out.
+//! A light load on its rope swings by more than its share. So a blow this small is given in both directions. What
+//! answers both alike is no answer to the blow, and its largest value is the floor.
 
 use core::f64::consts::TAU;
 
@@ -104,7 +106,13 @@ impl End {
         let (struck, left) = (after(closing, 0.5 * most)?, after(closing, 0.0)?);
         let answer: Vec<f64> = struck.iter().zip(&left).map(|(struck, left)| struck - left).collect();
         let inertia = |from: usize| (from..self.plant.nodes()).map(|node| self.plant.inertia(node)).sum::<f64>();
-        let floor = NOISE * scene.rated_torque * inertia(machine.load) / inertia(0);
+        let mut floor = NOISE * scene.rated_torque * inertia(machine.load) / inertia(0);
+        if most < NOISE * scene.rated_torque {
+            let mirrored = after(closing, -0.5 * most)?;
+            let alike = struck.iter().zip(&mirrored).zip(&left).map(|((one, other), left)| 0.5 * (one + other) - left);
+            // a NaN stays out of the floor; the answer has one then
+            floor = alike.fold(floor, |floor, torque| floor.max(torque.abs()));
+        }
         Ok(slowest(&answer, every, floor))
     }
 
