@@ -115,10 +115,16 @@ fn json(folder: &Path, arguments: &[&str]) -> Value {
 
 /// A good wheel's teeth are out of place by up to 0.03 degrees, half a hundredth of a pitch; further out, the shaft
 /// torque is worse than predicted: the wheel smooths away some of the swing, which no design knows.
+///
+/// The load's speed judges the deviation that the wheel states. Over 20 other seeds it is 0.87 of the prediction, as
+/// the errors of an edge are not other ones in each tick. Its spread from record to record is 0.034, in the mean of
+/// three 0.02: the lower bound is three of these below. Here the mean is 0.89, with half the deviation 1.17, with twice
+/// 0.76, with four times 0.74.
 #[test]
 fn an_observer_by_a_wheel_is_as_good_as_its_design_says() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("roll.toml"), machine()).unwrap();
+    let mut ratios = Vec::new();
     for (rate, jitter, seed) in [(4000.0, 0.0, 1), (4000.0, 0.005, 2), (1000.0, 0.005, 3), (10_000.0, 0.005, 4)] {
         let mut record = record(rate, jitter, seed);
         if jitter == 0.0 {
@@ -145,6 +151,9 @@ fn an_observer_by_a_wheel_is_as_good_as_its_design_says() {
                 println!("{rate} Hz, jitter {jitter}: {rms:.4}, predicted {predicted:.4}");
                 // the swing dies away in 0.8 s: its rms over 5 s is known to a fifth; that of the others to a tenth
                 let most = if of == 3 { 1.4 } else { 1.25 };
+                if of == 2 && jitter > 0.0 {
+                    ratios.push(rms / predicted);
+                }
                 assert!(rms < most * predicted, "{rate} Hz, {number}, {of}: {rms}, not {predicted}");
             }
         }
@@ -153,6 +162,8 @@ fn an_observer_by_a_wheel_is_as_good_as_its_design_says() {
         let missing = missing.filter(|fault| fault[0] == "angle missing").map(|fault| fault[1].as_u64().unwrap());
         assert_eq!(missing.sum::<u64>() + found["wheel"]["ticks_with_angle"].as_u64().unwrap(), (6.0 * rate) as u64);
     }
+    let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+    assert!(mean > 0.81 && mean < 1.02, "{ratios:?}");
 }
 
 /// A recording that begins at 100 rad/s, without slip: the first two angles tell the speed.
