@@ -16,7 +16,9 @@ pub fn preparation(scene: &str, drive: &Drive, by: &Departure) -> Result<Vec<Sce
     let learns = matches!(drive, Drive::Variant(row) if row.name.split('/').nth(2) == Some("learnt"));
     match scene {
         hoist::SCENE if learns => drivetrains::hoist::test_lifts(by),
-        crane_travel::SCENE if learns => Ok(vec![drivetrains::crane_travel::empty_hook(by)?]),
+        crane_travel::SCENE if learns => {
+            Ok(vec![drivetrains::crane_travel::empty_hook(by)?, drivetrains::crane_travel::test_weight(by)?])
+        }
         blooming_mill::SCENE if learns => Ok(vec![drivetrains::blooming_mill::uncoupled(by)?]),
         _ => Ok(Vec::new()),
     }

@@ -66,23 +66,45 @@ pub fn machine() -> Result<Machine, PlantError> {
 /// # Errors
 /// A figure of the plant that is out of range.
 pub fn empty_hook(by: &Departure) -> Result<Scenario, PlantError> {
+    let speeds = [(SLOW, 33.0), (FAST, 33.0), (SLOW, 35.0), (-SLOW, 37.0), (-FAST, 33.0), (-SLOW, 35.0), (SLOW, 37.0)];
+    learning("empty hook", panel::NO_LOAD, scene::HOOK, &speeds, by)
+}
+
+/// The same with a test weight, there and back.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn test_weight(by: &Departure) -> Result<Scenario, PlantError> {
+    let speeds = [(SLOW, 33.0), (FAST, 33.0), (SLOW, 35.0), (-SLOW, 37.0), (-FAST, 33.0), (-SLOW, 35.0)];
+    learning("test weight", panel::TEST_WEIGHT, scene::HOOK + scene::WEIGHT, &speeds, by)
+}
+
+/// Speeds of the runs for the learners (rad/s).
+const SLOW: f64 = 0.35 * CraneTravel::RATING.speed;
+const FAST: f64 = 0.9 * CraneTravel::RATING.speed;
+
+/// A run for the learners with a mass on the rope (kg) that a key of the panel names, at speeds (rad/s) for a time (s).
+fn learning(
+    name: &'static str,
+    key: u32,
+    mass: f64,
+    speeds: &[(f64, f64)],
+    by: &Departure,
+) -> Result<Scenario, PlantError> {
     let square = TRAVEL * TRAVEL;
     let plant = Chain::motor((0.2 + BRIDGE * square) * by.motor_inertia)
-        .coulomb(RESISTANCE * (scene::HOOK + BRIDGE) / (LOAD + BRIDGE))
-        .shaft(Shaft::elastic(PENDULUM * scene::HOOK / LOAD / by.rope), scene::HOOK * square)
+        .coulomb(RESISTANCE * (mass + BRIDGE) / (LOAD + BRIDGE))
+        .shaft(Shaft::elastic(PENDULUM * mass / LOAD / by.rope), mass * square)
         .build()?;
-    let [slow, fast] = [0.35, 0.9].map(|share| share * CraneTravel::RATING.speed);
-    let mut actions = vec![(0.1, Action::Release), (0.1, Action::Panel(panel::NO_LOAD, 1.0))];
+    let mut actions = vec![(0.1, Action::Release), (0.1, Action::Panel(key, 1.0))];
     let mut time = 0.2;
-    for (speed, lasts) in
-        [(slow, 33.0), (fast, 33.0), (slow, 35.0), (-slow, 37.0), (-fast, 33.0), (-slow, 35.0), (slow, 37.0)]
-    {
-        actions.push((time, Action::Setpoint(speed)));
+    for (speed, lasts) in speeds {
+        actions.push((time, Action::Setpoint(*speed)));
         time += lasts;
     }
-    actions.extend([(time, Action::Panel(panel::NO_LOAD, 0.0)), (time, Action::Setpoint(0.0))]);
+    actions.extend([(time, Action::Panel(key, 0.0)), (time, Action::Setpoint(0.0))]);
     Ok(Scenario {
-        name: "empty hook",
+        name,
         plant: plant.into(),
         held: 0.0,
         actions,

@@ -15,10 +15,16 @@ use cargo_driveline::campaign::{
 };
 use cargo_driveline::closed_loop::actuator::{Actuator, ActuatorErrors};
 use cargo_driveline::closed_loop::encoder_errors::EncoderErrors;
+use cargo_driveline::closed_loop::ticks::OnHost;
+use cargo_driveline::closed_loop::units::Units;
+use cargo_driveline::drivetrains::crane_travel;
 use cargo_driveline::drivetrains::departure::Departure;
-use cargo_driveline::drivetrains::lockstep::follow;
+use cargo_driveline::drivetrains::lockstep::{Imperfections, follow};
+use cargo_driveline::drivetrains::scenario::{Action, Scenario};
 use cargo_driveline::machine_file::parse;
+use driveline_firmware::scene::no_load::panel;
 use driveline_firmware::scene::{Input, Scene as _};
+use driveline_firmware::scenes::find;
 
 /// The spindle is the shortest run.
 fn campaign(folder: &Path, arguments: &[&str]) -> Output {
@@ -470,7 +476,7 @@ fn a_drive_with_learners_finds_its_machine_before_the_run() {
 }
 
 /// The machines of the largest errors without learners. At most half of them is the aim. The torque constant's part
-/// remains, up to 5 % of the run's rms shaft torque: 0.6 % of rated of the crane, 1.8 % of the mill.
+/// remains in the mill, up to 5 % of the run's rms shaft torque: 1.8 % of rated.
 #[test]
 fn a_no_load_run_halves_the_error_of_crane_and_mill() {
     for (name, drives, numbers) in [
@@ -488,6 +494,53 @@ fn a_no_load_run_halves_the_error_of_crane_and_mill() {
             assert_eq!((learnt.of(Figure::Flagged), learnt.is_unstable()), (0.0, false));
         }
     }
+}
+
+/// Cranes in whose one-mass observer the errors of torque constant, inertia and offset cancel. With offset and inertia
+/// alone learnt, it was 1.5 to 1.9 times better than the learnt one: the torque constant was left, 0.72 to 0.86 % of
+/// rated. The test weight finds it to 0.4 % rms, a twelfth of the tolerance: three times that leave 0.2 % of rated
+/// beside the nominal 0.12 %.
+#[test]
+fn a_test_weight_gives_the_crane_its_torque_constant() {
+    let scene = SCENES.iter().find(|scene| scene.name == "crane-travel").unwrap();
+    let machine = scene.departing(&Departure::NONE).unwrap();
+    let drives = ["f32/learnt/1000", "f32/rigid/1000"].map(|name| Drive::named(scene, &machine, Some(name)).unwrap());
+    for number in [144, 307, 361, 400, 454] {
+        let draw = Draw::new(&scene.tolerances(), 1, number);
+        let [learnt, rigid] =
+            [&drives[0], &drives[1]].map(|drive| run(scene, drive, &draw).unwrap().of(Figure::ShaftTorque));
+        assert!(learnt <= rigid && learnt < 0.0032, "draw {number}: {learnt} for {rigid}");
+    }
+}
+
+/// A test weight that is named and does not hang there, and one that comes before the run without load: nothing is
+/// learnt from it. A motor that gives 1.04 of its reported torque is found behind the true one, to 1 %.
+#[test]
+fn a_test_weight_that_is_not_there_teaches_nothing() {
+    let by = Departure { motor_inertia: 1.05, ..Departure::NONE };
+    let machine = crane_travel::departing(&by).unwrap();
+    let [empty, weight] = [crane_travel::empty_hook, crane_travel::test_weight].map(|run| run(&by).unwrap());
+    let mut named = empty.clone();
+    for (_, action) in &mut named.actions {
+        if let Action::Panel(key, _) = action {
+            *key = panel::TEST_WEIGHT;
+        }
+    }
+    let row = find("crane-travel/f32/learnt/1000").unwrap();
+    let units = Units::new(row.words(), machine.bases);
+    let actuator = ActuatorErrors { gain: 0.04, ..ActuatorErrors::default() };
+    let imperfections = Imperfections { actuator, ..Imperfections::default() };
+    let gain = |runs: &[&Scenario]| {
+        let mut drive = OnHost(row.start());
+        for run in runs {
+            let mut plant = run.plant.unrecorded();
+            follow(&machine, run, &units, row.rate_hz, &imperfections, &mut drive, &mut plant, |_, _| {}).unwrap();
+        }
+        f32::from_bits(drive.0.panel([panel::GAIN, 0]))
+    };
+    assert_eq!([gain(&[&empty, &named]), gain(&[&weight])], [1.0; 2]);
+    let found = gain(&[&empty, &named, &weight]);
+    assert!((found - 1.04).abs() < 0.01, "{found}");
 }
 
 /// The spindle's own choice, one mass, is not worse than two masses: the aim is 95 % of the draws. Chosen on seed 1.

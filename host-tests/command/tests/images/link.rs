@@ -189,9 +189,10 @@ fn working_in(folder: &Path) -> usize {
 #[test]
 fn no_load_runs_have_the_hosts_bits() {
     let by = Departure { motor_inertia: 1.1, ..Departure::NONE };
-    let crane = (crane_travel::departing(&by).unwrap(), crane_travel::empty_hook(&by).unwrap());
-    let mill = (blooming_mill::departing(&by).unwrap(), blooming_mill::uncoupled(&by).unwrap());
-    for (variants, (machine, scenario)) in [
+    let hook = [crane_travel::empty_hook(&by).unwrap(), crane_travel::test_weight(&by).unwrap()];
+    let crane = (crane_travel::departing(&by).unwrap(), hook.to_vec());
+    let mill = (blooming_mill::departing(&by).unwrap(), vec![blooming_mill::uncoupled(&by).unwrap()]);
+    for (variants, (machine, runs)) in [
         (["crane-travel/f32/learnt/1000", "crane-travel/fixed/learnt/1000"], crane),
         (["blooming-mill/f32/learnt/10000", "blooming-mill/fixed/learnt/10000"], mill),
     ] {
@@ -203,10 +204,14 @@ fn no_load_runs_have_the_hosts_bits() {
             let offset = machine.torque_noise;
             let actuator = ActuatorErrors { offset, ..ActuatorErrors::default() };
             let imperfections = Imperfections { actuator, ..Imperfections::default() };
-            let (mut plant, mut words) = (scenario.plant.unrecorded(), Vec::new());
-            let each = |_: &_, exchanged| words.push(exchanged);
-            follow(&machine, &scenario, &units, row.rate_hz, &imperfections, &mut link, &mut plant, each).unwrap();
-            for (key, told) in [(panel::OFFSET, 0.0), (panel::INERTIA, 1.0)] {
+            let mut words = Vec::new();
+            for run in &runs {
+                let mut plant = run.plant.unrecorded();
+                let each = |_: &_, exchanged| words.push(exchanged);
+                follow(&machine, run, &units, row.rate_hz, &imperfections, &mut link, &mut plant, each).unwrap();
+            }
+            let learnt = [(panel::OFFSET, 0.0), (panel::INERTIA, 1.0), (panel::GAIN, 1.0)];
+            for (key, told) in learnt.into_iter().take(1 + runs.len()) {
                 let input = Input { asked: [key, 0], ..Input::default() };
                 let output = link.exchange(&input).unwrap();
                 assert_ne!(f32::from_bits(output.answer), told, "{variant} has learnt nothing");
