@@ -225,6 +225,9 @@ fn with(scenarios: Vec<Scenario>) -> Machine {
             "The textbook cut, the modal truncation and the match of resonance and antiresonance give equal estimates \
                 of this hoist within the noise: its motor shaft is stiff and its rope soft. With shafts of similar \
                 stiffness they differ; `cargo driveline modes` shows by how much.",
+            "The chosen observer is that of the hoist as described. For loads of 0.5 to 13 t on 5 to 30 m of rope the \
+                drive is `learnt`, on a gain schedule: its errors are not larger than those of one mass in 99.5 % of \
+                200 draws or more, where one set of gains has a load speed that is not worse in 36 %.",
         ],
         chosen: ("reduced", 10_000),
         scenarios,
