@@ -16,6 +16,7 @@ mod campaign;
 mod check;
 mod commission;
 mod controller;
+mod cosim;
 mod design;
 mod emit;
 mod example;
@@ -83,6 +84,7 @@ enum Command {
     LongestPath(longest_path::LongestPath),
     Check(check::Check),
     Commissioning(commission::Commission),
+    Cosim(cosim::Cosim),
     Replay(replay::Replay),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
@@ -110,6 +112,7 @@ impl Command {
             Self::LongestPath(command) => command.json,
             Self::Check(command) => command.json,
             Self::Commissioning(command) => command.json,
+            Self::Cosim(command) => command.json,
             Self::Replay(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
@@ -137,6 +140,7 @@ impl Command {
             Self::LongestPath(command) => command.execute(),
             Self::Check(command) => command.execute(),
             Self::Commissioning(command) => command.execute(),
+            Self::Cosim(command) => command.execute(),
             Self::Replay(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),

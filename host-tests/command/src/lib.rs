@@ -1,5 +1,6 @@
 //! The subcommands of `cargo driveline`, machine files, and the runs behind them: scenes in closed loop, balancing,
-//! generator sets, commissioning, campaigns, backlash, sweeps, the survey of all.
+//! generator sets, commissioning, campaigns, backlash, sweeps, co-simulation with FMUs, the survey of all.
+#![deny(unsafe_code)]
 
 pub mod backlash;
 pub mod balancing;
@@ -9,6 +10,7 @@ pub mod check;
 pub mod cli;
 pub mod closed_loop;
 pub mod commissioning;
+pub mod cosim;
 pub mod drivetrains;
 pub mod generator;
 pub mod identification;

@@ -7,7 +7,7 @@ mod fmu;
 mod interface;
 mod library;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -75,6 +75,19 @@ enum NumberName {
     F32,
     /// Fixed point, per unit of the machine's bases
     Fixed,
+}
+
+/// The FMU of the drive of a machine in a file, in single precision.
+///
+/// # Errors
+/// A file with a fault, a machine that no drive can be made of.
+pub fn controller(file: &Path) -> Result<Vec<u8>, Failure> {
+    let (place, source) = text(file, "a machine file")?;
+    let machine = parse(&place, &source)?;
+    let name = format!("{}-controller", machine.slug());
+    let project = Project::of(&machine, &name, Number::Single, &PartOptions::default())?.robust()?;
+    name_of_c(&project.krate)?;
+    Ok(fmu::fmu(&project, &source, Of::Controller)?.0)
 }
 
 impl Export {

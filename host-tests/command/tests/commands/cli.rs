@@ -34,6 +34,7 @@ fn every_command_explains_itself_with_examples() {
         "backlash",
         "campaign",
         "simulate",
+        "cosim",
         "watch",
         "check",
         "setup",

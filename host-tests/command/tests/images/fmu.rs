@@ -19,7 +19,7 @@ use super::export::hoist::Hoist;
 
 type HoistDrive = Drive<f32, GearedObserver<SemiImplicitObserver<f32>>, (), SpeedLoop<f32>>;
 
-const MACHINE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/hoist.toml");
+pub const MACHINE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/hoist.toml");
 
 fn export(arguments: &[&str], out: &Path) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
@@ -27,7 +27,7 @@ fn export(arguments: &[&str], out: &Path) -> Output {
 }
 
 #[track_caller]
-fn ended_well(ended: &Output) {
+pub fn ended_well(ended: &Output) {
     let said = [&ended.stdout, &ended.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
     assert!(ended.status.success(), "{}\n{}", ended.status, said.join("\n"));
 }
@@ -70,6 +70,10 @@ impl Fmu {
         };
         let tags = text.split('<').skip(1).map(|tag| tag.split('>').next().unwrap().trim_end_matches('/'));
         Fmu { folder, elements: tags.map(element).collect() }
+    }
+
+    fn file(&self) -> PathBuf {
+        self.folder.path().join("one.fmu")
     }
 
     fn elements<'f>(&'f self, name: &'f str) -> impl Iterator<Item = &'f Element> {
@@ -216,6 +220,8 @@ fn the_fmus_in_closed_loop_give_the_bits_of_the_host() {
         .load(weight)
         .start(Start::Pretensioned { speed: 0.0 });
     let expected = on_the_host(host.build().unwrap(), weight);
+    super::cosim::has_the_bits_of_the_host(&plant.file(), &expected);
+    super::cosim::a_machine_of_another_tool_turns(&controller.file());
     let bytes = fs::read(folder.path().join("output")).unwrap();
     let rows: Vec<&[u8]> = bytes.chunks_exact(13 * 8).collect();
     assert_eq!(rows.len(), expected.len());

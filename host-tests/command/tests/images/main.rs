@@ -4,6 +4,7 @@
 #[path = "."]
 mod images {
     mod balance;
+    mod cosim;
     mod export;
     mod fmu;
     mod hal;

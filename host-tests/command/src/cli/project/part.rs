@@ -14,7 +14,7 @@ pub enum Part {
 }
 
 /// Options of the optional parts.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct PartOptions {
     /// Optional parts, separated by commas
     #[arg(long, value_name = "PART,...", value_delimiter = ',')]
