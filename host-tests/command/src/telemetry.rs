@@ -87,12 +87,21 @@ impl Decoder {
 
     /// The channel of a value, by its index; one that has not described itself is `value 3`, an integer.
     pub fn channel(&self, index: usize) -> Described {
-        let known = u8::try_from(index).ok().and_then(|index| self.channels.get(&index));
-        known.cloned().unwrap_or_else(|| Described {
+        self.described(index).cloned().unwrap_or_else(|| Described {
             name: format!("value {index}"),
             unit: String::new(),
             factor: Some(1.0),
         })
+    }
+
+    /// The channel of a value, if it has described itself.
+    pub fn described(&self, index: usize) -> Option<&Described> {
+        self.channels.get(&u8::try_from(index).ok()?)
+    }
+
+    /// A word of a record as a value: an integer where its channel has not described itself.
+    pub fn value(&self, index: usize, word: u32) -> f64 {
+        self.described(index).map_or_else(|| f64::from(word as i32), |channel| channel.value(word))
     }
 
     /// Whether so many channels have described themselves.

@@ -98,17 +98,17 @@ impl Seen {
         self.records += 1;
         self.dropped = told.dropped;
         for (index, &word) in told.words.iter().enumerate() {
-            let channel = decoder.channel(index);
-            let value = channel.value(word);
+            let value = decoder.value(index, word);
+            let anew = || Course { channel: decoder.channel(index), last: value, least: value, most: value };
             match self.channels.get_mut(index) {
                 // one that was not described when it was first seen begins anew
-                Some(course) if course.channel == channel => {
+                Some(course) if decoder.described(index).is_none_or(|channel| *channel == course.channel) => {
                     course.last = value;
                     course.least = course.least.min(value);
                     course.most = course.most.max(value);
                 }
-                Some(course) => *course = Course { channel, last: value, least: value, most: value },
-                None => self.channels.push(Course { channel, last: value, least: value, most: value }),
+                Some(course) => *course = anew(),
+                None => self.channels.push(anew()),
             }
         }
     }
@@ -273,9 +273,8 @@ impl Live {
         if described || ended || self.waiting.len() >= PATIENCE {
             scope.channels = (0..seen.channels.len()).map(|index| decoder.channel(index)).collect();
             for told in self.waiting.drain(..) {
-                let values = told.words.iter().enumerate();
-                let values: Vec<f32> = values.map(|(index, &word)| decoder.channel(index).value(word) as f32).collect();
-                scope.store.push(told.tick, &values);
+                let values = told.words.iter().enumerate().map(|(index, &word)| decoder.value(index, word) as f32);
+                scope.store.push(told.tick, &values.collect::<Vec<f32>>());
             }
         }
     }
@@ -365,7 +364,7 @@ fn field(text: &str) -> String {
 fn line(decoder: &Decoder, told: &Told) -> String {
     let mut text = format!("{},{}", told.tick, told.dropped);
     for (index, &word) in told.words.iter().enumerate() {
-        text.push_str(&format!(",{}", decoder.channel(index).value(word)));
+        text.push_str(&format!(",{}", decoder.value(index, word)));
     }
     text
 }
