@@ -182,7 +182,7 @@ where
     const LOOP: LoopPart = A::LOOP.and(&B::LOOP).and(&C::LOOP);
 }
 
-impl<M, N, O, F, G, B> Configure<M, N> for Drive<N, O, F, G, B>
+impl<M, N, O, F, G, B, const SEAL: i32> Configure<M, N> for Drive<N, O, F, G, B, SEAL>
 where
     M: Machine,
     N: Number,
@@ -206,7 +206,7 @@ where
     };
 }
 
-impl<N, O, F, G, B> Drive<N, O, F, G, B>
+impl<N, O, F, G, B, const SEAL: i32> Drive<N, O, F, G, B, SEAL>
 where
     N: Number,
     O: Observer<N>,

@@ -91,7 +91,7 @@ pub trait Composition {
     type Config;
 }
 
-impl<N, O, F, G, B> Composition for Drive<N, O, F, G, B>
+impl<N, O, F, G, B, const SEAL: i32> Composition for Drive<N, O, F, G, B, SEAL>
 where
     N: Number,
     O: Observer<N>,
@@ -107,26 +107,36 @@ where
 pub type ConfigOf<D> = <D as Composition>::Config;
 
 /// The state of a drive.
+///
+/// `SEAL` is for a caller in another language that owns the memory: a positive number by which [`Drive::seal`] finds
+/// memory that was not initialised.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Drive<N, O, F = (), G = (), B = ()> {
+pub struct Drive<N, O, F = (), G = (), B = (), const SEAL: i32 = 0> {
     observer: O,
     fluctuation: F,
     governor: G,
     balancer: B,
     /// Substitute for an implausible torque.
     commanded: N,
-    /// Ticks without a usable angle, less those with one; while the angle is lost [`NONE_YET`] or [`ONE`].
+    /// `SEAL` and the ticks without a usable angle, less those with one; while the angle is lost
+    /// [`NONE_YET`](Self::NONE_YET) or [`ONE`](Self::ONE).
     coasted: i32,
 }
 
-/// The angle is lost, and none has been seen since.
-const NONE_YET: i32 = i32::MIN;
+/// What the seal in a drive's memory shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Seal {
+    /// A drive that has its angle.
+    Sighted,
+    /// A drive that has lost its angle.
+    Lost,
+    /// No drive: the memory was not initialised.
+    Broken,
+}
 
-/// The angle is lost, and one has been seen that differs from the last.
-const ONE: i32 = NONE_YET + 1;
-
-impl<N, O, F, G, B> Drive<N, O, F, G, B>
+impl<N, O, F, G, B, const SEAL: i32> Drive<N, O, F, G, B, SEAL>
 where
     N: Number,
     O: Observer<N>,
@@ -134,6 +144,12 @@ where
     G: Governor<N>,
     B: Balancer<N>,
 {
+    /// The angle is lost, and none has been seen since.
+    const NONE_YET: i32 = SEAL - 2;
+
+    /// The angle is lost, and one has been seen that differs from the last.
+    const ONE: i32 = SEAL - 1;
+
     /// A drive whose machine stands still at `angle` (2^-32 turn), without torque in its shaft.
     pub fn new(config: &ConfigOf<Self>, angle: u32) -> Self {
         Drive {
@@ -142,7 +158,7 @@ where
             governor: G::default(),
             balancer: B::default(),
             commanded: N::ZERO,
-            coasted: 0,
+            coasted: SEAL,
         }
     }
 
@@ -151,7 +167,7 @@ where
     /// Where ticks did not run in between, use [`Drive::tick_after`].
     #[inline(always)]
     pub fn tick(&mut self, config: &ConfigOf<Self>, sample: &Sample<N>) -> Command<N> {
-        if self.coasted < 0 {
+        if self.coasted < SEAL {
             return self.reacquire(config, sample);
         }
         let (faults, applied) = self.observe(config, sample, true);
@@ -177,7 +193,7 @@ where
         self.fluctuation.disturb();
         self.governor.start(&config.governor, &self.estimate(config), command.torque);
         self.commanded = command.torque;
-        self.coasted = 0;
+        self.coasted = SEAL;
         command
     }
 
@@ -185,6 +201,25 @@ where
     #[inline(always)]
     pub fn estimate(&self, config: &ConfigOf<Self>) -> Estimate<N> {
         self.observer.estimate(&config.observer)
+    }
+
+    /// Where the seal lies in the memory of a drive (bytes): four of them, for [`seal`](Self::seal).
+    pub const SEAL_AT: usize = core::mem::offset_of!(Self, coasted);
+
+    /// What the seal in the memory of a drive with these constants shows.
+    ///
+    /// Of the 2^32 words as many are seals as ticks may coast, and three more. With a `SEAL` of 0, memory of zeros is
+    /// one of them.
+    #[inline(always)]
+    pub fn seal(config: &ConfigOf<Self>, word: u32) -> Seal {
+        let coasted = word.wrapping_sub(SEAL as u32);
+        if coasted.wrapping_add(2) > config.limits.max_coast.saturating_add(2) {
+            Seal::Broken
+        } else if (coasted as i32) < 0 {
+            Seal::Lost
+        } else {
+            Seal::Sighted
+        }
     }
 
     /// The observer.
@@ -274,11 +309,12 @@ where
                 Faults::ANGLE_JUMP
             };
             self.observer.coast(predicted, sample.angle);
-            self.coasted = if (coasted as u32) < limits.max_coast { coasted.wrapping_add(1) } else { NONE_YET };
+            let more = (coasted.wrapping_sub(SEAL) as u32) < limits.max_coast;
+            self.coasted = if more { coasted.wrapping_add(1) } else { Self::NONE_YET };
             self.fluctuation.disturb();
         } else {
             self.observer.correct(&config.observer, predicted, sample.angle);
-            if coasted != 0 {
+            if coasted != SEAL {
                 self.coasted = coasted - 1;
             }
         }
@@ -320,10 +356,10 @@ where
         let speed = O::speed_of_turn(&config.observer, turned);
         if sample.angle == last {
             faults = Faults::ANGLE_FROZEN;
-            self.coasted = NONE_YET;
-        } else if self.coasted == NONE_YET || speed.exceeds(limits.setpoint + limits.setpoint) {
+            self.coasted = Self::NONE_YET;
+        } else if self.coasted == Self::NONE_YET || speed.exceeds(limits.setpoint + limits.setpoint) {
             self.observer.resync(sample.angle);
-            self.coasted = ONE;
+            self.coasted = Self::ONE;
         } else {
             let count = O::speed_of_turn(&config.observer, N::ZERO.less_turn(limits.frozen_turn)).magnitude();
             let known = self.estimate(config).motor_speed;
@@ -332,7 +368,7 @@ where
             } else {
                 self.observer.resync(sample.angle);
             }
-            self.coasted = limits.max_coast as i32 & i32::MAX;
+            self.coasted = SEAL.wrapping_add(limits.max_coast as i32) & i32::MAX;
         }
         self.release(config, faults)
     }
@@ -340,10 +376,13 @@ where
 
 #[cfg(test)]
 mod tests {
-    use super::{Config, Drive, Limits, NONE_YET, ONE};
+    use super::{Config, Drive, Limits, Seal};
     use crate::fault::Faults;
     use crate::observer::{RigidConfig, RigidObserver};
     use crate::sample::Sample;
+
+    const NONE_YET: i32 = Drive::<f64, RigidObserver<f64>>::NONE_YET;
+    const ONE: i32 = Drive::<f64, RigidObserver<f64>>::ONE;
 
     /// 2^32 per turn and ticks as units of angle and time, an inertia of one: no encoder, gains of a third.
     const CONFIG: Config<f64, RigidConfig<f64>> = Config {
@@ -410,6 +449,25 @@ mod tests {
         for torque in [f64::NAN, f64::INFINITY, -10.1] {
             let command = drive.tick(&CONFIG, &Sample { angle: 0, torque, setpoint: 0.0 });
             assert_eq!((command.faults, drive.commanded), (Faults::TORQUE, 1.0));
+        }
+    }
+
+    /// Memory of zeros and of equal bytes is what a caller forgets to initialise.
+    #[test]
+    fn a_seal_is_whole_in_every_state_of_a_drive_and_in_no_memory_of_equal_bytes() {
+        type Sealed = Drive<f64, RigidObserver<f64>, (), (), (), 0x5b00_5b00>;
+        let mut drive = Sealed::new(&CONFIG, 0);
+        let mut tick = |angle| {
+            drive.tick(&CONFIG, &Sample { angle, torque: 0.0, setpoint: 0.0 });
+            Sealed::seal(&CONFIG, drive.coasted as u32)
+        };
+        for missed in 0..3 {
+            assert_eq!(tick(70_000), Seal::Sighted, "{missed}");
+        }
+        assert_eq!([tick(70_000), tick(70_000)], [Seal::Lost; 2]);
+        assert_eq!([tick(70_009), tick(70_009)], [Seal::Sighted; 2]);
+        for byte in 0..=255 {
+            assert_eq!(Sealed::seal(&CONFIG, u32::from_ne_bytes([byte; 4])), Seal::Broken, "{byte}");
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::number::{Interpolate, Number};
 use crate::observer::Observer;
 use crate::scheduling::Schedule;
 
-impl<N, O, F, G, B> Drive<N, O, F, G, B>
+impl<N, O, F, G, B, const SEAL: i32> Drive<N, O, F, G, B, SEAL>
 where
     N: Number,
     O: Observer<N>,

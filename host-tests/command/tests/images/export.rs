@@ -103,6 +103,8 @@ impl Exported {
         command
             .args(["build", "--release", "--quiet"])
             .args(self.target.iter().flat_map(|target| ["--target", target]));
+        // of the folder that the crate lies in, whatever the caller of the tests has chosen for them
+        command.env_remove("CARGO_TARGET_DIR");
         ended_well(&command.current_dir(self.file("rust")).output().unwrap());
         self.file("rust/target").join(self.target.unwrap_or("")).join("release/libhoist.a")
     }
@@ -134,33 +136,54 @@ fn the_machine_that_is_written_is_the_one_that_is_compared() {
     assert_eq!(written, fs::read_to_string(format!("{TESTS}/hoist.rs")).unwrap());
 }
 
-/// Under address and undefined-behaviour sanitizers, every warning an error; `host.c` makes every wrong call first.
+/// Whether a compiler is there and links a program with these flags; else it is said.
+fn links(compiler: &str, flags: &[&str]) -> bool {
+    let folder = tempfile::tempdir().unwrap();
+    let (source, program) = (folder.path().join("empty.c"), folder.path().join("empty"));
+    fs::write(&source, "int main(void) { return 0; }\n").unwrap();
+    let ended = Command::new(compiler).args(flags).arg(source).arg("-o").arg(program).output();
+    let linked = ended.is_ok_and(|ended| ended.status.success());
+    if !linked {
+        println!("skipped: {compiler} with {} is not there", flags.join(" "));
+    }
+    linked
+}
+
+/// Every warning an error, and under sanitizers; `host.c` makes every wrong call first. Clang's of addresses needs
+/// another package; that of undefined behaviour ends the program by itself.
 #[test]
 fn the_library_on_the_host_gives_the_bits_of_rust() {
+    let compilers: [(&str, &[&str]); 2] = [
+        ("cc", &["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]),
+        ("clang", &["-fsanitize=undefined", "-fsanitize-trap=all"]),
+    ];
+    let compilers = compilers.map(|(compiler, flags)| links(compiler, flags).then_some((compiler, flags)));
     for (number, words) in [("f32", Words::Single), ("fixed", Words::Fixed)] {
         let run = if number == "f32" { run::<f32>(words) } else { run::<Fixed>(words) };
         let exported = Exported::new("host", number, None);
-        let program = exported.folder.path().join("run");
-        let strict = ["-Wall", "-Wextra", "-Werror", "-O1", "-g", "-fsanitize=address,undefined"];
-        let mut compiler = Command::new("cc");
-        compiler.args(strict).args(["-std=c11", "-fno-sanitize-recover=all", "-I", TESTS, "-I"]).arg(exported.file(""));
-        compiler.args(["run.c", "host.c"].map(|file| Path::new(TESTS).join(file)));
-        compiler.arg(exported.file("libhoist.a")).arg("-o").arg(&program);
-        ended_well(&compiler.output().unwrap());
-        same_bits(&exported.run(&mut Command::new(&program), &run), &run);
+        for (name, sanitized) in compilers.into_iter().flatten() {
+            let strict = ["-Wall", "-Wextra", "-Werror", "-O1", "-g"];
+            let program = exported.folder.path().join("run");
+            let mut compiler = Command::new(name);
+            compiler.args(strict).args(sanitized).args(["-std=c11", "-I", TESTS, "-I"]).arg(exported.file(""));
+            compiler.args(["run.c", "host.c"].map(|file| Path::new(TESTS).join(file)));
+            compiler.arg(exported.file("libhoist.a")).arg("-o").arg(&program);
+            ended_well(&compiler.output().unwrap());
+            same_bits(&exported.run(&mut Command::new(&program), &run), &run);
 
-        // the example: as C99 without extensions, and its run without a fault
-        let example = exported.folder.path().join("example");
-        let mut compiler = Command::new("cc");
-        compiler.args(strict).args(["-std=c99", "-pedantic"]).arg(exported.file("main.c"));
-        compiler.arg(exported.file("libhoist.a")).arg("-o").arg(&example);
-        ended_well(&compiler.output().unwrap());
-        let ended = Command::new(&example).output().unwrap();
-        ended_well(&ended);
-        let printed = String::from_utf8(ended.stdout).unwrap();
-        // whole numbers, cut off: the largest speed is 155 rad/s
-        let fast = printed.contains("motor 154 rad/s") || printed.contains("motor 155 rad/s");
-        assert!(fast && printed.ends_with("faults: none\n"), "{printed}");
+            // the example: as C99 without extensions, and its run without a fault
+            let example = exported.folder.path().join("example");
+            let mut compiler = Command::new(name);
+            compiler.args(strict).args(sanitized).args(["-std=c99", "-pedantic"]).arg(exported.file("main.c"));
+            compiler.arg(exported.file("libhoist.a")).arg("-o").arg(&example);
+            ended_well(&compiler.output().unwrap());
+            let ended = Command::new(&example).output().unwrap();
+            ended_well(&ended);
+            let printed = String::from_utf8(ended.stdout).unwrap();
+            // whole numbers, cut off: the largest speed is 155 rad/s
+            let fast = printed.contains("motor 154 rad/s") || printed.contains("motor 155 rad/s");
+            assert!(fast && printed.ends_with("faults: none\n"), "{name}: {printed}");
+        }
     }
 }
 
@@ -188,18 +211,32 @@ fn the_library_holds_the_drive_alone() {
     }
 }
 
-/// In QEMU, compiled by GCC for Arm: the same bits, and the instructions of the interface beside those of the drive
-/// called from Rust in the same image.
+/// The linker of the Rust toolchain, under the name by which clang takes it for one of ELF.
+fn linker() -> PathBuf {
+    let sysroot = Command::new("rustc").args(["--print", "sysroot"]).output().unwrap();
+    let libraries = Path::new(String::from_utf8(sysroot.stdout).unwrap().trim()).join("lib/rustlib");
+    libraries.join(format!("{}-unknown-linux-gnu/bin/gcc-ld/ld.lld", std::env::consts::ARCH))
+}
+
+/// In QEMU, compiled by GCC and by clang for Arm: the same bits, and the instructions of the interface beside those of
+/// the drive called from Rust in the same image.
 #[test]
 fn the_library_in_qemu_gives_the_bits_of_rust_and_takes_few_instructions_more() {
-    if Command::new("arm-none-eabi-gcc").arg("--version").output().is_err() {
-        println!("skipped: arm-none-eabi-gcc is not on the path");
-        return;
-    }
     let Some(emulator) = Emulator::find() else {
         println!("skipped: QEMU for Arm is not there");
         return;
     };
+    let there = |name: &&str| {
+        let is_there = Command::new(name).arg("--version").output().is_ok();
+        if !is_there {
+            println!("skipped: {name} is not on the path");
+        }
+        is_there
+    };
+    let compilers: Vec<&str> = ["arm-none-eabi-gcc", "clang"].into_iter().filter(there).collect();
+    if compilers.is_empty() {
+        return;
+    }
     let m4f = ["-mcpu=cortex-m4", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"];
     for (core, number, target, machine, flags) in [
         ("m4f", "f32", "thumbv7em-none-eabihf", "mps2-an386", &m4f[..]),
@@ -207,23 +244,39 @@ fn the_library_in_qemu_gives_the_bits_of_rust_and_takes_few_instructions_more() 
     ] {
         let run = if number == "f32" { run::<f32>(Words::Single) } else { run::<Fixed>(Words::Fixed) };
         let exported = Exported::new(core, number, Some(target));
-        let image = exported.folder.path().join("run.elf");
-        let mut compiler = Command::new("arm-none-eabi-gcc");
-        compiler.args(flags).args(["-mthumb", "-O2", "-std=gnu11", "-Wall", "-Wextra", "-Werror", "-ffreestanding"]);
-        compiler.args(["-nostdlib", "-Wl,--gc-sections", "-DBESIDE", "-I", TESTS, "-I"]);
-        compiler.arg(exported.file("")).arg("-T").arg(format!("{TESTS}/qemu.ld"));
-        compiler.args(["run.c", "qemu.c"].map(|file| Path::new(TESTS).join(file)));
-        compiler.arg(exported.file("libhoist.a")).arg(exported.beside()).args(["-lgcc", "-o"]).arg(&image);
-        ended_well(&compiler.output().unwrap());
-        let mut qemu = emulator.command();
-        qemu.args(["-machine", machine, "-display", "none", "-monitor", "none", "-serial", "none"]);
-        // as firmware/src/board/cmsdk_timer.rs counts: an instruction is 2^10 ns
-        qemu.args(["-icount", "shift=10,align=off,sleep=off", "-semihosting-config", "enable=on,target=native"]);
-        let rows = exported.run(qemu.arg("-kernel").arg(&image), &run);
-        same_bits(&rows, &run);
-        let ticks = || rows.iter().zip(&run).filter(|(_, (input, _))| input.flags & Input::RELEASED != 0);
-        let largest = |at: usize| ticks().map(|(row, _)| row[at] as i32).max().unwrap();
-        println!("{core}: at most {} instructions a tick, {} more than in Rust", largest(6), largest(7));
-        assert!(largest(7) <= 10, "{core}: {} instructions more", largest(7));
+        let beside = exported.beside();
+        for name in &compilers {
+            let image = exported.folder.path().join("run.elf");
+            let mut compiler = Command::new(name);
+            if *name == "clang" {
+                // its names for an ABI; what GCC's library has is in the Rust drive's
+                let abi = if core == "m4f" { "eabihf" } else { "eabi" };
+                compiler.arg(format!("--target=arm-none-{abi}")).arg(format!("--ld-path={}", linker().display()));
+            }
+            compiler.args(flags).args([
+                "-mthumb",
+                "-O2",
+                "-std=gnu11",
+                "-Wall",
+                "-Wextra",
+                "-Werror",
+                "-ffreestanding",
+            ]);
+            compiler.args(["-nostdlib", "-Wl,--gc-sections", "-DBESIDE", "-I", TESTS, "-I"]);
+            compiler.arg(exported.file("")).arg("-T").arg(format!("{TESTS}/qemu.ld"));
+            compiler.args(["run.c", "qemu.c"].map(|file| Path::new(TESTS).join(file)));
+            compiler.arg(exported.file("libhoist.a")).arg(&beside).arg("-o").arg(&image);
+            ended_well(&compiler.output().unwrap());
+            let mut qemu = emulator.command();
+            qemu.args(["-machine", machine, "-display", "none", "-monitor", "none", "-serial", "none"]);
+            // as firmware/src/board/cmsdk_timer.rs counts: an instruction is 2^10 ns
+            qemu.args(["-icount", "shift=10,align=off,sleep=off", "-semihosting-config", "enable=on,target=native"]);
+            let rows = exported.run(qemu.arg("-kernel").arg(&image), &run);
+            same_bits(&rows, &run);
+            let ticks = || rows.iter().zip(&run).filter(|(_, (input, _))| input.flags & Input::RELEASED != 0);
+            let largest = |at: usize| ticks().map(|(row, _)| row[at] as i32).max().unwrap();
+            println!("{name}, {core}: at most {} instructions a tick, {} more than in Rust", largest(6), largest(7));
+            assert!(largest(7) <= 10, "{name}, {core}: {} instructions more", largest(7));
+        }
     }
 }

@@ -1,9 +1,13 @@
 //! The drive called from Rust, in the place of the C interface: what that is measured against.
 
+use driveline::drive::Drive;
 use driveline::number::Number as _;
 use driveline::sample::Sample;
 
-use crate::{CONFIG, Number, TheDrive};
+use crate::{Balancer, CONFIG, Fluctuation, Governor, Number, Observer};
+
+/// The drive of a firmware in Rust, whose compiler sees to it that it is initialised.
+type TheDrive = Drive<Number, Observer, Fluctuation, Governor, Balancer>;
 
 #[repr(C)]
 pub struct CSample {

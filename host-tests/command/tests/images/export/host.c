@@ -12,14 +12,14 @@ int send(const void *bytes, size_t size) { return fwrite(bytes, size, 1, out) ==
 uint32_t count(void) { return 0; }
 uint32_t instructions(uint32_t counts) { return counts; }
 
-/* Every refused call returns its code and leaves state and results as they were. */
-static int wrong_calls(void)
+/* Every refused call returns its code and leaves state and results as they were, whatever fills the memory. */
+static int wrong_calls(int filled)
 {
     hoist_drive drive, before;
     hoist_number torque = 7;
     hoist_estimates estimates, kept;
     const hoist_sample sample = { 0, 0, 0 };
-    memset(&drive, 0x5a, sizeof drive);
+    memset(&drive, filled, sizeof drive);
     memset(&estimates, 0x3c, sizeof estimates);
     before = drive;
     kept = estimates;
@@ -58,7 +58,8 @@ static int wrong_calls(void)
 
 int main(void)
 {
-    int wrong = wrong_calls();
+    int wrong = 0;
+    for (int filled = 0; filled < 256 && !wrong; filled++) wrong = wrong_calls(filled);
     if (wrong) {
         fprintf(stderr, "wrong call %d\n", wrong);
         return 1;
