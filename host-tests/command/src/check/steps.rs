@@ -15,13 +15,14 @@ use driveline_qemu::measure::{Cost, self_test};
 use driveline_qemu::setup;
 
 /// All steps; the firmware, which is built board beside board, before the tests that use its images one by one.
-pub const STEPS: [Step; 9] = [
+pub const STEPS: [Step; 10] = [
     Step { name: "setup", repeat: "cargo driveline check --only setup", run: setup_step },
     Step { name: "format", repeat: "cargo fmt --check", run: format },
     Step { name: "clippy", repeat: "cargo driveline check --only clippy", run: clippy },
     Step { name: "packages", repeat: "cargo driveline check --only packages", run: packages },
     Step { name: "book", repeat: "mdbook build doc", run: book },
     Step { name: "firmware", repeat: "cargo driveline check --only firmware", run: firmware },
+    Step { name: "examples", repeat: "cargo driveline check --only examples", run: examples },
     Step { name: "tests", repeat: "cargo test --workspace --exclude driveline-defmt-log --no-fail-fast", run: tests },
     Step { name: "self-tests", repeat: "cargo driveline check --only self-tests", run: self_tests },
     Step { name: "budgets", repeat: "cargo driveline check --only budgets", run: budgets },
@@ -35,14 +36,15 @@ fn setup_step(voice: &Voice) -> Result<Count, Failed> {
     Ok(Count { passed: 1, failed: 0 })
 }
 
-/// The folders of files whose `mod` lines a macro writes, where `cargo fmt` does not follow: their files are named to
-/// it.
-const BY_MACRO: [&str; 2] = ["firmware/src/scenes", "host-tests/command/src/drivetrains"];
+/// The folders where `cargo fmt` does not follow, since a macro writes the `mod` lines or the crate is in no workspace:
+/// their files are named to it.
+const NOT_FOLLOWED: [&str; 4] =
+    ["firmware/src/scenes", "host-tests/command/src/drivetrains", "examples/rtic/src", "examples/embassy/src"];
 
 fn format(voice: &Voice) -> Result<Count, Failed> {
     let root = workspace().map_err(Failed::whole)?;
     let mut arguments = ["fmt", "--all", "--check", "--"].map(String::from).to_vec();
-    for folder in BY_MACRO {
+    for folder in NOT_FOLLOWED {
         let entries = fs::read_dir(root.join(folder)).map_err(Failed::whole)?;
         let files = entries.filter_map(|entry| Some(entry.ok()?.path().display().to_string()));
         arguments.extend(files.filter(|file| file.ends_with(".rs")));
@@ -119,6 +121,20 @@ fn firmware(voice: &Voice) -> Result<Count, Failed> {
         scope.spawn(|| cargo::passes(&[&TESTS[..], &["--no-run"]].concat(), voice));
         images(voice)
     })
+}
+
+/// The examples that are crates of their own, each with its own dependencies; their manifests deny warnings.
+///
+/// They are built where the images for this core are: what both need is compiled once.
+fn examples(voice: &Voice) -> Result<Count, Failed> {
+    let place = target_directory().map_err(Failed::whole)?.join("firmware/fpu");
+    let place = format!("--target-dir={}", place.display());
+    let target = format!("--target={}", NUCLEO.target);
+    let build = |name: &str| {
+        let manifest = format!("--manifest-path=examples/{name}/Cargo.toml");
+        cargo::passes(&["build", "--locked", &manifest, "--profile=firmware", &target, &place], voice)
+    };
+    together(["rtic", "embassy"].map(build))
 }
 
 fn images(voice: &Voice) -> Result<Count, Failed> {

@@ -6,7 +6,7 @@ use super::Failure;
 use crate::check::{CheckError, Options, STEPS, run};
 use driveline_qemu::clone::workspace;
 
-/// Check everything: formatting, clippy, packages, the book, firmware, tests, self-tests, the budgets.
+/// Check everything: formatting, clippy, packages, the book, firmware, examples, tests, self-tests, the budgets.
 ///
 /// Stops at the first step that fails, with the command to repeat it.
 #[derive(Debug, Args)]

@@ -13,10 +13,26 @@ const ALLOWED: [&str; 6] = ["MIT", "Apache-2.0", "0BSD", "Zlib", "BSD-3-Clause",
 /// Packages under MPL-2.0, which tests use and nothing ships.
 const IN_TESTS: [&str; 2] = ["alterable_logger", "colored"];
 
+/// The examples that are crates of their own, and what they are compiled for.
+const EXAMPLES: [&str; 2] = ["examples/rtic", "examples/embassy"];
+const EXAMPLES_TARGET: &str = "thumbv7em-none-eabihf";
+
+/// Of the workspace.
 fn metadata() -> Value {
-    // of this platform alone: what is built here is here, and nothing is fetched for others
-    let platform = format!("--filter-platform={}-unknown-linux-gnu", std::env::consts::ARCH);
+    metadata_of(".", &format!("{}-unknown-linux-gnu", std::env::consts::ARCH))
+}
+
+/// Of the workspace and of the examples beside it.
+fn all_metadata() -> Vec<Value> {
+    let examples = EXAMPLES.map(|folder| metadata_of(folder, EXAMPLES_TARGET));
+    [metadata()].into_iter().chain(examples).collect()
+}
+
+/// For one platform alone: what is built here is here, and nothing is fetched for others.
+fn metadata_of(folder: &str, platform: &str) -> Value {
+    let (manifest, platform) = (format!("{folder}/Cargo.toml"), format!("--filter-platform={platform}"));
     let arguments = ["metadata", "--format-version=1", "--locked", "--all-features", &platform];
+    let arguments = [&arguments[..], &["--manifest-path", &manifest]].concat();
     let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
@@ -37,11 +53,11 @@ fn text<'a>(package: &'a Value, key: &str) -> &'a str {
 /// The page lists every direct dependency, with its licence, and nothing else.
 #[test]
 fn the_page_lists_every_dependency_with_its_licence() {
-    let metadata = metadata();
+    let all = all_metadata();
     let licences: BTreeMap<&str, &str> =
-        packages(&metadata).map(|package| (text(package, "name"), text(package, "license"))).collect();
+        all.iter().flat_map(packages).map(|package| (text(package, "name"), text(package, "license"))).collect();
     let mut expected = BTreeMap::new();
-    for package in packages(&metadata).filter(|package| is_ours(package)) {
+    for package in all.iter().flat_map(packages).filter(|package| is_ours(package)) {
         for dependency in package["dependencies"].as_array().unwrap() {
             let name = text(dependency, "name");
             if !dependency["source"].is_null() {
@@ -73,9 +89,9 @@ fn offers(expression: &str, allowed: &[&str]) -> bool {
 /// Every package, however far down, comes from the registry and offers a licence that may be combined with ours.
 #[test]
 fn every_package_has_an_allowed_licence_and_comes_from_the_registry() {
-    let metadata = metadata();
+    let all = all_metadata();
     let mut wrong = Vec::new();
-    for package in packages(&metadata).filter(|package| !is_ours(package)) {
+    for package in all.iter().flat_map(packages).filter(|package| !is_ours(package)) {
         let (name, licence) = (text(package, "name"), text(package, "license"));
         let allowed = offers(licence, &ALLOWED) || IN_TESTS.contains(&name) && offers(licence, &["MPL-2.0"]);
         if !allowed || !text(package, "source").starts_with("registry+https://github.com/rust-lang/crates.io-index") {
