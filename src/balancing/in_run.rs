@@ -235,7 +235,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
     }
 
     /// Begins again after an abort, from where the heads stand now. A confirmed influence is kept. Before a correction
-    /// uses it, five further readings at rest and a move have to confirm it. The noise of the readings and the target
+    /// uses it, readings at rest and a move have to confirm it. The noise of the readings and the target
     /// stay shares of the very first reading.
     pub fn resume(&mut self, weights: &[Complex<T>; PLANES]) {
         (self.aborted, self.start, self.speed) = (None, None, None);

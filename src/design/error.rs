@@ -44,25 +44,26 @@ sentences! {
         finite",
     Tolerance => "a tolerance must be from a factor above 0 and at most 1 to one of 1 or above, a gain margin 1 or \
         above, a phase margin zero or above, a lag zero or above and finite (s)",
-    LoopUnstable => "the speed loop with its observer is unstable: take SpeedLoopTuning::with_bandwidth below 0.4, \
-        less damping of a take-up, or a load disturbance of more for the observer",
+    LoopUnstable => "the speed loop with its observer is unstable: take less bandwidth \
+        (SpeedLoopTuning::with_bandwidth), less damping of a take-up, or a load disturbance of more for the observer",
     LoopGain => "the speed loop with its observer has less gain margin than ROBUSTNESS requires (6 dB unless named): \
-        take SpeedLoopTuning::with_bandwidth below 0.4 or less damping of a take-up, or name a ROBUSTNESS of less",
-    LoopPhase => "the speed loop with its observer has less phase margin than ROBUSTNESS requires (30 degrees unless \
-        named): take SpeedLoopTuning::with_bandwidth below 0.4 or less damping of a take-up, or name a ROBUSTNESS of \
+        take less bandwidth (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a ROBUSTNESS of \
         less",
-    LoopMotorInertia => "the speed loop with its observer is unstable at the tolerance of the motor inertia: take \
-        SpeedLoopTuning::with_bandwidth below 0.4 or less damping of a take-up, or name a narrower TOLERANCE",
-    LoopLoadInertia => "the speed loop with its observer is unstable at the tolerance of the load inertia: take \
-        SpeedLoopTuning::with_bandwidth below 0.4 or less damping of a take-up, or name a narrower TOLERANCE",
-    LoopStiffness => "the speed loop with its observer is unstable at the tolerance of the stiffness: take \
-        SpeedLoopTuning::with_bandwidth below 0.4 or less damping of a take-up, or name a narrower TOLERANCE",
-    LoopTorque => "the speed loop with its observer is unstable at the tolerance of the torque: take \
-        SpeedLoopTuning::with_bandwidth below 0.4 or less damping of a take-up, or name a narrower TOLERANCE",
-    LoopLate => "the speed loop with its observer is unstable with a torque as late as TOLERANCE allows: take \
-        SpeedLoopTuning::with_bandwidth below 0.4 or less damping of a take-up, or name a narrower TOLERANCE",
-    LoopCorner => "the speed loop with its observer is unstable at its tolerances together: take \
-        SpeedLoopTuning::with_bandwidth below 0.4 or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopPhase => "the speed loop with its observer has less phase margin than ROBUSTNESS requires (30 degrees unless \
+        named): take less bandwidth (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a \
+        ROBUSTNESS of less",
+    LoopMotorInertia => "the speed loop with its observer is unstable at the tolerance of the motor inertia: take less \
+        bandwidth (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopLoadInertia => "the speed loop with its observer is unstable at the tolerance of the load inertia: take less \
+        bandwidth (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopStiffness => "the speed loop with its observer is unstable at the tolerance of the stiffness: take less \
+        bandwidth (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopTorque => "the speed loop with its observer is unstable at the tolerance of the torque: take less bandwidth \
+        (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopLate => "the speed loop with its observer is unstable with a torque as late as TOLERANCE allows: take less \
+        bandwidth (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a narrower TOLERANCE",
+    LoopCorner => "the speed loop with its observer is unstable at its tolerances together: take less bandwidth \
+        (SpeedLoopTuning::with_bandwidth) or less damping of a take-up, or name a narrower TOLERANCE",
     SpeedLoopUnstable => "the speed loop is unstable at this sample rate: lower its bandwidth or raise the rate",
 }
 

@@ -7,7 +7,7 @@ const byId = (id) => document.getElementById(id);
 const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31"];
 const PERIOD = 100, TRAIL = 100;
 
-let state = null, plots = [], names = "", view = null, armed = null, trail = [], spectrum = null;
+let asked = "", state = null, plots = [], names = "", view = null, armed = null, trail = [], spectrum = null;
 
 const get = async (path) => {
   const answer = await fetch(path);
@@ -17,7 +17,11 @@ const get = async (path) => {
 };
 
 const scale = () => (state && state.rate_hz ? 1 / state.rate_hz : 1);
-const digits = (value) => (value === null || value === undefined ? "" : Number(value).toPrecision(5));
+const digits = (value) => {
+  if (value === null || value === undefined) return "";
+  const size = Math.abs(value);
+  return size >= 1e5 && size < 1e15 ? Math.round(value).toString() : Number(value).toPrecision(5);
+};
 const label = (channel) => (channel.unit ? `${channel.name} (${channel.unit})` : channel.name);
 
 function element(kind, text, parent) {
@@ -36,7 +40,7 @@ function build() {
     const key = channel.unit || channel.name;
     groups.set(key, [...(groups.get(key) || []), index]);
   });
-  const axis = state.rate_hz ? "s" : "ticks";
+  const axis = state.rate_hz ? "s" : "records";
   document.querySelectorAll(".axis").forEach((place) => (place.textContent = axis));
   plots = [...groups].map(([unit, channels]) => {
     const figure = element("figure", "", byId("plots"));
@@ -81,6 +85,8 @@ function build() {
     [channel.name, channel.unit, "", "", ""].forEach((text) => element("td", text, row));
   });
   trail = [];
+  follow(null);
+  disarm("");
 }
 
 // a fixed window, or null to follow the drive
@@ -177,6 +183,10 @@ async function turn() {
   const places = Math.min(2000, Math.max(100, document.body.clientWidth));
   draw(await get(`/window?from=${from}&to=${to}&places=${places}`));
   const channel = Number(byId("order-channel").value);
+  // orders of the same window are the same
+  const now_asked = [from, to, channel, state.records].slice(0, view ? 3 : 4).join();
+  if (now_asked === asked) return;
+  asked = now_asked;
   try {
     const { orders } = await get(`/orders?from=${from}&to=${to}&channel=${channel}`);
     if (orders) drawOrders(orders, state.channels[channel]);
@@ -194,10 +204,19 @@ byId("arm").addEventListener("click", () => {
   if (armed !== null) return disarm("");
   if (state && state.ends) { armed = state.ends[1]; follow(null); byId("arm").textContent = "Disarm"; }
 });
-byId("save").addEventListener("click", () => {
-  if (state && state.ends) { const { from, to } = shown(); location.assign(`/csv?from=${from}&to=${to}`); }
+byId("save").addEventListener("click", async () => {
+  if (!state || !state.ends) return;
+  const { from, to } = shown();
+  const answer = await fetch(`/csv?from=${from}&to=${to}`);
+  byId("saved").textContent = answer.ok ? "" : (await answer.json()).error;
+  if (!answer.ok) return;
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(await answer.blob());
+  link.download = "scope.csv";
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 });
-byId("order-channel").addEventListener("change", () => { trail = []; });
+byId("order-channel").addEventListener("change", () => { trail = []; asked = ""; });
 byId("controls").addEventListener("submit", (event) => event.preventDefault());
 window.addEventListener("resize", () => {
   plots.forEach(({ chart, figure }) => chart.setSize({ width: figure.clientWidth, height: 220 }));

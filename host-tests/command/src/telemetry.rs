@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::machine_file::printable;
+
 /// Description of a channel.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Described {
@@ -15,6 +17,12 @@ pub struct Described {
 }
 
 impl Described {
+    /// Its name and unit as the heading of a column: `torque [N m]`. A drive's descriptions may contain anything.
+    pub fn heading(&self) -> String {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
+        printable(&format!("{}{unit}", self.name), usize::MAX)
+    }
+
     /// A word as a value.
     pub fn value(&self, word: u32) -> f64 {
         match self.factor {

@@ -143,7 +143,8 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
     text.push_str(&format!("poles: {} (largest size {:.6})\n", poles.join(", "), plan.spectral_radius));
     if let Some(governor) = &plan.speed_loop {
         text.push_str(&format!(
-            "\nspeed loop: proportional {} N m s/rad, integral {} N m/rad, damping {} N m s/rad; {} Hz wide\n{}{}",
+            "\nspeed loop on two masses: proportional {} N m s/rad, integral {} N m/rad, \
+             damping {} N m s/rad; {} Hz wide\n{}{}",
             significant(governor.proportional),
             significant(governor.integral),
             significant(governor.damping),
@@ -172,9 +173,11 @@ fn over_tolerances(machine: &MachineFile, predicted: &Predicted) -> String {
     let class = Class::ALL.into_iter().find(|(_, class)| *class == machine.class).map_or("general", |(name, _)| name);
     let simpler = if predicted.is_simpler { ": one mass is as good over the tolerances" } else { "" };
     let remark = predicted.remark.as_ref().map_or_else(String::new, |remark| format!("; {remark}"));
+    let sound =
+        if predicted.observer == "rigid" && predicted.lack.is_none() { "; its loop has the margins" } else { "" };
     let lack = predicted.lack.as_ref().map_or_else(String::new, |lack| format!("warning: {lack}\n"));
     format!(
-        "\n{table}selected observer, over the tolerances of class {class}: {}{simpler}{remark}\n{lack}",
+        "\n{table}selected observer, over the tolerances of class {class}: {}{simpler}{sound}{remark}\n{lack}",
         words(predicted.observer)
     )
 }

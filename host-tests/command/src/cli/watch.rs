@@ -30,7 +30,7 @@ use driveline_report::format::significant;
 #[command(after_help = "Examples:
   cargo driveline watch --qemu hoist/f32/reduced/10000 --records 20000
   cargo driveline watch /dev/ttyACM0 --csv run.csv
-  cargo driveline watch /dev/ttyACM0 --web --rate 10000
+  cargo driveline watch /dev/ttyACM0 --web --rate 1000
   cargo driveline watch - --json < recorded.bin")]
 pub struct Watch {
     /// A serial port or a file; `-` is standard input
@@ -42,7 +42,7 @@ pub struct Watch {
     /// The core for QEMU: m4f, m3
     #[arg(long, default_value = "m4f", requires = "qemu")]
     core: String,
-    /// Record every tick
+    /// Write every record to this file
     #[arg(long, value_name = "PATH")]
     csv: Option<PathBuf>,
     /// Stop after so many records
@@ -52,7 +52,7 @@ pub struct Watch {
     #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "0", require_equals = true)]
     #[arg(conflicts_with = "json")]
     web: Option<u16>,
-    /// Ticks a second, for times in the scope; a variant in QEMU has its own
+    /// Records a second, as the drive makes them, for times in the scope; a variant in QEMU has its own
     #[arg(long, value_name = "HZ", requires = "web", value_parser = clap::value_parser!(u32).range(1..))]
     rate: Option<u32>,
     /// Records that the scope keeps, the last ones
@@ -97,6 +97,7 @@ impl Seen {
     fn add(&mut self, decoder: &Decoder, told: &Told) {
         self.records += 1;
         self.dropped = told.dropped;
+        self.channels.truncate(told.words.len());
         for (index, &word) in told.words.iter().enumerate() {
             let value = decoder.value(index, word);
             let anew = || Course { channel: decoder.channel(index), last: value, least: value, most: value };
@@ -223,7 +224,8 @@ impl Watch {
         };
         let scope = Arc::new(Mutex::new(scope));
         let address = serve(&scope, port).map_err(|error| Failure::failed(format!("port {port}: {error}")))?;
-        eprintln!("the scope is at http://{address}/ until Ctrl-C");
+        // a closed stream is no reason to stop
+        let _ = writeln!(io::stderr(), "the scope is at http://{address}/ until Ctrl-C");
         Ok(Live { scope, waiting: Vec::new() })
     }
 
@@ -282,7 +284,7 @@ impl Live {
     /// Keeps the page until the program is stopped.
     fn stay(&self, broken: Option<&io::Error>) -> ! {
         let why = broken.map_or_else(|| "no more records came".to_owned(), ToString::to_string);
-        eprintln!("{why}; the scope stays until Ctrl-C");
+        let _ = writeln!(io::stderr(), "{why}; the scope stays until Ctrl-C");
         self.scope.lock().unwrap_or_else(PoisonError::into_inner).ended = Some(why);
         loop {
             thread::park();
@@ -344,14 +346,12 @@ impl<'a> Csv<'a> {
     }
 }
 
-/// The first line of the CSV: `tick,dropped,torque [N m],...`. A drive's descriptions may contain anything.
+/// The first line of the CSV: `tick,dropped,torque [N m],...`.
 fn header(decoder: &Decoder, told: &Told) -> String {
     let mut text = String::from("tick,dropped");
     for index in 0..told.words.len() {
-        let Described { name, unit, .. } = decoder.channel(index);
-        let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
         text.push(',');
-        text.push_str(&field(&printable(&format!("{name}{unit}"), usize::MAX)));
+        text.push_str(&field(&decoder.channel(index).heading()));
     }
     text
 }

@@ -3,6 +3,7 @@
 //! A shared library is trusted: its functions are taken for those of the standard (FMI 2.0.4, 4.2; FMI 3.0.2, 4.2). It
 //! stays loaded until the program ends, since it may have left code to be called then.
 
+use std::cell::Cell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::mem::ManuallyDrop;
 use std::path::Path;
@@ -120,6 +121,8 @@ pub struct Instance {
     release: unsafe extern "C" fn(Component),
     model: String,
     begun: bool,
+    /// The worst status so far.
+    worst: Cell<c_int>,
     log: Box<Log>,
     /// The library keeps a pointer to it.
     _callbacks: Box<Callbacks>,
@@ -207,6 +210,7 @@ impl Instance {
             release: unsafe { symbol(&loaded, &named("FreeInstance"))? },
             model: model.clone(),
             begun: false,
+            worst: Cell::new(0),
             log,
             _callbacks: callbacks,
             _library: ManuallyDrop::new(loaded),
@@ -222,6 +226,7 @@ impl Instance {
 
     /// The result of a function: OK or a warning, or the reason.
     fn done(&self, status: c_int, what: impl FnOnce() -> String) -> Result<(), String> {
+        self.worst.set(self.worst.get().max(status));
         if matches!(status, 0 | 1) { Ok(()) } else { Err(self.refused(&what())) }
     }
 
@@ -329,14 +334,18 @@ impl Instance {
     }
 }
 
+/// Status of both versions after which an instance may not be used.
+const FATAL: c_int = 4;
+
 impl Drop for Instance {
     fn drop(&mut self) {
-        if self.component.is_null() {
+        // after a fatal status no function may be called, after an error none but the release
+        if self.component.is_null() || self.worst.get() >= FATAL {
             return;
         }
         // SAFETY: the instance, for the last time.
         unsafe {
-            if self.begun {
+            if self.begun && self.worst.get() <= 1 {
                 (self.terminate)(self.component);
             }
             (self.release)(self.component);

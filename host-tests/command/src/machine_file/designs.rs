@@ -49,15 +49,15 @@ pub struct Designs {
 pub struct Lack {
     /// What is not there.
     pub cause: &'static str,
-    /// What to change.
-    remedy: &'static str,
+    /// What to change, where that is known.
+    remedy: Option<&'static str>,
 }
 
 impl Lack {
     /// Two masses are stable, the machine is not.
     const NEGLECTED: Self = Self {
         cause: "the speed loop with its observer is unstable by a vibration that the two masses leave out",
-        remedy: "give its shafts their damping, or take less `bandwidth` in `[speed_loop]`",
+        remedy: Some("give its shafts their damping, or take less `bandwidth` in `[speed_loop]`"),
     };
 
     /// What the library says of a loop.
@@ -68,16 +68,35 @@ impl Lack {
             Error::LoopLate => "the speed loop with its observer is unstable with a torque as late as it may be",
             other => other.message(),
         };
+        let is_of_loop = matches!(
+            error,
+            Error::LoopUnstable
+                | Error::LoopGain
+                | Error::LoopPhase
+                | Error::LoopMotorInertia
+                | Error::LoopLoadInertia
+                | Error::LoopStiffness
+                | Error::LoopTorque
+                | Error::LoopLate
+                | Error::LoopCorner
+                | Error::SpeedLoopUnstable
+        );
+        if !is_of_loop {
+            return Self { cause: sentence, remedy: None };
+        }
         Self {
             cause: sentence.split_once(':').map_or(sentence, |(cause, _)| cause),
-            remedy: "take less `bandwidth` in `[speed_loop]` (0.4 unless named), or narrower values in `[tolerance]`",
+            remedy: Some("take less `bandwidth` in `[speed_loop]`, or narrower values in `[tolerance]`"),
         }
     }
 }
 
 impl fmt::Display for Lack {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.cause, self.remedy)
+        match self.remedy {
+            Some(remedy) => write!(f, "{}: {remedy}", self.cause),
+            None => f.write_str(self.cause),
+        }
     }
 }
 
@@ -211,7 +230,11 @@ impl MachineFile {
         let robust = two.try_robust(observer, speed_loop, self.actuator(), &self.tolerance(), &Robustness::USUAL);
         let plant = Plant::of_modes(two.total_inertia(), &self.modes());
         let neglected = (!closed.is_stable(&plant, 1.0)).then_some(Lack::NEGLECTED);
-        Ok(robust.err().map(Lack::of).or(neglected))
+        // two masses that are unstable themselves leave nothing out; tolerances come after the machine as it is
+        Ok(match robust.err() {
+            Some(Error::LoopUnstable) => Some(Lack::of(Error::LoopUnstable)),
+            error => neglected.or(error.map(Lack::of)),
+        })
     }
 
     /// Range of a factor, where it has one.

@@ -1,9 +1,10 @@
 //! The scope's page and its figures, on the loopback address. Nothing here reaches the drive.
 
-use std::io;
+use std::io::{self, Write};
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
+use std::time::Duration;
 
 use serde_json::{Value, json};
 use tiny_http::{Header, Method, Request, Response, Server};
@@ -17,7 +18,7 @@ use crate::telemetry::Described;
 pub struct Scope {
     /// Where the records come from.
     pub source: String,
-    /// Ticks a second, where they are known.
+    /// Records a second, where they are known.
     pub rate_hz: Option<u32>,
     /// The records.
     pub store: Store,
@@ -54,18 +55,28 @@ const PARTS: [(&str, &str, &str); 5] = [
 /// Serves the page until the program ends, at a port of the loopback address; 0 takes a free one.
 ///
 /// Each request has a thread of its own, and holds the records only while its answer is computed: a client that is slow
-/// or gone stops nothing.
+/// or gone stops nothing. Where no more connections can be opened, the scope begins to listen anew.
 ///
 /// # Errors
 /// A port that is taken.
 pub fn serve(scope: &Arc<Mutex<Scope>>, port: u16) -> io::Result<SocketAddr> {
-    let server = Server::http((Ipv4Addr::LOCALHOST, port)).map_err(io::Error::other)?;
+    let mut server = Server::http((Ipv4Addr::LOCALHOST, port)).map_err(io::Error::other)?;
     let address = server.server_addr().to_ip().ok_or_else(|| io::Error::other("no address"))?;
     let scope = Arc::clone(scope);
     thread::spawn(move || {
-        for request in server.incoming_requests() {
-            let scope = Arc::clone(&scope);
-            thread::spawn(move || answer(request, &scope, address.port()));
+        loop {
+            for request in server.incoming_requests() {
+                let scope = Arc::clone(&scope);
+                thread::spawn(move || answer(request, &scope));
+            }
+            let _ = writeln!(io::stderr(), "the scope has too many connections, and listens anew");
+            drop(server);
+            server = loop {
+                thread::sleep(Duration::from_secs(1));
+                if let Ok(server) = Server::http(address) {
+                    break server;
+                }
+            };
         }
     });
     Ok(address)
@@ -81,8 +92,8 @@ type Answer = (u16, &'static str, String);
 
 const JSON: &str = "application/json";
 
-fn answer(request: Request, scope: &Mutex<Scope>, port: u16) {
-    let (status, kind, text) = answered(&request, scope, port);
+fn answer(request: Request, scope: &Mutex<Scope>) {
+    let (status, kind, text) = answered(&request, scope);
     let header = |name: &str, value: &str| Header::from_bytes(name, value).ok();
     let mut response = Response::from_string(text).with_status_code(status);
     let policy = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:";
@@ -100,16 +111,16 @@ fn answer(request: Request, scope: &Mutex<Scope>, port: u16) {
 
 const CSV: &str = "text/csv; charset=utf-8";
 
-fn answered(request: &Request, scope: &Mutex<Scope>, port: u16) -> Answer {
+fn answered(request: &Request, scope: &Mutex<Scope>) -> Answer {
     let wrong = |status, why: &str| (status, JSON, json!({ "error": why }).to_string());
     if *request.method() != Method::Get {
         return wrong(405, "expected GET: the scope only shows");
     }
-    // a page from elsewhere that resolves its own name to this address is not answered
+    // a page from elsewhere that resolves its own name to this address is not answered; a port may be forwarded
     let host = request.headers().iter().find(|header| header.field.equiv("Host"));
-    let own = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
-    if !host.is_some_and(|host| own.iter().any(|own| host.value.as_str() == own)) {
-        return wrong(403, "expected the loopback address as host");
+    let name = host.map_or("", |host| host.value.as_str()).split(':').next().unwrap_or_default();
+    if name != "127.0.0.1" && !name.eq_ignore_ascii_case("localhost") {
+        return wrong(403, "expected 127.0.0.1 or localhost as host");
     }
     let (path, query) = request.url().split_once('?').unwrap_or((request.url(), ""));
     if let Some((_, kind, text)) = PARTS.iter().find(|(at, ..)| *at == path) {
@@ -179,8 +190,17 @@ fn spectrum(asked: &Query<'_>, scope: &Mutex<Scope>) -> Result<Value, String> {
         }
         let to = scope.store.ends().map_or(to, |(_, last)| to.min(last));
         let from = from.max(to.saturating_sub(MOST_RECORDS as u64));
-        let of = |(_, values): (u64, &[f32])| Some((f64::from(*values.get(angle)?), f64::from(*values.get(channel)?)));
-        scope.store.records(from, to).filter_map(of).collect()
+        let mut whole: Vec<(f64, f64)> = Vec::new();
+        let mut before = from;
+        for (tick, values) in scope.store.records(from, to) {
+            // turns are lost in a gap
+            if tick - before > 1 {
+                whole.clear();
+            }
+            before = tick;
+            whole.extend(values.get(angle).zip(values.get(channel)).map(|(a, x)| (f64::from(*a), f64::from(*x))));
+        }
+        whole
     };
     records.retain(|(angle, value)| angle.is_finite() && value.is_finite());
     Ok(json!({ "orders": orders(&records), "records": records.len() }))
@@ -189,21 +209,21 @@ fn spectrum(asked: &Query<'_>, scope: &Mutex<Scope>) -> Result<Value, String> {
 /// The records of a window as a recording that `replay` and `identify` read.
 fn saved(asked: &Query<'_>, scope: &Mutex<Scope>) -> Result<String, String> {
     let (from, to): (u64, u64) = (asked.number("from")?, asked.number("to")?);
-    let scope = locked(scope);
-    let rows: Vec<(u64, &[f32])> = scope.store.records(from, to).take(MOST_SAVED + 1).collect();
+    // copied first: the drive goes on while the text is made
+    let (rate_hz, channels, rows) = {
+        let scope = locked(scope);
+        let rows = scope.store.records(from, to).take(MOST_SAVED + 1).map(|(tick, values)| (tick, values.to_vec()));
+        (scope.rate_hz, scope.channels.clone(), rows.collect::<Vec<_>>())
+    };
     if rows.len() > MOST_SAVED {
         return Err(format!("more than {MOST_SAVED} records; zoom in, or record all by `--csv`"));
     }
     let mut csv = csv::Writer::from_writer(Vec::new());
-    let time = scope.rate_hz.map_or("tick", |_| "time [s]").to_owned();
-    let named = scope.channels.iter().map(|one| match one.unit.as_str() {
-        "" => one.name.clone(),
-        unit => format!("{} [{unit}]", one.name),
-    });
+    let time = rate_hz.map_or("tick", |_| "time [s]").to_owned();
     let mut write = |row: Vec<String>| csv.write_record(row).map_err(|error| error.to_string());
-    write([time].into_iter().chain(named).collect())?;
+    write([time].into_iter().chain(channels.iter().map(Described::heading)).collect())?;
     for (tick, values) in rows {
-        let at = scope.rate_hz.map_or(tick as f64, |rate| (tick - from.min(tick)) as f64 / f64::from(rate));
+        let at = rate_hz.map_or(tick as f64, |rate| (tick - from.min(tick)) as f64 / f64::from(rate));
         write([at.to_string()].into_iter().chain(values.iter().map(f32::to_string)).collect())?;
     }
     String::from_utf8(csv.into_inner().map_err(|error| error.to_string())?).map_err(|error| error.to_string())

@@ -19,9 +19,7 @@ pub struct Store {
     /// The first tick of the drive's own count, in that of the store; it grows where the drive begins anew.
     offset: u64,
     last: Option<u64>,
-    /// Least distance of two records (ticks): 1 where every tick is told.
-    spacing: u64,
-    /// Ticks that are missing between records.
+    /// Records that are missing between others.
     pub missing: u64,
     /// How often the drive began to count anew.
     pub restarts: u64,
@@ -82,17 +80,7 @@ impl Window {
 impl Store {
     /// An empty one for so many records; whole blocks are given up, so somewhat more may be kept.
     pub fn new(keep: usize) -> Self {
-        Self {
-            blocks: VecDeque::new(),
-            channels: 0,
-            keep,
-            kept: 0,
-            offset: 0,
-            last: None,
-            spacing: u64::MAX,
-            missing: 0,
-            restarts: 0,
-        }
+        Self { blocks: VecDeque::new(), channels: 0, keep, kept: 0, offset: 0, last: None, missing: 0, restarts: 0 }
     }
 
     /// Takes a record. One with another number of values than those before begins the store anew.
@@ -106,11 +94,13 @@ impl Store {
             if at <= last {
                 let is_round = last - at > 1 << 31;
                 self.restarts += u64::from(!is_round);
-                self.offset = if is_round { self.offset + (1 << 32) } else { last + 1 - u64::from(tick) };
+                // a place is left free between the counts, so that the line breaks there
+                self.offset = if is_round { self.offset + (1 << 32) } else { last + 2 - u64::from(tick) };
                 at = self.offset + u64::from(tick);
+                self.missing += if is_round { at - last - 1 } else { 0 };
+            } else {
+                self.missing += at - last - 1;
             }
-            self.spacing = self.spacing.min(at - last);
-            self.missing += (at - last).saturating_sub(self.spacing);
         }
         self.last = Some(at);
         if self.blocks.back().is_none_or(|block| block.ticks.len() == BLOCK) {
@@ -168,7 +158,7 @@ impl Store {
             let place = (tick - from) / width;
             if let Some((_, before, range)) = open.take_if(|(now, ..)| *now != place) {
                 window.push(before, &range);
-                if self.is_gap(before, tick) {
+                if tick - before > 1 {
                     window.push(before + 1, &empty);
                 }
             }
@@ -196,11 +186,6 @@ impl Store {
             window.push(last, &range);
         }
         window
-    }
-
-    /// Whether records are missing between two that follow each other.
-    const fn is_gap(&self, before: u64, tick: u64) -> bool {
-        tick - before > self.spacing.saturating_mul(2)
     }
 
     /// The first tick after one at which a channel comes above a level.
@@ -240,14 +225,14 @@ mod tests {
     /// Against a search through all records.
     #[test]
     fn a_window_has_the_least_and_the_most_of_each_place() {
-        let store = store((0..10_000).filter(|tick| !(3_000..3_700).contains(tick)), usize::MAX);
-        assert_eq!(store.missing, 700);
+        let gapped = store((0..10_000).filter(|tick| !(3_000..3_700).contains(tick)), usize::MAX);
+        assert_eq!(gapped.missing, 700);
         for (from, to, places) in [(0, 9_999, 10), (17, 5_003, 700), (2_990, 3_710, 1_000), (5, 5, 3), (0, 99_999, 1)] {
-            let window = store.window(from, to, places);
+            let window = gapped.window(from, to, places);
             let gaps = window.least[0].iter().filter(|least| least.is_none()).count();
             assert!(window.ticks.len() - gaps <= places as usize + 1, "{from} {to} {places}");
             assert!(window.ticks.is_sorted());
-            let mut records = store.records(from, to).peekable();
+            let mut records = gapped.records(from, to).peekable();
             for (place, &last) in window.ticks.iter().enumerate() {
                 let mut range = [f32::INFINITY, f32::NEG_INFINITY];
                 while let Some((_, values)) = records.next_if(|(tick, _)| *tick <= last) {
@@ -258,9 +243,12 @@ mod tests {
             }
             assert!(records.next().is_none());
         }
+        // a single record too
+        let single = store([0, 1, 3, 500, 501].into_iter(), 100);
+        assert_eq!((single.missing, single.window(0, 501, 1_000).ticks), (497, vec![0, 1, 2, 3, 4, 500, 501]));
         // the gap is seen where its records are drawn one by one
-        assert!(store.window(2_990, 3_710, 1_000).least[0].contains(&None));
-        assert!(!store.window(0, 2_900, 1_000).least[0].contains(&None));
+        assert!(gapped.window(2_990, 3_710, 1_000).least[0].contains(&None));
+        assert!(!gapped.window(0, 2_900, 1_000).least[0].contains(&None));
     }
 
     #[test]
@@ -276,7 +264,7 @@ mod tests {
         let mut store = store([u32::MAX - 1, u32::MAX, 0, 1].into_iter(), 100);
         assert_eq!((store.ends().unwrap().1, store.restarts, store.missing), ((1 << 32) + 1, 0, 0));
         store.push(0, &[0.0, 0.0]);
-        assert_eq!((store.ends().unwrap().1, store.restarts), ((1 << 32) + 2, 1));
+        assert_eq!((store.ends().unwrap().1, store.restarts, store.missing), ((1 << 32) + 3, 1, 0));
         // another telemetry
         store.push(0, &[0.0]);
         assert_eq!((store.ends(), store.channels()), (Some((0, 0)), 1));
