@@ -1,7 +1,9 @@
 //! Recordings of machines: a table in CSV whose columns are named by quantity and unit.
 
+mod angle;
 mod column;
 mod read;
 
+pub use angle::unwrapped;
 pub use column::{Column, Quantity, Scales};
 pub use read::{Asked, Recording, read_recording};

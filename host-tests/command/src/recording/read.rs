@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use super::angle::counted;
 use super::column::{Column, Quantity, Scales, Unusable};
 use crate::machine_file::{Diagnostic, Source, printable};
 
@@ -274,6 +275,13 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
     let mut recording = Recording { name: name.to_owned(), period: f64::NAN, columns, unused, lines, signals };
     if recording.signal(Quantity::Frequency).is_none() {
         cut(&mut recording, asked);
+        for (column, signal) in recording.columns.iter().zip(&mut recording.signals) {
+            if matches!(column.quantity, Quantity::Angle | Quantity::LoadAngle)
+                && let Some(counted) = counted(signal)
+            {
+                *signal = counted;
+            }
+        }
         let teeth = recording.signal(Quantity::ToothTime).unwrap_or_default();
         if let Some(pair) = teeth.windows(2).find(|pair| pair[1] < pair[0]) {
             let found = format!("a time of a tooth that falls, {} s after {} s", pair[1], pair[0]);

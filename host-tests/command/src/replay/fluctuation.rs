@@ -6,8 +6,9 @@ use driveline::fluctuation::{CycleConfig, Fluctuation, Waveform, WaveformConfig}
 use driveline::sample::Estimate;
 use driveline::settings::{Bases, Cycle, Error};
 
-use super::signals::{turned, unwrapped};
+use super::signals::turned;
 use super::window::{DIFFER, Windowed, Windows};
+use crate::recording::unwrapped;
 
 /// Bins of a cycle: enough for the highest order there is, and for a cycle of 16 turns.
 const BINS: usize = 64;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::machine_file::Diagnostic;
-use crate::recording::{Quantity, Recording};
+use crate::recording::{Quantity, Recording, unwrapped};
 use driveline::machine::TwoMass;
 
 /// The torque between two samples of it.
@@ -101,17 +101,6 @@ pub fn turned(angle: f64) -> u32 {
     ((angle / TAU).rem_euclid(1.0) * 4_294_967_296.0) as u32
 }
 
-/// An angle that comes round after a turn, as it goes on: no step is beyond half a turn.
-pub fn unwrapped(angle: &[f64]) -> Vec<f64> {
-    let (mut turns, mut last) = (0.0, angle.first().copied().unwrap_or(0.0));
-    let step = |&angle: &f64| {
-        turns -= ((angle - last) / TAU).round();
-        last = angle;
-        angle + turns * TAU
-    };
-    angle.iter().map(step).collect()
-}
-
 fn integral(speed: &[f64], period: f64) -> Vec<f64> {
     let mut angle = 0.0;
     let mut last = speed.first().copied().unwrap_or(0.0);
@@ -154,21 +143,7 @@ fn over_ticks(torque: &[f64], between: Between, late: f64) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
-
-    use super::{Between, over_ticks, unwrapped};
-
-    #[test]
-    fn an_angle_that_comes_round_goes_on() {
-        for step in [1.7, -1.7, 3.0] {
-            let angle = |at: i32| 3.0 + step * f64::from(at);
-            let wrapped: Vec<f64> = (0..50).map(|at| angle(at).rem_euclid(TAU)).collect();
-            for (at, found) in (0..).zip(unwrapped(&wrapped)) {
-                // rounding of sums of 150
-                assert!((found - angle(at)).abs() < 1e-12, "{at}: {found}");
-            }
-        }
-    }
+    use super::{Between, over_ticks};
 
     #[test]
     fn the_mean_of_a_ramp_lags_by_half_a_tick_and_its_delay() {
