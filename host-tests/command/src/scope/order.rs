@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
+use crate::recording::unwrapped;
+
 /// A share of a channel that repeats with the turns.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Order {
@@ -23,19 +25,10 @@ const MOST: usize = 32;
 ///
 /// `None` where there is less than a turn.
 pub fn orders(records: &[(f64, f64)]) -> Option<Vec<Order>> {
-    // the angle without its wraps
-    let mut turned = 0.0;
-    let mut before = records.first()?.0;
-    let unwrapped: Vec<(f64, f64)> = records
-        .iter()
-        .map(|&(angle, value)| {
-            let step = angle - before;
-            turned += step - step.round();
-            before = angle;
-            (turned + records[0].0, value)
-        })
-        .collect();
-    let (start, end) = (unwrapped[0].0, unwrapped.last()?.0);
+    let angle = unwrapped(&records.iter().map(|(angle, _)| TAU * angle).collect::<Vec<_>>());
+    let unwrapped: Vec<(f64, f64)> =
+        angle.iter().zip(records).map(|(angle, (_, value))| (angle / TAU, *value)).collect();
+    let (start, end) = (unwrapped.first()?.0, unwrapped.last()?.0);
     let (way, turns) = ((end - start).signum(), (end - start).abs().floor());
     let (whole, step) = if turns >= 2.0 { (turns - turns % 2.0, 1) } else { (turns, 2) };
     if whole < 1.0 {
