@@ -12,6 +12,7 @@ use driveline::sample::{Command, Sample};
 use super::Bench;
 use crate::board::Board;
 use crate::control_loop::telemetry::{Told, VALUES};
+use crate::measure::count::Measured;
 use crate::scene::Of;
 use crate::scene::composed::GovernedVariant;
 use crate::scenes::blooming_mill::{Backlash, BloomingMill};
@@ -38,7 +39,7 @@ pub fn fixed<B: Board>(bench: &mut Bench<'_, B>) {
 type AtTenKilohertz<S> = Of<Hoist<10_000>, S>;
 
 /// The observer of backlash on a machine that rattles through its gap: every regime, every crossing.
-fn backlash<B: Board, N: Gap, V: GovernedVariant<Number = N, Observer = BacklashObserver<N>>>(
+fn backlash<B: Board, N: Gap + 'static, V: GovernedVariant<Number = N, Observer = BacklashObserver<N>>>(
     bench: &mut Bench<'_, B>,
     number: impl Fn(f32) -> N,
 ) {
@@ -81,9 +82,11 @@ where
     observer::<B, N, TwoMassObserver<N>>(bench, "step/exact", &E::CONFIG.observer.observer);
     observer::<B, N, SemiImplicitObserver<N>>(bench, "step/semi-implicit", &R::CONFIG.observer.observer);
     observer::<B, N, RigidObserver<N>>(bench, "step/rigid", &G::CONFIG.observer.observer);
-    drive::<B, E>(bench, "drive/exact");
-    drive::<B, R>(bench, "drive/semi-implicit");
-    drive::<B, G>(bench, "drive/rigid");
+    drive::<B, E>(bench, "drive/exact", tick::<E>);
+    drive::<B, R>(bench, "drive/semi-implicit", tick::<R>);
+    drive::<B, G>(bench, "drive/rigid", tick::<G>);
+    drive::<B, E>(bench, "drive/exact/static", tick_of_static::<E>);
+    drive::<B, R>(bench, "drive/semi-implicit/static", tick_of_static::<R>);
     // emptied after every hundredth record: kept and dropped ones alike
     let emptied = |inputs: &mut Program| {
         let input = inputs.next_input();
@@ -131,21 +134,38 @@ type Constants<V> = ConfigOf<
     >,
 >;
 
+/// A drive beside the constants that it refers to.
+type Referring<'a, V> = (&'a Constants<V>, Whole<V>);
+
 /// The whole tick, checks and flags included, good and bad samples alike.
-fn drive<B: Board, V: GovernedVariant>(bench: &mut Bench<'_, B>, name: &str) {
+fn drive<B: Board, V: GovernedVariant>(
+    bench: &mut Bench<'_, B>,
+    name: &str,
+    tick: Measured<Referring<'static, V>, Sample<V::Number>, Command<V::Number>>,
+) {
     let input = |inputs: &mut Program| {
         let input = inputs.next_input();
         let number = V::Number::from_word;
         Sample { angle: input.angle, torque: number(input.torque), setpoint: number(input.setpoint) }
     };
-    bench.measure(name, (V::CONFIG, Drive::new(V::CONFIG, 0)), input, tick::<V>);
+    bench.measure(name, (V::CONFIG, Drive::new(V::CONFIG, 0)), input, tick);
 }
 
 #[inline(never)]
 fn tick<V: GovernedVariant>(
-    drive: &mut (&Constants<V>, Whole<V>),
+    drive: &mut Referring<'static, V>,
     sample: &Sample<V::Number>,
     command: &mut Command<V::Number>,
 ) {
     *command = drive.1.tick(drive.0, sample);
+}
+
+/// The same with constants that the compiler knows, which it writes into the code.
+#[inline(never)]
+fn tick_of_static<V: GovernedVariant>(
+    drive: &mut Referring<'static, V>,
+    sample: &Sample<V::Number>,
+    command: &mut Command<V::Number>,
+) {
+    *command = drive.1.tick(V::CONFIG, sample);
 }

@@ -132,6 +132,8 @@ pub const BENCHES: &[&str] = &[
     "bench/drive/exact",
     "bench/drive/semi-implicit",
     "bench/drive/rigid",
+    "bench/drive/exact/static",
+    "bench/drive/semi-implicit/static",
     "bench/phasor/1",
     "bench/phasor/2",
     "bench/step/cranked",
