@@ -165,6 +165,8 @@ pub struct Pole {
 /// The speed loop.
 #[derive(Clone, Debug, Serialize)]
 pub struct SpeedLoop {
+    /// The selected observer, which the margins are with: `rigid` or `two-mass`.
+    pub observer: &'static str,
     /// Gain on the error of the motor's speed (N m s/rad).
     pub proportional: f64,
     /// Integral gain (N m/rad).
@@ -177,9 +179,9 @@ pub struct SpeedLoop {
     pub margins: Option<Margins>,
     /// Why there are no margins.
     pub no_margins: Option<String>,
-    /// The least margins within the tolerances of two masses; `null` where the loop is unstable within them.
+    /// The least margins within the tolerances; `null` where the loop is unstable within them.
     pub least_margins: Option<LeastMargins>,
-    /// What the loop on two masses has not within the tolerances: 6 dB, 30 degrees, stability. `null` where it has all.
+    /// What the loop has not within the tolerances: 6 dB, 30 degrees, stability. `null` where it has all.
     pub not_robust: Option<String>,
     /// Largest size of a pole of the closed loop.
     pub spectral_radius: f64,
@@ -187,22 +189,26 @@ pub struct SpeedLoop {
 
 impl SpeedLoop {
     fn of(machine: &MachineFile, designs: &Designs) -> Result<Self, Error> {
-        let Designs { two, two_masses, speed_loop: governor, two_masses_lack, .. } = designs;
-        let (actuator, tolerance) = (machine.actuator(), &machine.tolerance());
-        let observer = LoopObserver::TwoMass(two_masses);
+        let Designs { two, speed_loop: governor, .. } = designs;
+        let (actuator, tolerance, lack) = (machine.actuator(), &machine.tolerance(), designs.lack());
+        let (name, observer) = match designs.is_rigid() {
+            true => ("rigid", LoopObserver::Rigid(&designs.rigid)),
+            false => ("two-mass", LoopObserver::TwoMass(&designs.two_masses)),
+        };
         let margins = Margins::of(machine, two, &observer.close(governor, actuator)?);
         let least = two.least_margins(observer, governor, actuator, tolerance);
-        let no_margins = margins.as_ref().err().map(|&error| two_masses_lack.unwrap_or(Lack::of(error)).to_string());
+        let no_margins = margins.as_ref().err().map(|&error| lack.unwrap_or(Lack::of(error)).to_string());
         Ok(Self {
+            observer: name,
             proportional: governor.proportional,
             integral: governor.integral,
             damping: governor.damping,
             bandwidth: governor.bandwidth,
             margins: margins.ok(),
-            // those of two masses, which mean nothing where the whole machine is unstable
+            // with two masses as the machine: they mean nothing where the whole machine is unstable
             least_margins: least.ok().filter(|_| no_margins.is_none()).map(|least| LeastMargins::of(&least)),
             no_margins,
-            not_robust: two_masses_lack.map(|lack| lack.to_string()),
+            not_robust: lack.map(|lack| lack.to_string()),
             spectral_radius: governor.spectral_radius,
         })
     }

@@ -143,8 +143,9 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
     text.push_str(&format!("poles: {} (largest size {:.6})\n", poles.join(", "), plan.spectral_radius));
     if let Some(governor) = &plan.speed_loop {
         text.push_str(&format!(
-            "\nspeed loop on two masses: proportional {} N m s/rad, integral {} N m/rad, \
+            "\nspeed loop with the observer of {}: proportional {} N m s/rad, integral {} N m/rad, \
              damping {} N m s/rad; {} Hz wide\n{}{}",
+            if governor.observer == "rigid" { "one mass" } else { "two masses" },
             significant(governor.proportional),
             significant(governor.integral),
             significant(governor.damping),
