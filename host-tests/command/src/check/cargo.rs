@@ -33,6 +33,17 @@ pub fn tests(arguments: &[&str], voice: &Voice) -> Result<Count, Failed> {
     Err(Failed { count, message: refused(&cargo, arguments) })
 }
 
+/// Runs the tests that are ignored for their length, of one program, by name. A name that no test has is a failure.
+pub fn ignored_tests(program: &str, names: &[&str], voice: &Voice) -> Result<Count, Failed> {
+    let program = format!("--test={program}");
+    let arguments = ["test", "--package=cargo-driveline", &program, "--", "--ignored", "--nocapture"];
+    let count = tests(&[&arguments[..], names].concat(), voice)?;
+    if count.passed < names.len() as u64 {
+        return Err(Failed { count, message: format!("one of {} is no test", names.join(", ")) });
+    }
+    Ok(count)
+}
+
 fn run(program: &OsStr, arguments: &[&str], voice: &Voice) -> Result<(bool, Count), Failed> {
     let failed = |error: std::io::Error| Failed::whole(format!("{}: {error}", line(program, arguments)));
     let root = workspace().map_err(Failed::whole)?;

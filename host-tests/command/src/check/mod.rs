@@ -1,14 +1,18 @@
-//! `cargo driveline check`: everything that must hold before a commit, in order, up to the first failure.
+//! `cargo driveline check`: everything that must hold before a commit, in order, up to the first failure; the long runs
+//! on demand, all of them, with their last results on a page.
 
 mod cargo;
 mod clock;
 pub mod comparison;
+pub mod last;
+mod long;
 mod step;
 mod steps;
 
 use driveline_report::Table;
 use serde::Serialize;
 
+pub use long::LONG;
 pub use step::{Count, Step};
 pub use steps::STEPS;
 
@@ -20,7 +24,9 @@ use step::{Failed, Voice};
 pub struct Options {
     /// One JSON object a step on standard output, all else on standard error.
     pub json: bool,
-    /// Only the step of this name, one of [`STEPS`].
+    /// The long runs, [`LONG`], in place of [`STEPS`]; a failure does not stop the others.
+    pub long: bool,
+    /// Only the step of this name.
     pub only: Option<String>,
 }
 
@@ -32,6 +38,9 @@ pub struct Done {
     /// Its findings.
     #[serde(flatten)]
     pub count: Count,
+    /// Its figures, as sentences.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub figures: Vec<String>,
     /// How long it took.
     #[serde(flatten)]
     pub took: Took,
@@ -56,35 +65,52 @@ pub enum CheckError {
         repeat: String,
     },
     /// No step has that name.
-    #[error("no step is called `{0}`; there are {list}", list = STEPS.map(|step| step.name).join(", "))]
-    NoSuchStep(String),
+    #[error("no {0} is called `{1}`; there are {2}")]
+    NoSuchStep(&'static str, String, String),
+    /// The long runs that failed.
+    #[error("failed: {0}")]
+    Long(String),
+    /// What a step's result could not be kept by.
+    #[error("{0}")]
+    Kept(String),
 }
 
-/// Runs the steps up to the first failure. Says each with its time, and at the end the closing line
-/// `N passed, N failed`.
-pub fn run(options: &Options) -> Result<Vec<Done>, CheckError> {
-    let voice = Voice { json: options.json };
+/// Runs the steps up to the first failure, or all long runs; each result is handed on to be kept. Says each with its
+/// time, and at the end the closing line `N passed, N failed`.
+///
+/// # Errors
+/// No such step, a step that failed, a result that cannot be kept.
+pub fn run(
+    options: &Options,
+    mut keep: impl FnMut(&Step, &Done) -> Result<(), String>,
+) -> Result<Vec<Done>, CheckError> {
+    let voice = Voice::new(options.json);
+    let (kind, all): (_, &[Step]) = if options.long { ("long step", &LONG) } else { ("step", &STEPS) };
     let chosen = |step: &&Step| options.only.as_ref().is_none_or(|only| only == step.name);
-    let steps: Vec<_> = STEPS.iter().filter(chosen).collect();
+    let steps: Vec<_> = all.iter().filter(chosen).collect();
     if let (Some(only), true) = (&options.only, steps.is_empty()) {
-        return Err(CheckError::NoSuchStep(only.clone()));
+        let names: Vec<_> = all.iter().map(|step| step.name).collect();
+        return Err(CheckError::NoSuchStep(kind, only.clone(), names.join(", ")));
     }
-    let mut all = Vec::new();
+    let (mut all, mut failed) = (Vec::new(), Vec::new());
     for step in steps {
         let done = once(step, &voice);
+        keep(step, &done).map_err(CheckError::Kept)?;
         let error = done.error.clone();
         all.push(done);
-        if let Some(message) = error {
+        let Some(message) = error else { continue };
+        if !options.long {
             close(&all, &voice);
             return Err(CheckError::Step { step: step.name, message, repeat: step.repeat.into() });
         }
+        failed.push(format!("{}: {message}\nto repeat: {}", step.name, step.repeat));
     }
     close(&all, &voice);
-    Ok(all)
+    if failed.is_empty() { Ok(all) } else { Err(CheckError::Long(failed.join("\n"))) }
 }
 
 fn once(step: &Step, voice: &Voice) -> Done {
-    voice.say(&format!("== {}", step.name));
+    voice.say(&format!("== {}: {}", step.name, step.content));
     let clock = Clock::start();
     let result = (step.run)(voice);
     let took = clock.took();
@@ -94,7 +120,8 @@ fn once(step: &Step, voice: &Voice) -> Done {
     };
     let verdict = if error.is_none() { "ok" } else { "FAILED" };
     voice.say(&format!("== {}: {verdict}, {} passed, {:.1} s", step.name, count.passed, took.seconds));
-    let done = Done { step: step.name, count, took, error, repeat: step.repeat.into() };
+    let figures = voice.figures();
+    let done = Done { step: step.name, count, figures, took, error, repeat: step.repeat.into() };
     if voice.json {
         println!("{}", serde_json::to_string(&done).unwrap_or_default());
     }

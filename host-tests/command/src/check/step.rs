@@ -1,6 +1,7 @@
 //! A step of the check and what it finds.
 
 use std::io::Write;
+use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
 
@@ -13,10 +14,12 @@ pub struct Count {
     pub failed: u64,
 }
 
-/// A step: its name, what to type to repeat it, and what it does.
+/// A step of the check.
 pub struct Step {
     /// Its name.
     pub name: &'static str,
+    /// What it does, in a few words.
+    pub content: &'static str,
     /// Command to type.
     pub repeat: &'static str,
     pub(super) run: fn(&Voice) -> Result<Count, Failed>,
@@ -38,10 +41,26 @@ impl Failed {
 /// Where a step's own words go: standard output for a person, standard error where that is for JSON.
 pub struct Voice {
     pub json: bool,
+    figures: Mutex<Vec<String>>,
 }
 
+/// A line with these words has a figure after them, which is kept with the step's result: `measured: 40 seeds`.
+const MEASURED: &str = "measured: ";
+
 impl Voice {
+    pub fn new(json: bool) -> Self {
+        Voice { json, figures: Mutex::default() }
+    }
+
+    /// Takes the figures that have been said since.
+    pub fn figures(&self) -> Vec<String> {
+        std::mem::take(&mut self.figures.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
     pub fn say(&self, line: &str) {
+        if let Some((_, figure)) = line.split_once(MEASURED) {
+            self.figures.lock().unwrap_or_else(PoisonError::into_inner).push(figure.trim().to_owned());
+        }
         // a reader that has gone away is no reason to stop checking
         let _ = if self.json { writeln!(std::io::stderr(), "{line}") } else { writeln!(std::io::stdout(), "{line}") };
     }

@@ -16,16 +16,56 @@ use driveline_qemu::setup;
 
 /// All steps; the firmware, which is built board beside board, before the tests that use its images one by one.
 pub const STEPS: [Step; 10] = [
-    Step { name: "setup", repeat: "cargo driveline check --only setup", run: setup_step },
-    Step { name: "format", repeat: "cargo fmt --check", run: format },
-    Step { name: "clippy", repeat: "cargo driveline check --only clippy", run: clippy },
-    Step { name: "packages", repeat: "cargo driveline check --only packages", run: packages },
-    Step { name: "book", repeat: "mdbook build doc", run: book },
-    Step { name: "firmware", repeat: "cargo driveline check --only firmware", run: firmware },
-    Step { name: "examples", repeat: "cargo driveline check --only examples", run: examples },
-    Step { name: "tests", repeat: "cargo test --workspace --exclude driveline-defmt-log --no-fail-fast", run: tests },
-    Step { name: "self-tests", repeat: "cargo driveline check --only self-tests", run: self_tests },
-    Step { name: "budgets", repeat: "cargo driveline check --only budgets", run: budgets },
+    Step {
+        name: "setup",
+        content: "tools that are missing are installed",
+        repeat: "cargo driveline check --only setup",
+        run: setup_step,
+    },
+    Step { name: "format", content: "`cargo fmt --check`", repeat: "cargo fmt --check", run: format },
+    Step {
+        name: "clippy",
+        content: "no warning, of `cargo doc` neither",
+        repeat: "cargo driveline check --only clippy",
+        run: clippy,
+    },
+    Step {
+        name: "packages",
+        content: "every crate can be published",
+        repeat: "cargo driveline check --only packages",
+        run: packages,
+    },
+    Step { name: "book", content: "the book builds", repeat: "mdbook build doc", run: book },
+    Step {
+        name: "firmware",
+        content: "every image links for every board",
+        repeat: "cargo driveline check --only firmware",
+        run: firmware,
+    },
+    Step {
+        name: "examples",
+        content: "the examples for RTIC and Embassy link",
+        repeat: "cargo driveline check --only examples",
+        run: examples,
+    },
+    Step {
+        name: "tests",
+        content: "all tests",
+        repeat: "cargo test --workspace --exclude driveline-defmt-log --no-fail-fast",
+        run: tests,
+    },
+    Step {
+        name: "self-tests",
+        content: "the same bits in QEMU as on the host",
+        repeat: "cargo driveline check --only self-tests",
+        run: self_tests,
+    },
+    Step {
+        name: "budgets",
+        content: "cost of each variant within `budgets.toml`",
+        repeat: "cargo driveline check --only budgets",
+        run: budgets,
+    },
 ];
 
 fn setup_step(voice: &Voice) -> Result<Count, Failed> {
@@ -98,7 +138,7 @@ fn tests(voice: &Voice) -> Result<Count, Failed> {
 }
 
 /// Several results as one.
-fn together(results: impl IntoIterator<Item = Result<Count, Failed>>) -> Result<Count, Failed> {
+pub(super) fn together(results: impl IntoIterator<Item = Result<Count, Failed>>) -> Result<Count, Failed> {
     let (mut sum, mut messages) = (Count::default(), Vec::new());
     for result in results {
         let (count, message) = match result {
@@ -185,13 +225,13 @@ fn budgets(voice: &Voice) -> Result<Count, Failed> {
     comparison.count().map_err(|(count, message)| Failed { count, message })
 }
 
-fn passed<T>(done: &[T]) -> Count {
+pub(super) fn passed<T>(done: &[T]) -> Count {
     Count { passed: done.len() as u64, failed: 0 }
 }
 
 /// Does something for every variant on every board that it belongs on, a board beside the other, each up to its first
 /// failure.
-fn each<T: Send>(check: impl Fn(&str, Facts) -> Result<T, String> + Sync) -> Result<Vec<T>, Failed> {
+pub(super) fn each<T: Send>(check: impl Fn(&str, Facts) -> Result<T, String> + Sync) -> Result<Vec<T>, Failed> {
     let on = |board: Facts| {
         let mut done = Vec::new();
         for &variant in VARIANTS.iter().filter(|variant| belongs(variant, &board)) {

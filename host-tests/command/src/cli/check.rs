@@ -1,23 +1,44 @@
-//! `cargo driveline check`: everything that must hold before a commit.
+//! `cargo driveline check`: everything that must hold before a commit, and the long runs.
+
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use clap::builder::PossibleValue;
 
 use super::Failure;
-use crate::check::{CheckError, Options, STEPS, run};
+use super::results;
+use crate::check::last::Page;
+use crate::check::{CheckError, Done, LONG, Options, STEPS, Step, run};
 use driveline_qemu::clone::workspace;
 
 /// Check everything: formatting, clippy, packages, the book, firmware, examples, tests, self-tests, the budgets.
 ///
-/// Stops at the first step that fails, with the command to repeat it.
+/// Stops at the first step that fails, with the command to repeat it. With `--long` the long runs instead, all of them.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  cargo driveline check\n  cargo driveline check --only budgets --json")]
+#[command(after_help = "Examples:
+  cargo driveline check
+  cargo driveline check --only budgets --json
+  cargo driveline check --long --markdown doc/long-runs.md
+  cargo driveline check --long --only power-cuts")]
 pub struct Check {
     /// Only this step
-    #[arg(long, value_name = "STEP", value_parser = STEPS.map(|step| step.name))]
+    #[arg(long, value_name = "STEP", value_parser = names())]
     only: Option<String>,
+    /// The long runs: minutes to hours each
+    #[arg(long)]
+    long: bool,
+    /// Where the last results go as Markdown, for the book: the rows of the steps that run are replaced
+    #[arg(long, value_name = "FILE", requires = "long")]
+    markdown: Option<PathBuf>,
     /// Print one JSON object a step
     #[arg(long)]
     pub json: bool,
+}
+
+/// The steps with their contents.
+fn names() -> Vec<PossibleValue> {
+    let long = LONG.iter().map(|step| PossibleValue::new(step.name).help(format!("with --long: {}", step.content)));
+    STEPS.iter().map(|step| PossibleValue::new(step.name).help(step.content)).chain(long).collect()
 }
 
 impl Check {
@@ -27,9 +48,19 @@ impl Check {
     /// The step that failed.
     pub fn execute(&self) -> Result<(), Failure> {
         workspace().map_err(|error| Failure::usage(error.to_string()))?;
-        match run(&Options { json: self.json, only: self.only.clone() }) {
+        let file = self.markdown.as_ref().map(|path| results::Destination::chosen("results", path));
+        results::check(&[], file.as_ref())?;
+        let mut page = self.markdown.as_deref().map(Page::read).transpose().map_err(|error| {
+            let path = self.markdown.as_deref().unwrap_or(Path::new("")).display();
+            Failure::usage(format!("{path}: {error}"))
+        })?;
+        let keep = |step: &Step, done: &Done| match (&file, &mut page) {
+            (Some(file), Some(page)) => file.write(&page.with(step, done)).map_err(|failure| failure.to_string()),
+            _ => Ok(()),
+        };
+        match run(&Options { json: self.json, long: self.long, only: self.only.clone() }, keep) {
             Ok(_) => Ok(()),
-            Err(error @ CheckError::NoSuchStep(_)) => Err(Failure::usage(error.to_string())),
+            Err(error @ CheckError::NoSuchStep(..)) => Err(Failure::usage(error.to_string())),
             Err(error) => Err(Failure::failed(error.to_string())),
         }
     }

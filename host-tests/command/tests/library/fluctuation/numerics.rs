@@ -141,6 +141,7 @@ fn nothing_drifts_in_a_million_ticks() {
 #[ignore = "half a minute"]
 fn nothing_drifts_in_a_thousand_million_ticks() {
     no_drift(1_000_000_000);
+    println!("measured: 1e9 ticks without drift");
 }
 
 #[test]
