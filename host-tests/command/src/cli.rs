@@ -184,7 +184,9 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         return Failure::failed(format!("signals cannot be caught: {error}")).report(cli.command.json());
     }
     match cli.command.execute() {
-        Ok(()) if UNSAID.load(Ordering::Relaxed) => Failure::failed("standard output cannot be written").report(false),
+        Ok(()) if UNSAID.load(Ordering::Relaxed) => {
+            Failure::failed("standard output cannot be written").report(cli.command.json())
+        }
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(cli.command.json()),
     }

@@ -1,4 +1,4 @@
-//! Child processes and temporary folders that do not outlive this one: ended and removed with their owner, and by
+//! Child processes and temporary files that do not outlive this one: ended and removed with their owner, and by
 //! Ctrl-C or SIGTERM where the program has asked for that.
 
 use std::collections::BTreeMap;
@@ -24,11 +24,12 @@ struct Owned {
     signals: bool,
     next: u64,
     children: BTreeMap<u64, Pid>,
-    folders: BTreeMap<u64, PathBuf>,
+    /// Temporary files and folders.
+    paths: BTreeMap<u64, PathBuf>,
 }
 
 static OWNED: Mutex<Owned> =
-    Mutex::new(Owned { signals: false, next: 0, children: BTreeMap::new(), folders: BTreeMap::new() });
+    Mutex::new(Owned { signals: false, next: 0, children: BTreeMap::new(), paths: BTreeMap::new() });
 
 fn owned() -> MutexGuard<'static, Owned> {
     OWNED.lock().unwrap_or_else(PoisonError::into_inner)
@@ -41,7 +42,7 @@ impl Owned {
     }
 }
 
-/// From now on Ctrl-C and SIGTERM end the children with theirs and remove the temporary folders, before they end the
+/// From now on Ctrl-C and SIGTERM end the children with theirs and remove the temporary files, before they end the
 /// program as ever.
 ///
 /// # Errors
@@ -56,10 +57,11 @@ pub fn end_with_signals() -> io::Result<()> {
         for &child in owned.children.values() {
             let _ = kill_process_group(child, Signal::KILL);
         }
-        for folder in owned.folders.values() {
-            // one that was killed may still be closing its files
+        for path in owned.paths.values() {
+            // a child that was killed may still be closing its files
             for _ in 0..50 {
-                if fs::remove_dir_all(folder).is_ok() || !folder.exists() {
+                let removed = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+                if removed.is_ok() || !path.exists() {
                     break;
                 }
                 thread::sleep(Duration::from_millis(10));
@@ -129,11 +131,39 @@ impl Drop for Running {
     }
 }
 
+/// A path that signals remove while this lives.
+#[derive(Debug)]
+pub struct Guard {
+    number: u64,
+}
+
+impl Guard {
+    /// Makes a temporary file or folder, which its owner removes, and guards it.
+    ///
+    /// # Errors
+    /// As the maker.
+    pub fn around<T>(make: impl FnOnce() -> io::Result<T>, path: impl FnOnce(&T) -> &Path) -> io::Result<(T, Self)> {
+        // under the lock, lest a signal come between the two
+        let mut owned = owned();
+        let made = make()?;
+        let number = owned.number();
+        owned.paths.insert(number, path(&made).to_owned());
+        Ok((made, Self { number }))
+    }
+}
+
+impl Drop for Guard {
+    fn drop(&mut self) {
+        owned().paths.remove(&self.number);
+    }
+}
+
 /// A temporary folder; removed with its owner.
 #[derive(Debug)]
 pub struct Folder {
+    // removed before its guard goes
     folder: TempDir,
-    number: u64,
+    _guard: Guard,
 }
 
 impl Folder {
@@ -142,8 +172,7 @@ impl Folder {
     /// # Errors
     /// Where it was to be made and what the system says.
     pub fn make() -> io::Result<Self> {
-        let mut owned = owned();
-        let folder = tempfile::Builder::new().prefix("driveline-").tempdir().map_err(|error| {
+        Self::make_in(&std::env::temp_dir()).map_err(|error| {
             let place = std::env::temp_dir();
             let sentence = format!(
                 "no temporary folder can be made in {}: {}; TMPDIR names another",
@@ -151,10 +180,18 @@ impl Folder {
                 error.kind()
             );
             io::Error::new(error.kind(), sentence)
-        })?;
-        let number = owned.number();
-        owned.folders.insert(number, folder.path().to_owned());
-        Ok(Folder { folder, number })
+        })
+    }
+
+    /// Makes one, hidden, in another folder.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn make_in(place: &Path) -> io::Result<Self> {
+        let prefix = if place == std::env::temp_dir() { "driveline-" } else { ".driveline-" };
+        let make = || tempfile::Builder::new().prefix(prefix).tempdir_in(place);
+        let (folder, guard) = Guard::around(make, TempDir::path)?;
+        Ok(Folder { folder, _guard: guard })
     }
 
     /// Where it is.
@@ -165,12 +202,6 @@ impl Folder {
     /// Whether its disk has no room left.
     pub fn is_full(&self) -> bool {
         rustix::fs::statvfs(self.path()).is_ok_and(|disk| disk.f_bavail == 0)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        owned().folders.remove(&self.number);
     }
 }
 

@@ -10,6 +10,9 @@ use std::fs::{File, OpenOptions};
 use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
+use driveline_qemu::children::Guard;
+use tempfile::NamedTempFile;
+
 use super::figure::{FIGURES, Figure, Outcome};
 use crate::machine_file::factor::Tolerance;
 
@@ -170,7 +173,8 @@ impl Record {
             let path = path.canonicalize().map_err(system)?;
             let permissions = file.metadata().map_err(system)?.permissions();
             let folder = path.parent().unwrap_or(Path::new("/"));
-            let mut beside = tempfile::Builder::new().permissions(permissions).tempfile_in(folder).map_err(system)?;
+            let make = || tempfile::Builder::new().permissions(permissions).tempfile_in(folder);
+            let (mut beside, _guard) = Guard::around(make, NamedTempFile::path).map_err(system)?;
             beside.write_all(settings.file(&outcomes).as_bytes()).map_err(system)?;
             beside.persist(&path).map_err(|error| system(error.error))?;
             drop(file);

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use clap::{Args, Subcommand};
 
-use super::results::{Destination, check};
+use super::results::{Destination, all, check};
 use super::{Failure, Progress, say, say_json};
 use crate::campaign::compare::compare;
 use crate::campaign::drive::Drive;
@@ -174,7 +174,8 @@ impl Campaign {
         let path = self.results.clone().unwrap_or_else(|| PathBuf::from(usual));
         let page = Destination::page_unless(self.json || shard.is_some(), self.html.as_deref(), &page_name(&stem));
         let results = Destination::chosen("results", &path);
-        check(&[], [&results].into_iter().chain(&page))?;
+        let file = self.scene.as_deref().filter(|_| scene.file().is_some()).map(Path::new);
+        check(file.as_slice(), [&results].into_iter().chain(&page))?;
         results.make_folder()?;
         let nominal = run(scene, &drive, &Draw::nominal()).map_err(Failure::failed)?;
         let variant = drive.name(name);
@@ -188,8 +189,12 @@ impl Campaign {
             say(format_args!("shard {which} of {of}: {}", path.display()));
             return Ok(());
         }
-        results.write(&settings.file(&record.outcomes))?;
-        show(&Summary::of(&settings, &record.outcomes), page.as_ref(), self.json)
+        let summary = Summary::of(&settings, &record.outcomes);
+        show(&summary, self.json)?;
+        all([
+            results.write(&settings.file(&record.outcomes)),
+            page.map_or(Ok(()), |page| page.write_and_say(&summary.page(), self.json)),
+        ])
     }
 
     /// What results and page are named after: the variant, and a machine file by its own name. A scene or another file
@@ -295,8 +300,12 @@ impl Merge {
         let page = Destination::page_unless(self.json, self.html.as_deref(), &page_name(&self.stem()));
         let sources: Vec<&Path> = self.files.iter().map(PathBuf::as_path).collect();
         check(&sources, results.iter().chain(&page))?;
-        results.map_or(Ok(()), |results| results.write(&settings.file(&outcomes)))?;
-        show(&Summary::of(&settings, &outcomes), page.as_ref(), self.json)
+        let summary = Summary::of(&settings, &outcomes);
+        show(&summary, self.json)?;
+        all([
+            results.map_or(Ok(()), |results| results.write(&settings.file(&outcomes))),
+            page.map_or(Ok(()), |page| page.write_and_say(&summary.page(), self.json)),
+        ])
     }
 
     /// What the page is named after: the file of all results, or the first one less its shard. No file tells whether it
@@ -334,14 +343,13 @@ fn page_name(stem: &str) -> String {
     format!("{stem}-campaign")
 }
 
-fn show(summary: &Summary, page: Option<&Destination>, json: bool) -> Result<(), Failure> {
+fn show(summary: &Summary, json: bool) -> Result<(), Failure> {
     if json {
-        say_json(summary)?;
-    } else {
-        let mut facts = Table::new(["campaign", ""]);
-        summary.facts().into_iter().for_each(|Fact { name, value }| facts.row([name, value]));
-        say(facts);
-        summary.tables().into_iter().for_each(say);
+        return say_json(summary);
     }
-    page.map_or(Ok(()), |page| page.write_and_say(&summary.page(), json))
+    let mut facts = Table::new(["campaign", ""]);
+    summary.facts().into_iter().for_each(|Fact { name, value }| facts.row([name, value]));
+    say(facts);
+    summary.tables().into_iter().for_each(say);
+    Ok(())
 }

@@ -12,7 +12,7 @@ use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
 use serde::Serialize;
 
 use super::progress::Progress;
-use super::results::{Destination, check};
+use super::results::{Destination, all, check};
 use super::{Failure, export, say, say_json};
 use crate::cosim::closed_loop::{Change, Column, Names, Plan, Run, Stopped};
 use crate::cosim::fmu::Fmu;
@@ -270,8 +270,10 @@ impl Cosim {
             summary.tables().into_iter().for_each(say);
             say(format_args!("faults: {}", summary.faults()));
         }
-        csv.map_or(Ok(()), |csv| csv.write_and_say(&table(&run), self.json))?;
-        page.map_or(Ok(()), |file| file.write_and_say(&self::page(&summary, &run), self.json))
+        all([
+            csv.map_or(Ok(()), |csv| csv.write_and_say(&table(&run), self.json)),
+            page.map_or(Ok(()), |file| file.write_and_say(&self::page(&summary, &run), self.json)),
+        ])
     }
 
     /// The drive: an FMU by its first bytes, else a machine file.

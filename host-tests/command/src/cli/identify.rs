@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::recorded::Recorded;
-use super::results::{Destination, check};
+use super::results::{Destination, all, check};
 use super::{Failure, Progress, say, say_json};
 use crate::identification::{
     Drive, Identified, Motion, NotIdentified, Torque, identify, identify_response, machine_file, page, table,
@@ -84,11 +84,11 @@ impl Identify {
             }
         })?;
         self.show(&recording, &identified)?;
-        if let Some(toml) = toml {
-            let drive = Drive::of(&identified, &recording, &torque);
-            toml.write_and_say(&machine_file(&name, &identified, &drive), self.json)?;
-        }
-        sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page(&name, &identified), self.json))
+        let machine = || machine_file(&name, &identified, &Drive::of(&identified, &recording, &torque));
+        all([
+            toml.map_or(Ok(()), |toml| toml.write_and_say(&machine(), self.json)),
+            sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page(&name, &identified), self.json)),
+        ])
     }
 
     fn show(&self, recording: &Recording, identified: &Identified) -> Result<(), Failure> {

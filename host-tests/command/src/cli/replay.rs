@@ -21,7 +21,7 @@ use self::wheel::WheelOptions;
 use self::windows::WindowOptions;
 use super::identify::slug;
 use super::recorded::Recorded;
-use super::results::{Destination, check};
+use super::results::{Destination, all, check};
 use super::{Failure, Progress, say, say_json};
 use crate::machine_file::{MachineFile, printable, read};
 use crate::recording::{Asked, Recording, read_recording};
@@ -125,8 +125,10 @@ impl Replay {
         } else {
             say(text)
         }
-        table.map_or(Ok(()), |table| table.write_and_say(&csv, self.json))?;
-        sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page.page(), self.json))?;
+        all([
+            table.map_or(Ok(()), |table| table.write_and_say(&csv, self.json)),
+            sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page.page(), self.json)),
+        ])?;
         untold.map_or(Ok(()), |untold| Err(Failure::failed(untold)))
     }
 
@@ -210,7 +212,7 @@ impl Replay {
                 say("shaft torque: against the twist of two encoders, whose zeros are not known: means apart");
             }
         }
-        destination.map_or(Ok(()), |table| table.write_and_say(&csv(&replayed), self.json))?;
+        let table = destination.map_or(Ok(()), |table| table.write_and_say(&csv(&replayed), self.json));
         let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
         let mut facts = vec![
             fact("samples", recording.len().to_string()),
@@ -221,7 +223,8 @@ impl Replay {
             let [known, deviation] = in_words(wheel, recording.len());
             facts.extend([fact("ticks with an angle", known), fact("the wheel's deviation", deviation)]);
         }
-        sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page(&name, &machine.name, facts, &replayed), self.json))
+        let page = |sheet: Destination| sheet.write_and_say(&page(&name, &machine.name, facts, &replayed), self.json);
+        all([table, sheet.map_or(Ok(()), page)])
     }
 
     fn run(

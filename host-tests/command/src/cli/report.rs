@@ -7,7 +7,7 @@ use std::time::Instant;
 use clap::Args;
 use driveline_firmware::board::BOARDS;
 
-use super::results::{Destination, check};
+use super::results::{Destination, all, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::survey::{Wanted, jobs, work};
@@ -80,10 +80,10 @@ impl Report {
                 }
             }
         }
-        file.write_and_say(&survey_page(&survey), self.json)?;
-        if let Some(markdown) = markdown {
-            markdown.write_and_say(&survey_markdown(&survey), self.json)?;
-        }
+        all([
+            file.write_and_say(&survey_page(&survey), self.json),
+            markdown.map_or(Ok(()), |file| file.write_and_say(&survey_markdown(&survey), self.json)),
+        ])?;
         match survey.failures.as_slice() {
             [] => Ok(()),
             [first, rest @ ..] => {

@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::output::say;
 use crate::machine_file::printable;
+use driveline_qemu::children::Guard;
+use tempfile::NamedTempFile;
 
 /// The folder of pages that nobody named.
 const FOLDER: &str = "report";
@@ -84,7 +86,8 @@ impl Destination {
             fs::create_dir_all(folder)?;
         }
         let permissions = there.map_or_else(|| fs::Permissions::from_mode(0o666), |there| there.permissions());
-        let mut beside = tempfile::Builder::new().prefix(".driveline-").permissions(permissions).tempfile_in(folder)?;
+        let make = || tempfile::Builder::new().prefix(".driveline-").permissions(permissions).tempfile_in(folder);
+        let (mut beside, _guard) = Guard::around(make, NamedTempFile::path)?;
         beside.write_all(bytes)?;
         // a disk that is full may say so only here
         beside.as_file().sync_all()?;
@@ -161,6 +164,15 @@ pub fn check<'d>(sources: &[&Path], files: impl IntoIterator<Item = &'d Destinat
     Ok(())
 }
 
+/// Of results that are all written, whichever fails: the first failure.
+///
+/// # Errors
+/// The first one.
+pub fn all(written: impl IntoIterator<Item = Result<(), Failure>>) -> Result<(), Failure> {
+    let written: Vec<_> = written.into_iter().collect();
+    written.into_iter().collect()
+}
+
 /// The file that a path leads to, by whatever name or link.
 #[derive(Debug, PartialEq, Eq)]
 enum Identity {
@@ -197,7 +209,8 @@ fn folder_of(path: &Path) -> &Path {
 
 /// Whether a file can be made in a folder; it is gone again.
 fn probe(folder: &Path) -> io::Result<()> {
-    tempfile::Builder::new().prefix(".driveline-").tempfile_in(folder).map(drop)
+    let make = || tempfile::Builder::new().prefix(".driveline-").tempfile_in(folder);
+    Guard::around(make, NamedTempFile::path).map(drop)
 }
 
 /// The system's words without the path of the file beside, which means nothing to the user.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::results::{Destination, check};
+use super::results::{Destination, all, check};
 use super::{Failure, say, say_json};
 use crate::machine_file::{TrainFile, read_train};
 use driveline_report::chart::{Line, over_time};
@@ -68,8 +68,10 @@ impl Simulate {
             tables(&simulation).into_iter().for_each(say);
             say(proof(&simulation).join("\n"));
         }
-        csv.map_or(Ok(()), |csv| csv.write_and_say(&simulation.csv(), self.json))?;
-        sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page(&file, &simulation), self.json))
+        all([
+            csv.map_or(Ok(()), |csv| csv.write_and_say(&simulation.csv(), self.json)),
+            sheet.map_or(Ok(()), |sheet| sheet.write_and_say(&page(&file, &simulation), self.json)),
+        ])
     }
 }
 

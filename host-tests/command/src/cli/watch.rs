@@ -1,6 +1,6 @@
 //! `cargo driveline watch`: a running drive's telemetry, live in the terminal and as CSV.
 
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -140,12 +140,13 @@ impl Watch {
         check(&sources, &self.csv.as_deref().map(|path| Destination::chosen("table", path)))?;
         let mut source = self.open()?;
         let mut live = self.web.map(|port| self.live(port)).transpose()?;
-        let mut csv = self.csv.as_deref().map(Csv::open).transpose()?;
+        let mut csv = self.csv.as_deref().map(Csv::new);
         let mut seen = Seen::default();
         let mut decoder = Decoder::default();
         let (mut drawn, mut lines) = (Instant::now(), 0);
         let in_terminal = io::stderr().is_terminal() && !self.json;
         let mut bytes = vec![0; 65_536];
+        let mut unwritten = None;
         let broken = loop {
             // a source that breaks off has ended, too: what it gave is kept, and then it is said
             let (length, broken) = match source.read(&mut bytes) {
@@ -170,10 +171,15 @@ impl Watch {
                 live.show(&decoder, &seen, ended);
             }
             let due = ended || drawn.elapsed() >= DRAWN;
-            if let Some(csv) = &mut csv {
-                csv.write(&decoder, ended, due)?;
+            // a full disk ends the file and, unless there is a scope, the watch; what was seen is printed
+            if let Err(failure) = csv.as_mut().map_or(Ok(()), |csv| csv.write(&decoder, ended, due)) {
+                if live.is_some() {
+                    let _ = writeln!(io::stderr(), "{failure}");
+                }
+                (unwritten, csv) = (Some(failure), None);
             }
-            if due {
+            let ended = ended || (unwritten.is_some() && live.is_none());
+            if due || ended {
                 if in_terminal {
                     lines = draw(&seen.lines(), lines);
                 }
@@ -195,13 +201,11 @@ impl Watch {
             return Err(Failure::failed(nothing(&name, &decoder)));
         }
         if self.json {
-            say_json(&seen)
-        } else {
-            if !in_terminal {
-                seen.lines().iter().for_each(say);
-            }
-            Ok(())
+            say_json(&seen)?;
+        } else if !in_terminal {
+            seen.lines().iter().for_each(say);
         }
+        unwritten.map_or(Ok(()), Err)
     }
 
     /// What is watched.
@@ -307,7 +311,8 @@ fn nothing(name: &str, decoder: &Decoder) -> String {
 /// Records on their way into a file.
 struct Csv<'a> {
     path: &'a Path,
-    file: BufWriter<File>,
+    /// Opened for the first record: without one, what is there stays, and nothing is made.
+    file: Option<BufWriter<File>>,
     /// Records before the channels' descriptions wait for their column names.
     waiting: Vec<Told>,
     /// Values of a line, once there is one.
@@ -315,11 +320,8 @@ struct Csv<'a> {
 }
 
 impl<'a> Csv<'a> {
-    /// Opens the file, and leaves in it what is there until there is a record.
-    fn open(path: &'a Path) -> Result<Self, Failure> {
-        let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
-        let file = file.map_err(|error| Failure::failed(format!("{}: {error}", path.display())))?;
-        Ok(Csv { path, file: BufWriter::new(file), waiting: Vec::new(), columns: None })
+    fn new(path: &'a Path) -> Self {
+        Csv { path, file: None, waiting: Vec::new(), columns: None }
     }
 
     /// Writes what has its columns' names, or all of it where no more comes.
@@ -329,20 +331,22 @@ impl<'a> Csv<'a> {
 
     fn put(&mut self, decoder: &Decoder, ended: bool, flush: bool) -> io::Result<()> {
         let described = self.waiting.first().is_some_and(|told| decoder.describes(told.words.len()));
-        if described || ended || self.waiting.len() >= PATIENCE {
+        if (described || ended || self.waiting.len() >= PATIENCE) && !self.waiting.is_empty() {
+            let file = match &mut self.file {
+                Some(file) => file,
+                // a file is emptied, a pipe is not
+                none => none.insert(BufWriter::new(File::create(self.path)?)),
+            };
             for told in self.waiting.drain(..) {
-                if self.columns.is_none() && self.file.get_ref().metadata()?.is_file() {
-                    self.file.get_ref().set_len(0)?;
-                }
                 // a drive whose telemetry changes gets a head of its own
                 if self.columns != Some(told.words.len()) {
                     self.columns = Some(told.words.len());
-                    writeln!(self.file, "{}", header(decoder, &told))?;
+                    writeln!(file, "{}", header(decoder, &told))?;
                 }
-                writeln!(self.file, "{}", line(decoder, &told))?;
+                writeln!(file, "{}", line(decoder, &told))?;
             }
         }
-        if flush { self.file.flush() } else { Ok(()) }
+        self.file.as_mut().filter(|_| flush).map_or(Ok(()), BufWriter::flush)
     }
 }
 

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use tempfile::TempDir;
+use driveline_qemu::children::Folder;
 use zip::ZipArchive;
 
 use super::description::{Description, Version};
@@ -17,7 +17,7 @@ pub struct Fmu {
     pub description: Description,
     /// Its instance.
     pub instance: Instance,
-    _folder: TempDir,
+    _folder: Folder,
 }
 
 impl Fmu {
@@ -37,7 +37,7 @@ impl Fmu {
     /// As [`open`](Self::open), without a name.
     pub fn read(file: impl Read + Seek) -> Result<Self, String> {
         let no_fmu = |error: &dyn std::fmt::Display| format!("it is no FMU: {error}");
-        let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+        let folder = Folder::make().map_err(|error| error.to_string())?;
         let unpacked = ZipArchive::new(file).and_then(|mut archive| archive.extract(folder.path()));
         unpacked.map_err(|error| no_fmu(&error))?;
         let text = std::fs::read_to_string(folder.path().join("modelDescription.xml"));

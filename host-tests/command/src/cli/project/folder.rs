@@ -5,6 +5,7 @@ use std::io;
 use std::path::Path;
 
 use crate::cli::Failure;
+use driveline_qemu::children::Folder;
 
 /// Writes files, by their paths in it, into a folder that does not exist yet, or is empty.
 ///
@@ -17,7 +18,7 @@ pub fn write(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Failure> 
     let failed = |error: io::Error| Failure::failed(format!("{} cannot be written: {error}", folder.display()));
     let folder = std::path::absolute(folder).map_err(failed)?;
     let parent = folder.parent().unwrap_or(&folder);
-    let temporary = tempfile::Builder::new().prefix(".driveline-").tempdir_in(parent).map_err(failed)?;
+    let temporary = Folder::make_in(parent).map_err(failed)?;
     // a folder in it, since the temporary one is for its owner alone
     let whole = temporary.path().join("whole");
     for (path, bytes) in files {
