@@ -3,12 +3,13 @@
 //! The test rig on a NUCLEO-G474RE, a drive with all four parts: the control loop in the timer's interrupt, balancing,
 //! the fluctuation's figures and telemetry in the main loop.
 //!
-//! The blue button stops the drive when it is touched, and starts it when it was pressed and let go.
-//! `cargo driveline watch` shows the telemetry; requests come as frames of [`Asking`]. See `doc/boards.md`.
+//! The blue button stops the drive when it is touched. It starts it when it was pressed and let go, if the terminal has
+//! permitted that ([`Operator`]). `cargo driveline watch` shows the telemetry; requests come as frames of [`Asking`].
+//! See `doc/boards.md`.
 
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
-use core::sync::atomic::{AtomicBool, AtomicU32, Ordering, compiler_fence};
+use core::sync::atomic::{AtomicU32, Ordering, compiler_fence};
 
 use cortex_m::interrupt::free;
 use cortex_m::peripheral::NVIC;
@@ -17,14 +18,15 @@ use driveline::configure::Machine;
 use driveline::hal::{FullScale, PwmTorque};
 use driveline::telemetry::{Channel as Column, Kind, Ring};
 use driveline_firmware::board::nucleo_g474re::{
-    Beside, Channel, Nucleo, Pin, Serial, Vibration, start_tick, tick_taken,
+    Beside, Channel, Nucleo, Pin, Serial, Vibration, full_scale, start_tick, tick_taken,
 };
 use driveline_firmware::control_loop::main_loop_watch::Attended;
 use driveline_firmware::control_loop::step::{Asked, Turn};
 use driveline_firmware::control_loop::telemetry;
 use driveline_firmware::panel::axis_panel::{AxisPanel, BetweenTicks};
-use driveline_firmware::panel::serial_request::{Asking, RELEASE, SPEED};
-use driveline_firmware::scene::panel_keys::DONE;
+use driveline_firmware::panel::operator::Operator;
+use driveline_firmware::panel::serial_request::{self, Asking, RELEASE, Request, SEQUENCE, SPEED, Sequence, TIMEOUT};
+use driveline_firmware::scene::panel_keys::{DONE, refused};
 use driveline_firmware::scene::{Constants, Variant};
 use driveline_firmware::scenes::test_rig::{self, Adviser, TestRig};
 use stm32_metapac::{Interrupt, interrupt};
@@ -37,6 +39,8 @@ struct Control {
     turn: Turn<Nucleo<PwmTorque<Channel<0>, f32>>, f32>,
     vibration: Vibration,
     attended: Attended,
+    button: Pin,
+    operator: Operator,
     /// Ticks until the next record.
     left: u32,
 }
@@ -49,9 +53,10 @@ unsafe impl Sync for Owned {}
 
 static CONTROL: Owned = Owned(UnsafeCell::new(MaybeUninit::uninit()));
 
-/// Values of a record: those of a scene, the two velocities, the last answer, the last turn's fluctuation.
-const VALUES: usize = telemetry::VALUES + 6;
-/// Ticks between two records: a thousand of 69 bytes a second, three quarters of what the port takes.
+/// Values of a record: those of a scene, the two velocities, the last answer and its request's number, the last turn's
+/// fluctuation, the last reset.
+const VALUES: usize = telemetry::VALUES + 8;
+/// Ticks between two records: a thousand of 77 bytes a second, five sixths of what the port takes.
 const TICKS: u32 = 10;
 /// Records between two descriptions of the channels.
 const DESCRIBED: u32 = 1_000;
@@ -59,9 +64,11 @@ const DESCRIBED: u32 = 1_000;
 static RECORDS: Ring<VALUES, 32> = Ring::new();
 /// Turns of the main loop.
 static TURNS: AtomicU32 = AtomicU32::new(0);
-static RELEASED: AtomicBool = AtomicBool::new(false);
 static REFERENCE: AtomicU32 = AtomicU32::new((test_rig::SPEED as f32).to_bits());
-static ANSWER: AtomicU32 = AtomicU32::new(0);
+/// The last answer, and the number of its request.
+static ANSWER: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
+/// Why the board was reset last.
+static RESET: AtomicU32 = AtomicU32::new(0);
 /// Mean speed, delta of motor and load in the last turn that was finished.
 static LAST_TURN: [AtomicU32; 3] = [const { AtomicU32::new(0) }; 3];
 
@@ -69,11 +76,13 @@ const COLUMNS: [Column<'static>; VALUES] = {
     let [a, b, c, d, e, f, g, h] = telemetry::channels::<Selected>();
     let first = Column { name: "vibration 1", unit: "m/s", kind: Kind::Single };
     let second = Column { name: "vibration 2", unit: "m/s", kind: Kind::Single };
-    let answer = Column { name: "answer", unit: "", kind: Kind::Integer(1.0) };
+    let [answer, request, reset] = [Column { name: "answer", unit: "", kind: Kind::Integer(1.0) }; 3];
     let mean = Column { name: "mean speed", unit: "rad/s", kind: Kind::Single };
     let motor = Column { name: "delta of motor", unit: "", kind: Kind::Single };
     let load = Column { name: "delta of load", unit: "", kind: Kind::Single };
-    [a, b, c, d, e, f, g, h, first, second, answer, mean, motor, load]
+    let request = Column { name: "request", ..request };
+    let reset = Column { name: "last reset", ..reset };
+    [a, b, c, d, e, f, g, h, first, second, answer, mean, motor, load, request, reset]
 };
 
 /// A tick.
@@ -82,36 +91,41 @@ fn TIM6_DAC() {
     tick_taken();
     // SAFETY: it was initialised before the interrupt was unmasked; the main loop uses it with interrupts off, and
     // nothing else does.
-    let Control { scene, turn, vibration, attended, left } = unsafe { (*CONTROL.0.get()).assume_init_mut() };
+    let Control { scene, turn, vibration, attended, button, operator, left } =
+        unsafe { (*CONTROL.0.get()).assume_init_mut() };
     if !attended.check(TURNS.load(Ordering::Relaxed)) {
         // until it is started again: not by a main loop that comes back
-        RELEASED.store(false, Ordering::Relaxed);
+        operator.stop();
     }
     let asked =
-        Asked { released: RELEASED.load(Ordering::Relaxed), speed: f32::from_bits(REFERENCE.load(Ordering::Relaxed)) };
+        Asked { released: operator.tick(button.is_high()), speed: f32::from_bits(REFERENCE.load(Ordering::Relaxed)) };
     let (input, output) = turn.run(asked, vibration.read(), |input, output| driveline_tick(scene, input, output));
     *left = left.wrapping_sub(1);
     if *left == 0 {
         *left = TICKS;
         let [a, b, c, d, e, f, g, h] = telemetry::values(&input, &output);
         let [first, second] = input.vibration;
-        let answer = ANSWER.load(Ordering::Relaxed);
+        let [answer, request] = ANSWER.each_ref().map(|value| value.load(Ordering::Relaxed));
+        let reset = RESET.load(Ordering::Relaxed);
         let [mean, motor, load] = LAST_TURN.each_ref().map(|value| value.load(Ordering::Relaxed));
-        RECORDS.record(&[a, b, c, d, e, f, g, h, first, second, answer, mean, motor, load]);
+        RECORDS.record(&[a, b, c, d, e, f, g, h, first, second, answer, mean, motor, load, request, reset]);
     }
 }
 
 #[entry]
 fn main() -> ! {
-    let full_scale = const { FullScale::<f32>::new(TestRig::RATING.torque_limit) };
-    let (nucleo, Beside { vibration, serial, button }) = Nucleo::torque_input(test_rig::COUNTS, full_scale);
+    let full_scale = const { FullScale::<f32>::new(full_scale(TestRig::RATING.torque_limit)) };
+    let (nucleo, Beside { vibration, serial, button, reset }) = Nucleo::torque_input(test_rig::COUNTS, full_scale);
     let control = Control {
         scene: Selected::start(),
         turn: Turn::new(nucleo),
         vibration,
         attended: Attended::default(),
+        operator: Operator::new(button.is_high()),
+        button,
         left: TICKS,
     };
+    RESET.store(reset, Ordering::Relaxed);
     // SAFETY: the interrupt is masked.
     unsafe { (*CONTROL.0.get()).write(control) };
     start_tick(Selected::RATE_HZ);
@@ -120,12 +134,11 @@ fn main() -> ! {
     // SAFETY: the interrupt's state is initialised.
     unsafe { NVIC::unmask(Interrupt::TIM6_DAC) };
 
-    let mut desk = Desk { serial, asking: Asking::default(), panel: AxisPanel::default() };
-    let mut starter = Starter { resting: button.is_high(), button, pressed: false, turns: 0, stopped: false };
+    let mut desk =
+        Desk { serial, asking: Asking::default(), sequence: Sequence::default(), panel: AxisPanel::default() };
     let mut told = DESCRIBED;
     loop {
         TURNS.store(TURNS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
-        starter.look();
         desk.serve();
         desk.note_turn();
         if told >= DESCRIBED {
@@ -137,66 +150,53 @@ fn main() -> ! {
     }
 }
 
-/// The blue button. Its level at reset counts as released: whatever its wiring, and even if pressed at reset, the drive
-/// does not start by a release alone.
-struct Starter {
-    button: Pin,
-    resting: bool,
-    /// Away from rest, without the bouncing.
-    pressed: bool,
-    /// Turns of the main loop that it has been otherwise.
-    turns: u32,
-    /// Whether this press has stopped the drive.
-    stopped: bool,
-}
-
-impl Starter {
-    /// Turns after which a level stands: a millisecond or more, contacts bounce for less.
-    const STANDS: u32 = 4096;
-
-    /// Stops when it is touched; starts after it was pressed and let go.
-    fn look(&mut self) {
-        let pressed = self.button.is_high() != self.resting;
-        if pressed && RELEASED.load(Ordering::Relaxed) {
-            RELEASED.store(false, Ordering::Relaxed);
-            self.stopped = true;
-        }
-        self.turns = if pressed == self.pressed { 0 } else { self.turns.saturating_add(1) };
-        if self.turns < Self::STANDS {
-            return;
-        }
-        self.pressed = pressed;
-        if !pressed {
-            RELEASED.store(!self.stopped, Ordering::Relaxed);
-            self.stopped = false;
-        }
-    }
-}
+/// Answers: a time-out beyond the longest, requests before this one are missing.
+const NO_TIMEOUT: u32 = refused(0);
+const REQUEST_MISSING: u32 = refused(98);
 
 /// Tasks of the main loop: the terminal, the balancing and the fluctuation.
 struct Desk {
     serial: Serial,
     asking: Asking,
+    sequence: Sequence,
     panel: AxisPanel<TestRig, Adviser>,
 }
 
 impl Desk {
-    /// Answers a request.
+    /// Answers the requests that have arrived.
     fn serve(&mut self) {
         while let Some(byte) = self.serial.receive() {
-            if let Some(asked) = self.asking.take(byte) {
-                ANSWER.store(self.answer(asked), Ordering::Relaxed);
+            if let Some(request) = self.asking.take(byte) {
+                with_operator(Operator::heard);
+                let answer = match self.sequence.turn(&request) {
+                    serial_request::Turn::Next => self.answer(&request),
+                    serial_request::Turn::Repeated => continue,
+                    serial_request::Turn::Missing => REQUEST_MISSING,
+                };
+                // no record has one request's number beside another's answer
+                free(|_| {
+                    for (kept, value) in ANSWER.iter().zip([answer, request.number.into()]) {
+                        kept.store(value, Ordering::Relaxed);
+                    }
+                });
             }
         }
     }
 
-    fn answer(&mut self, [key, value]: [u32; 2]) -> u32 {
-        match key {
-            RELEASE => {
-                RELEASED.store(value == 1, Ordering::Relaxed);
+    fn answer(&mut self, &Request { key, value, .. }: &Request) -> u32 {
+        match (key, value) {
+            (SEQUENCE, _) => DONE,
+            (RELEASE, 1) => {
+                with_operator(Operator::permit);
                 DONE
             }
-            SPEED => {
+            (RELEASE, _) => {
+                with_operator(Operator::stop);
+                DONE
+            }
+            (TIMEOUT, ms) if with_operator(|operator| operator.set_timeout(ms)) => DONE,
+            (TIMEOUT, _) => NO_TIMEOUT,
+            (SPEED, _) => {
                 // a value that is no speed is refused by the drive, and flagged
                 REFERENCE.store(value, Ordering::Relaxed);
                 DONE
@@ -218,15 +218,23 @@ impl Desk {
     }
 }
 
+/// Does something with the interrupt's state between two ticks.
+fn with_control<T>(action: impl FnOnce(&mut Control) -> T) -> T {
+    free(|_| {
+        // SAFETY: interrupts are off, and `main` has initialised it before there was anything to answer.
+        action(unsafe { (*CONTROL.0.get()).assume_init_mut() })
+    })
+}
+
+fn with_operator<T>(action: impl FnOnce(&mut Operator) -> T) -> T {
+    with_control(|control| action(&mut control.operator))
+}
+
 /// The scene of the interrupt, once that is unmasked.
 struct Interrupted;
 
 impl BetweenTicks<<Selected as Variant>::Scene> for Interrupted {
     fn between_ticks<T>(&mut self, action: impl FnOnce(&mut <Selected as Variant>::Scene) -> T) -> T {
-        free(|_| {
-            // SAFETY: interrupts are off, and `main` has initialised it before there was anything to answer.
-            let control = unsafe { (*CONTROL.0.get()).assume_init_mut() };
-            action(&mut control.scene)
-        })
+        with_control(|control| action(&mut control.scene))
     }
 }

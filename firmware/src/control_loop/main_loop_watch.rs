@@ -1,5 +1,4 @@
-//! Whether the main loop still turns. It alone looks at the stop button and hears the terminal, so that without it a
-//! drive cannot be stopped.
+//! Whether the main loop still turns. It alone hears the terminal, so that without it a terminal cannot stop the drive.
 
 /// Ticks without a turn of the main loop after which it counts as hung: half a second at 10 kHz. Its longest turn, a
 /// step of in-run balancing included, takes milliseconds.

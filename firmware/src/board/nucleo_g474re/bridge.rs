@@ -6,9 +6,10 @@
 //! | PA7, PB0, PB1 | their complements: CH1N, CH2N, CH3N |
 //! | PA6 | BKIN: low switches off, and so does a wire that has broken |
 //!
-//! Off is low on all six, driven. The core's lockup, a double error in the flash and a supply that fails break, too
-//! (SYSCFG), a crystal that fails (CSS: the input's filter needs a clock), and a debugger that stops the core. A broken
-//! output stays off until [`Outputs`] are switched on again.
+//! Off is low, driven. The core's lockup, a double error in the flash and a supply that fails break, too
+//! (SYSCFG), so does a wrong parity of the memory, a crystal that fails (CSS: the input's filter needs a clock), and a
+//! debugger that stops the core. A broken output stays off until [`Outputs`] are switched on again. Pins of phases that
+//! are not used stay as they are after a reset, analogue.
 
 use core::convert::Infallible;
 
@@ -21,19 +22,20 @@ use stm32_metapac::{DBGMCU, PWR, SYSCFG, TIM1};
 
 use super::clock::CLOCK_HZ;
 use super::pin::alternate;
+use super::{DEAD_TIME, PHASE_PINS, PWM_HZ, reset};
 
-/// Frequency of the PWM (Hz).
-const PWM_HZ: u32 = 20_000;
 /// Counts of full duty: up and down again in a period.
 const FULL: u16 = (CLOCK_HZ / PWM_HZ / 2) as u16;
-/// Dead time of a microsecond: (64 + 21) x 2 clocks (RM0440, DTG of TIMx_BDTR).
-const DEAD_TIME: u8 = 0b1000_0000 | 21;
+/// The dead time as (64 + 21) x 2 clocks (RM0440, DTG of TIMx_BDTR).
+const DTG: u8 = 0b1000_0000 | 21;
+const _: () = assert!((64 + 21) * 2 == (DEAD_TIME * CLOCK_HZ as f64) as u32);
 
 /// Clocks until MOE is read as it was written.
 const SYNCHRONISED: u32 = 16;
 
-/// Starts the timer, outputs off.
-pub fn start() {
+/// Starts the timer with one phase or all three, outputs off.
+#[inline(always)]
+pub fn start(three: bool) {
     DBGMCU.apb2fzr().modify(|r| r.set_tim1(true));
     // the supply below 2.9 V or so: PLS 6
     PWR.cr2().modify(|r| {
@@ -53,7 +55,7 @@ pub fn start() {
             }
         });
     }
-    for channel in 0..3 {
+    for channel in 0..if three { 3 } else { 1 } {
         TIM1.ccr(channel).write(|r| r.set_ccr(FULL / 2));
         TIM1.ccer().modify(|r| {
             r.set_cce(channel, true);
@@ -61,7 +63,7 @@ pub fn start() {
         });
     }
     TIM1.bdtr().write(|r| {
-        r.set_dtg(DEAD_TIME);
+        r.set_dtg(DTG);
         r.set_ossr(Ossr::IDLE_LEVEL);
         r.set_ossi(Ossi::IDLE_LEVEL);
         r.set_bkp(0, Bkp::ACTIVE_LOW);
@@ -72,14 +74,20 @@ pub fn start() {
     });
     SYSCFG.cfgr2().modify(|r| {
         r.set_cll(true);
+        // acts where the option byte SRAM_PE has the parity checked
+        r.set_spl(true);
         r.set_eccl(true);
         r.set_pvdl(true);
     });
     TIM1.egr().write(|r| r.set_ug(true));
     TIM1.cr1().modify(|r| r.set_cen(true));
     alternate('A', 6, 6, Pupdr::PULL_DOWN);
-    for (port, number) in [('A', 8), ('A', 9), ('A', 10), ('A', 7), ('B', 0), ('B', 1)] {
-        alternate(port, number, 6, Pupdr::PULL_DOWN);
+    let [first, second, third] = PHASE_PINS;
+    let drive = |pins: [(char, usize); 2]| pins.map(|(port, number)| alternate(port, number, 6, Pupdr::PULL_DOWN));
+    drive(first);
+    if three {
+        drive(second);
+        drive(third);
     }
 }
 
@@ -94,24 +102,48 @@ const BDTR: u32 = 0x4001_2c44;
 /// MOE in it.
 const MOE: u32 = 1 << 15;
 
-/// The stack has run out of the memory, or worse: the outputs off, again and again; the watchdog, which nobody feeds
-/// any more, does the rest.
-///
-/// It uses no stack, for there may be none.
-#[unsafe(naked)]
-#[unsafe(no_mangle)]
-extern "C" fn HardFault() -> ! {
-    core::arch::naked_asm!(
-        "movw r0, {low}",
-        "movt r0, {high}",
-        "2: ldr r1, [r0]",
-        "bic r1, r1, {moe}",
-        "str r1, [r0]",
-        "b 2b",
-        low = const BDTR & 0xffff,
-        high = const BDTR >> 16,
-        moe = const MOE,
-    );
+/// Address of TAMP_BKP0R, which a reset leaves as it is.
+const BACKUP: u32 = 0x4000_2500;
+
+/// Defines a handler: the outputs off, again and again; the mark for the next start; the watchdog, which nobody feeds
+/// any more, does the rest. It uses no stack, for there may be none.
+macro_rules! last_handler {
+    ($(#[$text:meta])* $name:ident, $mark:expr) => {
+        $(#[$text])*
+        #[unsafe(naked)]
+        #[unsafe(no_mangle)]
+        extern "C" fn $name() -> ! {
+            core::arch::naked_asm!(
+                "movw r0, {low}",
+                "movt r0, {high}",
+                "movw r2, {backup_low}",
+                "movt r2, {backup_high}",
+                "movw r3, {mark_low}",
+                "movt r3, {mark_high}",
+                "2: ldr r1, [r0]",
+                "bic r1, r1, {moe}",
+                "str r1, [r0]",
+                "str r3, [r2]",
+                "b 2b",
+                low = const BDTR & 0xffff,
+                high = const BDTR >> 16,
+                moe = const MOE,
+                backup_low = const BACKUP & 0xffff,
+                backup_high = const BACKUP >> 16,
+                mark_low = const $mark & 0xffff,
+                mark_high = const $mark >> 16,
+            );
+        }
+    };
+}
+
+last_handler! {
+    /// The stack has run out of the memory, or worse.
+    HardFault, reset::HARD_FAULT
+}
+last_handler! {
+    /// The crystal has failed, or the parity of the memory is wrong.
+    NonMaskableInt, reset::NMI
 }
 
 /// The outputs as a link of the enable chain.

@@ -11,7 +11,9 @@ pub const CLOCK_HZ: u32 = 170_000_000;
 /// Starts the clocks. Without a crystal it waits indefinitely, all outputs off.
 pub fn start() {
     RCC.apb1enr1().modify(|r| r.set_pwren(true));
-    // range 1 boost, four wait states: RM0440, 3.3.3 and 6.1.5
+    // above 150 MHz: the bus at half, range 1 boost, wait states, the PLL, a microsecond, the bus at full (RM0440, PWR,
+    // dynamic voltage scaling). The bus is halved before, not with, the switch: a new divider acts some cycles late
+    RCC.cfgr().modify(|r| r.set_hpre(Hpre::DIV2));
     PWR.cr1().modify(|r| r.set_vos(Vos::RANGE1));
     PWR.cr5().modify(|r| r.set_r1mode(false));
     FLASH.acr().modify(|r| {
@@ -32,12 +34,9 @@ pub fn start() {
     });
     RCC.cr().modify(|r| r.set_pllon(true));
     while !RCC.cr().read().pllrdy() {}
-    // over 80 MHz in two steps, a microsecond apart: RM0440, 7.2.7
-    RCC.cfgr().modify(|r| {
-        r.set_hpre(Hpre::DIV2);
-        r.set_sw(Sw::PLL1_R);
-    });
+    RCC.cfgr().modify(|r| r.set_sw(Sw::PLL1_R));
     while RCC.cfgr().read().sws() != Sw::PLL1_R {}
+    // 2 us of the 85 MHz that the core has
     cortex_m::asm::delay(CLOCK_HZ / 1_000_000);
     RCC.cfgr().modify(|r| r.set_hpre(Hpre::DIV1));
 
@@ -55,6 +54,8 @@ pub fn start() {
         r.set_tim2en(true);
         r.set_tim4en(true);
         r.set_tim6en(true);
+        // the backup registers
+        r.set_rtcapben(true);
     });
     RCC.apb1enr2().modify(|r| r.set_lpuart1en(true));
     RCC.apb2enr().modify(|r| {

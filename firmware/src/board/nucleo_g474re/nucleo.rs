@@ -4,10 +4,12 @@ use driveline::fault::Faults;
 use driveline::hal::{
     Board, EnableChain, EnableLine, Enabling, FullScale, PhaseConfig, PwmTorque, Quadrature, ThreePhase, TorqueOutput,
 };
+use stm32_metapac::{FLASH, PWR, RCC, TAMP};
 
 use super::bridge::{self, Channel, Outputs};
 use super::encoder::Timer2;
 use super::pin::Pin;
+use super::reset::word;
 use super::serial::Serial;
 use super::tick::tick_is_due;
 use super::vibration::Vibration;
@@ -32,31 +34,39 @@ pub struct Beside {
     pub serial: Serial,
     /// The blue button, with a resistor of its own.
     pub button: Pin,
+    /// Why the board was reset last: [`word`].
+    pub reset: u32,
 }
 
 impl Nucleo<PwmTorque<Channel<0>, f32>> {
     /// A drive that controls its current. Its torque input is the difference of PA8 and PA7, each behind a low-pass:
     /// switched off both are low, and the difference is no torque.
     pub fn torque_input(counts_per_turn: u32, full_scale: FullScale<f32>) -> (Self, Beside) {
-        Self::with(counts_per_turn, PwmTorque::new(Channel, full_scale))
+        Self::with(counts_per_turn, false, PwmTorque::new(Channel, full_scale))
     }
 }
 
 impl Nucleo<ThreePhase<Channel<0>, Channel<1>, Channel<2>, f32>> {
     /// The bridge of a small synchronous motor.
     pub fn three_phase(counts_per_turn: u32, config: PhaseConfig<f32>) -> (Self, Beside) {
-        Self::with(counts_per_turn, ThreePhase::new((Channel, Channel, Channel), config))
+        Self::with(counts_per_turn, true, ThreePhase::new((Channel, Channel, Channel), config))
     }
 }
 
 impl<T> Nucleo<T> {
-    /// Starts the clock, every peripheral and the watchdog; the outputs stay off.
-    fn with(counts_per_turn: u32, torque: T) -> (Self, Beside) {
+    /// Starts the clock, every peripheral, one phase or all three, and the watchdog; the outputs stay off.
+    #[inline(always)]
+    fn with(counts_per_turn: u32, three: bool, torque: T) -> (Self, Beside) {
         clock::start();
         let drive_enable = Pin::output('C', 10);
-        bridge::start();
+        bridge::start(three);
         encoder::start();
-        let beside = Beside { vibration: Vibration::start(), serial: Serial::start(), button: Pin::input('C', 13) };
+        let beside = Beside {
+            vibration: Vibration::start(),
+            serial: Serial::start(),
+            button: Pin::input('C', 13),
+            reset: last_reset(),
+        };
         let nucleo = Nucleo {
             encoder: Quadrature::new(Timer2, counts_per_turn, 32),
             torque,
@@ -66,6 +76,15 @@ impl<T> Nucleo<T> {
         };
         (nucleo, beside)
     }
+}
+
+/// Why the board was reset last; the registers are then ready for the next time.
+fn last_reset() -> u32 {
+    PWR.cr1().modify(|r| r.set_dbp(true));
+    let word = word(RCC.csr().read().0, FLASH.optr().read().0, TAMP.bkpr(0).read().0);
+    RCC.csr().modify(|r| r.set_rmvf(true));
+    TAMP.bkpr(0).write(|r| r.0 = 0);
+    word
 }
 
 impl<T: TorqueOutput<f32>> Board<f32> for Nucleo<T> {

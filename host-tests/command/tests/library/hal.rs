@@ -8,6 +8,7 @@ mod bus;
 mod chips;
 mod enable;
 mod missed;
+mod nucleo;
 mod parameters;
 mod table;
 mod torque;

@@ -7,10 +7,8 @@ use driveline::fault::Faults;
 use driveline::hal::Board;
 use driveline_firmware::control_loop::main_loop_watch::{Attended, PATIENCE};
 use driveline_firmware::control_loop::step::{Asked, Turn};
-use driveline_firmware::panel::serial_request::{Asking, SPEED};
 use driveline_firmware::scene::{Input, Of, Scene, Variant};
 use driveline_firmware::scenes::test_rig::{TestRig, Whole};
-use proptest::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Done {
@@ -176,37 +174,6 @@ fn an_angle_that_stays_away_trips() {
     assert!(rig.is_on());
     assert!(rig.ticks(2, RELEASED).contains(Faults::ANGLE_LOST.with(Faults::TRIPPED)));
     assert!(!rig.is_on());
-}
-
-/// The seven bytes, from the description of the frame.
-fn frame(key: u8, value: u32) -> Vec<u8> {
-    let mut frame = vec![0x5a, key];
-    frame.extend(value.to_le_bytes());
-    frame.push((frame.iter().map(|byte| u32::from(*byte)).sum::<u32>() % 256) as u8);
-    frame
-}
-
-fn asked(bytes: &[u8]) -> Vec<[u32; 2]> {
-    let mut asking = Asking::default();
-    bytes.iter().filter_map(|byte| asking.take(*byte)).collect()
-}
-
-#[test]
-fn what_is_asked_is_found_among_other_bytes() {
-    let speed = frame(SPEED as u8, 30.0_f32.to_bits());
-    // 0x5a alone, twice, and a frame that is cut short
-    let bytes = [&[0x5a, 1, 0x5a], &speed[..], &speed[..4], &speed[..]].concat();
-    assert_eq!(asked(&bytes), [[SPEED, 30.0_f32.to_bits()]; 2]);
-}
-
-proptest! {
-    #[test]
-    fn a_damaged_frame_asks_for_nothing(key in 0_u8..64, value: u32, at in 0_usize..7, bit in 0_u8..8) {
-        let mut bytes = frame(key, value);
-        prop_assert_eq!(asked(&bytes), [[u32::from(key), value]]);
-        bytes[at] ^= 1 << bit;
-        prop_assert_eq!(asked(&bytes), Vec::<[u32; 2]>::new());
-    }
 }
 
 #[test]
