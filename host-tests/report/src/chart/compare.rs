@@ -34,15 +34,17 @@ pub fn step_errors(rows: &[Comparison]) -> String {
         svg.line("grid", LEFT, y, RIGHT, y);
         let torque = (row.shaft_torque.rms, 0, "s0", "shaft torque");
         let speed = (row.load_speed.rms, 2, "s1", "load speed");
+        let mut diverged = false;
         for (rms, shape, series, name) in [torque, speed] {
             let title = format!("{}, {}: {name} {}", row.step, row.observer, format::percent(rms));
-            if rms.is_finite() && rms < 1e3 {
-                if let Some(place) = x.place(rms * 100.0) {
-                    svg.marker(&format!("point on {series}"), shape, place, y, &title);
-                }
-            } else {
-                svg.text("failed", RIGHT + 10.0, y + 4.0, Anchor::Start, format::DIVERGED);
+            let drawn = rms.is_finite() && rms < 1e3;
+            diverged |= !drawn;
+            if let (Some(place), true) = (x.place(rms * 100.0), drawn) {
+                svg.marker(&format!("point on {series}"), shape, place, y, &title);
             }
+        }
+        if diverged {
+            svg.text("failed", RIGHT + 10.0, y + 4.0, Anchor::Start, format::DIVERGED);
         }
     }
     svg.finish("Errors of the observer with different steps")

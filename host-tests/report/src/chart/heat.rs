@@ -4,8 +4,8 @@ use crate::format;
 use crate::svg::{Anchor, Svg};
 use crate::sweep::{Slice, values};
 
-const WIDTH: f64 = 352.0;
-const LEFT: f64 = 46.0;
+const WIDTH: f64 = 362.0;
+const LEFT: f64 = 56.0;
 const RIGHT: f64 = WIDTH - 8.0;
 const TOP: f64 = 26.0;
 const HEIGHT: f64 = 200.0;

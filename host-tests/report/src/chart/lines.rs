@@ -3,7 +3,7 @@
 use crate::svg::{Anchor, Scale, Svg, text_width, trace};
 
 const WIDTH: f64 = 1080.0;
-const FRAME: [f64; 4] = [78.0, 30.0, WIDTH - 14.0, 400.0];
+const FRAME: [f64; 4] = [78.0, 30.0, WIDTH - 24.0, 400.0];
 const HEIGHT: f64 = FRAME[3] + 46.0;
 
 /// A curve: its class in the style (`truth`, `s0` to `s5`), and its values over the common axis; what is not finite

@@ -4,7 +4,7 @@ use crate::svg::{Anchor, Scale, Svg, trace};
 
 const WIDTH: f64 = 1080.0;
 const LEFT: f64 = 74.0;
-const RIGHT: f64 = WIDTH - 14.0;
+const RIGHT: f64 = WIDTH - 24.0;
 const TOP: f64 = 12.0;
 const PLOT: f64 = 170.0;
 const NEXT: f64 = 34.0;

@@ -4,7 +4,7 @@ use crate::svg::{Anchor, Scale, Svg, trace};
 
 const WIDTH: f64 = 1080.0;
 const HEIGHT: f64 = 360.0;
-const FRAME: [f64; 4] = [70.0, 18.0, WIDTH - 14.0, HEIGHT - 46.0];
+const FRAME: [f64; 4] = [70.0, 18.0, WIDTH - 24.0, HEIGHT - 46.0];
 
 /// A curve: its name, its class in the style, and its amplitudes over the common frequencies.
 #[derive(Clone, Debug, PartialEq)]

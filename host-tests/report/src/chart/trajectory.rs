@@ -6,7 +6,7 @@ use crate::trajectory::{Signal, Trajectory};
 
 const WIDTH: f64 = 1080.0;
 const LEFT: f64 = 74.0;
-const RIGHT: f64 = WIDTH - 14.0;
+const RIGHT: f64 = WIDTH - 24.0;
 const TOP: f64 = 34.0;
 /// Heights of a quantity's plot, of its error strip, and of the gaps after each.
 const PLOT: f64 = 150.0;

@@ -1,5 +1,6 @@
 //! The report's page from made-up figures: whole, safe and small, whatever the figures are.
 
+mod palette;
 mod sample;
 mod sound;
 
