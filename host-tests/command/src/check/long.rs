@@ -6,15 +6,21 @@ use driveline_qemu::image::{Program, build};
 use driveline_qemu::measure::{Loops, MachineCode, count};
 
 use super::steps::{each, passed, together};
-use super::{Count, Failed, Step, Voice, cargo};
+use super::{Count, Failed, Step, Voice, cargo, pages};
 
 /// All long steps, the shortest first.
-pub const LONG: [Step; 4] = [
+pub const LONG: [Step; 5] = [
     Step {
         name: "power-cuts",
         content: "the flash's power cut at every byte of a save: the record is the old one or the new one",
         repeat: "cargo driveline check --long --only power-cuts",
         run: power_cuts,
+    },
+    Step {
+        name: "pages",
+        content: "the pages of commands that run firmware, on two screens and in print",
+        repeat: "cargo driveline check --long --only pages",
+        run: pages::of_firmware,
     },
     Step {
         name: "ticks",

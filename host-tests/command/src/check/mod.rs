@@ -6,6 +6,7 @@ mod clock;
 pub mod comparison;
 pub mod last;
 mod long;
+mod pages;
 mod step;
 mod steps;
 

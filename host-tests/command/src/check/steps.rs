@@ -7,7 +7,7 @@ use driveline_firmware::board::{BOARDS, Facts};
 use driveline_firmware::scenes::VARIANTS;
 
 use super::comparison::Comparison;
-use super::{Count, Failed, Step, Voice, cargo};
+use super::{Count, Failed, Step, Voice, cargo, pages};
 use driveline_qemu::clone::{target_directory, workspace};
 use driveline_qemu::image::{ON_NUCLEO, Program, belongs, build};
 use driveline_qemu::measure::budgets::Budgets;
@@ -15,7 +15,7 @@ use driveline_qemu::measure::{Cost, self_test};
 use driveline_qemu::setup;
 
 /// All steps; the firmware, which is built board beside board, before the tests that use its images one by one.
-pub const STEPS: [Step; 10] = [
+pub const STEPS: [Step; 11] = [
     Step {
         name: "setup",
         content: "tools that are missing are installed",
@@ -53,6 +53,12 @@ pub const STEPS: [Step; 10] = [
         content: "all tests",
         repeat: "cargo test --workspace --exclude driveline-defmt-log --no-fail-fast",
         run: tests,
+    },
+    Step {
+        name: "pages",
+        content: "every kind of page on two screens and in print, where Chromium is installed",
+        repeat: "cargo driveline check --only pages",
+        run: pages::quick,
     },
     Step {
         name: "self-tests",

@@ -23,7 +23,7 @@ use crate::drivetrains::engine::Options;
 use crate::drivetrains::{Build, SCENES};
 use crate::generator::verdict::{self, Verdicts};
 use crate::sweep;
-use driveline_report::{Sample, Sweep};
+use driveline_report::{Sample, Sweep, Variant};
 
 /// A job of one thread.
 pub struct Job {
@@ -158,6 +158,12 @@ impl Survey {
                         scene.aim = aim;
                     }
                     scene.runs.push(*run);
+                    // jobs end in any order
+                    let at = |run: &Run| {
+                        let Variant { number, core, observer, rate_hz, .. } = &run.variant;
+                        (observer.clone(), *rate_hz, number.clone(), core.clone())
+                    };
+                    scene.runs.sort_by_cached_key(at);
                 }
             }
             Piece::Sample(sample) => {

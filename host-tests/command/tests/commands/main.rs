@@ -1,6 +1,7 @@
 //! The subcommands as a user meets them, the files that they read and the pages that they write.
 
 mod balance;
+mod browser;
 mod campaign;
 mod cli;
 mod cli_emit;
@@ -11,6 +12,7 @@ mod engine;
 mod identify;
 mod machine_file;
 mod motor_wheel;
+mod pages;
 #[path = "../references/mod.rs"]
 mod references;
 mod replay;

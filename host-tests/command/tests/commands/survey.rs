@@ -15,7 +15,7 @@ use crate::sample;
 use crate::sound::assert_sound;
 
 /// Every scene there is, with three variants each, of which the last is the design's choice and errs by `error`.
-fn survey(error: f64) -> Survey {
+pub fn survey(error: f64) -> Survey {
     let variants = sample::report().variants;
     let runs = || {
         ["rigid", "plain", "slack"].map(|observer| {

@@ -28,10 +28,10 @@ pub fn facts(survey: &Survey) -> Vec<Fact> {
             ),
         ),
         fact("jobs that failed", survey.failures.len().to_string()),
-        fact(
-            "time that it took",
-            format!("{:.0} min {:02.0} s", (survey.seconds / 60.0).floor(), survey.seconds % 60.0),
-        ),
+        fact("time that it took", {
+            let seconds = survey.seconds.round() as u64;
+            format!("{} min {:02} s", seconds / 60, seconds % 60)
+        }),
     ]
 }
 
@@ -128,8 +128,7 @@ pub fn section(survey: &Survey, scene: &SceneFigures) -> Section {
         let variant = &run.variant;
         let torque = scene.aim.torque_missed(variant);
         let over = |missed: f64| {
-            let points = significant(100.0 * missed.abs());
-            if missed <= 0.0 { "kept".to_owned() } else { format!("missed by {points}") }
+            if missed <= 0.0 { "kept".to_owned() } else { format!("missed by {}", percent(missed)) }
         };
         table.row([
             variant.label(),
