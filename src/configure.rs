@@ -47,6 +47,7 @@
 //! | `FeedForward`, `AccelerationFeedback` | [`Machine::GAINS`] | [`GainSource::Governor`] |
 //! | `ActiveDamping` | [`Machine::SPEED_LOOP`] | |
 //! | `Sequencer` | [`HasSequencer::SEQUENCER`] | [`HasSequencer`] |
+//! | `LoadSharing` | [`HasLoadSharing::SHARING`] | [`HasLoadSharing`] |
 //! | `MovingAverage`, `CycleAverage` | none | |
 //! | `Extremes`, `Waveform`, `Interleaved`, `CycleMean` | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
 //! | `Phasors` | [`HasVibration::PHASORS`] | [`HasVibration`] |
@@ -128,7 +129,7 @@ mod vibration;
 
 pub use family::{Family, Follows, ScheduleOf, Scheduled};
 pub use gain_source::GainSource;
-pub use governor::{HasBacklash, HasBarredSpeeds, HasDroop, HasSequencer, HasSlew, HasTorqueCurve};
+pub use governor::{HasBacklash, HasBarredSpeeds, HasDroop, HasLoadSharing, HasSequencer, HasSlew, HasTorqueCurve};
 pub use loop_part::LoopPart;
 pub use machine::{Machine, Rating};
 pub use observer::HasCrank;

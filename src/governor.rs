@@ -4,16 +4,21 @@
 //! *Setpoint*: the commanded motor speed. *Anti-windup*: back-calculation that keeps the integral from growing while
 //! the torque is limited. *Active damping*: motor torque proportional and opposite to the twist rate. *Droop*: fall of
 //! the setpoint with the load. *Isochronous*: without droop. *Trip*: a stop that is latched until it is reset.
+//! *Load sharing*: the division of one torque among several motors. *Torque bias* (preload): torque of some of them
+//! against the others, so that no pinion leaves its flank.
 //!
 //! | governor | for |
 //! |---|---|
 //! | [`SpeedLoop`] | continuous operation: proportional, integral, active damping, lags of setpoint and damping |
 //! | [`SpeedGovernor`] | composed of parts: droop, feed-forward, limits by a curve, run sequence and trips |
+//!
+//! [`LoadSharing`] stands behind any of them, where several motors turn one gear.
 
 mod actuator_monitor;
 mod backlash_takeup;
 mod compensation;
 mod limit;
+mod load_sharing;
 mod loop_filter;
 mod sequencer;
 mod setpoint;
@@ -32,6 +37,7 @@ pub use limit::{
     Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
     TorqueRangeConfig,
 };
+pub use load_sharing::{LoadSharing, LoadSharingConfig};
 pub use loop_filter::{DampingLag, DampingLagConfig, LoopFilter, SetpointLag};
 pub use sequencer::{RunAction, RunRequest, RunState, Sequence, Sequencer, SequencerConfig, Trip};
 pub use setpoint::{Barred, BarredConfig, Droop, DroopConfig, SetpointShape, SpeedRange};

@@ -5,13 +5,13 @@ use crate::design::{BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, Sp
 use crate::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
     BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CycleAverage, DampingLag,
-    DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Limit, LoopFilter, MovingAverage,
-    MovingAverageConfig, Sequence, Sequencer, SequencerConfig, SetpointLag, SetpointShape, Slew, SlewConfig,
-    SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf, SpeedLoop, SpeedLoopConfig, SymmetricLimit,
-    SymmetricLimitConfig, TorqueRange, TorqueRangeConfig,
+    DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Limit, LoadSharing, LoadSharingConfig,
+    LoopFilter, MovingAverage, MovingAverageConfig, Sequence, Sequencer, SequencerConfig, SetpointLag, SetpointShape,
+    Slew, SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf, SpeedLoop,
+    SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange, TorqueRangeConfig,
 };
 use crate::number::{Fixed, Number};
-use crate::settings::{Bases, SequencerSettings, SpeedLoopSettings};
+use crate::settings::{Bases, LoadSharingSettings, SequencerSettings, SpeedLoopSettings};
 
 /// A machine with backlash take-up, or with a slack rope.
 pub trait HasBacklash: Machine {
@@ -40,6 +40,12 @@ pub trait HasBarredSpeeds<const K: usize>: Machine {
 pub trait HasTorqueCurve<const K: usize>: Machine {
     /// Largest torque against speed.
     const CURVE: TorqueCurve<K>;
+}
+
+/// A machine that several motors turn.
+pub trait HasLoadSharing: Machine {
+    /// Torques, limits and damping of the sharing.
+    const SHARING: LoadSharingSettings;
 }
 
 /// A machine whose torque may change so fast and no faster.
@@ -135,6 +141,10 @@ macro_rules! governors {
                 CurveConfig::<$number, K>::new(&M::CURVE, M::LEAST_TORQUE, $bases);
             [] HasSequencer, Sequencer => SequencerConfig<$number>,
                 SequencerConfig::<$number>::new(&M::SEQUENCER, M::PERIOD, $bases);
+            [MOTORS] HasLoadSharing, LoadSharing<$number, MOTORS> => LoadSharingConfig<$number>, {
+                assert!(MOTORS as u32 == M::SHARING.motors, "the load sharing and its settings differ in their motors");
+                LoadSharingConfig::<$number>::new(&M::SHARING, M::PERIOD, $bases)
+            };
             [K] Machine, MovingAverage<$number, K> => MovingAverageConfig<$number, K>,
                 MovingAverageConfig::<$number, K>::of_ticks(), LoopPart::Unknown;
         }
