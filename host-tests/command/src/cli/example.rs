@@ -30,7 +30,7 @@ struct Entry {
 }
 
 /// Name, for which commands, and text of each.
-const EXAMPLES: [(&str, &str, &str); 11] = [
+const EXAMPLES: [(&str, &str, &str); 13] = [
     ("hoist", "modes, design", include_str!("../../machines/hoist.toml")),
     ("roll", "modes, design", include_str!("../../machines/roll.toml")),
     ("axis", "modes, design, commissioning", include_str!("../../machines/axis.toml")),
@@ -38,6 +38,8 @@ const EXAMPLES: [(&str, &str, &str); 11] = [
     ("ship", "modes", include_str!("../../machines/ship.toml")),
     ("gear-pair", "simulate, modes", include_str!("../../trains/gear-pair.toml")),
     ("hoist-start", "simulate, modes", include_str!("../../trains/hoist-start.toml")),
+    ("girder", "simulate, modes", include_str!("../../trains/girder.toml")),
+    ("travel", "simulate, modes", include_str!("../../trains/travel.toml")),
     ("tilting", "simulate, modes", include_str!("../../trains/tilting.toml")),
     ("three-discs", "rotor", include_str!("../../rotors/three_discs.toml")),
     ("fan-balance", "balancing", include_str!("../../rotors/fan-balance.toml")),

@@ -100,12 +100,25 @@ fn proof(simulation: &Simulation) -> Vec<String> {
 }
 
 fn tables(simulation: &Simulation) -> Vec<Section> {
-    let mut forces =
-        Table::new(["link", "least N m", "at s", "greatest N m", "at s", "static N m", "K", "elastic K", "contacts"]);
+    let mut forces = Table::new([
+        "link",
+        "least N m",
+        "at s",
+        "greatest N m",
+        "at s",
+        "static N m",
+        "K",
+        "elastic K",
+        "least rad",
+        "greatest rad",
+        "contacts",
+    ]);
     for link in &simulation.links {
         let numbers = [link.least, link.least_time, link.greatest, link.greatest_time, link.static_force];
         let factor = |factor: Option<f64>| factor.map_or_else(|| "none".to_owned(), significant);
-        let rest = [factor(link.dynamic_factor), factor(link.elastic_factor), link.contacts.to_string()];
+        let factors = [factor(link.dynamic_factor), factor(link.elastic_factor)];
+        let elongations = [link.least_elongation, link.greatest_elongation].map(significant);
+        let rest = factors.into_iter().chain(elongations).chain([link.contacts.to_string()]);
         forces.row([link.name.clone()].into_iter().chain(numbers.map(significant)).chain(rest));
     }
     let mut speeds = Table::new(["coordinate", "least rad/s", "greatest rad/s", "at the end rad/s"]);
@@ -113,7 +126,8 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
         let numbers = [coordinate.least, coordinate.greatest, coordinate.last];
         speeds.row([coordinate.name.clone()].into_iter().chain(numbers.map(significant)));
     }
-    let text = "Torques of links between angles; along a line of action or a way, forces in N. The dynamic factor K is \
+    let text = "Torques of links between angles and elongations in rad; along a line of action or a way, forces in N \
+                and elongations in m. The dynamic factor K is \
                 the greatest size over the static force: that of the file, or the mean of the second half of the run; \
                 elastic, of the spring without its damper. \
                 Extremes are found between the lines of the run, not on them.";

@@ -9,6 +9,7 @@ mod critical;
 mod damper;
 mod elements;
 mod engine;
+mod girder;
 mod identify;
 mod machine_file;
 mod motor_wheel;

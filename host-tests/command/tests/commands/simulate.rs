@@ -64,6 +64,8 @@ fn the_machines_in_the_repository_run_and_are_proven() {
     for (name, words) in [
         ("gear-pair", ["mesh", "separation"]),
         ("hoist-start", ["rope", "ground"]),
+        ("girder", ["girder spring", "contact"]),
+        ("travel", ["gear", "separation"]),
         ("tilting", ["train 2", "separation"]),
     ] {
         let output = simulate(&[&machine(name)]);

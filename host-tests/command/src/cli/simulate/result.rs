@@ -121,6 +121,10 @@ pub struct Carried {
     pub dynamic_factor: Option<f64>,
     /// The same of its spring alone, without its damper.
     pub elastic_factor: Option<f64>,
+    /// Least elongation (rad or m), such as a girder's deflection; of a shaft its twist.
+    pub least_elongation: f64,
+    /// Greatest elongation (rad or m).
+    pub greatest_elongation: f64,
     /// How often it came into contact or left it.
     pub contacts: usize,
 }
@@ -152,7 +156,8 @@ impl Simulation {
         let mut start = file.motion.clone();
         let (n, links) = (start.coordinates(), start.links());
         let signals: Vec<Signal> = (0..n).map(Signal::Speed).chain((0..links).map(Signal::Force)).collect();
-        signals.iter().copied().chain((0..links).map(Signal::Elastic)).for_each(|signal| start.watch(signal));
+        let extremes_alone = (0..links).flat_map(|link| [Signal::Elastic(link), Signal::Elongation(link)]);
+        signals.iter().copied().chain(extremes_alone).for_each(|signal| start.watch(signal));
         let mut times = vec![0.0];
         let mut rows: Vec<Vec<f64>> = start.read_all(&signals).into_iter().map(|value| vec![value]).collect();
         let mut run = Recording::new(start);
@@ -225,6 +230,8 @@ impl Simulation {
             let elastic = motion.extremes(Signal::Elastic(l)).map_or(0.0, |e| e.peak.abs().max(e.least.abs()));
             let factor =
                 |greatest: f64| (static_force.abs() > 1e-9 * size && size > 0.0).then(|| greatest / static_force.abs());
+            let [least_elongation, greatest_elongation] =
+                motion.extremes(Signal::Elongation(l)).map_or([0.0; 2], |e| [e.least, e.peak]);
             let contacts = motion.events().iter().filter(|event| event.kind == EventKind::Contact);
             Carried {
                 name: file.links[l].clone(),
@@ -236,6 +243,8 @@ impl Simulation {
                 static_from,
                 dynamic_factor: factor(size),
                 elastic_factor: factor(elastic),
+                least_elongation,
+                greatest_elongation,
                 contacts: contacts.filter(|event| event.place == Place::Shaft(l)).count(),
             }
         };
