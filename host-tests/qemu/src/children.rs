@@ -138,17 +138,17 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// Makes a temporary file or folder, which its owner removes, and guards it.
+    /// Makes a temporary file or folder, which its owner removes, and guards it; of a pair the second is dropped first.
     ///
     /// # Errors
     /// As the maker.
-    pub fn around<T>(make: impl FnOnce() -> io::Result<T>, path: impl FnOnce(&T) -> &Path) -> io::Result<(T, Self)> {
+    pub fn around<T>(make: impl FnOnce() -> io::Result<T>, path: impl FnOnce(&T) -> &Path) -> io::Result<(Self, T)> {
         // under the lock, lest a signal come between the two
         let mut owned = owned();
         let made = make()?;
         let number = owned.number();
         owned.paths.insert(number, path(&made).to_owned());
-        Ok((made, Self { number }))
+        Ok((Self { number }, made))
     }
 }
 
@@ -190,7 +190,7 @@ impl Folder {
     pub fn make_in(place: &Path) -> io::Result<Self> {
         let prefix = if place == std::env::temp_dir() { "driveline-" } else { ".driveline-" };
         let make = || tempfile::Builder::new().prefix(prefix).tempdir_in(place);
-        let (folder, guard) = Guard::around(make, TempDir::path)?;
+        let (guard, folder) = Guard::around(make, TempDir::path)?;
         Ok(Folder { folder, _guard: guard })
     }
 

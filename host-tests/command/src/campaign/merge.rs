@@ -60,7 +60,9 @@ pub fn merge(paths: &[impl AsRef<Path>]) -> Result<(Settings, BTreeMap<u64, Outc
     let (settings, outcomes) = merged.ok_or("no file to merge")?;
     let missing = settings.draws - outcomes.len() as u64;
     if let Some(first) = (0..settings.draws).find(|number| !outcomes.contains_key(number)) {
-        let sentence = format!("{missing} of {} draws are missing, draw {first} first", settings.draws);
+        let names: Vec<String> = paths.iter().map(|path| path.as_ref().display().to_string()).collect();
+        let names = names.join(", ");
+        let sentence = format!("{names}: {missing} of {} draws are missing, draw {first} first", settings.draws);
         return Err(format!("{sentence}; run their shards to the end"));
     }
     Ok((settings, outcomes))

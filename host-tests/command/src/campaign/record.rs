@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs::{File, OpenOptions};
 use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
+use std::os::unix::fs::FileTypeExt as _;
 use std::path::{Path, PathBuf};
 
 use driveline_qemu::children::Guard;
@@ -134,7 +135,12 @@ fn parse(path: &Path, text: &str) -> Result<(Settings, BTreeMap<u64, Outcome>, u
 /// # Errors
 /// A sentence: it cannot be read, or is none.
 pub fn read(path: &Path) -> Result<(Settings, BTreeMap<u64, Outcome>), String> {
-    let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let system = |error: std::io::Error| format!("{}: {error}", path.display());
+    // a device has no end
+    if path.metadata().map_err(system)?.file_type().is_char_device() {
+        return Err(format!("{} is a device and no file of a campaign", path.display()));
+    }
+    let text = std::fs::read_to_string(path).map_err(system)?;
     parse(path, &text).map(|(settings, outcomes, _)| (settings, outcomes))
 }
 
@@ -174,7 +180,7 @@ impl Record {
             let permissions = file.metadata().map_err(system)?.permissions();
             let folder = path.parent().unwrap_or(Path::new("/"));
             let make = || tempfile::Builder::new().permissions(permissions).tempfile_in(folder);
-            let (mut beside, _guard) = Guard::around(make, NamedTempFile::path).map_err(system)?;
+            let (_guard, mut beside) = Guard::around(make, NamedTempFile::path).map_err(system)?;
             beside.write_all(settings.file(&outcomes).as_bytes()).map_err(system)?;
             beside.persist(&path).map_err(|error| system(error.error))?;
             drop(file);

@@ -9,7 +9,7 @@ use super::steps::{each, passed, together};
 use super::{Count, Failed, Step, Voice, cargo, pages};
 
 /// All long steps, the shortest first.
-pub const LONG: [Step; 5] = [
+pub const LONG: [Step; 7] = [
     Step {
         name: "power-cuts",
         content: "the flash's power cut at every byte of a save: the record is the old one or the new one",
@@ -35,6 +35,18 @@ pub const LONG: [Step; 5] = [
         run: starts,
     },
     Step {
+        name: "attacks",
+        content: "6,000 malformed files, streams and argument lists, a disk that is full at every write, signals",
+        repeat: "cargo driveline check --long --only attacks",
+        run: attacks,
+    },
+    Step {
+        name: "seeds",
+        content: "three machines commissioned over 40 seeds of the torque's noise, each within its aims",
+        repeat: "cargo driveline check --long --only seeds",
+        run: seeds,
+    },
+    Step {
         name: "inputs",
         content: "three million inputs of each variant in QEMU: none above the longest path",
         repeat: "cargo driveline check --long --only inputs",
@@ -55,6 +67,19 @@ fn ticks(voice: &Voice) -> Result<Count, Failed> {
 
 fn starts(voice: &Voice) -> Result<Count, Failed> {
     cargo::ignored_tests("library", &["a_hundred_thousand_starts_end_no_worse"], voice)
+}
+
+fn attacks(voice: &Voice) -> Result<Count, Failed> {
+    let attacks = [
+        "six_thousand_malformed_files_streams_and_arguments",
+        "a_full_disk_at_every_write_loses_nothing",
+        "signals_at_fifty_moments",
+    ];
+    cargo::ignored_tests("attack", &attacks, voice)
+}
+
+fn seeds(voice: &Voice) -> Result<Count, Failed> {
+    cargo::ignored_tests("closed_loop", &["every_machine_over_forty_seeds"], voice)
 }
 
 /// Inputs of a variant.

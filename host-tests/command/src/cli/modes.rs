@@ -21,7 +21,7 @@ use tables::tables;
 use train::TrainVibration;
 
 use super::results::{Destination, check};
-use super::{Failure, say, say_json};
+use super::{Failure, Progress, say, say_json};
 use crate::machine_file::{is_train, parse, parse_train_for_modes, text};
 use driveline_report::Section;
 
@@ -57,7 +57,7 @@ impl Modes {
         let (name, text) = text(&self.file, "a machine file")?;
         if is_train(&text) {
             let file = parse_train_for_modes(&name, &text)?;
-            let vibration = TrainVibration::of(&file)?;
+            let vibration = Progress::during(|| TrainVibration::of(&file), &format!("{name}: finding the modes"))?;
             return self.show(&file.slug(), || vibration.page(&file), &vibration, vibration.tables());
         }
         let machine = parse(&name, &text)?;

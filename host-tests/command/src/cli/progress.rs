@@ -1,6 +1,8 @@
 //! Progress of long work, on standard error: a bar, or a line now and then where that is no terminal.
 
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -35,6 +37,23 @@ impl Progress {
         let style = ProgressStyle::with_template("{spinner} {elapsed}  {msg}")
             .expect("the template of the progress line is well-formed");
         Self::moving(ProgressBar::new_spinner().with_style(style))
+    }
+
+    /// Does work that says nothing of itself, and names it now and then.
+    pub fn during<T>(work: impl FnOnce() -> T, name: &str) -> T {
+        let progress = &Self::open();
+        progress.bar.set_message(name.to_owned());
+        let (done, waits) = mpsc::channel::<()>();
+        thread::scope(|scope| {
+            scope.spawn(move || {
+                while waits.recv_timeout(BETWEEN) == Err(RecvTimeoutError::Timeout) {
+                    progress.says(name);
+                }
+            });
+            let result = work();
+            drop(done);
+            result
+        })
     }
 
     fn moving(bar: ProgressBar) -> Self {
@@ -90,5 +109,6 @@ mod tests {
         bar.at(2);
         assert_eq!(bar.bar.position(), 2);
         Progress::open().says("once");
+        assert_eq!(Progress::during(|| 7, "counting"), 7);
     }
 }

@@ -87,7 +87,7 @@ impl Destination {
         }
         let permissions = there.map_or_else(|| fs::Permissions::from_mode(0o666), |there| there.permissions());
         let make = || tempfile::Builder::new().prefix(".driveline-").permissions(permissions).tempfile_in(folder);
-        let (mut beside, _guard) = Guard::around(make, NamedTempFile::path)?;
+        let (_guard, mut beside) = Guard::around(make, NamedTempFile::path)?;
         beside.write_all(bytes)?;
         // a disk that is full may say so only here
         beside.as_file().sync_all()?;
@@ -210,7 +210,7 @@ fn folder_of(path: &Path) -> &Path {
 /// Whether a file can be made in a folder; it is gone again.
 fn probe(folder: &Path) -> io::Result<()> {
     let make = || tempfile::Builder::new().prefix(".driveline-").tempfile_in(folder);
-    Guard::around(make, NamedTempFile::path).map(drop)
+    Guard::around(make, NamedTempFile::path).map(|(_guard, file)| drop(file))
 }
 
 /// The system's words without the path of the file beside, which means nothing to the user.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::results::{Destination, all, check};
-use super::{Failure, say, say_json};
+use super::{Failure, Progress, say, say_json};
 use crate::machine_file::{TrainFile, read_train};
 use driveline_report::chart::{Line, over_time};
 use driveline_report::format::significant;
@@ -58,9 +58,13 @@ impl Simulate {
         let sheet = Destination::page_unless(self.json, self.html.as_deref(), &name);
         let csv = self.csv.as_deref().map(|path| Destination::chosen("table", path));
         check(&[&self.file], csv.iter().chain(&sheet))?;
-        let simulation = Simulation::of(&file, !self.unproven)?;
+        let solve = || Simulation::of(&file, !self.unproven);
+        let simulation = Progress::during(solve, &format!("{}: solving {} s", file.name, significant(file.time)))?;
         if let (Some(reason), false) = (&simulation.not_proven, self.unproven) {
-            return Err(Failure::failed(format!("the run is refused: {reason}; `--unproven` shows it all the same")));
+            return Err(Failure::failed(format!(
+                "{}: the run is refused: {reason}; `--unproven` shows it all the same",
+                self.file.display()
+            )));
         }
         if self.json {
             say_json(&simulation)?;

@@ -77,6 +77,9 @@ use driveline_solver::plant::{LoadProgram, Place, PlantError};
 /// Most lines that a run may have.
 const LINES: f64 = 1e6;
 
+/// Most coordinates: their modes take time with the third power of their number.
+const COORDINATES: usize = 200;
+
 /// Product of the fastest rate of a train and the length of its run, at most: a minute's work for the second
 /// integrator, whose roundings gather beyond it.
 const STIFFEST: f64 = 1e6;
@@ -204,7 +207,12 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             coordinates[on] = coordinates[on].clone().source(torque);
         }
     } else {
-        for (place, table) in root.tables("coordinate")? {
+        let tables = root.tables("coordinate")?;
+        if let Some((place, _)) = tables.get(COORDINATES) {
+            let (found, expected) = (format!("{} coordinates", tables.len()), format!("at most {COORDINATES}"));
+            return Err(Diagnostic::at(source, place.clone(), "coordinate", found, expected));
+        }
+        for (place, table) in tables {
             coordinates.push(file.coordinate(table)?);
             places.push(place);
         }

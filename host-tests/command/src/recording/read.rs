@@ -10,6 +10,9 @@ use crate::machine_file::{Diagnostic, Source, printable};
 
 /// Largest recording in bytes.
 const LARGEST: u64 = 1 << 30;
+/// Columns that a message lists, and characters of a heading in it.
+const MOST_NAMES: usize = 20;
+const LONGEST_NAME: usize = 60;
 /// Largest value in SI units, whose powers have room in a number.
 const HIGHEST: f64 = 1e100;
 
@@ -90,9 +93,13 @@ impl Recording {
 
     /// The columns in words.
     pub fn found(&self) -> String {
-        let names: Vec<String> = self.columns.iter().map(Column::to_string).collect();
-        let unused: Vec<String> = self.unused.iter().map(|name| format!("`{name}` (unknown)")).collect();
-        format!("the columns {}", [names, unused].concat().join(", "))
+        let names = self.columns.iter().map(Column::to_string);
+        let unused = self.unused.iter().map(|name| format!("`{}` (unknown)", printable(name, LONGEST_NAME)));
+        let mut names: Vec<String> = names.chain(unused).collect();
+        let more = names.len().saturating_sub(MOST_NAMES);
+        names.truncate(MOST_NAMES);
+        names.extend((more > 0).then(|| format!("{more} more")));
+        format!("the columns {}", names.join(", "))
     }
 
     /// The rows at which a level has risen, or fallen, through the middle of its range, with how long before the row

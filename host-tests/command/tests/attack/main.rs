@@ -6,6 +6,7 @@
 mod arguments;
 mod cases;
 mod disk;
+mod limits;
 mod links;
 mod malformed;
 mod random;

@@ -1,6 +1,6 @@
 //! The scene's machines, each against its full plant, with 1 % of noise in the torque.
 
-use cargo_driveline::commissioning::{Course, cases, on_host, verdict};
+use cargo_driveline::commissioning::{Course, Verdict, cases, on_host, verdict};
 
 fn course(name: &str, seed: u64) -> (cargo_driveline::commissioning::Case, Course) {
     let case = cases().unwrap().into_iter().find(|case| case.name == name).unwrap();
@@ -10,6 +10,10 @@ fn course(name: &str, seed: u64) -> (cargo_driveline::commissioning::Case, Cours
 
 /// The aims stand in the rows: resonance and antiresonance 1 %, inertias 3 %, gap 5 %.
 fn meets_its_aims(name: &str, seed: u64) -> Course {
+    course_of_aims(name, seed).1
+}
+
+fn course_of_aims(name: &str, seed: u64) -> (Verdict, Course) {
     let (case, course) = course(name, seed);
     let verdict = verdict(&case, &course, None);
     assert_eq!(verdict.refused, None, "{name}");
@@ -35,7 +39,7 @@ fn meets_its_aims(name: &str, seed: u64) -> Course {
     for row in &verdict.gains[5..] {
         assert!(row.error.unwrap().abs() < 0.06, "{name}: {row:?}");
     }
-    course
+    (verdict, course)
 }
 
 #[test]
@@ -54,5 +58,24 @@ fn the_mill_with_its_gap() {
 fn the_spindle_in_the_air() {
     for seed in [1, 2, 3] {
         meets_its_aims("spindle", seed);
+    }
+}
+
+/// The largest error of each figure that has an aim, as a share of the aim.
+#[test]
+#[ignore = "an hour"]
+fn every_machine_over_forty_seeds() {
+    for name in ["hoist", "mill", "spindle"] {
+        let mut worst = (0.0, "");
+        for seed in 1..=40 {
+            let (verdict, _) = course_of_aims(name, seed);
+            for row in &verdict.figures {
+                if let (Some(error), Some(aim)) = (row.error, row.aim) {
+                    worst = if error.abs() / aim > worst.0 { (error.abs() / aim, row.name) } else { worst };
+                }
+            }
+        }
+        let (share, row) = worst;
+        println!("measured: {name}, 40 seeds: the largest error is {:.0} % of its aim, {row}", 100.0 * share);
     }
 }
