@@ -228,7 +228,7 @@ fn attacks(every: u64) {
             let mut place = Place::new();
             // each reader gets its turn, whatever the step
             found.extend(faults(number + number / every % every.min(12), &mut place, &count));
-            if number % 500 == 0 && every == 1 {
+            if every == 1 && number.is_multiple_of(500) {
                 println!("{number} attacks");
             }
         }
