@@ -4,6 +4,7 @@
 
 mod constant;
 mod live;
+mod luenberger;
 mod model;
 mod several;
 
@@ -12,12 +13,21 @@ pub use live::Live;
 pub use several::Several;
 
 use super::case::Case;
-use super::score::{Estimator, Library};
+use super::score::{Estimator, Library, Rigid};
 use driveline::number::Fixed;
+
+/// Time in which the load of one mass wanders as far as the case has it (s).
+const WITHIN: f64 = 0.2;
+/// Radius of Luenberger's poles over the resonance: the best of 0.5 to 4 by steps of half an octave.
+const RADIUS: f64 = 2.0;
 
 /// A way to deal with the gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Approach {
+    /// One mass, its load lively: it follows the shaft's torque as if it were the load's.
+    Rigid,
+    /// One shaft that is always in contact, its poles placed.
+    Luenberger,
     /// One shaft that is always in contact.
     Ignore,
     /// The same with a gap position that is estimated as a random walk on top of the twist.
@@ -45,7 +55,9 @@ pub enum Approach {
 
 impl Approach {
     /// All of them, in the order of the table.
-    pub const ALL: [Approach; 11] = [
+    pub const ALL: [Approach; 13] = [
+        Approach::Rigid,
+        Approach::Luenberger,
         Approach::Ignore,
         Approach::Additive,
         Approach::Switch,
@@ -62,6 +74,8 @@ impl Approach {
     /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
+            Approach::Rigid => "one mass, its load within 0.2 s",
+            Approach::Luenberger => "Luenberger, gap ignored",
             Approach::Ignore => "gap ignored",
             Approach::Additive => "gap ignored, its position estimated on top",
             Approach::Switch => "gain switched with the regime",
@@ -79,6 +93,11 @@ impl Approach {
     /// An estimator for a machine, at rest.
     pub fn estimator(self, case: &Case) -> Box<dyn Estimator> {
         match self {
+            Approach::Rigid => Box::new(Rigid::new(case, WITHIN)),
+            Approach::Luenberger => match Constant::luenberger(case, RADIUS) {
+                Some(observer) => Box::new(observer),
+                None => Approach::Ignore.estimator(case),
+            },
             Approach::Ignore => Box::new(Constant::new(case, Gap::Ignored)),
             Approach::Additive => Box::new(Constant::new(case, Gap::Additive)),
             Approach::Switch => Box::new(Constant::new(case, Gap::Switched)),

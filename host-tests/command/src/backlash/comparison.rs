@@ -64,6 +64,37 @@ impl Comparison {
     /// # Errors
     /// A figure of a case that is out of range, which only a changed case can bring.
     pub fn run(seconds: f64, seed: u64, mut progress: impl FnMut(&str)) -> Result<Self, PlantError> {
+        let of = |case: Case| Kind::ALL.map(|kind| (case, kind, seed, format!("{}, {}", case.name, kind.name())));
+        let courses: Vec<_> = cases().into_iter().flat_map(of).collect();
+        let shown = courses.iter().position(|(_, kind, ..)| *kind == Kind::Rattling).unwrap_or(0);
+        Comparison::over(&courses, shown, seconds, &mut progress)
+    }
+
+    /// The mill's bites instead, so many random courses from seed on.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn bites(
+        mill: Case,
+        courses: u32,
+        seconds: f64,
+        seed: u64,
+        mut progress: impl FnMut(&str),
+    ) -> Result<Self, PlantError> {
+        let of = |number: u32| {
+            let seed = seed.wrapping_add(number.into());
+            (mill, Kind::Bites, seed, format!("{}, {}, seed {seed}", mill.name, Kind::Bites.name()))
+        };
+        let courses: Vec<_> = (0..courses).map(of).collect();
+        Comparison::over(&courses, 0, seconds, &mut progress)
+    }
+
+    fn over(
+        all: &[(Case, Kind, u64, String)],
+        shown: usize,
+        seconds: f64,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<Self, PlantError> {
         let mut rows: Vec<Row> = Approach::ALL
             .map(|approach| Row {
                 approach: approach.name(),
@@ -73,28 +104,23 @@ impl Comparison {
                 each: Vec::new(),
             })
             .into();
-        let mut courses = Vec::new();
-        let mut stretch = None;
-        for case in cases() {
-            for kind in Kind::ALL {
-                let name = format!("{}, {}", case.name, kind.name());
-                progress(&name);
-                let course = Course::record(&case, kind, seed, seconds)?;
-                for (row, approach) in rows.iter_mut().zip(Approach::ALL) {
-                    let score = Score::of(&course, &mut *approach.estimator(&case));
-                    row.shaft_torque += score.shaft_torque / Comparison::COURSES as f64;
-                    row.load_speed += score.load_speed / Comparison::COURSES as f64;
-                    row.worst = row.worst.max(score.shaft_torque);
-                    row.each.push(score.shaft_torque);
-                }
-                if stretch.is_none() && kind == Kind::Rattling {
-                    stretch = Some(Stretch::of(&case, &course, &name, seconds));
-                }
-                courses.push(name);
+        let nothing = || Stretch { course: String::new(), time: vec![], truth: vec![], estimates: vec![] };
+        let mut stretch = nothing();
+        for (index, (case, kind, seed, name)) in all.iter().enumerate() {
+            progress(name);
+            let course = Course::record(case, *kind, *seed, seconds)?;
+            for (row, approach) in rows.iter_mut().zip(Approach::ALL) {
+                let score = Score::of(&course, &mut *approach.estimator(case));
+                row.shaft_torque += score.shaft_torque / all.len() as f64;
+                row.load_speed += score.load_speed / all.len() as f64;
+                row.worst = row.worst.max(score.shaft_torque);
+                row.each.push(score.shaft_torque);
+            }
+            if index == shown {
+                stretch = Stretch::of(case, &course, name, seconds);
             }
         }
-        let nothing = || Stretch { course: String::new(), time: vec![], truth: vec![], estimates: vec![] };
-        let stretch = stretch.unwrap_or_else(nothing);
+        let courses = all.iter().map(|(.., name)| name.clone()).collect();
         Ok(Comparison { rate_hz: RATE_HZ, gap: GAP, seconds, courses, rows, stretch })
     }
 

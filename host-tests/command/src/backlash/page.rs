@@ -24,9 +24,8 @@ pub fn backlash_page(comparison: &Comparison) -> String {
         name: "Through the gap".to_owned(),
         kicker: "observers through backlash".to_owned(),
         summary: format!(
-            "Six two-mass machines of 15 Hz with a gap of {} mrad, {} runs of {} s each, all through the full solver: \
-                2048 lines, torque known to \
-             1 % of rated in a tick, {} ticks a second.",
+            "Two-mass machines with a gap of {} mrad, {} runs of {} s each, all through the full solver: torque known \
+             to 1 % of rated in a tick, {} ticks a second.",
             1e3 * comparison.gap,
             comparison.courses.len(),
             comparison.seconds,

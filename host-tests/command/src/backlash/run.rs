@@ -1,6 +1,6 @@
 //! Courses: random reversals through the gap, as the full solver has them.
 
-use super::case::{Case, GAP, LINES, RATE_HZ};
+use super::case::{Case, GAP, RATE_HZ};
 use crate::closed_loop::sensors::Encoder;
 use driveline_solver::noise::Noise;
 use driveline_solver::plant::{Chain, Plant, PlantError, Shaft};
@@ -36,10 +36,13 @@ pub enum Kind {
     Rattling,
     /// As the first, against three tenths.
     Dragging,
+    /// A mill's passes: a speed loop reverses every two seconds or so against little friction; between two reversals
+    /// the rolls bite, within 50 ms, with 0.4 to 1 of rated torque for half a second.
+    Bites,
 }
 
 impl Kind {
-    /// All of them.
+    /// Those of the six machines.
     pub const ALL: [Kind; 4] = [Kind::Reversals, Kind::Torques, Kind::Rattling, Kind::Dragging];
 
     /// Its name.
@@ -49,6 +52,7 @@ impl Kind {
             Kind::Torques => "torques",
             Kind::Rattling => "rattling",
             Kind::Dragging => "dragging",
+            Kind::Bites => "bites",
         }
     }
 
@@ -59,12 +63,18 @@ impl Kind {
             Kind::Torques => 0.2,
             Kind::Rattling => 0.05,
             Kind::Dragging => 0.3,
+            Kind::Bites => 0.03,
         }
     }
 }
 
 /// Speed at which a torque course is turned back (rad/s).
 const TURNING: f64 = 60.0;
+
+/// Time in which the rolls bite and let go (s).
+const BITE: f64 = 0.05;
+/// Speed of a mill's passes at most (rad/s): 50 r/min.
+const PASS: f64 = 5.24;
 
 /// A machine on its course, tick by tick.
 #[derive(Clone, Debug)]
@@ -82,6 +92,8 @@ pub struct Rig {
     set_point: f64,
     integral: f64,
     applied: f64,
+    /// From when on the rolls bite, until when (s), and their torque (N m).
+    bite: [f64; 3],
 }
 
 impl Rig {
@@ -102,7 +114,7 @@ impl Rig {
             rated: case.rated,
             inertia: machine.total_inertia(),
             plant,
-            encoder: Encoder::new(4 * LINES),
+            encoder: Encoder::new(4 * case.lines),
             noise: Noise::new(seed),
             drawn: Drawn::new(seed),
             time: 0.0,
@@ -111,6 +123,7 @@ impl Rig {
             set_point: 0.0,
             integral: 0.0,
             applied: 0.0,
+            bite: [0.0; 3],
         })
     }
 
@@ -132,7 +145,13 @@ impl Rig {
             self.draw();
         }
         self.applied = match self.kind {
-            Kind::Reversals | Kind::Dragging => self.speed_loop(period),
+            Kind::Reversals | Kind::Dragging => self.speed_loop(period, 0.8),
+            Kind::Bites => {
+                let [from, to, torque] = self.bite;
+                let grip = |since: f64| ((self.time - since) / BITE).clamp(0.0, 1.0);
+                self.plant.set_load_torque(1, torque * (grip(from) - grip(to)));
+                self.speed_loop(period, 1.6)
+            }
             Kind::Torques | Kind::Rattling => self.wanted,
         };
         self.plant.advance(self.applied, period);
@@ -147,6 +166,14 @@ impl Rig {
                 self.next += self.drawn.between(0.25, 0.75);
                 let size = self.drawn.between(20.0, 40.0) * (self.rated / 60.0).min(1.0);
                 self.wanted = if self.wanted > 0.0 { -size } else { size };
+            }
+            Kind::Bites => {
+                self.next += self.drawn.between(1.8, 2.6);
+                let size = PASS * self.drawn.between(0.3, 1.0);
+                self.wanted = if self.wanted > 0.0 { -size } else { size };
+                let from = self.time + self.drawn.between(0.7, 1.1);
+                let to = from + self.drawn.between(0.3, 0.7);
+                self.bite = [from, to, self.wanted.signum() * self.rated * self.drawn.between(0.4, 1.0)];
             }
             Kind::Torques => {
                 self.next += self.drawn.between(0.1, 0.4);
@@ -163,11 +190,11 @@ impl Rig {
         }
     }
 
-    /// Proportional and integral, 20 rad/s wide, its setpoint on a ramp of 0.8 of rated torque, its torque within
-    /// twice rated.
-    fn speed_loop(&mut self, period: f64) -> f64 {
+    /// Proportional and integral, 20 rad/s wide, its setpoint on a ramp of this share of rated torque, its torque
+    /// within twice rated.
+    fn speed_loop(&mut self, period: f64, share: f64) -> f64 {
         let bandwidth = 20.0;
-        let ramp = 0.8 * self.rated / self.inertia * period;
+        let ramp = share * self.rated / self.inertia * period;
         self.set_point += (self.wanted - self.set_point).clamp(-ramp, ramp);
         let error = self.set_point - self.plant.motor_speed();
         let unlimited = bandwidth * self.inertia * error + self.integral;

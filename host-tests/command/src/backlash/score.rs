@@ -1,11 +1,12 @@
 //! Score of the estimates.
 
-use driveline::design::BacklashDesign;
+use driveline::design::{BacklashDesign, Disturbance, Rate};
+use driveline::machine::{Chain, Inertia};
 use driveline::number::Fixed;
-use driveline::observer::{BacklashConfig, BacklashObserver, Gap, Observer};
+use driveline::observer::{BacklashConfig, BacklashObserver, Gap, Observer, RigidConfig, RigidObserver};
 use driveline::settings::Bases;
 
-use super::case::Case;
+use super::case::{Case, RATE_HZ};
 use super::run::Course;
 
 /// Something that estimates from the motor's angle and torque, tick by tick.
@@ -72,6 +73,35 @@ impl<N: Gap> Estimator for Library<N> {
     fn estimate(&self) -> [f64; 2] {
         let estimate = self.observer.estimate(&self.config);
         [(self.from)(estimate.shaft_torque) * self.bases.torque, (self.from)(estimate.load_speed) * self.bases.speed]
+    }
+}
+
+/// The library's observer of one mass in `f64`.
+pub struct Rigid {
+    config: RigidConfig<f64>,
+    observer: RigidObserver<f64>,
+}
+
+impl Rigid {
+    /// With a load that wanders `within` a time (s) by what the case has.
+    pub fn new(case: &Case, within: f64) -> Self {
+        let machine = &case.machine;
+        let disturbance = Disturbance { within, ..case.disturbance() };
+        let total = machine.total_inertia();
+        let design = Chain::motor(Inertia(total)).rigid().observer(Rate::hz(RATE_HZ), case.encoder(), disturbance);
+        let config = RigidConfig::<f64>::new(&design, machine.load_inertia / total, Bases::SI);
+        Rigid { observer: RigidObserver::at_rest(&config, 0, 0.0), config }
+    }
+}
+
+impl Estimator for Rigid {
+    fn tick(&mut self, angle: u32, torque: f64) {
+        self.observer.step(&self.config, angle, torque);
+    }
+
+    fn estimate(&self) -> [f64; 2] {
+        let estimate = self.observer.estimate(&self.config);
+        [estimate.shaft_torque, estimate.load_speed]
     }
 }
 

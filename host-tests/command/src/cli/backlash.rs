@@ -6,19 +6,30 @@ use clap::Args;
 
 use super::results::{Destination, check};
 use super::{Failure, Progress, say, say_json};
-use crate::backlash::Comparison;
 use crate::backlash::backlash_page;
+use crate::backlash::{Case, Comparison};
 
 /// Compare approaches to an observer with backlash, over random reversals of six machines with the full solver.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline backlash
   cargo driveline backlash --seconds 20 --seed 7
+  cargo driveline backlash --bites 200
+  cargo driveline backlash --bites 200 --wander 0.25
   cargo driveline backlash --json")]
 pub struct Backlash {
-    /// Seconds of each of the 24 runs, 1 to 1000
+    /// Seconds of each run, 1 to 1000
     #[arg(long, default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=1000))]
     seconds: u32,
+    /// Instead of these, COUNT runs of a mill that reverses and bites within 50 ms
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    bites: Option<u32>,
+    /// Of the mill: how far the twist wanders in a period of the resonance, as a share of the gap [default: 0.14]
+    #[arg(long, value_name = "SHARE", requires = "bites")]
+    wander: Option<f64>,
+    /// Of the mill: how long its searching gains stand after the gap has closed, in periods [default: 0.9]
+    #[arg(long, value_name = "PERIODS", requires = "bites")]
+    hold: Option<f64>,
     /// Seed of the random runs
     #[arg(long, default_value_t = 31)]
     seed: u64,
@@ -38,11 +49,20 @@ impl Backlash {
     pub fn execute(&self) -> Result<(), Failure> {
         let file = Destination::page_unless(self.json, self.html.as_deref(), "backlash");
         check(&[], &file)?;
-        let bar = Progress::of(Comparison::COURSES as u64);
-        let comparison = Comparison::run(f64::from(self.seconds), self.seed, |course| {
+        let mut mill = Case::mill();
+        mill.tuning.wander = self.wander.unwrap_or(mill.tuning.wander);
+        mill.tuning.hold = self.hold.unwrap_or(mill.tuning.hold);
+        mill.try_design().map_err(|error| Failure::usage(error.to_string()))?;
+        let bar = Progress::of(self.bites.map_or(Comparison::COURSES as u64, u64::from));
+        let progress = |course: &str| {
             bar.says(course);
             bar.step();
-        })
+        };
+        let seconds = f64::from(self.seconds);
+        let comparison = match self.bites {
+            Some(courses) => Comparison::bites(mill, courses, seconds, self.seed, progress),
+            None => Comparison::run(seconds, self.seed, progress),
+        }
         .map_err(|error| Failure::failed(error.to_string()))?;
         drop(bar);
         if self.json {

@@ -2,8 +2,9 @@
 
 use driveline::design::BacklashDesign;
 
+use super::luenberger;
 use super::model::{Model, State, Unwrapped};
-use crate::backlash::case::{Case, LINES};
+use crate::backlash::case::Case;
 use crate::backlash::score::Estimator;
 
 /// Treatment of the gap.
@@ -51,6 +52,13 @@ impl Constant {
         let gains = if gap == Gap::Additive { searching } else { contact.gains };
         Constant { model, gap, gains: gains.into(), angle: Unwrapped::default(), state: State::zeros(), lasting: 0.0 }
     }
+
+    /// A Luenberger observer that takes the gap for closed, with five poles of Butterworth's pattern at `radius` times
+    /// the resonance; none where they cannot be placed.
+    pub fn luenberger(case: &Case, radius: f64) -> Option<Self> {
+        let gains = luenberger::gains(&case.design().contact, radius * case.machine.resonance())?;
+        Some(Constant { gains: gains.map(f64::from).into(), ..Constant::new(case, Gap::Ignored) })
+    }
 }
 
 impl Estimator for Constant {
@@ -70,10 +78,7 @@ impl Estimator for Constant {
             gains[4] = 0.0;
         }
         self.lasting += (innovation - self.lasting) / LOOKED_OVER;
-        if self.gap == Gap::Resynchronised
-            && open
-            && self.lasting.abs() > IMPACT * core::f64::consts::TAU / f64::from(4 * LINES)
-        {
+        if self.gap == Gap::Resynchronised && open && self.lasting.abs() > IMPACT * self.model.count {
             // A motor behind its prediction is braked by the shaft: the right flank.
             state[2] = -self.lasting.signum() * self.model.half_gap * (1.0 + f64::EPSILON);
             self.lasting = 0.0;

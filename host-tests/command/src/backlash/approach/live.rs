@@ -1,6 +1,6 @@
 //! A Kalman filter with a live covariance.
 
-use super::model::{MEASUREMENT, Model, Square, State, Unwrapped};
+use super::model::{Model, Square, State, Unwrapped};
 use crate::backlash::case::Case;
 use crate::backlash::score::Estimator;
 
@@ -49,8 +49,8 @@ pub(super) fn predicted(model: &Model, transition: &Square, input: &State, covar
 }
 
 /// State and covariance corrected by an innovation, and the innovation's variance.
-pub(super) fn corrected(state: &State, covariance: &Square, innovation: f64) -> (State, Square, f64) {
-    let variance = covariance[(0, 0)] + MEASUREMENT;
+pub(super) fn corrected(model: &Model, state: &State, covariance: &Square, innovation: f64) -> (State, Square, f64) {
+    let variance = covariance[(0, 0)] + model.measurement();
     let gain: State = covariance.column(0) / variance;
     let less = covariance - gain * covariance.row(0);
     (state + gain * innovation, (less + less.transpose()) * 0.5, variance)
@@ -65,7 +65,7 @@ impl Estimator for Live {
         let transition = contact.0 * share + free.0 * (1.0 - share);
         let input = contact.1 * share + free.1 * (1.0 - share);
         let covariance = predicted(&self.model, &transition, &input, &self.covariance);
-        (self.state, self.covariance, _) = corrected(&state, &covariance, measured - state[0]);
+        (self.state, self.covariance, _) = corrected(&self.model, &state, &covariance, measured - state[0]);
     }
 
     fn estimate(&self) -> [f64; 2] {

@@ -6,18 +6,12 @@ use driveline::design::ExactStep;
 use driveline::machine::TwoMass;
 use nalgebra::{SMatrix, SVector};
 
-use crate::backlash::case::{Case, LINES, RATE_HZ};
+use crate::backlash::case::{Case, RATE_HZ};
 
 /// A state.
 pub type State = SVector<f64, 5>;
 /// A matrix of states.
 pub type Square = SMatrix<f64, 5, 5>;
-
-/// Variance of an angle rounded to a count (rad2).
-pub const MEASUREMENT: f64 = {
-    let count = TAU / (4 * LINES) as f64;
-    count * count / 12.0
-};
 
 /// Machine, gap, and noise of a tick.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +26,8 @@ pub struct Model {
     pub free: (Square, State),
     /// Variance of the motor's torque in a tick, and what the load's gains in one (N2 m2).
     pub noise: [f64; 2],
+    /// Angle of a count of the encoder (rad).
+    pub count: f64,
 }
 
 impl Model {
@@ -51,7 +47,13 @@ impl Model {
             contact: linear(&machine, period),
             free: linear(&loose, period),
             noise,
+            count: TAU / f64::from(4 * case.lines),
         }
+    }
+
+    /// Variance of an angle rounded to a count (rad2).
+    pub fn measurement(&self) -> f64 {
+        self.count * self.count / 12.0
     }
 
     /// Twist beyond the gap.

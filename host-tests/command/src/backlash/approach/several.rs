@@ -62,7 +62,7 @@ impl Estimator for Several {
             let state = if regime == 1 { law.0 * mean + law.1 * torque } else { self.model.side(&mean, torque, flank) };
             let covariance = predicted(&self.model, &law.0, &law.1, &covariance);
             let innovation = measured - state[0];
-            let (state, covariance, variance) = corrected(&state, &covariance, innovation);
+            let (state, covariance, variance) = corrected(&self.model, &state, &covariance, innovation);
             let likelihood = (-0.5 * innovation * innovation / variance).exp() / variance.sqrt();
             *next = Hypothesis { weight: prior * likelihood + f64::MIN_POSITIVE, state, covariance };
         }
