@@ -28,6 +28,7 @@ mod longest_path;
 mod modes;
 mod new;
 mod output;
+mod peers;
 mod progress;
 mod project;
 mod qemu;
@@ -85,6 +86,7 @@ enum Command {
     Check(check::Check),
     Commissioning(commission::Commission),
     Cosim(cosim::Cosim),
+    Peers(peers::Peers),
     Replay(replay::Replay),
     Setup(setup::Setup),
     Simulate(simulate::Simulate),
@@ -113,6 +115,7 @@ impl Command {
             Self::Check(command) => command.json,
             Self::Commissioning(command) => command.json,
             Self::Cosim(command) => command.json,
+            Self::Peers(command) => command.json,
             Self::Replay(command) => command.json,
             Self::Setup(command) => command.json,
             Self::Simulate(command) => command.json,
@@ -141,6 +144,7 @@ impl Command {
             Self::Check(command) => command.execute(),
             Self::Commissioning(command) => command.execute(),
             Self::Cosim(command) => command.execute(),
+            Self::Peers(command) => command.execute(),
             Self::Replay(command) => command.execute(),
             Self::Setup(command) => command.execute(),
             Self::Simulate(command) => command.execute(),

@@ -15,6 +15,7 @@ pub mod drivetrains;
 pub mod generator;
 pub mod identification;
 pub mod machine_file;
+pub mod peers;
 pub mod recording;
 pub mod replay;
 pub mod scope;

@@ -13,8 +13,8 @@ const ALLOWED: [&str; 6] = ["MIT", "Apache-2.0", "0BSD", "Zlib", "BSD-3-Clause",
 /// Packages under MPL-2.0, which tests use and nothing ships.
 const IN_TESTS: [&str; 2] = ["alterable_logger", "colored"];
 
-/// The examples that are crates of their own, and what they are compiled for.
-const EXAMPLES: [&str; 2] = ["examples/rtic", "examples/embassy"];
+/// The crates in workspaces of their own, and what they are compiled for.
+const EXAMPLES: [&str; 3] = ["examples/rtic", "examples/embassy", "host-tests/peers"];
 const EXAMPLES_TARGET: &str = "thumbv7em-none-eabihf";
 
 /// Of the workspace.

@@ -60,7 +60,7 @@ pub fn build(
     let of_core = if board.core == "m7" { ",m7" } else { "" };
     let arguments = [
         "build",
-        "--package=driveline-firmware",
+        &format!("--manifest-path={}/Cargo.toml", program.folder()),
         "--profile=firmware",
         &format!("--{}={}", program.kind(), program.name()),
         &format!("--features={}{of_core}", program.features()),
@@ -73,7 +73,8 @@ pub fn build(
     );
     let path = images.join(format!("{}.{}.{}.elf", variant.replace('/', "-"), board.core, program.name()));
     let stamp = path.with_extension("stamp");
-    let fresh = fingerprint(workspace, &command).map_err(place("reading the firmware's sources".into()))?;
+    let fresh =
+        fingerprint(workspace, program.folder(), &command).map_err(place("reading the firmware's sources".into()))?;
     let image = Image { path: path.clone(), variant: variant.into(), board, program };
     if path.exists() && fs::read_to_string(&stamp).is_ok_and(|old| old == fresh) {
         return Ok(image);

@@ -10,18 +10,18 @@ use std::io;
 use std::path::Path;
 use std::process::Command;
 
-/// Sources of an image, from the workspace's root.
+/// Sources of an image, from the workspace's root, beside the folder of its crate.
 const SOURCES: [&str; 5] = ["Cargo.toml", "Cargo.lock", ".cargo/config.toml", "src", "firmware"];
 
-/// Fingerprint of the sources, the compiler and the command.
+/// Fingerprint of the sources, with those in `folder`, of the compiler and of the command.
 ///
 /// # Errors
 /// A source that cannot be read, or no compiler.
-pub fn fingerprint(root: &Path, command: &str) -> io::Result<String> {
+pub fn fingerprint(root: &Path, folder: &str, command: &str) -> io::Result<String> {
     let mut hasher = DefaultHasher::new();
     command.hash(&mut hasher);
     Command::new("rustc").arg("-vV").current_dir(root).output()?.stdout.hash(&mut hasher);
-    for source in SOURCES {
+    for source in SOURCES.into_iter().chain((!SOURCES.contains(&folder)).then_some(folder)) {
         add(&root.join(source), &mut hasher)?;
     }
     Ok(format!("{:016x}", hasher.finish()))
@@ -53,10 +53,10 @@ mod tests {
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, "a").unwrap();
         }
-        let first = fingerprint(root.path(), "build").unwrap();
-        assert_eq!(fingerprint(root.path(), "build").unwrap(), first);
-        assert_ne!(fingerprint(root.path(), "build --release").unwrap(), first);
+        let first = fingerprint(root.path(), "firmware", "build").unwrap();
+        assert_eq!(fingerprint(root.path(), "firmware", "build").unwrap(), first);
+        assert_ne!(fingerprint(root.path(), "firmware", "build --release").unwrap(), first);
         fs::write(root.path().join("firmware"), "b").unwrap();
-        assert_ne!(fingerprint(root.path(), "build").unwrap(), first);
+        assert_ne!(fingerprint(root.path(), "firmware", "build").unwrap(), first);
     }
 }

@@ -38,6 +38,8 @@ pub enum Program {
     Nucleo,
     /// Has a reachable panic: must not link.
     Panics,
+    /// Other observers, of the crate `host-tests/peers`.
+    Peers,
 }
 
 impl Program {
@@ -51,6 +53,7 @@ impl Program {
             Program::Told => "told",
             Program::Nucleo => "nucleo_g474re",
             Program::Panics => "panics",
+            Program::Peers => "peers",
         }
     }
 
@@ -60,6 +63,14 @@ impl Program {
             Program::Log => "target,defmt",
             Program::Nucleo => "nucleo-g474re",
             _ => "target",
+        }
+    }
+
+    /// The folder of its crate, in the clone.
+    pub(super) const fn folder(self) -> &'static str {
+        match self {
+            Program::Peers => "host-tests/peers",
+            _ => "firmware",
         }
     }
 

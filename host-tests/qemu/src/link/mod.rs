@@ -57,6 +57,9 @@ pub struct Summary {
     pub state: u32,
     /// Instructions of the measuring frame that were subtracted from every tick's.
     pub overhead: u32,
+    /// Address of the measured function, where the image says it.
+    #[serde(default)]
+    pub function: u32,
 }
 
 impl Link {
