@@ -1,6 +1,3 @@
-//! A file of balancing of any bytes is read or refused.
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|text: &str| {
-    let _ = cargo_driveline::machine_file::balance::parse("fuzz.toml", text);
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| driveline_fuzz::balancing_file(bytes));

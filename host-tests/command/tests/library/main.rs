@@ -7,6 +7,7 @@ mod design;
 mod elements;
 mod fatigue;
 mod fluctuation;
+mod fuzz;
 mod governor;
 mod hal;
 mod learning;
