@@ -25,6 +25,8 @@ macro_rules! drivetrains {
             punch_press
             blooming_mill
             converter
+            converter_ring
+            plate_mill
             vibrating_screen
             gear_drive
             belt_conveyor

@@ -6,5 +6,6 @@ mod commission;
 mod elements;
 mod fluctuation;
 mod generator;
+mod load_sharing;
 mod rotor;
 mod sweep;
