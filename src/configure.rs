@@ -50,6 +50,7 @@
 //! | `LoadSharing` | [`HasLoadSharing::SHARING`] | [`HasLoadSharing`] |
 //! | `MovingAverage`, `CycleAverage` | none | |
 //! | `Extremes`, `Waveform`, `Interleaved`, `CycleMean` | [`Machine::CYCLE`], [`Machine::CYCLES`] | |
+//! | `Rainflow` | [`HasLife::CLASSED_TORQUE`] | [`HasLife`] |
 //! | `Phasors` | [`HasVibration::PHASORS`] | [`HasVibration`] |
 //!
 //! A part of one's own implements [`Configure`] for itself and any machine; a part of the library that a machine uses
@@ -119,6 +120,7 @@ mod family;
 mod fluctuation;
 mod gain_source;
 mod governor;
+mod life;
 mod limits;
 mod loop_part;
 mod machine;
@@ -130,6 +132,7 @@ mod vibration;
 pub use family::{Family, Follows, ScheduleOf, Scheduled};
 pub use gain_source::GainSource;
 pub use governor::{HasBacklash, HasBarredSpeeds, HasDroop, HasLoadSharing, HasSequencer, HasSlew, HasTorqueCurve};
+pub use life::HasLife;
 pub use loop_part::LoopPart;
 pub use machine::{Machine, Rating};
 pub use observer::HasCrank;

@@ -1,9 +1,11 @@
 //! Fatigue: cycles of the shaft torque by rainflow counting, and the damage that they do.
 //!
 //! The torque is sorted into classes of equal width, which it leaves by a quarter of one: smaller reversals are none. A
-//! tick looks for a reversal and does one step of the four-point method. The end of a cycle may close many others, so
-//! its work is spread over the ticks. Reversals wait in a queue until then. Damage, divisions and powers are left to
-//! the time between the ticks.
+//! tick looks for a reversal; without one it does one step of the four-point method. The end of a cycle may close many
+//! others, so its work is spread over the ticks. Reversals wait in a queue until then. Damage, divisions and powers are
+//! left to the time between the ticks.
+//!
+//! The count starts at zero torque, as a drive does: at rest, without torque in its shaft.
 //!
 //! | term | meaning | unit |
 //! |---|---|---|
@@ -24,7 +26,7 @@
 //! const CLASSES: TorqueClasses<f32> = TorqueClasses::<f32>::new::<64>(640.0);
 //! const STEEL: WoehlerLine = WoehlerLine { knee: 100.0, cycles: 2.0e6, slope: 5.0, below: 9.0 };
 //!
-//! let mut rainflow = Rainflow::<f32, 64, 256>::default(); // in a drive: its measurement of the fluctuation
+//! let mut rainflow = Rainflow::<f32, 64>::default(); // in a drive: its measurement of the fluctuation
 //! for tick in 0..4000 {
 //!     let torque = if tick / 20 % 2 == 0 { 310.0 } else { -290.0 }; // 100 cycles of 600 N m
 //!     let estimate = Estimate { shaft_torque: torque, ..Estimate::default() };

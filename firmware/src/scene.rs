@@ -15,6 +15,7 @@ pub mod table;
 use core::marker::PhantomData;
 
 use driveline::drive::{Composition, ConfigOf};
+use driveline::telemetry::Channel;
 
 use expected::Expected;
 
@@ -85,6 +86,11 @@ pub trait Scene {
         Output { answer: self.panel(input.asked), ..output }
     }
 
+    /// The value of a channel of [`Variant::CHANNELS`], by its index, as a word.
+    fn channel(&self, _index: usize) -> u32 {
+        0
+    }
+
     /// A copy that goes on from the same state; none of a scene that cannot be copied.
     #[cfg(not(target_os = "none"))]
     fn copy(&self) -> Option<alloc::boxed::Box<dyn Scene>> {
@@ -102,6 +108,10 @@ impl<S: Scene + ?Sized> Scene for alloc::boxed::Box<S> {
         (**self).panel(asked)
     }
 
+    fn channel(&self, index: usize) -> u32 {
+        (**self).channel(index)
+    }
+
     fn copy(&self) -> Option<alloc::boxed::Box<dyn Scene>> {
         (**self).copy()
     }
@@ -115,6 +125,8 @@ pub trait Variant: 'static {
     const NAME: &'static str;
     /// Ticks a second.
     const RATE_HZ: u32;
+    /// Channels of its telemetry beside the words of the link.
+    const CHANNELS: &'static [Channel<'static>] = &[];
     /// The drive at rest.
     fn start() -> Self::Scene;
 
@@ -128,6 +140,8 @@ pub trait Variant: 'static {
 pub trait FromConfig: Scene {
     /// The drive.
     type Drive: Composition;
+    /// As [`Variant::CHANNELS`].
+    const CHANNELS: &'static [Channel<'static>] = &[];
     /// The drive at rest.
     fn from_config(config: &'static ConfigOf<Self::Drive>) -> Self;
 }

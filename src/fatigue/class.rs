@@ -7,8 +7,6 @@ use crate::number::{Fixed, Number};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorqueClasses<N: Classed> {
     pub(super) scale: N::Scale,
-    /// Half of the classes.
-    pub(super) middle: i32,
     /// Width of a class (N m).
     pub(super) width: f64,
     /// Base of torques (N m); 1 for floats.
@@ -35,17 +33,17 @@ pub trait Classed: Number {
     /// Factor from a torque to quarters of a class.
     type Scale: Copy + PartialEq + core::fmt::Debug;
 
-    /// The torque in quarters of a class, rounded down; it may be beyond the classes.
-    fn quarters(self, scale: Self::Scale) -> i32;
+    /// The torque in quarters of a class above the lowest class, rounded down, within the classes; 0 for a NaN.
+    fn quarters<const CLASSES: usize>(self, scale: Self::Scale) -> i32;
 }
 
 const LIMIT: &str = "the limit of the torque's classes must be positive and finite (N m), in fixed point at least \
     1/512 and at most 8 bases";
-const COUNT: &str = "the classes of the torque must be an even number from 4 to 128";
+pub(super) const COUNT: &str = "the classes of the torque must be a power of two from 4 to 128";
 
 const fn checked(limit: f64, classes: usize) -> f64 {
     assert!(limit > 0.0 && limit.is_finite(), "{}", LIMIT);
-    assert!(classes.is_multiple_of(2) && classes >= 4 && classes <= 128, "{}", COUNT);
+    assert!(classes.is_power_of_two() && classes >= 4 && classes <= 128, "{}", COUNT);
     2.0 * limit / classes as f64
 }
 
@@ -54,12 +52,11 @@ macro_rules! classed {
         impl Classed for $float {
             type Scale = $float;
 
-            // A cast saturates, and takes a NaN for zero.
+            // A cast rounds towards zero, down within the classes; it saturates, and takes a NaN for zero.
             #[inline(always)]
-            fn quarters(self, scale: $float) -> i32 {
-                let quarters = self * scale;
-                let whole = quarters as i32;
-                if (whole as $float) > quarters { whole.wrapping_sub(1) } else { whole }
+            fn quarters<const CLASSES: usize>(self, scale: $float) -> i32 {
+                let quarters = self * scale + const { (2 * CLASSES) as $float };
+                (quarters as i32).clamp(0, const { 4 * CLASSES as i32 - 1 })
             }
         }
 
@@ -68,17 +65,11 @@ macro_rules! classed {
             ///
             /// # Panics
             /// At compile time in a constant: for a limit that is not positive and finite, or a number of classes that
-            /// is odd, below 4 or above 128.
+            /// is no power of two from 4 to 128.
             #[must_use]
             pub const fn new<const CLASSES: usize>(limit: f64) -> Self {
                 let width = checked(limit, CLASSES);
-                TorqueClasses {
-                    scale: (4.0 / width) as $float,
-                    middle: CLASSES as i32 / 2,
-                    width,
-                    base: 1.0,
-                    period: 1.0,
-                }
+                TorqueClasses { scale: (4.0 / width) as $float, width, base: 1.0, period: 1.0 }
             }
         }
     };
@@ -95,8 +86,11 @@ impl Classed for Fixed {
     type Scale = i32;
 
     #[inline(always)]
-    fn quarters(self, scale: i32) -> i32 {
-        ((i64::from(self.to_bits()) * i64::from(scale)) >> 32) as i32 >> (PLACES - 32)
+    fn quarters<const CLASSES: usize>(self, scale: i32) -> i32 {
+        let half = const { 2 * CLASSES as i32 };
+        let quarters = ((i64::from(self.to_bits()) * i64::from(scale)) >> 32) as i32 >> (PLACES - 32);
+        // clamped before it is shifted: one instruction
+        quarters.clamp(-half, half - 1).wrapping_add(half)
     }
 }
 
@@ -105,12 +99,12 @@ impl TorqueClasses<Fixed> {
     ///
     /// # Panics
     /// At compile time in a constant: for a limit below 1/512 of the base or beyond eight bases, or a number of classes
-    /// that is odd, below 4 or above 128.
+    /// that is no power of two from 4 to 128.
     #[must_use]
     pub const fn new<const CLASSES: usize>(limit: f64, base: f64) -> Self {
         let width = checked(limit, CLASSES);
         let scale = base / width * 65_536.0;
         assert!(scale >= 1.0 && scale <= i32::MAX as f64 && limit <= 8.0 * base, "{}", LIMIT);
-        TorqueClasses { scale: (scale + 0.5) as i32, middle: CLASSES as i32 / 2, width, base, period: 1.0 }
+        TorqueClasses { scale: (scale + 0.5) as i32, width, base, period: 1.0 }
     }
 }

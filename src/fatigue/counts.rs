@@ -2,29 +2,34 @@
 
 use super::WoehlerLine;
 
+/// Places of a residue: of 128 classes 253 ranges at most, three in front of them, and one that is tried.
+pub(super) const LONGEST: usize = 259;
+
 /// Cycles, times and residue up to a moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Counts<const CLASSES: usize, const REVERSALS: usize> {
+pub struct Counts<const CLASSES: usize> {
     pub(super) width: f64,
     pub(super) period: f64,
     pub(super) cycles: [u32; CLASSES],
     pub(super) ticks: [u32; CLASSES],
-    pub(super) residue: [u8; REVERSALS],
+    /// At the end, this many.
+    pub(super) residue: [u8; LONGEST],
     pub(super) length: usize,
     pub(super) largest: f64,
     pub(super) lost: u32,
 }
 
-impl<const CLASSES: usize, const REVERSALS: usize> Counts<CLASSES, REVERSALS> {
+impl<const CLASSES: usize> Counts<CLASSES> {
     /// Closed cycles by their range in classes, from none on.
     pub fn cycles(&self) -> &[u32; CLASSES] {
         &self.cycles
     }
 
-    /// Reversals that close no cycle, as classes; the last is the present torque.
+    /// Reversals that close no cycle, as classes; the last is the present torque. None of counts that were taken: there
+    /// the residue stays on the tick.
     pub fn residue(&self) -> &[u8] {
-        self.residue.get(2..self.length).unwrap_or_default()
+        self.residue.get(LONGEST.saturating_sub(self.length)..).unwrap_or_default()
     }
 
     /// Reversals that came too fast to be counted.
@@ -39,7 +44,7 @@ impl<const CLASSES: usize, const REVERSALS: usize> Counts<CLASSES, REVERSALS> {
 
     /// Damage of the closed cycles.
     pub fn closed_damage(&self, line: &WoehlerLine) -> f64 {
-        let each = (0_u32..).zip(&self.cycles);
+        let each = (0_u32..).zip(&self.cycles).filter(|&(_, &cycles)| cycles > 0);
         each.map(|(range, &cycles)| f64::from(cycles) * self.of_range(line, range)).sum()
     }
 

@@ -1,31 +1,33 @@
 //! Rainflow counting on the tick.
 
+use super::class::COUNT;
+use super::counts::LONGEST;
 use super::{Classed, Counts, TorqueClasses};
 use crate::fluctuation::Fluctuation;
 use crate::sample::Estimate;
 
-/// Places before the residue.
-const UNUSED: u32 = 2;
+/// Ranges in front of the residue, of which none closes a cycle: each is smaller than the next.
+const BEFORE: [i8; 3] = [-2, -1, 0];
 
-/// Rainflow counting of the shaft torque in `CLASSES` classes. `REVERSALS` is a power of two with room for the longest
-/// residue: twice the classes and four.
+/// Rainflow counting of the shaft torque in `CLASSES` classes, from zero torque on.
 ///
-/// A tick does one step of the four-point method, and a reversal needs one and a half of them on average. So none is
-/// lost where reversals are two ticks apart; [`Counts::lost`] counts those that were.
+/// A tick without a reversal does one step of the four-point method, and a reversal needs one and a half of them on
+/// average. So none is lost where reversals are three ticks apart. Closer ones wait, 255 at most; [`Counts::lost`]
+/// counts those for which there was no place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Rainflow<N, const CLASSES: usize, const REVERSALS: usize> {
-    /// The present half cycle's end as far as it is known, and the way to it: 1, -1, or 0 at the start.
+pub struct Rainflow<N, const CLASSES: usize> {
+    /// The present class and the last reversal's: the lowest quarter of a class that does not leave it.
     last: i32,
-    way: i32,
-    /// The residue behind two places that are not used, and its last four reversals, the latest in the lowest byte.
-    residue: [u8; REVERSALS],
-    length: u32,
-    four: u32,
-    /// Reversals that wait, a ring.
-    queue: [u8; REVERSALS],
-    first: u32,
-    next: u32,
+    reversal: i32,
+    /// Place of the residue's third last range, and places of the queue.
+    top: u8,
+    first: u8,
+    next: u8,
+    /// Ranges of the residue in classes, which go up and down by turns.
+    ranges: [i8; LONGEST],
+    /// Ranges that wait, a ring.
+    queue: [i8; 256],
     /// Reversals for which there was no place.
     lost: u32,
     /// Cycles by their range in classes.
@@ -36,23 +38,22 @@ pub struct Rainflow<N, const CLASSES: usize, const REVERSALS: usize> {
     largest: N,
 }
 
-impl<N: Classed, const CLASSES: usize, const REVERSALS: usize> Default for Rainflow<N, CLASSES, REVERSALS> {
+impl<N: Classed, const CLASSES: usize> Default for Rainflow<N, CLASSES> {
     fn default() -> Self {
-        const {
-            assert!(
-                REVERSALS.is_power_of_two() && REVERSALS >= 2 * CLASSES + 4,
-                "the reversals must be a power of two, and twice the classes and four at least"
-            );
-        }
+        let mut ranges = [0; LONGEST];
+        ranges[..BEFORE.len()].copy_from_slice(&BEFORE);
+        let zero = const {
+            assert!(CLASSES.is_power_of_two() && CLASSES >= 4 && CLASSES <= 128, "{}", COUNT);
+            2 * CLASSES as i32 - 1
+        };
         Rainflow {
-            last: i32::MIN,
-            way: 0,
-            residue: [0; REVERSALS],
-            length: UNUSED,
-            four: 0,
-            queue: [0; REVERSALS],
+            last: zero,
+            reversal: zero,
+            top: 0,
             first: 0,
             next: 0,
+            ranges,
+            queue: [0; 256],
             lost: 0,
             cycles: [0; CLASSES],
             ticks: [0; CLASSES],
@@ -61,7 +62,7 @@ impl<N: Classed, const CLASSES: usize, const REVERSALS: usize> Default for Rainf
     }
 }
 
-impl<N: Classed, const CLASSES: usize, const REVERSALS: usize> Fluctuation<N> for Rainflow<N, CLASSES, REVERSALS> {
+impl<N: Classed, const CLASSES: usize> Fluctuation<N> for Rainflow<N, CLASSES> {
     type Config = TorqueClasses<N>;
 
     #[inline(always)]
@@ -70,20 +71,12 @@ impl<N: Classed, const CLASSES: usize, const REVERSALS: usize> Fluctuation<N> fo
         if torque.exceeds(self.largest) {
             self.largest = torque.magnitude();
         }
-        let quarters = torque.quarters(config.scale).wrapping_add(config.middle << 2);
-        let top = const { 4 * CLASSES as i32 - 1 };
-        let quarters = if quarters < 0 {
-            0
-        } else if quarters > top {
-            top
-        } else {
-            quarters
-        };
-        if let Some(ticks) = self.ticks.get_mut((quarters >> 2) as usize) {
-            *ticks = ticks.wrapping_add(1);
+        let quarters = torque.quarters::<CLASSES>(config.scale);
+        let ticks = &mut self.ticks[(quarters >> 2) as usize & (CLASSES - 1)];
+        *ticks = ticks.wrapping_add(1);
+        if !self.reverses(quarters) {
+            self.step();
         }
-        self.step();
-        self.follow(quarters);
     }
 
     /// The torque is an estimate by prediction then, and counts as such.
@@ -91,107 +84,113 @@ impl<N: Classed, const CLASSES: usize, const REVERSALS: usize> Fluctuation<N> fo
     fn disturb(&mut self) {}
 }
 
-impl<N: Classed, const CLASSES: usize, const REVERSALS: usize> Rainflow<N, CLASSES, REVERSALS> {
-    /// Follows the torque, in quarters of a class; where it turns round its last class is a reversal. It leaves a class
-    /// by a quarter: noise about a boundary between two classes is no reversal.
+impl<N: Classed, const CLASSES: usize> Rainflow<N, CLASSES> {
+    /// Follows the torque, in quarters of a class; where it turns round its last class is a reversal, and its range goes
+    /// into the queue. It leaves a class by a quarter: noise about a boundary between two classes is no reversal.
     #[inline(always)]
-    fn follow(&mut self, quarters: i32) {
+    fn reverses(&mut self, quarters: i32) -> bool {
         let last = self.last;
+        let moved = quarters.wrapping_sub(last);
         // from a quarter below the last class to a quarter above it
-        if (quarters.wrapping_sub(last << 2).wrapping_add(1) as u32) < 6 && last >= 0 {
-            return;
+        if (moved as u32) < 6 {
+            return false;
         }
-        let class = quarters >> 2;
-        self.last = class;
-        if last < 0 {
-            return;
+        self.last = (quarters & !3).wrapping_sub(1);
+        let range = last.wrapping_sub(self.reversal);
+        let reverses = (moved ^ range) < 0;
+        if reverses {
+            self.put(range, last);
         }
-        let way = if class > last { 1 } else { -1 };
-        if way != self.way {
-            self.way = way;
-            self.put(last as u8);
+        reverses
+    }
+
+    /// A range into the queue, up to a reversal. Without a place it is none: the range goes on.
+    #[inline(always)]
+    fn put(&mut self, range: i32, reversal: i32) {
+        let next = self.next.wrapping_add(1);
+        if next == self.first {
+            self.lost = self.lost.wrapping_add(1);
+        } else {
+            self.queue[self.next as usize] = (range.unsigned_abs() >> 2) as i8;
+            self.next = next;
+            self.reversal = reversal;
         }
     }
 
-    /// A reversal into the queue.
+    /// One step of the four-point method: counts a cycle, or takes a range from the queue. Without its middle range the
+    /// outer two and it are one.
     #[inline(always)]
-    fn put(&mut self, reversal: u8) {
-        let next = self.next;
-        if next.wrapping_sub(self.first) == REVERSALS as u32 {
-            self.lost = self.lost.saturating_add(1);
-        } else if let Some(place) = self.queue.get_mut(next as usize & (REVERSALS - 1)) {
-            *place = reversal;
-            self.next = next.wrapping_add(1);
-        }
-    }
-
-    /// The last four reversals of the residue, and the range of the middle two where they are a cycle.
-    #[inline(always)]
-    fn closed(&self) -> Option<(usize, u8)> {
-        let [before, one, other, after] = self.four.to_be_bytes();
-        let inner = one.abs_diff(other);
-        let is_cycle = inner <= before.abs_diff(one) && inner <= other.abs_diff(after);
-        (is_cycle && self.length > UNUSED + 3).then_some((inner.into(), after))
-    }
-
-    /// One step of the four-point method: counts a cycle, or takes a reversal from the queue.
-    #[inline(always)]
-    fn step(&mut self) {
-        if let Some((inner, after)) = self.closed() {
-            if let Some(cycles) = self.cycles.get_mut(inner) {
-                *cycles = cycles.wrapping_add(1);
-            }
-            self.length = self.length.wrapping_sub(2);
-            let at = self.length as usize;
-            if let Some([rest @ .., last]) = self.residue.get_mut(at.wrapping_sub(4)..at) {
-                *last = after;
-                if let &mut [a, b, c] = rest {
-                    self.four = u32::from_be_bytes([a, b, c, after]);
-                }
-            }
+    fn step(&mut self) -> bool {
+        let top = self.top as usize;
+        let [one, inner, other] = [top, top + 1, top + 2].map(|place| i32::from(self.ranges[place]));
+        if inner <= one && inner <= other {
+            let cycles = &mut self.cycles[inner as usize & (CLASSES - 1)];
+            *cycles = cycles.wrapping_add(1);
+            // beyond the classes only where reversals were lost
+            self.ranges[top] = one.wrapping_sub(inner).wrapping_add(other).clamp(0, 127) as i8;
+            self.top = self.top.wrapping_sub(2);
+            true
         } else if self.first != self.next {
-            let reversal = self.queue.get(self.first as usize & (REVERSALS - 1)).copied().unwrap_or(0);
+            self.ranges[top + 3] = self.queue[self.first as usize];
             self.first = self.first.wrapping_add(1);
-            if let Some(place) = self.residue.get_mut(self.length as usize) {
-                *place = reversal;
-                self.length = self.length.wrapping_add(1);
-            }
-            self.four = self.four << 8 | u32::from(reversal);
+            self.top = self.top.wrapping_add(1);
+            true
+        } else {
+            false
         }
     }
 
     /// Takes the cycles that are closed and the times out, and leaves the residue: for the time between two ticks,
     /// before a count of ticks wraps (119 hours at 10 kHz).
-    pub fn take(&mut self, config: &TorqueClasses<N>) -> Counts<CLASSES, REVERSALS> {
+    pub fn take(&mut self, config: &TorqueClasses<N>) -> Counts<CLASSES> {
         let taken = self.snapshot(config);
         (self.cycles, self.ticks, self.largest) = ([0; CLASSES], [0; CLASSES], N::ZERO);
         taken
     }
 
-    fn snapshot(&self, config: &TorqueClasses<N>) -> Counts<CLASSES, REVERSALS> {
+    /// The counts so far, with the reversals that wait and the present torque as the last one: for the time between two
+    /// ticks.
+    pub fn counts(&self, config: &TorqueClasses<N>) -> Counts<CLASSES> {
+        let mut all = *self;
+        while all.step() {}
+        // the end of the series is its last reversal
+        let range = all.last.wrapping_sub(all.reversal);
+        if range != 0 {
+            all.put(range, all.last);
+            while all.step() {}
+        }
+        let mut counts = all.snapshot(config);
+        // back from the end, down and up by turns, to the start, whose range is none
+        let (mut class, mut sign) = (all.last.wrapping_add(1) >> 2, range.signum());
+        let known = usize::from(all.top) + BEFORE.len();
+        let ranges = all.ranges.iter().take(known).rev().take_while(|&&range| range > 0);
+        let mut places = counts.residue.iter_mut().rev();
+        for &range in [0].iter().chain(ranges) {
+            if range > 0 {
+                class = class.wrapping_sub(sign * i32::from(range));
+                sign = -sign;
+            }
+            if let Some(place) = places.next() {
+                *place = class as u8;
+                counts.length += 1;
+            }
+        }
+        counts
+    }
+
+    fn snapshot(&self, config: &TorqueClasses<N>) -> Counts<CLASSES> {
+        // where the first torque goes down, the range before it is none, and no cycle
+        let mut cycles = self.cycles;
+        cycles[0] = 0;
         Counts {
             width: config.width,
             period: config.period,
-            cycles: self.cycles,
+            cycles,
             ticks: self.ticks,
-            residue: self.residue,
-            length: self.length as usize,
+            residue: [0; LONGEST],
+            length: 0,
             largest: self.largest.to_real() * config.base,
             lost: self.lost,
         }
-    }
-
-    /// The counts so far, with the reversals that wait and the present torque as the last one: for the time between two
-    /// ticks.
-    pub fn counts(&self, config: &TorqueClasses<N>) -> Counts<CLASSES, REVERSALS> {
-        let mut all = *self;
-        if all.last >= 0 {
-            // the end of the series is its last reversal
-            all.put(all.last as u8);
-        }
-        while all.first != all.next || all.closed().is_some() {
-            all.step();
-        }
-        all.snapshot(config)
     }
 }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Classed, TorqueClasses};
 use super::{Counts, Rainflow, WoehlerLine};
+use crate::parameters::Parameters;
 
 /// Damage and largest torque over the machine's life: a field of one's own
 /// [`Parameters`](crate::parameters::Parameters), or all of them.
@@ -21,26 +22,32 @@ pub struct LifeRecord {
     pub largest: f64,
 }
 
+/// Alone in a flash of its own.
+impl Parameters for LifeRecord {
+    const IDENTITY: u32 = u32::from_be_bytes(*b"life");
+    const VERSION: u16 = 1;
+}
+
 impl LifeRecord {
     /// Takes the closed cycles, the time above `limit` (N m) and the largest torque out of a running count: between
     /// two ticks.
-    pub fn take<N: Classed, const CLASSES: usize, const REVERSALS: usize>(
+    pub fn take<N: Classed, const CLASSES: usize>(
         &mut self,
-        count: &mut Rainflow<N, CLASSES, REVERSALS>,
+        count: &mut Rainflow<N, CLASSES>,
         config: &TorqueClasses<N>,
         line: &WoehlerLine,
         limit: f64,
     ) {
-        let taken: Counts<CLASSES, REVERSALS> = count.take(config);
+        let taken: Counts<CLASSES> = count.take(config);
         self.damage += taken.closed_damage(line);
         self.add(&taken, limit);
     }
 
     /// Takes the whole count, each range of its residue as half a cycle, and the count begins anew: before the
     /// controller is switched off, so that the cycle from start to stop counts.
-    pub fn close<N: Classed, const CLASSES: usize, const REVERSALS: usize>(
+    pub fn close<N: Classed, const CLASSES: usize>(
         &mut self,
-        count: &mut Rainflow<N, CLASSES, REVERSALS>,
+        count: &mut Rainflow<N, CLASSES>,
         config: &TorqueClasses<N>,
         line: &WoehlerLine,
         limit: f64,
@@ -51,7 +58,7 @@ impl LifeRecord {
         self.add(&all, limit);
     }
 
-    fn add<const CLASSES: usize, const REVERSALS: usize>(&mut self, counts: &Counts<CLASSES, REVERSALS>, limit: f64) {
+    fn add<const CLASSES: usize>(&mut self, counts: &Counts<CLASSES>, limit: f64) {
         self.time_above += counts.time_above(limit);
         self.largest = if counts.largest() > self.largest { counts.largest() } else { self.largest };
     }

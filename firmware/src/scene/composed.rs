@@ -7,6 +7,7 @@ use driveline::governor::{Governor, SpeedLoop};
 use driveline::number::Number;
 use driveline::observer::Observer;
 use driveline::sample::{Command, Estimate, Sample};
+use driveline::telemetry::Channel;
 
 use super::{Constants, FromConfig, Input, Of, Output, Scene, Variant};
 
@@ -63,6 +64,14 @@ pub trait Beside<D: OverWords>: Sized {
         0
     }
 
+    /// As [`Variant::CHANNELS`].
+    const CHANNELS: &'static [Channel<'static>] = &[];
+
+    /// As [`Scene::channel`].
+    fn channel(&self, _index: usize) -> u32 {
+        0
+    }
+
     /// A copy, as [`Scene::copy`].
     #[cfg(not(target_os = "none"))]
     fn copy(&self) -> Option<Self> {
@@ -108,6 +117,7 @@ where
     B: Beside<D> + 'static,
 {
     type Drive = D;
+    const CHANNELS: &'static [Channel<'static>] = B::CHANNELS;
 
     fn from_config(config: &'static ConfigOf<D>) -> Self {
         let config = B::constants(config);
@@ -129,6 +139,10 @@ where
 
     fn panel(&mut self, asked: [u32; 2]) -> u32 {
         self.beside.panel(&mut self.drive, &mut self.config, asked)
+    }
+
+    fn channel(&self, index: usize) -> u32 {
+        self.beside.channel(index)
     }
 
     #[cfg(not(target_os = "none"))]

@@ -137,6 +137,8 @@ macro_rules! variants {
                 }
             };
             const RATE_HZ: u32 = <$machine as driveline::configure::Machine>::RATE_HZ;
+            const CHANNELS: &'static [driveline::telemetry::Channel<'static>] =
+                <$drive<$number> as $crate::scene::FromConfig>::CHANNELS;
 
             #[inline]
             fn start() -> Self::Scene {

@@ -6,14 +6,17 @@
 //! vibration of mill drives have it. The figures are not those of one machine. The couplings' play is taken up as long
 //! as the stand rolls, so it is left out; a stand that reverses needs the observer of backlash.
 
-use driveline::configure::{Machine, Rating};
+use driveline::configure::{HasLife, Machine, Rating};
 use driveline::design::{Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopDesign, SpeedLoopTuning};
+use driveline::drive::Drive;
+use driveline::fatigue::{Rainflow, WoehlerLine};
 use driveline::governor::{DampingLag, SetpointLag, SpeedLoop};
 use driveline::machine::{Chain, Damping, Inertia, Stiffness};
 use driveline::observer;
 use driveline::settings::{Bases, Screening};
 
-use crate::scene::composed::GovernedBy;
+use crate::panel::life::LifePanel;
+use crate::scene::composed::{Composed, GovernedBy};
 use crate::scene::table::variants;
 
 /// Motor, coupling, pinion stand, rolls.
@@ -46,6 +49,11 @@ impl Machine for StripMill {
     };
 }
 
+impl HasLife for StripMill {
+    /// Of a spindle's neck, assumed: rated torque, swelling, is what it endures; slopes as in Miner's elementary rule.
+    const SHAFT: WoehlerLine = WoehlerLine { knee: 0.5 * Self::RATING.torque, cycles: 2.0e6, slope: 5.0, below: 5.0 };
+}
+
 /// Counts of the encoder on a turn: a sine encoder of 4096 lines, interpolated 256 times.
 pub const COUNTS: u32 = 1_048_576;
 
@@ -72,8 +80,12 @@ type Loop<N> = SpeedLoop<N, (SetpointLag<N>, DampingLag<N>)>;
 pub type Rigid<N> = GovernedBy<N, observer::RigidObserver<N>, Loop<N>>;
 /// Two masses, semi-implicit step: the design's choice.
 pub type SemiImplicit<N> = GovernedBy<N, observer::SemiImplicitObserver<N>, Loop<N>>;
+/// The same with the life of the spindles counted, in 128 classes of 9.4 kN m.
+pub type Life<N> =
+    Composed<Drive<N, observer::SemiImplicitObserver<N>, Rainflow<N, 128>, Loop<N>>, LifePanel<StripMill>>;
 
 variants! {
     "rigid": Rigid for StripMill;
     "semi-implicit": SemiImplicit for StripMill;
+    "life": Life for StripMill;
 }
