@@ -42,6 +42,7 @@
 //! | `Curve` | [`HasTorqueCurve::CURVE`], [`Machine::LEAST_TORQUE`] | [`HasTorqueCurve`] |
 //! | `Slew` | [`HasSlew::SLEW`], those of its limit | [`HasSlew`] |
 //! | `BacklashTakeUp` | [`HasBacklash::TAKE_UP`], those of its limit | [`HasBacklash`] |
+//! | `InputShaper` | [`HasInputShaper::SHAPER`], [`Machine::RAMP`], those of its governor | [`HasInputShaper`] |
 //! | `Droop` | [`HasDroop::DROOP`] | [`HasDroop`] |
 //! | `Barred` | [`HasBarredSpeeds::BARRED`] | [`HasBarredSpeeds`] |
 //! | `FeedForward`, `AccelerationFeedback` | [`Machine::GAINS`] | [`GainSource::Governor`] |
@@ -131,7 +132,9 @@ mod vibration;
 
 pub use family::{Family, Follows, ScheduleOf, Scheduled};
 pub use gain_source::GainSource;
-pub use governor::{HasBacklash, HasBarredSpeeds, HasDroop, HasLoadSharing, HasSequencer, HasSlew, HasTorqueCurve};
+pub use governor::{
+    HasBacklash, HasBarredSpeeds, HasDroop, HasInputShaper, HasLoadSharing, HasSequencer, HasSlew, HasTorqueCurve,
+};
 pub use life::HasLife;
 pub use loop_part::LoopPart;
 pub use machine::{Machine, Rating};

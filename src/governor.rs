@@ -11,12 +11,14 @@
 //! |---|---|
 //! | [`SpeedLoop`] | continuous operation: proportional, integral, active damping, lags of setpoint and damping |
 //! | [`SpeedGovernor`] | composed of parts: droop, feed-forward, limits by a curve, run sequence and trips |
+//! | [`InputShaper`] round one of them | a swinging load: the setpoint in parts whose swings cancel |
 //!
 //! [`LoadSharing`] stands behind any of them, where several motors turn one gear.
 
 mod actuator_monitor;
 mod backlash_takeup;
 mod compensation;
+mod input_shaper;
 mod limit;
 mod load_sharing;
 mod loop_filter;
@@ -33,6 +35,7 @@ pub use compensation::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, Compensation, FeedForward,
     FeedForwardConfig,
 };
+pub use input_shaper::{InputShaper, InputShaperConfig};
 pub use limit::{
     Curve, CurveConfig, CurvePiece, Limit, Slew, SlewConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange,
     TorqueRangeConfig,

@@ -1,14 +1,17 @@
 //! Governors and their parts for a machine.
 
 use super::{Configure, GainSource, LoopPart, Machine};
-use crate::design::{BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, SpeedLoopDesign, TorqueCurve};
+use crate::design::{
+    BacklashTakeUpDesign, BacklashTakeUpTuning, BarredSpeeds, InputShaperDesign, SpeedLoopDesign, TorqueCurve,
+};
 use crate::governor::{
     AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
     BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CycleAverage, DampingLag,
-    DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Limit, LoadSharing, LoadSharingConfig,
-    LoopFilter, MovingAverage, MovingAverageConfig, Sequence, Sequencer, SequencerConfig, SetpointLag, SetpointShape,
-    Slew, SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf, SpeedLoop,
-    SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig, TorqueRange, TorqueRangeConfig,
+    DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, InputShaper,
+    InputShaperConfig, Limit, LoadSharing, LoadSharingConfig, LoopFilter, MovingAverage, MovingAverageConfig, Sequence,
+    Sequencer, SequencerConfig, SetpointLag, SetpointShape, Slew, SlewConfig, SpeedFilter, SpeedGovernor,
+    SpeedGovernorConfig, SpeedGovernorConfigOf, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
+    TorqueRange, TorqueRangeConfig,
 };
 use crate::number::{Fixed, Number};
 use crate::settings::{Bases, LoadSharingSettings, SequencerSettings, SpeedLoopSettings};
@@ -52,6 +55,13 @@ pub trait HasLoadSharing: Machine {
 pub trait HasSlew: Machine {
     /// Torque per time (N m/s).
     const SLEW: f64;
+}
+
+/// A machine whose load swings, with a setpoint that does not excite it.
+pub trait HasInputShaper: Machine {
+    /// The shaper: for the vibration that the speed loop is designed to leave.
+    const SHAPER: InputShaperDesign =
+        InputShaperDesign::new(Self::SPEED_LOOP.shaft_frequency, Self::TUNING.shaft_damping);
 }
 
 /// A machine that starts, runs, stops and trips.
@@ -175,6 +185,23 @@ macro_rules! governors {
             const CONFIG: Self::Config =
                 SlewConfig::<$number, _>::new(M::SLEW, <L as Configure<M, $number>>::CONFIG, M::PERIOD, $bases);
             const LOOP: LoopPart = <L as Configure<M, $number>>::LOOP;
+        }
+
+        impl<M: HasInputShaper, G, const SLOTS: usize, const PARTS: usize> Configure<M, $number>
+            for InputShaper<$number, G, SLOTS, PARTS>
+        where
+            G: Governor<$number, Config: Copy> + Configure<M, $number, Config = <G as Governor<$number>>::Config>,
+        {
+            type Config = InputShaperConfig<$number, <G as Governor<$number>>::Config>;
+            const CONFIG: Self::Config = InputShaperConfig::<$number, _>::new(
+                &M::SHAPER,
+                (SLOTS / (PARTS - 1)) as u32,
+                M::RAMP,
+                <G as Configure<M, $number>>::CONFIG,
+                M::PERIOD,
+                $bases,
+            );
+            const LOOP: LoopPart = <G as Configure<M, $number>>::LOOP;
         }
 
         impl<M: HasBacklash, L> Configure<M, $number> for BacklashTakeUp<$number, L>

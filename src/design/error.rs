@@ -25,7 +25,9 @@ sentences! {
     Slack => "impact, torque, rise and largest torque of the backlash take-up must be positive and finite, the largest \
         torque no less than that in the gap, its damping zero or above (N m, N m, N m, N m, 1)",
     Noise => "the measurement noise must have a positive definite covariance",
-    Bandwidth => "the bandwidth of the speed loop must be above zero and below the antiresonance of the machine",
+    Bandwidth => "the bandwidth of the speed loop must be above zero and below the antiresonance of the machine, or \
+        above its resonance",
+    Shaper => "the input shaper needs a frequency above zero and finite (rad/s), and a damping ratio from 0 to below 1",
     DampingRatio => "the damping ratios of the speed loop must be above zero and finite",
     TwistGain => "the gain on the twist rate must be above zero and finite (of the proportional gain): 0.1 for much \
         margin, 0.3 for a swing that decays soon",

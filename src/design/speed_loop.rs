@@ -5,7 +5,8 @@
 //! motor inertia; w_r is the resonance and w_a the antiresonance. Setting it equal to `(s^2 + 2 z1 w1 s + w1^2)(s^2 + 2
 //! z2 w2 s + w2^2)` fixes all gains and w2 once w1, z1, z2 are chosen:
 //!
-//! - `(1 - b^2) w2^2 + 4 z1 z2 w1 w2 + w1^2 - w_r^2 = 0` with `b = w1/w_a`: one positive root for every b below 1;
+//! - `(1 - b^2) w2^2 + 4 z1 z2 w1 w2 + w1^2 - w_r^2 = 0` with `b = w1/w_a`: one positive root for every b below 1, and
+//!   for every w1 above w_r;
 //! - `k_i = b^2 w2^2`, `k_p = 2 w1 w2 (z1 w2 + z2 w1)/w_a^2`, `k_v = 2 z1 w1 + 2 z2 w2 - k_p`.
 //!
 //! Pole placement by the coefficients, after [Zhang and Furusho 2000, IEEE Trans. Ind. Electron. 47(3)], with the twist
@@ -20,7 +21,10 @@ use crate::math::sqrt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedLoopTuning {
-    /// Natural frequency of the speed over the antiresonance, above 0 and below 1; from 0.3 to 0.6 in practice.
+    /// Natural frequency of the speed over the antiresonance, above 0 and below 1; from 0.3 to 0.6 in practice. Above
+    /// the resonance for a load that swings slowly: the motor holds its speed against the swing, which is left at
+    /// about the antiresonance with a damping ratio of some hundredths. Its setpoint is for an
+    /// [`InputShaper`](crate::governor::InputShaper).
     pub bandwidth: f64,
     /// Damping ratio of the speed.
     pub damping: f64,
@@ -133,7 +137,8 @@ impl TwoMass {
             Err(error) => return Err(error),
         };
         let b = tuning.bandwidth;
-        if !(b > 0.0 && b < 1.0 && self.stiffness > 0.0) {
+        let placed = b > 0.0 && b < 1.0 || b * self.antiresonance() > self.resonance() && b.is_finite();
+        if !(placed && self.stiffness > 0.0) {
             return Err(Error::Bandwidth);
         }
         let (z1, z2) = (tuning.damping, tuning.shaft_damping);
@@ -166,10 +171,11 @@ impl TwoMass {
         let SpeedLoopTuning { bandwidth: b, damping: z1, shaft_damping: z2 } = *tuning;
         let (wa, wr) = (self.antiresonance(), self.resonance());
         let w1 = b * wa;
-        // The positive root, without cancellation: c/(half + sqrt(half^2 + a c)).
+        // The positive root, without cancellation: c/(half + sqrt(half^2 + a c)), of negative a and c the other form.
         let half = 2.0 * z1 * z2 * w1;
-        let c = (wr - w1) * (wr + w1);
-        let w2 = c / (half + sqrt(half * half + (1.0 - b) * (1.0 + b) * c));
+        let (a, c) = ((1.0 - b) * (1.0 + b), (wr - w1) * (wr + w1));
+        let sum = half + sqrt(half * half + a * c);
+        let w2 = if b < 1.0 { c / sum } else { -sum / a };
         let kp = 2.0 * b * (w2 / wa) * (z1 * w2 + z2 * w1);
         let kv = 2.0 * (z1 * w1 + z2 * w2) - kp;
         let jm = self.motor_inertia;

@@ -1,18 +1,20 @@
-//! Constants of the composed governor's parts that are shapes: barred ranges, torque curves, and the slew round another
-//! limit.
+//! Constants of the governor's parts that are shapes: barred ranges, torque curves, the slew round another limit, and
+//! the input shaper round a governor.
 
 use super::constants::constants;
 use super::convert::get;
 use super::governor_parts::{LIMIT, RAMP, all_finite, between, least_step};
 use super::to::Values;
 use super::{Bases, Error, Format};
-use crate::design::{BarredSpeeds, TorqueCurve};
-use crate::governor::{BarredConfig, CurveConfig, CurvePiece, SlewConfig, SpeedRange};
+use crate::design::{BarredSpeeds, InputShaperDesign, TorqueCurve};
+use crate::governor::{BarredConfig, CurveConfig, CurvePiece, InputShaperConfig, SlewConfig, SpeedRange};
 
 const SLEW: &str =
     "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
 const CURVE: &str = "the torque curve and its slopes must be finite; in fixed point it must lie within twice the \
     bases, and its slopes within 2 bases of the torque per base of the speed";
+const SHAPER: &str = "the input shaper's slots must be a tick or longer, below 2^31 ticks, and its share above 0 and at \
+    most 1/2: take fewer slots or raise the rate";
 const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
 
 const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
@@ -96,5 +98,27 @@ constants! {
     impl[L: Copy] SlewConfig[, L], new, try_new(rate: f64, limit: L, period: f64), |format| {
         let ([step], []) = get!(To::part(slew(rate, period, &format), SLEW));
         Ok(SlewConfig { step, limit })
+    }
+}
+
+/// Ticks of a slot, and the share of the later part.
+const fn shaper(design: &InputShaperDesign, slots: u32, period: f64) -> Result<(u32, f64), Error> {
+    let slot = design.delay / (slots as f64 * period) + 0.5;
+    if slot >= 1.0 && slot < 2_147_483_648.0 && design.share > 0.0 && design.share <= 0.5 {
+        // a coefficient in fixed point ends at 1/2 less 2^-32
+        Ok((slot as u32, design.share.min(0.5 - 0.25 / 1_073_741_824.0)))
+    } else {
+        Err(Error::Value(SHAPER))
+    }
+}
+
+constants! {
+    /// [`Error::Value`] for a ramp (rad/s2) that is not positive and finite, or slots, so many between two parts, of
+    /// less than a tick.
+    impl[C: Copy] InputShaperConfig[, C],
+    new, try_new(design: &InputShaperDesign, slots: u32, ramp: f64, governor: C, period: f64), |format| {
+        let (slot, share) = get!(shaper(design, slots, period));
+        let ([ramp], []) = get!(To::part(quick(ramp, period, &format), RAMP));
+        Ok(InputShaperConfig { ramp, slot, share: get!(To::coefficient(share, SHAPER)), governor })
     }
 }

@@ -6,5 +6,6 @@ mod dynamic_part;
 mod law;
 mod modes;
 mod sharing;
+mod sway;
 mod switch;
 mod watch;

@@ -18,6 +18,9 @@ fn gains_place_the_poles() {
         (0.005, SpeedLoopTuning::USUAL),
         (0.05, SpeedLoopTuning { bandwidth: 0.7, damping: 0.8, shaft_damping: 0.3 }),
         (0.001, SpeedLoopTuning { bandwidth: 0.2, damping: 1.2, shaft_damping: 0.5 }),
+        // above the resonance
+        (0.0027, SpeedLoopTuning { bandwidth: 4.0, damping: 1.0, shaft_damping: 0.03 }),
+        (0.05, SpeedLoopTuning { bandwidth: 3.5, damping: 0.8, shaft_damping: 0.1 }),
     ] {
         let machine = TwoMass::new(Inertia(0.005), Inertia(load), Stiffness(700.0), Damping(0.0));
         let design = machine.speed_loop(Rate::hz(20_000), tuning);
@@ -82,7 +85,10 @@ fn compile_time_and_run_time_give_the_same_bits() {
 fn errors_name_the_parameter() {
     let design = |rate, tuning| rig(0.01).try_speed_loop(Rate::hz(rate), tuning).unwrap_err();
     let usual = SpeedLoopTuning::USUAL;
-    assert_eq!(design(4000, SpeedLoopTuning { bandwidth: 1.0, ..usual }), Error::Bandwidth);
+    // from the antiresonance to the resonance
+    for bandwidth in [1.0, 1.2, 2.0_f64.sqrt(), f64::INFINITY] {
+        assert_eq!(design(4000, SpeedLoopTuning { bandwidth, ..usual }), Error::Bandwidth);
+    }
     assert_eq!(design(4000, SpeedLoopTuning { damping: 0.0, ..usual }), Error::DampingRatio);
     assert_eq!(design(0, usual), Error::Period);
     // 200 ticks a second cannot damp 84 Hz.

@@ -1,0 +1,171 @@
+//! Input shaping of the setpoint: a swinging load is at rest when the drive is.
+
+use crate::governor::Governor;
+use crate::number::Number;
+use crate::sample::Estimate;
+
+/// A governor whose setpoint is given in `PARTS`, each a ramp half a period of the load's swing after the one before:
+/// the swings that they excite cancel [Singer and Seering 1990; design:
+/// [`InputShaperDesign`](crate::design::InputShaperDesign)].
+///
+/// Two parts (ZV) delay the end of a change by half a period, three (ZVD) by a period and stand a frequency that is off
+/// by several percent. Any course of the setpoint is shaped, such as that of a joystick: it is taken once in a slot, of
+/// which `SLOTS` make the whole delay. So the drive answers up to a slot late, and keeps `SLOTS` setpoints.
+/// `SLOTS` is a multiple of `PARTS - 1`.
+///
+/// The ramp acts on each part. That of the governor is no steeper for the parts together, and so passes them.
+/// A stop by the setpoint takes the delay longer; an emergency stop belongs to the brake.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct InputShaper<N, G, const SLOTS: usize, const PARTS: usize = 3> {
+    governor: G,
+    setpoint: N,
+    /// Speed at the start: the setpoint of the time before it.
+    initial: N,
+    line: [N; SLOTS],
+    at: usize,
+    filled: usize,
+    /// Ticks to the next slot.
+    wait: u32,
+    targets: [N; PARTS],
+    ramped: [N; PARTS],
+}
+
+/// Constants of [`InputShaper`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct InputShaperConfig<N: Number, C> {
+    /// Largest change of a part's setpoint in a tick (rad/s).
+    pub ramp: N,
+    /// Ticks of a slot, 1 or more.
+    pub slot: u32,
+    /// Share of the later of two parts.
+    pub share: N::Coefficient,
+    /// Constants of the governor.
+    pub governor: C,
+}
+
+impl<N: Number, G: Default, const SLOTS: usize, const PARTS: usize> Default for InputShaper<N, G, SLOTS, PARTS> {
+    fn default() -> Self {
+        const {
+            assert!(
+                PARTS >= 2 && SLOTS >= 1 && SLOTS.is_multiple_of(PARTS - 1),
+                "SLOTS must be a multiple of PARTS - 1"
+            );
+        }
+        Self {
+            governor: G::default(),
+            setpoint: N::ZERO,
+            initial: N::ZERO,
+            line: [N::ZERO; SLOTS],
+            at: 0,
+            filled: 0,
+            wait: 0,
+            targets: [N::ZERO; PARTS],
+            ramped: [N::ZERO; PARTS],
+        }
+    }
+}
+
+impl<N: Number, G, const SLOTS: usize, const PARTS: usize> InputShaper<N, G, SLOTS, PARTS> {
+    /// The governor inside.
+    pub fn governor(&self) -> &G {
+        &self.governor
+    }
+
+    /// Takes the setpoint into the line, and each part's target from it.
+    #[inline(always)]
+    fn take(&mut self) {
+        let (at, filled) = (self.at, self.filled);
+        self.targets = core::array::from_fn(|part| {
+            // in slots; the whole line for the last part, whose setpoint makes room for the new one
+            let late = part * SLOTS / (PARTS - 1);
+            let from = if at >= late { at - late } else { at + SLOTS - late };
+            match self.line.get(from) {
+                _ if part == 0 => self.setpoint,
+                Some(setpoint) if filled >= late => *setpoint,
+                _ => self.initial,
+            }
+        });
+        if let Some(place) = self.line.get_mut(at) {
+            *place = self.setpoint;
+        }
+        self.at = if at + 1 < SLOTS { at + 1 } else { 0 };
+        self.filled = if filled < SLOTS { filled + 1 } else { SLOTS };
+    }
+
+    /// The parts' ramps one tick on, and their mixture.
+    #[inline(always)]
+    fn shaped(&mut self, ramp: N, slot: u32, share: N::Coefficient) -> N {
+        if self.wait == 0 {
+            self.take();
+            self.wait = slot;
+        }
+        self.wait = self.wait.wrapping_sub(1);
+        for (ramped, target) in self.ramped.iter_mut().zip(self.targets) {
+            *ramped = *ramped + (target - *ramped).limited(ramp);
+        }
+        let mut mixed = self.ramped;
+        for _ in 1..PARTS {
+            // each with the next one; the last stays
+            mixed = core::array::from_fn(|part| match (mixed.get(part), mixed.get(part + 1)) {
+                (Some(earlier), Some(later)) => *earlier + (*later - *earlier).times(share),
+                (Some(last), None) => *last,
+                _ => N::ZERO,
+            });
+        }
+        mixed.first().copied().unwrap_or(N::ZERO)
+    }
+
+    /// As though the machine had run at this speed for long.
+    fn settle(&mut self, speed: N) {
+        (self.setpoint, self.initial) = (N::ZERO, speed);
+        (self.at, self.filled, self.wait) = (0, 0, 0);
+        (self.targets, self.ramped) = ([speed; PARTS], [speed; PARTS]);
+    }
+}
+
+impl<N: Number, G: Governor<N>, const SLOTS: usize, const PARTS: usize> Governor<N>
+    for InputShaper<N, G, SLOTS, PARTS>
+{
+    type Config = InputShaperConfig<N, G::Config>;
+
+    const COMMANDS: bool = G::COMMANDS;
+
+    #[inline(always)]
+    fn set_setpoint(&mut self, setpoint: N) {
+        self.setpoint = setpoint;
+    }
+
+    #[inline(always)]
+    fn set_steady_speed(&mut self, steady_speed: Option<N>) {
+        self.governor.set_steady_speed(steady_speed);
+    }
+
+    #[inline(always)]
+    fn command(&mut self, config: &Self::Config, estimate: &Estimate<N>) -> N {
+        let setpoint = self.shaped(config.ramp, config.slot, config.share);
+        self.governor.set_setpoint(setpoint);
+        self.governor.command(&config.governor, estimate)
+    }
+
+    fn start(&mut self, config: &Self::Config, estimate: &Estimate<N>, torque: N) {
+        self.settle(estimate.motor_speed);
+        self.governor.start(&config.governor, estimate, torque);
+    }
+
+    fn switch(&mut self, from: &Self::Config, to: &Self::Config, estimate: &Estimate<N>) {
+        self.governor.switch(&from.governor, &to.governor, estimate);
+    }
+
+    #[inline(always)]
+    fn angle_lost(&mut self, config: &Self::Config, estimate: &Estimate<N>) {
+        self.settle(estimate.motor_speed);
+        self.governor.angle_lost(&config.governor, estimate);
+    }
+
+    #[inline(always)]
+    fn permits(&self) -> bool {
+        self.governor.permits()
+    }
+}
