@@ -1,7 +1,8 @@
-//! Files of cranes against closed forms: a hoist on an elastic girder, a travelling drive that reverses through its gap.
+//! Files of cranes against closed forms: a hoist on an elastic girder, a travelling drive that reverses through its
+//! gap.
 //!
-//! Between two contacts a train without damping is the sum of its modes, so a run is in closed form but for the times of
-//! the contacts, which are roots.
+//! Between two contacts a train without damping is the sum of its modes, so a run is in closed form but for the times
+//! of the contacts, which are roots.
 
 use std::process::Command;
 
