@@ -114,7 +114,7 @@ pub(crate) mod station;
 mod table;
 pub mod train;
 
-pub use damper::DamperRing;
+pub use damper::{DamperKind, DamperRing};
 pub use diagnostic::{Diagnostic, Fault};
 pub use element::Element;
 pub use engine::Engine;

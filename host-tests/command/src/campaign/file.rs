@@ -200,7 +200,8 @@ fn plant(machine: &MachineFile, load: LoadProgram, by: &Departure) -> Result<Pla
     let (rope, efficiency) = machine.ropes_and_efficiencies();
     let (weight, last) = (machine.chain.gravity_torque() * by.load, masses.len() - 1);
     let loaded = |node: usize, inertia: f64| if node == last { inertia * by.load_inertia * by.load } else { inertia };
-    let mut known = Chain::motor(masses[0] * by.motor_inertia);
+    let viscous = machine.viscous();
+    let mut known = Chain::motor(masses[0] * by.motor_inertia).viscous(viscous[0]);
     let mut twists = Vec::new();
     for (s, (shaft, inertia)) in shafts.iter().zip(&masses[1..]).enumerate() {
         let (stiffness, gap) = (shaft.stiffness * by.stiffness, shaft.gap * by.gap);
@@ -212,7 +213,7 @@ fn plant(machine: &MachineFile, load: LoadProgram, by: &Departure) -> Result<Pla
                 efficiency[s].map(|efficiency| (efficiency + by.efficiency).clamp(LEAST_EFFICIENCY, 1.0));
             known = known.efficiency(ahead).back_efficiency(back);
         }
-        known = known.shaft(of.damping(shaft.damping).gap(gap), loaded(s + 1, *inertia));
+        known = known.shaft(of.damping(shaft.damping).gap(gap), loaded(s + 1, *inertia)).viscous(viscous[s + 1]);
     }
     let start = Start::Given { twists, speeds: vec![0.0; masses.len()] };
     known.load(weight).program(load).start(start).build()

@@ -134,7 +134,9 @@ pub(super) fn written(elements: &[Part], indent: &str) -> String {
     for (index, part) in elements.iter().enumerate() {
         match part.element {
             // a branch begins as a chain does
-            Element::Rotor { inertia } if index == 0 => text.push_str(&Element::Motor { inertia }.rust()),
+            Element::Rotor { inertia, viscous } if index == 0 => {
+                text.push_str(&Element::Motor { inertia, viscous }.rust());
+            }
             element if index == 0 && !matches!(element, Element::Motor { .. }) => {
                 text.push_str(&format!("Chain::motor(Inertia(f64::MIN_POSITIVE))\n{indent}{}", element.rust()));
             }

@@ -30,13 +30,16 @@ struct Entry {
 }
 
 /// Name, for which commands, and text of each.
-const EXAMPLES: [(&str, &str, &str); 13] = [
+const EXAMPLES: [(&str, &str, &str); 16] = [
     ("hoist", "modes, design", include_str!("../../machines/hoist.toml")),
     ("roll", "modes, design", include_str!("../../machines/roll.toml")),
     ("axis", "modes, design, commissioning", include_str!("../../machines/axis.toml")),
     ("mill", "modes, design", include_str!("../../machines/mill.toml")),
     ("ship", "modes", include_str!("../../machines/ship.toml")),
     ("gear-pair", "simulate, modes", include_str!("../../trains/gear-pair.toml")),
+    ("spur-pair", "simulate, modes", include_str!("../../trains/spur-pair.toml")),
+    ("two-stage", "simulate, modes", include_str!("../../trains/two-stage.toml")),
+    ("gear-branch", "simulate, modes", include_str!("../../trains/gear-branch.toml")),
     ("hoist-start", "simulate, modes", include_str!("../../trains/hoist-start.toml")),
     ("girder", "simulate, modes", include_str!("../../trains/girder.toml")),
     ("travel", "simulate, modes", include_str!("../../trains/travel.toml")),

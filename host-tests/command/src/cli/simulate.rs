@@ -79,9 +79,16 @@ impl Simulate {
     }
 }
 
-/// A line, and a second one of a run that is proven in pieces.
+/// A line, a second one of a run that is proven in pieces, and one of its steady cycle.
 fn proof(simulation: &Simulation) -> Vec<String> {
-    match (simulation.proof, &simulation.not_proven) {
+    let cycle = simulation.cycle.as_ref().map(|cycle| match (cycle.proof, &cycle.not_proven) {
+        (Some((residual, integrator)), _) => format!(
+            "cycle proven: it comes back to {residual:.1e} of the peaks, a second integrator deviates by \
+             {integrator:.1e}"
+        ),
+        (None, reason) => format!("cycle not proven: {}", reason.as_deref().unwrap_or("unknown")),
+    });
+    let mut lines = match (simulation.proof, &simulation.not_proven) {
         (Some((integrator, tightened)), _) => {
             let closer = tightened.map_or_else(
                 || "no events".to_owned(),
@@ -100,7 +107,9 @@ fn proof(simulation: &Simulation) -> Vec<String> {
             lines
         }
         (None, reason) => vec![format!("not proven: {}", reason.as_deref().unwrap_or("unknown"))],
-    }
+    };
+    lines.extend(cycle);
+    lines
 }
 
 fn tables(simulation: &Simulation) -> Vec<Section> {
@@ -140,9 +149,17 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
         let mut steady = Table::new(["coordinate", "delta", "least rad/s", "greatest rad/s", "mean rad/s", "time s"]);
         let numbers = [cycle.delta, cycle.least, cycle.greatest, cycle.mean, cycle.time].map(significant);
         steady.row([cycle.name.clone()].into_iter().chain(numbers));
-        let text =
-            format!("Repeats after {} cycles from the end of the run. The proof does not cover it.", cycle.cycles);
+        let text = format!("Repeats after {} cycles from the end of the run.", cycle.cycles);
         all.push(Section::new("Steady cycle", text, steady));
+    }
+    if let Some(bare) = &simulation.without_dampers {
+        let mut table = Table::new(["link", "without least N m", "greatest N m", "with least N m", "greatest N m"]);
+        for (bare, damped) in bare.links.iter().zip(&simulation.links) {
+            let numbers = [bare.least, bare.greatest, damped.least, damped.greatest].map(significant);
+            table.row([bare.name.clone()].into_iter().chain(numbers));
+        }
+        let text = "The same run without the dampers and with them, proven alike.";
+        all.push(Section::new("Dampers", text, table));
     }
     if !simulation.events.is_empty() {
         let mut events = Table::new(["time s", "what", "where"]);

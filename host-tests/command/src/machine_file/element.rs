@@ -1,5 +1,7 @@
 //! The elements of a machine as a file names them, and the keys of each.
 
+use std::f64::consts::PI;
+
 use driveline::machine::{
     Belt, Chain, CrankSlider, Damping, Diameter, Efficiency, Error, Falls, Gap, Inertia, Length, LinearDamping, Mass,
     Member, Planetary, PlanetaryGear, Ratio, Section, ShearModulus, Stiffness, try_stepped,
@@ -15,6 +17,9 @@ pub const KINDS: &str = "\"motor\", \"shaft\", \"section\", \"rotor\", \"crank\"
     \"belt\", \"drum\", \"screw\", \
                          \"rope\", \"lifted\", \"driven\", \"swinging\", \"slack\" or \"backlash\"";
 
+/// The numbers that a ratio may be.
+const SIGNED_RATIO: &str = "a number, 1e-6 to 1e6, negative where the two turn against each other";
+
 /// One element of a machine, in SI units, each on its own shaft or along the travel of the load.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
@@ -23,11 +28,15 @@ pub enum Element {
     Motor {
         /// Inertia (kg m2).
         inertia: f64,
+        /// Viscous damping against the ground (N m s/rad); 0 where the file is silent. A chain does not know it.
+        viscous: f64,
     },
     /// A rotor on the present shaft: a brake drum, a gear wheel, a coupling, a roll.
     Rotor {
         /// Inertia (kg m2).
         inertia: f64,
+        /// As that of the motor (N m s/rad).
+        viscous: f64,
     },
     /// An elastic shaft to the next mass.
     Shaft {
@@ -35,6 +44,8 @@ pub enum Element {
         stiffness: f64,
         /// Damping (N m s/rad); 0 where the file is silent.
         damping: f64,
+        /// Its own inertia (kg m2), half of it at either end; 0 where the file is silent.
+        inertia: f64,
     },
     /// A piece of a shaft from its dimensions; pieces in a row are a stepped shaft.
     Section {
@@ -50,6 +61,8 @@ pub enum Element {
         modulus: f64,
         /// Damping (N m s/rad); 0 where the file is silent.
         damping: f64,
+        /// Density (kg/m3); 0, without an inertia of its own, where the file is silent.
+        density: f64,
     },
     /// A crank drive on the present shaft, as the mean of its inertia.
     Crank {
@@ -182,14 +195,22 @@ impl Element {
     pub fn read(mut table: Table<'_>) -> Result<Self, Diagnostic> {
         let kind = table.text("kind", KINDS)?;
         let element = match kind {
-            "motor" => Self::Motor { inertia: table.number("inertia", Quantity::INERTIA)? },
-            "rotor" => Self::Rotor { inertia: table.number("inertia", Quantity::INERTIA)? },
+            "motor" => Self::Motor {
+                inertia: table.number("inertia", Quantity::INERTIA)?,
+                viscous: table.number_or("viscous", Quantity::DAMPING, 0.0)?,
+            },
+            "rotor" => Self::Rotor {
+                inertia: table.number("inertia", Quantity::INERTIA)?,
+                viscous: table.number_or("viscous", Quantity::DAMPING, 0.0)?,
+            },
             "shaft" => Self::Shaft {
                 stiffness: table.number("stiffness", Quantity::STIFFNESS)?,
                 damping: table.number_or("damping", Quantity::DAMPING, 0.0)?,
+                inertia: table.number_or("inertia", Quantity::PART_INERTIA, 0.0)?,
             },
             "gear" => Self::Gear {
-                ratio: table.number("ratio", Quantity::RATIO)?,
+                // everything is referred to the motor, in the sense in which it turns with it
+                ratio: signed_ratio(&mut table)?.abs(),
                 efficiency: table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?,
             },
             "section" => {
@@ -201,6 +222,7 @@ impl Element {
                     bore: table.number_or("bore", Quantity::BORE, 0.0)?,
                     modulus: table.number_or("modulus", Quantity::MODULUS, ShearModulus::STEEL.0)?,
                     damping: table.number_or("damping", Quantity::DAMPING, 0.0)?,
+                    density: table.number_or("density", Quantity { zero: true, ..Quantity::DENSITY }, 0.0)?,
                 }
             }
             "crank" => Self::Crank {
@@ -284,23 +306,54 @@ impl Element {
         }
     }
 
+    /// Half of a shaft's own inertia (kg m2); nothing of what has none.
+    pub fn half_inertia(&self) -> f64 {
+        match *self {
+            Self::Shaft { inertia, .. } => 0.5 * inertia,
+            Self::Section { length, diameter, end, bore, density, .. } => {
+                // pi rho/32 times the mean of d^4 over the length, which of a straight taper is this sum
+                let mean = (0..5).map(|power| diameter.powi(power) * end.powi(4 - power)).sum::<f64>() / 5.0;
+                0.5 * density * length * PI / 32.0 * (mean - bore.powi(4))
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// A shaft with half of its own inertia at either end.
+    fn heavy(&self, chain: Chain, shaft: impl FnOnce(Chain) -> Chain) -> Chain {
+        match self.half_inertia() {
+            0.0 => shaft(chain),
+            half => shaft(chain.rotor(Inertia(half))).rotor(Inertia(half)),
+        }
+    }
+
+    fn heavy_rust(&self, shaft: &str) -> String {
+        match self.half_inertia() {
+            0.0 => shaft.to_owned(),
+            half => format!(".rotor(Inertia({half:?})){shaft}.rotor(Inertia({half:?}))"),
+        }
+    }
+
     /// Puts the element at the end of a chain; a motor begins a new one.
     ///
     /// # Errors
     /// The library's own sentence where the element cannot follow.
     pub fn follow(self, chain: Chain) -> Result<Chain, Error> {
         let chain = match self {
-            Self::Motor { inertia } => Chain::motor(Inertia(inertia)),
-            Self::Rotor { inertia } => chain.rotor(Inertia(inertia)),
-            Self::Shaft { stiffness, damping } => chain.shaft(Stiffness(stiffness), Damping(damping)),
+            Self::Motor { inertia, .. } => Chain::motor(Inertia(inertia)),
+            Self::Rotor { inertia, .. } => chain.rotor(Inertia(inertia)),
+            Self::Shaft { stiffness, damping, .. } => {
+                self.heavy(chain, |chain| chain.shaft(Stiffness(stiffness), Damping(damping)))
+            }
             Self::Gear { ratio, efficiency } => chain.gear(Ratio(ratio), Efficiency(efficiency)),
-            Self::Section { length, diameter, end, bore, modulus, damping } => {
+            Self::Section { length, diameter, end, bore, modulus, damping, .. } => {
                 let section = Section {
                     length: Length(length),
                     diameter: [Diameter(diameter), Diameter(end)],
                     bore: Diameter(bore),
                 };
-                chain.shaft(try_stepped(&[section], ShearModulus(modulus))?, Damping(damping))
+                let stiffness = try_stepped(&[section], ShearModulus(modulus))?;
+                self.heavy(chain, |chain| chain.shaft(stiffness, Damping(damping)))
             }
             Self::Crank { inertia, radius, rod, rod_mass, rod_centre, rod_inertia, slider } => {
                 let crank = CrankSlider {
@@ -372,19 +425,19 @@ impl Element {
     /// The element in the words of the library's builder, as `.rotor(Inertia(0.08))`.
     pub fn rust(self) -> String {
         match self {
-            Self::Motor { inertia } => format!("Chain::motor(Inertia({inertia:?}))"),
-            Self::Rotor { inertia } => format!(".rotor(Inertia({inertia:?}))"),
-            Self::Shaft { stiffness, damping } => {
-                format!(".shaft(Stiffness({stiffness:?}), Damping({damping:?}))")
+            Self::Motor { inertia, .. } => format!("Chain::motor(Inertia({inertia:?}))"),
+            Self::Rotor { inertia, .. } => format!(".rotor(Inertia({inertia:?}))"),
+            Self::Shaft { stiffness, damping, .. } => {
+                self.heavy_rust(&format!(".shaft(Stiffness({stiffness:?}), Damping({damping:?}))"))
             }
             Self::Gear { ratio, efficiency } => {
                 format!(".gear(Ratio({ratio:?}), Efficiency({efficiency:?}))")
             }
-            Self::Section { length, diameter, end, bore, modulus, damping } => format!(
+            Self::Section { length, diameter, end, bore, modulus, damping, .. } => self.heavy_rust(&format!(
                 ".shaft(Section::tapered(Length({length:?}), Diameter({diameter:?}), \
                     Diameter({end:?})).bored(Diameter({bore:?})).stiffness(ShearModulus({modulus:?})), \
                     Damping({damping:?}))"
-            ),
+            )),
             Self::Crank { inertia, radius, rod, rod_mass, rod_centre, rod_inertia, slider } => format!(
                 ".rotor(CrankSlider {{ radius: Length({radius:?}), rod: Length({rod:?}), crank: Inertia({inertia:?}), \
                     rod_mass: Mass({rod_mass:?}), \
@@ -441,6 +494,12 @@ impl Element {
             Self::Backlash { gap } => format!(".backlash(Gap({gap:?}))"),
         }
     }
+}
+
+/// A ratio, negative where an external gear turns the sense round.
+pub(super) fn signed_ratio(table: &mut Table<'_>) -> Result<f64, Diagnostic> {
+    let ratio = table.number("ratio", Quantity::ANY)?;
+    if Quantity::RATIO.allows(ratio.abs()) { Ok(ratio) } else { Err(table.wrong("ratio", SIGNED_RATIO)) }
 }
 
 /// The members of a planetary set by their names in a file.

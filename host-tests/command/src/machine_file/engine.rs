@@ -124,6 +124,35 @@ impl Engine {
     }
 }
 
+impl Engine {
+    /// The inertia of the reciprocating masses about its mean, by the angle of each mass at the motor (kg m2). The mean
+    /// stands in the elements.
+    pub(super) fn laws(&self) -> Vec<(usize, train::Orders)> {
+        let (radius, rod) = (self.crank.radius.0, self.crank.rod.0);
+        let way = |angle: f64| radius * angle.cos() + (rod * rod - (radius * angle.sin()).powi(2)).sqrt();
+        let one = train::Orders::inertia(&[(self.crank.slider.0, &train::Orders::sampled(way))]);
+        let square = self.ratio * self.ratio;
+        let mut laws: Vec<(usize, train::Orders)> = Vec::new();
+        for (cylinder, &mass) in self.cylinders.iter().zip(&self.at) {
+            let turned = one.0.iter().filter(|h| h.order > 0.0).map(|h| {
+                let (sine, cosine) = f64::sin_cos(h.order * cylinder.firing);
+                train::Harmonic {
+                    order: h.order / self.ratio,
+                    cosine: (h.cosine * cosine - h.sine * sine) / square,
+                    sine: (h.cosine * sine + h.sine * cosine) / square,
+                }
+            });
+            match laws.iter_mut().find(|(at, _)| *at == mass) {
+                Some((_, law)) => law.0.iter_mut().zip(turned).for_each(|(sum, h)| {
+                    (sum.cosine, sum.sine) = (sum.cosine + h.cosine, sum.sine + h.sine);
+                }),
+                None => laws.push((mass, train::Orders(turned.collect()))),
+            }
+        }
+        laws
+    }
+}
+
 /// A list of `count` numbers that may be left out.
 fn list(
     table: &mut Table<'_>,

@@ -112,6 +112,11 @@ impl Quantity {
 
     /// Any number: a torque, a speed, an angle of either sign.
     pub const ANY: Self = Quantity { least: -FAR, ..positive("") };
+    /// Direction of a line.
+    pub const DIRECTION: Self =
+        Quantity { least: -std::f64::consts::TAU, most: std::f64::consts::TAU, unit: "rad", ..Self::ANY };
+    /// Lift of a cam, in either direction.
+    pub const LIFT: Self = Quantity { least: -1e3, most: 1e3, unit: "m", ..Self::ANY };
     /// Terms of a Fourier series.
     pub const TERMS: Self = Quantity { least: 1.0, most: 500.0, whole: true, ..positive("") };
     /// Order of an excitation: times per turn.

@@ -1,8 +1,9 @@
 //! A machine of elements as a train, everything referred to the motor.
 
 use super::station::{Station, stations};
-use super::{Element, MachineFile, Part};
-use driveline_solver::plant::train::{Coordinate, Link, Source};
+use super::{DamperRing, Element, MachineFile, Part};
+use driveline::machine::Resonance;
+use driveline_solver::plant::train::{Coordinate, Friction, Link, Source};
 use driveline_solver::plant::{Chain, Plant, PlantError, Shaft, Start};
 
 /// Masses and shafts with their names.
@@ -28,8 +29,8 @@ pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
     for branch in &machine.branches {
         weight[branch.mass(branch.chain.masses().len() - 1)] += branch.chain.gravity_torque() / branch.ratio;
     }
-    let coordinate = |(&inertia, &weight): (&f64, &f64)| {
-        let bare = Coordinate::new(inertia);
+    let coordinate = |((&inertia, &weight), viscous): ((&f64, &f64), f64)| {
+        let bare = Coordinate::new(inertia).viscous(viscous);
         if weight != 0.0 { bare.source(Source::Constant(-weight)) } else { bare }
     };
     let link = |(s, joint): (usize, driveline::machine::Joint)| {
@@ -42,7 +43,10 @@ pub(super) fn referred(machine: &MachineFile) -> Result<Referred, String> {
         if rope[s] { bare.rope() } else { bare }
     };
     Ok(Referred {
-        coordinates: masses.into_iter().zip(machine.masses().iter().zip(&weight).map(coordinate)).collect(),
+        coordinates: masses
+            .into_iter()
+            .zip(machine.masses().iter().zip(&weight).zip(machine.viscous()).map(coordinate))
+            .collect(),
         links: shafts.into_iter().zip(machine.joints().into_iter().enumerate().map(link)).collect(),
     })
 }
@@ -83,6 +87,7 @@ impl MachineFile {
         let (masses, shafts) = (self.chain.masses(), self.chain.shafts());
         let weight = self.chain.gravity_torque();
         let mut known = Chain::motor(1.0);
+        let viscous = self.viscous();
         let mut twists = Vec::new();
         for (node, inertia) in masses.iter().enumerate() {
             match node.checked_sub(1).and_then(|before| shafts.get(before)) {
@@ -94,9 +99,40 @@ impl MachineFile {
                     known = known.shaft(shaft_of, *inertia);
                 }
             }
+            known = known.viscous(viscous[node]);
         }
         let start = Start::Given { twists, speeds: vec![0.0; masses.len()] };
         known.load(weight).coulomb(friction).start(start).build()
+    }
+}
+
+/// A damper as parts of a run, its mass and what holds it.
+pub(super) struct DamperParts {
+    pub name: String,
+    pub ring: Coordinate,
+    pub link: Option<Link>,
+    pub friction: Option<Friction>,
+}
+
+impl MachineFile {
+    /// The dampers as parts of a run in which `before` coordinates come before them.
+    pub(super) fn damper_parts(&self, before: usize) -> Vec<DamperParts> {
+        let modes = self.modes();
+        let parts = |(index, damper): (usize, &DamperRing)| {
+            let main = damper.kind.mode().map(|mode| Resonance::of(&modes.resonances()[mode], damper.mass));
+            let (sized, ring) = (damper.sized(main.as_ref()), before + index);
+            let friction = main.as_ref().and_then(|main| damper.friction(main));
+            let link = Link::shaft(damper.mass, ring, sized.stiffness).damping(sized.damping);
+            let same = self.dampers[..index].iter().filter(|other| other.at == damper.at).count();
+            let number = if same == 0 { String::new() } else { format!(" {}", same + 1) };
+            DamperParts {
+                name: format!("damper{number} of {}", damper.at),
+                ring: Coordinate::new(sized.inertia),
+                link: friction.is_none().then_some(link),
+                friction: friction.map(|friction| Friction::between(damper.mass, ring, friction.torque)),
+            }
+        };
+        self.dampers.iter().enumerate().map(parts).collect()
     }
 }
 

@@ -22,7 +22,7 @@ pub(crate) const NOTHING: Inertia = Inertia(f64::MIN_POSITIVE);
 /// The chain of a machine with its first element, or of a branch with its first.
 pub(super) fn begun(element: Element) -> Result<Chain, Error> {
     match element {
-        Element::Rotor { inertia } => Element::Motor { inertia }.follow(Chain::motor(NOTHING)),
+        Element::Rotor { inertia, viscous } => Element::Motor { inertia, viscous }.follow(Chain::motor(NOTHING)),
         element => element.follow(Chain::motor(NOTHING)),
     }
 }
@@ -118,6 +118,25 @@ impl MachineFile {
         self.train.as_ref().map_or(self.chain.gravity_torque(), |train| train.gravity_torque())
     }
 
+    /// Viscous damping of each mass against the ground (N m s/rad), at the motor.
+    pub fn viscous(&self) -> Vec<f64> {
+        let mut all = vec![0.0; self.masses().len()];
+        let mut add = |parts: &[Part], before: f64, at: &dyn Fn(usize) -> usize| {
+            for (part, station) in parts.iter().zip(stations(parts)) {
+                if let (Element::Motor { viscous, .. } | Element::Rotor { viscous, .. }, Some(mass)) =
+                    (part.element, station.mass)
+                {
+                    all[at(mass)] += viscous / (before * station.ratio).powi(2);
+                }
+            }
+        };
+        add(&self.elements, 1.0, &|mass| mass);
+        for branch in &self.branches {
+            add(&branch.elements, branch.ratio, &|mass| branch.mass(mass));
+        }
+        all
+    }
+
     /// Names of the masses and of the shafts between them, from the labels of the elements.
     pub(crate) fn names(&self) -> (Vec<String>, Vec<String>) {
         let (mut masses, mut shafts): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
@@ -139,6 +158,13 @@ impl MachineFile {
             for (part, station) in branch.elements.iter().zip(stations(&branch.elements)) {
                 station.shaft.inspect(|&shaft| join(&mut shafts, branch.shaft(shaft), &part.label));
                 station.mass.inspect(|&mass| join(&mut masses, branch.mass(mass), &part.label));
+            }
+        }
+        // between two shafts, or at the end of one, stands nothing but their own inertia
+        masses.resize(self.masses().len(), String::new());
+        for joint in self.joints() {
+            if masses[joint.to].is_empty() {
+                masses[joint.to] = format!("end of {}", shafts[joint.to - 1]);
             }
         }
         (masses, shafts)

@@ -40,10 +40,16 @@
 //! |---|---|
 //! | `[[coordinate]]` | `name`, `inertia`, (`speed`, `angle`, `viscous`), (`[coordinate.crank]` with `radius`, `rod`,
 //! `slider_mass`, (`rod_mass`, `rod_inertia`, `rod_centre`), or `[coordinate.four_bar]` with `crank`, `coupler`,
-//! `rocker`, `ground`, (`coupler_mass`, `coupler_centre`, `coupler_inertia`, `rocker_inertia`)), (`inertia_table`) |
+//! `rocker`, `ground`, (`coupler_mass`, `coupler_centre`, `coupler_inertia`, `rocker_inertia`), or
+//! `[coordinate.toggle]` with the same and `link`, `direction`, `slider_mass`, or `[coordinate.cam]` with `lift`,
+//! `mass`; each with (`friction`)), (`inertia_table`) |
+//! | `[[spur_pair]]` | `name`, `mesh_stiffness`, (`mesh_damping`, `gap`), `[spur_pair.pinion]` and `[spur_pair.wheel]`
+//! with `mass`, `inertia`, `base_radius`, `shaft_stiffness`, (`shaft_damping`), and two values each of `bearing_mass`,
+//! `lever`, `stiffness_y`, `stiffness_x`, (`damping_y`, `damping_x`); a mesh as a link has it |
 //! | `[[link]]` | `name`, `stiffness`, and `between` with (`ratio`), or `ground`, or `terms` as `[[share, ...]]` in
 //! the order of `of`; (`damping`, `gap`, `rope`, `efficiency`, `back_efficiency`, `elongation`, `static`) |
-//! | `[link.spur]` | `frequency` Hz, `contact_ratio`, `double`, `single` N/m, (`error` m) |
+//! | `[link.spur]` | `frequency` Hz, `contact_ratio`, `double`, `single` N/m, (`leaving` N/m, `error`, `next_error` m)
+//! |
 //! | `[link.teeth]` | as `spur`, by the angle of the coordinate `of` with `count` teeth, instead of the frequency |
 //! | `[link.harmonics]` | `frequency` Hz, (`stiffness`, `error`) as rows of order, cosine, sine |
 //! | `[[friction]]` | `on` or `between`, `torque`, (`breakaway`, `surface`) |
@@ -61,6 +67,7 @@ use std::path::Path;
 use toml::de::DeTable;
 
 use super::diagnostic::Diagnostic;
+use super::element::signed_ratio;
 use super::engine::Engine;
 use super::excitation::{Excitation, Running, excitations};
 use super::quantity::Quantity;
@@ -69,9 +76,9 @@ use super::referred::referred;
 use super::source::Source;
 use super::table::Table;
 use driveline_solver::plant::train::{
-    Coordinate, Crank, FourBar, Friction, Harmonic, Link, Motion, Orders, Source as Torque, Train, Variation,
+    Coordinate, Crank, FourBar, Friction, Harmonic, Link, Motion, Orders, Source as Torque, SpurBearing, SpurPair,
+    SpurWheel, Teeth, Toggle, Train, Variation, Waveform, rubbing,
 };
-use driveline_solver::plant::train::{Teeth, Waveform};
 use driveline_solver::plant::{LoadProgram, Place, PlantError};
 
 /// Most lines that a run may have.
@@ -107,6 +114,10 @@ pub struct TrainFile {
     pub time: f64,
     /// s.
     pub step: f64,
+    /// Coordinates whose mechanism rubs, which may only turn forwards.
+    pub forwards: Vec<usize>,
+    /// The same machine without its dampers, where it has some.
+    pub without_dampers: Option<Box<Self>>,
     /// The coordinate whose steady cycle is wanted, and its turns.
     pub cycle: Option<(usize, u32)>,
     /// Why a run of this length cannot be solved, where the train is too stiff for it; its modes can be found all the
@@ -126,7 +137,8 @@ impl TrainFile {
 
 /// Whether a text holds coordinates and links, and not elements. A text that is not TOML holds neither.
 pub fn is_train(text: &str) -> bool {
-    DeTable::parse(text).is_ok_and(|table| table.get_ref().iter().any(|(name, _)| name.get_ref() == "coordinate"))
+    let is_own = |name: &str| name == "coordinate" || name == "spur_pair";
+    DeTable::parse(text).is_ok_and(|table| table.get_ref().iter().any(|(name, _)| is_own(name.get_ref())))
 }
 
 /// Reads a train from a file.
@@ -150,6 +162,8 @@ pub fn parse_train_for_modes(name: &str, text: &str) -> Result<TrainFile, Diagno
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Asked {
     Run,
+    /// The run without the dampers of its elements.
+    Undamped,
     Modes,
 }
 
@@ -167,7 +181,8 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     let table: &DeTable<'_> = parsed.get_ref();
     let mut root = Table::root(source, table);
     let title = named(source, &mut root)?;
-    let mut file = Reading { names: Vec::new(), ways: Vec::new(), links: Vec::new(), static_force: Vec::new() };
+    let mut file = Reading::default();
+    let mut dampers = Vec::new();
     let (mut coordinates, mut links) = (Vec::new(), Vec::new());
     let (mut places, mut link_places) = (Vec::new(), Vec::new());
     // of elements, which become coordinates and links by their labels
@@ -206,8 +221,14 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         for (on, torque) in machine.engine.iter().flat_map(Engine::sources) {
             coordinates[on] = coordinates[on].clone().source(torque);
         }
+        for (on, law) in machine.engine.iter().flat_map(Engine::laws) {
+            coordinates[on] = coordinates[on].clone().inertia_law(law);
+        }
+        if asked != Asked::Undamped {
+            dampers = machine.damper_parts(coordinates.len());
+        }
     } else {
-        let tables = root.tables("coordinate")?;
+        let tables = if root.has("spur_pair") { root.tables_if("coordinate", "")? } else { root.tables("coordinate")? };
         if let Some((place, _)) = tables.get(COORDINATES) {
             let (found, expected) = (format!("{} coordinates", tables.len()), format!("at most {COORDINATES}"));
             return Err(Diagnostic::at(source, place.clone(), "coordinate", found, expected));
@@ -216,8 +237,15 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             coordinates.push(file.coordinate(table)?);
             places.push(place);
         }
+        for (place, table) in root.tables_if("spur_pair", "spur pair")? {
+            let (own, held) = file.spur_pair(table)?;
+            places.extend(std::iter::repeat_n(place.clone(), own.len()));
+            link_places.extend(std::iter::repeat_n(place, held.len()));
+            coordinates.extend(own);
+            links.extend(held);
+        }
     }
-    let chained = links.len();
+    let chained = links.len() - link_places.len();
     for (place, table) in root.tables_if("link", "link")? {
         links.push(file.link(table)?);
         link_places.push(place);
@@ -236,12 +264,32 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     for (_, table) in root.tables_if("friction", "friction")? {
         train = train.friction(file.friction(table)?);
     }
+    // no other table can name them
+    let is_damped = !dampers.is_empty();
+    for part in dampers {
+        train = train.coordinate(part.ring);
+        file.names.push(part.name.clone());
+        if let Some(link) = part.link {
+            train = train.link(link);
+            file.links.push(part.name);
+            file.static_force.push(None);
+        }
+        train = part.friction.into_iter().fold(train, Train::friction);
+    }
+    // a mass of several elements is called by all of them
+    let element_of = |name: &str| {
+        let element = labels.iter().position(|label| name.split(" + ").any(|one| one == label));
+        element.and_then(|at| element_places.get(at)).cloned()
+    };
     // what the solver refuses is told at the table that it is about
     let refused = |error: PlantError, otherwise: std::ops::Range<usize>| {
         let place = match &error {
             PlantError::Parameter { place, .. } | PlantError::TimesNotIncreasing { place, .. } => match place {
-                Place::Node(j) => places.get(*j).cloned(),
-                Place::Shaft(l) => l.checked_sub(chained).and_then(|own| link_places.get(own)).cloned(),
+                Place::Node(j) => places.get(*j).cloned().or_else(|| element_of(file.names.get(*j)?)),
+                Place::Shaft(l) => {
+                    let own = l.checked_sub(chained).and_then(|own| link_places.get(own));
+                    own.cloned().or_else(|| element_of(file.links.get(*l)?))
+                }
             },
             PlantError::Count { .. } => None,
         };
@@ -289,15 +337,15 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             Place::Node(j) => &file.names[j],
             Place::Shaft(l) => &file.links[l],
         };
-        // a mass of several elements is called by all of them
-        let element = labels.iter().position(|label| name.split(" + ").any(|one| one == label));
-        let span = element.and_then(|at| element_places.get(at)).or(match place {
+        let own = match place {
             Place::Node(j) => places.get(j),
             Place::Shaft(l) => l.checked_sub(chained).and_then(|own| link_places.get(own)),
-        });
-        Diagnostic::at(source, span.unwrap_or(&whole).clone(), name.clone(), found, expected)
+        };
+        let span = element_of(name).or(own.cloned()).unwrap_or_else(|| whole.clone());
+        Diagnostic::at(source, span, name.clone(), found, expected)
     });
-    let Reading { names, links, static_force, .. } = file;
+    let without_dampers = if is_damped { Some(Box::new(parse(name, text, Asked::Undamped)?)) } else { None };
+    let Reading { names, links, static_force, forwards, .. } = file;
     Ok(TrainFile {
         name: title,
         coordinates: names,
@@ -307,6 +355,8 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         motion,
         time,
         step,
+        forwards,
+        without_dampers,
         cycle,
         running,
         excitations,
@@ -356,12 +406,15 @@ fn said(error: &PlantError) -> (String, String) {
 }
 
 /// The names read so far.
+#[derive(Default)]
 struct Reading {
     names: Vec<String>,
     /// Of each coordinate, the way of the slider (m) or the angle of the rocker (rad) by its own angle.
     ways: Vec<Option<Orders>>,
     links: Vec<String>,
     static_force: Vec<Option<f64>>,
+    /// Coordinates whose mechanism rubs.
+    forwards: Vec<usize>,
 }
 
 impl Reading {
@@ -371,10 +424,11 @@ impl Reading {
             .speed(table.number_or("speed", Quantity::ANY, 0.0)?)
             .angle(table.number_or("angle", Quantity::ANY, 0.0)?)
             .viscous(table.number_or("viscous", Quantity::DAMPER, 0.0)?);
-        let mut way = None;
+        let (mut way, mut friction) = (None::<Orders>, 0.0);
         let mut law = Vec::new();
-        if table.has("crank") && table.has("four_bar") {
-            return Err(table.wrong("four_bar", "one of `crank` and `four_bar`"));
+        let mechanisms = ["crank", "four_bar", "toggle", "cam"].into_iter().filter(|key| table.has(key));
+        if let Some(second) = mechanisms.collect::<Vec<_>>().get(1) {
+            return Err(table.wrong(second, "one of `crank`, `four_bar`, `toggle` and `cam`"));
         }
         if let Some(mut crank) = table.table_if("crank")? {
             let radius = crank.number("radius", Quantity::DIAMETER)?;
@@ -389,19 +443,42 @@ impl Reading {
                 rod_centre: crank.number_or("rod_centre", one, 0.3)?,
                 ..Crank::new(radius, rod, crank.number("slider_mass", Quantity::SIZE)?)
             });
+            friction = crank.number_or("friction", Quantity::SIZE, 0.0)?;
             crank.finish()?;
             let reach = move |angle: f64| (rod * rod - (radius * angle.sin()).powi(2)).sqrt();
             way = Some(Orders::sampled(|angle| radius * angle.cos() + reach(angle)));
-        } else if let Some(bars) = table.table_if("four_bar")? {
-            let (inertia, rocker) = four_bar(bars)?;
-            (law, way) = (inertia.0, Some(rocker));
+        } else if let Some(mut four) = table.table_if("four_bar")? {
+            let (bars, parts) = four_bar(&mut four)?;
+            let rocker = Orders::sampled(|angle| bars.angles(angle)[1]);
+            law = inertia(&four, "crank", &parts, &rocker)?;
+            (way, friction) = (Some(rocker), four.number_or("friction", Quantity::SIZE, 0.0)?);
+            four.finish()?;
+        } else if let Some(mut knee) = table.table_if("toggle")? {
+            let (bars, mut parts) = four_bar(&mut knee)?;
+            let link = knee.number("link", Quantity::DIAMETER)?;
+            if link <= bars.rocker {
+                return Err(knee.wrong("link", "more than the rocker"));
+            }
+            let direction = knee.number("direction", Quantity::DIRECTION)?;
+            let toggle = Toggle { bars, link, direction };
+            let slider = Orders::sampled(|angle| toggle.way(angle));
+            parts.push((knee.number("slider_mass", Quantity::SIZE)?, slider.clone()));
+            law = inertia(&knee, "crank", &parts, &slider)?;
+            (way, friction) = (Some(slider), knee.number_or("friction", Quantity::SIZE, 0.0)?);
+            knee.finish()?;
+        } else if let Some(mut cam) = table.table_if("cam")? {
+            let follower = Orders::of(&even(&mut cam, "lift", Quantity::LIFT)?);
+            let mass = cam.number("mass", Quantity::SIZE)?;
+            law = inertia(&cam, "lift", &[(mass, follower.clone())], &follower)?;
+            (way, friction) = (Some(follower), cam.number_or("friction", Quantity::SIZE, 0.0)?);
+            cam.finish()?;
+        }
+        if let Some(way) = way.as_ref().filter(|_| friction > 0.0) {
+            coordinate = rubbing(way, friction).into_iter().fold(coordinate, Coordinate::source);
+            self.forwards.push(self.names.len());
         }
         if table.has("inertia_table") {
-            let values = table.numbers("inertia_table", Quantity::SIZE)?;
-            if values.len() < 3 || values.len() % 2 == 0 || values.len() > 1001 {
-                return Err(table.wrong("inertia_table", "an odd number of values at even angles of a turn, 3 to 1001"));
-            }
-            law.extend(Orders::of(&values).0);
+            law.extend(Orders::of(&even(&mut table, "inertia_table", Quantity::SIZE)?).0);
         }
         if !law.is_empty() {
             coordinate = coordinate.inertia_law(Orders(law));
@@ -447,11 +524,7 @@ impl Reading {
             Link::new(&terms, stiffness)
         } else {
             let (one, other) = self.pair(&mut table)?;
-            let ratio = table.number_or("ratio", Quantity::ANY, 1.0)?;
-            if !Quantity::RATIO.allows(ratio.abs()) {
-                let expected = "a number, 1e-6 to 1e6, negative where the two turn against each other";
-                return Err(table.wrong("ratio", expected));
-            }
+            let ratio = if table.has("ratio") { signed_ratio(&mut table)? } else { 1.0 };
             Link::geared(one, other, ratio, stiffness)
         };
         let efficiency = table.number_or("efficiency", Quantity::EFFICIENCY, 1.0)?;
@@ -464,30 +537,35 @@ impl Reading {
         if table.flag_or("rope", false)? {
             link = link.rope();
         }
+        if let Some(variation) = self.variation(&mut table)? {
+            link = link.varying(variation);
+        }
+        let held = if table.has("static") { Some(table.number("static", Quantity::ANY)?) } else { None };
+        table.finish()?;
+        self.links.push(name);
+        self.static_force.push(held);
+        Ok(link)
+    }
+
+    /// How the stiffness of a mesh changes: `spur`, `teeth` or `harmonics`.
+    fn variation(&self, table: &mut Table<'_>) -> Result<Option<Variation>, Diagnostic> {
+        let mut found = None;
         if let Some(mut spur) = table.table_if("spur")? {
-            let ratio = Quantity { least: 1.0, most: 2.0, ..Quantity::RATIO };
-            let contact = spur.number("contact_ratio", ratio)?;
-            if contact <= 1.0 || contact >= 2.0 {
-                return Err(spur.wrong("contact_ratio", "a number between 1 and 2"));
-            }
+            let (contact, [double, leaving, single], errors) = pairs(&mut spur)?;
             let frequency = spur.number("frequency", Quantity::FREQUENCY)?;
-            let (double, single) = (spur.number("double", Quantity::SPRING)?, spur.number("single", Quantity::SPRING)?);
-            let error = spur.number_or("error", Quantity::ANY, 0.0)?;
-            link = link.varying(Variation::spur(contact, frequency, double, single, error));
+            found = Some(Variation::pairs(contact, frequency, [double, leaving], single, errors));
             spur.finish()?;
         }
         if let Some(mut mesh) = table.table_if("teeth")? {
-            let ratio = mesh.number("contact_ratio", Quantity { least: 1.0, most: 2.0, ..Quantity::RATIO })?;
-            if ratio <= 1.0 || ratio >= 2.0 {
-                return Err(mesh.wrong("contact_ratio", "a number between 1 and 2"));
-            }
-            link = link.varying(Variation::Teeth(Teeth {
+            let (contact_ratio, [double, leaving, single], errors) = pairs(&mut mesh)?;
+            found = Some(Variation::Teeth(Teeth {
                 coordinate: self.named(&mut mesh, "of")?,
                 count: mesh.number("count", Quantity { whole: true, least: 1.0, ..Quantity::ORDER })?,
-                contact_ratio: ratio,
-                double: mesh.number("double", Quantity::SPRING)?,
-                single: mesh.number("single", Quantity::SPRING)?,
-                error: mesh.number_or("error", Quantity::ANY, 0.0)?,
+                contact_ratio,
+                double,
+                single,
+                leaving,
+                errors,
             }));
             mesh.finish()?;
         }
@@ -495,14 +573,44 @@ impl Reading {
             let frequency = swing.number("frequency", Quantity::FREQUENCY)?;
             let stiffness = if swing.has("stiffness") { harmonics(&mut swing, "stiffness")? } else { Vec::new() };
             let error = if swing.has("error") { harmonics(&mut swing, "error")? } else { Vec::new() };
-            link = link.varying(Variation::Harmonics { frequency, stiffness, error });
+            found = Some(Variation::Harmonics { frequency, stiffness, error });
             swing.finish()?;
         }
-        let held = if table.has("static") { Some(table.number("static", Quantity::ANY)?) } else { None };
+        Ok(found)
+    }
+
+    /// A spur pair on shafts and bearings: its fourteen coordinates and thirteen links.
+    fn spur_pair(&mut self, mut table: Table<'_>) -> Result<(Vec<Coordinate>, Vec<Link>), Diagnostic> {
+        let name = fresh(&mut table, &self.links)?;
+        let first = self.names.len();
+        for wheel in ["pinion", "wheel"] {
+            let body = format!("{name} {wheel}");
+            let bearings = [1, 2].map(|bearing| ["Y", "X"].map(|way| format!("{body} bearing {bearing} {way}")));
+            self.names.extend([format!("{body} Y"), format!("{body} X"), body]);
+            self.names.extend(bearings.into_iter().flatten());
+        }
+        self.ways.resize(self.names.len(), None);
+        let [pinion, wheel] = ["pinion", "wheel"].map(|key| table.table(key).and_then(spur_wheel));
+        let pair = SpurPair {
+            pinion: pinion?,
+            wheel: wheel?,
+            mesh_stiffness: table.number("mesh_stiffness", Quantity::BEARING)?,
+            mesh_damping: table.number_or("mesh_damping", Quantity::BEARING_DAMPING, 0.0)?,
+            variation: self.variation(&mut table)?,
+            gap: table.number_or("gap", Quantity::BORE, 0.0)?,
+            torque: 0.0,
+        };
         table.finish()?;
-        self.links.push(name);
-        self.static_force.push(held);
-        Ok(link)
+        self.links.push(name.clone());
+        for wheel in ["pinion", "wheel"] {
+            self.links.extend(["Y", "X"].map(|way| format!("{name} {wheel} shaft {way}")));
+            let bearings =
+                [1, 2].map(|bearing| ["Y", "X"].map(|way| format!("{name} {wheel} bearing {bearing} {way}")));
+            self.links.extend(bearings.into_iter().flatten());
+        }
+        let (coordinates, links) = pair.parts(first);
+        self.static_force.resize(self.static_force.len() + links.len(), None);
+        Ok((coordinates, links))
     }
 
     fn friction(&self, mut table: Table<'_>) -> Result<Friction, Diagnostic> {
@@ -564,27 +672,25 @@ impl Reading {
                 let torque = any(&mut table, "torque")?;
                 let turns = table.number_or("turns", Quantity::TURNS, 1.0)? as u32;
                 let turn = Quantity { most: TAU * f64::from(turns), ..Quantity::SIZE };
-                let (from, to) = (table.number("from", turn)?, table.number("to", turn)?);
-                if turns == 1 {
+                let (from, to) = (table.number("from", turn)?, arc_end(&mut table, turn)?);
+                if turns == 1 && to > from {
                     Torque::Arc { torque, from, to }
                 } else {
                     let constant = Harmonic { order: 0.0, cosine: torque, sine: 0.0 };
+                    let to = if to > from { to } else { to + turn.most };
                     Torque::Stroke { torque: Orders(vec![constant]), from, to, turns }
                 }
             }
             "stroke" => {
                 let force = any(&mut table, "force")?;
                 let Some(way) = &self.ways[on] else {
-                    return Err(table.wrong("on", "a coordinate with a `crank` or a `four_bar`"));
+                    return Err(table.wrong("on", "a coordinate with a `crank`, a `four_bar`, a `toggle` or a `cam`"));
                 };
                 let torque = way.slope().times(force);
                 if table.has("from") || table.has("to") {
                     let turn = Quantity { most: TAU, ..Quantity::SIZE };
-                    let (from, to) = (table.number("from", turn)?, table.number("to", turn)?);
-                    if to <= from {
-                        return Err(table.wrong("to", "an angle beyond `from`: a stroke does not pass angle 0"));
-                    }
-                    Torque::Stroke { torque, from, to, turns: 1 }
+                    let (from, to) = (table.number("from", turn)?, arc_end(&mut table, turn)?);
+                    Torque::Stroke { torque, from, to: if to > from { to } else { to + TAU }, turns: 1 }
                 } else {
                     Torque::Orders(torque.0)
                 }
@@ -597,8 +703,71 @@ impl Reading {
     }
 }
 
-/// The inertia (kg m2) of a four-bar by the angle of its crank, and the angle (rad) of its rocker.
-fn four_bar(mut table: Table<'_>) -> Result<(Orders, Orders), Diagnostic> {
+/// Where an arc ends, which is not where it begins; before it where it passes the angle zero.
+fn arc_end(table: &mut Table<'_>, turn: Quantity) -> Result<f64, Diagnostic> {
+    let (from, to) = (table.number("from", turn)?, table.number("to", turn)?);
+    let differs = to != from && (to - from).abs() != turn.most;
+    if differs { Ok(to) } else { Err(table.wrong("to", "another angle than `from`")) }
+}
+
+/// Values at even angles of a turn, the first at zero.
+fn even(table: &mut Table<'_>, key: &'static str, quantity: Quantity) -> Result<Vec<f64>, Diagnostic> {
+    let values = table.numbers(key, quantity)?;
+    if values.len() < 3 || values.len() % 2 == 0 || values.len() > 1001 {
+        return Err(table.wrong(key, "an odd number of values at even angles of a turn, 3 to 1001"));
+    }
+    Ok(values)
+}
+
+/// Contact ratio of a mesh; stiffness of both pairs, of the one that leaves, and of one pair alone; errors of one pair
+/// and the next.
+fn pairs(table: &mut Table<'_>) -> Result<(f64, [f64; 3], [f64; 2]), Diagnostic> {
+    let contact = table.number("contact_ratio", Quantity { least: 1.0, most: 2.0, ..Quantity::RATIO })?;
+    if contact <= 1.0 || contact >= 2.0 {
+        return Err(table.wrong("contact_ratio", "a number between 1 and 2"));
+    }
+    let (double, single) = (table.number("double", Quantity::SPRING)?, table.number("single", Quantity::SPRING)?);
+    let leaving = table.number_or("leaving", Quantity::SPRING, 0.5 * double)?;
+    if leaving > double {
+        return Err(table.wrong("leaving", "at most `double`, the stiffness of both pairs"));
+    }
+    let errors = [table.number_or("error", Quantity::ANY, 0.0)?, table.number_or("next_error", Quantity::ANY, 0.0)?];
+    Ok((contact, [double, leaving, single], errors))
+}
+
+/// A wheel of a spur pair with its shaft and its bearings.
+fn spur_wheel(mut table: Table<'_>) -> Result<SpurWheel, Diagnostic> {
+    let two = |table: &mut Table<'_>, key: &'static str, quantity: Quantity| {
+        let values = table.numbers(key, quantity)?;
+        <[f64; 2]>::try_from(values).map_err(|_| table.wrong(key, "two numbers, one for each bearing"))
+    };
+    let two_or = |table: &mut Table<'_>, key: &'static str| {
+        if table.has(key) { two(table, key, Quantity::BEARING_DAMPING) } else { Ok([0.0; 2]) }
+    };
+    let (masses, levers) =
+        (two(&mut table, "bearing_mass", Quantity::MASS)?, two(&mut table, "lever", Quantity::LENGTH)?);
+    let stiffness =
+        [two(&mut table, "stiffness_y", Quantity::BEARING)?, two(&mut table, "stiffness_x", Quantity::BEARING)?];
+    let damping = [two_or(&mut table, "damping_y")?, two_or(&mut table, "damping_x")?];
+    let wheel = SpurWheel {
+        mass: table.number("mass", Quantity::MASS)?,
+        inertia: table.number("inertia", Quantity::INERTIA)?,
+        base_radius: table.number("base_radius", Quantity::DIAMETER)?,
+        shaft_stiffness: table.number("shaft_stiffness", Quantity::BEARING)?,
+        shaft_damping: table.number_or("shaft_damping", Quantity::BEARING_DAMPING, 0.0)?,
+        bearings: [0, 1].map(|bearing| SpurBearing {
+            mass: masses[bearing],
+            lever: levers[bearing],
+            stiffness: stiffness.map(|both| both[bearing]),
+            damping: damping.map(|both| both[bearing]),
+        }),
+    };
+    table.finish()?;
+    Ok(wheel)
+}
+
+/// The bars of a four-bar, and what moves with them: masses (kg) on ways (m), inertias (kg m2) on angles (rad).
+fn four_bar(table: &mut Table<'_>) -> Result<(FourBar, Vec<(f64, Orders)>), Diagnostic> {
     let bars = FourBar {
         crank: table.number("crank", Quantity::DIAMETER)?,
         coupler: table.number("coupler", Quantity::DIAMETER)?,
@@ -616,14 +785,18 @@ fn four_bar(mut table: Table<'_>) -> Result<(Orders, Orders), Diagnostic> {
     let [coupler, rocker] = [0, 1].map(|bar| Orders::sampled(|angle| bars.angles(angle)[bar]));
     let x = Orders::sampled(|angle| bars.crank * angle.cos() + centre * bars.angles(angle)[0].cos());
     let y = Orders::sampled(|angle| bars.crank * angle.sin() + centre * bars.angles(angle)[0].sin());
-    let moved = [(mass, &x), (mass, &y), (coupler_inertia, &coupler), (rocker_inertia, &rocker)];
+    Ok((bars, vec![(mass, x), (mass, y), (coupler_inertia, coupler), (rocker_inertia, rocker)]))
+}
+
+/// The inertia (kg m2) of a mechanism by the angle of its crank.
+fn inertia(table: &Table<'_>, key: &str, parts: &[(f64, Orders)], way: &Orders) -> Result<Vec<Harmonic>, Diagnostic> {
+    let moved: Vec<(f64, &Orders)> = parts.iter().map(|(mass, way)| (*mass, way)).collect();
     let inertia = Orders::inertia(&moved);
-    if [&rocker, &inertia].into_iter().flat_map(|orders| &orders.0).any(|harmonic| harmonic.cosine.is_nan()) {
+    if [way, &inertia].into_iter().flat_map(|orders| &orders.0).any(|harmonic| harmonic.cosine.is_nan()) {
         let expected = "bars that are not so near to lying in one line: their motion has more than 2,000 orders";
-        return Err(table.wrong("crank", expected));
+        return Err(table.wrong(key, expected));
     }
-    table.finish()?;
-    Ok((inertia, rocker))
+    Ok(inertia.0)
 }
 
 fn harmonics(table: &mut Table<'_>, key: &'static str) -> Result<Vec<Harmonic>, Diagnostic> {

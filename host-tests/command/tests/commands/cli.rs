@@ -162,14 +162,14 @@ fn an_unstable_loop_is_said_and_not_emitted() {
 fn a_fault_in_a_file_ends_with_2_and_shows_the_line() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("bad.toml");
-    std::fs::write(&file, std::fs::read_to_string(HOIST).unwrap().replace("ratio = 31.5", "ratio = -31.5")).unwrap();
+    std::fs::write(&file, std::fs::read_to_string(HOIST).unwrap().replace("ratio = 31.5", "ratio = 0.0")).unwrap();
     for command in ["modes", "design"] {
         let output = driveline(&[command, file.to_str().unwrap()]);
         assert_eq!(output.status.code(), Some(2));
         assert!(out(&output).is_empty());
         let shown = err(&output);
-        assert!(shown.starts_with("error: ") && shown.contains("`element[3].ratio`: found -31.5, expected"), "{shown}");
-        assert!(shown.contains("^^^^^"), "{shown}");
+        assert!(shown.starts_with("error: ") && shown.contains("`element[3].ratio`: found 0.0, expected"), "{shown}");
+        assert!(shown.contains("^^^"), "{shown}");
     }
     let output = driveline(&["modes", file.to_str().unwrap(), "--json"]);
     assert_eq!(output.status.code(), Some(2));

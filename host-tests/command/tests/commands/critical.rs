@@ -76,3 +76,28 @@ fn modes_of_a_closed_ring_are_those_of_the_closed_form() {
     }
     assert!(found["resonances"].as_array().unwrap().len() == 2 && page.contains("<svg"));
 }
+
+/// Ten percent either side of each critical speed, joined where they meet, up to the largest running speed.
+#[test]
+fn barred_speeds_are_printed() {
+    let omega = 600.0_f64.sqrt();
+    let excited = "[[excitation]]\nname = \"motor\"\norders = [1, 1.15, 2]\n";
+    let text = format!("{ELEMENTS}[running]\nleast = 5.0\ngreatest = {}\n{excited}", 0.95 * omega);
+    let (found, page) = modes(&text, true);
+    let ranges: Vec<f64> = found["barred"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .flat_map(|range| [&range[0], &range[1]])
+        .map(|edge| edge.as_f64().unwrap())
+        .collect();
+    // 1/1.15 and 1 of omega lie within a tenth of each other
+    let expected = [0.45 * omega, 0.55 * omega, 0.9 / 1.15 * omega, 1.1 * omega];
+    assert_eq!(ranges.len(), 4, "{ranges:?}");
+    for (edge, expected) in ranges.iter().zip(expected) {
+        // eigenvalues of two masses, to rounding
+        assert!((edge / expected - 1.0).abs() < 1e-13, "{ranges:?}");
+    }
+    assert!(page.contains("Barred speeds"));
+    assert!(modes(ELEMENTS, false).0["barred"].as_array().unwrap().is_empty());
+}

@@ -146,7 +146,9 @@ fn damping_of_the_machine_limits_its_response_without_a_damper() {
 #[test]
 fn wrong_dampers_are_refused_at_their_place() {
     for (keys, key, expected) in [
-        ("kind = \"friction\"\n", "damper[0].kind", "\"viscous\""),
+        ("kind = \"loose\"\n", "damper[0].kind", "\"viscous\", \"friction\""),
+        ("kind = \"friction\"\n", "damper[0].excitation", "a number"),
+        ("kind = \"absorber\"\nmode = 1\nfrequency = 10\n", "damper[0].mode", "only"),
         ("kind = \"tuned\"\nmode = 2\n", "damper[0].mode", "mode of the machine, 1 to 1"),
         ("kind = \"viscous\"\nstiffness = 3\n", "damper[0].stiffness", "only"),
     ] {
@@ -155,4 +157,156 @@ fn wrong_dampers_are_refused_at_their_place() {
     }
     let fault = parse("damped", &machine("kind = \"tuned\"\n").replace("at = \"load\"", "at = \"ring\"")).unwrap_err();
     assert!(fault.key == "damper[0].at" && fault.expected.contains("\"load\""), "{}", fault.explained());
+}
+
+/// Friction damper, absorber and pendulum: their sizes by the closed forms, each on its own shaft behind the gear.
+#[test]
+fn friction_dampers_absorbers_and_pendulums_have_their_sizes() {
+    let omega = f64::sqrt(STIFFNESS * 5.0 / 6.0);
+    let mu = RING / 4.0 / 7.5;
+    let main = 7.5 * omega * omega;
+    // sqrt(2)/pi J w^2 phi with phi = pi^2/(4 mu) of the static angle, at the motor; twice that behind the gear
+    let (pi, excitation) = (std::f64::consts::PI, 3.0);
+    let angle = 0.25 * pi * pi / mu * 0.5 * excitation / main;
+    let torque = 2.0 * 2.0_f64.sqrt() / pi * RING / 4.0 * omega * omega * angle;
+    let close = |found: &Value, expected: f64| {
+        // modes to rounding
+        assert!((number(found) / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    };
+    let (found, page) = modes(&machine("kind = \"friction\"\nexcitation = 3.0\n"), true);
+    let damper = &found["dampers"][0];
+    close(&damper["friction"], torque);
+    close(&damper["fixed_amplitude"], 0.25 * pi * pi / mu);
+    close(&damper["with"], 0.25 * pi * pi / mu / main);
+    assert!(page.contains("friction"), "{page}");
+    // a load of its own: what the shaft of the motor and the load give without the ring
+    let (found, _) = modes(&machine("kind = \"absorber\"\nfrequency = 22.0\n"), false);
+    let damper = &found["dampers"][0];
+    let swung = 22.0 * std::f64::consts::TAU;
+    close(&damper["stiffness"], RING * swung * swung);
+    let bare = |omega: f64| {
+        let shaft = STIFFNESS * MOTOR * omega * omega / (STIFFNESS - MOTOR * omega * omega);
+        1.0 / (LOAD / 4.0 * omega * omega + shaft).abs()
+    };
+    close(&damper["without"], bare(swung));
+    // it stands still but for rounding
+    assert!(number(&damper["with"]) < 1e-12 * bare(swung) && damper["mode"].is_null(), "{damper}");
+    let pendulum = machine("kind = \"pendulum\"\nmass = 0.9\nradius = 0.12\norder = 1.5\nspeed = 80.0\n");
+    let (found, _) = modes(&pendulum.replace("inertia = 0.8\n", ""), false);
+    let damper = &found["dampers"][0];
+    let length = 0.12 / 2.25;
+    close(&damper["length"], length);
+    close(&damper["hz"], 1.5 * 80.0 / std::f64::consts::TAU);
+    close(&damper["stiffness"], 0.9 * (0.12_f64 + length).powi(2) * 120.0 * 120.0);
+    close(&damper["swing"], 1.0 / (0.9 * 0.12 * (0.12 + length) * 6400.0));
+    close(&damper["without"], bare(120.0));
+    assert!(number(&damper["with"]) < 1e-12 * bare(120.0), "{damper}");
+}
+
+/// Of every kind the run has the ring, and shows the forces without it. The load's swing under a sine is that of the
+/// three equations of motion; the absorber leaves none.
+#[test]
+fn a_run_with_a_damper_has_the_response_of_the_equations() {
+    use std::f64::consts::PI;
+    let omega = f64::sqrt(STIFFNESS * 5.0 / 6.0);
+    let run = |keys: &str, frequency: f64, time: f64| {
+        // the first term of a square of height pi/4 is a sine of one; the ground damps what is left of the start
+        let torque = format!(
+            "[[torque]]\non = \"load\"\nkind = \"square\"\nheight = {}\nperiod = {}\nterms = 1\n\
+             [run]\ntime = {time}\nstep = 1e-3\n",
+            0.25 * PI,
+            2.0 * PI / frequency
+        );
+        let text = machine(keys).replace("inertia = 12\n", "inertia = 12\nviscous = 40\n");
+        assert!(text.contains("viscous"), "{text}");
+        let text = text.replace("kind = \"motor\"\n", "kind = \"motor\"\nviscous = 12\n");
+        // a pendulum has its inertia by its size
+        let text = if keys.contains("pendulum") { text.replace("inertia = 0.8\n", "") } else { text };
+        cargo_driveline::machine_file::parse_train("damped", &format!("{text}{torque}")).unwrap()
+    };
+    // everything at the motor: motor, load, ring
+    let closed = |[stiffness, damping]: [f64; 2], omega: f64| {
+        let s = Complex::new(0.0, omega);
+        let coupling = s * damping / 4.0 + stiffness / 4.0;
+        let zero = Complex::from(0.0);
+        let matrix = Matrix3::new(
+            s * s * MOTOR + s * 12.0 + STIFFNESS,
+            Complex::from(-STIFFNESS),
+            zero,
+            Complex::from(-STIFFNESS),
+            s * s * LOAD / 4.0 + s * 10.0 + STIFFNESS + coupling,
+            -coupling,
+            zero,
+            -coupling,
+            s * s * RING / 4.0 + coupling,
+        );
+        matrix.lu().solve(&Vector3::new(zero, Complex::from(1.0), zero)).expect("damped")[1].norm()
+    };
+    let mu = RING / 4.0 / 7.5;
+    let tuned = omega / (1.0 + mu);
+    let best = [RING * tuned * tuned, 2.0 * RING * tuned * f64::sqrt(3.0 * mu / (8.0 * (1.0 + mu)))];
+    let lanchester = [0.0, 2.0 * RING * omega / f64::sqrt(2.0 * (1.0 + mu) * (2.0 + mu))];
+    let absorber = RING * (120.0_f64).powi(2);
+    let pendulum = "kind = \"pendulum\"\nmass = 3.2\nradius = 0.4\nlength = 0.1\norder = 2\nspeed = 60\n";
+    for (keys, sizes, frequency) in [
+        ("kind = \"tuned\"\n".to_owned(), best, 0.95 * omega),
+        ("kind = \"viscous\"\n".to_owned(), lanchester, omega),
+        (format!("kind = \"absorber\"\nfrequency = {}\n", 120.0 / (2.0 * PI)), [absorber, 0.0], 130.0),
+        (pendulum.to_owned(), [0.8 * 120.0 * 120.0, 0.0], 135.0),
+    ] {
+        let file = run(&keys, frequency, 1.0);
+        assert_eq!(file.coordinates.last().map(String::as_str), Some("damper of load"));
+        let mut motion = file.motion.clone();
+        motion.advance(120.0);
+        // speed over two periods by its Fourier coefficient
+        let (mut sum, count) = (Complex::from(0.0), 400);
+        for _ in 0..count {
+            motion.advance(4.0 * PI / frequency / f64::from(count));
+            sum += Complex::new(0.0, -frequency * motion.time()).exp() * motion.speed(1);
+        }
+        let swing = 2.0 * sum.norm() / f64::from(count) / frequency;
+        let expected = closed(sizes, frequency);
+        assert!((swing / expected - 1.0).abs() < 1e-6, "{keys}: {swing} {expected}");
+        let bare = file.without_dampers.unwrap();
+        assert_eq!((bare.coordinates.len(), bare.links.len()), (2, 1));
+    }
+    // at the frequency of the absorber the load stands still
+    let file = run(&format!("kind = \"absorber\"\nfrequency = {}\n", 120.0 / (2.0 * PI)), 120.0, 1.0);
+    let mut motion = file.motion.clone();
+    motion.advance(200.0);
+    let least = (0..200).map(|_| {
+        motion.advance(1e-3);
+        motion.speed(1).abs()
+    });
+    assert!(least.fold(0.0, f64::max) < 1e-9 * 120.0 * closed([0.0, 0.0], 120.0));
+}
+
+/// A friction damper in a run: proven, and at the natural frequency it holds the load to about the closed form, whose
+/// ring slips all the time under a pure sine.
+#[test]
+fn a_friction_damper_holds_the_load_in_a_run() {
+    use std::f64::consts::PI;
+    let omega = f64::sqrt(STIFFNESS * 5.0 / 6.0);
+    let text = machine("kind = \"friction\"\nexcitation = 2.0\n")
+        + &format!(
+            "[[torque]]\non = \"load\"\nkind = \"square\"\nheight = {}\nperiod = {}\nterms = 1\n\
+             [run]\ntime = 1.5\nstep = 2e-3\n",
+            0.25 * PI,
+            2.0 * PI / omega
+        );
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("friction.toml");
+    std::fs::write(&path, text).unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let output = command.args(["simulate", path.to_str().unwrap(), "--json"]).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(number(&found["proof"][0]) <= 1e-8, "{found}");
+    let greatest = |found: &Value| number(&found["links"][0]["greatest"]);
+    // the shaft carries k psi_1/psi_2 (1 - psi_2/psi_1) of the load's swing: its twist is 2.5 times that
+    let mu = RING / 4.0 / 7.5;
+    let steady = 2.5 * STIFFNESS * 0.25 * PI * PI / mu / (7.5 * omega * omega);
+    let (with, without) = (greatest(&found), greatest(&found["without_dampers"]));
+    // without it the swing grows by t/(2 J w) for ever: 1.5 s are 43 swings, 136 times the static angle
+    assert!(with < 1.25 * steady && without > 1.2 * steady, "{with} {without} {steady}");
 }

@@ -292,3 +292,76 @@ fn a_branch_that_cannot_be_is_told_at_its_place() {
     let (key, _, text) = fault(&SHIP[start..end], "[[branch.element]]\nkind = \"gear\"\nratio = 2.0\n\n");
     assert!(key == "branch[0]" && text.contains("without a mass"), "{text}");
 }
+
+/// A shaft of its own inertia in pieces, free at both ends: each piece has half of its inertia at either end, so that
+/// the frequencies are `2 n sqrt(k/J) sin(m pi/2n)`. A section has the inertia `pi rho l (d^4 - b^4)/32`.
+#[test]
+fn shafts_have_inertia_of_their_own() {
+    use std::f64::consts::PI;
+    let (n, k, j) = (5, 4.0e4, 0.3);
+    let piece = format!("kind = \"shaft\"\nstiffness = {}\ninertia = {}", k * 5.0, j / 5.0);
+    let motor = "kind = \"motor\"\ninertia = 1e-12";
+    let bar = chain(&[motor, &piece, &piece, &piece, &piece, &piece]).unwrap();
+    for (mode, m) in bar.modes().resonances().iter().zip(1..=n) {
+        let omega = 2.0 * f64::from(n) * f64::sqrt(k / j) * (f64::from(m) * PI / f64::from(2 * n)).sin();
+        // the motor adds 3e-11 of an end's inertia
+        close(mode.frequency, omega, 1e-10);
+    }
+    let section = "kind = \"section\"\nlength = 0.6\ndiameter = 0.07\nbore = 0.03\ndensity = 7850.0";
+    let rotor = "kind = \"rotor\"\nlabel = \"roll\"\ninertia = 2.0";
+    let own = PI * 7850.0 * 0.6 * (0.07_f64.powi(4) - 0.03_f64.powi(4)) / 32.0;
+    let read = chain(&[MOTOR, section, rotor]).unwrap();
+    for (mass, expected) in read.masses().iter().zip([0.5 + 0.5 * own, 2.0 + 0.5 * own]) {
+        close(*mass, expected, 1e-14);
+    }
+    let built = Chain::motor(Inertia(0.5)).rotor(Inertia(0.2)).shaft(Stiffness(9e3), Damping(1.0)).rotor(Inertia(0.2));
+    let text = "kind = \"shaft\"\nstiffness = 9e3\ndamping = 1.0\ninertia = 0.4";
+    assert_eq!(chain(&[MOTOR, text]), Ok(built));
+    // masses of nothing but shafts have names, and a gear behind them keeps its losses
+    let gear = "kind = \"gear\"\nratio = 2.0\nefficiency = 0.9";
+    let tables: String = [MOTOR, text, text, gear, text].iter().map(|keys| format!("[[element]]\n{keys}\n")).collect();
+    let text = format!("name = \"x\"\n{tables}{SETTINGS}[run]\ntime = 0.1\nstep = 0.01\n");
+    let train = cargo_driveline::machine_file::parse_train("x.toml", &text).unwrap();
+    assert_eq!(train.coordinates, ["motor", "end of shaft", "end of shaft 2", "end of shaft 3"]);
+}
+
+/// An external gear turns the sense round: referred to the motor the machine is the same.
+#[test]
+fn an_external_gear_has_a_negative_ratio() {
+    let gear = |ratio: f64| format!("kind = \"gear\"\nratio = {ratio:?}\nefficiency = 0.97");
+    let shaft = "kind = \"shaft\"\nstiffness = 1e4";
+    let with = |ratio: f64| chain(&[MOTOR, shaft, &gear(ratio), "kind = \"rotor\"\ninertia = 3.0"]);
+    assert!(with(4.0).is_ok() && with(-4.0) == with(4.0));
+    assert_eq!(with(0.0), Err("element[2].ratio: 0.0".to_owned()));
+    assert_eq!(with(-1e7), Err("element[2].ratio: -10000000.0".to_owned()));
+}
+
+/// Damping against the ground on each shaft, in proportion to the inertia: the machine coasts as `exp(-a t)`, and every
+/// mode has the damping ratio `a/(2 w)`.
+#[test]
+fn rotors_are_damped_against_the_ground() {
+    let text = |first: f64, second: f64, torque: &str| {
+        format!(
+            "name = \"x\"\n[[element]]\nkind = \"motor\"\ninertia = 0.5\nviscous = {first:?}\n[[element]]\nkind = \
+             \"gear\"\nratio = -2.0\n[[element]]\nkind = \"shaft\"\nstiffness = 3e3\n[[element]]\nkind = \
+             \"rotor\"\ninertia = 6.0\nviscous = {second:?}\n{SETTINGS}{torque}[run]\ntime = 2.0\nstep = 0.5\n"
+        )
+    };
+    // a = 4 1/s: the masses slow down together from a torque in the ratio of their inertias
+    let torque = |on: &str, torque: f64| {
+        format!("[[torque]]\non = \"{on}\"\nkind = \"steps\"\npoints = [[0.0, {torque:?}], [1.0, 0.0]]\n")
+    };
+    let run = text(2.0, 24.0, &(torque("motor", 5.0) + &torque("rotor", 15.0)));
+    let mut motion = cargo_driveline::machine_file::parse_train("x.toml", &run).unwrap().motion;
+    motion.advance(2.0);
+    let expected = 10.0 / 4.0 * (1.0 - (-4.0_f64).exp()) * (-4.0_f64).exp();
+    for j in 0..2 {
+        // roundings of a run of two seconds
+        assert!((motion.speed(j) / expected - 1.0).abs() < 1e-11, "{} {expected}", motion.speed(j));
+    }
+    let machine = parse("x.toml", &text(2.0, 24.0, "")).unwrap();
+    assert_eq!(machine.viscous(), [2.0, 6.0]);
+    let vibration = cargo_driveline::cli::Vibration::of(&machine);
+    let omega = f64::sqrt(750.0 * (1.0 / 0.5 + 1.0 / 1.5));
+    close(vibration.resonances[0].damping_ratio, 4.0 / (2.0 * omega), 1e-13);
+}

@@ -209,3 +209,49 @@ fn the_gas_torque_does_its_work_in_a_run() {
     assert!((energy / work - 1.0).abs() < 1e-7, "{energy} {work} {phi}");
     assert!(phi > TAU, "{phi}");
 }
+
+/// Without gas an engine's reciprocating mass swings the speed of its throw as the slider of a crank drive does, whose
+/// inertia is the throw's less the mean of the slider's.
+#[test]
+fn the_mass_torque_of_an_engine_is_that_of_its_slider() {
+    let (radius, rod, mass, inertia) = (0.06_f64, 0.2_f64, 3.0, 0.05);
+    let slope = |angle: f64| {
+        let (sine, cosine) = angle.sin_cos();
+        -radius * sine - radius * radius * sine * cosine / (rod * rod - (radius * sine).powi(2)).sqrt()
+    };
+    let mean = (0..400).map(|i| mass * slope(TAU * f64::from(i) / 400.0).powi(2)).sum::<f64>() / 400.0;
+    let run = "[run]\ntime = 0.4\nstep = 0.4\n";
+    let torque = |on: &str| format!("[[torque]]\non = \"{on}\"\nkind = \"constant\"\ntorque = 4.0\n");
+    let engine = format!(
+        "[[element]]\nkind = \"motor\"\nlabel = \"throw\"\ninertia = {inertia}\n[encoder]\nlines = 2048\n[control]\n\
+         rate_hz = 10000\n[disturbance]\ntorque_accuracy = 1.0\nload_torque_step = 1.0\nwithin = 1.0\n[limits]\n\
+         torque = 100.0\nspeed = 200.0\n[engine]\nstrokes = 2\ncranks = [0]\nat = [\"throw\"]\nradius = {radius}\n\
+         rod = {rod}\nreciprocating = {mass}\nbore = 0.1\norders = [1]\npressure = [0, 0, 0, 0, 0, 0, 0, 0]\n{}{run}",
+        torque("throw")
+    );
+    let crank = format!(
+        "[[coordinate]]\nname = \"throw\"\ninertia = {:?}\n[coordinate.crank]\nradius = {radius}\nrod = {rod}\n\
+         slider_mass = {mass}\n{}{run}",
+        inertia - mean,
+        torque("throw")
+    );
+    let [mut engine, mut crank] = [engine, crank].map(|text| parse_train("throw", &text).unwrap().motion);
+    for _ in 0..40 {
+        engine.advance(0.01);
+        crank.advance(0.01);
+        let (found, expected) = (engine.speed(0), crank.speed(0));
+        // the mean by sums of 400, and the series to 1e-15
+        assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
+    }
+    assert!(engine.angle(0) > TAU, "{}", engine.angle(0));
+}
+
+/// Reciprocating masses that their throw cannot carry are refused at it.
+#[test]
+fn a_throw_lighter_than_its_slider_swings_is_refused_by_name() {
+    let text =
+        six(&engine().replace("reciprocating = 1e-9", "reciprocating = 900")) + "[run]\ntime = 0.1\nstep = 0.1\n";
+    let fault = parse_train("six", &text).unwrap_err();
+    assert!(fault.to_string().contains("law of inertia"), "{fault}");
+    assert!(text.lines().nth(fault.line - 1).is_some_and(|line| line.contains("[[element]]")), "{}", fault.line);
+}

@@ -251,7 +251,7 @@ proptest! {
     #[test]
     fn numbers_are_exact(inertia in 1e-12f64..1e12) {
         let machine = hoist_with("inertia = 0.62 ", &format!("inertia = {inertia:?} ")).unwrap();
-        prop_assert_eq!(machine.elements[0].element, Element::Motor { inertia });
+        prop_assert_eq!(machine.elements[0].element, Element::Motor { inertia, viscous: 0.0 });
         let words = machine.elements[0].element.rust();
         prop_assert_eq!(words, format!("Chain::motor(Inertia({inertia:?}))"));
     }

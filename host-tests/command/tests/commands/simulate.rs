@@ -63,6 +63,9 @@ fn the_dynamic_factor_of_a_step_is_two() {
 fn the_machines_in_the_repository_run_and_are_proven() {
     for (name, words) in [
         ("gear-pair", ["mesh", "separation"]),
+        ("spur-pair", ["mesh pinion bearing 2 X", "pump shaft"]),
+        ("two-stage", ["mesh 2", "machine shaft"]),
+        ("gear-branch", ["left mesh", "right shaft"]),
         ("hoist-start", ["rope", "ground"]),
         ("girder", ["girder spring", "contact"]),
         ("travel", ["gear", "separation"]),
@@ -387,8 +390,12 @@ fn the_steady_cycle_of_a_press_has_the_fluctuation_of_shooting() {
         let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         let delta = found["cycle"]["delta"].as_f64().unwrap();
         assert!((delta / expected - 1.0).abs() < 1e-7, "{delta} {expected}");
+        let proof = found["cycle"]["proof"].as_array().unwrap();
+        assert!(proof.iter().all(|share| share.as_f64().unwrap() <= 1e-8), "{proof:?}");
         let said = String::from_utf8(simulate(&[file.to_str().unwrap()]).stdout).unwrap();
-        assert!(said.contains("Steady cycle"), "{said}");
+        assert!(said.contains("Steady cycle") && said.contains("cycle proven: it comes back to"), "{said}");
+        let said = String::from_utf8(simulate(&[file.to_str().unwrap(), "--unproven"]).stdout).unwrap();
+        assert!(said.contains("cycle not proven: the proof was left out"), "{said}");
     }
     // without a line nothing brings it to a speed of its own
     let text = press(slider, "force = -9000.0\nfrom = 3.6\nto = 5.2\n").replace("speed = 30.0", "speed = 300.0");
@@ -410,11 +417,11 @@ fn a_mechanism_that_cannot_be_is_refused_at_its_key() {
     let inertia = "inertia = 1.0\nspeed = 30.0\n";
     let stroke = "force = -1.0\nfrom = 0.8\nto = 2.4\n";
     for (mechanism, stroke, said) in [
-        (format!("{slider}{}", bars(0.4)), stroke, "one of `crank` and `four_bar`"),
+        (format!("{slider}{}", bars(0.4)), stroke, "one of `crank`, `four_bar`, `toggle` and `cam`"),
         // they turn round up to 0.5, where they lie in one line
         (bars(0.499_999_999), stroke, "not so near to lying in one line"),
         (bars(0.6), stroke, "shorter than the other two together"),
-        (slider.to_owned(), "force = -1.0\nfrom = 5.5\nto = 1.0\n", "an angle beyond `from`"),
+        (slider.to_owned(), "force = -1.0\nfrom = 1.0\nto = 1.0\n", "another angle than `from`"),
     ] {
         let error = parse_train("press.toml", &press(&format!("{inertia}{mechanism}"), stroke)).err().unwrap();
         assert!(error.to_string().contains(said), "{error}");
@@ -455,7 +462,7 @@ fn weights_tables_of_inertia_and_arcs_of_two_turns_do_their_work() {
     }
     let refused = |text: String| parse_train("press.toml", &text).unwrap_err().to_string();
     let said = refused(weighted.replace("[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 40.0\n", ""));
-    assert!(said.contains("a `crank` or a `four_bar`"), "{said}");
+    assert!(said.contains("a `crank`, a `four_bar`, a `toggle` or a `cam`"), "{said}");
     let said = refused(press("inertia = 1.0\ninertia_table = [1.0, 2.0]\n", "").replace(stroke, ""));
     assert!(said.contains("an odd number of values"), "{said}");
     let bars = "inertia = 6.0\n[coordinate.four_bar]\ncrank = 0.31\ncoupler = 0.35\nrocker = 0.3\nground = 0.4\n";
@@ -477,4 +484,152 @@ fn modes_of_a_train_need_no_run() {
     // some roundings
     assert!((omega / (850.0_f64 * (1.0 / 1.2 + 1.0 / 0.3)).sqrt() - 1.0).abs() < 1e-14, "{omega}");
     assert_eq!((found["rigid_motions"].as_u64(), found["resonances"].as_array().unwrap().len()), (Some(1), 1));
+}
+
+/// The frequencies of a spur pair in a file are those of the solver's, whose fourteen a dense matrix has: without motor
+/// and pump the pair alone. A chain through two meshes has those of its inertias at the motor.
+#[test]
+fn gears_in_files_have_the_frequencies_of_their_equations() {
+    let text = std::fs::read_to_string(machine("spur-pair")).unwrap();
+    let (head, pair) = text.split_once("[[spur_pair]]").unwrap();
+    assert!(head.contains("[[coordinate]]"));
+    let pair = pair.split("[[link]]").next().unwrap();
+    let alone = cargo_driveline::machine_file::parse_train_for_modes("pair", &format!("[[spur_pair]]{pair}")).unwrap();
+    let found = alone.train.modes().unwrap();
+    assert_eq!((found.omega.len(), found.rigid_motions(), alone.links.len()), (14, 1, 13));
+    // M and K from the equations: the mesh, then shaft and bearings of each wheel; its stiffness is that of the teeth,
+    // 0.6 x 6.8e8 + 0.4 x 4e8
+    let mesh = 5.68e8;
+    let bodies = [
+        (1.8, 0.0021, 0.0395, 2e8, [0.4, 0.5], [0.06, 0.09], [[3e8, 2.5e8], [2.1e8, 1.75e8]]),
+        (9.0, 0.065, 0.094, 4e8, [0.8, 0.7], [0.05, 0.1], [[5e8, 3.5e8], [3.5e8, 2.45e8]]),
+    ];
+    let (mut m, mut k) = (vec![0.0_f64; 14], nalgebra::DMatrix::<f64>::zeros(14, 14));
+    let mut spring = |terms: &[(usize, f64)], stiffness: f64| {
+        for (i, a) in terms {
+            for (j, b) in terms {
+                k[(*i, *j)] += stiffness * a * b;
+            }
+        }
+    };
+    spring(&[(0, 1.0), (2, bodies[0].2), (7, -1.0), (9, -bodies[1].2)], mesh);
+    for (first, (mass, inertia, _, shaft, bearings, [a, b], stiffness)) in [0, 7].into_iter().zip(bodies) {
+        (m[first], m[first + 1], m[first + 2]) = (mass, mass, inertia);
+        for (way, stiffness) in stiffness.iter().enumerate() {
+            let (one, two) = (first + 3 + way, first + 5 + way);
+            spring(&[(first + way, 1.0), (one, -b / (a + b)), (two, -a / (a + b))], shaft);
+            for (bearing, at) in [one, two].into_iter().enumerate() {
+                m[at] = bearings[bearing];
+                spring(&[(at, 1.0)], stiffness[bearing]);
+            }
+        }
+    }
+    let scaled = nalgebra::DMatrix::from_fn(14, 14, |i, j| k[(i, j)] / (m[i] * m[j]).sqrt());
+    let mut expected: Vec<f64> = nalgebra::SymmetricEigen::new(scaled).eigenvalues.iter().copied().collect();
+    expected.sort_by(f64::total_cmp);
+    for (omega, expected) in found.omega.iter().zip(&expected).skip(1) {
+        // the dense method rounds by 1e-16 of the largest eigenvalue, a hundred times the smallest
+        assert!((omega * omega / expected - 1.0).abs() < 1e-10, "{omega} {expected}");
+    }
+    let chain = |name: &str, inertias: &[f64], shafts: &[(usize, usize, f64)]| {
+        let file = cargo_driveline::machine_file::read_train(std::path::Path::new(&machine(name))).unwrap();
+        let system = driveline_solver::plant::modes::System::new(inertias);
+        let system = shafts.iter().fold(system, |system, &(from, to, k)| system.shaft(from, to, k, 0.0));
+        let expected = system.frequencies().unwrap();
+        for (omega, expected) in file.train.modes().unwrap().omega.iter().zip(expected).skip(1) {
+            // another way of the same roundings
+            assert!((omega / expected - 1.0).abs() < 1e-11, "{name}: {omega} {expected}");
+        }
+    };
+    let (one, two) = (0.0395_f64 / 0.094, 0.0536_f64 / 0.172);
+    let mean = |contact: f64, double: f64, single: f64| (contact - 1.0) * double + (2.0 - contact) * single;
+    let (a, b) = (one * one, one * one * two * two);
+    let first = mean(1.6, 6.8e8, 4.0e8) * 0.0395 * 0.0395;
+    let second = a * mean(1.55, 1.1e9, 6.8e8) * 0.0536 * 0.0536;
+    chain(
+        "two-stage",
+        &[0.05, 0.0021, a * 0.065, a * 0.006, b * 0.55, b * 6.0],
+        &[(0, 1, 4e4), (1, 2, first), (2, 3, a * 3e5), (3, 4, second), (4, 5, b * 2e6)],
+    );
+    let (wheel, side) = (two * two, (two * 0.172 / 0.08).powi(2));
+    let off = wheel * 8e8 * 0.172 * 0.172;
+    chain(
+        "gear-branch",
+        &[0.4, 0.006, wheel * 0.55, side * 0.02, side * 0.3, side * 0.02, side * 0.5],
+        &[
+            (0, 1, 9e4),
+            (1, 2, mean(1.55, 1.1e9, 6.8e8) * 0.0536 * 0.0536),
+            (2, 3, off),
+            (2, 5, off),
+            (3, 4, side * 5e4),
+            (5, 6, side * 7e4),
+        ],
+    );
+}
+
+/// Toggle, cam and crank under a force over a part of their stroke that passes the angle zero, with friction on the
+/// guide: the energy is that of the start and the work, `F dy - R |dy|`.
+#[test]
+fn mechanisms_by_their_keys_do_their_work() {
+    use std::f64::consts::TAU;
+    let lift: Vec<f64> = (0..21).map(|i| 0.02 * (1.0 - (TAU * f64::from(i) / 21.0).cos())).collect();
+    let cam = move |angle: f64| 0.02 * (1.0 - angle.cos());
+    let crank = |angle: f64| 0.08 * angle.cos() + (0.3_f64 * 0.3 - (0.08 * angle.sin()).powi(2)).sqrt();
+    let knee = |angle: f64| {
+        let (x, y) = (0.06 * angle.cos(), 0.06 * angle.sin());
+        let across = (0.55 - x).hypot(y);
+        let at_pin = (0.5 * 0.5 + across * across - 0.3 * 0.3) / (2.0 * 0.5 * across);
+        let coupler = (-y).atan2(0.55 - x) + at_pin.acos();
+        let rocker = (y + 0.5 * coupler.sin()).atan2(x + 0.5 * coupler.cos() - 0.55);
+        0.3 * (rocker - 1.9).cos() + (0.32_f64 * 0.32 - (0.3 * (rocker - 1.9).sin()).powi(2)).sqrt()
+    };
+    let keys = [
+        format!("[coordinate.cam]\nlift = {lift:?}\nmass = 8.0\nfriction = 5.0\n"),
+        "[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 8.0\nfriction = 5.0\n".to_owned(),
+        "[coordinate.toggle]\ncrank = 0.06\ncoupler = 0.5\nrocker = 0.3\nground = 0.55\nlink = 0.32\n\
+         direction = 1.9\nslider_mass = 8.0\nfriction = 5.0\n"
+            .to_owned(),
+    ];
+    let ways: [&dyn Fn(f64) -> f64; 3] = [&cam, &crank, &knee];
+    for (keys, way) in keys.into_iter().zip(ways) {
+        let text = press(&format!("inertia = 2.0\nspeed = 20.0\n{keys}"), "force = 30.0\nfrom = 5.5\nto = 0.8\n");
+        let mut motion = parse_train("press.toml", &text).unwrap().motion;
+        // work by fine steps of the way, from arc to arc
+        let steps = 40_000.0;
+        let (mut work, mut angle) = (0.0, 0.0);
+        let slope = |angle: f64| (way(angle + 1e-6) - way(angle - 1e-6)) / 2e-6;
+        for _ in 0..600 {
+            motion.advance(1e-3);
+            let end = motion.angle(0);
+            let count = (steps * (end - angle) / TAU).ceil();
+            let step = (end - angle) / count;
+            for _ in 0..count as usize {
+                let within = (angle + 0.5 * step).rem_euclid(TAU);
+                let moved = way(angle + step) - way(angle);
+                let force = if (0.8..=5.5).contains(&within) { 0.0 } else { 30.0 };
+                work += force * moved - 5.0 * moved.abs();
+                angle += step;
+            }
+            let inertia = 2.0 + 8.0 * slope(angle).powi(2);
+            let expected = 0.5 * 400.0 * (2.0 + 8.0 * slope(0.0).powi(2)) + work;
+            let energy = 0.5 * inertia * motion.speed(0).powi(2);
+            // ends of arcs and dead centres within a step of 1.6e-4 rad: 3e-4 N m each; slopes by differences
+            assert!((energy - expected).abs() < 1e-5 * expected, "{angle}: {energy} {expected}");
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("back.toml");
+    let text = press(
+        "inertia = 2.0\nspeed = 20.0\n[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 8.0\n\
+         friction = 5.0\n",
+        "force = 1.0\n",
+    );
+    let brake = "[[torque]]\non = \"crank\"\nkind = \"constant\"\ntorque = -80.0\n";
+    std::fs::write(&file, (text.replace("cycle = \"crank\"\n", "")) + brake).unwrap();
+    let output = simulate(&[file.to_str().unwrap()]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && said.contains("\"crank\" turns backwards"), "{said}");
+    let said =
+        parse_train("x", &press("inertia = 1.0\n[coordinate.cam]\nlift = [0.0, 0.1]\nmass = 1.0\n", "force = 1.0\n"));
+    assert!(said.unwrap_err().to_string().contains("an odd number of values"));
 }

@@ -55,6 +55,7 @@ mod modes;
 mod motion;
 mod rank;
 mod reading;
+mod rubbing;
 mod series;
 mod signal;
 mod sized;
@@ -71,13 +72,14 @@ pub use crank::Crank;
 pub use friction::Friction;
 pub use gear_pair::{GearBody, GearPair};
 pub use link::Link;
-pub use linkage::{FourBar, Orders};
+pub use linkage::{FourBar, Orders, Toggle};
 pub use mesh::{Harmonic, Teeth, Variation, Zone};
 pub use modes::{Decay, TrainModes};
 pub use motion::Motion;
+pub use rubbing::rubbing;
 pub use signal::Signal;
 pub use source::{Source, Waveform};
-pub use spur_pair::{SpurBearing, SpurPair, SpurWheel};
+pub use spur_pair::{Scales, SpurBearing, SpurPair, SpurWheel};
 pub use steady::Cycle;
 pub use stiffest::Stiffest;
 pub use unbalance::Unbalance;
@@ -236,15 +238,15 @@ impl Train {
         for unbalance in &self.unbalances {
             self.validate_unbalance(unbalance)?;
         }
-        let cranked = |at: usize| self.coordinates[at].is_cranked();
-        let lossy = self.links.iter().filter(|link| link.is_lossy()).map(|link| link.terms[0].0);
-        let rubbing = self.frictions.iter().flat_map(|friction| friction.terms.iter().map(|term| term.0));
-        match lossy.chain(rubbing).find(|&at| cranked(at)) {
+        // what rests on the ground rests at any inertia; what is held to something that moves does not
+        let moving = self.frictions.iter().filter(|friction| friction.terms.len() > 1 || friction.surface != 0.0);
+        let rubbing = moving.flat_map(|friction| friction.terms.iter().map(|term| term.0));
+        match rubbing.into_iter().find(|&at| self.coordinates[at].is_cranked()) {
             Some(at) => Err(PlantError::Parameter {
-                name: "crank with dry friction or a lossy gear",
+                name: "crank with dry friction against what moves",
                 place: Place::Node(at),
                 value: 1.0,
-                expected: "the friction on another coordinate, behind a shaft",
+                expected: "friction against the ground, or on another coordinate, behind a shaft",
             }),
             None => Ok(()),
         }

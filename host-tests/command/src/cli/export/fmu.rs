@@ -55,6 +55,9 @@ pub fn is_a_plant(machine: &MachineFile, source: &str) -> Result<(), Failure> {
     if let Some(table) = NOT_OF_THE_PLANT.iter().find(|table| tables.contains_key(**table)) {
         return refused(format!("it has `{table}`, which the plant does not have"));
     }
+    if machine.viscous().iter().any(|viscous| *viscous > 0.0) {
+        return refused("it has `viscous`, which the plant does not have".to_owned());
+    }
     match machine.losses_of_no_chain() {
         Some(label) => refused(format!("the losses of `{label}` need a shaft behind it")),
         None => Ok(()),

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use driveline::design::{BarredSpeeds, USUAL_MARGIN};
 use serde::Serialize;
 
 use crate::machine_file::{Excitation, Running};
@@ -68,6 +69,32 @@ pub fn critical_speeds(natural: &[f64], running: Option<&Running>, excitations: 
     }
     all.sort_by(|a, b| a.speed.total_cmp(&b.speed));
     all
+}
+
+/// Phasor sum of an engine's order, the largest amplitude 1, below which its cylinders cancel.
+const CANCELLED: f64 = 0.05;
+
+/// Most barred ranges.
+const RANGES: usize = 256;
+
+/// The ranges about the critical speeds that begin below a speed (rad/s), joined where they meet. Orders of an engine
+/// whose cylinders cancel bar nothing.
+pub fn barred(speeds: &[Critical], up_to: f64) -> Vec<[f64; 2]> {
+    let felt = speeds.iter().filter(|critical| critical.phasor_sum.is_none_or(|sum| sum >= CANCELLED));
+    let speeds: Vec<f64> = felt.map(|critical| critical.speed).filter(|speed| *speed > 0.0).collect();
+    BarredSpeeds::<RANGES>::try_new(&speeds, &[1.0], USUAL_MARGIN, up_to)
+        .map_or_else(|_| Vec::new(), |barred| barred.ranges().to_vec())
+}
+
+/// The table of barred ranges; none without one.
+pub fn barred_speeds(ranges: &[[f64; 2]]) -> Option<Section> {
+    let mut table = Table::new(["from rad/s", "to rad/s", "from r/min", "to r/min"]);
+    for [from, to] in ranges {
+        table.row([*from, *to, from * 60.0 / TAU, to * 60.0 / TAU].map(significant));
+    }
+    let text = "Pass these quickly: 10 % either side of each critical speed that begins below the largest running \
+                speed, orders whose cylinders cancel left out.";
+    (!ranges.is_empty()).then(|| Section::new("Barred speeds", text, table))
 }
 
 /// The table of critical speeds; none where nothing excites.

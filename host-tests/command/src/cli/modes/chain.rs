@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use driveline::machine::{Element, Joint, Match};
 use serde::Serialize;
 
-use super::campbell::{Critical, critical_speeds};
+use super::campbell::{Critical, barred, critical_speeds};
 use super::damper::{Damped, dampers};
 use super::engine::{FreeForces, excite, free};
 use super::response::Response;
@@ -31,6 +31,8 @@ pub struct Vibration {
     pub reductions: Vec<Reduction>,
     /// Speeds of the motor at which an excitation meets a natural frequency, the lowest first.
     pub critical: Vec<Critical>,
+    /// Ranges of the motor's speed that it must not dwell in (rad/s), rising and apart.
+    pub barred: Vec<[f64; 2]>,
     /// Free forces and moments of the engine; `null` without one.
     pub engine: Option<FreeForces>,
     /// The dampers, each alone.
@@ -128,6 +130,11 @@ impl Vibration {
         }
         let modes = machine.modes();
         let count = masses.len();
+        let viscous = machine.viscous();
+        // of the shafts, and against the ground
+        let damping = |mode: &driveline::machine::Mode| {
+            mode.damping + viscous.iter().zip(&mode.shape).map(|(viscous, share)| viscous * share * share).sum::<f64>()
+        };
         let resonance = |mode: &driveline::machine::Mode| {
             let shape = &mode.shape[..count];
             let most =
@@ -135,7 +142,7 @@ impl Vibration {
             Resonance {
                 frequency: mode.frequency,
                 hz: mode.frequency / TAU,
-                damping_ratio: mode.damping / (2.0 * mode.frequency),
+                damping_ratio: damping(mode) / (2.0 * mode.frequency),
                 residue: mode.residue,
                 shape: shape.iter().map(|value| value / most).collect(),
             }
@@ -164,10 +171,13 @@ impl Vibration {
         let mut critical = critical_speeds(&frequencies, machine.running.as_ref(), &machine.excitations);
         let response = Response::of(machine);
         if let Some(engine) = &machine.engine {
-            excite(&mut critical, engine, modes.resonances(), &response);
+            let damping: Vec<f64> = modes.resonances().iter().map(damping).collect();
+            excite(&mut critical, engine, modes.resonances(), &damping, &response);
         }
+        let up_to = machine.running.as_ref().map_or(machine.limits.speed, |range| range.greatest);
         Self {
             name: machine.name.clone(),
+            barred: barred(&critical, up_to),
             critical,
             engine: free(machine),
             dampers: dampers(machine, modes.resonances(), &response),

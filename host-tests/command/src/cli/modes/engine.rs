@@ -78,8 +78,8 @@ pub fn table(free: &FreeForces) -> Section {
     Section::new("Free forces and moments of the engine", text, table)
 }
 
-/// Adds to the engine's critical speeds what excites them.
-pub fn excite(critical: &mut [Critical], engine: &Engine, modes: &[Mode], response: &Response) {
+/// Adds to the engine's critical speeds what excites them; `damping` (1/s) is that of each mode.
+pub fn excite(critical: &mut [Critical], engine: &Engine, modes: &[Mode], damping: &[f64], response: &Response) {
     for critical in critical.iter_mut().filter(|critical| critical.excitation == engine::NAME) {
         let mode = &modes[critical.mode - 1];
         let throws: Vec<f64> = engine.at.iter().map(|&mass| mode.shape[mass]).collect();
@@ -89,7 +89,7 @@ pub fn excite(critical: &mut [Critical], engine: &Engine, modes: &[Mode], respon
         critical.phasor_sum = Some(sum / largest);
         critical.torque = Some(torque);
         // damping alone limits the mode
-        if mode.damping > 0.0 {
+        if damping[critical.mode - 1] > 0.0 {
             let mut torques = vec![Complex::from(0.0); modes.len() + 1];
             for (cylinder, &mass) in engine.cylinders.iter().zip(&engine.at) {
                 torques[mass] += Complex::from_polar(torque / engine.ratio, -critical.order * cylinder.firing);

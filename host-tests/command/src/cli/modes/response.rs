@@ -16,6 +16,8 @@ const UNDAMPED: f64 = 1e-12;
 pub struct Response {
     /// Inertias (kg m2).
     inertia: Vec<f64>,
+    /// Viscous damping of each against the ground (N m s/rad).
+    viscous: Vec<f64>,
     springs: Vec<Spring>,
 }
 
@@ -42,7 +44,7 @@ impl Response {
             stiffness: joint.shaft.stiffness,
             damping: joint.shaft.damping,
         });
-        Self { inertia: machine.masses().to_vec(), springs: spring.collect() }
+        Self { inertia: machine.masses().to_vec(), viscous: machine.viscous(), springs: spring.collect() }
     }
 
     /// With a damper on a mass.
@@ -50,13 +52,15 @@ impl Response {
         let mut damped = self.clone();
         let ring = damped.inertia.len();
         damped.inertia.push(damper.inertia);
+        damped.viscous.push(0.0);
         damped.springs.push(Spring { from: mass, to: ring, stiffness: damper.stiffness, damping: damper.damping });
         damped
     }
 
     /// Angles (rad) of the masses under torques (N m) of a frequency (rad/s); none where they grow without end.
     fn angles(&self, omega: f64, torques: &[Complex<f64>]) -> Option<DVector<Complex<f64>>> {
-        let inertial = self.inertia.iter().map(|inertia| Complex::from(-inertia * omega * omega));
+        let parts = self.inertia.iter().zip(&self.viscous);
+        let inertial = parts.map(|(inertia, viscous)| Complex::new(-inertia * omega * omega, omega * viscous));
         let mut matrix = DMatrix::from_diagonal(&DVector::from_iterator(self.inertia.len(), inertial));
         for spring in &self.springs {
             let stiffness = spring.dynamic_stiffness(omega);
@@ -79,7 +83,7 @@ impl Response {
     }
 
     /// Angle of a mass per torque on it (rad/(N m)); infinite at an undamped resonance.
-    fn receptance(&self, mass: usize, omega: f64) -> f64 {
+    pub fn receptance(&self, mass: usize, omega: f64) -> f64 {
         let mut torques = vec![Complex::from(0.0); self.inertia.len()];
         torques[mass] = Complex::from(1.0);
         self.angles(omega, &torques).map_or(f64::INFINITY, |angles| angles[mass].norm())
@@ -119,6 +123,9 @@ impl Response {
     fn vibrations(&self) -> Option<Vec<Complex<f64>>> {
         let masses = self.inertia.len();
         let mut state = DMatrix::zeros(masses + self.springs.len(), masses + self.springs.len());
+        for (mass, viscous) in self.viscous.iter().enumerate() {
+            state[(mass, mass)] -= viscous / self.inertia[mass];
+        }
         for (row, spring) in self.springs.iter().enumerate() {
             let ends =
                 [(spring.from, 1.0), (spring.to, -1.0)].map(|(mass, sign)| (mass, sign / self.inertia[mass].sqrt()));

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use driveline_report::format::{DIVERGED, percent, significant};
 use driveline_report::{Section, Table};
 
-use super::campbell::critical;
+use super::campbell::{barred_speeds, critical};
 use super::chain::{Leaving, Reduction, Vibration, WORTH};
 use super::{damper, engine};
 
@@ -39,6 +39,7 @@ pub fn tables(vibration: &Vibration) -> Vec<Section> {
     let text = "Frequencies of the free machine, and with the motor locked; amplitudes of the masses, the largest 1.";
     all.push(Section::new("Frequencies and shapes", text, modes));
     all.extend(critical(&vibration.critical));
+    all.extend(barred_speeds(&vibration.barred));
     all.extend(vibration.engine.as_ref().map(engine::table));
     all.extend(damper::table(&vibration.dampers));
     all.push(reductions(&vibration.reductions));

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use super::campbell::{Critical, critical, critical_speeds, diagram};
+use super::campbell::{Critical, barred, barred_speeds, critical, critical_speeds, diagram};
 use super::figures::{campbell, shapes};
 use crate::cli::Failure;
 use crate::machine_file::TrainFile;
@@ -28,6 +28,8 @@ pub struct TrainVibration {
     pub damped: Vec<DampedVibration>,
     /// Speeds of the first coordinate at which an excitation meets a natural frequency, the lowest first.
     pub critical: Vec<Critical>,
+    /// Ranges of its speed that it must not dwell in (rad/s), rising and apart; none without a running range.
+    pub barred: Vec<[f64; 2]>,
 }
 
 /// A natural vibration.
@@ -79,13 +81,15 @@ impl TrainVibration {
             TrainResonance { frequency: modes.omega[i], hz: modes.omega[i] / TAU, energy }
         };
         let frequencies: Vec<f64> = elastic.iter().map(|&i| modes.omega[i]).collect();
+        let critical = critical_speeds(&frequencies, file.running.as_ref(), &file.excitations);
         Ok(Self {
             name: file.name.clone(),
             coordinates: file.coordinates.clone(),
             rigid_motions: modes.rigid_motions(),
             resonances: elastic.iter().map(resonance).collect(),
             damped: if is_damped { decays.iter().map(damped).collect() } else { Vec::new() },
-            critical: critical_speeds(&frequencies, file.running.as_ref(), &file.excitations),
+            barred: file.running.as_ref().map_or_else(Vec::new, |range| barred(&critical, range.greatest)),
+            critical,
         })
     }
 
@@ -105,7 +109,8 @@ impl TrainVibration {
             self.rigid_motions
         );
         let modes = Section::new("Frequencies and shapes", text, table);
-        [modes].into_iter().chain(self.damped_table()).chain(critical(&self.critical)).collect()
+        let speeds = critical(&self.critical).into_iter().chain(barred_speeds(&self.barred));
+        [modes].into_iter().chain(self.damped_table()).chain(speeds).collect()
     }
 
     fn damped_table(&self) -> Option<Section> {

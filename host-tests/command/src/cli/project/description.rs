@@ -86,6 +86,8 @@ pub struct Project {
 #[derive(Clone, Debug, Serialize)]
 struct Node {
     inertia: String,
+    /// Viscous damping against the ground; empty for none.
+    viscous: String,
     /// Of the gear between it and the next shaft; empty for 1.
     efficiency: String,
     /// With the load driving, where it differs.
@@ -254,6 +256,7 @@ fn observers(machine: &MachineFile, plan: &Plan) -> Vec<&'static str> {
 fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
     let (ropes, efficiencies) = machine.ropes_and_efficiencies();
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
+    let viscous = machine.viscous();
     let unless = |neutral: f64, value: f64| if value == neutral { String::new() } else { format!("{value:?}") };
     let node = |(at, inertia): (usize, &f64)| {
         let before = at.checked_sub(1);
@@ -266,6 +269,7 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
         let is_rope = before.and_then(|before| ropes.get(before)).is_some_and(|&rope| rope);
         Node {
             inertia: format!("{inertia:?}"),
+            viscous: unless(0.0, viscous[at]),
             efficiency: unless(1.0, ahead),
             back_efficiency: unless(ahead, back),
             kind: if is_rope { "rope" } else { "elastic" },

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::cli::{Failure, Progress};
 use crate::machine_file::TrainFile;
 use driveline_report::format::counted;
-use driveline_solver::plant::train::converge::{Recording, Sensitive, prove_in_pieces};
+use driveline_solver::plant::train::converge::{BOUND, Recording, Sensitive, prove, prove_in_pieces};
 use driveline_solver::plant::train::{Cycle, Motion, Signal};
 use driveline_solver::plant::{EventKind, Place};
 
@@ -40,6 +40,8 @@ pub struct Simulation {
     pub not_proven: Option<String>,
     /// The steady cycle; `null` where the file asks for none.
     pub cycle: Option<Steady>,
+    /// The same run without the dampers; `null` of a machine that has none.
+    pub without_dampers: Option<Box<Self>>,
     /// Times of the lines (s).
     #[serde(skip)]
     pub times: Vec<f64>,
@@ -85,6 +87,11 @@ pub struct Steady {
     pub time: f64,
     /// Cycles after the run until they repeated.
     pub cycles: usize,
+    /// Largest share of a peak by which a speed or an elongation does not come back after the cycle, and the deviation
+    /// of the second integrator over it; `null` where the proof was left out or did not succeed.
+    pub proof: Option<(f64, f64)>,
+    /// Why the cycle is not proven.
+    pub not_proven: Option<String>,
 }
 
 /// Extremes of a speed (rad/s or m/s).
@@ -145,7 +152,8 @@ impl Simulation {
     ///
     /// # Errors
     /// A train too stiff for the length of the run, with the parameter that makes it so. More than a thousand events
-    /// in one step: the machine rattles without end there. A speed or force that grows without bound.
+    /// in one step: the machine rattles without end there. A speed or force that grows without bound. A mechanism with
+    /// friction that turns backwards.
     pub fn of(file: &TrainFile, proven: bool) -> Result<Self, Failure> {
         if let Some(refusal) = &file.too_stiff {
             return Err(refusal.clone().into());
@@ -207,12 +215,24 @@ impl Simulation {
             (None, Some("the proof was left out".to_owned()))
         };
         let motion = run.motion();
-        let cycle = file.cycle.map(|(at, turns)| steady(file, motion.clone(), at, turns)).transpose()?;
+        let cycle = file.cycle.map(|(at, turns)| steady(file, motion.clone(), at, turns, proven)).transpose()?;
         let moved = |j: usize| {
             let extremes = motion.extremes(Signal::Speed(j));
             let (least, greatest) = extremes.map_or((f64::NAN, f64::NAN), |e| (e.least, e.peak));
             Moved { name: file.coordinates[j].clone(), least, greatest, last: motion.speed(j) }
         };
+        let backwards = |j: &&usize| motion.extremes(Signal::Speed(**j)).is_some_and(|e| e.least < 0.0);
+        if let Some(&j) = file.forwards.iter().find(backwards) {
+            return Err(Failure::failed(format!(
+                "\"{}\" turns backwards, where the friction of its mechanism would drive it; expected torques that \
+                 keep it turning forwards, or no `friction`",
+                file.coordinates[j]
+            )));
+        }
+        let without_dampers =
+            file.without_dampers.as_deref().map(|bare| Self::of(bare, proven)).transpose()?.map(Box::new);
+        let bare = without_dampers.as_ref().and_then(|bare| bare.not_proven.as_ref());
+        let not_proven = not_proven.or(bare.map(|reason| format!("without its dampers: {reason}")));
         let forces = rows.split_off(n);
         let carried = |l: usize| {
             let row = &forces[l];
@@ -258,6 +278,7 @@ impl Simulation {
             sensitive: proof.and_then(|proof| proof.sensitive).map(Pieces::from),
             not_proven,
             cycle,
+            without_dampers,
             times,
             speeds: rows,
             forces,
@@ -284,8 +305,11 @@ impl Simulation {
     }
 }
 
+/// Steps of a cycle that the second integrator is compared at.
+const STEPS: u32 = 100;
+
 /// The steady cycle after the run.
-fn steady(file: &TrainFile, mut motion: Motion, at: usize, turns: u32) -> Result<Steady, Failure> {
+fn steady(file: &TrainFile, mut motion: Motion, at: usize, turns: u32, proven: bool) -> Result<Steady, Failure> {
     let name = file.coordinates[at].clone();
     let Some(cycle) = motion.steady_cycle(at, turns, CYCLES) else {
         return Err(Failure::failed(format!(
@@ -295,7 +319,20 @@ fn steady(file: &TrainFile, mut motion: Motion, at: usize, turns: u32) -> Result
         )));
     };
     let Cycle { greatest, least, time, mean, cycles } = cycle;
-    Ok(Steady { name, delta: cycle.delta(), greatest, least, mean, time, cycles })
+    let proof = if proven { closed(motion, at, turns) } else { Err("the proof was left out".to_owned()) };
+    let (proof, not_proven) = proof.map_or_else(|reason| (None, Some(reason)), |proof| (Some(proof), None));
+    Ok(Steady { name, delta: cycle.delta(), greatest, least, mean, time, cycles, proof, not_proven })
+}
+
+/// Proves a cycle: it comes back to 1e-8 of the peaks, and a second integrator runs it alike.
+fn closed(motion: Motion, at: usize, turns: u32) -> Result<(f64, f64), String> {
+    let closed = motion.closed_cycle(at, turns, CYCLES, STEPS);
+    let (run, residual) = closed.ok_or("it does not turn on evenly")?;
+    if residual > BOUND {
+        return Err(format!("a speed or an elongation is {residual:.1e} of its peak off after a cycle"));
+    }
+    let proof = prove(&run).map_err(|error| error.to_string())?;
+    Ok((residual, proof.largest()))
 }
 
 fn happened(file: &TrainFile, event: &driveline_solver::plant::Event) -> Happened {

@@ -124,7 +124,8 @@ fn by_angle(pair: &Pair, speed: f64, torque: f64, brake: f64, gap: f64, error: f
         contact_ratio: pair.contact_ratio,
         double: pair.k_double_pair_zone_N_m,
         single: pair.k_single_pair_zone_N_m,
-        error,
+        leaving: 0.5 * pair.k_double_pair_zone_N_m,
+        errors: [error, 0.0],
     };
     let mesh = Link::mesh((0, pair.rb1_m), (1, pair.rb2_m), pair.k_mean_N_m)
         .damping(pair.c_Ns_m)

@@ -67,9 +67,10 @@ impl Orders {
         self.0.iter().map(one).sum()
     }
 
-    /// Least of 1024 values over a turn; NaN of a series that is not finite.
+    /// Least of 1024 values over a turn, or over the longest period; NaN of a series that is not finite.
     pub(super) fn least(&self) -> f64 {
-        let values = (0..1024).map(|i| self.at(TAU * f64::from(i) / 1024.0));
+        let lowest = self.0.iter().map(|h| h.order.abs()).filter(|order| *order > 0.0).fold(1.0, f64::min);
+        let values = (0..1024).map(|i| self.at(TAU / lowest * f64::from(i) / 1024.0));
         values.fold(f64::INFINITY, |least, value| if value.is_nan() { value } else { least.min(value) })
     }
 
@@ -92,6 +93,27 @@ impl Orders {
     pub fn inertia(ways: &[(f64, &Self)]) -> Self {
         let slopes: Vec<(f64, Self)> = ways.iter().map(|(mass, way)| (*mass, way.slope())).collect();
         Self::sampled(|angle| slopes.iter().map(|(mass, slope)| mass * slope.at(angle).powi(2)).sum())
+    }
+}
+
+/// A toggle: a four-bar whose rocker drives a link to a slider, on a line through the pivot of the rocker.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Toggle {
+    /// Crank, coupler, the rocker to the knee, and the ground, m.
+    pub bars: FourBar,
+    /// Link from the knee to the slider, m, longer than the rocker.
+    pub link: f64,
+    /// Direction of the line from the pivot of the rocker to the slider, rad from that of the ground bar.
+    pub direction: f64,
+}
+
+impl Toggle {
+    /// Distance of the slider from the pivot of the rocker (m) at an angle of the crank (rad).
+    #[must_use]
+    pub fn way(&self, crank: f64) -> f64 {
+        let (sine, cosine) = (self.bars.angles(crank)[1] - self.direction).sin_cos();
+        let rocker = self.bars.rocker;
+        rocker * cosine + (self.link * self.link - (rocker * sine).powi(2)).sqrt()
     }
 }
 

@@ -41,8 +41,10 @@ pub struct Teeth {
     pub double: f64,
     /// Stiffness with one pair in contact, N/m.
     pub single: f64,
-    /// Error of every second pair, m.
-    pub error: f64,
+    /// Stiffness of the pair that leaves, in double contact, N/m; half of `double` where both are alike.
+    pub leaving: f64,
+    /// Errors of one pair and the next, m.
+    pub errors: [f64; 2],
 }
 
 impl Teeth {
@@ -61,14 +63,21 @@ impl Teeth {
         number
     }
 
+    /// Error of both pairs together, by their stiffness: `sum k_i e_i/sum k_i`.
+    fn double_error(&self, odd: bool) -> f64 {
+        let [enters, leaves] = [usize::from(odd), usize::from(!odd)].map(|pair| self.errors[pair]);
+        let share = self.leaving / self.double;
+        (1.0 - share) * enters + share * leaves
+    }
+
     /// Stiffness and error in front of an edge.
     pub(super) fn before(&self, edge: i64) -> (f64, f64) {
         let zone = edge - 1;
         let odd_pitch = zone.div_euclid(2).rem_euclid(2) == 1;
         match (zone.rem_euclid(2) == 0, odd_pitch) {
-            (true, _) => (self.double, 0.5 * self.error),
-            (false, false) => (self.single, self.error),
-            (false, true) => (self.single, 0.0),
+            (true, odd) => (self.double, self.double_error(odd)),
+            (false, false) => (self.single, self.errors[0]),
+            (false, true) => (self.single, self.errors[1]),
         }
     }
 }
@@ -98,16 +107,61 @@ impl Variation {
     /// The error (m) stands on every second pair, so that a cycle lasts two pitches.
     #[must_use]
     pub fn spur(contact_ratio: f64, frequency: f64, double: f64, single: f64, error: f64) -> Self {
+        Self::pairs(contact_ratio, frequency, [double, 0.5 * double], single, [error, 0.0])
+    }
+
+    /// [`spur`](Self::spur) with pairs of their own stiffness and error: in double contact of both pairs and of the one
+    /// that leaves, N/m; of one pair and the next, m.
+    #[must_use]
+    pub fn pairs(
+        contact_ratio: f64,
+        frequency: f64,
+        [double, leaving]: [f64; 2],
+        single: f64,
+        [one_error, next_error]: [f64; 2],
+    ) -> Self {
         let pitch = 1.0 / frequency;
         let (two, one) = ((contact_ratio - 1.0) * pitch, (2.0 - contact_ratio) * pitch);
-        let pair = 0.5 * double;
+        let entering = double - leaving;
         let zone = |duration, stiffness, error_force| Zone { duration, stiffness, error_force };
         Self::Zones(vec![
-            zone(two, double, error * pair),
-            zone(one, single, error * single),
-            zone(two, double, error * pair),
-            zone(one, single, 0.0),
+            zone(two, double, entering * one_error + leaving * next_error),
+            zone(one, single, single * one_error),
+            zone(two, double, entering * next_error + leaving * one_error),
+            zone(one, single, single * next_error),
         ])
+    }
+
+    /// The same in other units: of a stiffness (N/m), a length (m) and a time (s).
+    #[must_use]
+    pub(super) fn scaled(&self, unit: f64, length: f64, time: f64) -> Self {
+        let swings = |list: &[Harmonic], unit: f64| {
+            list.iter().map(|h| Harmonic { cosine: h.cosine / unit, sine: h.sine / unit, ..*h }).collect()
+        };
+        match self {
+            Self::Zones(zones) => Self::Zones(
+                zones
+                    .iter()
+                    .map(|zone| Zone {
+                        duration: zone.duration / time,
+                        stiffness: zone.stiffness / unit,
+                        error_force: zone.error_force / (unit * length),
+                    })
+                    .collect(),
+            ),
+            Self::Teeth(teeth) => Self::Teeth(Teeth {
+                double: teeth.double / unit,
+                single: teeth.single / unit,
+                leaving: teeth.leaving / unit,
+                errors: teeth.errors.map(|error| error / length),
+                ..*teeth
+            }),
+            Self::Harmonics { frequency, stiffness, error } => Self::Harmonics {
+                frequency: frequency * time,
+                stiffness: swings(stiffness, unit),
+                error: swings(error, length),
+            },
+        }
     }
 
     /// Mean stiffness over a cycle.
@@ -203,7 +257,9 @@ impl Variation {
                 positive("number of teeth", place, teeth.count)?;
                 positive("stiffness of double contact", place, teeth.double)?;
                 positive("stiffness of single contact", place, teeth.single)?;
-                finite("tooth error", place, teeth.error)?;
+                teeth.errors.iter().try_for_each(|error| finite("tooth error", place, *error))?;
+                let within = teeth.leaving >= 0.0 && teeth.leaving <= teeth.double;
+                in_range("stiffness of the leaving pair", place, teeth.leaving, within, "from 0 to that of both")?;
                 let ratio = teeth.contact_ratio;
                 in_range("contact ratio", place, ratio, ratio > 1.0 && ratio < 2.0, "between 1 and 2")
             }

@@ -75,7 +75,8 @@ impl Motion {
                 if let Some((from, to, period)) = source.arc() {
                     let turn = (coordinate.angle / period).floor();
                     let within = coordinate.angle - turn * period;
-                    let passed = i64::from(within >= from) + i64::from(within >= to);
+                    // an arc through the angle zero began in the period before
+                    let passed = i64::from(within >= from) + i64::from(within >= to) - i64::from(within < to - period);
                     arcs.push((j, s, 2 * turn as i64 + passed));
                 }
             }

@@ -61,7 +61,7 @@ pub enum Source {
         torque: Orders,
         /// Where it begins, from zero.
         from: f64,
-        /// Where it ends, up to the end of the turns.
+        /// Where it ends; beyond the end of the turns by less than `from` where it passes the angle zero.
         to: f64,
         /// Turns of a cycle, 1 or more.
         turns: u32,
@@ -269,7 +269,8 @@ impl Source {
             Self::Stroke { torque, from, to, turns } => {
                 let end = TAU * f64::from(*turns);
                 in_range("start of an arc", place, *from, (0.0..end).contains(from), "from 0 to less than its turns")?;
-                in_range("end of an arc", place, *to, to > from && *to < end, "after its start, within its turns")?;
+                let within = to > from && *to < from + end;
+                in_range("end of an arc", place, *to, within, "after its start, by less than its turns")?;
                 harmonics(&torque.0)
             }
             Self::Orders(orders) => harmonics(orders),

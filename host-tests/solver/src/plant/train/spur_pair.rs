@@ -73,17 +73,27 @@ impl SpurPair {
     /// The pair as a train.
     #[must_use]
     pub fn train(&self) -> Train {
+        let (coordinates, links) = self.parts(0);
+        let train = coordinates.into_iter().fold(Train::new(), Train::coordinate);
+        links.into_iter().fold(train, Train::link)
+    }
+
+    /// Its coordinates and links as parts of a train in which `first` coordinates are before them.
+    #[must_use]
+    pub fn parts(&self, first: usize) -> (Vec<Coordinate>, Vec<Link>) {
         let (one, two) = (self.pinion.base_radius, self.wheel.base_radius);
-        let mut mesh = Link::new(&[(0, 1.0), (2, one), (7, -1.0), (9, -two)], self.mesh_stiffness)
-            .damping(self.mesh_damping)
-            .gap(self.gap);
+        let terms = [(0, 1.0), (2, one), (7, -1.0), (9, -two)].map(|(at, share)| (first + at, share));
+        let mut mesh = Link::new(&terms, self.mesh_stiffness).damping(self.mesh_damping).gap(self.gap);
         if let Some(variation) = &self.variation {
             mesh = mesh.varying(variation.clone());
         }
-        let mut train = Train::new().link(mesh);
-        for (first, body, torque) in [(0, &self.pinion, self.torque), (7, &self.wheel, -self.torque * two / one)] {
-            train = train.coordinate(Coordinate::new(body.mass)).coordinate(Coordinate::new(body.mass));
-            train = train.coordinate(Coordinate::new(body.inertia).source(Source::Constant(torque)));
+        let (mut coordinates, mut links) = (Vec::new(), vec![mesh]);
+        for (first, body, torque) in
+            [(first, &self.pinion, self.torque), (first + 7, &self.wheel, -self.torque * two / one)]
+        {
+            coordinates.extend([Coordinate::new(body.mass), Coordinate::new(body.mass)]);
+            let turning = Coordinate::new(body.inertia);
+            coordinates.push(if torque == 0.0 { turning } else { turning.source(Source::Constant(torque)) });
             let [near, far] = body.bearings.map(|bearing| bearing.lever);
             for direction in 0..2 {
                 // the line through both bearings: the nearer one counts more
@@ -92,16 +102,68 @@ impl SpurPair {
                     (first + 3 + direction, -far / (near + far)),
                     (first + 5 + direction, -near / (near + far)),
                 ];
-                train = train.link(Link::new(&terms, body.shaft_stiffness).damping(body.shaft_damping));
+                links.push(Link::new(&terms, body.shaft_stiffness).damping(body.shaft_damping));
             }
             for (at, bearing) in [first + 3, first + 5].into_iter().zip(&body.bearings) {
                 for direction in 0..2 {
-                    train = train.coordinate(Coordinate::new(bearing.mass));
+                    coordinates.push(Coordinate::new(bearing.mass));
                     let (k, d) = (bearing.stiffness[direction], bearing.damping[direction]);
-                    train = train.link(Link::ground(at + direction, k).damping(d));
+                    links.push(Link::ground(at + direction, k).damping(d));
                 }
             }
         }
-        train
+        (coordinates, links)
     }
+
+    /// The pair in units of its own: of mass `m = m_1 m_2/(m_1 + m_2)` with `m_i = J_i/r_bi^2`, of time the inverse of
+    /// `sqrt(k/m)`, of length half its backlash; without one, what the tooth force of its torque deflects the mesh by,
+    /// and 1 m without a torque. Mass and stiffness of the mesh are 1 [derived; (1.7) of Tang 1994 is non-dimensional].
+    /// Angles stay as they are.
+    #[must_use]
+    pub fn non_dimensional(&self) -> (Self, Scales) {
+        let [one, two] = [&self.pinion, &self.wheel].map(|body| body.inertia / body.base_radius.powi(2));
+        let mass = one * two / (one + two);
+        let static_way = (self.torque / (self.pinion.base_radius * self.mesh_stiffness)).abs();
+        let ways = [0.5 * self.gap, static_way];
+        let length = ways.into_iter().find(|way| *way > 0.0).unwrap_or(1.0);
+        let scales = Scales { mass, length, time: (mass / self.mesh_stiffness).sqrt() };
+        let Scales { time, .. } = scales;
+        let (stiffness, damping) = (mass / (time * time), mass / time);
+        let bearing = |bearing: SpurBearing| SpurBearing {
+            mass: bearing.mass / mass,
+            lever: bearing.lever / length,
+            stiffness: bearing.stiffness.map(|k| k / stiffness),
+            damping: bearing.damping.map(|d| d / damping),
+        };
+        let wheel = |body: &SpurWheel| SpurWheel {
+            mass: body.mass / mass,
+            inertia: body.inertia / (mass * length * length),
+            base_radius: body.base_radius / length,
+            shaft_stiffness: body.shaft_stiffness / stiffness,
+            shaft_damping: body.shaft_damping / damping,
+            bearings: body.bearings.map(bearing),
+        };
+        let variation = self.variation.as_ref().map(|variation| variation.scaled(stiffness, length, time));
+        let pair = Self {
+            pinion: wheel(&self.pinion),
+            wheel: wheel(&self.wheel),
+            mesh_stiffness: self.mesh_stiffness / stiffness,
+            mesh_damping: self.mesh_damping / damping,
+            variation,
+            gap: self.gap / length,
+            torque: self.torque / (stiffness * length * length),
+        };
+        (pair, scales)
+    }
+}
+
+/// Units of a pair without dimensions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// kg.
+    pub mass: f64,
+    /// m.
+    pub length: f64,
+    /// s.
+    pub time: f64,
 }

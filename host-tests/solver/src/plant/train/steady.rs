@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::converge::Recording;
 use super::motion::Motion;
 use super::signal::Signal;
 
@@ -11,6 +12,8 @@ const STEADY: f64 = 1e-10;
 const FALLS: (f64, f64) = (0.9999, 1e-13);
 /// Times that a cycle may take of what it would at the speed of its start.
 const SLOWEST: f64 = 100.0;
+/// Share of a peak to which a cycle comes back.
+const RETURNS: f64 = 1e-9;
 /// Share of a cycle before whose end trials begin.
 const NEAR: f64 = 0.02;
 
@@ -65,6 +68,65 @@ impl Motion {
             before = Some(end);
         }
         None
+    }
+
+    /// The steady cycle run for its proof: on from where [`steady_cycle`](Self::steady_cycle) has left off, by `most`
+    /// cycles at most, until speeds and elongations come back to 1e-9 of their peaks; then one more cycle, written down
+    /// in `steps` steps of equal time, with its speed watched. The largest share that does not come back belongs to it.
+    /// None as there.
+    pub fn closed_cycle(mut self, coordinate: usize, turns: u32, most: usize, steps: u32) -> Option<(Recording, f64)> {
+        let angle = TAU * f64::from(turns);
+        for cycle in 0..=most {
+            self.watches.clear();
+            let begun = self.clone();
+            for signal in (0..self.coordinates()).map(Signal::Speed).chain((0..self.links()).map(Signal::Elongation)) {
+                self.watch(signal);
+            }
+            self.turn(coordinate, angle)?;
+            let residual = self.residual(&begun)?;
+            if residual > RETURNS && cycle < most {
+                continue;
+            }
+            let time = self.time() - begun.time();
+            let mut start = begun.afresh();
+            start.watch(Signal::Speed(coordinate));
+            let mut run = Recording::new(start);
+            (0..steps).for_each(|_| run.advance(time / f64::from(steps)));
+            return Some((run, residual));
+        }
+        None
+    }
+
+    /// The motion from here on, as one that begins in this state at this time.
+    fn afresh(&self) -> Self {
+        let mut train = self.train.clone();
+        for (j, coordinate) in train.coordinates.iter_mut().enumerate() {
+            (coordinate.speed, coordinate.angle) = (self.state.speed[j], self.state.angle[j]);
+        }
+        for (link, elongation) in train.links.iter_mut().zip(&self.state.elongation) {
+            link.elongation = *elongation;
+        }
+        let mut afresh = Self::new(train);
+        (afresh.held, afresh.event_tolerance) = (self.held.clone(), self.event_tolerance);
+        (afresh.clock, afresh.now) = ((self.now, 0.0), self.now);
+        afresh
+    }
+
+    /// Largest change of a speed or an elongation since another state, as a share of its peak.
+    fn residual(&self, begun: &Self) -> Option<f64> {
+        let (n, links) = (self.coordinates(), self.links());
+        let changes = self.state.speed.iter().zip(&begun.state.speed).map(|(now, then)| (now - then).abs());
+        let changes = changes
+            .chain(self.state.elongation.iter().zip(&begun.state.elongation).map(|(now, then)| (now - then).abs()));
+        let signals = (0..n).map(Signal::Speed).chain((0..links).map(Signal::Elongation));
+        let mut largest = 0.0_f64;
+        for (change, signal) in changes.zip(signals) {
+            let peak = self.extremes(signal).map(|e| e.peak.abs().max(e.least.abs()))?;
+            if peak > 0.0 {
+                largest = largest.max(change / peak);
+            }
+        }
+        Some(largest)
     }
 
     /// On until a coordinate has turned by an angle, rad.

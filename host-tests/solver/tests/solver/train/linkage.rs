@@ -3,7 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use driveline_solver::plant::train::converge::{Recording, prove};
-use driveline_solver::plant::train::{Coordinate, Crank, FourBar, Motion, Orders, Source, Train};
+use driveline_solver::plant::train::{
+    Coordinate, Crank, FourBar, Friction, Link, Motion, Orders, Signal, Source, Toggle, Train, rubbing,
+};
 
 /// A four-bar press: motor line, flywheel, coupler and rocker.
 const BARS: FourBar = FourBar { crank: 0.1, coupler: 0.35, rocker: 0.3, ground: 0.4 };
@@ -102,10 +104,30 @@ fn shooting(guess: f64, inertia: &dyn Fn(f64) -> f64, torque: &dyn Fn(f64, f64, 
     (most - least) * time / TAU
 }
 
+/// The cycle that a machine settles to has the delta of shooting, comes back, and is proven when it is run once more.
+fn settles_as_by_shooting(
+    mut motion: Motion,
+    guess: f64,
+    inertia: &dyn Fn(f64) -> f64,
+    torque: &dyn Fn(f64, f64, bool) -> f64,
+    arc: [f64; 2],
+) {
+    let cycle = motion.steady_cycle(0, 1, 1000).unwrap();
+    let expected = shooting(guess, inertia, torque, arc);
+    println!("delta {:.12} {expected:.12} after {} cycles", cycle.delta(), cycle.cycles);
+    assert!(expected > 0.02, "{expected}");
+    // 1e-10 of a speed over a delta of some percent
+    assert!((cycle.delta() / expected - 1.0).abs() < 1e-7, "{cycle:?} {expected}");
+    let (run, residual) = motion.closed_cycle(0, 1, 1000, 100).unwrap();
+    assert!(residual <= 1e-9, "{residual}");
+    prove(&run).unwrap();
+    let [e, time] = [run.motion().extremes(Signal::Speed(0)).unwrap()].map(|e| [e.peak - e.least, cycle.time])[0];
+    // what does not come back, over a delta of some percent
+    assert!((e * time / TAU / expected - 1.0).abs() < 1e-6, "{e} {expected}");
+}
+
 #[test]
 fn the_steady_cycle_of_a_four_bar_press_is_that_of_shooting() {
-    let mut motion = press();
-    let cycle = motion.steady_cycle(0, 1, 1000).unwrap();
     let inertia = |angle: f64| {
         let [coupler, rocker] = rates(angle);
         FLYWHEEL + COUPLER * coupler * coupler + ROCKER * rocker * rocker
@@ -114,11 +136,7 @@ fn the_steady_cycle_of_a_four_bar_press_is_that_of_shooting() {
         let work = if on { -FORCE * rates(angle)[1] } else { 0.0 };
         LINE[0] - LINE[1] * speed + work
     };
-    let expected = shooting(15.0, &inertia, &torque, ARC);
-    println!("delta {:.12} {expected:.12} after {} cycles", cycle.delta(), cycle.cycles);
-    assert!(expected > 0.02, "{expected}");
-    // 1e-10 of a speed over a delta of some percent
-    assert!((cycle.delta() / expected - 1.0).abs() < 1e-7, "{cycle:?} {expected}");
+    settles_as_by_shooting(press(), 15.0, &inertia, &torque, ARC);
 }
 
 #[test]
@@ -130,8 +148,7 @@ fn the_steady_cycle_of_a_slider_with_a_force_over_part_of_its_stroke_is_that_of_
         Source::Stroke { torque: Orders::sampled(way).slope().times(-force), from: arc[0], to: arc[1], turns: 1 };
     let line = Source::Line { stall: 900.0, slope: 20.0 };
     let crank = Coordinate::new(12.0).speed(30.0).crank(Crank::new(r, l, mass)).source(work).source(line);
-    let mut motion = Train::new().coordinate(crank).build().unwrap();
-    let cycle = motion.steady_cycle(0, 1, 1000).unwrap();
+    let motion = Train::new().coordinate(crank).build().unwrap();
     // x' = -r sin - r^2 sin cos/S
     let slope = move |angle: f64| {
         let (sine, cosine) = angle.sin_cos();
@@ -139,10 +156,7 @@ fn the_steady_cycle_of_a_slider_with_a_force_over_part_of_its_stroke_is_that_of_
     };
     let inertia = |angle: f64| 12.0 + mass * slope(angle).powi(2);
     let torque = |angle: f64, speed: f64, on: bool| 900.0 - 20.0 * speed - if on { force * slope(angle) } else { 0.0 };
-    let expected = shooting(30.0, &inertia, &torque, arc);
-    println!("delta {:.12} {expected:.12} after {} cycles", cycle.delta(), cycle.cycles);
-    assert!(expected > 0.02, "{expected}");
-    assert!((cycle.delta() / expected - 1.0).abs() < 1e-7, "{cycle:?} {expected}");
+    settles_as_by_shooting(motion, 30.0, &inertia, &torque, arc);
 }
 
 /// A law of inertia from the way of a slider is the crank's own, and runs of both are proven and alike.
@@ -198,6 +212,137 @@ fn forces_over_a_stroke_and_torques_over_two_turns_give_their_work() {
         assert!((energy(&run) / expected - 1.0).abs() < 1e-11, "{angle}: {} {expected}", energy(&run));
     }
     prove(&run).unwrap();
+}
+
+/// A stroke from before the dead centre to behind it gives its work, begun on the arc or off it, forwards and back.
+#[test]
+fn a_stroke_passes_the_angle_zero() {
+    let way = |angle: f64| 0.1 * angle.cos() + (0.35 * 0.35 - (0.1 * angle.sin()).powi(2)).sqrt();
+    for (start, speed) in [(0.0, 20.0), (3.0, 20.0), (0.9, -20.0), (7.0, -20.0)] {
+        let push = Orders::sampled(way).slope().times(300.0);
+        let stroke = Source::Stroke { torque: push, from: 5.5, to: TAU + 0.8, turns: 1 };
+        let coordinate = Coordinate::new(4.0).angle(start).speed(speed).source(stroke);
+        let mut run = Recording::new(Train::new().coordinate(coordinate).build().unwrap());
+        let on = |angle: f64| {
+            // work up to an angle: whole turns, and what lies within the last arc
+            let turn = ((angle - 5.5) / TAU).floor();
+            let within = (angle - TAU * turn).min(TAU + 0.8);
+            300.0 * (turn * (way(0.8) - way(5.5)) + way(within) - way(5.5))
+        };
+        for _ in 0..1000 {
+            run.advance(1e-3);
+            let (angle, speed_now) = (run.motion().angle(0), run.motion().speed(0));
+            let expected = 2.0 * speed * speed + on(angle) - on(start);
+            // roundings of some thousand stretches
+            assert!((2.0 * speed_now * speed_now / expected - 1.0).abs() < 1e-11, "{start} {angle}");
+        }
+        prove(&run).unwrap();
+    }
+}
+
+/// Dry friction on a crank takes its torque times the angle, and holds the weight of the slider where it has come to
+/// rest; a weight beyond its breakaway torque drives it off again.
+#[test]
+fn a_crank_rubs_in_its_bearing_and_rests() {
+    let crank = Crank::new(0.1, 0.35, 40.0);
+    let way = |angle: f64| 0.1 * angle.cos() + (0.35 * 0.35 - (0.1 * angle.sin()).powi(2)).sqrt();
+    let lines = Orders::sampled(way).slope();
+    for (weight, holds) in [(100.0, true), (250.0, false)] {
+        let coordinate = Coordinate::new(2.0).speed(12.0).crank(crank).source(Source::Orders(lines.times(-weight).0));
+        let train = Train::new().coordinate(coordinate).friction(Friction::ground(0, 14.0).breakaway(15.0));
+        let mut run = Recording::new(train.build().unwrap());
+        let (mut turned, mut last, start) = (0.0, 0.0, 0.5 * (2.0 + crank.inertia(0.0).0) * 144.0 + weight * way(0.0));
+        for _ in 0..3000 {
+            run.advance(1e-3);
+            let (angle, speed) = (run.motion().angle(0), run.motion().speed(0));
+            turned += (angle - last).abs();
+            last = angle;
+            if !run.motion().events().is_empty() {
+                continue;
+            }
+            let energy = 0.5 * (2.0 + crank.inertia(angle).0) * speed * speed + weight * way(angle);
+            assert!((energy - start + 14.0 * turned).abs() < 1e-10 * start, "{angle}: {energy}");
+        }
+        prove(&run).unwrap();
+        assert!(!run.motion().events().is_empty());
+        if holds {
+            // 100 N on at most 0.104 m a radian is 10.4 N m
+            assert_eq!(run.motion().speed(0), 0.0);
+        }
+    }
+    let crank = || Coordinate::new(2.0).crank(crank);
+    let between =
+        Train::new().coordinate(crank()).coordinate(Coordinate::new(1.0)).friction(Friction::between(0, 1, 1.0));
+    assert!(between.build().is_err());
+    assert!(Train::new().coordinate(crank()).friction(Friction::ground(0, 1.0).surface(2.0)).build().is_err());
+}
+
+/// A lossy gear drives a crank's shaft, and the crank drives a lossy gear: power behind it over power before it is its
+/// efficiency. The run is proven.
+#[test]
+fn a_crank_drives_a_lossy_gear() {
+    let crank = Coordinate::new(2.0).crank(Crank::new(0.1, 0.35, 4.0)).source(Source::Line { stall: 80.0, slope: 2.0 });
+    let train = Train::new()
+        .coordinate(crank)
+        .coordinate(Coordinate::new(3.0).viscous(4.0))
+        .link(Link::geared(0, 1, 2.0, 4.0e3).damping(8.0).efficiency(0.9));
+    let mut run = Recording::new(train.build().unwrap());
+    (0..1500).for_each(|_| run.advance(2e-3));
+    prove(&run).unwrap();
+    // what the motor gives over whole cycles, less the loss of the gear, is what the load takes
+    let mut motion = run.motion().clone();
+    let cycle = motion.steady_cycle(0, 1, 2000).unwrap();
+    // the cycle is extrapolated; the motion itself comes to it
+    motion.advance(100.0 * cycle.time);
+    let [mut given, mut taken] = [0.0; 2];
+    let steps = 4000;
+    for step in 0..=steps {
+        let weight = if step == 0 || step == steps { 0.5 } else { 1.0 };
+        let (motor, load) = (motion.speed(0), motion.speed(1));
+        given += weight * (80.0 - 2.0 * motor) * motor;
+        // the load, and the damper of the shaft behind the gear
+        taken += weight * (4.0 * load * load + 8.0 * (motor - 2.0 * load).powi(2));
+        motion.advance(cycle.time / f64::from(steps));
+    }
+    // the trapezium rule of a smooth periodic power; flows do not turn round
+    assert!((taken / given - 0.9).abs() < 1e-6, "{} {:?}", taken / given, motion.events());
+}
+
+/// Dry friction of a slider on its guide takes its force times the way, there and back: `4 r F` a turn.
+#[test]
+fn a_slider_rubs_on_its_guide() {
+    let way = Orders::sampled(|angle| 0.1 * angle.cos() + (0.35 * 0.35 - (0.1 * angle.sin()).powi(2)).sqrt());
+    let sources = rubbing(&way, 60.0);
+    assert_eq!(sources.len(), 2);
+    let coordinate = sources.into_iter().fold(Coordinate::new(4.0).speed(20.0), Coordinate::source);
+    let mut run = Recording::new(Train::new().coordinate(coordinate).build().unwrap());
+    for _ in 0..2000 {
+        run.advance(1e-3);
+        let (angle, speed) = (run.motion().angle(0), run.motion().speed(0));
+        // from the top dead centre in, then out
+        let (turn, within) = ((angle / TAU).floor(), angle.rem_euclid(TAU));
+        let moved = if within < PI { way.at(0.0) - way.at(within) } else { 0.2 + way.at(within) - way.at(PI) };
+        let expected = 800.0 - 60.0 * (0.4 * turn + moved);
+        assert!((2.0 * speed * speed / expected - 1.0).abs() < 1e-10, "{angle}");
+    }
+    prove(&run).unwrap();
+}
+
+/// The slider of a toggle stays on its line, a link's length from the knee; its way is the closed form by small
+/// differences of the knee.
+#[test]
+fn a_toggle_keeps_the_length_of_its_link() {
+    let bars = FourBar { crank: 0.06, coupler: 0.5, rocker: 0.3, ground: 0.55 };
+    let toggle = Toggle { bars, link: 0.32, direction: 1.9 };
+    let way = Orders::sampled(|angle| toggle.way(angle));
+    for step in 0..40 {
+        let angle = TAU * f64::from(step) / 40.0;
+        let rocker = bars.angles(angle)[1];
+        let knee = [bars.rocker * rocker.cos(), bars.rocker * rocker.sin()];
+        let slider = [toggle.way(angle) * 1.9_f64.cos(), toggle.way(angle) * 1.9_f64.sin()];
+        assert!(((knee[0] - slider[0]).hypot(knee[1] - slider[1]) - 0.32).abs() < 1e-14, "{angle}");
+        assert!((way.at(angle) - toggle.way(angle)).abs() < 1e-12, "{angle}");
+    }
 }
 
 /// Of an almost flat four-bar the ratio is steep: the series still has that of the closed form, or is no number.

@@ -126,11 +126,13 @@ impl<'a> Double<'a> {
                 // the middle of the zone says how many pairs share the load
                 let ahead = self.teeth.iter().find(|tooth| tooth.0 == l).map_or(0, |tooth| tooth.1);
                 let pitches = 0.5 * (teeth.edge(ahead - 1) + teeth.edge(ahead)) * teeth.count / TAU;
-                let faulty = pitches.floor().rem_euclid(2.0) == 0.0;
+                let first = pitches.floor().rem_euclid(2.0) == 0.0;
+                let [this, last] = if first { teeth.errors } else { [teeth.errors[1], teeth.errors[0]] };
                 if pitches - pitches.floor() < teeth.contact_ratio - 1.0 {
-                    (teeth.double, 0.5 * teeth.error, 0.0)
+                    let force = (teeth.double - teeth.leaving) * this + teeth.leaving * last;
+                    (teeth.double, force / teeth.double, 0.0)
                 } else {
-                    (teeth.single, if faulty { teeth.error } else { 0.0 }, 0.0)
+                    (teeth.single, this, 0.0)
                 }
             }
             Some(Variation::Harmonics { frequency, stiffness, error }) => {
