@@ -17,16 +17,18 @@ use crate::sample::Estimate;
 /// A stop by the setpoint takes the delay longer; an emergency stop belongs to the brake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+// In this order a start clears no more words in a row than the compiler writes one by one: a call would hold a loop.
+#[repr(C)]
 pub struct InputShaper<N, G, const SLOTS: usize, const PARTS: usize = 3> {
-    governor: G,
     setpoint: N,
     /// Speed at the start: the setpoint of the time before it.
     initial: N,
-    line: [N; SLOTS],
     at: usize,
     filled: usize,
     /// Ticks to the next slot.
     wait: u32,
+    line: [N; SLOTS],
+    governor: G,
     targets: [N; PARTS],
     ramped: [N; PARTS],
 }

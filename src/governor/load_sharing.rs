@@ -86,7 +86,9 @@ impl<N: Number, const MOTORS: usize> LoadSharing<N, MOTORS> {
     #[inline]
     pub fn hold(&mut self, angles: &[u32; MOTORS]) -> u32 {
         let Some(&first) = angles.first() else { return 0 };
-        *self = Self { zero: angles.map(|angle| angle.wrapping_sub(first)), ..Self::default() };
+        self.zero = angles.map(|angle| angle.wrapping_sub(first));
+        // the deviations follow with the next angles
+        (self.bias, self.equal, self.lagged, self.left_out) = (N::ZERO, false, [0; MOTORS], 0);
         first
     }
 
