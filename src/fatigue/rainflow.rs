@@ -85,8 +85,8 @@ impl<N: Classed, const CLASSES: usize> Fluctuation<N> for Rainflow<N, CLASSES> {
 }
 
 impl<N: Classed, const CLASSES: usize> Rainflow<N, CLASSES> {
-    /// Follows the torque, in quarters of a class; where it turns round its last class is a reversal, and its range goes
-    /// into the queue. It leaves a class by a quarter: noise about a boundary between two classes is no reversal.
+    /// Follows the torque, in quarters of a class; where it turns round its last class is a reversal, and its range
+    /// goes into the queue. It leaves a class by a quarter: noise about a boundary between two classes is no reversal.
     #[inline(always)]
     fn reverses(&mut self, quarters: i32) -> bool {
         let last = self.last;

@@ -150,11 +150,14 @@ fn the_stack_of_the_board_with_a_motor_ends_where_the_memory_ends() {
     for variables in ["__sdata", "__sbss"] {
         assert!(address(variables) >= address("_stack_start"), "{variables}");
     }
-    // the handler of faults pushes nothing: TIM1_BDTR's address, then MOE is cleared for ever (Arm DDI 0403E, A7.7)
+    // the handler of faults pushes nothing: the addresses of TIM1_BDTR and of TAMP_BKP0R, the mark that the next start
+    // reads there; then MOE is cleared and the mark written for ever (Arm DDI 0403E, A7.7)
     let text = file.section_by_name(".text").unwrap();
-    let handler = text.data_range(address("HardFault") & !1, 18).unwrap().unwrap();
+    let handler = text.data_range(address("HardFault") & !1, 36).unwrap().unwrap();
     let code: Vec<u16> = handler.chunks_exact(2).map(|two| u16::from_le_bytes([two[0], two[1]])).collect();
-    assert_eq!(code, [0xf642, 0x4044, 0xf2c4, 0x0001, 0x6801, 0xf421, 0x4100, 0x6001, 0xe7fa]);
+    let registers = [0xf642, 0x4044, 0xf2c4, 0x0001, 0xf242, 0x5200, 0xf2c4, 0x0200, 0xf240, 0x0301, 0xf6c1, 0x531e];
+    let cleared = [0x6801, 0xf421, 0x4100, 0x6001, 0x6013, 0xe7f9];
+    assert_eq!(code, [&registers[..], &cleared[..]].concat());
     // and the core starts there: the first word of the vectors
     let vectors = file.section_by_name(".vector_table").unwrap();
     let first = vectors.data_range(vectors.address(), 4).unwrap().unwrap();

@@ -29,9 +29,9 @@ fn counted<N: Classed>(series: &[u8], config: &TorqueClasses<N>, torque: impl Fn
     count.counts(config)
 }
 
-/// The rule as the standard has it, on a whole series that starts at zero torque: reversals first; then, of any four in a row, the middle two are
-/// a cycle where their range is not greater than the ranges on either side; they are taken out and the search begins
-/// again.
+/// The rule as the standard has it, on a whole series that starts at zero torque: reversals first; then, of any four in
+/// a row, the middle two are a cycle where their range is not greater than the ranges on either side; they are taken
+/// out and the search begins again.
 fn by_rule(series: &[u8]) -> ([u32; CLASSES], Vec<u8>) {
     let mut points: Vec<i32> = vec![ZERO.into()];
     for &value in series {
@@ -96,8 +96,8 @@ fn a_thousand_random_series_are_counted_as_by_the_rule() {
     assert!(closed > 50_000, "{closed}");
 }
 
-/// ASTM E1049-85, figure 6: -2, 1, -3, 5, -1, 3, -4, 4, -2, of which the first is put at zero torque. Its one whole cycle is 4 (from -1 to 3); the half cycles 3,
-/// 4, 8, 9, 8, 6 are the residue's ranges, from the standard's table.
+/// ASTM E1049-85, figure 6: -2, 1, -3, 5, -1, 3, -4, 4, -2, of which the first is put at zero torque. Its one whole
+/// cycle is 4 (from -1 to 3); the half cycles 3, 4, 8, 9, 8, 6 are the residue's ranges, from the standard's table.
 #[test]
 fn the_standard_s_example() {
     let series = [-2, 1, -3, 5, -1, 3, -4, 4, -2].map(|value: i8| ZERO.wrapping_add_signed(value + 2));
