@@ -8,16 +8,16 @@ use crate::sample::Estimate;
 /// the swings that they excite cancel [Singer and Seering 1990; design:
 /// [`InputShaperDesign`](crate::design::InputShaperDesign)].
 ///
-/// Two parts (ZV) delay the end of a change by half a period, three (ZVD) by a period and stand a frequency that is off
-/// by several percent. Any course of the setpoint is shaped, such as that of a joystick: it is taken once in a slot, of
+/// Two parts (ZV) delay the end of a change by half a period; three (ZVD) delay it by a period, and tolerate a frequency
+/// that is off by several percent. Any course of the setpoint is shaped, such as that of a joystick: it is taken once in a slot, of
 /// which `SLOTS` make the whole delay. So the drive answers up to a slot late, and keeps `SLOTS` setpoints.
 /// `SLOTS` is a multiple of `PARTS - 1`.
 ///
 /// The ramp acts on each part. That of the governor is no steeper for the parts together, and so passes them.
-/// A stop by the setpoint takes the delay longer; an emergency stop belongs to the brake.
+/// A stop by the setpoint takes longer by the delay; an emergency stop belongs to the brake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-// In this order a start clears no more words in a row than the compiler writes one by one: a call would hold a loop.
+// The order keeps the runs of words that a start clears short: for long ones the compiler calls a loop to clear them.
 #[repr(C)]
 pub struct InputShaper<N, G, const SLOTS: usize, const PARTS: usize = 3> {
     setpoint: N,

@@ -10,7 +10,7 @@
 //!
 //! So one half of the pinions carries the load on the forward flanks and the other half stays on its backward flanks
 //! with the preload, or the other way round, whatever sign the load has: the torque reverses and no flank is left. The
-//! sum is `tau` whatever the bias. The price is that half of the motors carry the load, twice its share each.
+//! sum is `tau` whatever the bias, but where a motor's damping is cut at its limit. The price is that half of the motors carry the load, twice its share each.
 //!
 //! Above a limit of `|tau_s|/n` all motors share the load equally, until it has fallen below another limit. Then the
 //! holding pinions cross their backlash, while the others carry the load. The bias changes by a slew, so that they
@@ -87,25 +87,26 @@ impl<N: Number, const MOTORS: usize> LoadSharing<N, MOTORS> {
     pub fn hold(&mut self, angles: &[u32; MOTORS]) -> u32 {
         let Some(&first) = angles.first() else { return 0 };
         self.zero = angles.map(|angle| angle.wrapping_sub(first));
-        // the deviations follow with the next angles
-        (self.bias, self.equal, self.lagged, self.left_out) = (N::ZERO, false, [0; MOTORS], 0);
+        (self.bias, self.equal, self.left_out) = (N::ZERO, false, 0);
+        (self.deviation, self.lagged) = ([0; MOTORS], [0; MOTORS]);
         first
     }
 
     /// The mean angle (2^-32 turn) of the motors: that of the drive. Once a tick.
     ///
-    /// An angle that deviates implausibly from the first motor's is left out, and counts as the first one's:
-    /// [`left_out`](Self::left_out). The drive itself screens the mean, and so the first motor's angle.
+    /// An angle that deviates implausibly from the first motor's is left out, and its motor goes on beside the first one
+    /// as it last did: [`left_out`](Self::left_out). The drive itself screens the mean, and so the first motor's angle.
     #[inline(always)]
     pub fn mean_angle(&mut self, config: &LoadSharingConfig<N>, angles: &[u32; MOTORS]) -> u32 {
         let () = Self::EVEN;
         let Some(&first) = angles.first() else { return 0 };
         let mut sum = 0_i32;
         self.left_out = 0;
+        let before = self.deviation.first().copied().unwrap_or_default();
         for (k, ((deviation, angle), zero)) in self.deviation.iter_mut().zip(angles).zip(&self.zero).enumerate() {
             let turned = angle.wrapping_sub(first).wrapping_sub(*zero) as i32;
             let plausible = turned <= config.max_deviation && turned >= -config.max_deviation;
-            *deviation = if plausible { turned } else { 0 };
+            *deviation = if plausible { turned } else { deviation.wrapping_sub(before) };
             self.left_out |= u32::from(!plausible) << (k & 31);
             sum = sum.wrapping_add(*deviation);
         }
@@ -147,6 +148,13 @@ impl<N: Number, const MOTORS: usize> LoadSharing<N, MOTORS> {
         torques
     }
 
+    /// The motors give no torque and may have left their flanks: the bias begins at zero, the encoders' zeros stand. In
+    /// every tick with a lost angle.
+    #[inline]
+    pub fn release(&mut self) {
+        (self.bias, self.equal, self.lagged) = (N::ZERO, false, self.deviation);
+    }
+
     /// The bias (N m).
     pub fn bias(&self) -> N {
         self.bias
@@ -157,7 +165,8 @@ impl<N: Number, const MOTORS: usize> LoadSharing<N, MOTORS> {
         self.equal
     }
 
-    /// Bit k: the angle of motor k was implausible in the last tick, and was left out.
+    /// Bit k: the angle of motor k was implausible in the last tick, and was left out. All bits but the first: the first
+    /// motor's own angle is the likely fault.
     #[inline(always)]
     pub fn left_out(&self) -> u32 {
         self.left_out
@@ -202,6 +211,21 @@ mod tests {
         assert_eq!(steady(&mut sharing, 36.0, 36.0), [20.0, -2.0, 20.0, -2.0]);
     }
 
+    #[test]
+    fn after_a_lost_angle_the_bias_begins_at_zero_and_the_zeros_stand() {
+        let mut sharing = LoadSharing::<f64, 2>::default();
+        let config = LoadSharingConfig { share: 0.5, ..CONFIG };
+        sharing.hold(&[0, 1000]);
+        sharing.mean_angle(&config, &[100, 1300]);
+        sharing.torques(&config, 8.0, 8.0);
+        assert_eq!(sharing.bias(), 1.0);
+        sharing.release();
+        assert_eq!(sharing.bias(), 0.0);
+        // standing as they last stood: no damping, the bias rises by its step
+        assert_eq!(sharing.mean_angle(&config, &[100, 1300]), 200);
+        assert_eq!(sharing.torques(&config, 8.0, 8.0), [5.0, 3.0]);
+    }
+
     /// The sum is the governor's torque in every tick, also while the bias changes and in tick 60, in which the torque
     /// limit leaves it less room at once.
     #[test]
@@ -234,8 +258,11 @@ mod tests {
         assert_eq!(sharing.mean_angle(&CONFIG, &angles), zeros[0].wrapping_add(200));
         assert_eq!(sharing.left_out(), 0);
         angles[2] = angles[2].wrapping_add(5000);
-        assert_eq!(sharing.mean_angle(&CONFIG, &angles), zeros[0].wrapping_add(100 + 500 / 4));
+        // 100 behind the first, as before: the mean does not move
+        assert_eq!(sharing.mean_angle(&CONFIG, &angles), zeros[0].wrapping_add(200));
         assert_eq!(sharing.left_out(), 0b100);
+        angles = angles.map(|angle| angle.wrapping_add(50));
+        assert_eq!(sharing.mean_angle(&CONFIG, &angles), zeros[0].wrapping_add(250));
     }
 
     /// A motor that moves on evenly by `v` a tick lags by `v 2^lag` less a tick's own: the damping is that of a speed,

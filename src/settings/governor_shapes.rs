@@ -13,7 +13,7 @@ const SLEW: &str =
     "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
 const CURVE: &str = "the torque curve and its slopes must be finite; in fixed point it must lie within twice the \
     bases, and its slopes within 2 bases of the torque per base of the speed";
-const SHAPER: &str = "the input shaper's slots must be a tick or longer, below 2^31 ticks, and its share above 0 and \
+const SHAPER: &str = "the input shaper's slots must be whole ticks within 2 % of the delay, below 2^31 ticks, and its share above 0 and \
     at most 1/2: take fewer slots or raise the rate";
 const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
 
@@ -101,12 +101,15 @@ constants! {
     }
 }
 
-/// Ticks of a slot, and the share of the later part.
+/// Ticks of a slot, and the share of the later part. A delay that is 2 % off leaves 3 % of the swing with two parts.
 const fn shaper(design: &InputShaperDesign, slots: u32, period: f64) -> Result<(u32, f64), Error> {
-    let slot = design.delay / (slots as f64 * period) + 0.5;
-    if slot >= 1.0 && slot < 2_147_483_648.0 && design.share > 0.0 && design.share <= 0.5 {
+    let exact = design.delay / (slots as f64 * period);
+    let slot = (exact + 0.5) as u32;
+    let off = slot as f64 / exact - 1.0;
+    let is_near = off <= 0.02 && off >= -0.02;
+    if slot >= 1 && exact < 2_147_483_647.0 && is_near && design.share > 0.0 && design.share <= 0.5 {
         // a coefficient in fixed point ends at 1/2 less 2^-32
-        Ok((slot as u32, design.share.min(0.5 - 0.25 / 1_073_741_824.0)))
+        Ok((slot, design.share.min(0.5 - 0.25 / 1_073_741_824.0)))
     } else {
         Err(Error::Value(SHAPER))
     }

@@ -7,7 +7,7 @@ use super::format::ANGLE_PER_RADIAN;
 use crate::governor::LoadSharingConfig;
 
 const TORQUES: &str = "preload, slew and torque limit of a load sharing must be positive and finite, and its limits \
-    0 < bias_below < equal_above; in fixed point all within twice the base of the torque";
+    0 < bias_below < equal_above, twice which and the preload are within the torque limit; in fixed point all within twice the base of the torque";
 const DAMPING: &str = "the damping of a load sharing must be zero or above and finite, and in fixed point its torque \
     per angle less than half of its range: damp less, let it lag more, or raise the base of the torque";
 const LAG: &str = "the damping of a load sharing needs a lag from one tick to 65,536 of them";
@@ -24,12 +24,12 @@ pub struct LoadSharingSettings {
     /// Torque of a motor that holds its flank against the load (N m): more than the estimate's error, the torques'
     /// inaccuracy and what the pinions swing by.
     pub preload: f64,
-    /// A motor's share of the shaft torque above which all motors share the load equally (N m): twice of it and the
-    /// preload are within the torque limit.
+    /// A motor's share of the shaft torque above which all motors share the load equally (N m): twice this plus the
+    /// preload must not exceed the torque limit.
     pub equal_above: f64,
     /// The share below which the motors are biased again (N m).
     pub bias_below: f64,
-    /// Largest change of the bias (N m/s): more than a motor's share of the shaft torque changes by, lest a holding
+    /// Largest change of the bias (N m/s): faster than a motor's share of the shaft torque changes, lest a holding
     /// pinion leave its flank.
     pub slew: f64,
     /// Largest torque of a motor, either way (N m).
@@ -65,7 +65,8 @@ constants! {
         if !(motors >= 2 && motors <= 32 && motors.is_multiple_of(2)) {
             return Err(Error::Value(MOTORS));
         }
-        if !(bias_below > 0.0 && bias_below < equal_above) {
+        let carried = 2.0 * equal_above + preload;
+        if !(bias_below > 0.0 && bias_below < equal_above && carried <= torque_limit) {
             return Err(Error::Value(TORQUES));
         }
         let deviation = settings.max_deviation * ANGLE_PER_RADIAN;

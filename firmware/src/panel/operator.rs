@@ -54,15 +54,18 @@ impl Operator {
         self.permit = self.permit.saturating_sub(1);
         self.silent = self.silent.saturating_add(1);
         // it stops when it is touched, without waiting for the bouncing to end, and where the line is dead
-        if self.running && (pressed || self.timeout != 0 && self.silent > self.timeout) {
+        let is_dead = self.timeout != 0 && self.silent > self.timeout;
+        if self.running && (pressed || is_dead) {
             self.stop();
         }
+        // a press belongs to the permit that it was made under
+        self.begun &= self.permit != 0;
         self.otherwise = if pressed == self.pressed { 0 } else { self.otherwise.saturating_add(1) };
         if self.otherwise >= STANDS {
             (self.pressed, self.otherwise) = (pressed, 0);
             if pressed {
                 self.begun = self.permit != 0;
-            } else if self.begun && self.permit != 0 {
+            } else if self.begun && !is_dead {
                 (self.running, self.permit) = (true, 0);
             }
         }

@@ -136,6 +136,7 @@ where
         let mut output = drive.advance(config, &Input { angle, ..*input });
         let torque = N::from_word(output.torque);
         self.torques = if output.faults & Faults::ANGLE_LOST.bits() != 0 {
+            self.sharing.release();
             [N::ZERO; MOTORS]
         } else {
             self.sharing.torques(constants, torque, N::from_word(output.shaft_torque))

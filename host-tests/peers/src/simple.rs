@@ -20,8 +20,8 @@ impl DisturbanceObserver {
     /// With a corner (rad/s).
     pub fn new(scene: &Scene, corner: f32) -> Self {
         let share = corner * scene.period() as f32 / (1.0 + corner * scene.period() as f32);
-        // g of the low-pass as it is sampled: its share of a tick over the period.
-        let momentum = share * scene.rate_hz as f32 * scene.two_mass.motor_inertia as f32;
+        // a steady acceleration is answered in full: share/(1 - share) of this low-pass is corner times period
+        let momentum = corner * scene.two_mass.motor_inertia as f32;
         DisturbanceObserver {
             constants: [scene.rate_hz as f32, share, momentum],
             filtered: 0.0,

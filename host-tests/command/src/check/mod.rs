@@ -71,7 +71,7 @@ pub enum CheckError {
     /// The long runs that failed.
     #[error("failed: {0}")]
     Long(String),
-    /// What a step's result could not be kept by.
+    /// Why a step's result could not be written to the page.
     #[error("{0}")]
     Kept(String),
 }

@@ -25,7 +25,7 @@ pub const STEPS: [Step; 11] = [
     Step { name: "format", content: "`cargo fmt --check`", repeat: "cargo fmt --check", run: format },
     Step {
         name: "clippy",
-        content: "no warning, of `cargo doc` neither",
+        content: "no warning, nor any from `cargo doc`",
         repeat: "cargo driveline check --only clippy",
         run: clippy,
     },

@@ -306,31 +306,35 @@ impl Element {
         }
     }
 
-    /// Half of a shaft's own inertia (kg m2); nothing of what has none.
-    pub fn half_inertia(&self) -> f64 {
+    /// A shaft's own inertia at its beginning and its end (kg m2), so that total and centre are kept; nothing of what
+    /// has none.
+    pub fn end_inertias(&self) -> [f64; 2] {
         match *self {
-            Self::Shaft { inertia, .. } => 0.5 * inertia,
+            Self::Shaft { inertia, .. } => [0.5 * inertia; 2],
             Self::Section { length, diameter, end, bore, density, .. } => {
-                // pi rho/32 times the mean of d^4 over the length, which of a straight taper is this sum
-                let mean = (0..5).map(|power| diameter.powi(power) * end.powi(4 - power)).sum::<f64>() / 5.0;
-                0.5 * density * length * PI / 32.0 * (mean - bore.powi(4))
+                // the integral of x d^4 over a straight taper from 0 to 1, d from `near` to `far`
+                let moment = |near: f64, far: f64| {
+                    (0..5).map(|k| f64::from(k + 1) * near.powi(4 - k) * far.powi(k)).sum::<f64>() / 30.0
+                };
+                [(end, diameter), (diameter, end)]
+                    .map(|(near, far)| density * length * PI / 32.0 * (moment(near, far) - 0.5 * bore.powi(4)))
             }
-            _ => 0.0,
+            _ => [0.0; 2],
         }
     }
 
-    /// A shaft with half of its own inertia at either end.
+    /// A shaft with its own inertia at its ends.
     fn heavy(&self, chain: Chain, shaft: impl FnOnce(Chain) -> Chain) -> Chain {
-        match self.half_inertia() {
-            0.0 => shaft(chain),
-            half => shaft(chain.rotor(Inertia(half))).rotor(Inertia(half)),
+        match self.end_inertias() {
+            [0.0, 0.0] => shaft(chain),
+            [beginning, end] => shaft(chain.rotor(Inertia(beginning))).rotor(Inertia(end)),
         }
     }
 
     fn heavy_rust(&self, shaft: &str) -> String {
-        match self.half_inertia() {
-            0.0 => shaft.to_owned(),
-            half => format!(".rotor(Inertia({half:?})){shaft}.rotor(Inertia({half:?}))"),
+        match self.end_inertias() {
+            [0.0, 0.0] => shaft.to_owned(),
+            [beginning, end] => format!(".rotor(Inertia({beginning:?})){shaft}.rotor(Inertia({end:?}))"),
         }
     }
 

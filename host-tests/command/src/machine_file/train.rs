@@ -240,9 +240,14 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         for (place, table) in root.tables_if("spur_pair", "spur pair")? {
             let (own, held) = file.spur_pair(table)?;
             places.extend(std::iter::repeat_n(place.clone(), own.len()));
-            link_places.extend(std::iter::repeat_n(place, held.len()));
+            link_places.extend(std::iter::repeat_n(place.clone(), held.len()));
             coordinates.extend(own);
             links.extend(held);
+            if coordinates.len() > COORDINATES {
+                let (found, expected) =
+                    (format!("{} coordinates", coordinates.len()), format!("at most {COORDINATES}"));
+                return Err(Diagnostic::at(source, place, "spur_pair", found, expected));
+            }
         }
     }
     let chained = links.len() - link_places.len();
@@ -549,6 +554,10 @@ impl Reading {
 
     /// How the stiffness of a mesh changes: `spur`, `teeth` or `harmonics`.
     fn variation(&self, table: &mut Table<'_>) -> Result<Option<Variation>, Diagnostic> {
+        let given: Vec<_> = ["spur", "teeth", "harmonics"].into_iter().filter(|&key| table.has(key)).collect();
+        if let [_, second, ..] = given[..] {
+            return Err(table.wrong(second, "one of `spur`, `teeth` and `harmonics`"));
+        }
         let mut found = None;
         if let Some(mut spur) = table.table_if("spur")? {
             let (contact, [double, leaving, single], errors) = pairs(&mut spur)?;
@@ -583,6 +592,12 @@ impl Reading {
     fn spur_pair(&mut self, mut table: Table<'_>) -> Result<(Vec<Coordinate>, Vec<Link>), Diagnostic> {
         let name = fresh(&mut table, &self.links)?;
         let first = self.names.len();
+        if let Some(taken) = self.names.iter().find(|other| {
+            let own = |wheel: &str| other.strip_prefix(&format!("{name} {wheel}")).is_some();
+            own("pinion") || own("wheel")
+        }) {
+            return Err(table.wrong("name", format!("a name that no coordinate has in its own: `{taken}`")));
+        }
         for wheel in ["pinion", "wheel"] {
             let body = format!("{name} {wheel}");
             let bearings = [1, 2].map(|bearing| ["Y", "X"].map(|way| format!("{body} bearing {bearing} {way}")));

@@ -486,6 +486,25 @@ fn modes_of_a_train_need_no_run() {
     assert_eq!((found["rigid_motions"].as_u64(), found["resonances"].as_array().unwrap().len()), (Some(1), 1));
 }
 
+/// Of two laws of a mesh's stiffness one would count without a word; a pair's wheels have names of their own.
+#[test]
+fn a_mesh_has_one_law_and_names_of_its_own() {
+    let fault = |text: &str| {
+        let diagnostic = cargo_driveline::machine_file::parse_train("pair.toml", text).unwrap_err();
+        (diagnostic.key.clone(), diagnostic.to_string())
+    };
+    let pair = std::fs::read_to_string(machine("gear-pair")).unwrap();
+    let second = "[link.teeth]\nof = \"pinion\"\ncount = 20\ncontact_ratio = 1.6\nsingle = 0.6\n";
+    let at = pair.find("[link.spur]").or_else(|| pair.find("[link.harmonics]")).unwrap();
+    let (key, text) = fault(&format!("{}{second}\n{}", &pair[..at], &pair[at..]));
+    assert!(key.starts_with("link[0].") && text.contains("one of `spur`, `teeth` and `harmonics`"), "{text}");
+    let spur = std::fs::read_to_string(machine("spur-pair")).unwrap();
+    let named = spur.replacen("name = \"motor\"", "name = \"mesh pinion\"", 1);
+    assert_ne!(named, spur);
+    let (key, text) = fault(&named);
+    assert!(key == "spur_pair[0].name" && text.contains("`mesh pinion`"), "{text}");
+}
+
 /// The frequencies of a spur pair in a file are those of the solver's, whose fourteen a dense matrix has: without motor
 /// and pump the pair alone. A chain through two meshes has those of its inertias at the motor.
 #[test]
