@@ -8,10 +8,10 @@ use crate::sample::Estimate;
 /// the swings that they excite cancel [Singer and Seering 1990; design:
 /// [`InputShaperDesign`](crate::design::InputShaperDesign)].
 ///
-/// Two parts (ZV) delay the end of a change by half a period; three (ZVD) delay it by a period, and tolerate a frequency
-/// that is off by several percent. Any course of the setpoint is shaped, such as that of a joystick: it is taken once in a slot, of
-/// which `SLOTS` make the whole delay. So the drive answers up to a slot late, and keeps `SLOTS` setpoints.
-/// `SLOTS` is a multiple of `PARTS - 1`.
+/// Two parts (ZV) delay the end of a change by half a period; three (ZVD) delay it by a period, and tolerate a
+/// frequency that is off by several percent. Any course of the setpoint is shaped, such as that of a joystick: it is
+/// taken once in a slot, of which `SLOTS` make the whole delay. So the drive answers up to a slot late, and keeps
+/// `SLOTS` setpoints. `SLOTS` is a multiple of `PARTS - 1`.
 ///
 /// The ramp acts on each part. That of the governor is no steeper for the parts together, and so passes them.
 /// A stop by the setpoint takes longer by the delay; an emergency stop belongs to the brake.

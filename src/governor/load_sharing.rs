@@ -10,7 +10,8 @@
 //!
 //! So one half of the pinions carries the load on the forward flanks and the other half stays on its backward flanks
 //! with the preload, or the other way round, whatever sign the load has: the torque reverses and no flank is left. The
-//! sum is `tau` whatever the bias, but where a motor's damping is cut at its limit. The price is that half of the motors carry the load, twice its share each.
+//! sum is `tau` whatever the bias, but where a motor's damping is cut at its limit. The price is that half of the
+//! motors carry the load, twice its share each.
 //!
 //! Above a limit of `|tau_s|/n` all motors share the load equally, until it has fallen below another limit. Then the
 //! holding pinions cross their backlash, while the others carry the load. The bias changes by a slew, so that they
@@ -94,8 +95,9 @@ impl<N: Number, const MOTORS: usize> LoadSharing<N, MOTORS> {
 
     /// The mean angle (2^-32 turn) of the motors: that of the drive. Once a tick.
     ///
-    /// An angle that deviates implausibly from the first motor's is left out, and its motor goes on beside the first one
-    /// as it last did: [`left_out`](Self::left_out). The drive itself screens the mean, and so the first motor's angle.
+    /// An angle that deviates implausibly from the first motor's is left out, and its motor goes on beside the first
+    /// one as it last did: [`left_out`](Self::left_out). The drive itself screens the mean, and so the first motor's
+    /// angle.
     #[inline(always)]
     pub fn mean_angle(&mut self, config: &LoadSharingConfig<N>, angles: &[u32; MOTORS]) -> u32 {
         let () = Self::EVEN;
@@ -165,8 +167,8 @@ impl<N: Number, const MOTORS: usize> LoadSharing<N, MOTORS> {
         self.equal
     }
 
-    /// Bit k: the angle of motor k was implausible in the last tick, and was left out. All bits but the first: the first
-    /// motor's own angle is the likely fault.
+    /// Bit k: the angle of motor k was implausible in the last tick, and was left out. All bits but the first: the
+    /// first motor's own angle is the likely fault.
     #[inline(always)]
     pub fn left_out(&self) -> u32 {
         self.left_out

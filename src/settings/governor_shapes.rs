@@ -13,8 +13,8 @@ const SLEW: &str =
     "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
 const CURVE: &str = "the torque curve and its slopes must be finite; in fixed point it must lie within twice the \
     bases, and its slopes within 2 bases of the torque per base of the speed";
-const SHAPER: &str = "the input shaper's slots must be whole ticks within 2 % of the delay, below 2^31 ticks, and its share above 0 and \
-    at most 1/2: take fewer slots or raise the rate";
+const SHAPER: &str = "the input shaper's slots must be whole ticks within 2 % of the delay, below 2^31 ticks, \
+    and its share above 0 and at most 1/2: take fewer slots or raise the rate";
 const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
 
 const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {

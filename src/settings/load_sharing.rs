@@ -7,7 +7,8 @@ use super::format::ANGLE_PER_RADIAN;
 use crate::governor::LoadSharingConfig;
 
 const TORQUES: &str = "preload, slew and torque limit of a load sharing must be positive and finite, and its limits \
-    0 < bias_below < equal_above, twice which and the preload are within the torque limit; in fixed point all within twice the base of the torque";
+    0 < bias_below < equal_above, twice which and the preload are within the torque limit; in fixed point all within \
+    twice the base of the torque";
 const DAMPING: &str = "the damping of a load sharing must be zero or above and finite, and in fixed point its torque \
     per angle less than half of its range: damp less, let it lag more, or raise the base of the torque";
 const LAG: &str = "the damping of a load sharing needs a lag from one tick to 65,536 of them";
