@@ -51,14 +51,17 @@ pub struct LoadSharingConfig<N: Number> {
 /// State of the load sharing of `MOTORS` motors, an even number of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+// The order keeps the runs of words that a start clears short: for long ones the compiler calls a loop to clear them.
+#[repr(C)]
 pub struct LoadSharing<N, const MOTORS: usize> {
     bias: N,
-    equal: bool,
+    /// Of each motor from the mean (2^-32 turn).
+    deviation: [i32; MOTORS],
     /// Of the encoders' zeros from the first one's (2^-32 turn).
     zero: [u32; MOTORS],
-    /// Of each motor from the mean, and that after the lag (2^-32 turn).
-    deviation: [i32; MOTORS],
+    /// The deviation after the lag (2^-32 turn).
     lagged: [i32; MOTORS],
+    equal: bool,
     /// Bit k: the angle of motor k was left out.
     left_out: u32,
 }
