@@ -5,8 +5,8 @@ use driveline::design::{BacklashDesign, CrankedDesign, Disturbance, Encoder, Rat
 use driveline::machine::TwoMass;
 use driveline::settings::{Bases, Gear};
 use driveline_firmware::scenes::{
-    belt_conveyor, blooming_mill, converter, crane_travel, fan, gear_drive, hoist, planetary, punch_press, skip_winch,
-    spindle, strip_mill, vibrating_screen,
+    belt_conveyor, blooming_mill, converter, crane_travel, fan, gear_drive, hoist, planetary, plate_mill, punch_press,
+    skip_winch, spindle, strip_mill, vibrating_screen,
 };
 
 /// What an observer of a scene's machine is designed from.
@@ -98,6 +98,7 @@ pub static SCENES: &[Scene] = &[
     Scene::of::<punch_press::PunchPress>(punch_press::SCENE).crank::<punch_press::PunchPress>(),
     Scene::of::<blooming_mill::BloomingMill>(blooming_mill::SCENE).gap::<blooming_mill::BloomingMill>(),
     Scene::of::<converter::Converter>(converter::SCENE).gap::<converter::Converter>(),
+    Scene::of::<plate_mill::PlateMill>(plate_mill::SCENE),
     Scene::of::<vibrating_screen::VibratingScreen>(vibrating_screen::SCENE),
     Scene::of::<gear_drive::GearDrive>(gear_drive::SCENE),
     Scene::of::<belt_conveyor::BeltConveyor>(belt_conveyor::SCENE),
