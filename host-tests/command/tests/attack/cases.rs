@@ -90,6 +90,20 @@ fn recording() -> String {
     RECORDING.lines().take(5_000).map(|line| format!("{line}\n")).collect()
 }
 
+/// A place with a source of each kind.
+pub fn sources() -> Place {
+    let mut place = Place::new();
+    let [one, two] = campaign();
+    place.put("machine.toml", include_bytes!("../../machines/axis.toml"));
+    place.put("train.toml", include_bytes!("../../trains/gear-pair.toml"));
+    place.put("rotor.toml", include_bytes!("../../rotors/three_discs.toml"));
+    place.put("fan.toml", include_bytes!("../../rotors/fan-balance.toml"));
+    place.put("bench.csv", include_bytes!("../../recordings/two-mass-bench.csv"));
+    place.put("one.draws", one.as_bytes());
+    place.put("two.draws", two.as_bytes());
+    place
+}
+
 /// The results of a short campaign, in two shards.
 pub fn campaign() -> &'static [String; 2] {
     static SHARDS: OnceLock<[String; 2]> = OnceLock::new();

@@ -6,7 +6,7 @@
 use std::fs;
 use std::process::Command;
 
-use super::cases::{campaign, frames};
+use super::cases::{frames, sources};
 use super::run::{Place, wrong};
 
 /// Commands with a result each, and its option.
@@ -22,19 +22,6 @@ const COMMANDS: [(&str, &str); 9] = [
     ("campaign merge one.draws two.draws --json", "--html"),
 ];
 
-fn place() -> Place {
-    let mut place = Place::new();
-    let [one, two] = campaign();
-    place.put("machine.toml", include_bytes!("../../machines/axis.toml"));
-    place.put("train.toml", include_bytes!("../../trains/gear-pair.toml"));
-    place.put("rotor.toml", include_bytes!("../../rotors/three_discs.toml"));
-    place.put("fan.toml", include_bytes!("../../rotors/fan-balance.toml"));
-    place.put("bench.csv", include_bytes!("../../recordings/two-mass-bench.csv"));
-    place.put("one.draws", one.as_bytes());
-    place.put("two.draws", two.as_bytes());
-    place
-}
-
 /// The command line of this line, whose files may have so many blocks of 512 bytes. Its output goes through pipes,
 /// which have no limit.
 fn limited(place: &Place, blocks: u64, line: &str) -> Command {
@@ -47,7 +34,7 @@ fn limited(place: &Place, blocks: u64, line: &str) -> Command {
 
 /// At each of some blocks of each result.
 fn full(steps: u64) -> usize {
-    let place = place();
+    let place = sources();
     let mut tried = 0;
     for (line, option) in COMMANDS {
         let line = format!("{line} {option} result");
@@ -107,7 +94,7 @@ fn a_full_disk_ends_a_recording_and_not_its_figures() {
 /// Where results go to a file that is full, that is said, and the page is written all the same.
 #[test]
 fn full_standard_output_is_said() {
-    let place = place();
+    let place = sources();
     for line in ["modes machine.toml --html page.html", "modes machine.toml --html page.html --json"] {
         let mut command = limited(&place, 1_000_000, line);
         let output = fs::OpenOptions::new().write(true).open("/dev/full");

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::os::unix::fs::symlink;
 
-use super::cases::campaign;
+use super::cases::sources;
 use super::run::Place;
 
 /// Each command that reads a file, its sources and every option that names a result.
@@ -26,15 +26,7 @@ const COMMANDS: [(&str, &[&str], &[&str]); 14] = [
 ];
 
 fn place() -> Place {
-    let mut place = Place::new();
-    let [one, two] = campaign();
-    place.put("machine.toml", include_bytes!("../../machines/axis.toml"));
-    place.put("train.toml", include_bytes!("../../trains/gear-pair.toml"));
-    place.put("rotor.toml", include_bytes!("../../rotors/three_discs.toml"));
-    place.put("fan.toml", include_bytes!("../../rotors/fan-balance.toml"));
-    place.put("bench.csv", include_bytes!("../../recordings/two-mass-bench.csv"));
-    place.put("one.draws", one.as_bytes());
-    place.put("two.draws", two.as_bytes());
+    let mut place = sources();
     for name in ["stream.bin", "drive.fmu", "machine.fmu"] {
         place.put(name, name.as_bytes());
     }
