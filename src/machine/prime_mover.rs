@@ -7,6 +7,7 @@
 //! | [`Induction`] | with breakdown torque; with rotor resistance for cranes | [Wang 1989 (1-8)], Kloss 1909 |
 //! | [`Combustion`] | full-load curve, with a governor above rated speed | Leiderman; Jazar, Vehicle Dynamics, ch. 4 |
 //! | [`Shunt`], [`Series`] | direct-current motors from voltage, resistance and flux | [Wang 1989 §1-2] |
+//! | [`Characteristic`] | any of them, with its slope | |
 //! | [`StartingLaw`] | `tau`, `tau (1 - t/T)`, `tau (1 - t^2/T^2)` | [Huang 1987 §2.2] |
 //!
 //! Torques are in N m, speeds in rad/s, at the motor's shaft. The stiffness of a characteristic is `|d tau/d omega|`
@@ -21,6 +22,7 @@
 //! assert!((MOTOR.torque(MOTOR.breakdown_speed()).0 - 2.5 * 750.0).abs() < 1e-9);
 //! ```
 
+mod characteristic;
 mod combustion;
 mod curve;
 mod direct_current;
@@ -28,6 +30,7 @@ mod dynamic_factor;
 mod induction;
 mod starting;
 
+pub use characteristic::Characteristic;
 pub use combustion::{Combustion, CombustionType};
 pub use curve::{Line, Parabola};
 pub use direct_current::{Series, Shunt};

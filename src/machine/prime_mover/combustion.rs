@@ -93,6 +93,27 @@ impl Combustion {
         Torque(self.rated_torque * (a + x * (b - c * x)))
     }
 
+    /// Slope of the torque at a speed (N m s/rad); at a corner that above it.
+    #[must_use]
+    pub const fn slope(&self, speed: Speed) -> f64 {
+        let w = speed.0;
+        if !(w >= self.idle && w < self.no_load) {
+            return 0.0;
+        }
+        if w >= self.rated_speed {
+            return -self.rated_torque / (self.no_load - self.rated_speed);
+        }
+        let [_, b, c] = self.full_load();
+        b + 2.0 * c * w
+    }
+
+    /// The full-load curve as a polynomial in the speed (rad/s), lowest first.
+    pub(crate) const fn full_load(&self) -> [f64; 3] {
+        let [a, b, c] = self.mixture.coefficients();
+        let (torque, speed) = (self.rated_torque, self.rated_speed);
+        [torque * a, torque * b / speed, -torque * c / (speed * speed)]
+    }
+
     /// Speed of the largest torque, `omega_N b/(2 c)`.
     #[must_use]
     pub const fn speed_at_peak_torque(&self) -> Speed {

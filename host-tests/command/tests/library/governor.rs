@@ -8,4 +8,5 @@ mod modes;
 mod sharing;
 mod sway;
 mod switch;
+mod torque_curve;
 mod watch;
