@@ -39,6 +39,7 @@ sentences! {
         above and finite (s)",
     FeedForward => "the share of the load torque that is fed forward must be from 0 to 1, the lag of its estimate zero \
         or above and finite (s)",
+    NaturalDamping => "the natural damping of motor and load must be finite (N m s/rad)",
     GovernorUnstable => "the governor is unstable with this actuator and shaft: raise its symmetrical-optimum factor",
     Barred => "barred speeds need frequencies and orders above zero and finite, and a margin above 0 and below 1",
     BarredCount => "there are more barred ranges of speed than the governor has room for: raise K",

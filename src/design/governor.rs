@@ -22,7 +22,7 @@
 use super::late_loop::{Late, LateLoop};
 use super::margins::{Margins, OpenLoop};
 use super::tuning::Rate;
-use super::{Error, ExactStep};
+use super::{Error, ExactStep, NaturalDamping};
 use crate::machine::TwoMass;
 use crate::math::sqrt;
 
@@ -119,6 +119,8 @@ pub struct GovernorDesign {
     pub actuator: Actuator,
     /// Lag of the estimated load torque (s); 0 where nothing is taken of it.
     pub lag: f64,
+    /// Natural damping of motor and load.
+    pub natural: NaturalDamping,
 }
 
 impl TwoMass {
@@ -224,20 +226,65 @@ impl TwoMass {
         let integral = proportional / (optimum_factor * optimum_factor * equivalent_delay);
         let acceleration = inertia * self.total_inertia() / self.load_inertia;
         let lag = if share == 0.0 && inertia == 0.0 { 0.0 } else { estimate };
-        let design =
-            GovernorDesign { period, proportional, integral, equivalent_delay, share, acceleration, actuator, lag };
+        let natural = NaturalDamping::NONE;
+        let design = GovernorDesign {
+            period,
+            proportional,
+            integral,
+            equivalent_delay,
+            share,
+            acceleration,
+            actuator,
+            lag,
+            natural,
+        };
         if design.open(self).is_stable(design.crossover()) { Ok(design) } else { Err(Error::GovernorUnstable) }
     }
 }
 
 impl GovernorDesign {
+    /// The same gains on a machine with natural damping, which [`margins`](Self::margins) then have in the loop.
+    /// Damping adds margin; a load or motor whose torque rises off the operating point (a negative sum) takes some.
+    ///
+    /// # Panics
+    /// At compile time in a constant, with the sentence of the [`Error`] that
+    /// [`try_with_natural_damping`](Self::try_with_natural_damping) returns.
+    #[must_use]
+    pub const fn with_natural_damping(self, machine: &TwoMass, natural: NaturalDamping) -> Self {
+        match self.try_with_natural_damping(machine, natural) {
+            Ok(design) => design,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`with_natural_damping`](Self::with_natural_damping), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// [`Error::NaturalDamping`], [`Error::GovernorUnstable`].
+    pub const fn try_with_natural_damping(mut self, machine: &TwoMass, natural: NaturalDamping) -> Result<Self, Error> {
+        if let Err(error) = natural.step(machine, self.period) {
+            return Err(error);
+        }
+        self.natural = natural;
+        if self.open(machine).is_stable(self.crossover()) { Ok(self) } else { Err(Error::GovernorUnstable) }
+    }
+
+    /// Fall of the steady speed per load torque (rad/(s N m)) under a [`Droop`](crate::governor::Droop) R, with the
+    /// natural damping D: `R/(1 + R D)`, since the machine itself carries the share `D R/(1 + R D)` of the load.
+    #[must_use]
+    pub const fn droop(&self, droop: f64) -> f64 {
+        droop / (1.0 + droop * self.natural.sum())
+    }
+
     /// Margins of the loop round a machine, cut at the actuator.
     #[must_use]
     pub const fn margins(&self, machine: &TwoMass) -> Margins {
         let open = OpenLoop::Late(self.open(machine));
         let nyquist = core::f64::consts::PI / self.period;
         let mut found = Margins::NONE;
-        open.sweep(&mut found, 1e-2 * self.crossover(), nyquist, 300);
+        // A negative natural damping sets a least gain, at a frequency far below the crossover.
+        let slowest = if self.natural.sum() < 0.0 { 1e-3 } else { 1e-2 };
+        open.sweep(&mut found, slowest * self.crossover(), nyquist, 300);
         // Finer about the resonance, where a lightly damped shaft turns the response quickly.
         let (from, to) = (0.8 * machine.antiresonance(), 1.25 * machine.resonance());
         if to < nyquist {
@@ -261,6 +308,14 @@ impl GovernorDesign {
             proportional: self.proportional,
             integral: self.integral,
             late: Late { delay, lag, share: self.share, inertia, estimate: self.lag },
+            natural: if self.natural.motor == 0.0 && self.natural.load == 0.0 {
+                None
+            } else {
+                match self.natural.step(machine, self.period) {
+                    Ok(step) => Some((self.natural, step)),
+                    Err(_) => None,
+                }
+            },
         }
     }
 }

@@ -3,6 +3,7 @@
 
 use super::ExactStep;
 use super::complex::{Complex, over, times};
+use super::natural_damping::{DampedStep, NaturalDamping};
 use crate::machine::TwoMass;
 use crate::math::{atan2, exp, ln, sin_cos};
 
@@ -15,6 +16,8 @@ pub(super) struct LateLoop {
     pub proportional: f64,
     pub integral: f64,
     pub late: Late,
+    /// The natural damping and its step; none on a free machine.
+    pub natural: Option<(NaturalDamping, DampedStep)>,
 }
 
 /// Delays beyond the tick, in continuous time.
@@ -39,6 +42,13 @@ impl LateLoop {
         let z = (cosine, sine);
         // z - 1 without cancellation.
         let d = (-2.0 * half * half, sine);
+        if let Some((_, step)) = &self.natural {
+            let [motor, load] = step.response(d);
+            let (jm, jl) = (self.machine.motor_inertia, self.machine.load_inertia);
+            let momentum = (jm * motor.0 + jl * load.0, jm * motor.1 + jl * load.1);
+            let moved = times((d.0 / self.period, d.1 / self.period), momentum);
+            return self.with_late(over(times(self.controller(z, d), motor), z), moved, z, frequency);
+        }
         let n = &self.step;
         let (a, b) = ((d.0 - n.n11, d.1), (d.0 - n.n22, d.1));
         let determinant = times(a, b);
@@ -50,15 +60,19 @@ impl LateLoop {
         let mean = over((self.period / total, 0.0), d);
         let load = self.machine.load_inertia / total;
         let motor = (mean.0 + load * slip.0, mean.1 + load * slip.1);
-        let integral = over(z, d);
-        let controller =
-            (self.proportional + self.integral * self.period * integral.0, self.integral * self.period * integral.1);
-        let speed = times(controller, motor);
-        self.with_late(over(speed, z), z, frequency)
+        let speed = times(self.controller(z, d), motor);
+        self.with_late(over(speed, z), (1.0, 0.0), z, frequency)
     }
 
-    /// The response with delays: `A (L + (g + s) F)/(1 - g F A + s (1 - F) A)`.
-    const fn with_late(&self, prompt: Complex, z: Complex, frequency: f64) -> Complex {
+    /// Response of the proportional and integral controller.
+    const fn controller(&self, z: Complex, d: Complex) -> Complex {
+        let integral = over(z, d);
+        (self.proportional + self.integral * self.period * integral.0, self.integral * self.period * integral.1)
+    }
+
+    /// The response with delays: `A (L + (g + s) F M)/(1 - g F A + s (1 - F) A)`. M is the mean torque that
+    /// accelerates the masses, by their motion, over the torque that acts: 1 without natural damping.
+    const fn with_late(&self, prompt: Complex, moved: Complex, z: Complex, frequency: f64) -> Complex {
         let Late { delay, lag, share, inertia, estimate } = self.late;
         let (sine, cosine) = sin_cos(frequency * delay);
         let actuator = over((cosine, -sine), (1.0, frequency * lag));
@@ -67,23 +81,35 @@ impl LateLoop {
         // Acts on the reported torque: (g + s) F - s/z.
         let own = over((inertia, 0.0), z);
         let fed = times((filter.0 - own.0, filter.1 - own.1), actuator);
-        over(times(actuator, (prompt.0 + filter.0, prompt.1 + filter.1)), (1.0 - fed.0, -fed.1))
+        let seen = times(filter, moved);
+        over(times(actuator, (prompt.0 + seen.0, prompt.1 + seen.1)), (1.0 - fed.0, -fed.1))
     }
 
-    /// Whether the closed loop of a proportional and integral controller on a free mass is stable, by Nyquist's
-    /// criterion: two poles at the origin, none to its right, so the response turns about -1 by half a turn from zero
-    /// frequency to the Nyquist frequency; by three quarters where the whole load torque is fed forward.
+    /// Whether the closed loop of a proportional and integral controller is stable, by Nyquist's criterion. A free
+    /// mass has two poles at the origin, none to its right, so the response turns about -1 by half a turn from zero
+    /// frequency to the Nyquist frequency. A pole less at the origin takes a quarter of a turn off, one to its right
+    /// adds half a turn, and a load torque that is fed forward whole a quarter.
     pub(super) const fn is_stable(&self, bandwidth: f64) -> bool {
         let nyquist = core::f64::consts::PI / self.period;
         let (ws, wr) = (self.machine.antiresonance(), self.machine.resonance());
+        let (mut slowest, mut expected) = (1e-3 * bandwidth, 0.75);
+        if let Some((natural, _)) = &self.natural {
+            let rate = natural.sum() / self.machine.total_inertia();
+            expected += natural.unstable_vibrations(&self.machine) as f64;
+            // Below a tenth of the slowest frequency the pole is as good as at the origin.
+            if rate.abs() > 0.1 * slowest {
+                slowest = if rate.abs() < bandwidth { 1e-2 * rate.abs() } else { slowest };
+                expected += if rate < 0.0 { 0.5 } else { -0.5 };
+            }
+        }
         // Finer about the resonance, where a lightly damped shaft turns the response quickly.
-        let edges = [1e-3 * bandwidth, 0.8 * ws, 0.99 * wr, 1.01 * wr, 1.25 * wr, nyquist];
+        let edges = [slowest, 1e-3 * bandwidth, 0.8 * ws, 0.99 * wr, 1.01 * wr, 1.25 * wr, nyquist];
         let mut turned = 0.0;
         let mut low = edges[0];
         let first = self.response(low);
         let mut before = (1.0 + first.0, first.1);
         let mut edge = 1;
-        while edge < 6 {
+        while edge < edges.len() {
             let high = if edges[edge] < nyquist { edges[edge] } else { nyquist };
             if high > low {
                 let factor = exp(ln(high / low) / 80.0);
@@ -101,6 +127,6 @@ impl LateLoop {
             edge += 1;
         }
         // Every unstable pole turns it back by half a turn.
-        turned > 0.75 * core::f64::consts::PI
+        turned > expected * core::f64::consts::PI
     }
 }

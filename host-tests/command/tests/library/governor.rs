@@ -5,6 +5,7 @@ mod design;
 mod dynamic_part;
 mod law;
 mod modes;
+mod natural_damping;
 mod sharing;
 mod sway;
 mod switch;

@@ -29,9 +29,12 @@ fn settles(design: &GovernorDesign, actuator: Actuator, gain: f64, seconds: usiz
 }
 
 fn settles_on(stiffness: f64, damping: f64, gains: [f64; 2], actuator: Actuator, seconds: usize) -> bool {
+    chain_settles(Chain::motor(4.4).shaft(Shaft::elastic(stiffness).damping(damping), 8.0), gains, actuator, seconds)
+}
+
+pub(super) fn chain_settles(chain: Chain, gains: [f64; 2], actuator: Actuator, seconds: usize) -> bool {
     let start = Start::Given { twists: vec![0.0], speeds: vec![1.0, 1.0] };
-    let chain = Chain::motor(4.4).shaft(Shaft::elastic(stiffness).damping(damping), 8.0).start(start);
-    let mut plant = chain.build().unwrap();
+    let mut plant = chain.start(start).build().unwrap();
     // The torque commanded on a sample acts in the tick after it.
     let mut queue: VecDeque<f64> = vec![0.0; (actuator.delay / PERIOD).round() as usize + 1].into();
     let (mut integral, mut acting) = (0.0, 0.0);
