@@ -1,4 +1,5 @@
-//! The bench: instructions of single functions, each over many inputs, one line of JSON a function.
+//! The bench: instructions (on a board with a counter of cycles, those) of single functions, each over many inputs, one
+//! line of JSON a function.
 
 mod advice;
 mod calibration;
@@ -6,6 +7,8 @@ mod correction;
 mod cranked;
 mod fluctuation;
 mod governors;
+#[cfg(target_has_atomic = "32")]
+mod kernels;
 mod phasors;
 mod steps;
 mod table;
@@ -119,6 +122,7 @@ impl<'b, B: Board> Bench<'b, B> {
             .number("max", most)
             .number("calls", counts.len() as u32)
             .number("function", function as u32)
+            .text("unit", B::UNIT)
     }
 }
 

@@ -36,6 +36,8 @@ pub use mps2_an386::Mps2An386 as ThisBoard;
 pub use mps2_an500::Mps2An500 as ThisBoard;
 #[cfg(all(feature = "target", target_os = "none", driveline_board = "mps2-an505"))]
 pub use mps2_an505::Mps2An505 as ThisBoard;
+#[cfg(all(feature = "nucleo-g474re", target_os = "none", driveline_board = "nucleo-g474re"))]
+pub use nucleo_g474re::NucleoG474re as ThisBoard;
 
 /// The boards whose cores have budgets.
 pub const BOARDS: &[Facts] = &[mps2_an386::FACTS, mps2_an385::FACTS];

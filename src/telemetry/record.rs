@@ -1,7 +1,7 @@
 //! A record of a tick.
 
-/// Most values of a record.
-pub(super) const MOST_VALUES: usize = 16;
+/// Most values of a record: with its kind, tick and count of drops they fill a packet of 96 bytes.
+pub(super) const MOST_VALUES: usize = 21;
 
 /// Record of a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -28,7 +28,7 @@ struct Slot<const VALUES: usize> {
 impl<const VALUES: usize, const RECORDS: usize> Ring<VALUES, RECORDS> {
     const MASK: u32 = {
         assert!(RECORDS.is_power_of_two() && RECORDS >= 2, "a ring must have a power of two of records, two at least");
-        assert!(VALUES >= 1 && VALUES <= MOST_VALUES, "a record must have between 1 and 16 values");
+        assert!(VALUES >= 1 && VALUES <= MOST_VALUES, "a record must have between 1 and 21 values");
         RECORDS as u32 - 1
     };
 

@@ -46,4 +46,7 @@ pub fn run<V: Variant, B: Board>(bench: &mut Bench<'_, B>, tick: Measured<V::Sce
     correction::solves(bench);
     correction::accuracy(bench);
     advice::all(bench);
+    // the instructions of Armv6-M, which has no such atomics, are fewer
+    #[cfg(target_has_atomic = "32")]
+    super::kernels::all(bench);
 }

@@ -11,8 +11,9 @@ use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
 use core::sync::atomic::{AtomicU32, Ordering, compiler_fence};
 
+use cortex_m::Peripherals;
 use cortex_m::interrupt::free;
-use cortex_m::peripheral::NVIC;
+use cortex_m::peripheral::{DWT, NVIC};
 use cortex_m_rt::entry;
 use driveline::configure::Machine;
 use driveline::hal::{FullScale, PwmTorque};
@@ -43,6 +44,8 @@ struct Control {
     operator: Operator,
     /// Ticks until the next record.
     left: u32,
+    /// Most cycles of a tick since the reset.
+    worst: u32,
 }
 
 /// Uninitialised until the interrupt is unmasked.
@@ -54,9 +57,9 @@ unsafe impl Sync for Owned {}
 static CONTROL: Owned = Owned(UnsafeCell::new(MaybeUninit::uninit()));
 
 /// Values of a record: those of a scene, the two velocities, the last answer and its request's number, the last turn's
-/// fluctuation, the last reset.
-const VALUES: usize = telemetry::VALUES + 8;
-/// Ticks between two records: a thousand of 77 bytes a second, five sixths of what the port takes.
+/// fluctuation, the last reset, the longest tick.
+const VALUES: usize = telemetry::VALUES + 9;
+/// Ticks between two records: a thousand of 81 bytes a second, seven eighths of what the port takes.
 const TICKS: u32 = 10;
 /// Records between two descriptions of the channels.
 const DESCRIBED: u32 = 1_000;
@@ -82,7 +85,8 @@ const COLUMNS: [Column<'static>; VALUES] = {
     let load = Column { name: "delta of load", unit: "", kind: Kind::Single };
     let request = Column { name: "request", ..request };
     let reset = Column { name: "last reset", ..reset };
-    [a, b, c, d, e, f, g, h, first, second, answer, mean, motor, load, request, reset]
+    let worst = Column { name: "longest tick", unit: "cycles", kind: Kind::Integer(1.0) };
+    [a, b, c, d, e, f, g, h, first, second, answer, mean, motor, load, request, reset, worst]
 };
 
 /// A tick.
@@ -91,7 +95,7 @@ fn TIM6_DAC() {
     tick_taken();
     // SAFETY: it was initialised before the interrupt was unmasked; the main loop uses it with interrupts off, and
     // nothing else does.
-    let Control { scene, turn, vibration, attended, button, operator, left } =
+    let Control { scene, turn, vibration, attended, button, operator, left, worst } =
         unsafe { (*CONTROL.0.get()).assume_init_mut() };
     if !attended.check(TURNS.load(Ordering::Relaxed)) {
         // until it is started again: not by a main loop that comes back
@@ -99,7 +103,11 @@ fn TIM6_DAC() {
     }
     let asked =
         Asked { released: operator.tick(button.is_high()), speed: f32::from_bits(REFERENCE.load(Ordering::Relaxed)) };
-    let (input, output) = turn.run(asked, vibration.read(), |input, output| driveline_tick(scene, input, output));
+    let (input, output) = turn.run(asked, vibration.read(), |input, output| {
+        let before = DWT::cycle_count();
+        driveline_tick(scene, input, output);
+        *worst = (*worst).max(DWT::cycle_count().wrapping_sub(before));
+    });
     *left = left.wrapping_sub(1);
     if *left == 0 {
         *left = TICKS;
@@ -108,7 +116,7 @@ fn TIM6_DAC() {
         let [answer, request] = ANSWER.each_ref().map(|value| value.load(Ordering::Relaxed));
         let reset = RESET.load(Ordering::Relaxed);
         let [mean, motor, load] = LAST_TURN.each_ref().map(|value| value.load(Ordering::Relaxed));
-        RECORDS.record(&[a, b, c, d, e, f, g, h, first, second, answer, mean, motor, load, request, reset]);
+        RECORDS.record(&[a, b, c, d, e, f, g, h, first, second, answer, mean, motor, load, request, reset, *worst]);
     }
 }
 
@@ -124,8 +132,13 @@ fn main() -> ! {
         operator: Operator::new(button.is_high()),
         button,
         left: TICKS,
+        worst: 0,
     };
     RESET.store(reset, Ordering::Relaxed);
+    // SAFETY: nothing else in the image uses these registers of the core.
+    let mut core = unsafe { Peripherals::steal() };
+    core.DCB.enable_trace();
+    core.DWT.enable_cycle_counter();
     // SAFETY: the interrupt is masked.
     unsafe { (*CONTROL.0.get()).write(control) };
     start_tick(Selected::RATE_HZ);

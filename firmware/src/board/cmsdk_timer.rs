@@ -57,6 +57,7 @@ macro_rules! qemu_mps2 {
     ($board:ident, $timer:ident) => {
         impl super::interface::Board for $board {
             const FACTS: super::facts::Facts = FACTS;
+            const UNIT: &'static str = "instructions";
             type Link = super::semihosting::Pipes;
 
             fn start() -> Self {

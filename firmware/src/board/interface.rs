@@ -7,6 +7,8 @@ use crate::scene::{Input, Output};
 pub trait Board {
     /// The host's data on it.
     const FACTS: Facts;
+    /// Object of its counts: `instructions` or `cycles`.
+    const UNIT: &'static str;
     /// The way in and out of a control loop.
     type Link: Link;
 

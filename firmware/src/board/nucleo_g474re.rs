@@ -3,6 +3,7 @@
 //! `nucleo_g474re/nucleo.rs` is the board: [`driveline::hal::Board`] from the library's adapters. The files beside it
 //! are its registers, one peripheral each, through `stm32-metapac`, the crate of registers that `embassy-stm32` stands
 //! on: the image may hold no reachable panic, and a hardware layer that checks its arguments at run time has some.
+//! `nucleo_g474re/console.rs` is the board of the bench alone, which drives nothing and counts cycles.
 //! `doc/boards.md` has the wiring. **It has not run on hardware.**
 //!
 //! Registers: ST RM0440. Pins: ST DS12288. Names in capitals are theirs.
@@ -35,6 +36,8 @@ mod bridge;
 #[cfg(all(feature = "nucleo-g474re", target_os = "none"))]
 mod clock;
 #[cfg(all(feature = "nucleo-g474re", target_os = "none"))]
+mod console;
+#[cfg(all(feature = "nucleo-g474re", target_os = "none"))]
 mod encoder;
 #[cfg(all(feature = "nucleo-g474re", target_os = "none"))]
 mod nucleo;
@@ -52,6 +55,7 @@ mod watchdog;
 #[cfg(all(feature = "nucleo-g474re", target_os = "none"))]
 pub use {
     bridge::Channel,
+    console::NucleoG474re,
     nucleo::{Beside, Nucleo},
     pin::Pin,
     serial::Serial,

@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use crate::code::{Code, Function};
-use crate::cycles::{Core, Cycles, TAKEN};
+use crate::cycles::{Core, Cycles};
+use crate::flash::Flash;
 use crate::graph::{Graph, Node};
+use crate::instruction::{Flow, Instruction};
 use crate::loops::{entries, ordered};
 use crate::path::{Longest, Piece};
 use crate::refusal::Refusal;
@@ -46,23 +48,23 @@ pub struct Bounds<'c> {
     known: BTreeMap<u32, Result<Rc<Bounded>, Refusal>>,
     /// Functions whose callees are being bounded.
     open: Vec<u32>,
-    /// The core whose most cycles are the weight of an instruction; without one it is 1.
-    core: Option<Core>,
+    /// The core and the flash whose most cycles are the weight of an instruction; without them it is 1.
+    clock: Option<(Core, Flash)>,
 }
 
 impl<'c> Bounds<'c> {
     /// Of some code, with the stated turns of its loops.
     pub fn new(code: &'c Code, loops: &'c Loops) -> Self {
-        Bounds { code, loops, known: BTreeMap::new(), open: Vec::new(), core: None }
+        Bounds { code, loops, known: BTreeMap::new(), open: Vec::new(), clock: None }
     }
 
-    /// The cycles of a call from its first instruction to its return, without wait states. The most is a bound, of the
-    /// path with the most cycles; the least is that of the same path.
+    /// The cycles of a call from its first instruction to its return. The most is a bound, of the path with the most
+    /// cycles on that flash; the least is that of the same path without wait states.
     ///
     /// # Errors
     /// As [`of`](Self::of).
-    pub fn cycles(code: &'c Code, loops: &'c Loops, core: Core, start: u32) -> Result<Cycles, Refusal> {
-        let mut bounds = Bounds { core: Some(core), ..Bounds::new(code, loops) };
+    pub fn cycles(code: &'c Code, loops: &'c Loops, core: Core, flash: Flash, start: u32) -> Result<Cycles, Refusal> {
+        let mut bounds = Bounds { clock: Some((core, flash)), ..Bounds::new(code, loops) };
         let most = bounds.of(start)?.instructions;
         Ok(Cycles { least: bounds.least(core, start & !1)?, most })
     }
@@ -78,10 +80,10 @@ impl<'c> Bounds<'c> {
             let executed = Cycles::of(core, node.code.0, node.code.1).least;
             sum += times * if node.conditional { executed.min(1) } else { executed };
             if let Some((_, again)) = behind.filter(|(to, _)| !here.graph.goes_on(*at, *to)) {
-                sum += times.min(again) * TAKEN.least;
+                sum += times.min(again) * core.taken().least;
             }
             if let Some(target) = node.calls {
-                sum += times * (self.least(core, target)? + if node.hands_over { TAKEN.least } else { 0 });
+                sum += times * (self.least(core, target)? + if node.hands_over { core.taken().least } else { 0 });
             }
         }
         Ok(sum)
@@ -130,16 +132,21 @@ impl<'c> Bounds<'c> {
         }
         let elements = ordered(&graph)?;
         let turns = self.turns(function, entries(&elements).into_iter().collect())?;
-        let alone = |node: &Node| match self.core {
-            // a jump into another function is taken
-            Some(core) => {
-                Cycles::of(core, node.code.0, node.code.1).most + if node.hands_over { TAKEN.most } else { 0 }
+        let alone = |at: u32, node: &Node| match self.clock {
+            Some((core, flash)) => {
+                let (first, second) = node.code;
+                let leaves = node.calls.is_some() || Instruction::decode(at, first, second).flow == Flow::Return;
+                // a jump into another function is taken
+                let taken = if node.hands_over { core.taken().most } else { 0 };
+                let waits = flash.straight(at, node.size, node.code) + if leaves { flash.jump() } else { 0 };
+                Cycles::of(core, first, second).most + taken + waits
             }
             None => 1,
         };
-        let weight =
-            |at| graph.nodes.get(&at).map_or(0, alone) + callees.get(&at).map_or(0, |callee| callee.instructions);
-        let jump = if self.core.is_some() { TAKEN.most } else { 0 };
+        let weight = |at| {
+            graph.nodes.get(&at).map_or(0, |node| alone(at, node)) + callees.get(&at).map_or(0, |it| it.instructions)
+        };
+        let jump = self.clock.map_or(0, |(core, flash)| core.taken().most + flash.jump());
         let turns = |entry| turns.get(&entry).copied().unwrap_or(1);
         let longest = Longest::through(&graph, &elements, &weight, jump, &turns);
         let deep =

@@ -1,20 +1,52 @@
 //! Cycles of an instruction as an interval, by the rules of the cores' manuals, without wait states.
 //!
-//! Arm DDI 0337 (Cortex-M3) and DDI 0439 (Cortex-M4), table 3-1, and for the floating-point unit DDI 0439, table 7-1.
-//! The manuals leave open, and the interval covers:
-//! - P, the refilling of the pipeline after a taken branch: 1 to 3.
-//! - A load or a store alone: 2, or 1 where its phases overlap those of a neighbour.
+//! Arm DDI 0432 (Cortex-M0), DDI 0484 (Cortex-M0+), DDI 0337 (Cortex-M3) and DDI 0439 (Cortex-M4), each table 3-1, and
+//! for the floating-point unit DDI 0439, table 7-1. The manual of the Cortex-M7 (DDI 0489) prints no cycles. What the
+//! manuals leave open, the interval covers:
+//! - P, the refilling of the pipeline after a taken branch, on the M3 and M4: 1 to 3.
+//! - A load or a store alone, on the M3 and M4: 2, or 1 where its phases overlap those of a neighbour; on the M0+: 2,
+//!   or 1 at the port of a single cycle.
 //! - Long multiplications of the M3 (3 to 5, with a sum 4 to 7) and divisions (2 to 12): they depend on the operands.
 //! - `IT`: 1, or none where it is folded into the instruction before.
 //! - A result of the floating-point unit that the next instruction uses: one more.
+//!
+//! The M0 and M0+ are taken to have the fast multiplier, of one cycle: the small one takes 32.
 
 /// A core whose manual has the rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Core {
+    /// Cortex-M0, with the fast multiplier.
+    M0,
+    /// Cortex-M0+, with the fast multiplier.
+    M0Plus,
     /// Cortex-M3.
     M3,
     /// Cortex-M4, with or without its floating-point unit.
     M4,
+}
+
+impl Core {
+    /// The refilling of the pipeline after a taken branch: P in the tables.
+    pub(crate) const fn taken(self) -> Cycles {
+        match self {
+            Core::M0 => exactly(2),
+            Core::M0Plus => exactly(1),
+            Core::M3 | Core::M4 => between(1, 3),
+        }
+    }
+
+    /// A load or a store alone.
+    const fn access(self) -> Cycles {
+        match self {
+            Core::M0 => exactly(2),
+            _ => between(1, 2),
+        }
+    }
+
+    /// Whether it has the instructions of Armv6-M alone.
+    const fn is_small(self) -> bool {
+        matches!(self, Core::M0 | Core::M0Plus)
+    }
 }
 
 /// Least and most cycles.
@@ -26,9 +58,6 @@ pub struct Cycles {
     pub most: u64,
 }
 
-/// The pipeline after a taken branch: P in the tables.
-pub(crate) const TAKEN: Cycles = between(1, 3);
-
 const fn between(least: u64, most: u64) -> Cycles {
     Cycles { least, most }
 }
@@ -37,13 +66,14 @@ const fn exactly(cycles: u64) -> Cycles {
     between(cycles, cycles)
 }
 
-/// A load or a store alone.
-const ACCESS: Cycles = between(1, 2);
-
 impl Cycles {
     /// Of an instruction that is executed, and not skipped; a branch, which counts as not taken.
     pub fn of(core: Core, first: u16, second: u16) -> Self {
-        if first >> 11 >= 0b11101 { long(core, first, second) } else { short(first) }
+        match first >> 11 >= 0b11101 {
+            true if core.is_small() => exactly(2) + core.taken(), // BL; MRS, MSR and barriers take as long
+            true => long(core, first, second),
+            false => short(core, first),
+        }
     }
 }
 
@@ -61,18 +91,22 @@ fn registers(list: u16) -> Cycles {
 }
 
 /// A5.2
-fn short(word: u16) -> Cycles {
+fn short(core: Core, word: u16) -> Cycles {
     match word >> 9 {
         0b101_1010 => return registers(word & 0x1ff), // PUSH
-        0b101_1110 if word & 0x100 != 0 => return registers(word & 0x1ff) + TAKEN,
+        // POP with the program counter; 4 + N on the M0, 3 + N on the M0+
+        0b101_1110 if word & 0x100 != 0 => {
+            let more = exactly(if core.is_small() { 1 } else { 0 });
+            return registers(word & 0x1ff) + more + core.taken();
+        }
         0b101_1110 => return registers(word & 0xff), // POP
         _ => {}
     }
     match word >> 11 {
-        0b01001..=0b10011 => ACCESS,                  // LDR, STR and the like
-        0b11000 | 0b11001 => registers(word & 0xff),  // STM, LDM
-        _ if word >> 8 == 0x47 => exactly(1) + TAKEN, // BX, BLX
-        _ if word & 0xff87 == 0x4687 || word & 0xff87 == 0x4487 => exactly(1) + TAKEN, // into the program counter
+        0b01001..=0b10011 => core.access(),                  // LDR, STR and the like
+        0b11000 | 0b11001 => registers(word & 0xff),         // STM, LDM
+        _ if word >> 8 == 0x47 => exactly(1) + core.taken(), // BX, BLX
+        _ if word & 0xff87 == 0x4687 || word & 0xff87 == 0x4487 => exactly(1) + core.taken(), // into the counter
         _ if word >> 8 == 0xbf && word & 0xf != 0 => between(0, 1), // IT
         _ => exactly(1),
     }
@@ -81,7 +115,7 @@ fn short(word: u16) -> Cycles {
 /// A5.3
 fn long(core: Core, first: u16, second: u16) -> Cycles {
     let m3 = core == Core::M3;
-    let into_counter = if second & 0x8000 != 0 { TAKEN } else { exactly(0) };
+    let into_counter = if second & 0x8000 != 0 { core.taken() } else { exactly(0) };
     match first >> 9 {
         // LDM, STM; LDM may load the program counter
         0x74 if first & 0x40 == 0 && first & 0x10 != 0 => registers(second) + into_counter,
@@ -91,10 +125,10 @@ fn long(core: Core, first: u16, second: u16) -> Cycles {
         0x76 => floating_access(first, second),
         0x77 if second & 0x10 == 0 => floating(first, second),
         // BL and control: barriers, special registers
-        0x78..=0x7b if second & 0xd000 == 0xd000 => exactly(1) + TAKEN,
+        0x78..=0x7b if second & 0xd000 == 0xd000 => exactly(1) + core.taken(),
         0x78..=0x7b if second & 0xd000 == 0x8000 && first >> 7 & 7 == 7 => between(1, 4),
-        0x7c if first & 0x10 != 0 && second >> 12 == 15 => ACCESS + TAKEN, // LDR into the program counter
-        0x7c => ACCESS,
+        0x7c if first & 0x10 != 0 && second >> 12 == 15 => core.access() + core.taken(), // LDR into the program counter
+        0x7c => core.access(),
         0x7d => match first >> 4 & 0x1f {
             0x10 if second >> 12 != 15 && m3 => exactly(2), // MLA, MLS
             0x19 | 0x1b => between(2, 12),                  // SDIV, UDIV

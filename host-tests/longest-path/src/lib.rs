@@ -5,8 +5,8 @@
 //! - **Instruction**: one of Thumb, as QEMU counts them: one that an `IT` block skips counts too, and so does the `IT`.
 //! - **Turns** of a loop: how often its first instruction is executed for each entry into the loop. A loop must have
 //!   them stated ([`Loops`]); a jump table is read from the code.
-//! - **Cycles**: an interval for each instruction by the manuals' rules ([`Cycles`]). The path with the most is sought
-//!   for itself: it need not be the longest.
+//! - **Cycles**: an interval for each instruction by the manuals' rules ([`Cycles`]), and what a flash memory adds
+//!   ([`Flash`]). The path with the most is sought for itself: it need not be the longest.
 //! - **Stack**: bytes between the stack pointer at the call and its lowest value, callees included.
 //!
 //! A function that cannot be bounded is refused with the place and the reason ([`Refusal`]): a call or jump through a
@@ -21,6 +21,7 @@
 mod bound;
 mod code;
 mod cycles;
+mod flash;
 mod graph;
 mod instruction;
 mod loops;
@@ -30,6 +31,7 @@ mod refusal;
 pub use bound::{Bound, Bounds, Loops};
 pub use code::{Code, Function, NotReadable};
 pub use cycles::{Core, Cycles};
+pub use flash::{Flash, loaded_words};
 pub use instruction::{Flow, Instruction, Stack};
 pub use path::Piece;
 pub use refusal::Refusal;

@@ -1,8 +1,9 @@
 //! Cycles of instructions beside the tables of the cores' manuals, and of paths counted by hand.
 
-use driveline_longest_path::{Bounds, Code, Core, Cycles, Loops};
+use driveline_longest_path::{Bounds, Code, Core, Cycles, Flash, Loops, loaded_words};
 
-/// The encodings are those that LLVM assembles; cycles by Arm DDI 0439, tables 3-1 and 7-1, and DDI 0337, table 3-1.
+/// The encodings are those that LLVM assembles; cycles by Arm DDI 0439, tables 3-1 and 7-1, and DDI 0337, DDI 0484 and
+/// DDI 0432, each table 3-1.
 #[test]
 fn instructions_take_the_cycles_of_the_manuals() {
     let both: [((u16, u16), (u64, u64), &str); 22] = [
@@ -44,16 +45,85 @@ fn instructions_take_the_cycles_of_the_manuals() {
         assert_eq!(Cycles::of(Core::M3, first, second), Cycles { least, most }, "{text} on the M3");
         assert_eq!(Cycles::of(Core::M4, first, second), Cycles { least: 1, most: 1 }, "{text} on the M4");
     }
+    // cycles of the M0, and least and most of the M0+
+    let small: [((u16, u16), u64, (u64, u64), &str); 9] = [
+        ((0x1840, 0), 1, (1, 1), "adds r0, r0, r1"),
+        ((0x4348, 0), 1, (1, 1), "muls r0, r1, r0 by the fast multiplier"),
+        ((0x6808, 0), 2, (1, 2), "ldr r0, [r1]"),
+        ((0xc906, 0), 3, (3, 3), "ldm r1!, {r1, r2}"),
+        ((0xb5f0, 0), 6, (6, 6), "push {r4-r7, lr}"),
+        ((0xbdf0, 0), 9, (8, 8), "pop {r4-r7, pc}"),
+        ((0x4770, 0), 3, (2, 2), "bx lr"),
+        ((0xf000, 0xf803), 4, (3, 3), "bl"),
+        ((0xf3ef, 0x8010), 4, (3, 3), "mrs r0, primask"),
+    ];
+    for ((first, second), cycles, (least, most), text) in small {
+        assert_eq!(Cycles::of(Core::M0, first, second), Cycles { least: cycles, most: cycles }, "{text} on the M0");
+        assert_eq!(Cycles::of(Core::M0Plus, first, second), Cycles { least, most }, "{text} on the M0+");
+    }
 }
 
 fn cycles(code: &[u16], turns: &[u64]) -> (u64, u64) {
+    on(Core::M4, Flash::IDEAL, code, turns)
+}
+
+/// Least and most of a function at 0x100.
+fn on(core: Core, flash: Flash, code: &[u16], turns: &[u64]) -> (u64, u64) {
     let code = Code::of(0x100, &[("f", code)], &[]);
     let mut loops = Loops::default();
     if !turns.is_empty() {
         loops.state("f", turns.to_vec());
     }
-    let Cycles { least, most } = Bounds::cycles(&code, &loops, Core::M4, 0x100).unwrap();
+    let Cycles { least, most } = Bounds::cycles(&code, &loops, core, flash, 0x100).unwrap();
     (least, most)
+}
+
+/// By hand, for three wait states a line of eight bytes.
+#[test]
+fn code_waits_for_its_flash() {
+    let flash = Flash { wait_states: 3, line: 8 };
+    // five times nop; bx lr. Twelve bytes are two lines; the return waits twice.
+    assert_eq!(
+        on(Core::M0, flash, &[0xbf00, 0xbf00, 0xbf00, 0xbf00, 0xbf00, 0x4770], &[]),
+        (5 + 3, 5 + 3 + 3 * (2 + 2))
+    );
+    // ldr r0, [r1]; bx lr: a line, the load and the line again, the return
+    assert_eq!(on(Core::M0, flash, &[0x6808, 0x4770], &[]).1, 2 + 3 + 3 * (1 + 2 + 2));
+    // movs r1, #0; 1: adds r1, r1, r0; subs r0, #1; bne 1b; bx lr. Two lines; the loop is in the first.
+    let turns = 5;
+    let jumps = (turns - 1) * (2 + 2 * 3);
+    assert_eq!(
+        on(Core::M0, flash, &[0x2100, 0x1809, 0x3801, 0xd1fc, 0x4770], &[turns]).1,
+        1 + 3 * turns + jumps + 3 + 3 * (2 + 2)
+    );
+    // a wide instruction over the end of a line waits for the next one: nop; nop; nop; movw r0, #0; bx lr
+    let across = [0xbf00, 0xbf00, 0xbf00, 0xf240, 0x0000, 0x4770];
+    assert_eq!(on(Core::M3, flash, &across, &[]).1, 4 + 4 + 3 * (2 + 2));
+}
+
+#[test]
+fn loads_are_told_from_stores_and_from_the_stack() {
+    let cases: [((u16, u16), u64, &str); 16] = [
+        ((0x4801, 0), 1, "ldr r0, [pc, #4]"),
+        ((0x5888, 0), 1, "ldr r0, [r1, r2]"),
+        ((0x5088, 0), 0, "str r0, [r1, r2]"),
+        ((0x5688, 0), 1, "ldrsb r0, [r1, r2]"),
+        ((0x9801, 0), 0, "ldr r0, [sp, #4]"),
+        ((0xc906, 0), 2, "ldm r1!, {r1, r2}"),
+        ((0xc106, 0), 0, "stm r1!, {r1, r2}"),
+        ((0xbdf0, 0), 0, "pop {r4-r7, pc}"),
+        ((0xe9d0, 0x1202), 2, "ldrd r1, r2, [r0, #8]"),
+        ((0xe9dd, 0x1202), 0, "ldrd r1, r2, [sp, #8]"),
+        ((0xe8bd, 0x8ff0), 0, "pop.w {r4-r11, pc}"),
+        ((0xe890, 0x0ff0), 8, "ldm.w r0, {r4-r11}"),
+        ((0xed90, 0x0a01), 1, "vldr s0, [r0, #4]"),
+        ((0xed80, 0x0a01), 0, "vstr s0, [r0, #4]"),
+        ((0xec90, 0x0a04), 4, "vldmia r0, {s0-s3}"),
+        ((0xec51, 0x0a10), 0, "vmov r0, r1, s0, s1"),
+    ];
+    for ((first, second), words, text) in cases {
+        assert_eq!(loaded_words(first, second), words, "{text}");
+    }
 }
 
 #[test]
@@ -82,7 +152,7 @@ fn a_call_is_taken_and_so_is_a_jump_into_another_function() {
     let functions: [(&str, &[u16]); 2] =
         [("caller", &[0xb510, 0xf000, 0xf803, 0xe8bd, 0x4010, 0xe7ff]), ("callee", &[0xbf00, 0x4770])];
     let loops = Loops::default();
-    let found = Bounds::cycles(&Code::of(0x100, &functions, &[]), &loops, Core::M3, 0x100).unwrap();
+    let found = Bounds::cycles(&Code::of(0x100, &functions, &[]), &loops, Core::M3, Flash::IDEAL, 0x100).unwrap();
     let callee = (3, 5);
     assert_eq!(found, Cycles { least: 3 + 2 + callee.0 + 3 + 2 + callee.0, most: 3 + 4 + callee.1 + 3 + 4 + callee.1 });
 }

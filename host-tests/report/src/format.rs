@@ -61,6 +61,11 @@ pub fn grouped(value: i64) -> String {
     text
 }
 
+/// Least and most: `239 to 294`.
+pub fn interval(bounds: Option<[u64; 2]>) -> String {
+    bounds.map_or("none".into(), |[least, most]| format!("{} to {}", grouped(least as i64), grouped(most as i64)))
+}
+
 /// A number of things: `1 draw`, `60 draws`.
 pub fn counted(count: u64, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })

@@ -44,8 +44,9 @@ pub struct Variant {
     pub load_torque: Deviation,
     /// Instructions of a tick, counted exactly.
     pub instructions: Instructions,
-    /// Cycles of a tick, estimated from the instruction mix.
-    pub cycles_estimate: u64,
+    /// Least and most cycles of the path with the most, by the core's manual and without wait states; `None` where it
+    /// has no bound.
+    pub cycles: Option<[u64; 2]>,
     /// Flash of the tick's code and constants.
     pub flash_bytes: u64,
     /// RAM of the drive's state.

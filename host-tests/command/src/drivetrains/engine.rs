@@ -11,9 +11,9 @@ use super::lockstep::Trace;
 use super::scenario::Machine;
 use crate::closed_loop::candidates::Candidate;
 use crate::closed_loop::units::Units;
-use driveline_qemu::image::{Contents, Program, build, cycles};
+use driveline_qemu::image::{Contents, Image, Program, build};
 use driveline_qemu::link::Link;
-use driveline_qemu::measure::Spread;
+use driveline_qemu::measure::{Core, Cycles, Flash, Loops, MachineCode, Spread};
 use driveline_report::{Instructions, Mark, Signal, Trajectory, Variant};
 
 /// A variant that has run.
@@ -98,7 +98,7 @@ pub fn run(
         load_speed,
         load_torque,
         instructions: Instructions { min: spread.min.into(), median: spread.median.into(), max: spread.max.into() },
-        cycles_estimate: cycles::estimate(&image, spread.median)?,
+        cycles: cycles(&image)?,
         flash_bytes: contents.sizes.flash().saturating_sub(base.0),
         ram_bytes: contents.sizes.ram().saturating_sub(base.1),
         stack_bytes: stack.into(),
@@ -106,6 +106,14 @@ pub fn run(
         ticks: moments().count() as u64,
     };
     Ok(Ran { variant, traces, tick_code: contents.tick_code })
+}
+
+/// Least and most cycles of the tick on the path that has the most.
+fn cycles(image: &Image) -> Result<Option<[u64; 2]>, Box<dyn Error>> {
+    let core = if image.board.core == "m3" { Core::M3 } else { Core::M4 };
+    let code = MachineCode::read(&image.path, Loops::default())?;
+    let found = code.find("driveline_tick").and_then(|tick| code.cycles(tick, core, Flash::IDEAL).ok());
+    Ok(found.map(|Cycles { least, most }| [least, most]))
 }
 
 /// Traces as the page draws them.

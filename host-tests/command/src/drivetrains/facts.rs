@@ -135,8 +135,8 @@ pub fn notes(machine: &Machine, quick: bool) -> Vec<String> {
     let general = [
         "Measured in QEMU 7.2 or later: instructions, to the instruction; stack, by painting it; bits, against the \
             host. No real board has run this.",
-        "Cycles are an estimate: instructions times the mean of the cores' manuals over the tick's instruction mix, \
-            without wait states.",
+        "Cycles are those of the path that has the most, by the rules of the cores' manuals without wait states: the \
+            upper end is a bound.",
         "Flash and RAM are those of the image with the drive less those of the image without one.",
         "Errors are estimate less truth over the counted runs: of the peak for torques, of rated speed for speeds.",
     ];

@@ -53,7 +53,7 @@ fn plot(scene: &SceneComparison, core: &str) -> String {
             load_speed: deviation(observer.load_speed),
             load_torque: deviation(0.0),
             instructions: Instructions { min: cost.median.into(), median: cost.median.into(), max: cost.worst.into() },
-            cycles_estimate: 0,
+            cycles: None,
             flash_bytes: cost.code,
             ram_bytes: cost.state.into(),
             stack_bytes: cost.stack.into(),

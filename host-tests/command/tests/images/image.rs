@@ -112,6 +112,50 @@ fn the_longest_path_is_listed_and_adds_up_to_the_bound() {
     assert!(message.contains("has no function `no_such_function`"), "{message}");
 }
 
+/// The kernels have one path each: in QEMU their counts are its length, and no other function exceeds its bound. The
+/// same image for the board with a motor links, and its lines are told from another image's.
+#[test]
+fn the_benchs_counts_are_laid_beside_the_bounds_of_its_image() {
+    let variant = "hoist/f32/reduced/10000";
+    let image = build(variant, board("m4f").unwrap(), Program::Bench, |_| {}).unwrap();
+    let lines = link::run(&image, LIMIT).unwrap().lines;
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("bench.log");
+    let compare = |image: &std::path::Path, text: &str| {
+        std::fs::write(&log, text).unwrap();
+        let program = env!("CARGO_BIN_EXE_cargo-driveline");
+        Command::new(program).arg("longest-path").arg(image).arg("--counted").arg(&log).arg("--json").output().unwrap()
+    };
+    let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
+    let output = compare(&image.path, &format!("a terminal's own line\n{text}"));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: Vec<serde_json::Value> = serde_json::from_slice(&output.stdout).unwrap();
+    let kernels: Vec<_> = found.iter().filter(|one| one["bench"].as_str().unwrap().starts_with("kernel/")).collect();
+    // 19 for every core, 12 for the floating-point unit
+    assert_eq!(kernels.len(), 31);
+    assert!(kernels.iter().all(|one| one["counted"] == one["bounds"]), "{kernels:?}");
+    let data = kernels.iter().find(|one| one["bench"] == "kernel/data").unwrap();
+    assert_eq!(data["counted"], serde_json::json!([64, 64]));
+
+    // as if in cycles: what no core can do is found, in both directions
+    let cycles = |count: u64| {
+        let mut line = lines.iter().find(|line| line["bench"] == "kernel/data").unwrap().clone();
+        line["unit"] = "cycles".into();
+        (line["min"], line["max"]) = (count.into(), count.into());
+        compare(&image.path, &line.to_string())
+    };
+    for (count, fits) in [(63, false), (64, true), (65, false)] {
+        assert_eq!(cycles(count).status.success(), fits, "{count}");
+    }
+    let on_board = build(variant, NUCLEO, Program::Bench, |_| {}).unwrap();
+    let other = compare(&on_board.path, &text);
+    let message = String::from_utf8_lossy(&other.stderr).into_owned();
+    assert_eq!(other.status.code(), Some(2), "{message}");
+    assert!(message.contains("the image has no function at"), "{message}");
+    let cut = compare(&image.path, &text[..text.len() - 2]);
+    assert_eq!(cut.status.code(), Some(2), "{}", String::from_utf8_lossy(&cut.stderr));
+}
+
 /// What a linker may decide is where a function and a table lie; the tick's code is else the same, halfword for
 /// halfword, on the board with a motor and in QEMU on the same core, and so are the tables that it reads and the
 /// drive's constants.

@@ -57,7 +57,11 @@ pub fn build(
     held.lock().map_err(place(format!("locking {}", lock.display())))?;
 
     let firmware = target.join("firmware").join(lane);
-    let of_core = if board.core == "m7" { ",m7" } else { "" };
+    let of_core = match board.core {
+        "m7" => ",m7",
+        "g474" => ",nucleo-g474re",
+        _ => "",
+    };
     let arguments = [
         "build",
         &format!("--manifest-path={}/Cargo.toml", program.folder()),

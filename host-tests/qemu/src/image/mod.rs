@@ -3,7 +3,6 @@
 mod build;
 mod calls;
 mod compositions;
-pub mod cycles;
 mod footprint;
 mod fresh;
 mod machine_code;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use driveline_longest_path::{Bound, Bounds, Code, Core, Cycles, Loops, Piece, Refusal};
+use driveline_longest_path::{Bound, Bounds, Code, Core, Cycles, Flash, Loops, Piece, Refusal};
 
 use crate::image::ReadError;
 
@@ -40,6 +40,11 @@ impl MachineCode {
         functions.find(|function| function.name == name || function.readable() == name).map(|function| function.start)
     }
 
+    /// Whether a function begins at an address; the bit that marks Thumb code is ignored.
+    pub fn begins_function(&self, start: u32) -> bool {
+        self.code.functions().iter().any(|function| function.start == start & !1)
+    }
+
     /// The bound of the function at an address, as the board counts: without an empty function.
     ///
     /// # Errors
@@ -49,12 +54,21 @@ impl MachineCode {
         Ok(Bound { instructions: instructions.saturating_sub(self.empty), stack })
     }
 
-    /// The cycles of a call on a core without wait states, all of it.
+    /// The cycles of a call on a core with code in a flash, all of it.
     ///
     /// # Errors
     /// A function without a bound.
-    pub fn cycles(&self, start: u32, core: Core) -> Result<Cycles, Refusal> {
-        Bounds::cycles(&self.code, &self.loops, core, start)
+    pub fn cycles(&self, start: u32, core: Core, flash: Flash) -> Result<Cycles, Refusal> {
+        Bounds::cycles(&self.code, &self.loops, core, flash, start)
+    }
+
+    /// The cycles of a call as a board counts them, without an empty function: `None` where that has none, or where the
+    /// function is unbounded.
+    pub fn counted_cycles(&self, start: u32, core: Core, flash: Flash) -> Option<Cycles> {
+        let cycles = |start| self.cycles(start, core, flash).ok();
+        let (call, nothing) = (cycles(start)?, cycles(self.find(EMPTY[0])?)?);
+        let less = |all: u64, empty| all.saturating_sub(empty);
+        Some(Cycles { least: less(call.least, nothing.least), most: less(call.most, nothing.most) })
     }
 
     /// Its longest path, all of it.

@@ -7,5 +7,5 @@ mod self_test;
 
 pub use bound::MachineCode;
 pub use cost::{BENCHES, Cost, Spread, count};
-pub use driveline_longest_path::{Bound, Core, Cycles, Loops, Piece, Refusal};
+pub use driveline_longest_path::{Bound, Core, Cycles, Flash, Loops, Piece, Refusal};
 pub use self_test::self_test;

@@ -96,7 +96,7 @@ fn json_has_exactly_the_promised_fields() {
         "load_speed",
         "load_torque",
         "instructions",
-        "cycles_estimate",
+        "cycles",
         "flash_bytes",
         "ram_bytes",
         "stack_bytes",

@@ -63,7 +63,7 @@ fn variants() -> Vec<Variant> {
                     load_speed: Deviation { rms: error * 0.11, max: error * 0.5 },
                     load_torque: Deviation { rms: error * 1.9, max: error * 7.0 },
                     instructions: Instructions { min: median - 9, median, max: median + 11 },
-                    cycles_estimate: median * 14 / 10,
+                    cycles: Some([median * 16 / 10, median * 19 / 10]),
                     flash_bytes: 700 + median * 5,
                     ram_bytes: 96,
                     stack_bytes: 48,

@@ -113,7 +113,7 @@ pub fn rows(variants: &[Variant], look: &[(usize, usize)]) -> Vec<Row> {
             grouped(v.instructions.min as i64),
             grouped(v.instructions.median as i64),
             grouped(v.instructions.max as i64),
-            grouped(v.cycles_estimate as i64),
+            format::interval(v.cycles),
             grouped(v.flash_bytes as i64),
             grouped(v.ram_bytes as i64),
             grouped(v.stack_bytes as i64),
