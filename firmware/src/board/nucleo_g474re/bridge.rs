@@ -142,7 +142,7 @@ last_handler! {
     HardFault, reset::HARD_FAULT
 }
 last_handler! {
-    /// The crystal has failed, or the parity of the memory is wrong.
+    /// The crystal has failed, the parity of the memory is wrong, or the flash has a double error.
     NonMaskableInt, reset::NMI
 }
 

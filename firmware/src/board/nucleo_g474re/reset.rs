@@ -2,7 +2,7 @@
 
 /// Word in a backup register: a fault of the core ended the last run.
 pub const HARD_FAULT: u32 = 0x1d1e_0001;
-/// The same, a non-maskable interrupt: the crystal failed, or the parity of the memory.
+/// The same, a non-maskable interrupt: the crystal failed, the memory has wrong parity, or the flash a double error.
 pub const NMI: u32 = 0x1d1e_0002;
 
 /// Bits of the word. The first eight are bits 24 to 31 of RCC_CSR.
@@ -19,7 +19,7 @@ pub mod bits {
     pub const WATCHDOG: u32 = 1 << 5;
     /// A fault of the core ended the last run, then the watchdog.
     pub const HARD_FAULT: u32 = 1 << 8;
-    /// The crystal or the memory's parity ended it, then the watchdog.
+    /// The crystal, the memory's parity or a double error in the flash ended it, then the watchdog.
     pub const NMI: u32 = 1 << 9;
     /// Option byte: the brown-out level is not 4, 2.8 V.
     pub const BROWN_OUT_LEVEL_LOW: u32 = 1 << 10;
