@@ -38,6 +38,7 @@ mod damper;
 mod engine;
 mod error;
 mod linear;
+mod main_mode;
 mod modes;
 mod planetary;
 mod prime_mover;

@@ -1,15 +1,20 @@
 //! Reduction of a chain to two masses, equivalent at the motor, and its errors.
 
+use super::main_mode::MainMode;
 use super::refer::series;
-use super::{Chain, Error, Mode, ReductionError, TwoMass};
+use super::{Chain, Error, Mode, Modes, ReductionError, TwoMass};
 
 /// How two masses stand in for a chain. Every choice keeps the total inertia.
+///
+/// The main mode of a chain is its first. That of a train has the largest share of the static compliance at the motor:
+/// a lower mode, such as nearly equal branches in opposition, is left out with the antiresonance that nearly cancels
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Match {
-    /// Same first resonance and first antiresonance (motor locked): the choice for control at the motor.
+    /// Same resonance and antiresonance (motor locked) of the main mode: the choice for control at the motor.
     ResonanceAntiresonance,
-    /// Same first resonance and same residue at the motor: the first mode kept exactly, the others dropped.
+    /// Same resonance and residue at the motor of the main mode: this mode kept exactly, the others dropped.
     ModalTruncation,
     /// Inertias lumped left and right of this shaft (0 at the motor), joined by all shafts in series
     /// [Huang 1987 ch. 1].
@@ -62,11 +67,12 @@ impl Chain {
             return Ok(machine);
         }
         let modes = self.modes();
-        let first = modes.resonances()[0];
         let total = self.total_inertia();
+        let main = MainMode::first(&modes);
+        let mode = modes.resonances()[main.index];
         match by {
-            Match::ResonanceAntiresonance => matched(&mut machine, total, &first, modes.antiresonances()[0]),
-            Match::ModalTruncation => truncated(&mut machine, total, &first),
+            Match::ResonanceAntiresonance => matched(&mut machine, total, &mode, main.antiresonance),
+            Match::ModalTruncation => truncated(&mut machine, total, &mode),
             Match::TextbookCut(cut) => {
                 self.lump(&mut machine, cut);
                 let mut k = self.shaft[0].stiffness;
@@ -90,7 +96,7 @@ impl Chain {
                 machine.damping = self.shaft[cut].damping;
             }
         }
-        machine.error = self.error_of(&machine, &modes);
+        machine.error = error_of(&machine, &modes, &main, self.inertia[0], self.compliance());
         if !machine.error.is_sound() {
             return Err(Error::Reduction);
         }
@@ -112,30 +118,6 @@ impl Chain {
         }
     }
 
-    const fn error_of(&self, machine: &TwoMass, modes: &super::Modes) -> ReductionError {
-        let (first, next) = (modes.resonances()[0], modes.resonances()[1]);
-        let total = self.total_inertia();
-        let residue = machine.load_inertia / (machine.motor_inertia * total);
-        let load_share = machine.load_inertia / total;
-        let resonance = machine.resonance() / first.frequency - 1.0;
-        // Same frequency: the two cosines stay together. Otherwise they drift apart to twice the mean.
-        let mut left_out =
-            if resonance.abs() < 1e-9 { (first.residue - residue).abs() } else { first.residue + residue };
-        let mut i = 1;
-        while i + 1 < self.count {
-            left_out += modes.resonances()[i].residue;
-            i += 1;
-        }
-        ReductionError {
-            next_mode: next.frequency,
-            next_share: next.residue * total,
-            resonance,
-            antiresonance: machine.antiresonance() / modes.antiresonances()[0] - 1.0,
-            compliance: load_share * load_share / machine.stiffness / self.compliance() - 1.0,
-            worst: left_out * self.inertia[0],
-        }
-    }
-
     /// Static compliance at the motor (rad/(N m)): its angle against the mean angle of all masses under a steady
     /// torque.
     ///
@@ -149,6 +131,44 @@ impl Chain {
             j += 1;
         }
         compliance(&self.inertia, &stiffness, self.count - 1)
+    }
+}
+
+/// Errors of two masses against the modes of their machine, whose motor has this inertia (kg m2).
+pub(super) const fn error_of(
+    machine: &TwoMass,
+    modes: &Modes,
+    main: &MainMode,
+    motor_inertia: f64,
+    compliance: f64,
+) -> ReductionError {
+    let all = modes.resonances();
+    let mode = all[main.index];
+    let total = machine.total_inertia();
+    let residue = machine.load_inertia / (machine.motor_inertia * total);
+    let load_share = machine.load_inertia / total;
+    let resonance = machine.resonance() / mode.frequency - 1.0;
+    // Same frequency: the two cosines stay together. Otherwise they drift apart to twice the mean.
+    let mut left_out = if resonance.abs() < 1e-9 { (mode.residue - residue).abs() } else { mode.residue + residue };
+    let mut i = 0;
+    while i < all.len() {
+        if i != main.index {
+            left_out += all[i].residue;
+        }
+        i += 1;
+    }
+    let (next_mode, next_share) = if main.next < all.len() {
+        (all[main.next].frequency, all[main.next].residue * total)
+    } else {
+        (f64::INFINITY, 0.0)
+    };
+    ReductionError {
+        next_mode,
+        next_share,
+        resonance,
+        antiresonance: machine.antiresonance() / main.nearest - 1.0,
+        compliance: load_share * load_share / machine.stiffness / compliance - 1.0,
+        worst: left_out * motor_inertia,
     }
 }
 

@@ -4,13 +4,14 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ReductionError {
-    /// Lowest natural frequency left out (rad/s); infinite where none is.
+    /// Lowest natural frequency left out that is observable at the motor (rad/s); infinite where none is. It lies below
+    /// the resonance where that is not the first mode.
     pub next_mode: f64,
     /// Its share at the motor: residue times total inertia. At 1 it moves the motor as much as the rigid turning does.
     pub next_share: f64,
-    /// Relative error of the first resonance, signed.
+    /// Relative error of the main mode's resonance, signed.
     pub resonance: f64,
-    /// Relative error of the first antiresonance, signed.
+    /// Relative error of the antiresonance below it, the nearest of them, signed.
     pub antiresonance: f64,
     /// Relative error of the static compliance at the motor (its twist against the mean angle under a steady torque),
     /// signed.

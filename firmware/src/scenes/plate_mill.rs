@@ -1,12 +1,13 @@
 //! A plate mill's stand whose upper and lower roll have spindles of their own: a branched train.
 //!
 //! A motor of 6 MW at 150 r/min has 382 kN m and 3e4 kg m2. A coupling of 4 GN m/rad leads to the pinion stand
-//! (3e3 kg m2), and from its two pinions a spindle of 125 MN m/rad to either work roll, which has 1.48e4 kg m2 with its
-//! backup roll. The figures are of the size of such a mill, not those of one machine.
+//! (3e3 kg m2), and from its two pinions a spindle to either work roll. The upper spindle is the longer one, with
+//! 110 MN m/rad, the lower one has 140 MN m/rad; the rolls have 1.52e4 and 1.44e4 kg m2 with their backup rolls. The
+//! figures are of the size of such a mill, not those of one machine.
 //!
-//! The observer's two masses are those of the train: total inertia, first resonance and antiresonance at the motor. The
-//! rolls' swing against each other does not reach the motor, and is not in the observer: its shaft torque is the sum of
-//! both spindles', and how they divide it cannot be found from the motor's angle.
+//! The observer's two masses are those of the train: total inertia, resonance and antiresonance of its main mode. The
+//! rolls' swing against each other is the first mode, but hardly reaches the motor, and is not in the observer: its
+//! shaft torque is the sum of both spindles', and how they divide it cannot be found from the motor's angle.
 
 use driveline::configure::{Machine, Rating};
 use driveline::design::{Disturbance, Encoder, RigidDesign, SpeedLoopTuning};
@@ -20,11 +21,14 @@ use crate::scene::table::variants;
 /// Inertia of a pinion's half of the stand that the branch adds (kg m2).
 const PINION: Inertia = Inertia(500.0);
 
-/// A spindle and its roll, on a pinion.
-const SPINDLE: Chain = Chain::motor(PINION).shaft(Stiffness(1.25e8), Damping(3.2e4)).rotor(Inertia(1.48e4));
+/// The upper spindle and its roll, on a pinion.
+const UPPER: Chain = Chain::motor(PINION).shaft(Stiffness(1.1e8), Damping(2.8e4)).rotor(Inertia(1.52e4));
+
+/// The lower spindle and its roll, on a pinion.
+const LOWER: Chain = Chain::motor(PINION).shaft(Stiffness(1.4e8), Damping(3.6e4)).rotor(Inertia(1.44e4));
 
 /// Motor, pinion stand, the upper and the lower spindle with their rolls.
-pub const TRAIN: Train = Train::of(PlateMill::CHAIN).branch(1, Ratio(1.0), SPINDLE).branch(1, Ratio(1.0), SPINDLE);
+pub const TRAIN: Train = Train::of(PlateMill::CHAIN).branch(1, Ratio(1.0), UPPER).branch(1, Ratio(1.0), LOWER);
 
 /// The mill.
 pub struct PlateMill;

@@ -40,11 +40,11 @@ pub fn machine() -> Result<Machine, PlantError> {
     let motion = Train::new()
         .coordinate(Coordinate::new(3.0e4))
         .coordinate(Coordinate::new(3.0e3))
-        .coordinate(Coordinate::new(1.48e4).viscous(friction).source(plate(UPPER_SHARE)))
-        .coordinate(Coordinate::new(1.48e4).viscous(friction).source(plate(1.0 - UPPER_SHARE)))
+        .coordinate(Coordinate::new(1.52e4).viscous(friction).source(plate(UPPER_SHARE)))
+        .coordinate(Coordinate::new(1.44e4).viscous(friction).source(plate(1.0 - UPPER_SHARE)))
         .link(Link::shaft(0, STAND, 4.0e9).damping(4.0e5))
-        .link(Link::shaft(STAND, UPPER, 1.25e8).damping(3.2e4))
-        .link(Link::shaft(STAND, LOWER, 1.25e8).damping(3.2e4))
+        .link(Link::shaft(STAND, UPPER, 1.1e8).damping(2.8e4))
+        .link(Link::shaft(STAND, LOWER, 1.4e8).damping(3.6e4))
         .build()?;
     Ok(Machine {
         name: scene::SCENE,

@@ -4,6 +4,7 @@ mod crank;
 mod damper;
 mod dynamic_factor;
 mod engine;
+mod main_mode;
 mod need;
 mod prime_mover;
 mod section;
