@@ -112,9 +112,10 @@ pub type ConfigOf<D> = <D as Composition>::Config;
 /// memory that was not initialised.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+// In this order: the compiler's own puts a measurement's tables in front.
+#[repr(C)]
 pub struct Drive<N, O, F = (), G = (), B = (), const SEAL: i32 = 0> {
     observer: O,
-    fluctuation: F,
     governor: G,
     balancer: B,
     /// Substitute for an implausible torque.
@@ -122,6 +123,8 @@ pub struct Drive<N, O, F = (), G = (), B = (), const SEAL: i32 = 0> {
     /// `SEAL` and the ticks without a usable angle, less those with one; while the angle is lost
     /// [`NONE_YET`](Self::NONE_YET) or [`ONE`](Self::ONE).
     coasted: i32,
+    /// The last: a field behind its tables would be beyond the reach of a load.
+    fluctuation: F,
 }
 
 /// What the seal in a drive's memory shows.

@@ -16,7 +16,13 @@ const BEFORE: [i8; 3] = [-2, -1, 0];
 /// counts those for which there was no place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+// In this order, the tables last: what stands behind them is beyond the reach of a load.
+#[repr(C)]
 pub struct Rainflow<N, const CLASSES: usize> {
+    /// The largest torque, either way.
+    largest: N,
+    /// Reversals for which there was no place.
+    lost: u32,
     /// The present class and the last reversal's: the lowest quarter of a class that does not leave it.
     last: i32,
     reversal: i32,
@@ -28,14 +34,10 @@ pub struct Rainflow<N, const CLASSES: usize> {
     ranges: [i8; LONGEST],
     /// Ranges that wait, a ring.
     queue: [i8; 256],
-    /// Reversals for which there was no place.
-    lost: u32,
     /// Cycles by their range in classes.
     cycles: [u32; CLASSES],
     /// Ticks in each class.
     ticks: [u32; CLASSES],
-    /// The largest torque, either way.
-    largest: N,
 }
 
 impl<N: Classed, const CLASSES: usize> Default for Rainflow<N, CLASSES> {
