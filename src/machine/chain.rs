@@ -17,10 +17,15 @@ pub struct Shaft {
     pub damping: f64,
     /// Whole free travel of the backlash in series with it (rad); 0 without one.
     pub gap: f64,
+    /// Efficiency of the gears between its two masses while the motor drives.
+    pub efficiency: f64,
+    /// The same while the load drives.
+    pub back_efficiency: f64,
 }
 
 impl Shaft {
-    pub(crate) const NONE: Self = Self { stiffness: 0.0, damping: 0.0, gap: 0.0 };
+    pub(crate) const NONE: Self =
+        Self { stiffness: 0.0, damping: 0.0, gap: 0.0, efficiency: 1.0, back_efficiency: 1.0 };
 }
 
 /// A machine as an ordered chain from the motor, referred to the motor's shaft.
@@ -29,6 +34,9 @@ impl Shaft {
 /// stays empty until a rotor, a planetary set or a mass is put on it; two shafts with nothing between them become
 /// one (stiffnesses in series, gaps added, damping by equal loss). A backlash belongs to the shaft before it when
 /// nothing lies between, or else to the next one.
+///
+/// The losses of a gear belong to the shaft before it when nothing lies between, as a belt's do, or else to the next
+/// one.
 ///
 /// The chain is referred without losses, as the observer requires: energy is conserved, and friction, constant or slow,
 /// becomes part of the estimated load torque. Only [`gravity_torque_hoisting`](Self::gravity_torque_hoisting) and
@@ -50,6 +58,8 @@ pub struct Chain {
     pub(super) flow: Flow,
     /// A gap that waits for the next shaft (rad).
     pub(super) gap: f64,
+    /// Efficiencies that wait for the next shaft, while the motor drives and while the load does.
+    waiting: [f64; 2],
     /// Weight torque without losses, hoisting and lowering (N m).
     pub(super) gravity: [f64; 3],
     /// The first element that was refused, and why.
@@ -79,6 +89,7 @@ impl Chain {
             back_efficiency: 1.0,
             flow: Flow::Lossless,
             gap: 0.0,
+            waiting: [1.0; 2],
             gravity: [0.0; 3],
             error: if right { None } else { Some(Error::MotorInertia) },
         }
@@ -153,19 +164,38 @@ impl Chain {
     ///
     /// Refused: [`Error::GearRatio`], [`Error::GearEfficiency`], [`Error::RotaryAfterDrum`].
     #[must_use]
-    pub const fn gear(mut self, ratio: Ratio, efficiency: Efficiency) -> Self {
+    pub const fn gear(self, ratio: Ratio, efficiency: Efficiency) -> Self {
+        self.lossy(ratio, efficiency, efficiency)
+    }
+
+    const fn lossy(mut self, ratio: Ratio, efficiency: Efficiency, back: Efficiency) -> Self {
         if self.travel != 0.0 {
             return self.refuse(Error::RotaryAfterDrum);
         }
         if !positive(ratio.0) || !positive(self.ratio * ratio.0) {
             return self.refuse(Error::GearRatio);
         }
-        if !(efficiency.0 > 0.0 && efficiency.0 <= 1.0) {
+        if !(efficiency.0 > 0.0 && efficiency.0 <= 1.0 && back.0 > 0.0 && back.0 <= 1.0) {
             return self.refuse(Error::GearEfficiency);
         }
         self.ratio *= ratio.0;
         self.efficiency *= efficiency.0;
-        self.back_efficiency *= efficiency.0;
+        self.back_efficiency *= back.0;
+        self.waiting = [self.waiting[0] * efficiency.0, self.waiting[1] * back.0];
+        if self.ends_in_shaft() { self.settle() } else { self }
+    }
+
+    /// Whether the last mass is still empty.
+    pub(super) const fn ends_in_shaft(&self) -> bool {
+        self.count > 1 && self.inertia[self.count - 1] == 0.0
+    }
+
+    /// Gives the efficiencies that wait to the last shaft.
+    pub(super) const fn settle(mut self) -> Self {
+        let last = &mut self.shaft[self.count - 2];
+        last.efficiency *= self.waiting[0];
+        last.back_efficiency *= self.waiting[1];
+        self.waiting = [1.0; 2];
         self
     }
 
@@ -176,12 +206,7 @@ impl Chain {
     /// Refused: as [`gear`](Self::gear).
     #[must_use]
     pub const fn worm(self, ratio: Ratio, driving: Efficiency, driven: Efficiency) -> Self {
-        if !(driven.0 > 0.0 && driven.0 <= 1.0) {
-            return self.refuse(Error::GearEfficiency);
-        }
-        let mut chain = self.gear(ratio, driving);
-        chain.back_efficiency = self.back_efficiency * driven.0;
-        chain
+        self.lossy(ratio, driving, driven)
     }
 
     /// The efficiency that the chain is referred with.
@@ -208,7 +233,7 @@ impl Chain {
 
     /// Puts a gap (rad at the motor) in series with the shaft before it, or keeps it for the next one.
     pub(super) const fn slacken(mut self, gap: f64) -> Self {
-        if self.count > 1 && self.inertia[self.count - 1] == 0.0 {
+        if self.ends_in_shaft() {
             self.shaft[self.count - 2].gap += gap;
         } else {
             self.gap += gap;
@@ -229,10 +254,12 @@ impl Chain {
         } else if self.count == CAPACITY {
             return self.refuse(Error::TooManyMasses);
         } else {
-            self.shaft[self.count - 1] = Shaft { stiffness, damping, gap: self.gap };
+            let [efficiency, back_efficiency] = self.waiting;
+            self.shaft[self.count - 1] = Shaft { stiffness, damping, gap: self.gap, efficiency, back_efficiency };
             self.count += 1;
         }
         self.gap = 0.0;
+        self.waiting = [1.0; 2];
         self
     }
 

@@ -167,7 +167,7 @@ impl Chain {
         if !(not_negative(gear.ring.0) && positive(gear.inertia())) {
             return self.refuse(Error::PlanetaryInertia);
         }
-        self.rotor(Inertia(gear.inertia())).gear(Ratio(gear.ratio().abs()), gear.set.efficiency)
+        self.with_set(gear.inertia(), gear.ratio().abs(), gear.set.efficiency)
     }
 
     /// A planetary set with its sun on the present mass; the following elements turn with the carrier.
@@ -182,6 +182,13 @@ impl Chain {
         if !positive(set.inertia_at_sun()) {
             return self.refuse(Error::PlanetaryInertia);
         }
-        self.rotor(Inertia(set.inertia_at_sun())).gear(Ratio(set.ratio()), set.efficiency)
+        self.with_set(set.inertia_at_sun(), set.ratio(), set.efficiency)
+    }
+
+    /// A shaft that ends in the set carries its losses.
+    const fn with_set(self, inertia: f64, ratio: f64, efficiency: Efficiency) -> Self {
+        let ends_in_shaft = self.ends_in_shaft();
+        let chain = self.rotor(Inertia(inertia)).gear(Ratio(ratio), efficiency);
+        if ends_in_shaft { chain.settle() } else { chain }
     }
 }

@@ -24,6 +24,7 @@ use super::chain::{CAPACITY, Chain, Shaft};
 use super::error::not_negative;
 use super::error::positive;
 use super::modes::{Columns, Modes, SHAFTS};
+use super::refer::{Flow, Side, refer_gap, refer_inertia, refer_stiffness};
 use super::{Damping, Error, Ratio, Rigid, Stiffness};
 use crate::math::sqrt;
 
@@ -43,6 +44,10 @@ pub struct Joint {
 }
 
 /// A train of masses and shafts with branches and loops, referred to the motor's shaft.
+///
+/// Losses are as in a [`Chain`]: each shaft has the efficiency of its gears, and a branch is reached through the shafts
+/// of the tree between the motor and its mass. They count in the torque of the weights, and in inertias and stiffnesses
+/// where the first chain begins with [`starting`](Chain::starting) or [`braking`](Chain::braking).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Train {
@@ -52,7 +57,9 @@ pub struct Train {
     joint: [Joint; TRAIN_SHAFTS],
     /// Shafts that close loops.
     closing: usize,
-    gravity: f64,
+    flow: Flow,
+    /// Weight torque without losses, hoisting and lowering (N m).
+    gravity: [f64; 3],
     /// The first chain or shaft that was refused, and why.
     error: Option<Error>,
 }
@@ -77,7 +84,8 @@ impl Train {
             count: chain.count,
             joint,
             closing: 0,
-            gravity: chain.gravity[0],
+            flow: chain.flow,
+            gravity: chain.gravity,
             error: match chain.check() {
                 Ok(()) => None,
                 Err(error) => Some(error),
@@ -101,7 +109,8 @@ impl Train {
 
     /// A chain on a mass of the train: its first inertia is added to the mass of index `at`, which turns `ratio` times
     /// as fast (the motor's speed over that of the branch's first inertia). Its masses follow those that are there, in
-    /// their order. Its weight counts as well.
+    /// their order. Its weight counts as well. A gear of the branch is an element of it: `ratio` has no loss of its
+    /// own.
     ///
     /// Refused: [`Error::BranchNode`], [`Error::GearRatio`], [`Error::TooManyMasses`], as [`Chain::check`].
     #[must_use]
@@ -119,15 +128,23 @@ impl Train {
         if self.count + branch.count - 1 > CAPACITY {
             return self.refuse(Error::TooManyMasses);
         }
-        self.inertia[at] += branch.inertia[0] / square;
-        self.gravity += branch.gravity[0] / ratio.0;
+        let [efficiency, back] = [self.efficiency(at), self.back_efficiency(at)];
+        let (flow, loss) = (self.flow, if matches!(self.flow, Flow::Overhauling) { back } else { efficiency });
+        self.inertia[at] += refer_inertia(branch.inertia[0], ratio.0, loss, Side::Load, flow);
+        self.gravity[0] += branch.gravity[0] / ratio.0;
+        self.gravity[1] += branch.gravity[1] / (ratio.0 * efficiency);
+        self.gravity[2] += branch.gravity[2] * back / ratio.0;
         let first = self.count;
         let mut j = 1;
         while j < branch.count {
             let own = branch.shaft[j - 1];
-            let shaft =
-                Shaft { stiffness: own.stiffness / square, damping: own.damping / square, gap: own.gap * ratio.0 };
-            self.inertia[self.count] = branch.inertia[j] / square;
+            let shaft = Shaft {
+                stiffness: refer_stiffness(own.stiffness, ratio.0, loss, Side::Load, flow),
+                damping: refer_stiffness(own.damping, ratio.0, loss, Side::Load, flow),
+                gap: refer_gap(own.gap, ratio.0, Side::Load),
+                ..own
+            };
+            self.inertia[self.count] = refer_inertia(branch.inertia[j], ratio.0, loss, Side::Load, flow);
             self.joint[self.count - 1] = Joint { from: if j == 1 { at } else { first + j - 2 }, to: self.count, shaft };
             self.count += 1;
             j += 1;
@@ -160,7 +177,7 @@ impl Train {
         if at >= TRAIN_SHAFTS {
             return self.refuse(Error::TooManyShafts);
         }
-        let shaft = Shaft { stiffness: stiffness.0 / square, damping: damping.0 / square, gap: 0.0 };
+        let shaft = Shaft { stiffness: stiffness.0 / square, damping: damping.0 / square, ..Shaft::NONE };
         self.joint[at] = Joint { from, to, shaft };
         self.closing += 1;
         self
@@ -209,7 +226,43 @@ impl Train {
     /// Torque of the weights at the motor (N m), without losses.
     #[must_use]
     pub const fn gravity_torque(&self) -> f64 {
-        self.gravity
+        self.gravity[0]
+    }
+
+    /// Torque of the weights at the motor while it drives them up (N m): each over the efficiency of its way.
+    #[must_use]
+    pub const fn gravity_torque_hoisting(&self) -> f64 {
+        self.gravity[1]
+    }
+
+    /// Torque of the weights at the motor while they drive it (N m): each times the efficiency of its way.
+    #[must_use]
+    pub const fn gravity_torque_lowering(&self) -> f64 {
+        self.gravity[2]
+    }
+
+    /// Efficiency between the motor and a mass while the motor drives, by the shafts of the tree; 1 beyond the masses.
+    #[must_use]
+    pub const fn efficiency(&self, mass: usize) -> f64 {
+        let mut efficiency = 1.0;
+        let mut node = if mass < self.count { mass } else { 0 };
+        while node != 0 {
+            efficiency *= self.joint[node - 1].shaft.efficiency;
+            node = self.joint[node - 1].from;
+        }
+        efficiency
+    }
+
+    /// [`efficiency`](Self::efficiency) while the load drives.
+    #[must_use]
+    pub const fn back_efficiency(&self, mass: usize) -> f64 {
+        let mut efficiency = 1.0;
+        let mut node = if mass < self.count { mass } else { 0 };
+        while node != 0 {
+            efficiency *= self.joint[node - 1].shaft.back_efficiency;
+            node = self.joint[node - 1].from;
+        }
+        efficiency
     }
 
     /// The whole train as one mass.
@@ -221,7 +274,7 @@ impl Train {
         if let Some(error) = self.error {
             error.stop()
         }
-        Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity }
+        Rigid { inertia: self.total_inertia(), gravity_torque: self.gravity[0] }
     }
 
     /// Natural frequencies and shapes of the free train, and its antiresonances with the motor locked; gaps count as

@@ -1,6 +1,9 @@
 //! Branched and closed trains: a published ship, chains seen from their middle, loops against a dense solution.
 
-use driveline::machine::{Chain, Damping, Error, Gap, Inertia, Match, Ratio, Stiffness, Train, TwoMass};
+use driveline::machine::{
+    Belt, Chain, Damping, Diameter, Efficiency, Error, Gap, Inertia, LinearDamping, Mass, Match, Planetary, Ratio,
+    STANDARD_GRAVITY, Stiffness, Train, TwoMass,
+};
 use nalgebra::DMatrix;
 
 use crate::references::{case, close, data, meets};
@@ -202,6 +205,103 @@ fn referred_through_the_branch() {
     assert_eq!((joint.shaft.stiffness, joint.shaft.damping), (100.0, 1.0));
     close(train.total_gap(), 0.03, 1e-15);
     close(train.rigid().inertia, train.total_inertia(), 1e-15);
+}
+
+/// A hoist with a worm as a branch behind a spur gear, by hand: a weight motors through both, and drives back through
+/// both; the gear before a shaft belongs to that shaft, and so does one at the end of it.
+#[test]
+fn losses_of_a_branch() {
+    let stem = |motor: Chain| {
+        motor
+            .shaft(Stiffness(2.0e4), Damping(0.0))
+            .gear(Ratio(3.0), Efficiency(0.97))
+            .rotor(Inertia(0.9))
+            .gear(Ratio(2.0), Efficiency(0.96))
+            .shaft(Stiffness(8.0e4), Damping(0.0))
+            .rotor(Inertia(3.6))
+    };
+    let hoist = hoist_from(Chain::motor(Inertia(0.3)));
+    let train = Train::of(stem(Chain::motor(Inertia(0.4)))).branch(2, Ratio(6.0), hoist);
+    let losses = |mass: usize| [train.efficiency(mass), train.back_efficiency(mass)];
+    // products of two or three factors: a rounding each
+    for (mass, expected) in
+        [(0, [1.0; 2]), (1, [0.97; 2]), (2, [0.97 * 0.96; 2]), (3, [0.97 * 0.96 * 0.8, 0.97 * 0.96 * 0.6])]
+    {
+        close(losses(mass)[0], expected[0], 1e-15);
+        close(losses(mass)[1], expected[1], 1e-15);
+    }
+    assert_eq!((train.joints()[2].shaft.efficiency, train.joints()[2].shaft.back_efficiency), (0.8, 0.6));
+    let weight = 900.0 * STANDARD_GRAVITY * 0.25 / 120.0;
+    close(train.gravity_torque(), weight, 1e-14);
+    close(train.gravity_torque_hoisting(), weight / (0.97 * 0.96 * 0.8), 1e-14);
+    close(train.gravity_torque_lowering(), weight * (0.97 * 0.96 * 0.6), 1e-14);
+    // Beside the second shaft and not behind it, its gear does not count.
+    let beside = Train::of(stem(Chain::motor(Inertia(0.4)))).branch(1, Ratio(3.0), hoist);
+    close(beside.gravity_torque_hoisting(), 2.0 * weight / (0.97 * 0.8), 1e-14);
+    // Without losses inertias are kept; with those of motoring or overhauling the way to the branch counts in them.
+    let load = 4.0 + 900.0 * 0.25 * 0.25;
+    let referred =
+        |train: &Train| (train.masses()[3], train.joints()[2].shaft.stiffness, train.joints()[2].shaft.damping);
+    let square = 120.0_f64 * 120.0;
+    let [lossless, starting, braking] = [
+        train,
+        Train::of(stem(Chain::motor(Inertia(0.4)).starting())).branch(2, Ratio(6.0), hoist),
+        Train::of(stem(Chain::motor(Inertia(0.4)).braking())).branch(2, Ratio(6.0), hoist),
+    ];
+    for (train, factor) in [(lossless, 1.0), (starting, 1.0 / (0.97 * 0.96)), (braking, 0.97 * 0.96)] {
+        let (inertia, stiffness, damping) = referred(&train);
+        close(inertia, load / square * factor, 1e-14);
+        close(stiffness, 5.0e5 / square * factor, 1e-14);
+        close(damping, 7.0 / square * factor, 1e-14);
+    }
+    // The same chain straight on is referred alike, its own losses included.
+    let own = hoist_from(Chain::motor(Inertia(0.4)).starting());
+    let straight = Train::of(Chain::motor(Inertia(0.1)).starting()).branch(0, ONE, own);
+    close(straight.masses()[1], load / (400.0 * 0.8), 1e-14);
+    close(straight.gravity_torque_hoisting(), own.gravity_torque_hoisting(), 1e-15);
+    close(straight.gravity_torque_lowering(), own.gravity_torque_lowering(), 1e-15);
+}
+
+/// The losses of a planetary set or a belt are those of the shaft that ends in it; of a set on the motor, of the next.
+#[test]
+fn losses_belong_to_shafts() {
+    let set = Planetary {
+        sun_teeth: 20,
+        ring_teeth: 70,
+        module: 4e-3,
+        planets: 3,
+        sun: Inertia(0.01),
+        planet: Inertia(2e-3),
+        planet_mass: Mass(0.8),
+        carrier: Inertia(0.2),
+        efficiency: Efficiency(0.95),
+    };
+    let belt = Belt {
+        driving: Diameter(0.1),
+        driven: Diameter(0.3),
+        strand: Stiffness(4.0e5),
+        damping: LinearDamping(0.0),
+        efficiency: Efficiency(0.9),
+    };
+    let motor = Chain::motor(Inertia(0.4));
+    let last = |chain: Chain| chain.shaft(Stiffness(1.0e4), Damping(0.0)).rotor(Inertia(1.0));
+    let losses =
+        |chain: Chain| Train::of(chain).joints().iter().map(|joint| joint.shaft.efficiency).collect::<Vec<_>>();
+    let shaft = motor.shaft(Stiffness(2.0e4), Damping(0.0));
+    assert_eq!(losses(last(shaft.planetary(set))), [0.95, 1.0]);
+    assert_eq!(losses(last(motor.planetary(set))), [0.95]);
+    assert_eq!(losses(last(shaft.rotor(Inertia(0.1)).planetary(set))), [1.0, 0.95]);
+    assert_eq!(losses(last(motor.belt(belt).rotor(Inertia(0.1)))), [0.9, 1.0]);
+}
+
+/// The worm hoist behind another first inertia.
+fn hoist_from(motor: Chain) -> Chain {
+    motor
+        .worm(Ratio(20.0), Efficiency(0.8), Efficiency(0.6))
+        .shaft(Stiffness(5.0e5), Damping(7.0))
+        .rotor(Inertia(4.0))
+        .drum(Diameter(0.5))
+        .lifted(Mass(900.0))
 }
 
 #[test]
