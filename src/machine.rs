@@ -50,6 +50,7 @@ mod rigid;
 mod section;
 mod sensitivity;
 mod train;
+mod train_damper;
 mod train_reduce;
 mod two_mass;
 

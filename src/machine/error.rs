@@ -50,6 +50,8 @@ sentences! {
     TooManyShafts => "a train holds at most 30 shafts",
     TrainCut => "a train with branches has no textbook cut: match resonance and antiresonance, or keep the first mode",
     Unseen => "no mode of the train is observable at the motor: it is a rigid machine",
+    DamperRing => "ring of the damper must have a positive inertia (kg m2), and a spring or a damping, zero or \
+        positive (N m/rad, N m s/rad)",
     CharacteristicPoints => "speeds of the prime mover's characteristic must differ, its speeds and torques be finite",
     Overload => "overload capacity of the motor must be above 1 and finite (breakdown torque over rated torque)",
     InductionSpeed => "rated speed of the induction motor must lie between zero and its synchronous speed (rad/s)",

@@ -169,6 +169,7 @@ pub(super) const fn error_of(
         antiresonance: machine.antiresonance() / main.nearest - 1.0,
         compliance: load_share * load_share / machine.stiffness / compliance - 1.0,
         worst: left_out * motor_inertia,
+        slipping: 0.0,
     }
 }
 

@@ -21,6 +21,9 @@ pub struct ReductionError {
     /// The undamped answer to an impulse is `1/J + sum r_i cos(w_i t)`; the bound adds the residues that differ or are
     /// missing.
     pub worst: f64,
+    /// Share of the total inertia that slips in the main mode, in dampers' rings: it is in the two masses, but not in
+    /// the vibration.
+    pub slipping: f64,
 }
 
 impl ReductionError {
@@ -32,11 +35,12 @@ impl ReductionError {
         antiresonance: 0.0,
         compliance: 0.0,
         worst: 0.0,
+        slipping: 0.0,
     };
 
     /// Whether each is a number.
     pub(super) const fn is_sound(&self) -> bool {
-        let Self { next_mode, next_share, resonance, antiresonance, compliance, worst } = self;
+        let Self { next_mode, next_share, resonance, antiresonance, compliance, worst, slipping: _ } = self;
         !next_mode.is_nan() && (*next_share + *resonance + *antiresonance + *compliance + *worst).is_finite()
     }
 }

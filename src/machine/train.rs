@@ -58,6 +58,10 @@ pub struct Train {
     /// Shafts that close loops.
     closing: usize,
     flow: Flow,
+    /// Inertia of dampers' rings that slips in the main mode (kg m2).
+    pub(super) slipping: f64,
+    /// Damping of each mass by slipping rings (N m s/rad).
+    pub(super) drag: [f64; CAPACITY],
     /// Weight torque without losses, hoisting and lowering (N m).
     gravity: [f64; 3],
     /// The first chain or shaft that was refused, and why.
@@ -85,6 +89,8 @@ impl Train {
             joint,
             closing: 0,
             flow: chain.flow,
+            slipping: 0.0,
+            drag: [0.0; CAPACITY],
             gravity: chain.gravity,
             error: match chain.check() {
                 Ok(()) => None,
@@ -94,7 +100,7 @@ impl Train {
     }
 
     /// Leaves a branch or a shaft out.
-    const fn refuse(mut self, error: Error) -> Self {
+    pub(super) const fn refuse(mut self, error: Error) -> Self {
         if self.error.is_none() {
             self.error = Some(error);
         }
@@ -195,10 +201,10 @@ impl Train {
         self.joint.split_at(self.count - 1 + self.closing).0
     }
 
-    /// Sum of the inertias (kg m2).
+    /// Sum of the inertias (kg m2), with what slips of [dampers](Self::damper).
     #[must_use]
     pub const fn total_inertia(&self) -> f64 {
-        let mut sum = 0.0;
+        let mut sum = self.slipping;
         let mut j = 0;
         while j < self.count {
             sum += self.inertia[j];
@@ -298,6 +304,11 @@ impl Train {
                 let Joint { from, to, shaft } = self.joint[j];
                 let twist = mode.shape[from] - mode.shape[to];
                 mode.damping += shaft.damping * twist * twist;
+                j += 1;
+            }
+            let mut j = 0;
+            while j < self.count {
+                mode.damping += self.drag[j] * mode.shape[j] * mode.shape[j];
                 j += 1;
             }
             i += 1;

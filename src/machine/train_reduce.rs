@@ -58,7 +58,10 @@ impl Train {
             compliance += mode.residue / (mode.frequency * mode.frequency);
             i += 1;
         }
-        machine.error = error_of(&machine, &modes, &main, self.inertia[0], compliance);
+        machine.error = ReductionError {
+            slipping: self.slipping / total,
+            ..error_of(&machine, &modes, &main, self.inertia[0], compliance)
+        };
         if !machine.error.is_sound() {
             return Err(Error::Reduction);
         }

@@ -1,6 +1,7 @@
 //! The centrifugal pendulum: an absorber whose frequency follows the speed.
 
-use crate::machine::{Length, Mass};
+use super::Damper;
+use crate::machine::{Inertia, Length, Mass};
 use crate::math::sqrt;
 
 /// A point mass on a pendulum that hangs on a rotating disc, in small angles.
@@ -26,6 +27,13 @@ impl CentrifugalPendulum {
     #[must_use]
     pub const fn order(&self) -> f64 {
         sqrt(self.radius / self.length)
+    }
+
+    /// The pendulum at a speed (rad/s) of the disc, as a ring on a spring: inertia `m (R + L)^2`, frequency `nu Omega`.
+    #[must_use]
+    pub const fn ring(&self, speed: f64) -> Damper {
+        let arm = self.radius + self.length;
+        Damper::absorber(Inertia(self.mass * arm * arm), self.order() * speed)
     }
 
     /// Inertia that it adds to the disc at an order (kg m2): `m (R + L)^2/(1 - nu^2 L/R)`; negative above its own

@@ -10,4 +10,5 @@ mod prime_mover;
 mod section;
 mod starting;
 mod train;
+mod train_damper;
 mod travel;
