@@ -83,6 +83,10 @@ impl Quantity {
     pub const TORQUE: Self = positive("N m");
     /// Speed.
     pub const SPEED: Self = positive("rad/s");
+    /// Resistance of a motor's circuit.
+    pub const RESISTANCE: Self = positive("ohm");
+    /// Torque over current (V s), or over its square (H).
+    pub const FLUX: Self = positive("V s or H");
     /// Density; osmium has 22,600.
     pub const DENSITY: Self = Quantity { least: 1.0, most: 1e5, ..positive("kg/m³") };
     /// Young's modulus.

@@ -54,9 +54,10 @@
 //! | `[link.harmonics]` | `frequency` Hz, (`stiffness`, `error`) as rows of order, cosine, sine |
 //! | `[[friction]]` | `on` or `between`, `torque`, (`breakaway`, `surface`) |
 //! | `[[torque]]` | `on`, `kind` and its keys: `constant` `torque`; `line` `stall` `slope`; `parabola` `a` `b` `c`;
-//! `kloss` `breakdown` `slip` `synchronous`; `starting` `torque` `time` `power`; `steps` and `table` `points`;
-//! `triangle`, `square`, `sawtooth up`, `sawtooth down`, `rectified` `height` `period` `terms`; `arc` `torque` `from`
-//! `to` (`turns`); `stroke` `force` (`from` `to`); `orders` `harmonics` |
+//! `kloss` `breakdown` `slip` `synchronous`; `shunt` and `series` `voltage` `resistance` `flux`; `combustion`
+//! `combustion_type` `rated_torque` `rated_speed` `idle` `no_load`; `starting` `torque` `time` `power`; `steps` and
+//! `table` `points`; `triangle`, `square`, `sawtooth up`, `sawtooth down`, `rectified` `height` `period` `terms`; `arc`
+//! `torque` `from` `to` (`turns`); `stroke` `force` (`from` `to`); `orders` `harmonics` |
 //! | `[start]` | `kind`: `rest`, `slack`, or `pretensioned` with `held` |
 //! | `[run]` | `time` s, `step` s, a whole number of which is the time, (`cycle`, `cycle_turns`); `modes` does without
 //! it |
@@ -395,9 +396,9 @@ fn too_stiff(motion: &Motion, time: f64) -> Option<(Place, String, String)> {
 }
 
 const STARTS: &str = "\"rest\", \"slack\" or \"pretensioned\"";
-const KINDS: &str = "\"constant\", \"line\", \"parabola\", \"kloss\", \"starting\", \"steps\", \"table\", \
-                     \"triangle\", \
-                     \"square\", \"sawtooth up\", \"sawtooth down\", \"rectified\", \"arc\", \"stroke\" or \"orders\"";
+const KINDS: &str = "\"constant\", \"line\", \"parabola\", \"kloss\", \"shunt\", \"series\", \
+                     \"combustion\", \"starting\", \"steps\", \"table\", \"triangle\", \"square\", \
+                     \"sawtooth up\", \"sawtooth down\", \"rectified\", \"arc\", \"stroke\" or \"orders\"";
 
 /// A refusal of the solver as what was found and what was expected.
 fn said(error: &PlantError) -> (String, String) {
@@ -658,6 +659,17 @@ impl Reading {
                 slip: table.number("slip", Quantity::RATIO)?,
                 synchronous: table.number("synchronous", Quantity::SPEED)?,
             },
+            "shunt" | "series" => {
+                let voltage = any(&mut table, "voltage")?;
+                let resistance = table.number("resistance", Quantity::RESISTANCE)?;
+                let flux = table.number("flux", Quantity::FLUX)?;
+                if kind == "series" {
+                    Torque::Series { voltage, resistance, flux }
+                } else {
+                    Torque::Line { stall: flux * voltage / resistance, slope: flux * flux / resistance }
+                }
+            }
+            "combustion" => combustion(&mut table)?,
             "starting" => Torque::Starting {
                 torque: any(&mut table, "torque")?,
                 time: table.number("time", Quantity::TIME)?,
@@ -716,6 +728,33 @@ impl Reading {
         table.finish()?;
         Ok((on, torque))
     }
+}
+
+const ENGINES: &str = "\"spark\", \"indirect injection\" or \"direct injection\"";
+
+/// An engine at full load from idle to rated speed, and its governor from there to no load.
+fn combustion(table: &mut Table<'_>) -> Result<Torque, Diagnostic> {
+    // Leiderman's polynomial with the coefficients of Jazar, Vehicle Dynamics, ch. 4
+    let [a, b, c] = match table.text("combustion_type", ENGINES)? {
+        "spark" => [1.0, 1.0, 1.0],
+        "indirect injection" => [0.6, 1.4, 1.0],
+        "direct injection" => [0.87, 1.13, 1.0],
+        _ => return Err(table.wrong("combustion_type", ENGINES)),
+    };
+    let torque = table.number("rated_torque", Quantity::TORQUE)?;
+    let rated = table.number("rated_speed", Quantity::SPEED)?;
+    let idle = table.number("idle", Quantity::SPEED)?;
+    if idle >= rated {
+        return Err(table.wrong("idle", "a speed below `rated_speed`"));
+    }
+    let no_load = table.number("no_load", Quantity::SPEED)?;
+    if no_load <= rated {
+        return Err(table.wrong("no_load", "a speed above `rated_speed`"));
+    }
+    let full = [torque * a, torque * b / rated, -torque * c / (rated * rated)];
+    let slope = torque / (no_load - rated);
+    let governed = [slope * no_load, -slope, 0.0];
+    Ok(Torque::Pieces { ends: vec![idle, rated, no_load], torques: vec![full, governed] })
 }
 
 /// Where an arc ends, which is not where it begins; before it where it passes the angle zero.

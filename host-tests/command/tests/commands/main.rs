@@ -14,6 +14,7 @@ mod identify;
 mod machine_file;
 mod motor_wheel;
 mod pages;
+mod prime_movers;
 #[path = "../references/mod.rs"]
 mod references;
 mod replay;

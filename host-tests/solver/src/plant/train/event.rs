@@ -125,9 +125,16 @@ impl Motion {
             }
         }
         for arc in 0..self.mode.arcs.len() {
-            let (j, _, passed) = self.mode.arcs[arc];
-            add(Action::Arc(arc, 1), stretch.angle[j].guard(-1.0, self.arcs_end(arc, passed)));
-            add(Action::Arc(arc, -1), stretch.angle[j].guard(1.0, -self.arcs_end(arc, passed - 1)));
+            let (j, s, passed) = self.mode.arcs[arc];
+            let over_speed = self.train.coordinates[j].sources[s].ends().is_some();
+            let at = if over_speed { &stretch.speed[j] } else { &stretch.angle[j] };
+            let (ahead, behind) = (self.arcs_end(arc, passed), self.arcs_end(arc, passed - 1));
+            if ahead.is_finite() {
+                add(Action::Arc(arc, 1), at.guard(-1.0, ahead));
+            }
+            if behind.is_finite() {
+                add(Action::Arc(arc, -1), at.guard(1.0, -behind));
+            }
         }
         for (i, &(l, edge)) in self.mode.teeth.iter().enumerate() {
             if let Some(Variation::Teeth(teeth)) = &self.train.links[l].variation {

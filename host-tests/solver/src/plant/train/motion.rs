@@ -78,6 +78,8 @@ impl Motion {
                     // an arc through the angle zero began in the period before
                     let passed = i64::from(within >= from) + i64::from(within >= to) - i64::from(within < to - period);
                     arcs.push((j, s, 2 * turn as i64 + passed));
+                } else if let Some(ends) = source.ends() {
+                    arcs.push((j, s, ends.iter().filter(|end| coordinate.speed >= **end).count() as i64));
                 }
             }
         }
@@ -194,10 +196,16 @@ impl Motion {
         self.mode.contact[link] == TRAILING
     }
 
-    /// The angle, rad, of an end of an arc; even numbers begin it, odd ones end it.
+    /// The angle, rad, of an end of an arc, even numbers begin it, odd ones end it; or the speed, rad/s, of the end of
+    /// a piece.
     pub(super) fn arcs_end(&self, arc: usize, passed: i64) -> f64 {
         let (j, s, _) = self.mode.arcs[arc];
-        let Some((from, to, period)) = self.train.coordinates[j].sources[s].arc() else { return f64::INFINITY };
+        let source = &self.train.coordinates[j].sources[s];
+        if let Some(ends) = source.ends() {
+            let beyond = if passed < 0 { f64::NEG_INFINITY } else { f64::INFINITY };
+            return usize::try_from(passed).ok().and_then(|passed| ends.get(passed)).copied().unwrap_or(beyond);
+        }
+        let Some((from, to, period)) = source.arc() else { return f64::INFINITY };
         let within = if passed.rem_euclid(2) == 0 { from } else { to };
         passed.div_euclid(2) as f64 * period + within
     }

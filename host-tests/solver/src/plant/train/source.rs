@@ -45,6 +45,22 @@ pub enum Source {
         /// Synchronous speed `w_0`, rad/s, above zero.
         synchronous: f64,
     },
+    /// A series motor `c (U/(R + c w))^2` `[Wang 1989 §1-2]`, at speeds above `-R/c`.
+    Series {
+        /// Voltage `U`, V.
+        voltage: f64,
+        /// Resistance `R` of the whole circuit, ohm, zero or above.
+        resistance: f64,
+        /// Torque over the square of the current `c`, H, above zero.
+        flux: f64,
+    },
+    /// A characteristic in pieces `a + b w + c w^2`, one between each two of its ends, nothing outside them.
+    Pieces {
+        /// Ends, rad/s, rising.
+        ends: Vec<f64>,
+        /// `a`, `b`, `c` from each end to the next.
+        torques: Vec<[f64; 3]>,
+    },
     /// Over an arc of every turn, rad from zero to two pi, `from` below `to`.
     Arc {
         /// On the arc.
@@ -140,6 +156,8 @@ pub(super) enum Work {
     Nothing,
     Quotient(Box<[Series; 3]>),
     Turns(Vec<Turn>),
+    /// The piece that the speed lies in.
+    Piece([f64; 3]),
 }
 
 impl Source {
@@ -184,12 +202,22 @@ impl Source {
         }
     }
 
-    pub(super) fn work(&self, on_arc: bool) -> Work {
+    /// Speeds, rad/s, at which it changes.
+    pub(super) fn ends(&self) -> Option<&[f64]> {
+        if let Self::Pieces { ends, .. } = self { Some(ends) } else { None }
+    }
+
+    /// With how many ends of its arcs or pieces have been passed.
+    pub(super) fn work(&self, passed: i64) -> Work {
         let turns = |orders: &[Harmonic]| Work::Turns(orders.iter().map(|h| Turn::new(h.order)).collect());
         match self {
-            Self::Kloss { .. } => Work::Quotient(Box::new([ZERO; 3])),
+            Self::Kloss { .. } | Self::Series { .. } => Work::Quotient(Box::new([ZERO; 3])),
+            Self::Pieces { torques, .. } => {
+                let piece = usize::try_from(passed - 1).ok().and_then(|piece| torques.get(piece));
+                piece.map_or(Work::Nothing, |torque| Work::Piece(*torque))
+            }
             Self::Orders(orders) => turns(orders),
-            Self::Stroke { torque, .. } if on_arc => turns(&torque.0),
+            Self::Stroke { torque, .. } if passed.rem_euclid(2) == 1 => turns(&torque.0),
             _ => Work::Nothing,
         }
     }
@@ -207,6 +235,14 @@ impl Source {
                 ratio[k] = quotient(slip, over, ratio, k);
                 2.0 * breakdown * at * ratio[k]
             }
+            (Self::Series { voltage, resistance, flux }, Work::Quotient(work)) => {
+                let [supply, over, current] = &mut **work;
+                supply[k] = voltage * one;
+                over[k] = resistance * one + flux * speed[k];
+                current[k] = quotient(supply, over, current, k);
+                flux * product(current, current, k)
+            }
+            (Self::Pieces { .. }, Work::Piece([a, b, c])) => *a * one + *b * speed[k] + *c * product(speed, speed, k),
             (Self::Orders(orders) | Self::Stroke { torque: Orders(orders), .. }, Work::Turns(turns)) => {
                 let mut sum = 0.0;
                 for (harmonic, turn) in orders.iter().zip(turns) {
@@ -260,6 +296,20 @@ impl Source {
                 positive("breakdown slip", place, *slip)?;
                 positive("synchronous speed", place, *synchronous)?;
                 all(&[*breakdown])
+            }
+            Self::Series { voltage, resistance, flux } => {
+                positive("flux", place, *flux)?;
+                in_range("resistance", place, *resistance, *resistance >= 0.0, "zero or above")?;
+                all(&[*voltage, *resistance])
+            }
+            Self::Pieces { ends, torques } => {
+                for pair in ends.windows(2) {
+                    in_range("end of a piece", place, pair[1], pair[1] > pair[0], "above the end before it")?;
+                }
+                let count = torques.len() as f64;
+                in_range("pieces", place, count, torques.len() + 1 == ends.len(), "one less than the ends")?;
+                all(ends)?;
+                torques.iter().try_for_each(|torque| all(torque))
             }
             Self::Arc { torque, from, to } => {
                 in_range("start of an arc", place, *from, (0.0..TAU).contains(from), "from 0 to less than 2 pi")?;

@@ -24,7 +24,8 @@ pub(super) struct Mode {
     pub slip: Vec<i8>,
     /// Of each link: the sign of its torque on its first coordinate, kept only where a lossy gear needs it.
     pub flow: Vec<i8>,
-    /// Arcs as coordinate and source, and how many of their ends have been passed; odd on the arc.
+    /// Arcs as coordinate and source, and how many of their ends have been passed; odd on the arc. So are sources whose
+    /// pieces follow the speed.
     pub arcs: Vec<(usize, usize, i64)>,
     /// Links whose teeth follow an angle, and the edge ahead of each.
     pub teeth: Vec<(usize, i64)>,
@@ -52,7 +53,12 @@ impl Mode {
     }
 
     pub fn on_arc(&self, coordinate: usize, source: usize) -> bool {
-        self.arcs.iter().any(|&(j, s, passed)| j == coordinate && s == source && passed.rem_euclid(2) == 1)
+        self.passed(coordinate, source).rem_euclid(2) == 1
+    }
+
+    /// Ends of a source's arcs or pieces that have been passed.
+    pub fn passed(&self, coordinate: usize, source: usize) -> i64 {
+        self.arcs.iter().find(|&&(j, s, _)| j == coordinate && s == source).map_or(0, |arc| arc.2)
     }
 
     /// The tooth edge ahead of a link.

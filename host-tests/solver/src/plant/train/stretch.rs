@@ -81,7 +81,7 @@ impl Stretch {
                 source.add_over(&mut applied[j], t, h, mode.on_arc(j, s));
             }
             let sources = coordinate.sources.iter().enumerate();
-            works.push(sources.map(|(s, source)| source.work(mode.on_arc(j, s))).collect());
+            works.push(sources.map(|(s, source)| source.work(mode.passed(j, s))).collect());
             cranks.push(Varying::of(coordinate.crank, coordinate.law.as_ref()).map(|mut work| {
                 work.extend(&self.angle[j].value, 0);
                 let momentum = (coordinate.inertia + work.inertia[0]) * self.speed[j].value[0];

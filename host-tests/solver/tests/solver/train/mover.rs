@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use driveline_solver::plant::LoadProgram;
+use driveline_solver::plant::train::converge::{Recording, prove};
 use driveline_solver::plant::train::{Coordinate, Link, Source, Train, Waveform};
 
 /// Speed of a free inertia under one source, from rest.
@@ -121,4 +122,88 @@ fn an_oscillator_follows_every_waveform_harmonic_by_harmonic() {
             assert!((motion.speed(0) - speed).abs() < 1e-11, "{step}");
         }
     }
+}
+
+#[test]
+fn a_series_motor_runs_up_with_the_third_root_of_time() {
+    // J dw/dt = c U^2/(R + c w)^2: (R + c w)^3 = R^3 + 3 c^2 U^2 t/J
+    let (voltage, resistance, flux, j) = (440.0_f64, 1.5_f64, 0.03, 4.0);
+    let found = run_up(j, 0.0, Source::Series { voltage, resistance, flux }, &TIMES);
+    for (speed, t) in found.iter().zip(TIMES) {
+        let sum = (resistance.powi(3) + 3.0 * (flux * voltage).powi(2) * t / j).cbrt();
+        let expected = (sum - resistance) / flux;
+        assert!((speed - expected).abs() < 1e-12 * 200.0, "{t}: {speed} {expected}");
+    }
+}
+
+/// An engine with spark ignition, 1500 N m at 200 rad/s, idle at 70, no load at 210 rad/s.
+fn engine() -> Source {
+    let torques = vec![[1500.0, 7.5, -0.0375], [150.0 * 210.0, -150.0, 0.0]];
+    Source::Pieces { ends: vec![70.0, 200.0, 210.0], torques }
+}
+
+#[test]
+fn an_engine_runs_up_its_parabola_and_then_its_governor_s_line() {
+    // x' = (1 + x - x^2)/T with T = J w_N/tau_N and the roots x+- = (1 +- sqrt 5)/2:
+    // (x - x-)/(x+ - x) grows as e^(sqrt(5) t/T); beyond rated speed the rest to no load falls as e^(-150 t/J)
+    let j = 30.0;
+    let (time, root) = (j * 200.0 / 1500.0, 5.0_f64.sqrt());
+    let (high, low) = (0.5 * (1.0 + root), 0.5 * (1.0 - root));
+    let odds = |x: f64| (x - low) / (high - x);
+    let rated = time / root * (odds(1.0) / odds(0.35)).ln();
+    let expected = |t: f64| {
+        if t < rated {
+            let now = odds(0.35) * (root * t / time).exp();
+            200.0 * (low + now * high) / (1.0 + now)
+        } else {
+            210.0 - 10.0 * (-150.0 * (t - rated) / j).exp()
+        }
+    };
+    let coordinate = Coordinate::new(j).speed(70.0).source(engine());
+    let mut run = Recording::new(Train::new().coordinate(coordinate).build().unwrap());
+    for step in 1..=60 {
+        run.advance(0.05);
+        let (t, speed) = (0.05 * f64::from(step), run.motion().speed(0));
+        // rounding of the clock and of 60 steps
+        assert!((speed - expected(t)).abs() < 1e-11 * 210.0, "{t}: {speed} {}", expected(t));
+    }
+    // both parts are passed
+    assert!(rated > 0.5 && rated < 2.5, "{rated}");
+    assert!(prove(&run).unwrap().largest() <= 1e-8);
+}
+
+#[test]
+fn an_engine_that_is_pulled_under_idle_stalls() {
+    // between 70 and 80 rad/s the torque is 1500 (1 + x - x^2) of x from 0.35 to 0.4; a brake of 2500 N m wins
+    let (j, brake) = (30.0, 2500.0);
+    let coordinate = Coordinate::new(j).speed(80.0).source(engine()).source(Source::Constant(-brake));
+    let mut run = Recording::new(Train::new().coordinate(coordinate).build().unwrap());
+    let mut before = (0.0, 80.0);
+    for _ in 0..200 {
+        run.advance(0.01);
+        let now = (run.motion().time(), run.motion().speed(0));
+        if before.1 < 70.0 {
+            // the brake alone
+            let fall = brake / j * (now.0 - before.0);
+            assert!((before.1 - now.1 - fall).abs() < 1e-12 * 80.0, "{now:?}");
+        } else if now.1 >= 70.0 {
+            let x = 0.5 * (before.1 + now.1) / 200.0;
+            let fall = (brake - 1500.0 * (1.0 + x - x * x)) / j * (now.0 - before.0);
+            // the mean of the torque over a step is that of its middle but for a twelfth of its bend
+            assert!((before.1 - now.1 - fall).abs() < 1e-6, "{now:?}");
+        }
+        before = now;
+    }
+    assert!(before.1 < 0.0, "{before:?}");
+    assert!(prove(&run).unwrap().largest() <= 1e-8);
+    // the same as it comes back through idle: the torque is there again
+    let coordinate = Coordinate::new(j).speed(65.0).source(engine()).source(Source::Constant(100.0));
+    let mut motion = Train::new().coordinate(coordinate).build().unwrap();
+    motion.advance(1.5);
+    assert!((motion.speed(0) - 70.0).abs() < 1e-12 * 70.0);
+    motion.advance(0.01);
+    let x = 0.35;
+    let rise = 0.01 * (100.0 + 1500.0 * (1.0 + x - x * x)) / j;
+    // the torque rises by 1500 (1 - 2 x) of a share of 0.67/200 over the step: 0.08 % at its end
+    assert!(((motion.speed(0) - 70.0) / rise - 1.0).abs() < 1e-3);
 }

@@ -186,6 +186,17 @@ impl<'a> Double<'a> {
                 let at = 1.0 - speed / synchronous;
                 if at == 0.0 { 0.0 } else { 2.0 * breakdown / (at / slip + slip / at) }
             }
+            Source::Series { voltage, resistance, flux } => {
+                let current = voltage / (resistance + flux * speed);
+                flux * current * current
+            }
+            Source::Pieces { torques, .. } => {
+                let passed = self.arcs.iter().find(|arc| (arc.0, arc.1) == (j, s)).map_or(0, |arc| arc.2);
+                match passed.checked_sub(1).and_then(|piece| torques.get(piece as usize)) {
+                    Some([a, b, c]) if passed > 0 => a + speed * (b + c * speed),
+                    _ => 0.0,
+                }
+            }
             Source::Arc { torque, .. } => {
                 if self.on_arc(j, s) {
                     *torque
@@ -335,6 +346,8 @@ impl<'a> Double<'a> {
         let (from, to, period) = match &self.train.coordinates[j].sources[s] {
             Source::Arc { from, to, .. } => (from, to, TAU),
             Source::Stroke { from, to, turns, .. } => (from, to, TAU * f64::from(*turns)),
+            Source::Pieces { .. } if passed < 0 => return f64::NEG_INFINITY,
+            Source::Pieces { ends, .. } => return ends.get(passed as usize).copied().unwrap_or(f64::INFINITY),
             _ => return f64::INFINITY,
         };
         period * passed.div_euclid(2) as f64 + if passed.rem_euclid(2) == 0 { *from } else { *to }
@@ -423,10 +436,16 @@ impl Hybrid for Double<'_> {
                 all.push((self.margin(t, y, s, forces[s], side), size, Change::Loose(s, side)));
             }
         }
-        for (arc, &(j, _, passed)) in self.arcs.iter().enumerate() {
+        for (arc, &(j, s, passed)) in self.arcs.iter().enumerate() {
             let (ahead, behind) = (self.arc_end(arc, passed), self.arc_end(arc, passed - 1));
-            all.push((ahead - self.angle(y, j), ahead.abs(), Change::Arc(arc, 1)));
-            all.push((self.angle(y, j) - behind, behind.abs(), Change::Arc(arc, -1)));
+            let pieces = matches!(self.train.coordinates[j].sources[s], Source::Pieces { .. });
+            let at = if pieces { self.speed(y, j) } else { self.angle(y, j) };
+            if ahead.is_finite() {
+                all.push((ahead - at, ahead.abs(), Change::Arc(arc, 1)));
+            }
+            if behind.is_finite() {
+                all.push((at - behind, behind.abs(), Change::Arc(arc, -1)));
+            }
         }
         for (i, &(l, edge)) in self.teeth.iter().enumerate() {
             if let Some(Variation::Teeth(teeth)) = &self.train.links[l].variation {
