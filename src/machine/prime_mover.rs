@@ -29,6 +29,7 @@ mod direct_current;
 mod dynamic_factor;
 mod induction;
 mod starting;
+mod starting_time;
 
 pub use characteristic::Characteristic;
 pub use combustion::{Combustion, CombustionType};

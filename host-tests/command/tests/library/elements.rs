@@ -9,6 +9,7 @@ mod need;
 mod prime_mover;
 mod section;
 mod starting;
+mod starting_time;
 mod train;
 mod train_damper;
 mod travel;
