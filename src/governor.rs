@@ -13,7 +13,8 @@
 //! | [`SpeedGovernor`] | composed of parts: droop, feed-forward, limits by a curve, run sequence and trips |
 //! | [`InputShaper`] round one of them | a swinging load: the setpoint in parts whose swings cancel |
 //!
-//! [`LoadSharing`] stands behind any of them, where several motors turn one gear.
+//! [`LoadSharing`] stands behind any of them, where several motors turn one gear. [`ResistorStarter`] starts a motor
+//! that none of them governs.
 
 mod actuator_monitor;
 mod backlash_takeup;
@@ -22,6 +23,7 @@ mod input_shaper;
 mod limit;
 mod load_sharing;
 mod loop_filter;
+mod resistor_starter;
 mod sequencer;
 mod setpoint;
 mod speed_filter;
@@ -42,6 +44,7 @@ pub use limit::{
 };
 pub use load_sharing::{LoadSharing, LoadSharingConfig};
 pub use loop_filter::{DampingLag, DampingLagConfig, LoopFilter, SetpointLag};
+pub use resistor_starter::{ResistorStarter, ResistorStarterConfig};
 pub use sequencer::{RunAction, RunRequest, RunState, Sequence, Sequencer, SequencerConfig, Trip};
 pub use setpoint::{Barred, BarredConfig, Droop, DroopConfig, SetpointShape, SpeedRange};
 pub use speed_filter::{CycleAverage, MovingAverage, MovingAverageConfig, SpeedFilter};

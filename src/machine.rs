@@ -65,7 +65,8 @@ pub use linear::STANDARD_GRAVITY;
 pub use modes::{Mode, Modes};
 pub use planetary::{Member, Planetary, PlanetaryGear};
 pub use prime_mover::{
-    Characteristic, Combustion, CombustionType, Induction, Line, Parabola, Series, Shunt, StartCondition, StartingLaw,
+    Characteristic, Combustion, CombustionType, Induction, Line, Parabola, ResistorStart, Series, Shunt,
+    StartCondition, StartingLaw,
 };
 pub use quantity::{
     Damping, Density, Diameter, Efficiency, Falls, Gap, Inertia, Length, LinearDamping, Mass, Ratio, ShearModulus,

@@ -64,6 +64,8 @@ sentences! {
         crankshaft",
     Indicator => "compression ratio and polytropic exponent must be above 1, charge pressure positive, and peak \
         pressure finite and above that of the compression (Pa, absolute)",
+    ResistorStart => "peak torque of the start must be positive and at most the breakdown torque, of a motor whose own \
+        resistance does not keep it to that, with at least one step",
     StartingTime => "starting time must be positive and finite, the starting torque finite (s, N m)",
 }
 

@@ -25,7 +25,7 @@ const MODES: &str = "the speeds of the sequencer must be standstill < underspeed
     the \
     shaft's torque positive, all finite and within twice their bases in fixed point";
 const TIMES: &str =
-    "the times of the sequencer must be zero or above and below 2^31 ticks, and the period of a tick positive";
+    "the times of sequencer and starter must be zero or above and below 2^31 ticks, and the period of a tick positive";
 const ACCELERATION: &str = "the acceleration feedback must be zero or above and finite, and less than twice the torque \
     that accelerates the load in fixed point: lower its share";
 const DELAY: &str = "the transport delay must be zero or above and less than its ring of ticks";

@@ -3,16 +3,20 @@
 
 use super::constants::constants;
 use super::convert::get;
-use super::governor_parts::{LIMIT, RAMP, all_finite, between, least_step};
+use super::governor_parts::{LIMIT, RAMP, all_finite, between, least_step, ticks};
 use super::to::Values;
 use super::{Bases, Error, Format};
 use crate::design::{BarredSpeeds, InputShaperDesign, TorqueCurve};
-use crate::governor::{BarredConfig, CurveConfig, CurvePiece, InputShaperConfig, SlewConfig, SpeedRange};
+use crate::governor::{
+    BarredConfig, CurveConfig, CurvePiece, InputShaperConfig, ResistorStarterConfig, SlewConfig, SpeedRange,
+};
+use crate::machine::ResistorStart;
 
 const SLEW: &str =
     "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
 const CURVE: &str = "the torque curve and its slopes must be finite; in fixed point it must lie within twice the \
     bases, and its slopes within 2 bases of the torque per base of the speed";
+const STARTER: &str = "the speeds of a start by resistors must be finite, and within twice the base of the speed";
 const SHAPER: &str = "the input shaper's slots must be whole ticks within 2 % of the delay, below 2^31 ticks, \
     and its share above 0 and at most 1/2: take fewer slots or raise the rate";
 const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
@@ -89,6 +93,24 @@ constants! {
             k += 1;
         }
         Ok(CurveConfig { pieces, min })
+    }
+}
+
+constants! {
+    /// [`Error::Value`] for a time between two resistors (s) below zero or of 2^31 ticks, or a speed beyond twice its
+    /// base.
+    impl[const STEPS: usize] ResistorStarterConfig[, STEPS],
+    new, try_new(start: &ResistorStart<STEPS>, interval: f64, period: f64), |format| {
+        let interval = get!(ticks(interval, period));
+        let ([none], []) = get!(To::part(Ok(([0.0], [])), STARTER));
+        let mut speeds = [none; STEPS];
+        let mut k = 0;
+        while k < STEPS {
+            let ([speed], []) = get!(To::part(Ok(([start.speeds[k] / format.bases.speed], [])), STARTER));
+            speeds[k] = speed;
+            k += 1;
+        }
+        Ok(ResistorStarterConfig { speeds, interval })
     }
 }
 

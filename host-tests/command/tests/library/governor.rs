@@ -6,6 +6,7 @@ mod dynamic_part;
 mod law;
 mod modes;
 mod natural_damping;
+mod resistor_starter;
 mod sharing;
 mod sway;
 mod switch;
