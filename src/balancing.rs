@@ -9,12 +9,13 @@
 //! # Off the tick
 //! With the feature `balancing`. [`Influence`] identifies the influence coefficients from trial runs and computes the
 //! [`Correction`]: by least squares, weighted, min-max or within limits, without planes that
-//! depend on others.
+//! depend on others. [`Influence::modal`] balances a flexible rotor by its modes, in N or N + 2 planes.
 //!
-//! [`Holes`] splits a weight between holes and stock weights, [`Tolerance`] grades the residual unbalance (ISO
-//! 21940-11), [`from_amplitudes`] needs no phase. [`Procedure`] leads through the runs, rejects impossible entries, and
-//! resumes after a power cut from a record; with the feature `parameters` the record is kept in flash. [`InRun`] does
-//! without trial runs, by a balancing head or an actuator while the machine turns.
+//! [`RigidUnbalance`] is the static and the couple unbalance of a rigid rotor; [`two_planes`] separates the planes of a
+//! balancing machine. [`Holes`] splits a weight between holes and stock weights, [`Tolerance`] grades the residual
+//! unbalance (ISO 21940-11), [`from_amplitudes`] needs no phase. [`Procedure`] leads through the runs, rejects
+//! impossible entries, and resumes after a power cut from a record; with the feature `parameters` the record is kept in
+//! flash. [`InRun`] does without trial runs, by a balancing head or an actuator while the machine turns.
 //!
 //! # Terms
 //! | term | meaning | unit |
@@ -50,6 +51,8 @@ mod influence;
 mod matrix;
 #[cfg(feature = "balancing")]
 mod min_max;
+#[cfg(feature = "balancing")]
+mod modal;
 mod phasor;
 #[cfg(feature = "balancing")]
 mod procedure;
@@ -58,6 +61,8 @@ mod qr;
 mod reading;
 #[cfg(all(feature = "balancing", feature = "parameters"))]
 mod record;
+#[cfg(feature = "balancing")]
+mod rigid;
 #[cfg(feature = "balancing")]
 mod scalar;
 mod sensor;
@@ -86,6 +91,8 @@ pub use procedure::{CORRECTIONS, Plan, Procedure, ProcedureStep, Run};
 pub use reading::{Phasor, PhasorsConfig, Reading, ReadingFault, Steadiness};
 #[cfg(all(feature = "balancing", feature = "parameters"))]
 pub use record::Record;
+#[cfg(feature = "balancing")]
+pub use rigid::{RigidUnbalance, UnbalanceParts, one_plane_suffices};
 #[cfg(feature = "balancing")]
 pub use scalar::{Complex, Scalar};
 pub use sensor::{Motion, Sensor, SensorError};

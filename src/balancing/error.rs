@@ -56,6 +56,13 @@ pub enum Error {
         /// Readings.
         readings: usize,
     },
+    /// Modal balancing takes as many planes as modes, or two more.
+    ModalPlanes {
+        /// Modes.
+        modes: usize,
+        /// Planes.
+        planes: usize,
+    },
     /// A weighting of a reading, or a limit of a weight, that is not positive.
     Setting {
         /// The row or the plane.
@@ -119,6 +126,9 @@ impl fmt::Display for Error {
                     f,
                     "{planes} planes cannot be separated by {readings} readings: measure at another place or speed"
                 )
+            }
+            Error::ModalPlanes { modes, planes } => {
+                write!(f, "{modes} modes take as many planes or two more, and not {planes}")
             }
             Error::Setting { index } => write!(f, "setting {} is not a positive number", index + 1),
             Error::NotFound => f.write_str("the search ended too far from the optimum"),

@@ -89,6 +89,10 @@ impl<T: Scalar> Tolerance<T> {
 /// Unbalances along a rotor (kg m at m) as two in the planes at `a` and `b` (m): each splits by its distances
 /// [Notes ch. 5]. The correction is the opposite.
 ///
+/// This separates the planes of a balancing machine with hard bearings: the unbalances in its bearings, each force
+/// over the square of the speed, as those in the correction planes. With soft bearings vibration is measured, and the
+/// planes are separated by the two trial runs of an [`Influence`](super::Influence).
+///
 /// # Errors
 /// [`Error::Setting`] where the planes are the same.
 pub fn two_planes<T: Scalar>(

@@ -121,7 +121,7 @@ pub use engine::Engine;
 pub use excitation::{Excitation, Running};
 pub use quantity::Quantity;
 pub use read::{LARGEST, not_toml, parse, read, text};
-pub use rotor::{RotorFile, parse_rotor, read_rotor};
+pub use rotor::{Balancing, RotorFile, parse_rotor, read_rotor};
 pub use source::{Source, printable};
 pub use table::{Item, Table};
 pub use train::{TrainFile, is_train, parse_train, parse_train_for_modes, read_train};

@@ -1,5 +1,8 @@
 //! `cargo driveline rotor`: critical speeds, Campbell diagram and unbalance response of a rotor.
 
+mod balancing;
+mod peak;
+
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
@@ -13,8 +16,13 @@ use driveline_report::chart::{Curve, Lines};
 use driveline_report::format::{percent, significant};
 use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
 use driveline_solver::rotor::{Critical, Modal, Natural, Polar, RotorError, WhirlSense};
+use nalgebra::Complex;
 
-/// Find critical speeds of a rotor, its natural whirls over the speed, and its vibration by unbalance.
+use balancing::Balanced;
+use peak::{Peak, peaks, rpm};
+
+/// Find critical speeds of a rotor, its natural whirls over the speed, its vibration by unbalance, and the weights of
+/// modal balancing.
 ///
 /// The page with the Campbell diagram opens in any browser.
 #[derive(Debug, Args)]
@@ -55,21 +63,9 @@ struct Found {
     whirls: Vec<Vec<Natural>>,
     /// Largest vibration of each sensor by the unbalance.
     peaks: Vec<Peak>,
-}
-
-/// The largest vibration of a sensor up to the highest speed.
-#[derive(Debug, Serialize)]
-struct Peak {
-    /// Where the sensor is.
-    node: usize,
-    /// Angle from x, degrees.
-    angle: f64,
-    /// Speed, rad/s.
-    speed: f64,
-    /// Amplitude, m.
-    amplitude: f64,
-    /// Angle by which it leads the rotor's zero, degrees.
-    phase: f64,
+    /// Weights of modal balancing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    balancing: Option<Balanced>,
 }
 
 /// Amplitudes over the speed, a curve a sensor.
@@ -88,14 +84,23 @@ impl Rotor {
         let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{}-rotor", rotor.slug()));
         check(&[&self.file], &file)?;
         let failed = |error: RotorError| Failure::failed(error.to_string());
-        let (response, peaks) = response(&rotor).map_err(failed)?;
-        let found = find(&rotor, peaks).map_err(failed)?;
+        let (response, peaks) = response(&rotor, &rotor.unbalances()).map_err(failed)?;
+        let mut found = find(&rotor, peaks).map_err(failed)?;
+        let mut responses = vec![response];
+        if let Some(plan) = &rotor.balancing {
+            let fault = |fault| Failure::failed(format!("{}: {fault}", self.file.display()));
+            let (mut balanced, unbalance) = Balanced::of(&rotor, plan).map_err(fault)?;
+            let (with_weights, peaks) = self::response(&rotor, &unbalance).map_err(failed)?;
+            balanced.peaks = peaks;
+            found.balancing = Some(balanced);
+            responses.push(with_weights);
+        }
         if self.json {
             say_json(&found)?;
         } else {
             tables(&found).into_iter().for_each(say);
         }
-        file.map_or(Ok(()), |file| file.write_and_say(&page(&rotor, &found, &response), self.json))
+        file.map_or(Ok(()), |file| file.write_and_say(&page(&rotor, &found, &responses), self.json))
     }
 }
 
@@ -112,11 +117,12 @@ fn find(rotor: &RotorFile, peaks: Vec<Peak>) -> Result<Found, RotorError> {
         speeds,
         whirls: campbell.whirls,
         peaks,
+        balancing: None,
     })
 }
 
-fn response(rotor: &RotorFile) -> Result<(Response, Vec<Peak>), RotorError> {
-    let unbalance = rotor.unbalances();
+/// Vibration with this unbalance at every node (kg m).
+fn response(rotor: &RotorFile, unbalance: &[Complex<f64>]) -> Result<(Response, Vec<Peak>), RotorError> {
     let mut speeds = steps(rotor.highest);
     // the top of a narrow peak, too; an undamped one has none
     speeds.extend(rotor.modal.criticals().iter().map(|critical| critical.speed * (1.0 + 1e-9)));
@@ -125,7 +131,7 @@ fn response(rotor: &RotorFile) -> Result<(Response, Vec<Peak>), RotorError> {
     let mut amplitudes = vec![Vec::with_capacity(speeds.len()); rotor.sensors.len()];
     let mut peaks: Vec<Peak> = Vec::new();
     for &speed in &speeds {
-        let vibration = rotor.model.response(speed, &unbalance)?;
+        let vibration = rotor.model.response(speed, unbalance)?;
         for (sensor, (x, course)) in vibration.iter().zip(&mut amplitudes).enumerate() {
             let (amplitude, phase) = Polar::of(*x);
             course.push(amplitude);
@@ -162,10 +168,6 @@ const fn class(sense: WhirlSense) -> &'static str {
     }
 }
 
-fn rpm(speed: f64) -> f64 {
-    speed * 30.0 / std::f64::consts::PI
-}
-
 /// The tables as title, explanation and table: for the terminal and the page alike.
 fn tables(found: &Found) -> Vec<Section> {
     let mut criticals = Table::new(["critical speed", "r/min", "rad/s", "Hz", "whirl"]);
@@ -193,22 +195,15 @@ fn tables(found: &Found) -> Vec<Section> {
     let text = "Damped frequencies, lowest first; a negative damping grows.";
     all.push(Section::new("Natural whirls", text, whirls));
     if !found.peaks.is_empty() {
-        let mut peaks = Table::new(["sensor", "largest µm", "at r/min", "leads by °"]);
-        for peak in &found.peaks {
-            peaks.row([
-                format!("node {}, {}°", peak.node, significant(peak.angle)),
-                significant(peak.amplitude * 1e6),
-                format!("{:.0}", rpm(peak.speed)),
-                format!("{:.1}", peak.phase),
-            ]);
-        }
         let text = "Amplitude of the displacement by the unbalance of the file, up to the highest speed.";
-        all.push(Section::new("Vibration by unbalance", text, peaks));
+        all.push(Section::new("Vibration by unbalance", text, peaks(&found.peaks)));
     }
+    all.extend(found.balancing.iter().flat_map(Balanced::tables));
     all
 }
 
-fn page(rotor: &RotorFile, found: &Found, response: &Response) -> String {
+/// The page, with the vibration as it is and with the weights.
+fn page(rotor: &RotorFile, found: &Found, responses: &[Response]) -> String {
     let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
     let length = rotor.places.last().copied().unwrap_or(0.0);
     let discs: f64 = rotor.discs.iter().map(|disc| disc.1).sum();
@@ -234,7 +229,13 @@ fn page(rotor: &RotorFile, found: &Found, response: &Response) -> String {
         plots: vec![campbell(found).draw()],
         ..Figure::default()
     }];
-    if !response.amplitudes.is_empty() {
+    let vibration = [
+        ("Vibration by unbalance", "Displacement at the sensors, steady at each speed."),
+        ("Vibration with the weights", "The same with the weights of modal balancing."),
+    ];
+    for (response, (title, text)) in
+        responses.iter().zip(vibration).filter(|(response, _)| !response.amplitudes.is_empty())
+    {
         let named = |(index, (node, angle)): (usize, &(usize, f64))| {
             Key::curve(format!("node {node}, {}°", significant(*angle)), format!("s{}", index % 6))
         };
@@ -254,8 +255,8 @@ fn page(rotor: &RotorFile, found: &Found, response: &Response) -> String {
             logarithmic: true,
         };
         figures.push(Figure {
-            title: "Vibration by unbalance".to_owned(),
-            text: "Displacement at the sensors, steady at each speed.".to_owned(),
+            title: title.to_owned(),
+            text: text.to_owned(),
             legend,
             plots: vec![lines.draw()],
             ..Figure::default()

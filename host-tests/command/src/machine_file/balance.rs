@@ -37,6 +37,8 @@
 //! | `[[holes]]` | `plane`, `angles` or `count` (and `first`), `weights` to choose from, `removing = true` for drilling |
 //! | `[rotor]` | `mass` (kg), `rpm` in service, `grade` (mm/s), `radius` (m) of the weights |
 //! | `span`, `centre`, `planes_at` of `[rotor]` | along the rotor from bearing A (m): bearing B, the centre of mass, each plane; the grade is then split between the bearings |
+//! | `width`, `diameter` of `[rotor]` | its width and diameter (m), which say whether one plane is enough |
+//! | `machine` | `"hard-bearing"`: forces (N) in bearings A and B of a balancing machine, whose planes are separated by their places in `[rotor]` |
 //! | `[amplitudes]` | of one plane, instead of `[baseline]`, without phases: `baseline`, `weight`, `runs` of an angle and an amplitude |
 //!
 //! A plane may have several `[[trial]]`: all of them count, by least squares. Where trial weights stay, `weight` is
@@ -46,7 +48,7 @@ use std::path::Path;
 
 use driveline::balancing::{
     Aim, CORRECTIONS, Complex, CorrectionMethod, Entry, Error, FromAmplitudes, Influence, Objective, Plan, Procedure,
-    Run, from_amplitudes,
+    Run, from_amplitudes, one_plane_suffices, two_planes,
 };
 use toml::de::DeTable;
 
@@ -229,6 +231,8 @@ pub struct Rotor {
     pub radius: Option<f64>,
     /// Where everything is along the rotor.
     pub along: Option<Along>,
+    /// Whether one plane is enough, by width over diameter.
+    pub one_plane: Option<bool>,
 }
 
 /// Places along a rotor, from bearing A.
@@ -331,6 +335,7 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
         }
         file.rotor = Some(Rotor {
             along: along(&mut table, file.planes.len())?,
+            one_plane: one_plane(&mut table)?,
             mass: table.number("mass", Quantity::MASS)?,
             rpm: table.number("rpm", Quantity::RPM)?,
             grade: table.number("grade", Quantity::GRADE)?,
@@ -371,19 +376,15 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
         table.finish()?;
     } else {
         file.sensors = names(&mut root, "sensors", ROWS)?;
-        file.measured = phasors(&mut root, &file.planes, file.sensors.len(), convention)?;
+        file.measured = phasors(&mut root, &file)?;
     }
     root.finish()?;
     Ok(file)
 }
 
 /// The runs, given to the procedure one by one.
-fn phasors(
-    root: &mut Table<'_>,
-    planes: &[String],
-    rows: usize,
-    convention: AngleConvention,
-) -> Result<Measured, Diagnostic> {
+fn phasors(root: &mut Table<'_>, file: &BalanceFile) -> Result<Measured, Diagnostic> {
+    let (planes, rows, convention) = (file.planes.as_slice(), file.sensors.len(), file.angles);
     let mut aim = Aim::<f64, ROWS, PLANES> {
         objective: choice(root, "aim", &[("least squares", Objective::LeastSquares), ("min-max", Objective::MinMax)])?,
         independence: root.number_or("independence", Quantity::SHARE, 0.01)?,
@@ -421,6 +422,15 @@ fn phasors(
     table.finish()?;
     let mut last = baseline.clone();
 
+    let machine = choice(root, "machine", &[("none", false), ("hard-bearing", true)])?;
+    if machine {
+        if root.has("influence") {
+            return Err(root.wrong("influence", "no [[influence]] beside `machine`: the places of the planes have it"));
+        }
+        let influence = hard_bearing(root, file, &rpm)?;
+        procedure =
+            procedure.with_coefficients(influence).map_err(|refusal| root.wrong("machine", refusal.to_string()))?;
+    }
     let known = root.optional_tables("influence")?;
     if !known.is_empty() {
         let mut influence = Influence::<f64, ROWS, PLANES>::new(rows, planes.len())
@@ -442,11 +452,13 @@ fn phasors(
             .with_coefficients(influence)
             .map_err(|refusal| root.wrong("influence", format!("a table for each plane: {}", said(refusal, planes))))?;
     }
-    let known = root.has("influence");
+    let known = machine || root.has("influence");
     for (count, mut table) in root.optional_tables("trial")?.into_iter().enumerate() {
         let plane = plane(&mut table, planes)?;
         if known {
-            return Err(table.wrong("plane", "no trial run beside [[influence]]: either of them, for all planes"));
+            return Err(
+                table.wrong("plane", "no trial run beside [[influence]] or `machine`: one of them, for all planes")
+            );
         }
         if count == TRIALS {
             return Err(table.wrong("plane", format!("no more than {TRIALS} trial runs")));
@@ -499,6 +511,31 @@ fn phasors(
         root.wrong(key, format!("readings with a solution: {}", said(refusal, planes)))
     })?;
     Ok(Measured::Phasors { procedure: Box::new(procedure), baseline, last, rpm, on, corrections })
+}
+
+/// Influence of the planes on the forces in the bearings of a balancing machine, by their places.
+fn hard_bearing(root: &Table<'_>, file: &BalanceFile, rpm: &[f64]) -> Result<Influence<f64, ROWS, PLANES>, Diagnostic> {
+    let expected = "[rotor] with `span`, `centre` and `planes_at`: the bearings' and planes' places";
+    let places = file.rotor.as_ref().and_then(|rotor| Some((rotor.along.as_ref()?, rotor.radius)));
+    let (along, radius) = places.ok_or_else(|| root.wrong("machine", expected))?;
+    // a rotor without a radius has passed the check of its table
+    let unbalance = file.weight_unit.unbalance(radius).ok_or_else(|| root.wrong("machine", expected))?;
+    if file.sensors.len() != 2 {
+        return Err(root.wrong("sensors", "two of them: the forces in bearing A and in bearing B"));
+    }
+    let speeds = radians_per_second(rpm);
+    let [a, b] = speeds[..] else {
+        return Err(root.wrong("machine", "[baseline] with `rpm`: forces go with its square"));
+    };
+    let mut influence =
+        Influence::new(2, file.planes.len()).map_err(|refusal| root.wrong("planes", refusal.to_string()))?;
+    for (plane, at) in along.planes.iter().enumerate() {
+        let shares = two_planes([(Complex::new(unbalance, 0.0), *at)], 0.0, along.span)
+            .map_err(|refusal| root.wrong("machine", refusal.to_string()))?;
+        let column = [shares[0] * a * a, shares[1] * b * b];
+        influence.set(plane, &column).map_err(|refusal| root.wrong("machine", refusal.to_string()))?;
+    }
+    Ok(influence)
 }
 
 /// A refusal with the planes by their names.
@@ -681,6 +718,16 @@ fn along(table: &mut Table<'_>, planes: usize) -> Result<Option<Along>, Diagnost
         return Err(table.wrong("planes_at", format!("a list of {planes} places from bearing A")));
     }
     Ok(Some(Along { span, centre, planes: list(table, "planes_at", planes, Quantity::PLACE)? }))
+}
+
+/// Whether a rotor of this width and diameter is balanced in one plane.
+fn one_plane(table: &mut Table<'_>) -> Result<Option<bool>, Diagnostic> {
+    let given = (table.number_if("width", Quantity::LENGTH)?, table.number_if("diameter", Quantity::DIAMETER)?);
+    if given == (None, None) {
+        return Ok(None);
+    }
+    let (width, diameter) = (table.number("width", Quantity::LENGTH)?, table.number("diameter", Quantity::DIAMETER)?);
+    one_plane_suffices(width, diameter).map(Some).map_err(|refusal| table.wrong("width", refusal.to_string()))
 }
 
 fn holes(table: &mut Table<'_>, planes: &[String], convention: AngleConvention) -> Result<PlaneHoles, Diagnostic> {

@@ -97,6 +97,8 @@ impl Quantity {
     pub const PIECES: Self = Quantity { least: 1.0, most: 64.0, whole: true, ..positive("") };
     /// A node of the shaft.
     pub const NODE: Self = Quantity { least: 1.0, most: 64.0, zero: true, whole: true, unit: "" };
+    /// Modes of a rotor to be balanced.
+    pub const MODES: Self = Quantity { least: 1.0, most: 8.0, zero: true, whole: true, unit: "" };
     /// Stiffness of a bearing.
     pub const BEARING: Self = positive("N/m");
     /// Coupling of the two directions of a bearing by its stiffness.

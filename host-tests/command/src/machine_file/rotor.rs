@@ -6,6 +6,7 @@ use std::path::Path;
 use nalgebra::Complex;
 use toml::de::DeTable;
 
+use super::balance::PLANES;
 use super::diagnostic::Diagnostic;
 use super::quantity::Quantity;
 use super::read::{load, named, not_toml, section};
@@ -59,6 +60,10 @@ const MOST: usize = 64;
 /// node = 1
 /// angle = 0.0                # degrees from x towards y, 0 where it is left out
 ///
+/// [balancing]                # may be left out, as may the unbalance; bearings alike in all directions
+/// planes = [1, 3, 5]         # nodes
+/// modes = 1                  # as many as planes, or two fewer
+///
 /// [speeds]
 /// highest = 600.0            # rad/s
 /// ```
@@ -80,8 +85,21 @@ pub struct RotorFile {
     pub discs: Vec<(usize, f64)>,
     /// Nodes of the bearings.
     pub bearings: Vec<usize>,
+    /// Centre of mass along the shaft (m).
+    pub centre: f64,
+    /// How the unbalance is to be balanced.
+    pub balancing: Option<Balancing>,
     /// Highest speed of interest (rad/s).
     pub highest: f64,
+}
+
+/// Modal balancing of a rotor.
+#[derive(Clone, Debug)]
+pub struct Balancing {
+    /// Nodes of the correction planes.
+    pub planes: Vec<usize>,
+    /// Deflection of every node in the forward whirl at each critical speed that is to be balanced (rad/s).
+    pub modes: Vec<(f64, Vec<f64>)>,
 }
 
 impl RotorFile {
@@ -140,11 +158,13 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
         discs.push((node, disc.mass));
         rotor = rotor.disc(node, disc);
     }
-    let mut bearings = Vec::new();
+    let (mut bearings, mut alike) = (Vec::new(), true);
     let mut span: Range<usize> = 0..0;
     for (at, mut table) in root.tables_of("bearing", "bearing")? {
         let node = node(&mut table, last)?;
-        rotor = rotor.bearing(node, bearing(&mut table)?);
+        let bearing = bearing(&mut table)?;
+        alike &= bearing.stiffness == [[bearing.stiffness[0][0], 0.0], [0.0, bearing.stiffness[0][0]]];
+        rotor = rotor.bearing(node, bearing);
         table.finish()?;
         bearings.push(node);
         span = at;
@@ -165,8 +185,8 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
         rotor = rotor.sensor(node, Direction::At(angle.to_radians()));
         sensors.push((node, angle));
     }
+    let planes = balancing(&mut root, last)?;
     let highest = section(&mut root, "speeds", |table| table.number("highest", Quantity::SPEED))?;
-    root.finish()?;
     for node in 0..=last {
         rotor = rotor.station(node);
     }
@@ -182,8 +202,46 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
     };
     let model = rotor.build().map_err(whole)?;
     let modal = Modal::of(&model).map_err(whole)?;
-    let places = rotor.places();
-    Ok(RotorFile { name: rotor_name, places, model, modal, unbalance, sensors, discs, bearings, highest })
+    let balancing = match planes {
+        Some((planes, count)) => {
+            if unbalance.is_empty() {
+                return Err(root.wrong("balancing", "an [[unbalance]] to be balanced"));
+            }
+            if !alike {
+                let expected = "bearings with one stiffness in all directions, or balancing by influence coefficients";
+                return Err(root.wrong("balancing", expected));
+            }
+            let mut modes = modal.forward_shapes();
+            if modes.len() < count {
+                return Err(root.wrong("balancing", format!("`modes` up to {}, all that the rotor has", modes.len())));
+            }
+            modes.truncate(count);
+            Some(Balancing { planes, modes })
+        }
+        None => None,
+    };
+    root.finish()?;
+    let (places, centre) = (rotor.places(), rotor.centre());
+    let name = rotor_name;
+    Ok(RotorFile { name, places, model, modal, unbalance, sensors, discs, bearings, centre, balancing, highest })
+}
+
+/// Nodes of the planes, and how many modes they are to balance.
+fn balancing(root: &mut Table<'_>, last: usize) -> Result<Option<(Vec<usize>, usize)>, Diagnostic> {
+    let Some(mut table) = root.table_if("balancing")? else { return Ok(None) };
+    // `NODE` allows whole numbers up to 64 only.
+    let planes: Vec<usize> = table.numbers("planes", Quantity::NODE)?.into_iter().map(|node| node as usize).collect();
+    let own = |(index, node): (usize, &usize)| *node <= last && !planes[..index].contains(node);
+    if planes.len() > PLANES || !planes.iter().enumerate().all(own) {
+        return Err(table.wrong("planes", format!("up to {PLANES} different nodes of the shaft, 0 to {last}")));
+    }
+    let modes = table.number("modes", Quantity::MODES)? as usize;
+    if planes.len() != modes && planes.len() != modes + 2 {
+        let refusal = driveline::balancing::Error::ModalPlanes { modes, planes: planes.len() };
+        return Err(table.wrong("modes", format!("as many modes as planes, or two fewer: {refusal}")));
+    }
+    table.finish()?;
+    Ok(Some((planes, modes)))
 }
 
 fn material(root: &mut Table<'_>) -> Result<Material, Diagnostic> {

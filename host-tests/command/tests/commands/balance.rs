@@ -506,3 +506,78 @@ fn a_limit_for_some_planes_and_the_cost_of_leaving_one_out() {
     let left = (v[0] + a[0] * w).norm().max((v[1] + a[1] * w).norm());
     near(&outcome["planes"][0]["largest_without"], left, 1e-9);
 }
+
+const MACHINE: &str = r#"
+name = "armature"
+unit = "N"
+planes = ["drive end", "free end"]
+sensors = ["bearing A", "bearing B"]
+machine = "hard-bearing"
+weight_unit = "g mm"
+
+[baseline]
+rpm = 600
+readings = [[1.4, 25], [0.9, 310]]
+
+[rotor]
+mass = 40.0
+rpm = 1480
+grade = 6.3
+width = 0.4
+diameter = 0.3
+span = 0.7
+centre = 0.33
+planes_at = [0.2, 0.5]
+"#;
+
+/// Forces in the bearings over omega^2, resolved into the planes by levers: 0.5 and 0.2 of 0.3 m.
+#[test]
+fn a_hard_bearing_machine_needs_no_trial_runs() {
+    let square = (600.0 * std::f64::consts::TAU / 60.0_f64).powi(2);
+    let at = |force: f64, degrees: f64| Complex::from_polar(force / square, degrees.to_radians());
+    let (a, b) = (at(1.4, 25.0), at(0.9, 310.0));
+    let outcome = json(MACHINE);
+    let polar = |value: &Value, amplitude: &str, angle: &str| {
+        let number = |key: &str| value[key].as_f64().unwrap();
+        Complex::from_polar(number(amplitude), number(angle).to_radians())
+    };
+    for (plane, expected) in [(0, (a * 0.5 - b * 0.2) / 0.3), (1, (b * 0.5 - a * 0.2) / 0.3)] {
+        let found = polar(&outcome["planes"][plane]["weight"], "amplitude", "degrees");
+        // some hundred g mm, by a few roundings of a condition of 3
+        assert!((found + expected * 1e6).norm() < 1e-9, "{plane}: {found} {expected}");
+    }
+    let parts = &outcome["grade"]["parts"];
+    assert!((polar(parts, "static_g_mm", "static_degrees") - (a + b) * 1e6).norm() < 1e-9, "{parts}");
+    let couple = b * (0.7 - 0.33) - a * 0.33;
+    assert!((polar(parts, "couple_g_mm2", "couple_degrees") - couple * 1e9).norm() < 1e-6, "{parts}");
+    assert_eq!(outcome["grade"]["one_plane_suffices"], false);
+    assert_eq!(json(&MACHINE.replace("width = 0.4", "width = 0.06"))["grade"]["one_plane_suffices"], true);
+    let text = String::from_utf8(balance(MACHINE, &["--html", "page.html"]).stdout).unwrap();
+    for word in ["static unbalance now", "couple unbalance now", "two: width over diameter"] {
+        assert!(text.contains(word), "{word} in {text}");
+    }
+}
+
+#[test]
+fn what_a_hard_bearing_machine_lacks_is_told() {
+    for (from, to, expected) in [
+        ("span = 0.7\ncentre = 0.33\nplanes_at = [0.2, 0.5]", "", "[rotor] with `span`, `centre` and `planes_at`"),
+        ("rpm = 600\n", "", "[baseline] with `rpm`"),
+        ("\"bearing B\"]", "\"bearing B\", \"frame\"]", "`sensors`"),
+        ("hard-bearing", "soft", "\"none\" or \"hard-bearing\""),
+        ("diameter = 0.3\n", "", "`diameter`: a number"),
+        ("width = 0.4\n", "", "`width`: a number"),
+        (
+            "[rotor]",
+            "[[trial]]\nplane = \"drive end\"\nweight = [1, 0]\nreadings = [[1, 0], [1, 0]]\n\n[rotor]",
+            "no trial run beside [[influence]] or `machine`",
+        ),
+    ] {
+        let three = to.contains("frame");
+        let text = MACHINE.replace(from, to);
+        let text = if three { text.replace("[0.9, 310]]", "[0.9, 310], [0.1, 10]]") } else { text };
+        assert_ne!(text, MACHINE);
+        let said = refused(&text);
+        assert!(said.contains(expected), "{said}");
+    }
+}

@@ -99,3 +99,71 @@ fn a_scene_or_a_variant_that_is_not_there_is_refused() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8(output.stderr).unwrap().contains("`flexible`"));
 }
+
+const LONG: &str = r#"
+name = "long shaft"
+element = [{ length = 2.0, diameter = 0.06, pieces = 10 }]
+bearing = [
+    { node = 0, stiffness_x = 2.0e7, damping_x = 2.0e3 },
+    { node = 10, stiffness_x = 2.0e7, damping_x = 2.0e3 },
+]
+unbalance = [{ node = 3, amount = 1.0e-4 }, { node = 8, amount = 6.0e-5, angle = 130.0 }]
+sensor = [{ node = 0 }, { node = 5 }]
+balancing = { planes = [2, 5, 8], modes = 1 }
+speeds = { highest = 300.0 }
+"#;
+
+/// Static and couple unbalance by hand about the middle of the shaft; nothing of them and of the first mode is left.
+#[test]
+fn modal_balancing_is_told_and_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (file, page) = (path("long.toml"), path("long.html"));
+    std::fs::write(&file, LONG).unwrap();
+    let output = driveline(&["rotor", &file, "--json", "--html", &page]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let (one, other) = (nalgebra::Complex::new(1e-4, 0.0), nalgebra::Complex::from_polar(6e-5, 130f64.to_radians()));
+    let unbalances = found["balancing"]["unbalances"].as_array().unwrap();
+    for (unbalance, (of, expected)) in
+        unbalances.iter().zip([("static", one + other), ("couple", one * (0.6 - 1.0) + other * (1.6 - 1.0))])
+    {
+        assert_eq!(unbalance["of"], of);
+        // rounding of a sum of two
+        assert!((unbalance["before"].as_f64().unwrap() / expected.norm() - 1.0).abs() < 1e-12, "{unbalance}");
+    }
+    assert_eq!(unbalances[2]["speed"], found["critical_speeds"][1]["speed"]);
+    for unbalance in unbalances {
+        let [before, after] = ["before", "after"].map(|key| unbalance[key].as_f64().unwrap());
+        // rounding, by a condition of some tens
+        assert!(after < 1e-12 * before, "{unbalance}");
+    }
+    let peaks = |of: &Value| -> Vec<f64> {
+        of.as_array().unwrap().iter().map(|peak| peak["amplitude"].as_f64().unwrap()).collect()
+    };
+    // the first critical speed is within the range, and the second is not
+    for (now, before) in peaks(&found["balancing"]["peaks"]).into_iter().zip(peaks(&found["peaks"])) {
+        assert!(now < 0.05 * before, "{now} {before}");
+    }
+    let html = std::fs::read_to_string(page).unwrap();
+    assert!(html.contains("Vibration with the weights") && html.contains("Balancing weights") && !html.contains("NaN"));
+    assert_eq!(html.matches("<svg viewBox=\"0 0").count(), 3);
+}
+
+#[test]
+fn planes_that_cannot_balance_are_refused() {
+    for (from, to, expected) in [
+        ("modes = 1", "modes = 2", "`balancing.modes`: found 2, expected as many modes as planes, or two fewer"),
+        ("[2, 5, 8]", "[2, 5, 5]", "different nodes of the shaft, 0 to 10"),
+        ("[2, 5, 8]", "[2, 5, 11]", "different nodes of the shaft, 0 to 10"),
+        ("stiffness_x = 2.0e7,", "stiffness_x = 2.0e7, stiffness_y = 1.0e7,", "one stiffness in all directions"),
+        ("modes = 1", "modes = 1.5", "a whole number, zero or 1 to 8"),
+    ] {
+        let text = LONG.replacen(from, to, 1);
+        assert_ne!(text, LONG);
+        let said = parse_rotor("r.toml", &text).unwrap_err().to_string();
+        assert!(said.contains(expected), "{said}");
+    }
+    let none = LONG.lines().filter(|line| !line.starts_with("unbalance")).collect::<Vec<_>>().join("\n");
+    assert!(parse_rotor("r.toml", &none).unwrap_err().to_string().contains("an [[unbalance]] to be balanced"));
+}

@@ -1,6 +1,6 @@
 //! Natural whirls over the speed, and where the unbalance meets them.
 
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector, RowDVector};
 
 use super::error::RotorError;
 use super::modal::Modal;
@@ -60,6 +60,26 @@ impl Modal {
     /// Hermitian `(1 - i G)/(w w)` are `1/Omega^2`.
     #[must_use]
     pub fn criticals(&self) -> Vec<Critical> {
+        self.synchronous().into_iter().map(|(critical, _)| critical).collect()
+    }
+
+    /// Critical speeds (rad/s) of the forward whirls, lowest first, each with the deflection at every station, the
+    /// largest of which is 1: the shapes of modal balancing. On supports that are alike in all directions a whirl is
+    /// round and in one plane, and these shapes are those in which unbalance bends the undamped rotor.
+    #[must_use]
+    pub fn forward_shapes(&self) -> Vec<(f64, Vec<f64>)> {
+        let forward = self.synchronous().into_iter().filter(|(critical, _)| critical.sense == WhirlSense::Forward);
+        let scaled = |(critical, shape): (Critical, DVector<Complex<f64>>)| {
+            let whirls: Vec<Complex<f64>> = self.stations.iter().map(|rows| circles(rows, &shape)[0]).collect();
+            let largest = whirls.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm()));
+            let largest = largest.unwrap_or(Complex::new(1.0, 0.0));
+            (critical.speed, whirls.iter().map(|whirl| (whirl / largest).re).collect())
+        };
+        forward.map(scaled).collect()
+    }
+
+    /// Critical speeds, lowest first, with the deflections of their whirls.
+    fn synchronous(&self) -> Vec<(Critical, DVector<Complex<f64>>)> {
         let r = self.count();
         let w = &self.frequency;
         let hermitian = DMatrix::from_fn(r, r, |i, j| {
@@ -69,15 +89,14 @@ impl Modal {
             Complex::new(unity, -skew) / (w[i] * w[j])
         });
         let eigen = hermitian.symmetric_eigen();
-        let mut all: Vec<Critical> = (0..r)
+        let mut all: Vec<(Critical, DVector<Complex<f64>>)> = (0..r)
             .filter(|&k| eigen.eigenvalues[k] > 0.0)
             .map(|k| {
-                let shape: DVector<Complex<f64>> =
-                    DVector::from_iterator(r, (0..r).map(|i| eigen.eigenvectors[(i, k)] / w[i]));
-                Critical { speed: eigen.eigenvalues[k].sqrt().recip(), sense: self.sense(&shape) }
+                let shape = DVector::from_iterator(r, (0..r).map(|i| eigen.eigenvectors[(i, k)] / w[i]));
+                (Critical { speed: eigen.eigenvalues[k].sqrt().recip(), sense: self.sense(&shape) }, shape)
             })
             .collect();
-        all.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        all.sort_by(|a, b| a.0.speed.total_cmp(&b.0.speed));
         all
     }
 
@@ -131,14 +150,9 @@ impl Modal {
     fn sense(&self, shape: &DVector<Complex<f64>>) -> WhirlSense {
         let (mut forward, mut backward) = (0.0, 0.0);
         for rows in &self.stations {
-            let [x, y] = [0, 1].map(|axis| {
-                let row = rows[axis].iter().zip(shape.iter());
-                row.map(|(&row, &eta)| eta * row).sum::<Complex<f64>>()
-            });
-            // x + i y = f exp(i w t) + b exp(-i w t), 2 f = X + i Y, 2 b* = X - i Y
-            let i = Complex::new(0.0, 1.0);
-            forward += (x + i * y).norm_sqr();
-            backward += (x - i * y).norm_sqr();
+            let [with, against] = circles(rows, shape);
+            forward += with.norm_sqr();
+            backward += against.norm_sqr();
         }
         if backward < MIXED * MIXED * forward {
             WhirlSense::Forward
@@ -148,4 +162,15 @@ impl Modal {
             WhirlSense::Mixed
         }
     }
+}
+
+/// The forward and the backward circle, twice each, of a station in a whirl `Re(eta exp(i w t))`.
+fn circles(rows: &[RowDVector<f64>; 2], shape: &DVector<Complex<f64>>) -> [Complex<f64>; 2] {
+    let [x, y] = [0, 1].map(|axis| {
+        let row = rows[axis].iter().zip(shape.iter());
+        row.map(|(&row, &eta)| eta * row).sum::<Complex<f64>>()
+    });
+    // x + i y = f exp(i w t) + b exp(-i w t), 2 f = X + i Y, 2 b* = X - i Y
+    let i = Complex::new(0.0, 1.0);
+    [x + i * y, x - i * y]
 }

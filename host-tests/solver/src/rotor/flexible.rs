@@ -103,6 +103,20 @@ impl FlexibleRotor {
         std::iter::once(0.0).chain(ends).collect()
     }
 
+    /// Centre of mass along the shaft (m), of elements and discs.
+    #[must_use]
+    pub fn centre(&self) -> f64 {
+        let places = self.places();
+        let elements = self.elements.iter().zip(&places).map(|(section, start)| {
+            (section.material.density * section.area() * section.length, start + 0.5 * section.length)
+        });
+        // a node that is not there is refused by `build`
+        let discs = self.discs.iter().filter_map(|(node, disc)| Some((disc.mass, *places.get(*node)?)));
+        let (mass, moment) =
+            elements.chain(discs).fold((0.0, 0.0), |(sum, moment), (mass, at)| (sum + mass, moment + mass * at));
+        moment / mass
+    }
+
     /// The equations.
     ///
     /// # Errors

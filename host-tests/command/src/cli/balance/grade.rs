@@ -1,6 +1,6 @@
 //! The balance quality grade before and after, of the rotor and at each bearing.
 
-use driveline::balancing::{Complex, Error, Tolerance, degrees, two_planes};
+use driveline::balancing::{Complex, Error, RigidUnbalance, Tolerance, degrees, two_planes};
 use serde::Serialize;
 
 use crate::machine_file::balance::{Along, BalanceFile};
@@ -25,6 +25,21 @@ pub struct Grade {
     /// At the bearings, where the file says where everything is along the rotor.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bearings: Option<[Bearing; 2]>,
+    /// Static and couple unbalance now, likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parts: Option<Parts>,
+    /// Whether one plane is enough, where the file has width and diameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub one_plane_suffices: Option<bool>,
+}
+
+/// The unbalance of the rigid rotor about its centre of mass.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Parts {
+    pub static_g_mm: f64,
+    pub static_degrees: f64,
+    pub couple_g_mm2: f64,
+    pub couple_degrees: f64,
 }
 
 /// A bearing's share.
@@ -67,7 +82,19 @@ pub fn grade(file: &BalanceFile, wanted: &[Complex<f64>], placed: &[Complex<f64>
         predicted_grade: after.grade,
         passed: bearings.map_or(after.passed, |bearings| bearings.iter().all(|bearing| bearing.passed)),
         bearings,
+        parts: rotor.along.as_ref().map(|along| parts(file, along, unbalance, wanted)).transpose()?,
+        one_plane_suffices: rotor.one_plane,
     }))
+}
+
+/// The unbalance of the planes as that of the rigid rotor.
+fn parts(file: &BalanceFile, along: &Along, unbalance: f64, wanted: &[Complex<f64>]) -> Result<Parts, Error> {
+    // what the weights take away is opposite to them
+    let planes = wanted.iter().zip(&along.planes).map(|(weight, at)| (-weight * unbalance, at - along.centre));
+    let rigid = RigidUnbalance::of(planes)?;
+    let [(resultant, static_degrees), (couple, couple_degrees)] =
+        [rigid.resultant, rigid.couple].map(|part| degrees(file.angles.weight(part)));
+    Ok(Parts { static_g_mm: resultant * 1e6, static_degrees, couple_g_mm2: couple * 1e9, couple_degrees })
 }
 
 /// The tolerance split between the bearings, and the planes' unbalances resolved into them.
@@ -120,6 +147,19 @@ impl Grade {
                 verdict(bearing.passed)
             );
             facts.push(fact(&format!("at bearing {name}"), value));
+        }
+        if let Some(Parts { static_g_mm, static_degrees, couple_g_mm2, couple_degrees }) = self.parts {
+            let part = |size: f64, unit: &str, angle: f64| format!("{} {unit} at {angle:.0}°", significant(size));
+            facts.push(fact("static unbalance now", part(static_g_mm, "g mm", static_degrees)));
+            facts.push(fact("couple unbalance now", part(couple_g_mm2, "g mm²", couple_degrees)));
+        }
+        if let Some(suffices) = self.one_plane_suffices {
+            let value = if suffices {
+                "one: width over diameter is at most 0.2"
+            } else {
+                "two: width over diameter is above 0.2"
+            };
+            facts.push(fact("planes of a rigid rotor", value.to_owned()));
         }
         facts
     }

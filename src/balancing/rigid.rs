@@ -1,0 +1,76 @@
+//! Unbalance of a rigid rotor: its static and its couple part, and whether one plane is enough.
+//!
+//! Static balance is `sum m r = 0`, dynamic balance that of forces and moments, which takes two planes [Notes ch. 5].
+//! Any dynamic unbalance is a static part, which acts in the centre of mass, and a couple part, two opposite
+//! unbalances in two planes [derived].
+
+use super::error::Error;
+use super::scalar::{Complex, Scalar, given, real, zero};
+use super::tolerance::two_planes;
+
+/// Width over diameter up to which a rotor is balanced statically, in one plane [Notes ch. 5].
+const DISC: f64 = 0.2;
+
+/// Unbalance of a rigid rotor about its centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
+pub struct RigidUnbalance<T: Scalar> {
+    /// Static unbalance (kg m): the sum of all.
+    pub resultant: Complex<T>,
+    /// Couple unbalance (kg m2): the sum of each times its distance from the centre of mass.
+    pub couple: Complex<T>,
+}
+
+/// The two parts of a dynamic unbalance in two planes (kg m), which add to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+// Not logged: the complex numbers of `nalgebra` have no `Format`.
+pub struct UnbalanceParts<T: Scalar> {
+    /// The static part, without a couple about the centre of mass.
+    pub resultant: [Complex<T>; 2],
+    /// The couple part: equal and opposite.
+    pub couple: [Complex<T>; 2],
+}
+
+impl<T: Scalar> RigidUnbalance<T> {
+    /// Of unbalances along a rotor (kg m), each at its distance from the centre of mass (m).
+    ///
+    /// # Errors
+    /// [`Error::Weight`] with the index of an unbalance, [`Error::Setting`] with that of a distance, that is not a
+    /// number.
+    pub fn of(unbalances: impl IntoIterator<Item = (Complex<T>, T)>) -> Result<Self, Error> {
+        let mut sum = RigidUnbalance { resultant: zero(), couple: zero() };
+        for (index, (unbalance, at)) in unbalances.into_iter().enumerate() {
+            if !given(unbalance) {
+                return Err(Error::Weight { plane: index });
+            }
+            if !at.is_finite() {
+                return Err(Error::Setting { index });
+            }
+            sum.resultant += unbalance;
+            sum.couple += unbalance.scale(at);
+        }
+        Ok(sum)
+    }
+
+    /// Its parts in the planes at `a` and `b` (m from the centre of mass). The correction is the opposite.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] where the planes are the same.
+    pub fn in_planes(&self, a: T, b: T) -> Result<UnbalanceParts<T>, Error> {
+        let resultant = two_planes([(self.resultant, T::zero())], a, b)?;
+        let couple = self.couple.unscale(b - a);
+        Ok(UnbalanceParts { resultant, couple: [-couple, couple] })
+    }
+}
+
+/// Whether a rotor of this width and diameter (m) is balanced statically, in one plane: width over diameter is at most
+/// 1/5 [Notes ch. 5].
+///
+/// # Errors
+/// [`Error::Setting`] with the index of the value that is not positive.
+pub fn one_plane_suffices<T: Scalar>(width: T, diameter: T) -> Result<bool, Error> {
+    match [width, diameter].iter().position(|value| !(*value > T::zero() && value.is_finite())) {
+        Some(index) => Err(Error::Setting { index }),
+        None => Ok(width <= diameter * real(DISC)),
+    }
+}
