@@ -1,6 +1,7 @@
 //! Free forces and moments of the reciprocating masses, order by order.
 
 use super::Cylinder;
+use crate::machine::CrankSlider;
 use crate::math::{hypot, sin_cos};
 
 /// A free force or moment of one order as two vectors, in units of one cylinder's force of that order.
@@ -45,6 +46,24 @@ impl Shaking {
             forward: [f * self.forward[0], f * self.forward[1]],
             backward: [b * self.backward[0], b * self.backward[1]],
         }
+    }
+
+    /// Unbalances of the two shafts that balance it whole at `order` times the speed, as x and y with the crank at
+    /// zero: of the one that turns with the crank, and of the one that turns against it. kg m of a force; kg m2 of a
+    /// moment, each unbalance times its place along the shaft. `crank` is that of one cylinder.
+    ///
+    /// The part of the size f in units of the order's force has `f m r` of the first order, `f lambda m r/4` of the
+    /// second, whose shafts turn twice as fast [derived]. `None` for other orders than 1 and 2.
+    #[must_use]
+    pub const fn balance_shafts(&self, crank: &CrankSlider, order: u32) -> Option<[[f64; 2]; 2]> {
+        let [first, second] = crank.force_orders(1.0);
+        let opposite = match order {
+            1 => -first,
+            2 => -0.25 * second,
+            _ => return None,
+        };
+        let [f, b] = [self.forward, self.backward];
+        Some([[opposite * f[0], opposite * f[1]], [opposite * b[0], opposite * b[1]]])
     }
 }
 

@@ -140,6 +140,71 @@ fn counterweights_and_balance_shafts_take_their_share() {
     assert_eq!(four.with_balance_shafts(1.0, 1.0).largest(), 0.0);
 }
 
+const CRANK: CrankSlider = CrankSlider::massless_rod(Length(0.04), Length(0.14), Inertia(0.1), Mass(0.7));
+/// Of a four in line, both of them at compile time: four times lambda m r omega^2 by two masses at 2 omega, so each is
+/// a half of lambda m r.
+const LANCHESTER: Option<[[f64; 2]; 2]> =
+    free_forces(&Cylinder::in_line([0.0, PI, PI, 0.0], Length(0.1)), 2).balance_shafts(&CRANK, 2);
+
+/// Turning masses beside the pistons' own forces, every force by itself.
+#[test]
+fn two_shafts_balance_the_second_order_of_four_in_line() {
+    let [with, against] = LANCHESTER.unwrap();
+    let (unbalance, speed) = (0.5 * CRANK.lambda() * 0.7 * 0.04, 200.0);
+    for shaft in [with, against] {
+        // some roundings of 0.004 kg m
+        assert!((shaft[0] + unbalance).abs() < 1e-16 && shaft[1].abs() < 1e-16, "{shaft:?}");
+    }
+    for step in 0..60 {
+        let phi = f64::from(step) * 0.11;
+        let pistons: f64 = [0.0, PI, PI, 0.0].iter().map(|throw| CRANK.mass_force(phi + throw, speed, 0.0)).sum();
+        // at twice the speed, one each way: only along the cylinders something is left
+        let turned = |shaft: [f64; 2], sense: f64| {
+            let (sine, cosine) = f64::sin_cos(sense * 2.0 * phi);
+            [0, 1].map(|axis| {
+                let across = [-shaft[1], shaft[0]][axis];
+                (shaft[axis] * cosine + across * sine) * (2.0 * speed).powi(2)
+            })
+        };
+        let shafts = [turned(with, 1.0), turned(against, -1.0)];
+        let left = pistons + shafts[0][0] + shafts[1][0];
+        let second = 4.0 * CRANK.lambda() * 0.7 * 0.04 * speed * speed;
+        // of each piston lambda^3/4 (cos 2 phi - cos 4 phi) m r omega^2 and higher powers, which is lambda^2/2 of its
+        // second order; a fifth of that for the higher powers at lambda 0.29
+        assert!(left.abs() < 0.6 * CRANK.lambda().powi(2) * second, "{phi}: {left} {second}");
+        assert!((shafts[0][1] + shafts[1][1]).abs() < 1e-12 * second, "{phi}");
+    }
+    assert_eq!(free_forces(&Cylinder::in_line([0.0], Length(0.1)), 1).balance_shafts(&CRANK, 3), None);
+}
+
+/// The first order of three in line is a moment along a line: counterweights of half the reciprocating mass at the
+/// throws, and one shaft against the crank, leave none of it in either direction.
+#[test]
+fn one_shaft_balances_the_moment_of_three_in_line() {
+    let (throws, speed) = ([0.0, THIRD, 2.0 * THIRD], 200.0);
+    let moment = free_moments(&Cylinder::in_line(throws, Length(PITCH)), 1, PITCH);
+    let left = moment.counterweighted(0.5);
+    // the sum of three sines
+    assert!(left.forward.iter().all(|part| part.abs() < 1e-16), "{left:?}");
+    let [none, shaft] = left.balance_shafts(&CRANK, 1).unwrap();
+    let unit = 0.7 * 0.04;
+    // half of sqrt 3 times the pitch
+    assert!((f64::hypot(shaft[0], shaft[1]) / (0.5 * 3f64.sqrt() * PITCH * unit) - 1.0).abs() < 1e-14, "{shaft:?}");
+    assert!(none.iter().all(|part| part.abs() < 1e-17), "{none:?}");
+    for step in 0..60 {
+        let phi = f64::from(step) * 0.11;
+        let (sine, cosine) = f64::sin_cos(phi);
+        let mut sum = [shaft[0] * cosine + shaft[1] * sine, shaft[1] * cosine - shaft[0] * sine];
+        for (throw, place) in throws.into_iter().zip([-PITCH, 0.0, PITCH]) {
+            let (sine, cosine) = f64::sin_cos(phi + throw);
+            // the piston along its axis, half of it opposite to the throw
+            sum = [sum[0] + unit * place * (cosine - 0.5 * cosine), sum[1] - unit * place * 0.5 * sine];
+        }
+        let size = f64::hypot(sum[0], sum[1]) * speed * speed;
+        assert!(size < 1e-12, "{phi}: {sum:?}");
+    }
+}
+
 #[test]
 fn mass_torque_by_the_series_in_lambda() {
     // derived: -s' s'' of s = r (1 - cos phi) + l (1 - sqrt(1 - lambda^2 sin^2 phi)), expanded to lambda^6
