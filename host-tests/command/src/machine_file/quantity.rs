@@ -121,6 +121,10 @@ impl Quantity {
     /// Direction of a line.
     pub const DIRECTION: Self =
         Quantity { least: -std::f64::consts::TAU, most: std::f64::consts::TAU, unit: "rad", ..Self::ANY };
+    /// Coefficient of dry friction.
+    pub const FRICTION: Self = Quantity { least: 1e-6, most: 1.0, ..not_negative("") };
+    /// Radius of a pin that may be without friction.
+    pub const PIN: Self = Quantity { least: 1e-6, most: 1e3, ..not_negative("m") };
     /// Lift of a cam, in either direction.
     pub const LIFT: Self = Quantity { least: -1e3, most: 1e3, unit: "m", ..Self::ANY };
     /// Terms of a Fourier series.

@@ -39,7 +39,8 @@
 //! | table | keys (those in brackets may be left out) |
 //! |---|---|
 //! | `[[coordinate]]` | `name`, `inertia`, (`speed`, `angle`, `viscous`), (`[coordinate.crank]` with `radius`, `rod`,
-//! `slider_mass`, (`rod_mass`, `rod_inertia`, `rod_centre`), or `[coordinate.four_bar]` with `crank`, `coupler`,
+//! `slider_mass`, (`rod_mass`, `rod_inertia`, `rod_centre`, `[coordinate.crank.pins]` with `coefficient` and the radii
+//! (`main`, `crank`, `wrist`)), or `[coordinate.four_bar]` with `crank`, `coupler`,
 //! `rocker`, `ground`, (`coupler_mass`, `coupler_centre`, `coupler_inertia`, `rocker_inertia`), or
 //! `[coordinate.toggle]` with the same and `link`, `direction`, `slider_mass`, or `[coordinate.cam]` with `lift`,
 //! `mass`; each with (`friction`)), (`inertia_table`) |
@@ -77,8 +78,8 @@ use super::referred::referred;
 use super::source::Source;
 use super::table::Table;
 use driveline_solver::plant::train::{
-    Coordinate, Crank, FourBar, Friction, Harmonic, Link, Motion, Orders, Source as Torque, SpurBearing, SpurPair,
-    SpurWheel, Teeth, Toggle, Train, Variation, Waveform, rubbing,
+    Coordinate, Crank, FourBar, Friction, Harmonic, Link, Motion, Orders, Pins, SliderForce, Source as Torque,
+    SpurBearing, SpurPair, SpurWheel, Teeth, Toggle, Train, Variation, Waveform, rubbing,
 };
 use driveline_solver::plant::{LoadProgram, Place, PlantError};
 
@@ -260,6 +261,11 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         let (on, torque) = file.torque(table)?;
         coordinates[on] = coordinates[on].clone().source(torque);
     }
+    for (at, crank, pins) in &file.pins {
+        let forces: Vec<SliderForce> = file.forces.iter().filter(|(on, _)| on == at).map(|(_, force)| *force).collect();
+        let torques = pins.sources(crank, &forces);
+        coordinates[*at] = torques.into_iter().fold(coordinates[*at].clone(), Coordinate::source);
+    }
     let mut train = Train::new();
     for coordinate in coordinates {
         train = train.coordinate(coordinate);
@@ -421,6 +427,10 @@ struct Reading {
     static_force: Vec<Option<f64>>,
     /// Coordinates whose mechanism rubs.
     forwards: Vec<usize>,
+    /// Coordinates whose crank has friction in its pins.
+    pins: Vec<(usize, Crank, Pins)>,
+    /// Forces on the slider of a coordinate's crank.
+    forces: Vec<(usize, SliderForce)>,
 }
 
 impl Reading {
@@ -443,12 +453,24 @@ impl Reading {
                 return Err(crank.wrong("rod", "more than the crank's radius"));
             }
             let one = Quantity { most: 1.0, ..Quantity::SIZE };
-            coordinate = coordinate.crank(Crank {
+            let drive = Crank {
                 rod_mass: crank.number_or("rod_mass", Quantity::SIZE, 0.0)?,
                 rod_inertia: crank.number_or("rod_inertia", Quantity::SIZE, 0.0)?,
                 rod_centre: crank.number_or("rod_centre", one, 0.3)?,
                 ..Crank::new(radius, rod, crank.number("slider_mass", Quantity::SIZE)?)
-            });
+            };
+            coordinate = coordinate.crank(drive);
+            if let Some(mut pins) = crank.table_if("pins")? {
+                let found = Pins {
+                    coefficient: pins.number("coefficient", Quantity::FRICTION)?,
+                    main: pins.number_or("main", Quantity::PIN, 0.0)?,
+                    crank: pins.number_or("crank", Quantity::PIN, 0.0)?,
+                    wrist: pins.number_or("wrist", Quantity::PIN, 0.0)?,
+                };
+                pins.finish()?;
+                self.pins.push((self.names.len(), drive, found));
+                self.forwards.push(self.names.len());
+            }
             friction = crank.number_or("friction", Quantity::SIZE, 0.0)?;
             crank.finish()?;
             let reach = move |angle: f64| (rod * rod - (radius * angle.sin()).powi(2)).sqrt();
@@ -646,7 +668,7 @@ impl Reading {
         Ok(friction.breakaway(breakaway).surface(surface))
     }
 
-    fn torque(&self, mut table: Table<'_>) -> Result<(usize, Torque), Diagnostic> {
+    fn torque(&mut self, mut table: Table<'_>) -> Result<(usize, Torque), Diagnostic> {
         let on = self.named(&mut table, "on")?;
         let kind = table.text("kind", KINDS)?;
         let any = |table: &mut Table<'_>, key| table.number(key, Quantity::ANY);
@@ -714,13 +736,18 @@ impl Reading {
                     return Err(table.wrong("on", "a coordinate with a `crank`, a `four_bar`, a `toggle` or a `cam`"));
                 };
                 let torque = way.slope().times(force);
-                if table.has("from") || table.has("to") {
+                let mut acts = SliderForce { force, from: 0.0, to: TAU };
+                let torque = if table.has("from") || table.has("to") {
                     let turn = Quantity { most: TAU, ..Quantity::SIZE };
                     let (from, to) = (table.number("from", turn)?, arc_end(&mut table, turn)?);
-                    Torque::Stroke { torque, from, to: if to > from { to } else { to + TAU }, turns: 1 }
+                    let to = if to > from { to } else { to + TAU };
+                    (acts.from, acts.to) = (from, to);
+                    Torque::Stroke { torque, from, to, turns: 1 }
                 } else {
                     Torque::Orders(torque.0)
-                }
+                };
+                self.forces.push((on, acts));
+                torque
             }
             "orders" => Torque::Orders(harmonics(&mut table, "harmonics")?),
             _ => return Err(table.wrong("kind", KINDS)),
