@@ -9,6 +9,7 @@ mod natural_damping;
 mod resistor_starter;
 mod sharing;
 mod sway;
+mod slew;
 mod switch;
 mod torque_curve;
 mod watch;
