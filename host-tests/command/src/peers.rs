@@ -6,19 +6,25 @@
 //!
 //! | term | meaning |
 //! |---|---|
-//! | tuned | a corner or a radius of poles is swept over the scene's own run; the best for the shaft torque is kept |
+//! | tuned | a corner or a radius of poles is swept over a run; the best for the shaft torque is kept |
+//! | drawn | on machines out of the tolerances, others than those that the corner was swept on |
 //! | wins | has an error that is smaller by 1 % than that of every observer of the library at no more instructions |
 
 mod comparison;
 mod count;
+mod drawn;
+mod governing;
 mod markdown;
 mod page;
 mod recording;
 mod replay;
+mod solving;
 
-pub use comparison::{Comparison, Observer, SceneComparison, scenes};
+pub use comparison::{Accuracy, Comparison, Observer, SceneComparison, scenes};
 pub use count::{Cost, Images};
+pub use governing::{Governor, governors};
 pub use markdown::peers_markdown;
 pub use page::peers_page;
 pub use recording::Recording;
 pub use replay::Replay;
+pub use solving::{Solver, solvers};

@@ -14,10 +14,14 @@
 //! | [`DifferenceLowPass`] | motor's inertia | its corner, swept |
 //! | [`kalman`] | 5 states, covariance live | Q, R and first covariance of the library's design |
 //!
+//! Beside the observers there are [`governors`] and [`least_squares`] of balancing, behind the same trait.
+//!
 //! All behind a lossy gear get the same friction and the same deadband as the library's observers.
 
 pub mod constant_gain;
+pub mod governors;
 pub mod kalman;
+pub mod least_squares;
 pub mod library;
 pub mod list;
 /// As the comparison through the gap has it.
@@ -28,7 +32,9 @@ pub mod scene;
 pub mod simple;
 
 pub use constant_gain::{ByHand, ByNalgebra};
-pub use list::{PEERS, TUNED, Visitor, with};
+pub use list::{
+    FIRST_GOVERNOR, FIRST_SOLVER, GOVERNORS, PEERS, SOLVERS, SolverVisitor, TUNED, Visitor, with, with_solver,
+};
 pub use model::{Behind, Model, Peer, Replayed};
 pub use scene::{SCENES, Scene};
 pub use simple::{DifferenceLowPass, DisturbanceObserver};

@@ -1,7 +1,9 @@
 //! The scenes' machines as the observers know them.
 
 use driveline::configure::{HasCrank, Machine};
-use driveline::design::{BacklashDesign, CrankedDesign, Disturbance, Encoder, Rate, RigidDesign, TwoMassDesign};
+use driveline::design::{
+    BacklashDesign, CrankedDesign, Disturbance, Encoder, Rate, RigidDesign, SpeedLoopDesign, TwoMassDesign,
+};
 use driveline::machine::TwoMass;
 use driveline::settings::{Bases, Gear};
 use driveline_firmware::scenes::{
@@ -37,6 +39,12 @@ pub struct Scene {
     pub crank: Option<CrankedDesign>,
     /// Bases of fixed point.
     pub bases: Bases,
+    /// Gains of the speed loop.
+    pub speed_loop: SpeedLoopDesign,
+    /// Largest torque (N m).
+    pub torque_limit: f64,
+    /// Ramp of the setpoint (rad/s2).
+    pub ramp: f64,
 }
 
 impl Scene {
@@ -57,6 +65,9 @@ impl Scene {
             backlash: None,
             crank: None,
             bases: M::BASES,
+            speed_loop: M::SPEED_LOOP,
+            torque_limit: M::RATING.torque_limit,
+            ramp: M::RAMP,
         }
     }
 

@@ -8,14 +8,17 @@ use driveline_firmware::board::BOARDS;
 use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
-use crate::peers::{Comparison, Images, Replay, SceneComparison, peers_markdown, peers_page, scenes};
+use crate::peers::{
+    Comparison, Images, Replay, SceneComparison, governors, peers_markdown, peers_page, scenes, solvers,
+};
 use driveline_qemu::setup::Need;
 
 /// Compare the library's observers with others on the scenes' own runs: errors, instructions, code, stack and state.
 ///
 /// The others are constant gains by hand and by `nalgebra`, Luenberger, a disturbance observer, a low-pass, and the
 /// Kalman filters of `idsp`, `adskalman`, `minikalman` and `kfilter`. They are dependencies of a crate of their own,
-/// which this command builds.
+/// which this command builds. Beside them are speed loops of `pid`, `pid-ctrl` and `idsp` on the strip mill, and least
+/// squares of balancing by `nalgebra`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline peers
@@ -55,7 +58,7 @@ impl Peers {
         ready(&Need::to_run(BOARDS))?;
         let wanted: Vec<&str> =
             scenes().filter(|scene| self.scene.is_empty() || self.scene.iter().any(|name| name == scene)).collect();
-        let bar = Progress::of(2 + wanted.len() as u64);
+        let bar = Progress::of(4 + wanted.len() as u64);
         let failed = |error: Box<dyn std::error::Error>| Failure::failed(error.to_string());
         bar.says("building the observers for the host");
         let replay = Replay::build().map_err(failed)?;
@@ -69,6 +72,11 @@ impl Peers {
             comparison.scenes.push(compared);
             bar.step();
         }
+        let says = |text: &str| bar.says(text);
+        comparison.governors = governors(&replay, &images, &says).map_err(failed)?;
+        bar.step();
+        comparison.solvers = solvers(&replay, &images, &says).map_err(failed)?;
+        bar.step();
         drop(bar);
         if self.json {
             say_json(&comparison)?;

@@ -14,6 +14,11 @@ impl Encoder {
         Encoder { counts: f64::from(counts) }
     }
 
+    /// Lines on a turn, of four counts each.
+    pub fn lines(&self) -> f64 {
+        0.25 * self.counts
+    }
+
     /// The angle as the drive reads it, 2^32 per turn: the count that `angle` (rad) lies in.
     pub fn read(&self, angle: f64) -> u32 {
         let count = (angle / TAU * self.counts).floor();

@@ -6,6 +6,7 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::converter::Converter;
 
+use super::departure::Departure;
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
 use crate::closed_loop::sensors::Encoder;
@@ -29,10 +30,19 @@ fn trunnion_torque(plant: &Body) -> f64 {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
+    departing(&Departure::NONE)
+}
+
+/// The converter as it is.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let square = RATIO * RATIO;
-    let plant = Chain::motor(36.0)
-        .shaft(Shaft::elastic(2.0e5).damping(15.0), 4.0)
-        .shaft(Shaft::elastic(3.6e9 / square).damping(1.0e7 / square).gap(0.3), 1.2e7 / square)
+    let trunnion = Shaft::elastic(3.6e9 / square * by.stiffness).damping(1.0e7 / square).gap(0.3 * by.gap);
+    let plant = Chain::motor(36.0 * by.motor_inertia)
+        .shaft(Shaft::elastic(2.0e5 * by.stiffness).damping(15.0), 4.0)
+        .shaft(trunnion, 1.2e7 / square * by.load_inertia)
         .coulomb(FRICTION)
         .program(LoadProgram::table(&[(1.0, 0.0), (2.0, BATH), (3.0, BATH), (5.0, -BATH), (6.5, -BATH), (8.5, 0.0)]))
         .start(Start::Slack)

@@ -5,6 +5,7 @@ use core::f64::consts::PI;
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::planetary::{self as scene, PlanetaryDrive};
 
+use super::departure::Departure;
 use super::facts;
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
@@ -23,7 +24,7 @@ const DAMPING: f64 = 120.0 * CARRIER * CARRIER;
 
 /// The torque behind the set's loss (N m).
 fn shaft(plant: &Body) -> f64 {
-    STIFFNESS * plant.twist(0) + DAMPING * (plant.speed(0) - plant.speed(1))
+    plant.torque_behind_gear(0)
 }
 
 /// The drive and its run.
@@ -31,15 +32,23 @@ fn shaft(plant: &Body) -> f64 {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
+    departing(&Departure::NONE)
+}
+
+/// The drive as it is.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
     let (sun, planet, ring, module) = (20.0, 35.0, 90.0, 0.004);
     // A planet rolls in the held ring.
     let spin = CARRIER * (1.0 - ring / planet);
     let radius = 0.5 * module * (sun + planet);
     let square = CARRIER * CARRIER;
     let set = 0.013_052 + 3.0 * (0.002_706 * spin * spin + 3.7131 * (radius * CARRIER).powi(2)) + 0.0671 * square;
-    let plant = Chain::motor(0.5 + set)
-        .efficiency(0.97)
-        .shaft(Shaft::elastic(STIFFNESS).damping(DAMPING), 55.0 * square)
+    let plant = Chain::motor((0.5 + set) * by.motor_inertia)
+        .efficiency(0.97 + by.efficiency)
+        .shaft(Shaft::elastic(STIFFNESS * by.stiffness).damping(DAMPING), 55.0 * square * by.load_inertia)
         .coulomb(BELT)
         .program(LoadProgram::table(&[(6.0, 0.0), (7.0, 0.5 * BELT)]))
         .build()?;

@@ -4,6 +4,7 @@
 use driveline::configure::Machine as _;
 use driveline_firmware::scenes::skip_winch::{self as scene, SkipWinch};
 
+use super::departure::Departure;
 use super::facts;
 use super::plant::Body;
 use super::scenario::{Action, Machine, Scenario};
@@ -34,13 +35,11 @@ const STOPPED: f64 = 1.8;
 
 /// The rope's pull at the motor (N m), without the gear's loss.
 fn rope(plant: &Body) -> f64 {
-    let twist = plant.twist(1);
-    let rate = plant.speed(1) - plant.speed(2);
-    if twist > 0.0 { (ROPE * twist + ROPE_DAMPING * rate).max(0.0) } else { 0.0 }
+    plant.torque_behind_gear(1).max(0.0)
 }
 
 /// An emergency while hoisting: the setpoint goes to zero at once, and the brake is called for `later` (s).
-fn emergency_stop(name: &'static str, plant: Body, later: f64) -> Scenario {
+fn emergency_stop(name: &'static str, plant: Body, weight: f64, later: f64) -> Scenario {
     let mut actions =
         vec![(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
     // The setpoint comes up within four seconds.
@@ -53,7 +52,7 @@ fn emergency_stop(name: &'static str, plant: Body, later: f64) -> Scenario {
     Scenario {
         name,
         plant,
-        held: WEIGHT,
+        held: weight,
         actions,
         duration: STOPPING + 3.0,
         // The rope goes slack, which the observers of two masses and of one do not know.
@@ -74,15 +73,24 @@ fn closing(at: f64) -> impl Iterator<Item = (f64, Action)> {
 /// # Errors
 /// A figure of the plant that is out of range, which only a changed scene can bring.
 pub fn machine() -> Result<Machine, PlantError> {
-    let square = TRAVEL * TRAVEL;
+    departing(&Departure::NONE)
+}
+
+/// The winch as it is.
+///
+/// # Errors
+/// A figure of the plant that is out of range.
+pub fn departing(by: &Departure) -> Result<Machine, PlantError> {
+    let (mass, weight) = (SKIP * by.load * TRAVEL * TRAVEL, WEIGHT * by.load);
+    let [motor_shaft, elastic] = [MOTOR_SHAFT, ROPE].map(|stiffness| stiffness * by.stiffness);
     let hanging = || {
-        Chain::motor(20.0)
-            .shaft(Shaft::elastic(MOTOR_SHAFT).damping(60.0), 1500.0 / (15.0 * 15.0))
-            .efficiency(0.94)
-            .shaft(Shaft::rope(ROPE).damping(ROPE_DAMPING), SKIP * square)
-            .load(WEIGHT)
+        Chain::motor(20.0 * by.motor_inertia)
+            .shaft(Shaft::elastic(motor_shaft).damping(60.0), 1500.0 / (15.0 * 15.0))
+            .efficiency(0.94 + by.efficiency)
+            .shaft(Shaft::rope(elastic).damping(ROPE_DAMPING), mass)
+            .load(weight)
             // As the brake holds it: the rope carries the weight.
-            .start(Start::Given { twists: vec![WEIGHT / MOTOR_SHAFT, WEIGHT / ROPE], speeds: vec![0.0; 3] })
+            .start(Start::Given { twists: vec![weight / motor_shaft, weight / elastic], speeds: vec![0.0; 3] })
             .build()
     };
     let release = [(0.0, Action::Brake(0, 2.0 * WEIGHT)), (RELEASE, Action::Release), (RELEASE, Action::Brake(0, 0.0))];
@@ -115,7 +123,7 @@ pub fn machine() -> Result<Machine, PlantError> {
             Scenario {
                 name: "hoisting",
                 plant: hanging()?.into(),
-                held: WEIGHT,
+                held: weight,
                 actions: hoist,
                 duration: 12.0,
                 counted: true,
@@ -125,15 +133,15 @@ pub fn machine() -> Result<Machine, PlantError> {
             Scenario {
                 name: "emergency brake while lowering",
                 plant: hanging()?.into(),
-                held: WEIGHT,
+                held: weight,
                 actions: emergency,
                 duration: EMERGENCY + STOP,
                 counted: true,
                 marks: vec![(RELEASE, "brake opens"), (EMERGENCY, "emergency")],
                 law: None,
             },
-            emergency_stop("emergency stop while hoisting", hanging()?.into(), STOPPED),
-            emergency_stop("emergency brake while hoisting", hanging()?.into(), 0.0),
+            emergency_stop("emergency stop while hoisting", hanging()?.into(), weight, STOPPED),
+            emergency_stop("emergency brake while hoisting", hanging()?.into(), weight, 0.0),
         ],
         encoder: Encoder::new(scene::COUNTS),
         torque_noise,

@@ -5,28 +5,40 @@ use std::error::Error;
 use driveline_firmware::Words;
 use driveline_firmware::scenes::converter_ring;
 use driveline_report::Table;
-use driveline_report::format::{grouped, percent};
+use driveline_report::format::percent;
 use serde::Serialize;
 
-use super::count::{Cost, Images};
+use super::count::{CORES, Cost, Images, cost_cells, cost_headings};
+use super::governing::Governor;
 use super::recording::Recording;
 use super::replay::Replay;
+use super::solving::Solver;
 use crate::closed_loop::units::Units;
 use crate::drivetrains::SCENES;
+use crate::drivetrains::lockstep::Imperfections;
 
-/// An observer on a scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Observer {
-    /// Its name.
-    pub name: String,
-    /// Whether it is the library's.
-    pub library: bool,
+/// Errors of an observer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Accuracy {
     /// The corner or radius that it is tuned to (rad/s).
     pub tuned: Option<f64>,
     /// Root mean square error of the shaft torque, of its peak.
     pub shaft_torque: f64,
     /// The same of the load speed, of rated.
     pub load_speed: f64,
+}
+
+/// An observer on a scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Observer {
+    /// Its name.
+    pub name: String,
+    /// Whether it is the library's, with the gains of its design or with Luenberger's.
+    pub library: bool,
+    /// On the scene's own runs.
+    pub own: Accuracy,
+    /// On runs of machines out of the tolerances, other ones than those that it was tuned on.
+    pub drawn: Accuracy,
     /// Cost by core.
     pub costs: Vec<Cost>,
 }
@@ -44,19 +56,31 @@ pub struct SceneComparison {
     pub observers: Vec<Observer>,
 }
 
+impl Observer {
+    /// Whether it is the library's with the gains of its design.
+    pub const fn is_designed(&self) -> bool {
+        self.library && self.own.tuned.is_none()
+    }
+}
+
 /// All scenes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Comparison {
     /// The scenes.
     pub scenes: Vec<SceneComparison>,
+    /// Speed loops on the strip mill.
+    pub governors: Vec<Governor>,
+    /// Least squares of balancing.
+    pub solvers: Vec<Solver>,
 }
 
-/// The cores.
-pub const CORES: [&str; 2] = ["m4f", "m3"];
 /// An error that is smaller by this share is better.
 const BETTER: f64 = 0.01;
 /// Ticks that are counted in QEMU.
 const COUNTED: usize = 1_000;
+/// Machines drawn that what is swept is tuned on, and others that all are judged on.
+const TUNING: u64 = 5;
+const JUDGING: u64 = 10;
 /// Corners of a sweep: two an octave.
 const STEP: f64 = core::f64::consts::SQRT_2;
 
@@ -80,7 +104,10 @@ impl SceneComparison {
         let (_, build) = SCENES.iter().find(|(name, _)| *name == scene).ok_or("no such scene")?;
         let machine = build()?;
         says(&format!("{scene}: closed loop"));
-        let recording = Recording::of(&machine, seconds)?;
+        let own = Recording::of(&machine, seconds, &Imperfections::default())?;
+        let [tuning, judging] = [0..TUNING, TUNING..TUNING + JUDGING];
+        let [tuning, judging] =
+            [Recording::drawn(scene, *build, tuning, seconds)?, Recording::drawn(scene, *build, judging, seconds)?];
         let listed = replay.list()?;
         let place = listed.scenes.iter().position(|name| name == scene).ok_or("no observers for this scene")?;
         let mut observers = Vec::new();
@@ -88,26 +115,36 @@ impl SceneComparison {
             says(&format!("{scene}: {name}"));
             let words = if name.ends_with("fixed") { Words::Fixed } else { Words::Single };
             let units = Units::new(words, machine.bases);
-            let errors = |corner: f64| -> Result<Option<[f64; 2]>, Box<dyn Error>> {
-                let estimates = replay.estimates([place, peer], corner as f32, &recording, &units)?;
+            let errors = |corner: f64, recording: &Recording| -> Result<Option<[f64; 2]>, Box<dyn Error>> {
+                let estimates = replay.estimates([place, peer], corner as f32, recording, &units)?;
                 Ok((!estimates.is_empty()).then(|| recording.errors(&estimates)))
             };
             let is_tuned = listed.tuned.contains(name);
-            // From a turn in six seconds to a fifth of the tick rate.
-            let mut corner = 1.0;
-            let mut best: Option<(f64, [f64; 2])> = None;
-            loop {
-                if let Some(errors) = errors(corner)?
-                    && best.is_none_or(|(_, [least, _])| errors[0] < least)
-                {
-                    best = Some((corner, errors));
+            // From a turn in six seconds to the tick rate.
+            let octaves = if is_tuned { f64::from(machine.chosen.1).log2() } else { 0.0 };
+            let corners: Vec<f64> = (0..=(2.0 * octaves) as i32).map(|half| STEP.powi(half)).collect();
+            // Tuned on the first, judged on the second.
+            let accuracy = |tuned_on: &Recording, on: &Recording| -> Result<Option<Accuracy>, Box<dyn Error>> {
+                let mut best: Option<(f64, f64)> = None;
+                if is_tuned {
+                    for &corner in &corners {
+                        if let Some([error, _]) = errors(corner, tuned_on)?
+                            && best.is_none_or(|(_, least)| error < least)
+                        {
+                            best = Some((corner, error));
+                        }
+                    }
                 }
-                corner *= STEP;
-                if !is_tuned || corner > f64::from(machine.chosen.1) {
-                    break;
-                }
-            }
-            let Some((corner, [shaft_torque, load_speed])) = best else { continue };
+                let corner = best.map_or(1.0, |(corner, _)| corner);
+                Ok(errors(corner, on)?.map(|[shaft_torque, load_speed]| Accuracy {
+                    tuned: is_tuned.then_some(corner),
+                    shaft_torque,
+                    load_speed,
+                }))
+            };
+            let Some(on_own) = accuracy(&own, &own)? else { continue };
+            let Some(on_drawn) = accuracy(&tuning, &judging)? else { continue };
+            let corner = on_own.tuned.unwrap_or(1.0);
             let library = name.starts_with("driveline");
             let mut costs = Vec::new();
             for core in CORES {
@@ -116,17 +153,10 @@ impl SceneComparison {
                     continue;
                 }
                 says(&format!("{scene}: {name} on {core}"));
-                let stretch = recording.stretch(COUNTED);
+                let stretch = own.stretch(COUNTED);
                 costs.extend(images.cost(core, [place, peer], corner as f32, stretch, &units)?);
             }
-            observers.push(Observer {
-                name: name.clone(),
-                library,
-                tuned: is_tuned.then_some(corner),
-                shaft_torque,
-                load_speed,
-                costs,
-            });
+            observers.push(Observer { name: name.clone(), library, own: on_own, drawn: on_drawn, costs });
         }
         // The first is none: what the frame costs.
         let frame = observers.remove(0);
@@ -135,12 +165,7 @@ impl SceneComparison {
             cost.median = cost.median.saturating_sub(nothing);
             cost.worst = cost.worst.saturating_sub(nothing);
         }
-        Ok(SceneComparison {
-            scene: scene.to_owned(),
-            rate_hz: machine.chosen.1,
-            ticks: recording.ticks.len(),
-            observers,
-        })
+        Ok(SceneComparison { scene: scene.to_owned(), rate_hz: machine.chosen.1, ticks: own.ticks.len(), observers })
     }
 
     /// The observers on a core with their costs.
@@ -150,10 +175,11 @@ impl SceneComparison {
         })
     }
 
-    /// Names of the others that win on a core, by the shaft torque.
-    pub fn winners<'c>(&'c self, core: &'c str) -> Vec<&'c str> {
+    /// Names of the others that win on a core, by the shaft torque of the runs that are chosen.
+    pub fn winners<'c>(&'c self, core: &'c str, of: fn(&Observer) -> Accuracy) -> Vec<&'c str> {
         self.others(core, |observer, rivals| {
-            !rivals.is_empty() && rivals.iter().all(|rival| observer.shaft_torque < (1.0 - BETTER) * rival.shaft_torque)
+            let better = |rival: &&Observer| of(observer).shaft_torque < (1.0 - BETTER) * of(rival).shaft_torque;
+            !rivals.is_empty() && rivals.iter().all(better)
         })
     }
 
@@ -168,7 +194,7 @@ impl SceneComparison {
         for (observer, cost) in self.on(core).filter(|(observer, _)| !observer.library) {
             let rivals: Vec<&Observer> = self
                 .on(core)
-                .filter(|(rival, of)| rival.library && of.median <= cost.median)
+                .filter(|(rival, of)| rival.is_designed() && of.median <= cost.median)
                 .map(|(rival, _)| rival)
                 .collect();
             if is(observer, &rivals) {
@@ -180,40 +206,16 @@ impl SceneComparison {
 
     /// A row an observer.
     pub fn table(&self) -> Table {
-        let mut table = Table::new([
-            "observer",
-            "tuned to",
-            "shaft torque",
-            "load speed",
-            "m4f",
-            "worst",
-            "code",
-            "stack",
-            "state",
-            "m3",
-            "worst",
-            "code",
-            "stack",
-            "state",
-        ]);
+        let headings = ["observer", "tuned to", "shaft torque", "load speed", "tuned to", "drawn: torque", "speed"]
+            .map(str::to_owned);
+        let mut table = Table::new(headings.into_iter().chain(cost_headings()));
         for observer in &self.observers {
-            let tuned = observer.tuned.map_or_else(String::new, |corner| format!("{corner:.0} rad/s"));
-            let errors = [observer.shaft_torque, observer.load_speed].map(percent);
-            let mut row = vec![observer.name.clone(), tuned];
-            row.extend(errors);
-            for core in CORES {
-                row.extend(match observer.costs.iter().find(|cost| cost.core == core) {
-                    Some(cost) => [
-                        i64::from(cost.median),
-                        i64::from(cost.worst),
-                        cost.code as i64,
-                        i64::from(cost.stack),
-                        i64::from(cost.state),
-                    ]
-                    .map(grouped),
-                    None => Default::default(),
-                });
+            let mut row = vec![observer.name.clone()];
+            for accuracy in [observer.own, observer.drawn] {
+                row.push(accuracy.tuned.map_or_else(String::new, |corner| format!("{corner:.0} rad/s")));
+                row.extend([accuracy.shaft_torque, accuracy.load_speed].map(percent));
             }
+            row.extend(cost_cells(&observer.costs));
             table.row(row);
         }
         table

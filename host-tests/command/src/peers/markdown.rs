@@ -2,7 +2,10 @@
 
 use std::fmt::Write;
 
-use super::comparison::{CORES, Comparison};
+use super::comparison::{Accuracy, Comparison, Observer};
+use super::count::CORES;
+use super::governing::governors_table;
+use super::solving::solvers_table;
 use driveline_report::Table;
 use driveline_report::format::percent;
 
@@ -17,6 +20,12 @@ pub fn peers_markdown(comparison: &Comparison) -> String {
         let heading = format!("## {}, {} ticks at {} Hz", scene.scene, scene.ticks, scene.rate_hz);
         let _ = writeln!(page, "{heading}\n\n{}", rows(&scene.table()));
     }
+    for (opening, table) in [
+        (include_str!("governors.md"), governors_table(&comparison.governors)),
+        (include_str!("solvers.md"), solvers_table(&comparison.solvers)),
+    ] {
+        let _ = writeln!(page, "{opening}\n{}", rows(&table));
+    }
     page.truncate(page.trim_end().len());
     page.push('\n');
     page
@@ -30,22 +39,33 @@ pub fn fronts(comparison: &Comparison) -> Table {
         "best of the library",
         "best of the others",
         "others that win",
+        "drawn: best of the library",
+        "best of the others",
+        "others that win",
         "cheaper than the library",
     ]);
+    let runs: [fn(&Observer) -> Accuracy; 2] = [|observer| observer.own, |observer| observer.drawn];
     for scene in &comparison.scenes {
         for core in CORES {
-            let best = |library: bool| {
-                let all = scene.on(core).filter(|(observer, _)| observer.library == library);
-                let least = all.min_by(|(a, of), (b, than)| {
-                    a.shaft_torque.total_cmp(&b.shaft_torque).then(of.median.cmp(&than.median))
-                });
-                least.map_or_else(String::new, |(observer, cost)| {
-                    format!("{}: {}, {}", observer.name, percent(observer.shaft_torque), cost.median)
-                })
-            };
+            let mut row = vec![scene.scene.clone(), core.to_owned()];
             let names = |names: Vec<&str>| if names.is_empty() { "none".to_owned() } else { names.join("; ") };
-            let [winners, cheaper] = [scene.winners(core), scene.cheaper(core)].map(names);
-            table.row([scene.scene.clone(), core.to_owned(), best(true), best(false), winners, cheaper]);
+            for of in runs {
+                row.extend([true, false].map(|library| {
+                    let all = scene.on(core).filter(|(observer, _)| match library {
+                        true => observer.is_designed(),
+                        false => !observer.library,
+                    });
+                    let least = all.min_by(|(a, cost), (b, than)| {
+                        of(a).shaft_torque.total_cmp(&of(b).shaft_torque).then(cost.median.cmp(&than.median))
+                    });
+                    least.map_or_else(String::new, |(observer, cost)| {
+                        format!("{}: {}, {}", observer.name, percent(of(observer).shaft_torque), cost.median)
+                    })
+                }));
+                row.push(names(scene.winners(core, of)));
+            }
+            row.push(names(scene.cheaper(core)));
+            table.row(row);
         }
     }
     table

@@ -1,6 +1,7 @@
 //! The page of `peers`: for each scene error against instructions on both cores, and the table.
 
-use super::comparison::{CORES, Comparison, Observer, SceneComparison};
+use super::comparison::{Comparison, Observer, SceneComparison};
+use super::count::CORES;
 use super::markdown::fronts;
 use driveline_report::chart::{Cost, Quality, error_against_cost};
 use driveline_report::{Arrangement, Deviation, Figure, Instructions, Key, Section, Sheet, Variant};
@@ -49,8 +50,8 @@ fn plot(scene: &SceneComparison, core: &str) -> String {
             core: core.to_owned(),
             observer: name(observer),
             rate_hz: scene.rate_hz,
-            shaft_torque: deviation(observer.shaft_torque),
-            load_speed: deviation(observer.load_speed),
+            shaft_torque: deviation(observer.own.shaft_torque),
+            load_speed: deviation(observer.own.load_speed),
             load_torque: deviation(0.0),
             instructions: Instructions { min: cost.median.into(), median: cost.median.into(), max: cost.worst.into() },
             cycles: None,

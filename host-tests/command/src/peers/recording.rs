@@ -8,7 +8,7 @@ use driveline_firmware::scenes::find;
 
 use crate::closed_loop::ticks::OnHost;
 use crate::closed_loop::units::Units;
-use crate::drivetrains::lockstep;
+use crate::drivetrains::lockstep::{Imperfections, Moment, follow};
 use crate::drivetrains::scenario::Machine;
 
 /// A tick.
@@ -38,7 +38,7 @@ impl Recording {
     ///
     /// # Errors
     /// No such drive.
-    pub fn of(machine: &Machine, seconds: f64) -> Result<Self, Box<dyn Error>> {
+    pub fn of(machine: &Machine, seconds: f64, imperfections: &Imperfections) -> Result<Self, Box<dyn Error>> {
         let (observer, rate_hz) = machine.chosen;
         let name = format!("{}/f32/{observer}/{rate_hz}", machine.name);
         let row = find(&name).ok_or_else(|| format!("there is no variant {name}"))?;
@@ -47,20 +47,17 @@ impl Recording {
         for scenario in machine.scenarios.iter().filter(|scenario| scenario.counted) {
             let mut scenario = scenario.clone();
             scenario.duration = scenario.duration.min(seconds);
-            let trace = lockstep::run(machine, &scenario, &units, rate_hz, &mut OnHost(row.start()), |_| {})?;
+            let (mut run, mut plant) = (Vec::new(), scenario.plant.unrecorded());
+            let each = |moment: &Moment, (input, _): (Input, _)| run.push((moment.truth, input));
+            let mut drive = OnHost(row.start());
+            follow(machine, &scenario, &units, rate_hz, imperfections, &mut drive, &mut plant, each)?;
             // The last tick before the release, in which the drive holds its torque.
-            let first = trace.words.iter().position(|(input, _)| input.flags & Input::RELEASED != 0).unwrap_or(0);
-            let run = trace.moments.iter().zip(&trace.words).enumerate().skip(first.saturating_sub(1));
-            ticks.extend(run.map(|(index, (moment, (input, _)))| {
+            let first = run.iter().position(|(_, input)| input.flags & Input::RELEASED != 0).unwrap_or(0);
+            ticks.extend(run.iter().enumerate().skip(first.saturating_sub(1)).map(|(index, (truth, input))| {
                 let released = index >= first.max(1);
                 // A held drive gets the torque that it holds as its setpoint.
                 let word = if input.flags & Input::RELEASED == 0 { input.setpoint } else { input.torque };
-                Tick {
-                    angle: input.angle,
-                    torque: units.torque(word),
-                    released,
-                    truth: [moment.truth[0], moment.truth[1]],
-                }
+                Tick { angle: input.angle, torque: units.torque(word), released, truth: [truth[0], truth[1]] }
             }));
         }
         let peak = ticks.iter().fold(0.0_f64, |peak, tick| peak.max(tick.truth[0].abs()));
@@ -75,12 +72,13 @@ impl Recording {
         &self.ticks[from..(from + length).min(self.ticks.len())]
     }
 
-    /// Root mean square errors of estimates, over the references; infinite where one is not a number.
+    /// Root mean square errors of estimates, over the references; infinite where one is not a number. The tick that
+    /// starts an observer has no estimate.
     pub fn errors(&self, estimates: &[[f64; 2]]) -> [f64; 2] {
-        let count = self.ticks.len().max(1) as f64;
+        let counted = || self.ticks.iter().zip(estimates).filter(|(tick, _)| tick.released);
+        let count = counted().count().max(1) as f64;
         [0, 1].map(|k| {
-            let squares: f64 =
-                self.ticks.iter().zip(estimates).map(|(tick, estimate)| (estimate[k] - tick.truth[k]).powi(2)).sum();
+            let squares: f64 = counted().map(|(tick, estimate)| (estimate[k] - tick.truth[k]).powi(2)).sum();
             let error = (squares / count).sqrt() / self.references[k];
             if error.is_finite() { error } else { f64::INFINITY }
         })
