@@ -3,7 +3,7 @@
 //! A command checks its files before it begins, prints what it found, and only then writes them. A file is written
 //! beside its place and renamed, so that what stood there is kept until the new one is complete.
 
-use std::fs::{self, Metadata, OpenOptions};
+use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Write};
 use std::os::unix::fs::{FileTypeExt, MetadataExt, PermissionsExt};
 use std::path::{Path, PathBuf};
@@ -49,7 +49,7 @@ impl Destination {
     /// # Errors
     /// What the file system says; what stood there is left as it was.
     pub fn write(&self, bytes: &(impl AsRef<[u8]> + ?Sized)) -> Result<(), Failure> {
-        self.put(bytes.as_ref()).map_err(|error| self.unwritable(&error))
+        self.begin(bytes.as_ref()).map(drop).map_err(|error| self.unwritable(&error))
     }
 
     /// Writes it, and says where it is unless there is JSON on standard output.
@@ -73,11 +73,18 @@ impl Destination {
         made.map_err(|error| self.unwritable(&error))
     }
 
-    fn put(&self, bytes: &[u8]) -> io::Result<()> {
+    /// Writes its beginning, and gives the file for what follows: until the beginning is complete, what stood there
+    /// stays.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn begin(&self, bytes: &[u8]) -> io::Result<File> {
         let there = fs::metadata(&self.path).ok();
         if there.as_ref().is_some_and(|there| !there.is_file()) {
             // a terminal, a pipe: nothing to rename
-            return OpenOptions::new().write(true).open(&self.path)?.write_all(bytes);
+            let mut file = OpenOptions::new().write(true).open(&self.path)?;
+            file.write_all(bytes)?;
+            return Ok(file);
         }
         // through a symbolic link to the file that it leads to
         let path = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
@@ -91,15 +98,15 @@ impl Destination {
         beside.write_all(bytes)?;
         // a disk that is full may say so only here
         beside.as_file().sync_all()?;
-        beside.persist(path)?;
-        Ok(())
+        Ok(beside.persist(path)?)
     }
 
     fn name(&self) -> std::path::Display<'_> {
         self.path.display()
     }
 
-    fn unwritable(&self, error: &io::Error) -> Failure {
+    /// That it cannot be written, and why.
+    pub fn unwritable(&self, error: &io::Error) -> Failure {
         Failure::failed(format!("{} cannot be written: {}", self.name(), reason(error)))
     }
 

@@ -137,10 +137,11 @@ impl Watch {
     /// A source that cannot be opened or read, a variant that is not there, a file that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
         let sources: Vec<&Path> = self.source.iter().map(PathBuf::as_path).collect();
-        check(&sources, &self.csv.as_deref().map(|path| Destination::chosen("table", path)))?;
+        let table = self.csv.as_deref().map(|path| Destination::chosen("table", path));
+        check(&sources, &table)?;
         let mut source = self.open()?;
         let mut live = self.web.map(|port| self.live(port)).transpose()?;
-        let mut csv = self.csv.as_deref().map(Csv::new);
+        let mut csv = table.map(Csv::new);
         let mut seen = Seen::default();
         let mut decoder = Decoder::default();
         let (mut drawn, mut lines) = (Instant::now(), 0);
@@ -309,9 +310,9 @@ fn nothing(name: &str, decoder: &Decoder) -> String {
 }
 
 /// Records on their way into a file.
-struct Csv<'a> {
-    path: &'a Path,
-    /// Opened for the first record: without one, what is there stays, and nothing is made.
+struct Csv {
+    table: Destination,
+    /// Begun with the first record: until it is written, what is there stays.
     file: Option<BufWriter<File>>,
     /// Records before the channels' descriptions wait for their column names.
     waiting: Vec<Told>,
@@ -319,31 +320,30 @@ struct Csv<'a> {
     columns: Option<usize>,
 }
 
-impl<'a> Csv<'a> {
-    fn new(path: &'a Path) -> Self {
-        Csv { path, file: None, waiting: Vec::new(), columns: None }
+impl Csv {
+    fn new(table: Destination) -> Self {
+        Csv { table, file: None, waiting: Vec::new(), columns: None }
     }
 
     /// Writes what has its columns' names, or all of it where no more comes.
     fn write(&mut self, decoder: &Decoder, ended: bool, flush: bool) -> Result<(), Failure> {
-        self.put(decoder, ended, flush).map_err(|error| Failure::failed(format!("{}: {error}", self.path.display())))
+        self.put(decoder, ended, flush).map_err(|error| self.table.unwritable(&error))
     }
 
     fn put(&mut self, decoder: &Decoder, ended: bool, flush: bool) -> io::Result<()> {
         let described = self.waiting.first().is_some_and(|told| decoder.describes(told.words.len()));
         if (described || ended || self.waiting.len() >= PATIENCE) && !self.waiting.is_empty() {
-            let file = match &mut self.file {
-                Some(file) => file,
-                // a file is emptied, a pipe is not
-                none => none.insert(BufWriter::new(File::create(self.path)?)),
-            };
             for told in self.waiting.drain(..) {
+                let mut text = format!("{}\n", line(decoder, &told));
                 // a drive whose telemetry changes gets a head of its own
                 if self.columns != Some(told.words.len()) {
                     self.columns = Some(told.words.len());
-                    writeln!(file, "{}", header(decoder, &told))?;
+                    text.insert_str(0, &format!("{}\n", header(decoder, &told)));
                 }
-                writeln!(file, "{}", line(decoder, &told))?;
+                match &mut self.file {
+                    Some(file) => file.write_all(text.as_bytes())?,
+                    none => *none = Some(BufWriter::new(self.table.begin(text.as_bytes())?)),
+                }
             }
         }
         self.file.as_mut().filter(|_| flush).map_or(Ok(()), BufWriter::flush)

@@ -91,6 +91,20 @@ fn a_full_disk_ends_a_recording_and_not_its_figures() {
     assert!(kept.len() <= 4 * 512 && kept.lines().count() > 30, "{} bytes", kept.len());
 }
 
+/// A disk without room for the first lines leaves the old table as it was.
+#[test]
+fn a_full_disk_keeps_the_old_recording() {
+    let mut place = Place::new();
+    place.put("stream.bin", &frames());
+    place.put("run.csv", b"the old one");
+    let ended = place.piped(limited(&place, 0, "watch stream.bin --json --csv run.csv"));
+    assert_eq!(ended.code, Some(1), "{}", ended.said());
+    assert!(ended.said().contains("run.csv cannot be written"), "{}", ended.said());
+    assert_eq!(fs::read_to_string(place.at("run.csv")).unwrap(), "the old one");
+    let faults = place.faults(&[], false);
+    assert!(faults.is_empty(), "{faults:?}");
+}
+
 /// Where results go to a file that is full, that is said, and the page is written all the same.
 #[test]
 fn full_standard_output_is_said() {
