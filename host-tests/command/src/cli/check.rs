@@ -35,10 +35,16 @@ pub struct Check {
     pub json: bool,
 }
 
-/// The steps with their contents.
+/// The steps with their contents, each name once.
 fn names() -> Vec<PossibleValue> {
-    let long = LONG.iter().map(|step| PossibleValue::new(step.name).help(format!("with --long: {}", step.content)));
-    STEPS.iter().map(|step| PossibleValue::new(step.name).help(step.content)).chain(long).collect()
+    let long = |name: &str| LONG.iter().find(|step| step.name == name);
+    let steps = STEPS.iter().map(|step| match long(step.name) {
+        Some(other) => (step.name, format!("{}; with --long: {}", step.content, other.content)),
+        None => (step.name, step.content.to_owned()),
+    });
+    let others = LONG.iter().filter(|long| STEPS.iter().all(|step| step.name != long.name));
+    let others = others.map(|step| (step.name, format!("with --long: {}", step.content)));
+    steps.chain(others).map(|(name, content)| PossibleValue::new(name).help(content)).collect()
 }
 
 impl Check {
@@ -63,5 +69,20 @@ impl Check {
             Err(error @ CheckError::NoSuchStep(..)) => Err(Failure::usage(error.to_string())),
             Err(error) => Err(Failure::failed(error.to_string())),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::names;
+
+    #[test]
+    fn every_step_is_offered_once() {
+        let names = names();
+        let once: BTreeSet<&str> = names.iter().map(|name| name.get_name()).collect();
+        assert_eq!(once.len(), names.len());
+        assert!(["pages", "budgets", "seeds"].iter().all(|name| once.contains(name)), "{once:?}");
     }
 }
