@@ -11,6 +11,9 @@ use zip::ZipArchive;
 use super::description::{Description, Version};
 use super::fmi::Instance;
 
+/// The most that an FMU may be unpacked, bytes: a hundred times what tools write, and no disk full.
+const LARGEST: u64 = 1 << 30;
+
 /// An FMU with an instance of it.
 pub struct Fmu {
     /// Its description.
@@ -38,8 +41,16 @@ impl Fmu {
     pub fn read(file: impl Read + Seek) -> Result<Self, String> {
         let no_fmu = |error: &dyn std::fmt::Display| format!("it is no FMU: {error}");
         let folder = Folder::make().map_err(|error| error.to_string())?;
-        let unpacked = ZipArchive::new(file).and_then(|mut archive| archive.extract(folder.path()));
-        unpacked.map_err(|error| no_fmu(&error))?;
+        let mut archive = ZipArchive::new(file).map_err(|error| no_fmu(&error))?;
+        // a file that is larger than the archive says is an error of its extraction
+        let mut size = 0_u64;
+        for index in 0..archive.len() {
+            size = size.saturating_add(archive.by_index_raw(index).map_err(|error| no_fmu(&error))?.size());
+        }
+        if size > LARGEST {
+            return Err(format!("it is not unpacked: expected at most {} MiB of files in it", LARGEST >> 20));
+        }
+        archive.extract(folder.path()).map_err(|error| no_fmu(&error))?;
         let text = std::fs::read_to_string(folder.path().join("modelDescription.xml"));
         let description = Description::read(&text.map_err(|error| no_fmu(&format!("modelDescription.xml: {error}")))?)?;
         let three = format!("{ARCH}-{}", if OS == "macos" { "darwin" } else { OS });
@@ -57,5 +68,35 @@ impl Fmu {
         }
         let instance = Instance::new(&description, &path, &folder.path().join("resources"))?;
         Ok(Self { description, instance, _folder: folder })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Cursor, Write};
+
+    use zip::write::SimpleFileOptions;
+    use zip::{CompressionMethod, ZipWriter};
+
+    use super::Fmu;
+
+    /// 600 zeros, which take a few bytes, and what the archive says of them: that they are 2 GiB, or one.
+    #[test]
+    fn an_archive_that_would_fill_the_disk_is_refused() {
+        let mut written = ZipWriter::new(Cursor::new(Vec::new()));
+        let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
+        written.start_file("resources/zeros", options).unwrap();
+        written.write_all(&[0; 600]).unwrap();
+        let bytes = written.finish().unwrap().into_inner();
+        // the size in the directory at the end
+        let place = bytes.windows(4).rposition(|four| four == 600_u32.to_le_bytes()).unwrap();
+        let refused = |size: u32| {
+            let mut bytes = bytes.clone();
+            bytes[place..place + 4].copy_from_slice(&size.to_le_bytes());
+            Fmu::read(Cursor::new(bytes)).err().unwrap()
+        };
+        assert_eq!(refused(1 << 31), "it is not unpacked: expected at most 1024 MiB of files in it");
+        assert!(refused(1).contains("larger than its declared"), "{}", refused(1));
+        assert!(refused(600).contains("modelDescription.xml"), "{}", refused(600));
     }
 }
