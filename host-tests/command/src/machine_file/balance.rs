@@ -733,6 +733,7 @@ fn one_plane(table: &mut Table<'_>) -> Result<Option<bool>, Diagnostic> {
 fn holes(table: &mut Table<'_>, planes: &[String], convention: AngleConvention) -> Result<PlaneHoles, Diagnostic> {
     let plane = plane(table, planes)?;
     let degrees = if table.has("angles") {
+        table.instead_of("angles", &["count", "first"])?;
         let items = table.items("angles", "angles in degrees")?;
         let mut degrees: Vec<f64> = Vec::new();
         let mut entry = Entry::new();

@@ -194,6 +194,7 @@ fn places(table: &mut Table<'_>, count: usize, masses: &[Turning]) -> Result<(Ve
 /// The indicator diagram over a cycle (Pa): the file's, or the typical one of its compression and peak pressure.
 fn pressure(table: &mut Table<'_>, crank: &CrankSlider, cycle: WorkingCycle) -> Result<Vec<f64>, Diagnostic> {
     if table.has("pressure") {
+        table.instead_of("pressure", &["compression", "exponent", "charge_pressure", "peak_pressure"])?;
         let pressure = table.numbers("pressure", Quantity { unit: "Pa", ..Quantity::ANY })?;
         return if pressure.len() >= 8 { Ok(pressure) } else { Err(table.wrong("pressure", "8 numbers or more")) };
     }

@@ -200,6 +200,19 @@ impl<'a> Table<'a> {
         self.get(key).is_some()
     }
 
+    /// A key that is there leaves no place for others, which say the same in another way.
+    ///
+    /// # Errors
+    /// One of them is there, too.
+    pub fn instead_of(&self, key: &str, others: &[&str]) -> Result<(), Diagnostic> {
+        let there = |(name, value): (&Spanned<toml::de::DeString<'_>>, &Spanned<DeValue<'_>>)| {
+            let other = others.iter().find(|other| name.get_ref() == **other)?;
+            let found = format!("`{key}` beside it");
+            Some(Diagnostic::at(self.source, value.span(), self.name(other), found, "only one of the two"))
+        };
+        self.table.iter().find_map(there).map_or(Ok(()), Err)
+    }
+
     /// Lets keys stand that somebody else reads.
     pub fn pass(&mut self, keys: &[&'static str]) {
         self.asked.extend(keys);

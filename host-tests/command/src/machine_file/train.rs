@@ -190,6 +190,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     // of elements, which become coordinates and links by their labels
     let (mut labels, mut element_places) = (Vec::new(), Vec::new());
     if root.has("element") {
+        root.instead_of("element", &["coordinate", "spur_pair"])?;
         let machine = read::parse(name, text)?;
         let branched = machine.branches.iter().flat_map(|branch| &branch.elements);
         labels = machine.elements.iter().chain(branched).map(|part| part.label.clone()).collect();
@@ -544,8 +545,10 @@ impl Reading {
         let name = fresh(&mut table, &self.links)?;
         let stiffness = table.number("stiffness", Quantity::SPRING)?;
         let mut link = if table.has("ground") {
+            table.instead_of("ground", &["terms", "between", "ratio"])?;
             Link::ground(self.named(&mut table, "ground")?, stiffness)
         } else if table.has("terms") {
+            table.instead_of("terms", &["between", "ratio"])?;
             let expected = format!("shares of the elongation, each under {}", self.known());
             let place = |text: &str| self.names.iter().position(|known| known == text);
             let terms = table.shares("terms", Quantity::ANY, &expected, place)?;
@@ -654,6 +657,7 @@ impl Reading {
     fn friction(&self, mut table: Table<'_>) -> Result<Friction, Diagnostic> {
         let torque = table.number("torque", Quantity::SIZE)?;
         let friction = if table.has("between") {
+            table.instead_of("between", &["on"])?;
             let (one, other) = self.pair(&mut table)?;
             Friction::between(one, other, torque)
         } else {

@@ -167,6 +167,8 @@ fn every_fault_of_a_file_has_its_place() {
         ("stiffness = 850.0", "stiffness = -1", "2.toml:11:13", "N m/rad"),
         ("stiffness = 850.0", "stiffness = 1\nstifness = 2", "2.toml:12:1", "unknown key"),
         ("stiffness = 850.0", "stiffness = 1\nrope = 1", "2.toml:12:8", "true or false"),
+        ("stiffness = 850.0", "stiffness = 1\nground = \"motor\"", "2.toml:10:11", "`ground` beside it"),
+        ("stiffness = 850.0", "stiffness = 1\nterms = { motor = 1 }", "2.toml:10:11", "`terms` beside it"),
         ("kind = \"constant\"", "kind = \"kloss\"", "2.toml:12:1", "breakdown"),
         ("kind = \"constant\"", "kind = \"constnat\"", "2.toml:14:8", "kloss"),
         ("kind = \"constant\"\ntorque = 100.0", "kind = \"table\"\npoints = [[0, 1], [0, 2]]", "2.toml:15:10", "after"),
