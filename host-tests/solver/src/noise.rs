@@ -9,7 +9,7 @@ pub struct Noise {
 }
 
 impl Noise {
-    /// Noise from a seed.
+    /// Noise from an odd seed. An even one gives the noise of the odd one after it: the state must not be zero.
     pub fn new(seed: u64) -> Self {
         Noise { state: seed | 1, spare: None }
     }

@@ -56,6 +56,11 @@ const DONE: u32 = 5;
 /// Longest course (s).
 const LONGEST: f64 = 3600.0;
 
+/// Noise of a seed: each has its own, where [`Noise`] tells odd ones apart alone.
+fn noise_of(seed: u64) -> Noise {
+    Noise::new(seed.wrapping_mul(2).wrapping_sub(1))
+}
+
 /// Runs a test on a plant. `seen` is given every tick's input and output.
 ///
 /// # Errors
@@ -68,7 +73,7 @@ pub fn run(
 ) -> io::Result<Course> {
     let mut plant = case.plant.clone();
     let encoder = Encoder::new(case.counts);
-    let mut noise = Noise::new(seed);
+    let mut noise = noise_of(seed);
     let period = case.settings.rate.period().unwrap_or(1.0e-4);
     let start = plant.motor_angle();
     let mut course = Course {
@@ -143,4 +148,17 @@ pub fn run(
         }
     }
     Ok(course)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::noise_of;
+
+    #[test]
+    fn every_seed_has_its_own_noise() {
+        let mut first: Vec<u64> = (0..1_000).map(|seed| noise_of(seed).normal().to_bits()).collect();
+        first.sort_unstable();
+        first.dedup();
+        assert_eq!(first.len(), 1_000);
+    }
 }
