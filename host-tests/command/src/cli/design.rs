@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::controller::{Causes, Margins, Predicted, SpeedLoop};
+use super::project::tolerance;
 use super::{Failure, Plan, rust, say, say_json};
 use crate::machine_file::class::Class;
 use crate::machine_file::{MachineFile, read};
-use driveline::design::{Spread, Tolerance};
+use driveline::design::{Actuator, Spread, Tolerance};
 use driveline_report::Table;
 use driveline_report::format::{counted, percent, rate, significant};
 
@@ -44,8 +45,8 @@ impl Design {
     /// Reads the machine and designs its controller.
     ///
     /// # Errors
-    /// A machine file with a fault; a machine that cannot be observed or governed so. With `--emit`, an unstable speed
-    /// loop.
+    /// A machine file with a fault; a machine that cannot be observed or governed so. An unstable speed loop, of which
+    /// the design is printed and no constants.
     pub fn execute(&self) -> Result<(), Failure> {
         let machine = read(&self.file)?;
         let refused = |error: driveline::design::Error| {
@@ -53,22 +54,37 @@ impl Design {
         };
         let plan = Plan::of(&machine).map_err(refused)?;
         let speed_loop = plan.speed_loop.as_ref();
-        if let (Some(_), Some(why)) = (self.emit, speed_loop.and_then(|governor| governor.no_margins.as_ref())) {
+        let unstable = speed_loop.and_then(|governor| governor.no_margins.as_ref());
+        if let (Some(_), Some(why)) = (self.emit, unstable) {
             return Err(Failure::failed(format!("{}: no constants are printed: {why}", self.file.display())));
         }
         match (self.emit, self.json) {
-            (Some(Language::Rust), true) => say_json(&serde_json::json!({ "rust": rust(&machine) })),
-            (Some(Language::Rust), false) => {
-                say(rust(&machine).trim_end());
-                Ok(())
-            }
-            (None, true) => say_json(&plan),
-            (None, false) => {
-                say(text(&machine, &plan));
-                Ok(())
-            }
+            (Some(Language::Rust), true) => say_json(&serde_json::json!({ "rust": emitted(&machine, &plan) }))?,
+            (Some(Language::Rust), false) => say(emitted(&machine, &plan).trim_end()),
+            (None, true) => say_json(&plan)?,
+            (None, false) => say(text(&machine, &plan)),
         }
+        let failed = |why| Failure::failed(format!("{}: the speed loop has no margins: {why}", self.file.display()));
+        unstable.map_or(Ok(()), |why| Err(failed(why)))
     }
+}
+
+/// The constants, and which parts of the design are none of them.
+fn emitted(machine: &MachineFile, plan: &Plan) -> String {
+    let rigid = plan.predicted.as_ref().is_some_and(|predicted| predicted.observer == "rigid");
+    let left_out = [
+        rigid.then_some("the selected observer, of one mass"),
+        (machine.actuator() != Actuator::DIRECT).then_some("the actuator"),
+        (!tolerance(machine).is_empty()).then_some("the tolerances"),
+    ];
+    let left_out: Vec<&str> = left_out.into_iter().flatten().collect();
+    let note = match left_out.as_slice() {
+        [] => String::new(),
+        parts => {
+            format!("\n// Not among these: {}; `cargo driveline new` writes a project with them.\n", parts.join(", "))
+        }
+    };
+    rust(machine) + &note
 }
 
 /// The design in words and tables.

@@ -117,6 +117,37 @@ fn a_design_is_printed_as_text_json_and_rust() {
     assert!(plan["spectral_radius"].as_f64().unwrap() < 1.0);
     let rust = out(&driveline(&["design", HOIST, "--emit", "rust"]));
     assert!(rust.contains("pub const HOIST: Chain = Chain::motor(Inertia(0.62))"), "{rust}");
+    assert!(!rust.contains("Not among these"), "{rust}");
+}
+
+/// What the constants leave out of a file is said beneath them.
+#[test]
+fn constants_without_tolerances_and_actuator_say_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("own.toml");
+    let hoist = std::fs::read_to_string(HOIST).unwrap();
+    assert!(!hoist.contains("[tolerance]") && !hoist.contains("[actuator]"));
+    std::fs::write(&file, format!("{hoist}\n[tolerance]\nstiffness = 0.1\n[actuator]\ndelay = 1e-4\n")).unwrap();
+    let rust = out(&driveline(&["design", file.to_str().unwrap(), "--emit", "rust"]));
+    assert!(rust.contains("\n// Not among these: the actuator, the tolerances; `cargo driveline new`"), "{rust}");
+}
+
+/// Viscous damping stands in the table of the parts where there is some; what it keeps from vibrating is said.
+#[test]
+fn viscous_damping_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("viscous.toml");
+    let hoist = std::fs::read_to_string(HOIST).unwrap();
+    let shown = |viscous: &str| {
+        std::fs::write(&file, hoist.replace("inertia = 0.62", &format!("inertia = 0.62{viscous}"))).unwrap();
+        let page = folder.path().join("page.html");
+        let tables = out(&driveline(&["modes", file.to_str().unwrap(), "--html", page.to_str().unwrap()]));
+        tables + &std::fs::read_to_string(page).unwrap()
+    };
+    let (without, some, much) = (shown(""), shown("\nviscous = 0.375"), shown("\nviscous = 1e5"));
+    assert!(!without.contains("viscous") && !without.contains("decays without vibration"), "{without}");
+    assert!(some.contains("viscous N m s/rad") && some.contains("0.375"), "{some}");
+    assert!(!some.contains("decays without vibration") && much.contains("decays without vibration"), "{much}");
 }
 
 /// `design`, `campaign` and `new` select the same observer: here one mass would do, but its loop lacks phase. The
@@ -143,13 +174,17 @@ fn design_campaign_and_new_select_the_same_observer() {
 #[test]
 fn an_unstable_loop_is_said_and_not_emitted() {
     let ship = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/ship.toml");
-    let plan = json(&out(&driveline(&["design", ship, "--json"])));
+    let designed = driveline(&["design", ship, "--json"]);
+    assert_eq!(designed.status.code(), Some(1), "{}", err(&designed));
+    let plan = json(&out(&designed));
     assert!(plan["speed_loop"]["margins"].is_null());
     assert!(plan["speed_loop"]["no_margins"].as_str().unwrap().contains("damping"), "{plan}");
     assert!(plan["predicted"]["lack"].as_str().unwrap().contains("damping"), "{plan}");
     // margins of the two masses would say that the loop is sound
     assert!(plan["speed_loop"]["least_margins"].is_null() && plan["speed_loop"]["not_robust"].is_string(), "{plan}");
-    let shown = out(&driveline(&["design", ship]));
+    let designed = driveline(&["design", ship]);
+    assert!(designed.status.code() == Some(1) && err(&designed).contains("no margins"), "{}", err(&designed));
+    let shown = out(&designed);
     assert!(shown.contains("margins: none: the speed loop") && !shown.contains("within tolerances"), "{shown}");
     let emitted = driveline(&["design", ship, "--emit", "rust"]);
     assert_eq!((emitted.status.code(), out(&emitted).as_str()), (Some(1), ""));

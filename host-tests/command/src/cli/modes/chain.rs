@@ -48,6 +48,8 @@ pub struct Mass {
     pub name: String,
     /// Inertia (kg m2).
     pub inertia: f64,
+    /// Viscous damping against the ground (N m s/rad).
+    pub viscous: f64,
 }
 
 /// A shaft or rope.
@@ -186,7 +188,11 @@ impl Vibration {
             reductions: reductions(machine, &shafts),
             worth: worth.iter().map(leaving).collect(),
             shafts: shafts.iter().zip(&joints).map(spring).collect(),
-            masses: masses.into_iter().zip(machine.masses()).map(|(name, &inertia)| Mass { name, inertia }).collect(),
+            masses: masses
+                .into_iter()
+                .zip(machine.masses().iter().zip(&viscous))
+                .map(|(name, (&inertia, &viscous))| Mass { name, inertia, viscous })
+                .collect(),
         }
     }
 }

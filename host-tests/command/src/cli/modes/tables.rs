@@ -12,9 +12,16 @@ use super::{damper, engine};
 /// The tables as title, explanation and table: for the terminal and the page alike.
 pub fn tables(vibration: &Vibration) -> Vec<Section> {
     let mut all = Vec::new();
-    let mut parts = Table::new(["part", "inertia kg m²", "stiffness N m/rad", "damping N m s/rad", "gap rad"]);
+    let is_viscous = vibration.masses.iter().any(|mass| mass.viscous > 0.0);
+    let headings = ["part", "inertia kg m²", "stiffness N m/rad", "damping N m s/rad", "gap rad"];
+    let mut parts = Table::new(headings.into_iter().chain(is_viscous.then_some("viscous N m s/rad")));
     for (index, mass) in vibration.masses.iter().enumerate() {
-        parts.row([mass.name.clone(), significant(mass.inertia)]);
+        let row = [mass.name.clone(), significant(mass.inertia)];
+        if is_viscous {
+            parts.row(row.into_iter().chain([String::new(), String::new(), String::new(), significant(mass.viscous)]));
+        } else {
+            parts.row(row);
+        }
         if let Some(shaft) = vibration.shafts.get(index) {
             let numbers = [shaft.stiffness, shaft.damping, shaft.gap].map(significant);
             parts.row([shaft.name.clone(), String::new()].into_iter().chain(numbers));
@@ -36,7 +43,12 @@ pub fn tables(vibration: &Vibration) -> Vec<Section> {
         let shape = mode.shape.iter().map(|value| format!("{value:+.3}"));
         modes.row([(index + 1).to_string()].into_iter().chain(numbers).chain(shape));
     }
-    let text = "Frequencies of the free machine, and with the motor locked; amplitudes of the masses, the largest 1.";
+    let mut text =
+        "Frequencies of the free machine, and with the motor locked; amplitudes of the masses, the largest 1."
+            .to_owned();
+    if vibration.resonances.iter().any(|mode| mode.damping_ratio >= 1.0) {
+        text.push_str(" With a damping ratio of 1 or more a mode decays without vibration.");
+    }
     all.push(Section::new("Frequencies and shapes", text, modes));
     all.extend(critical(&vibration.critical));
     all.extend(barred_speeds(&vibration.barred));

@@ -209,7 +209,7 @@ impl Project {
 }
 
 /// The tolerances that the speed loop is tested with, where they are not the usual ones.
-fn tolerance(machine: &MachineFile) -> Vec<String> {
+pub fn tolerance(machine: &MachineFile) -> Vec<String> {
     let (own, usual) = (machine.tolerance(), Tolerance::USUAL);
     let spreads = [
         ("motor_inertia", own.motor_inertia, usual.motor_inertia),
