@@ -196,3 +196,19 @@ fn machines_that_cannot_be_are_refused() {
     let error = CrankConfig::<Fixed>::try_new(&DESIGN, Bases::rigid(400.0, 2_500.0)).unwrap_err();
     assert!(error.message().contains("inertia torque is too large"), "{error}");
 }
+
+/// Of `f32` the table is refused where it would hold an infinity; `f64` holds both machines.
+#[test]
+fn a_table_beyond_its_number_is_refused() {
+    let ram = |mass: f64| CrankSlider::massless_rod(Length(0.1), Length(0.5), Inertia(0.0), Mass(mass));
+    // at the dead centre nothing is left but 1e-40 kg m2: less than the least `f32`, of a mean of 0.2
+    let light = Cranked::new(Inertia(1e-40), &ram(4_000.0), 1, 11);
+    // an inertia that swings by a tenth, and a torque of more than 1e39 N m at a speed of 1 rad/s
+    let heavy = Cranked::new(Inertia(1e42), &ram(1e45), 1, 11);
+    for (machine, word) in [(light, "swings too far"), (heavy, "inertia torque is too large")] {
+        let design = CrankedDesign { machine, ..DESIGN };
+        let error = CrankConfig::<f32>::try_new(&design, Bases::SI).unwrap_err();
+        assert!(error.message().contains(word), "{error}");
+        assert!(CrankConfig::<f64>::try_new(&design, Bases::SI).is_ok(), "{word}");
+    }
+}

@@ -156,3 +156,16 @@ fn errors_name_the_parameter() {
     // A stiff shaft with a strong damper: above half the rate, but it leaves nothing to follow.
     assert!(machine(1e8, 1e4).try_observer(rate, encoder, DISTURBANCE).is_ok());
 }
+
+/// An encoder so fine, beside a load torque so rough, that a variance of the speed is lost in roundings: the design is
+/// refused where its deviation would be no number.
+#[test]
+fn a_deviation_that_is_no_number_is_refused() {
+    let design = |lines| {
+        let disturbance = Disturbance { torque_accuracy: 10.0, load_torque_step: 1e5, within: 0.1 };
+        Rigid::new(Inertia(1e-4)).try_observer(Rate::hz(1000), Encoder::lines(lines), disturbance)
+    };
+    assert_eq!(design(1 << 21), Err(Error::NotConverged));
+    let coarse = design(1 << 11).unwrap();
+    assert!(coarse.standard_deviation.iter().all(|deviation| deviation.is_finite()), "{coarse:?}");
+}

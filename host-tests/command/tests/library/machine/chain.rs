@@ -339,3 +339,17 @@ fn weight_and_level_mass() {
     assert_eq!(rope(drum).driven(Mass(10.0)).masses(), rope(drum).lifted(Mass(10.0)).masses());
     assert_eq!(rope(drum).driven(Mass(10.0)).rigid().inertia, 1.0 + 10.0 * 0.0625);
 }
+
+/// Products of such inertias and stiffnesses are below the least number: no reduction's error is one.
+#[test]
+fn a_reduction_whose_error_is_no_number_is_refused() {
+    let chain = |size: f64| {
+        let motor = Chain::motor(Inertia(size));
+        let shaft = |chain: Chain| chain.shaft(Stiffness(size), Damping(0.0)).rotor(Inertia(size));
+        shaft(shaft(motor))
+    };
+    for by in [Match::ResonanceAntiresonance, Match::ModalTruncation, Match::TextbookCut(0), Match::TextbookShaft(1)] {
+        assert_eq!(chain(1e-300).try_reduce(by), Err(Error::Reduction), "{by:?}");
+        assert!(chain(1.0).try_reduce(by).is_ok(), "{by:?}");
+    }
+}
