@@ -1,8 +1,8 @@
 //! The life of a shaft on a panel and in the telemetry: damage by the rainflow count of its torque, kept in flash.
 //!
 //! Once a second the panel takes the closed cycles into the record. [`SAVE`] closes the count and keeps the record:
-//! before the controller is switched off. With power on again, [`Key::Resume`] goes on from there. The numbers are the
-//! bits of `f32`.
+//! before the controller is switched off. With power on again, [`Key::Resume`] adds the kept record to what has been
+//! counted since; a [`SAVE`] before that adds it, too. The numbers are the bits of `f32`.
 
 use core::marker::PhantomData;
 
@@ -49,6 +49,8 @@ const BYTES: usize = 64;
 /// The record of the machine `M`, and the flash that keeps it.
 pub struct LifePanel<M> {
     life: LifeRecord,
+    /// Whether the kept record is in it: it is added once.
+    resumed: bool,
     ticks: u32,
     flash: Pages,
     /// Where the next word is put.
@@ -59,23 +61,31 @@ pub struct LifePanel<M> {
 impl<M: HasLife> LifePanel<M> {
     #[inline(never)]
     fn save(&mut self) -> u32 {
+        self.resume();
         let life = &self.life;
         match Store::new(&mut self.flash, RANGE).and_then(|mut store| store.save(life, &mut [0; BYTES])) {
-            Ok(()) => DONE,
+            Ok(()) => {
+                self.resumed = true;
+                DONE
+            }
             Err(_) => NOT_KEPT,
         }
     }
 
     #[inline(never)]
     fn resume(&mut self) -> u32 {
-        let loaded = Store::new(&mut self.flash, RANGE).and_then(|mut store| store.load(&mut [0; BYTES]));
-        match loaded.ok().and_then(|loaded| loaded.parameters) {
-            Some(life) => {
-                self.life = life;
-                DONE
-            }
-            None => NOTHING_KEPT,
+        if self.resumed {
+            return DONE;
         }
+        let loaded = Store::new(&mut self.flash, RANGE).and_then(|mut store| store.load(&mut [0; BYTES]));
+        let Some(LifeRecord { damage, time_above, largest }) = loaded.ok().and_then(|loaded| loaded.parameters) else {
+            return NOTHING_KEPT;
+        };
+        self.life.damage += damage;
+        self.life.time_above += time_above;
+        self.life.largest = self.life.largest.max(largest);
+        self.resumed = true;
+        DONE
     }
 
     fn number(&self, key: u32) -> u32 {
@@ -104,7 +114,14 @@ where
         _: &mut Drive<N, O, Rainflow<N, CLASSES>, G, B>,
         _: &ConfigOf<Drive<N, O, Rainflow<N, CLASSES>, G, B>>,
     ) -> Self {
-        LifePanel { life: LifeRecord::default(), ticks: 0, flash: Pages::new(), place: 0, machine: PhantomData }
+        LifePanel {
+            life: LifeRecord::default(),
+            resumed: false,
+            ticks: 0,
+            flash: Pages::new(),
+            place: 0,
+            machine: PhantomData,
+        }
     }
 
     fn panel(

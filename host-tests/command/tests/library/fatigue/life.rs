@@ -30,6 +30,15 @@ fn swung() -> (Box<dyn Scene>, Vec<f32>) {
     (scene, torques)
 }
 
+/// What the flash of one holds, into that of another.
+fn copy_flash(from: &mut dyn Scene, to: &mut dyn Scene) {
+    for word in 0..512 {
+        let content = from.panel([Key::FlashWord as u32, word]);
+        to.panel([Key::PutPlace as u32, word]);
+        assert_eq!(to.panel([Key::PutWord as u32, content]), DONE);
+    }
+}
+
 /// What is taken once a second and closed at the end is the damage of one count over the whole run, and of Miner's sum
 /// over the count's classes; the record brings it over a power cut.
 #[test]
@@ -57,11 +66,7 @@ fn the_damage_is_that_of_the_whole_count_and_survives_a_power_cut() {
     ];
     let mut again = find(NAME).unwrap().start();
     assert_eq!(number(&mut *again, DAMAGE), 0.0);
-    for word in 0..512 {
-        let content = scene.panel([Key::FlashWord as u32, word]);
-        again.panel([Key::PutPlace as u32, word]);
-        assert_eq!(again.panel([Key::PutWord as u32, content]), DONE);
-    }
+    copy_flash(&mut *scene, &mut *again);
     assert_eq!(again.panel([Key::Resume as u32, 0]), DONE);
     let channels = <driveline_firmware::scene::Of<StripMill, Life<f32>> as Variant>::CHANNELS;
     assert_eq!(channels.len(), expected.len());
@@ -70,5 +75,27 @@ fn the_damage_is_that_of_the_whole_count_and_survives_a_power_cut() {
         let close = |number: f64| (number - value).abs() <= 1e-7 * value.abs();
         assert!(close(number(&mut *scene, key)) && close(number(&mut *again, key)), "{key}: {value}");
         assert!(close(f32::from_bits(again.channel(index)).into()), "{}", channels[index].name);
+    }
+}
+
+/// What was counted before the record is resumed stays, and the record is added once: by a resume, by more of them, or
+/// by the save alone. The same run twice does twice the damage.
+#[test]
+fn a_resume_adds_the_record_to_what_has_been_counted() {
+    let (mut first, _) = swung();
+    assert_eq!(first.panel([SAVE, 0]), DONE);
+    let [damage, time] = [DAMAGE, TIME_ABOVE].map(|key| number(&mut *first, key));
+    assert!(damage > 0.0 && time > 0.0);
+    for resumes in 0..3 {
+        let (mut again, _) = swung();
+        copy_flash(&mut *first, &mut *again);
+        (0..resumes).for_each(|_| assert_eq!(again.panel([Key::Resume as u32, 0]), DONE));
+        assert_eq!(again.panel([SAVE, 0]), DONE);
+        assert_eq!(again.panel([Key::Resume as u32, 0]), DONE);
+        // an f32 on the panel, either of them
+        for (key, once) in [(DAMAGE, damage), (TIME_ABOVE, time)] {
+            let twice = number(&mut *again, key);
+            assert!((twice / (2.0 * once) - 1.0).abs() < 2e-7, "{resumes} resumes: {twice} of {once}");
+        }
     }
 }
