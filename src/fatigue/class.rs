@@ -2,7 +2,8 @@
 
 use crate::number::{Fixed, Number};
 
-/// Equal classes of the torque, from minus a limit to the limit. What is beyond counts in the outermost.
+/// Equal classes of the torque, from minus a limit to the limit. What is beyond counts in the outermost, with the
+/// damage of that one: [`Counts::exceeds_classes`](super::Counts::exceeds_classes).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TorqueClasses<N: Classed> {
@@ -33,7 +34,7 @@ pub trait Classed: Number {
     /// Factor from a torque to quarters of a class.
     type Scale: Copy + PartialEq + core::fmt::Debug;
 
-    /// The torque in quarters of a class above the lowest class, rounded down, within the classes; 0 for a NaN.
+    /// The torque in quarters of a class above the lowest class, rounded down, within the classes; a NaN has none.
     fn quarters<const CLASSES: usize>(self, scale: Self::Scale) -> i32;
 }
 

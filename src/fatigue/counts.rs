@@ -32,12 +32,19 @@ impl<const CLASSES: usize> Counts<CLASSES> {
         self.residue.get(LONGEST.saturating_sub(self.length)..).unwrap_or_default()
     }
 
-    /// Reversals that came too fast to be counted.
+    /// Ticks at which a reversal came too fast to be counted, since the count began; wraps, as the counts of ticks do.
     pub fn lost(&self) -> u32 {
         self.lost
     }
 
-    /// Damage by Miner's rule: the closed cycles, and each range of the residue as half a cycle.
+    /// Whether a torque was beyond the classes, since the last [`take`](super::Rainflow::take). It counted in the
+    /// outermost one: the damage is that of a smaller cycle.
+    pub fn exceeds_classes(&self) -> bool {
+        self.largest > 0.5 * CLASSES as f64 * self.width
+    }
+
+    /// Damage by Miner's rule: the closed cycles, and each range of the residue as half a cycle. Too small where
+    /// [`exceeds_classes`](Self::exceeds_classes).
     pub fn damage(&self, line: &WoehlerLine) -> f64 {
         self.closed_damage(line) + self.residual_damage(line)
     }

@@ -13,7 +13,7 @@ const BEFORE: [i8; 3] = [-2, -1, 0];
 ///
 /// A tick without a reversal does one step of the four-point method, and a reversal needs one and a half of them on
 /// average. So none is lost where reversals are three ticks apart. Closer ones wait, 255 at most; [`Counts::lost`]
-/// counts those for which there was no place.
+/// counts the ticks at which there was no place. A torque that is NaN is left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 // In this order, the tables last: what stands behind them is beyond the reach of a load.
@@ -21,7 +21,7 @@ const BEFORE: [i8; 3] = [-2, -1, 0];
 pub struct Rainflow<N, const CLASSES: usize> {
     /// The largest torque, either way.
     largest: N,
-    /// Reversals for which there was no place.
+    /// Ticks with a reversal for which there was no place.
     lost: u32,
     /// The present class and the last reversal's: the lowest quarter of a class that does not leave it.
     last: i32,
@@ -71,7 +71,12 @@ impl<N: Classed, const CLASSES: usize> Fluctuation<N> for Rainflow<N, CLASSES> {
     fn measure(&mut self, config: &TorqueClasses<N>, _angle: u32, _torque: N, estimate: &Estimate<N>) {
         let torque = estimate.shaft_torque;
         if torque.exceeds(self.largest) {
-            self.largest = torque.magnitude();
+            let largest = torque.magnitude();
+            // a NaN alone exceeds itself, and any other torque: it is in no class
+            if largest.exceeds(largest) {
+                return;
+            }
+            self.largest = largest;
         }
         let quarters = torque.quarters::<CLASSES>(config.scale);
         let ticks = &mut self.ticks[(quarters >> 2) as usize & (CLASSES - 1)];

@@ -10,7 +10,7 @@ use crate::parameters::Parameters;
 /// [`Parameters`](crate::parameters::Parameters), or all of them.
 ///
 /// It holds the closed cycles of all counts that were added. The residue of the present count stays on the tick until
-/// [`LifeRecord::close`].
+/// [`LifeRecord::close`]. A largest torque beyond the classes means that the damage is too small.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LifeRecord {

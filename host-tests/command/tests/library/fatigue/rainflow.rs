@@ -205,3 +205,36 @@ fn a_start_and_a_stop_are_a_cycle_of_the_life() {
     }
     assert_eq!(life.largest, 20.5);
 }
+
+/// A torque that is NaN is in no class: counts, times, residue and largest torque are those of the ticks without it.
+#[test]
+fn a_torque_that_is_no_number_is_left_out() {
+    let (mut sound, mut broken) = (Count::<f32>::default(), Count::<f32>::default());
+    for tick in 0..3_000_u32 {
+        let torque = if tick / 10 % 2 == 0 { 12.5 } else { -7.5 };
+        let shaft_torque = if tick % 7 == 3 { f32::NAN } else { torque };
+        let estimate = Estimate { shaft_torque, ..Estimate::default() };
+        broken.measure(&SINGLE, 0, 0.0, &estimate);
+        if !shaft_torque.is_nan() {
+            sound.measure(&SINGLE, 0, 0.0, &estimate);
+        }
+    }
+    let (sound, broken) = (sound.counts(&SINGLE), broken.counts(&SINGLE));
+    // from class 44 to 24, every 20 ticks; the start and the last half are the residue's
+    assert_eq!((sound.cycles()[20], sound.largest()), (149, 12.5));
+    assert_eq!(broken, sound);
+}
+
+/// A torque beyond the classes counts in the outermost, and the count says so; at their edge it does not.
+#[test]
+fn a_torque_beyond_the_classes_is_told() {
+    for (torque, beyond) in [(31.9, false), (32.1, true), (-32.1, true), (300.0, true)] {
+        let mut count = Count::<f32>::default();
+        count.measure(&SINGLE, 0, 0.0, &Estimate { shaft_torque: torque, ..Estimate::default() });
+        let counts = count.take(&SINGLE);
+        assert_eq!(counts.exceeds_classes(), beyond, "{torque}");
+        // a tick in the outermost class, which begins at 31 N m
+        assert_eq!(counts.time_above(31.0), 1.0, "{torque}");
+        assert!(!count.take(&SINGLE).exceeds_classes(), "taken");
+    }
+}
