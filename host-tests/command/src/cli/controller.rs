@@ -4,7 +4,7 @@ use driveline::design::{
     ClosedLoop, Error, EstimateError, LoopObserver, ObserverChoice, ObserverSelection, Penalty, Plant, PredictedErrors,
     RigidDesign, StepChoice,
 };
-use driveline::machine::TwoMass;
+use driveline::machine::{Match, TwoMass};
 use driveline_report::format::{percent, significant};
 use serde::Serialize;
 
@@ -285,6 +285,27 @@ impl Margins {
     }
 }
 
+/// What the dampers of a machine would change of its two masses, which leave them out.
+fn without_dampers(machine: &MachineFile) -> Option<String> {
+    if machine.dampers.is_empty() {
+        return None;
+    }
+    let bare = machine.two_masses()?;
+    let hertz = |omega: f64| significant(omega / core::f64::consts::TAU);
+    Some(match machine.with_dampers().try_reduce(Match::ResonanceAntiresonance) {
+        Ok(with) => format!(
+            "the observer leaves the dampers out: with them the antiresonance is {} Hz instead of {} Hz, the resonance \
+             {} Hz instead of {} Hz, and the inertia {} larger; a machine in Rust has them by `Train::damper`",
+            hertz(with.antiresonance()),
+            hertz(bare.antiresonance()),
+            hertz(with.resonance()),
+            hertz(bare.resonance()),
+            percent(with.total_inertia() / bare.total_inertia() - 1.0)
+        ),
+        Err(error) => format!("the observer leaves the dampers out: {error}"),
+    })
+}
+
 impl Plan {
     /// Designs observer and governor.
     ///
@@ -321,6 +342,7 @@ impl Plan {
                 percent(shaft.reduction_error)
             ));
         }
+        self.warnings.extend(without_dampers(machine));
         self
     }
 

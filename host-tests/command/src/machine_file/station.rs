@@ -1,8 +1,8 @@
 //! Where the elements of a machine come to stand: their masses and shafts, and how fast they turn.
 
-use driveline::machine::{Chain, Error, Inertia, Joint, Match, Modes, Rigid, Shaft, TwoMass};
+use driveline::machine::{Chain, Error, Inertia, Joint, Match, Modes, Ratio, Resonance, Rigid, Shaft, Train, TwoMass};
 
-use super::{Branch, Element, MachineFile, Part};
+use super::{Branch, DamperKind, Element, MachineFile, Part};
 
 /// Where an element stands in its chain.
 pub(crate) struct Station {
@@ -103,6 +103,22 @@ impl MachineFile {
     /// The library's sentence for a machine without an observable shaft, or an impossible cut.
     pub fn reduce(&self, by: Match) -> Result<TwoMass, Error> {
         self.train.as_ref().map_or_else(|| self.chain.try_reduce(by), |train| train.try_reduce(by))
+    }
+
+    /// The machine with its dampers; a ring on dry friction sticks to its mass.
+    pub fn with_dampers(&self) -> Train {
+        let modes = self.modes();
+        let bare = self.train.unwrap_or_else(|| Train::of(self.chain));
+        self.dampers.iter().fold(bare, |train, ring| {
+            let main = ring.kind.mode().map(|mode| Resonance::of(&modes.resonances()[mode], ring.mass));
+            let damper = ring.sized(main.as_ref());
+            match ring.kind {
+                DamperKind::Friction { .. } => {
+                    train.branch(ring.mass, Ratio(1.0), Chain::motor(Inertia(damper.inertia)))
+                }
+                _ => train.damper(ring.mass, Ratio(1.0), damper),
+            }
+        })
     }
 
     /// One mass for the machine.

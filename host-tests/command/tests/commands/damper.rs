@@ -1,6 +1,8 @@
 //! Dampers in a machine file: their sizes, and the machine's response with and without them.
 
+use cargo_driveline::cli::Plan;
 use cargo_driveline::machine_file::parse;
+use driveline_report::format::{percent, significant};
 use nalgebra::{Complex, Matrix3, Vector3};
 use serde_json::Value;
 
@@ -75,6 +77,46 @@ fn dampers_have_their_best_size_and_the_response_of_the_whole_machine() {
             .fold(0.0, f64::max);
         // the peak lies between two of these points, 2.5e-5 apart: half of that over a half-width of 2 %, squared
         assert!((number(&damper["with"]) / largest - 1.0).abs() < 1e-6, "{damper} {largest}");
+    }
+}
+
+/// `design` says what the dampers would move: of a ring on a spring by the biquadratic equation of three masses, of a
+/// stuck one by its inertia.
+#[test]
+fn a_design_says_what_the_dampers_move() {
+    let warnings = |damper: &str| {
+        let plan = Plan::of(&parse("damped", &machine(damper)).unwrap()).unwrap();
+        plan.warnings.into_iter().find(|warning| warning.contains("dampers"))
+    };
+    let hertz = |square: f64| significant(square.sqrt() / std::f64::consts::TAU);
+    let (load, ring, spring) = (LOAD / 4.0, RING / 4.0, 0.25 * 2.0e5);
+    let bare = [STIFFNESS / load, STIFFNESS * (1.0 / MOTOR + 1.0 / load)];
+    let stuck = [STIFFNESS / (load + ring), STIFFNESS * (1.0 / MOTOR + 1.0 / (load + ring))];
+    // a ring that is stiffer than the machine: the first roots of the equations with the motor locked and free
+    let root = |a: f64, b: f64, c: f64| (b - (b * b - 4.0 * a * c).sqrt()) / (2.0 * a);
+    let sprung = [
+        root(load * ring, (STIFFNESS + spring) * ring + spring * load, STIFFNESS * spring),
+        root(
+            1.0,
+            STIFFNESS * (1.0 / MOTOR + 1.0 / load) + spring * (1.0 / load + 1.0 / ring),
+            STIFFNESS * spring * (MOTOR + load + ring) / (MOTOR * load * ring),
+        ),
+    ];
+    for (damper, [held, free]) in [
+        ("kind = \"friction\"\nexcitation = 1.0\n", stuck),
+        ("kind = \"tuned\"\nstiffness = 20000\ndamping = 1\n", sprung),
+    ] {
+        let expected = format!(
+            "the antiresonance is {} Hz instead of {} Hz, the resonance {} Hz instead of {} Hz, and the inertia {} \
+             larger",
+            hertz(held),
+            hertz(bare[0]),
+            hertz(free),
+            hertz(bare[1]),
+            percent(ring / (MOTOR + load))
+        );
+        let found = warnings(damper).unwrap();
+        assert!(found.contains(&expected), "{found}, not {expected}");
     }
 }
 
