@@ -184,7 +184,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     let mut root = Table::root(source, table);
     let title = named(source, &mut root)?;
     let mut file = Reading::default();
-    let mut dampers = Vec::new();
+    let (mut dampers, mut damper_places, mut friction_places) = (Vec::new(), Vec::new(), Vec::new());
     let (mut coordinates, mut links) = (Vec::new(), Vec::new());
     let (mut places, mut link_places) = (Vec::new(), Vec::new());
     // of elements, which become coordinates and links by their labels
@@ -205,6 +205,9 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             let expected = "a shaft, belt or rope behind it that carries its losses, or an efficiency of 1";
             Diagnostic::at(source, place, label, "no shaft behind it", expected)
         })?;
+        for (place, _) in root.tables_if("damper", "damper")? {
+            damper_places.push(place);
+        }
         root.pass(&[
             "encoder",
             "control",
@@ -215,7 +218,6 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             "speed_loop",
             "tolerance",
             "engine",
-            "damper",
         ]);
         file.static_force = vec![None; referred.links.len()];
         (file.names, coordinates) = referred.coordinates.into_iter().unzip();
@@ -274,13 +276,17 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     for link in links {
         train = train.link(link);
     }
-    for (_, table) in root.tables_if("friction", "friction")? {
+    for (place, table) in root.tables_if("friction", "friction")? {
         train = train.friction(file.friction(table)?);
+        friction_places.push(place);
     }
     // no other table can name them
     let is_damped = !dampers.is_empty();
-    for part in dampers {
+    for (part, place) in dampers.into_iter().zip(damper_places) {
         train = train.coordinate(part.ring);
+        if part.friction.is_some() {
+            friction_places.push(place);
+        }
         file.names.push(part.name.clone());
         if let Some(link) = part.link {
             train = train.link(link);
@@ -288,6 +294,13 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             file.static_force.push(None);
         }
         train = part.friction.into_iter().fold(train, Train::friction);
+    }
+    if let Some((friction, at)) = train.rubbing_crank() {
+        let place = friction_places.get(friction).cloned().unwrap_or(0..0);
+        let found =
+            format!("dry friction against what moves on \"{}\", whose inertia changes with its angle", file.names[at]);
+        let expected = "friction against the ground at rest, or on another mass, behind a shaft";
+        return Err(Diagnostic::at(source, place, "", found, expected));
     }
     // a mass of several elements is called by all of them
     let element_of = |name: &str| {

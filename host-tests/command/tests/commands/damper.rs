@@ -104,7 +104,7 @@ fn a_design_says_what_the_dampers_move() {
     ];
     for (damper, [held, free]) in [
         ("kind = \"friction\"\nexcitation = 1.0\n", stuck),
-        ("kind = \"tuned\"\nstiffness = 20000\ndamping = 1\n", sprung),
+        ("kind = \"tuned\"\nstiffness = 200000\ndamping = 1\n", sprung),
     ] {
         let expected = format!(
             "the antiresonance is {} Hz instead of {} Hz, the resonance {} Hz instead of {} Hz, and the inertia {} \

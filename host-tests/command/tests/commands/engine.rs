@@ -255,3 +255,19 @@ fn a_throw_lighter_than_its_slider_swings_is_refused_by_name() {
     assert!(fault.to_string().contains("law of inertia"), "{fault}");
     assert!(text.lines().nth(fault.line - 1).is_some_and(|line| line.contains("[[element]]")), "{}", fault.line);
 }
+
+/// A friction damper on a throw, whose inertia changes with its angle: refused at the damper, not at the throw.
+#[test]
+fn a_friction_damper_on_a_throw_is_refused_at_its_table() {
+    let text = "[[element]]\nkind = \"motor\"\nlabel = \"throw\"\ninertia = 0.4\n[[element]]\nkind = \"shaft\"\n\
+        stiffness = 2e4\n[[element]]\nkind = \"rotor\"\nlabel = \"load\"\ninertia = 0.5\n[encoder]\nlines = 2048\n\
+        [control]\nrate_hz = 10000\n[disturbance]\ntorque_accuracy = 1.0\nload_torque_step = 1.0\nwithin = 1.0\n\
+        [limits]\ntorque = 100.0\nspeed = 200.0\n[engine]\nstrokes = 2\ncranks = [0]\nat = [\"throw\"]\n\
+        radius = 0.06\nrod = 0.2\nreciprocating = 3.0\nbore = 0.1\norders = [1]\n\
+        pressure = [0, 0, 0, 0, 0, 0, 0, 0]\n[[damper]]\nkind = \"friction\"\nat = \"throw\"\ninertia = 0.02\n\
+        excitation = 10.0\n[run]\ntime = 0.1\nstep = 0.1\n";
+    let fault = parse_train("throw", text).unwrap_err();
+    assert!(fault.found.contains("on \"throw\", whose inertia changes with its angle"), "{fault}");
+    assert_eq!(text.lines().nth(fault.line - 1), Some("[[damper]]"), "{fault}");
+    assert!(parse_train("load", &text.replace("at = \"throw\"\ninertia", "at = \"load\"\ninertia")).is_ok());
+}

@@ -650,7 +650,24 @@ fn mechanisms_by_their_keys_do_their_work() {
     let output = simulate(&[file.to_str().unwrap()]);
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(!output.status.success() && said.contains("\"crank\" turns backwards"), "{said}");
+    let at_rest = text.replace("speed = 20.0", "angle = 1.0").replace("cycle = \"crank\"\n", "");
+    std::fs::write(&file, at_rest).unwrap();
+    let output = simulate(&[file.to_str().unwrap()]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && said.contains("\"crank\" starts at rest"), "{said}");
     let said =
         parse_train("x", &press("inertia = 1.0\n[coordinate.cam]\nlift = [0.0, 0.1]\nmass = 1.0\n", "force = 1.0\n"));
     assert!(said.unwrap_err().to_string().contains("an odd number of values"));
+}
+
+/// Friction against a surface that moves, on a mechanism's coordinate: refused at the friction, not at the coordinate.
+#[test]
+fn friction_on_a_moving_surface_is_refused_at_its_table() {
+    let crank = "inertia = 2.0\nspeed = 20.0\n[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 8.0\n";
+    let text = press(crank, "force = 1.0\n") + "[[friction]]\non = \"crank\"\ntorque = 4.0\nsurface = 2.0\n";
+    let fault = parse_train("press", &text).unwrap_err();
+    assert!(fault.found.contains("on \"crank\", whose inertia changes with its angle"), "{fault}");
+    assert_eq!(text.lines().nth(fault.line - 1), Some("[[friction]]"), "{fault}");
+    // against the ground at rest it runs
+    assert!(parse_train("press", &text.replace("surface = 2.0\n", "")).is_ok());
 }

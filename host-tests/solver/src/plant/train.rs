@@ -240,18 +240,23 @@ impl Train {
         for unbalance in &self.unbalances {
             self.validate_unbalance(unbalance)?;
         }
-        // what rests on the ground rests at any inertia; what is held to something that moves does not
-        let moving = self.frictions.iter().filter(|friction| friction.terms.len() > 1 || friction.surface != 0.0);
-        let rubbing = moving.flat_map(|friction| friction.terms.iter().map(|term| term.0));
-        match rubbing.into_iter().find(|&at| self.coordinates[at].is_cranked()) {
-            Some(at) => Err(PlantError::Parameter {
-                name: "crank with dry friction against what moves",
+        match self.rubbing_crank() {
+            Some((friction, at)) => Err(PlantError::Parameter {
+                name: "dry friction against what moves, on a crank or mechanism,",
                 place: Place::Node(at),
-                value: 1.0,
-                expected: "friction against the ground, or on another coordinate, behind a shaft",
+                value: self.frictions[friction].kinetic,
+                expected: "friction against the ground at rest, or on another coordinate, behind a shaft",
             }),
             None => Ok(()),
         }
+    }
+
+    /// A dry friction against what moves, on a coordinate whose inertia changes with its angle: its index and that of
+    /// the coordinate. What rests on the ground rests at any inertia; what is held to something that moves does not.
+    pub fn rubbing_crank(&self) -> Option<(usize, usize)> {
+        let moving = self.frictions.iter().enumerate().filter(|(_, one)| one.terms.len() > 1 || one.surface != 0.0);
+        let mut rubbing = moving.flat_map(|(index, one)| one.terms.iter().map(move |term| (index, term.0)));
+        rubbing.find(|&(_, at)| self.coordinates.get(at).is_some_and(Coordinate::is_cranked))
     }
 
     fn validate_unbalance(&self, unbalance: &Unbalance) -> Result<(), PlantError> {

@@ -180,13 +180,13 @@ impl Simulation {
             if motion.events().last().is_some_and(|event| event.kind == EventKind::Unresolved) {
                 let at = motion.time();
                 let mut before = motion.events().iter().rev().filter(|event| event.kind != EventKind::Unresolved);
-                let Happened { what, place, .. } = before.next().map_or_else(
-                    || Happened { time: at, what: "nothing told".to_owned(), place: "none".to_owned() },
-                    |event| happened(file, event),
-                );
+                let last = before.next().map_or_else(String::new, |event| {
+                    let Happened { what, place, .. } = happened(file, event);
+                    format!(", the last of them at \"{place}\" ({what})")
+                });
                 return Err(Failure::failed(format!(
-                    "more than a thousand events in the step that ends at {at} s, the last of them at \"{place}\" \
-                     ({what}): the run cannot be resolved; expected damping or friction that ends them"
+                    "more than a thousand events in the step that ends at {at} s{last}: the run cannot be resolved; \
+                     expected damping or friction that ends them"
                 )));
             }
             let values = motion.read_all(&signals);
@@ -223,11 +223,18 @@ impl Simulation {
         };
         let backwards = |j: &&usize| motion.extremes(Signal::Speed(**j)).is_some_and(|e| e.least < 0.0);
         if let Some(&j) = file.forwards.iter().find(backwards) {
-            return Err(Failure::failed(format!(
-                "\"{}\" turns backwards, where the friction of its mechanism would drive it; expected torques that \
-                 keep it turning forwards, or no `friction`",
-                file.coordinates[j]
-            )));
+            let name = &file.coordinates[j];
+            return Err(Failure::failed(if file.motion.speed(j) > 0.0 {
+                format!(
+                    "\"{name}\" turns backwards, where the friction of its mechanism would drive it; expected torques \
+                     that keep it turning forwards, or no `friction`"
+                )
+            } else {
+                format!(
+                    "\"{name}\" starts at rest, where the friction of its mechanism, that of forward motion, drives it \
+                     backwards; expected a `speed` above zero, a torque from the start, or no `friction`"
+                )
+            }));
         }
         let without_dampers =
             file.without_dampers.as_deref().map(|bare| Self::of(bare, proven)).transpose()?.map(Box::new);
