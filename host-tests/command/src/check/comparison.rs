@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Write};
 
 use super::Count;
-use driveline_qemu::measure::budgets::{Budget, Budgets};
+use driveline_qemu::measure::budgets::{Budget, Budgets, most};
 use driveline_qemu::measure::{Bound, Cost, Refusal};
 
 /// One figure and its budget.
@@ -15,12 +15,20 @@ pub struct Figure {
     pub measured: Result<u64, String>,
     /// The most that it may be.
     pub budget: Option<u64>,
+    /// The figure that the file has.
+    pub noted: Option<u64>,
 }
 
 impl Figure {
     /// Whether it is more than its budget, or has a budget and is not known.
     pub fn is_over(&self) -> bool {
         self.budget.is_some_and(|budget| !self.measured.as_ref().is_ok_and(|measured| *measured <= budget))
+    }
+
+    /// The measurement, where the file's figure leaves more room above it than a limit does.
+    fn outdated(&self) -> Option<(u64, u64)> {
+        let (noted, measured) = (self.noted?, *self.measured.as_ref().ok()?);
+        (noted > most(self.name, measured)).then_some((noted, measured))
     }
 }
 
@@ -69,12 +77,18 @@ impl Comparison {
                     proposal(variant, core, figures)
                 ));
             }
-            for Figure { name, measured, budget } in figures.iter().filter(|figure| figure.is_over()) {
+            for Figure { name, measured, budget, .. } in figures.iter().filter(|figure| figure.is_over()) {
                 let budget = budget.unwrap_or_default();
                 faults.push(match measured {
                     Ok(measured) => format!("{variant} on {core}: {name} is {measured}, budget {budget}"),
                     Err(reason) => format!("{variant} on {core}: {name} has a budget, but no bound: {reason}"),
                 });
+            }
+            for (name, (noted, measured)) in figures.iter().filter_map(|figure| Some((figure.name, figure.outdated()?)))
+            {
+                faults.push(format!(
+                    "{variant} on {core}: {name} is {measured}, budgets.toml has {noted}: write it anew"
+                ));
             }
         }
         faults
@@ -90,23 +104,25 @@ impl Comparison {
     }
 }
 
-fn figures(cost: &Cost, budget: &Budget) -> [Figure; 8] {
-    let figure = |name, measured, budget| Figure { name, measured: Ok(measured), budget };
-    let bound = |name, of: fn(&Bound) -> u64, budget| {
+fn figures(cost: &Cost, noted: &Budget) -> [Figure; 8] {
+    let limits = noted.limits();
+    let figure = |name, measured, budget, noted| Figure { name, measured: Ok(measured), budget, noted };
+    let bound = |name, of: fn(&Bound) -> u64, budget, noted| {
         let measured = cost.bound.as_ref().map(of).map_err(Refusal::to_string);
-        Figure { name, measured, budget }
+        Figure { name, measured, budget, noted }
     };
     let spread = cost.instructions;
+    // one limit for both; a stack that is only painted has no other
+    let is_bounded = cost.bound.is_ok();
     [
-        figure("least instructions", spread.min.into(), None),
-        figure("median instructions", spread.median.into(), None),
-        figure("instructions", spread.max.into(), budget.instructions),
-        bound("longest", |bound| bound.instructions, budget.longest),
-        figure("flash", cost.sizes.flash(), budget.flash),
-        figure("ram", cost.sizes.ram(), budget.ram),
-        figure("stack", cost.stack.into(), budget.stack),
-        // one limit for both; a stack that is only painted has no other
-        bound("stack bound", |bound| bound.stack.into(), budget.stack.filter(|_| cost.bound.is_ok())),
+        figure("least instructions", spread.min.into(), None, None),
+        figure("median instructions", spread.median.into(), None, None),
+        figure("instructions", spread.max.into(), limits.instructions, noted.instructions),
+        bound("longest", |bound| bound.instructions, limits.longest, noted.longest),
+        figure("flash", cost.sizes.flash(), limits.flash, noted.flash),
+        figure("ram", cost.sizes.ram(), limits.ram, noted.ram),
+        figure("stack", cost.stack.into(), limits.stack, noted.stack.filter(|_| !is_bounded)),
+        bound("stack bound", |bound| bound.stack.into(), limits.stack.filter(|_| is_bounded), noted.stack),
     ]
 }
 
@@ -178,9 +194,10 @@ mod tests {
 
     #[test]
     fn a_figure_at_its_budget_passes_and_one_more_is_named() {
-        let within = comparison(&format!("{KEY} = {{ instructions = 7, flash = 904, ram = 12 }}\n"));
+        // limits of 7, 904 and 14
+        let within = comparison(&format!("{KEY} = {{ instructions = 6, flash = 821, ram = 6 }}\n"));
         assert_eq!(within.count().map(|count| count.passed), Ok(3));
-        let over = comparison(&format!("{KEY} = {{ instructions = 6, flash = 904, stack = 15 }}\n"));
+        let over = comparison(&format!("{KEY} = {{ instructions = 5, flash = 821, stack = 7 }}\n"));
         let (count, message) = over.count().unwrap_err();
         assert_eq!((count.passed, count.failed), (1, 3));
         let faults = ["instructions is 7, budget 6", "stack is 16, budget 15", "stack bound is 24, budget 15"];
@@ -190,9 +207,10 @@ mod tests {
 
     #[test]
     fn a_bound_is_compared_and_a_refused_one_is_named_where_it_has_a_budget() {
-        let within = comparison(&format!("{KEY} = {{ longest = 9, stack = 24 }}\n"));
+        // limits of 9 and 24
+        let within = comparison(&format!("{KEY} = {{ longest = 8, stack = 16 }}\n"));
         assert_eq!(within.count().map(|count| count.passed), Ok(3));
-        let over = comparison(&format!("{KEY} = {{ longest = 8, stack = 23 }}\n"));
+        let over = comparison(&format!("{KEY} = {{ longest = 7, stack = 15 }}\n"));
         let [longest, stack] = ["longest is 9, budget 8", "stack bound is 24, budget 23"];
         assert_eq!(over.faults(), [longest, stack].map(|fault| format!("{VARIANT} on m3: {fault}")));
         let found = comparison(&format!("{KEY} = {{ unbounded = true }}\n")).faults();
@@ -202,6 +220,25 @@ mod tests {
         assert_eq!(refused("unbounded = true").faults(), Vec::<String>::new());
         let faults = refused("longest = 9").faults();
         assert!(faults[0].starts_with(&format!("{VARIANT} on m3: longest has a budget, but no bound: ")), "{faults:?}");
+    }
+
+    /// A figure of the file that is more than a limit above the measurement has to be written anew: it would leave room
+    /// for what nobody notices.
+    #[test]
+    fn a_figure_that_has_shrunk_is_named() {
+        let room =
+            comparison(&format!("{KEY} = {{ instructions = 8, longest = 10, flash = 995, ram = 20, stack = 32 }}\n"));
+        assert_eq!(room.faults(), Vec::<String>::new());
+        let much =
+            comparison(&format!("{KEY} = {{ instructions = 9, longest = 11, flash = 996, ram = 21, stack = 33 }}\n"));
+        let faults = [
+            "instructions is 7, budgets.toml has 9",
+            "longest is 9, budgets.toml has 11",
+            "flash is 904, budgets.toml has 996",
+            "ram is 12, budgets.toml has 21",
+            "stack bound is 24, budgets.toml has 33",
+        ];
+        assert_eq!(much.faults(), faults.map(|fault| format!("{VARIANT} on m3: {fault}: write it anew")));
     }
 
     #[test]

@@ -160,7 +160,9 @@ impl Plan {
     fn budgets(&self, report: &mut Report) -> Result<(), Box<dyn Error>> {
         let budgets = Budgets::read(&workspace()?.join("budgets.toml"))?;
         for (candidate, variant) in self.candidates.iter().zip(&report.variants) {
-            let Some(budget) = budgets.of(candidate.variant, candidate.board.core) else { continue };
+            let Some(budget) = budgets.of(candidate.variant, candidate.board.core).map(|budget| budget.limits()) else {
+                continue;
+            };
             let figures = [
                 ("instructions at most", variant.instructions.max, budget.instructions),
                 ("stack", variant.stack_bytes, budget.stack),

@@ -1,4 +1,4 @@
-//! `budgets.toml`: the most that each variant may take of each core.
+//! `budgets.toml`: the figures of each variant, and the most that they may become.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -11,7 +11,7 @@ use toml::Spanned;
 
 use crate::measure::BENCHES;
 
-/// Upper limits; a figure that is not named has none.
+/// Figures of a variant on a core; one that is not named has no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Budget {
@@ -19,36 +19,65 @@ pub struct Budget {
     pub instructions: Option<u64>,
     /// Instructions on the longest path of a tick.
     pub longest: Option<u64>,
-    /// Whether the longest path is refused: there is no limit then, not even that of `default`.
+    /// Whether the longest path is refused.
     #[serde(default)]
     pub unbounded: bool,
     /// Flash of the control loop's image, bytes.
     pub flash: Option<u64>,
     /// RAM of the control loop's image, the drive's state included and the stack not, bytes.
     pub ram: Option<u64>,
-    /// Stack of a tick, painted and bounded alike, bytes.
+    /// Stack of a tick, the larger of the painted and the bound, bytes.
     pub stack: Option<u64>,
+    /// What the project has promised, whatever the figures are.
+    #[serde(default)]
+    pub promised: Promised,
+}
+
+/// Bounds that the project has promised, as the figures of [`Budget`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Promised {
+    instructions: Option<u64>,
+    longest: Option<u64>,
+    flash: Option<u64>,
+    ram: Option<u64>,
+    stack: Option<u64>,
+}
+
+/// The most that a figure may become: a tenth more, of the longest path a twentieth, as it is no sample. Stack grows by
+/// two registers at least and state by a pair of words, which is more than a tenth of little.
+pub fn most(name: &str, figure: u64) -> u64 {
+    let (part, least) = match name {
+        "longest" => (20, 1),
+        "ram" | "stack" | "stack bound" => (10, 8),
+        _ => (10, 1),
+    };
+    figure + figure.div_ceil(part).max(least)
 }
 
 impl Budget {
-    /// These limits, and those of `default` for the figures that are not named.
-    fn or(self, default: Budget) -> Self {
-        Budget {
-            instructions: self.instructions.or(default.instructions),
-            longest: self.longest.or(default.longest.filter(|_| !self.unbounded)),
-            unbounded: self.unbounded,
-            flash: self.flash.or(default.flash),
-            ram: self.ram.or(default.ram),
-            stack: self.stack.or(default.stack),
+    /// The most that each figure may become, or what is promised where that is less.
+    #[must_use]
+    pub fn limits(&self) -> Self {
+        let Self { promised, .. } = *self;
+        let limit = |name, figure: Option<u64>, promised: Option<u64>| {
+            figure.map(|figure| most(name, figure)).into_iter().chain(promised).min()
+        };
+        Self {
+            instructions: limit("instructions", self.instructions, promised.instructions),
+            longest: limit("longest", self.longest, promised.longest),
+            flash: limit("flash", self.flash, promised.flash),
+            ram: limit("ram", self.ram, promised.ram),
+            stack: limit("stack", self.stack, promised.stack),
+            ..*self
         }
     }
 }
 
-/// The budgets by variant and core, and the defaults by number and core.
+/// The budgets by variant and core.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Budgets {
     named: BTreeMap<(String, String), Budget>,
-    defaults: BTreeMap<(String, String), Budget>,
 }
 
 /// Why budgets could not be read.
@@ -74,12 +103,8 @@ pub enum BudgetError {
     },
 }
 
-/// Limits by scene, by number, observer and rate, and by core; `default` stands in place of a scene.
+/// Figures by scene, by number, observer and rate, and by core.
 type Tables = BTreeMap<String, BTreeMap<Spanned<String>, BTreeMap<Spanned<String>, Budget>>>;
-
-/// The table of the defaults, by number.
-const DEFAULT: &str = "default";
-const NUMBERS: [&str; 2] = ["f32", "fixed"];
 
 impl Budgets {
     /// Reads a file.
@@ -105,34 +130,26 @@ impl Budgets {
         let cores: Vec<&str> = BOARDS.iter().map(|board| board.core).collect();
         let mut budgets = Budgets::default();
         for (scene, variants) in tables {
-            for (variant, limits) in variants {
-                let name =
-                    if scene == DEFAULT { variant.get_ref().clone() } else { format!("{scene}/{}", variant.get_ref()) };
-                let names = if scene == DEFAULT { NUMBERS.to_vec() } else { [VARIANTS, BENCHES].concat() };
+            for (variant, figures) in variants {
+                let name = format!("{scene}/{}", variant.get_ref());
+                let names = [VARIANTS, BENCHES].concat();
                 if !names.contains(&name.as_str()) {
-                    return Err(unknown(&variant, if scene == DEFAULT { "number" } else { "variant" }, &names));
+                    return Err(unknown(&variant, "variant", &names));
                 }
-                for (core, budget) in limits {
+                for (core, budget) in figures {
                     if !cores.contains(&core.get_ref().as_str()) {
                         return Err(unknown(&core, "core", &cores));
                     }
-                    let all = if scene == DEFAULT { &mut budgets.defaults } else { &mut budgets.named };
-                    all.insert((name.clone(), core.into_inner()), budget);
+                    budgets.named.insert((name.clone(), core.into_inner()), budget);
                 }
             }
         }
         Ok(budgets)
     }
 
-    /// The budget of a variant on a core: its own limits, the default for the others; `None` where it has neither.
+    /// The figures of a variant on a core.
     pub fn of(&self, variant: &str, core: &str) -> Option<Budget> {
-        let number = variant.split('/').nth(1).unwrap_or_default();
-        let default = self.defaults.get(&(number.into(), core.into()));
-        let named = self.named.get(&(variant.into(), core.into()));
-        match (named, default) {
-            (None, None) => None,
-            (named, default) => Some(named.copied().unwrap_or_default().or(default.copied().unwrap_or_default())),
-        }
+        self.named.get(&(variant.into(), core.into())).copied()
     }
 }
 
@@ -152,7 +169,7 @@ fn line_at(text: &str, at: usize) -> (usize, &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Budget, BudgetError, Budgets};
+    use super::{Budget, BudgetError, Budgets, most};
 
     const SCENE: &str = "empty";
     const VARIANT: &str = "f32/none/10000";
@@ -173,25 +190,17 @@ mod tests {
         assert_eq!(budgets.of("empty/f32/none/10000", "m3"), None);
     }
 
+    /// A tenth, of the longest path a twentieth; eight bytes of RAM and stack at least; no more than is promised.
     #[test]
-    fn a_figure_that_is_not_named_has_the_default_of_its_number_and_core() {
+    fn a_limit_is_a_tenth_above_its_figure_or_what_is_promised() {
         let text = format!(
-            "[default]\nf32.m4f = {{ flash = 6000, stack = 64 }}\n[{SCENE}]\n\"{VARIANT}\".m4f = {{ flash = 900 }}\n"
+            "[{SCENE}]\n\"{VARIANT}\".m4f = {{ instructions = 55, longest = 155, flash = 905, ram = 48, stack = 100, \
+             promised = {{ longest = 160, flash = 2000 }} }}\n"
         );
-        let budgets = Budgets::parse(&text).unwrap();
-        let expected = |flash| Some(Budget { flash: Some(flash), stack: Some(64), ..Budget::default() });
-        assert_eq!(budgets.of("empty/f32/none/10000", "m4f"), expected(900));
-        assert_eq!(budgets.of("hoist/f32/reduced/10000", "m4f"), expected(6000));
-        assert_eq!(budgets.of("hoist/fixed/reduced/10000", "m4f"), None);
-    }
-
-    #[test]
-    fn a_variant_without_a_bound_has_no_limit_of_the_longest_path() {
-        let text =
-            format!("[default]\nf32.m4f = {{ longest = 60 }}\n[{SCENE}]\n\"{VARIANT}\".m4f = {{ unbounded = true }}\n");
-        let budgets = Budgets::parse(&text).unwrap();
-        assert_eq!(budgets.of("empty/f32/none/10000", "m4f").unwrap().longest, None);
-        assert_eq!(budgets.of("hoist/f32/reduced/10000", "m4f").unwrap().longest, Some(60));
+        let limits = Budgets::parse(&text).unwrap().of("empty/f32/none/10000", "m4f").unwrap().limits();
+        assert_eq!((limits.instructions, limits.longest, limits.flash), (Some(61), Some(160), Some(996)));
+        assert_eq!((limits.ram, limits.stack), (Some(56), Some(110)));
+        assert_eq!([155, 3].map(|figure| most("longest", figure)), [163, 4]);
     }
 
     #[test]
@@ -206,12 +215,10 @@ mod tests {
     }
 
     #[test]
-    fn a_variant_a_number_or_a_core_that_is_not_there_is_an_error() {
+    fn a_variant_or_a_core_that_is_not_there_is_an_error() {
         let (line, key, message) = fails("\n[hoist]\n\"f32\".m4f = { flash = 1 }\n");
         assert_eq!((line, key.as_str()), (3, "f32"));
         assert!(message.contains("empty/f32/none/10000"), "{message}");
-        let (line, key, message) = fails("[default]\nf64.m4f = { flash = 1 }\n");
-        assert_eq!((line, key.as_str(), message.as_str()), (2, "f64", "no such number, expected one of f32, fixed"));
         let (line, key, message) = fails(&format!("[{SCENE}]\n\"{VARIANT}\".m5 = {{ flash = 1 }}\n"));
         assert_eq!((line, key.as_str(), message.as_str()), (2, "m5", "no such core, expected one of m4f, m3"));
     }

@@ -1,0 +1,147 @@
+//! Instructions and bytes on the pages against `budgets.toml`, which `cargo driveline check --only budgets` measures.
+
+use driveline_qemu::measure::budgets::{Budget, Budgets};
+
+use super::pages::{Page, root};
+
+/// The whole numbers in a cell or a sentence.
+fn numbers(text: &str) -> Vec<u64> {
+    text.split(|c: char| !c.is_ascii_digit()).filter_map(|digits| digits.parse().ok()).collect()
+}
+
+/// The rows under a heading.
+fn rows(page: &str, title: &str) -> Vec<Vec<String>> {
+    let page = Page::read(page);
+    let section = page.sections.iter().find(|section| section.title == title);
+    let rows = section.map(|section| section.rows.clone()).unwrap_or_default();
+    assert!(!rows.is_empty(), "no table under {title}");
+    rows
+}
+
+/// What the file has for a variant, or a function of the bench, on a core.
+fn budget(variant: &str, core: &str) -> Budget {
+    let budgets = Budgets::read(&root().join("budgets.toml")).unwrap();
+    budgets.of(variant, core).unwrap_or_else(|| panic!("no budget of {variant} on {core}"))
+}
+
+fn counted(variant: &str, core: &str) -> u64 {
+    budget(variant, core).instructions.unwrap()
+}
+
+fn longest(variant: &str, core: &str) -> u64 {
+    budget(variant, core).longest.unwrap()
+}
+
+fn stack(variant: &str, core: &str) -> u64 {
+    budget(variant, core).stack.unwrap()
+}
+
+/// Flash and RAM over the empty image.
+fn bytes(variant: &str, core: &str) -> [u64; 2] {
+    let [image, empty] = [variant, "empty/f32/none/10000"].map(|variant| budget(variant, core));
+    [image.flash.unwrap() - empty.flash.unwrap(), image.ram.unwrap() - empty.ram.unwrap()]
+}
+
+#[test]
+fn the_instructions_of_a_step_are_those_of_the_bench() {
+    for (observer, bench) in [
+        ("`RigidObserver`", "bench/step/rigid"),
+        ("`SemiImplicitObserver`", "bench/step/semi-implicit"),
+        ("`TwoMassObserver`", "bench/step/exact"),
+        ("`BacklashObserver`", "bench/step/backlash"),
+        ("`CrankObserver`", "bench/step/cranked"),
+    ] {
+        let rows = rows("README.md", "Which observer");
+        let row = rows.iter().find(|row| row[0] == observer).unwrap();
+        assert_eq!(numbers(&row[2]), ["m4f", "m3"].map(|core| counted(bench, core)), "{observer}");
+    }
+}
+
+#[test]
+fn the_cost_of_the_hoist_is_that_of_its_image_and_its_tick() {
+    let rows = rows("README.md", "Results");
+    for (row, (variant, core)) in
+        rows.iter().zip([("hoist/f32/reduced/10000", "m4f"), ("hoist/fixed/reduced/10000", "m3")])
+    {
+        let tick = "bench/drive/semi-implicit";
+        assert_eq!(numbers(&row[4]), [counted(tick, core), longest(tick, core)], "{row:?}");
+        let [flash, ram] = bytes(variant, core);
+        assert_eq!(
+            [&row[5], &row[6], &row[7]].map(|cell| numbers(cell)),
+            [[flash], [ram], [stack(variant, core)]],
+            "{row:?}"
+        );
+    }
+}
+
+#[test]
+fn the_cost_of_all_four_parts_is_that_of_their_images() {
+    let tick = ["f32", "fixed"].map(|number| format!("surface-grinder/{number}/tick/10000"));
+    let whole = "test-rig/f32/whole/10000".to_owned();
+    for (title, variants) in
+        [("surface-grinder", vec![(&tick[0], "m4f"), (&tick[1], "m3")]), ("test-rig", vec![(&whole, "m4f")])]
+    {
+        let rows = rows("doc/scenes.md", title);
+        for (column, (variant, core)) in (1..).zip(variants) {
+            let found: Vec<u64> = rows.iter().flat_map(|row| numbers(&row[column])).collect();
+            assert_eq!(found, [longest(variant, core), stack(variant, core), bytes(variant, core)[0]], "{variant}");
+        }
+    }
+}
+
+/// The count, the bound and its stack, and the gap in percent between the first two.
+#[test]
+fn the_gaps_are_those_between_counts_and_bounds() {
+    let images = [
+        "bench/drive/semi-implicit",
+        "bench/drive/exact",
+        "hoist/NUMBER/reduced/10000",
+        "blooming-mill/NUMBER/slack/10000",
+        "generator/NUMBER/diesel/2400",
+        "punch-press/NUMBER/mean/10000",
+    ];
+    let rows = rows("doc/worst-case.md", "Gap");
+    let both = images.iter().flat_map(|image| [("f32", "m4f"), ("fixed", "m3")].map(|of| (image, of)));
+    for (row, (image, (number, core))) in rows.iter().zip(both) {
+        let image = image.replace("NUMBER", number);
+        let (counted, longest) = (counted(&image, core), longest(&image, core));
+        let gap = (100.0 * (longest - counted) as f64 / longest as f64).round() as u64;
+        assert_eq!(
+            [&row[2], &row[3], &row[4]].map(|cell| numbers(cell)),
+            [[counted], [longest], [gap]],
+            "{image}: {row:?}"
+        );
+        let bound = numbers(&row[5]).last().copied();
+        assert!(bound.is_none_or(|bound| bound == stack(&image, core)), "{image}: {row:?}");
+    }
+    let functions = ["bench/step/exact", "bench/step/semi-implicit", "bench/step/backlash", "bench/phasor/1"];
+    assert_eq!(rows.len(), 2 * images.len() + functions.len());
+    for (row, function) in rows.iter().skip(2 * images.len()).zip(functions) {
+        let both = ["m4f", "m3"];
+        assert_eq!(numbers(&row[2]), both.map(|core| counted(function, core)), "{row:?}");
+        assert_eq!(numbers(&row[3]), both.map(|core| longest(function, core)), "{row:?}");
+    }
+}
+
+#[test]
+fn the_price_of_a_static_is_that_of_the_bench() {
+    let rows = rows("doc/worst-case.md", "As it is called");
+    for (row, step) in rows.iter().zip(["semi-implicit", "exact"]) {
+        let both = |core| {
+            [format!("bench/drive/{step}"), format!("bench/drive/{step}/static")].map(|name| longest(&name, core))
+        };
+        assert_eq!([&row[1], &row[2]].map(|cell| numbers(cell)), [both("m4f"), both("m3")], "{row:?}");
+    }
+}
+
+#[test]
+fn the_price_of_the_rainflow_is_that_of_the_strip_mill() {
+    let text = std::fs::read_to_string(root().join("doc/parts.md")).unwrap();
+    let (_, after) = text.split_once("mill's tick the count takes").unwrap();
+    let sentence = after.split_once(", by").unwrap().0.replace("M4F", "").replace("`f32`", "").replace("M3", "");
+    let price = |number: &str, core| {
+        let of = |variant| longest(&format!("strip-mill/{number}/{variant}/10000"), core);
+        of("life") - of("semi-implicit")
+    };
+    assert_eq!(numbers(&sentence), [price("f32", "m4f"), price("fixed", "m4f"), price("fixed", "m3")]);
+}
