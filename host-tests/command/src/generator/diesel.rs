@@ -11,15 +11,24 @@
 
 use core::f64::consts::TAU;
 
+use driveline::machine::{CrankSlider, Cylinder, Inertia, Length, Mass};
+
 /// Cylinders.
 pub const CYLINDERS: usize = 6;
-/// Firing order 1-5-3-6-2-4: by how many firing intervals each cylinder fires after the first.
-const FIRES: [f64; CYLINDERS] = [0.0, 4.0, 2.0, 5.0, 1.0, 3.0];
+/// A third of a turn.
+const THIRD: f64 = TAU / 3.0;
+/// Six in line, 150 mm apart, in the firing order 1-5-3-6-2-4.
+const ENGINE: [Cylinder; CYLINDERS] = Cylinder::fired(
+    Cylinder::in_line([0.0, 2.0 * THIRD, THIRD, THIRD, 2.0 * THIRD, 0.0], Length(0.15)),
+    [1, 5, 3, 6, 2, 4],
+);
 /// Bore, stroke (m), compression ratio, crank radius over rod length: an engine of 12.4 l.
 const BORE: f64 = 0.126;
 const STROKE: f64 = 0.166;
 const COMPRESSION: f64 = 17.0;
 const LAMBDA: f64 = 0.32;
+const CRANK: CrankSlider =
+    CrankSlider::massless_rod(Length(0.5 * STROKE), Length(0.5 * STROKE / LAMBDA), Inertia(0.0), Mass(0.0));
 /// Combustion begins 5 degrees before the dead centre and takes 60.
 const IGNITION: f64 = -5.0 / 360.0 * TAU;
 const BURNING: f64 = 60.0 / 360.0 * TAU;
@@ -58,13 +67,10 @@ pub struct Diesel {
 const POINTS: usize = 2880;
 
 fn volume_and_lever(angle: f64) -> (f64, f64) {
-    let (sine, cosine) = angle.sin_cos();
     let area = core::f64::consts::PI * BORE * BORE / 4.0;
-    let radius = 0.5 * STROKE;
-    let root = (1.0 - (LAMBDA * sine).powi(2)).sqrt();
-    let travel = radius * (1.0 - cosine + (1.0 - root) / LAMBDA);
+    let travel = CRANK.travel(angle);
     let clearance = area * STROKE / (COMPRESSION - 1.0);
-    (clearance + area * travel, area * radius * (sine + LAMBDA * sine * cosine / root))
+    (clearance + area * travel.travel, area * travel.first)
 }
 
 impl Diesel {
@@ -88,7 +94,7 @@ impl Diesel {
         // The valve opens at the lower dead centre, where the lever is nothing.
         let mean = burning.iter().sum::<f64>() / POINTS as f64;
         burning.iter_mut().for_each(|torque| *torque /= mean);
-        let angle = FIRES.map(|fires| Self::cycle_angle(0.0, fires));
+        let angle = ENGINE.map(|cylinder| Self::cycle_angle(0.0, cylinder.firing));
         Diesel {
             rated_torque,
             lag,
@@ -103,8 +109,8 @@ impl Diesel {
     }
 
     /// Angle of a cylinder in its cycle, from the dead centre of its firing, 0 to 2 turns.
-    fn cycle_angle(crank: f64, fires: f64) -> f64 {
-        (crank - fires * 2.0 * TAU / CYLINDERS as f64).rem_euclid(2.0 * TAU)
+    fn cycle_angle(crank: f64, firing: f64) -> f64 {
+        (crank - firing).rem_euclid(2.0 * TAU)
     }
 
     fn table(table: &[f64], angle: f64) -> f64 {
@@ -134,7 +140,7 @@ impl Diesel {
         let mut torques = [0.0; CYLINDERS];
         let burns = (NATURAL + CHARGED * self.charge) * self.rated_torque;
         for k in 0..CYLINDERS {
-            let now = Self::cycle_angle(angle, FIRES[k]);
+            let now = Self::cycle_angle(angle, ENGINE[k].firing);
             // The injection's angle is passed: the fuel of the next cycle.
             let injection = IGNITION.rem_euclid(2.0 * TAU);
             if self.angle[k] < injection && now >= injection {
