@@ -115,9 +115,9 @@ pub type ConfigOf<D> = <D as Composition>::Config;
 // In this order: the compiler's own puts a measurement's tables in front.
 #[repr(C)]
 pub struct Drive<N, O, F = (), G = (), B = (), const SEAL: i32 = 0> {
+    balancer: B,
     observer: O,
     governor: G,
-    balancer: B,
     /// Substitute for an implausible torque.
     commanded: N,
     /// `SEAL` and the ticks without a usable angle, less those with one; while the angle is lost

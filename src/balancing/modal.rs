@@ -1,4 +1,4 @@
-//! Modal balancing: influence coefficients of the planes on modal unbalances [derived].
+//! Modal balancing: influence coefficients of the planes on modal unbalances. Derived.
 //!
 //! A rotor is bent near the critical speed of mode n by its modal unbalance `V_n = sum u_i phi_n(z_i)`, phi_n the shape
 //! of the whirl at that speed. N planes take N modal unbalances away: `sum w_j phi_n(z_j) = -V_n`. They leave others,

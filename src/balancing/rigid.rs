@@ -2,7 +2,7 @@
 //!
 //! Static balance is `sum m r = 0`, dynamic balance that of forces and moments, which takes two planes [Notes ch. 5].
 //! Any dynamic unbalance is a static part, which acts in the centre of mass, and a couple part, two opposite
-//! unbalances in two planes [derived].
+//! unbalances in two planes. Derived.
 
 use super::error::Error;
 use super::scalar::{Complex, Scalar, given, real, zero};

@@ -53,7 +53,7 @@ impl Shaking {
     /// moment, each unbalance times its place along the shaft. `crank` is that of one cylinder.
     ///
     /// The part of the size f in units of the order's force has `f m r` of the first order, `f lambda m r/4` of the
-    /// second, whose shafts turn twice as fast [derived]. `None` for other orders than 1 and 2.
+    /// second, whose shafts turn twice as fast. Derived. `None` for other orders than 1 and 2.
     #[must_use]
     pub const fn balance_shafts(&self, crank: &CrankSlider, order: u32) -> Option<[[f64; 2]; 2]> {
         let [first, second] = crank.force_orders(1.0);
