@@ -128,7 +128,7 @@ impl fmt::Display for Error {
                 )
             }
             Error::ModalPlanes { modes, planes } => {
-                write!(f, "{modes} modes take as many planes or two more, and not {planes}")
+                write!(f, "balancing {modes} mode(s) takes {modes} plane(s), or two more: there are {planes}")
             }
             Error::Setting { index } => write!(f, "setting {} is not a positive number", index + 1),
             Error::NotFound => f.write_str("the search ended too far from the optimum"),

@@ -41,6 +41,8 @@ sentences! {
         or above and finite (s)",
     NaturalDamping => "the natural damping of motor and load must be finite (N m s/rad)",
     GovernorUnstable => "the governor is unstable with this actuator and shaft: raise its symmetrical-optimum factor",
+    DampingUnstable => "the governor is unstable with this natural damping: a negative sum needs more gain, a lower \
+        symmetrical-optimum factor",
     Barred => "barred speeds need frequencies and orders above zero and finite, and a margin above 0 and below 1",
     BarredCount => "there are more barred ranges of speed than the governor has room for: raise K",
     TorqueCurve => "a torque curve needs points of rising speed from zero on, each with a torque of zero or above, all \

@@ -260,17 +260,18 @@ impl GovernorDesign {
     /// [`with_natural_damping`](Self::with_natural_damping), with an error instead of a panic.
     ///
     /// # Errors
-    /// [`Error::NaturalDamping`], [`Error::GovernorUnstable`].
+    /// [`Error::NaturalDamping`], [`Error::DampingUnstable`].
     pub const fn try_with_natural_damping(mut self, machine: &TwoMass, natural: NaturalDamping) -> Result<Self, Error> {
         if let Err(error) = natural.step(machine, self.period) {
             return Err(error);
         }
         self.natural = natural;
-        if self.open(machine).is_stable(self.crossover()) { Ok(self) } else { Err(Error::GovernorUnstable) }
+        if self.open(machine).is_stable(self.crossover()) { Ok(self) } else { Err(Error::DampingUnstable) }
     }
 
     /// Fall of the steady speed per load torque (rad/(s N m)) under a [`Droop`](crate::governor::Droop) R, with the
-    /// natural damping D: `R/(1 + R D)`, since the machine itself carries the share `D R/(1 + R D)` of the load.
+    /// natural damping D: `R/(1 + R D)`, since the machine itself carries the share `D R/(1 + R D)` of the load. Where `R D` is -1
+    /// or below there is no steady state: the result is infinite or negative.
     #[must_use]
     pub const fn droop(&self, droop: f64) -> f64 {
         droop / (1.0 + droop * self.natural.sum())
@@ -282,9 +283,12 @@ impl GovernorDesign {
         let open = OpenLoop::Late(self.open(machine));
         let nyquist = core::f64::consts::PI / self.period;
         let mut found = Margins::NONE;
-        // A negative natural damping sets a least gain, at a frequency far below the crossover.
-        let slowest = if self.natural.sum() < 0.0 { 1e-3 } else { 1e-2 };
-        open.sweep(&mut found, slowest * self.crossover(), nyquist, 300);
+        // A negative natural damping sets a least gain, at a frequency far below the crossover. A large one lowers the
+        // crossover itself, to the integral's corner at the least.
+        let sum = self.natural.sum();
+        let slowest = if sum < 0.0 { 1e-3 } else { 1e-2 } * self.crossover();
+        let corner = if sum > 0.0 { 0.1 * self.integral / sum } else { slowest };
+        open.sweep(&mut found, if corner < slowest { corner } else { slowest }, nyquist, 300);
         // Finer about the resonance, where a lightly damped shaft turns the response quickly.
         let (from, to) = (0.8 * machine.antiresonance(), 1.25 * machine.resonance());
         if to < nyquist {

@@ -100,6 +100,9 @@ impl LateLoop {
             if rate.abs() > 0.1 * slowest {
                 slowest = if rate.abs() < bandwidth { 1e-2 * rate.abs() } else { slowest };
                 expected += if rate < 0.0 { 0.5 } else { -0.5 };
+                // An integral on a damped mass turns the response by a quarter, below its corner.
+                let corner = 0.1 * self.integral / natural.sum().abs();
+                slowest = if corner < slowest { corner } else { slowest };
             }
         }
         // Finer about the resonance, where a lightly damped shaft turns the response quickly.

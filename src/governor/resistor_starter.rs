@@ -1,7 +1,6 @@
 //! Start of a slip-ring motor: its resistors are cut out one after another, by the speed.
 //!
-//! [`Induction::resistor_start`](crate::machine::Induction::resistor_start) finds resistors and speeds. A tick takes at
-//! most 21 instructions on a Cortex-M4F in `f32` and 19 on a Cortex-M3 in fixed point, its call included, and 8 bytes.
+//! [`Induction::resistor_start`](crate::machine::Induction::resistor_start) finds resistors and speeds.
 
 use crate::number::Number;
 
@@ -11,7 +10,7 @@ use crate::number::Number;
 pub struct ResistorStarterConfig<N, const STEPS: usize> {
     /// Speed at which each resistor is cut out, rising (rad/s).
     pub speeds: [N; STEPS],
-    /// Least ticks between two of them, for the contactors.
+    /// Least ticks that pass between two of them, and before the first, for the contactors.
     pub interval: u32,
 }
 

@@ -36,7 +36,8 @@ impl Shaft {
 /// nothing lies between, or else to the next one.
 ///
 /// The losses of a gear belong to the shaft before it when nothing lies between, as a belt's do, or else to the next
-/// one.
+/// one. With no shaft after it they count in the chain's own weight and referred inertias alone, not in those of a
+/// branch on its mass.
 ///
 /// The chain is referred without losses, as the observer requires: energy is conserved, and friction, constant or slow,
 /// becomes part of the estimated load torque. Only [`gravity_torque_hoisting`](Self::gravity_torque_hoisting) and

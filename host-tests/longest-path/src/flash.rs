@@ -1,10 +1,11 @@
-//! What code waits for a flash memory, at most: one that keeps the line it read last, without a cache.
+//! Most wait states of code in a flash memory that keeps the line it read last, without a cache.
 //!
 //! - Code that goes on reads each line once.
 //! - A taken branch waits twice: for a reading under way, which nothing may stop, and for the line that it goes to.
 //! - A load may be of constants in flash. Each word then waits, and so does the code after it, whose line has gone.
 //!   Where the stack pointer is the base it is of the stack, which is no flash.
 //! - A store waits for nothing.
+//! - A target that the core fetches ahead of a branch which is then not taken is not counted.
 //!
 //! A cache or a prefetch buffer shortens it, to nothing at best: the least is without wait states.
 

@@ -272,6 +272,7 @@ def markdown(rows):
         "  The full solver is compiled; the others are called from Python, their right-hand sides are Python.",
         "- scipy starts afresh at each corner of the load and, by events, at each flank of the gap. Its tolerance is",
         "  the relative one, and the absolute one over the largest twist. Radau has the Jacobian.",
+        "  Between its steps the twist is by its dense output, which is in error and time.",
         "- openTorsion propagates by the matrix exponential with torques held over a step. It has no gaps.",
         "",
     ]

@@ -54,9 +54,9 @@ impl Induction {
     pub const fn try_resistor_start<const STEPS: usize>(&self, peak: Torque) -> Result<ResistorStart<STEPS>, Error> {
         let over = self.breakdown / peak.0;
         // u/2 + 1/(2 u) = tau_A/tau, on the side where the torque falls with the speed.
-        let high = over - sqrt((over - 1.0) * (over + 1.0));
+        let high = 1.0 / (over + sqrt((over - 1.0) * (over + 1.0)));
         let first = 1.0 / (self.breakdown_slip * high);
-        if !(peak.0 > 0.0 && over >= 1.0 && first > 1.0 && STEPS > 0) {
+        if !(peak.0 > 0.0 && over >= 1.0 && first > 1.0 && first.is_finite() && STEPS > 0) {
             return Err(Error::ResistorStart);
         }
         let ratio = exp(ln(first) / STEPS as f64);

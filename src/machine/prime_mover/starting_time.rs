@@ -18,10 +18,10 @@ type Polynomial = [f64; 5];
 impl Characteristic {
     /// Time (s) in which the motor takes a rigid machine from one speed up to another against a load torque, constant
     /// or rising as that of a fan: `J integral of d omega/(tau - tau_L)`. Infinite where the torque does not suffice,
-    /// or an engine is below idle.
+    /// or an engine is below idle. The machine's own weight is not included: it belongs in `load.constant`.
     ///
     /// Torque less load is a ratio of polynomials for every characteristic. The integral is cut into pieces so short
-    /// that no root of the numerator lies within 2.6 half-lengths of a middle, where Gauss's ten points are within
+    /// that no root of the numerator lies within 2.6 half-lengths of a middle, where Gauss's ten points are within a few
     /// 1e-12 [Trefethen, Approximation Theory and Approximation Practice, theorem 19.3].
     ///
     /// ```

@@ -4,7 +4,7 @@ use driveline::design::{
     ClosedLoop, Error, EstimateError, LoopObserver, ObserverChoice, ObserverSelection, Penalty, Plant, PredictedErrors,
     RigidDesign, StepChoice,
 };
-use driveline::machine::{Match, TwoMass};
+use driveline::machine::{Match, Train, TwoMass};
 use driveline_report::format::{percent, significant};
 use serde::Serialize;
 
@@ -290,7 +290,9 @@ fn without_dampers(machine: &MachineFile) -> Option<String> {
     if machine.dampers.is_empty() {
         return None;
     }
-    let bare = machine.two_masses()?;
+    // by the same rule as with the dampers: a chain's own keeps another mode
+    let bare =
+        machine.train.unwrap_or_else(|| Train::of(machine.chain)).try_reduce(Match::ResonanceAntiresonance).ok()?;
     let hertz = |omega: f64| significant(omega / core::f64::consts::TAU);
     Some(match machine.with_dampers().try_reduce(Match::ResonanceAntiresonance) {
         Ok(with) => format!(

@@ -520,6 +520,9 @@ fn hard_bearing(root: &Table<'_>, file: &BalanceFile, rpm: &[f64]) -> Result<Inf
     let (along, radius) = places.ok_or_else(|| root.wrong("machine", expected))?;
     // a rotor without a radius has passed the check of its table
     let unbalance = file.weight_unit.unbalance(radius).ok_or_else(|| root.wrong("machine", expected))?;
+    if !matches!(file.unit.as_str(), "" | "N") {
+        return Err(root.wrong("unit", "\"N\": a hard-bearing machine measures forces"));
+    }
     if file.sensors.len() != 2 {
         return Err(root.wrong("sensors", "two of them: the forces in bearing A and in bearing B"));
     }

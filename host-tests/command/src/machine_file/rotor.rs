@@ -238,7 +238,7 @@ fn balancing(root: &mut Table<'_>, last: usize) -> Result<Option<(Vec<usize>, us
     let modes = table.number("modes", Quantity::MODES)? as usize;
     if planes.len() != modes && planes.len() != modes + 2 {
         let refusal = driveline::balancing::Error::ModalPlanes { modes, planes: planes.len() };
-        return Err(table.wrong("modes", format!("as many modes as planes, or two fewer: {refusal}")));
+        return Err(table.wrong("modes", format!("a number that goes with the planes: {refusal}")));
     }
     table.finish()?;
     Ok(Some((planes, modes)))

@@ -2,7 +2,7 @@
 
 use driveline::machine::{Chain, Error, Inertia, Joint, Match, Modes, Ratio, Resonance, Rigid, Shaft, Train, TwoMass};
 
-use super::{Branch, DamperKind, Element, MachineFile, Part};
+use super::{Branch, DamperKind, DamperRing, Element, MachineFile, Part};
 
 /// Where an element stands in its chain.
 pub(crate) struct Station {
@@ -109,7 +109,10 @@ impl MachineFile {
     pub fn with_dampers(&self) -> Train {
         let modes = self.modes();
         let bare = self.train.unwrap_or_else(|| Train::of(self.chain));
-        self.dampers.iter().fold(bare, |train, ring| {
+        // a viscous ring takes its share of the mode that all other masses have
+        let is_viscous = |ring: &&DamperRing| matches!(ring.kind, DamperKind::Viscous { .. });
+        let others = self.dampers.iter().filter(|ring| !is_viscous(ring));
+        others.chain(self.dampers.iter().filter(is_viscous)).fold(bare, |train, ring| {
             let main = ring.kind.mode().map(|mode| Resonance::of(&modes.resonances()[mode], ring.mass));
             let damper = ring.sized(main.as_ref());
             match ring.kind {

@@ -83,7 +83,7 @@ impl Balanced {
         let correction = influence.correct(&conditions, &aim).map_err(said)?;
         if let Some(out) = correction.left_out.first() {
             let node = plan.planes[out.plane];
-            return Err(format!("plane {node} does what the other planes do, or nothing: expected another node"));
+            return Err(format!("plane {node} is not independent of the other planes: expected another node"));
         }
         let mut after = before.clone();
         for (&node, weight) in plan.planes.iter().zip(&correction.weights) {

@@ -98,7 +98,7 @@ fn other_numbers_of_planes_are_refused() {
     assert!(Planes::modal(&[], &[-0.5, 0.5]).is_ok());
     let wrong = Planes::modal(&[shape], &[-0.5, 0.5]).unwrap_err();
     assert_eq!(wrong, Error::ModalPlanes { modes: 1, planes: 2 });
-    assert_eq!(wrong.to_string(), "1 modes take as many planes or two more, and not 2");
+    assert_eq!(wrong.to_string(), "balancing 1 mode(s) takes 1 plane(s), or two more: there are 2");
     assert_eq!(Planes::modal(&[], &[0.0]), Err(Error::ModalPlanes { modes: 0, planes: 1 }));
     assert_eq!(Planes::modal(&[], &[]), Err(Error::Size));
     assert_eq!(Planes::modal(&[shape; 3], &[0.0; 5]), Err(Error::Size));

@@ -40,13 +40,13 @@ fn rigid_loop(design: &GovernorDesign, damping: f64, frequency: f64) -> (f64, f6
 #[test]
 fn margins_are_those_of_one_mass_with_damping() {
     let free = design(NaturalDamping::NONE);
-    for damping in [0.01, 2.0, 40.0, 100.0, 400.0, -2.0, -40.0] {
+    for damping in [0.01, 2.0, 40.0, 100.0, 400.0, 5e3, 5e4, -2.0, -40.0] {
         // At either mass it is the same to a governor that sees one.
         for natural in [NaturalDamping { motor: damping, load: 0.0 }, NaturalDamping { motor: 0.0, load: damping }] {
             let design = design(natural);
             assert_eq!((design.proportional, design.integral), (free.proportional, free.integral));
             let margins = design.margins(&stiff());
-            let (mut low, mut high) = (0.1, 100.0);
+            let (mut low, mut high) = (1e-4, 100.0);
             for _ in 0..60 {
                 let middle = f64::sqrt(low * high);
                 if rigid_loop(&design, damping, middle).0 > 1.0 { low = middle } else { high = middle }
@@ -85,7 +85,7 @@ fn a_rising_torque_needs_the_gain_of_routh_s_criterion() {
     }
     let with = |motor| free.try_with_natural_damping(&stiff(), NaturalDamping { motor, load: 0.0 });
     assert!(with(0.98 * high).is_ok(), "{high}");
-    assert_eq!(with(1.02 * high), Err(Error::GovernorUnstable), "{high}");
+    assert_eq!(with(1.02 * high), Err(Error::DampingUnstable), "{high}");
     assert_eq!(with(f64::NAN), Err(Error::NaturalDamping));
 }
 

@@ -54,7 +54,8 @@ impl Pins {
 
     /// The torques of the pins on the crank, which only turns forwards, under forces on the slider. Forces at the same
     /// angle add before their sense is dropped.
-    /// What is not a number no train takes.
+    ///
+    /// A value that is not a number is refused where the train is built.
     #[must_use]
     pub fn sources(&self, crank: &Crank, forces: &[SliderForce]) -> Vec<Source> {
         let turns = |angle: f64| angle.rem_euclid(TAU);
