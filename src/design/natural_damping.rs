@@ -20,9 +20,9 @@ impl NaturalDamping {
     /// Torques that do not depend on the speed.
     pub const NONE: Self = Self { motor: 0.0, load: 0.0 };
 
-    /// That of a prime mover and of a load's torque, both at the motor's shaft, at a speed. Of an engine it is the slope
-    /// of the full-load curve, above rated speed that of the engine's own governor: not for an engine whose governor
-    /// this one replaces.
+    /// That of a prime mover and of a load's torque, both at the motor's shaft, at a speed. Of an engine it is the
+    /// slope of the full-load curve, above rated speed that of the engine's own governor: not for an engine whose
+    /// governor this one replaces.
     ///
     /// ```
     /// # use driveline::design::NaturalDamping;

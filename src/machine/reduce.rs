@@ -7,9 +7,9 @@ use super::{Chain, Error, Mode, Modes, ReductionError, TwoMass};
 /// How two masses stand in for a chain. Every choice keeps the total inertia.
 ///
 /// The main mode of a chain is its first, the slow swing of its load, although another may be more compliant;
-/// `Train::of(chain)` has the other choice. That of a train has the largest share of the static compliance at the motor:
-/// a lower mode, such as nearly equal branches in opposition, is left out with the antiresonance that nearly cancels
-/// it.
+/// `Train::of(chain)` has the other choice. That of a train has the largest share of the static compliance at the
+/// motor: a lower mode, such as nearly equal branches in opposition, is left out with the antiresonance that nearly
+/// cancels it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Match {

@@ -14,9 +14,9 @@ impl Train {
     ///
     /// A ring on a spring is a mass of its own, the last so far. A ring without a spring (a viscous damper) takes part
     /// in the main mode with `J d^2/(d^2 + J^2 omega^2)`, and damps it with the rest of `d`; what slips counts in the
-    /// total inertia alone. So it comes after all other masses, and a later ring does not renew its share; losses on its way
-    /// are left out. A friction damper's ring sticks to its mass while the
-    /// vibration is small: a branch of one inertia.
+    /// total inertia alone. So it comes after all other masses, and a later ring does not renew its share. Losses on
+    /// its way are left out. A friction damper's ring sticks to its mass while the vibration is small: a branch of one
+    /// inertia.
     ///
     /// Refused: [`Error::DamperRing`], as [`branch`](Self::branch).
     #[must_use]

@@ -21,8 +21,8 @@ impl Characteristic {
     /// or an engine is below idle. The machine's own weight is not included: it belongs in `load.constant`.
     ///
     /// Torque less load is a ratio of polynomials for every characteristic. The integral is cut into pieces so short
-    /// that no root of the numerator lies within 2.6 half-lengths of a middle, where Gauss's ten points are within a few
-    /// 1e-12 [Trefethen, Approximation Theory and Approximation Practice, theorem 19.3].
+    /// that no root of the numerator lies within 2.6 half-lengths of a middle, where Gauss's ten points are within a
+    /// few 1e-12 [Trefethen, Approximation Theory and Approximation Practice, theorem 19.3].
     ///
     /// ```
     /// # use driveline::machine::{Characteristic, Inertia, Induction, Parabola, Rigid, Speed, Torque};
