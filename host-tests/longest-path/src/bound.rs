@@ -122,6 +122,11 @@ impl<'c> Bounds<'c> {
 
     fn find(&mut self, function: &Function) -> Result<Bounded, Refusal> {
         let graph = Graph::of(self.code, function)?;
+        if let Some((core, _)) = self.clock
+            && let Some((&at, _)) = graph.nodes.iter().find(|(_, node)| !core.has(node.code.0, node.code.1))
+        {
+            return Err(Refusal::OtherCore { function: function.readable(), at });
+        }
         let mut callees = BTreeMap::new();
         for (&at, node) in &graph.nodes {
             let Some(target) = node.calls else { continue };

@@ -43,6 +43,20 @@ impl Core {
         }
     }
 
+    /// Whether it has an instruction: of long ones Armv6-M has BL, MRS, MSR and barriers, and the M3 no floating-point
+    /// unit.
+    pub(crate) const fn has(self, first: u16, second: u16) -> bool {
+        if first >> 11 < 0b11101 {
+            // CBZ, CBNZ and IT are of Armv7-M
+            return !(self.is_small() && (first & 0xf500 == 0xb100 || first >> 8 == 0xbf && first & 0xf != 0));
+        }
+        match self {
+            Core::M0 | Core::M0Plus => first >> 11 == 0b11110 && second & 0x8000 != 0,
+            Core::M3 => first >> 10 != 0b11_1011 || second >> 9 & 7 != 5,
+            Core::M4 => true,
+        }
+    }
+
     /// Whether it has the instructions of Armv6-M alone.
     const fn is_small(self) -> bool {
         matches!(self, Core::M0 | Core::M0Plus)

@@ -77,6 +77,14 @@ pub enum Refusal {
         /// Loops with stated turns.
         stated: usize,
     },
+    /// An instruction that the core does not have.
+    #[error("{function}: the core has no instruction as that at {at:#x}; name the core that the image is for")]
+    OtherCore {
+        /// The function.
+        function: String,
+        /// The instruction.
+        at: u32,
+    },
     /// A stack pointer that is not known.
     #[error("{function}: the stack pointer after {at:#x} is not known: it is computed, or depends on the path taken")]
     Stack {

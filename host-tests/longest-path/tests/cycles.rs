@@ -126,6 +126,26 @@ fn loads_are_told_from_stores_and_from_the_stack() {
     }
 }
 
+/// `movw r0, #0` is no instruction of Armv6-M, `cbz` neither; `vadd.f32 s0, s2, s4` none of a core without the unit.
+#[test]
+fn an_instruction_of_another_core_is_refused() {
+    let refused = |core, code: &[u16]| {
+        let code = Code::of(0x100, &[("f", code)], &[]);
+        Bounds::cycles(&code, &Loops::default(), core, Flash::IDEAL, 0x100).is_err()
+    };
+    let movw: &[u16] = &[0xf240, 0x0000, 0x4770];
+    let cbz: &[u16] = &[0xb100, 0x4770, 0x4770];
+    let vadd: &[u16] = &[0xee31, 0x0a02, 0x4770];
+    for (code, cores) in
+        [(movw, [true, true, false, false]), (cbz, [true, true, false, false]), (vadd, [true, true, true, false])]
+    {
+        let found = [Core::M0, Core::M0Plus, Core::M3, Core::M4].map(|core| refused(core, code));
+        assert_eq!(found, cores, "{code:x?}");
+    }
+    // mrs r0, primask; dmb; bx lr
+    assert!(!refused(Core::M0Plus, &[0xf3ef, 0x8010, 0xf3bf, 0x8f5f, 0x4770]));
+}
+
 #[test]
 fn a_branch_takes_longer_where_it_is_taken() {
     // cbz r0, 1f; four times nop; bx lr; 1: bx lr. Not taken: 1 + 4 + 1 + P, of most cycles; taken: 1 + P + 1 + P.

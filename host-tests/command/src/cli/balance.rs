@@ -281,7 +281,8 @@ fn summary(outcome: &Outcome) -> String {
     let now = largest(&outcome.rows, |row| row.now);
     let after = largest(&outcome.rows, |row| row.predicted_with_holes.unwrap_or(row.predicted));
     let what = if outcome.corrections == 0 { "With these weights" } else { "With this trim" };
-    format!("{what} the largest vibration goes from {} to {} {}.", significant(now), significant(after), outcome.unit)
+    let unit = if outcome.unit.is_empty() { String::new() } else { format!(" {}", outcome.unit) };
+    format!("{what} the largest vibration goes from {} to {}{unit}.", significant(now), significant(after))
 }
 
 fn facts(outcome: &Outcome) -> Vec<Fact> {

@@ -121,7 +121,9 @@ impl LongestPath {
     /// Lays a board's counts beside the bounds.
     fn compare(&self, log: &Path, code: &MachineCode, core: Core, flash: Flash) -> Result<(), Failure> {
         let place = |error: String| Failure::usage(format!("{}: {error}", log.display()));
-        let text = fs::read_to_string(log).map_err(|error| place(error.to_string()))?;
+        // a serial port gives bytes of any kind at a reset
+        let bytes = fs::read(log).map_err(|error| place(error.to_string()))?;
+        let text = String::from_utf8_lossy(&bytes);
         let all = counted::compare(&text, code, core, flash).map_err(place)?;
         if self.json {
             say_json(&all)?;

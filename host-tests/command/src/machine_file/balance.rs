@@ -528,7 +528,7 @@ fn hard_bearing(root: &Table<'_>, file: &BalanceFile, rpm: &[f64]) -> Result<Inf
     }
     let speeds = radians_per_second(rpm);
     let [a, b] = speeds[..] else {
-        return Err(root.wrong("machine", "[baseline] with `rpm`: forces go with its square"));
+        return Err(root.wrong("baseline", "`rpm` in it: the forces of a hard-bearing machine go with its square"));
     };
     let mut influence =
         Influence::new(2, file.planes.len()).map_err(|refusal| root.wrong("planes", refusal.to_string()))?;

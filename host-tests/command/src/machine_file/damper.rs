@@ -130,7 +130,9 @@ impl DamperRing {
                 damping: table.number_if("damping", Quantity::DAMPING)?,
             },
             "viscous" => {
-                DamperKind::Viscous { mode: mode(&mut table)?, damping: table.number_if("damping", Quantity::DAMPING)? }
+                // the damper alone holds the ring
+                let damping = Quantity { zero: false, ..Quantity::DAMPING };
+                DamperKind::Viscous { mode: mode(&mut table)?, damping: table.number_if("damping", damping)? }
             }
             "friction" => DamperKind::Friction {
                 mode: mode(&mut table)?,

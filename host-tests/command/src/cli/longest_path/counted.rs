@@ -33,7 +33,7 @@ pub struct Counted {
     pub within: Option<bool>,
 }
 
-/// Lays a board's lines beside the bounds of the image that printed them. Lines that are no objects are passed over: a
+/// Lays a board's lines beside the bounds of the image that printed them. Lines that name no `bench` are passed over: a
 /// terminal's log has others.
 ///
 /// # Errors
@@ -41,11 +41,14 @@ pub struct Counted {
 pub fn compare(text: &str, code: &MachineCode, core: Core, flash: Flash) -> Result<Vec<Counted>, String> {
     let mut all = Vec::new();
     for (number, line) in (1..).zip(text.lines().map(str::trim)) {
-        if !line.starts_with("{\"bench\"") {
-            continue;
-        }
+        // a terminal may put the time before it
+        let object = line.find('{').map(|at| &line[at..]).filter(|object| object.contains("\"bench\""));
+        let Some(line) = object else { continue };
         let wrong = |error| format!("line {number}: {error}; expected a line of the bench, as the board prints it");
         let line: Line = serde_json::from_str(line).map_err(|error| wrong(error.to_string()))?;
+        if line.min > line.max {
+            return Err(wrong(format!("`min` {} is above `max` {}", line.min, line.max)));
+        }
         if !code.begins_function(line.function) {
             return Err(wrong(format!(
                 "the image has no function at {:#x}, where it ran `{}`",
