@@ -95,7 +95,7 @@ impl Scene {
 }
 
 type Hoist = hoist::Hoist<10_000>;
-type Skip = skip_winch::SkipOnRope;
+type Skip = skip_winch::SkipWinch;
 
 /// The scenes that are run against a plant.
 pub static SCENES: &[Scene] = &[
@@ -105,7 +105,7 @@ pub static SCENES: &[Scene] = &[
     Scene::of::<strip_mill::StripMill>(strip_mill::SCENE),
     Scene::of::<planetary::PlanetaryDrive>(planetary::SCENE).geared::<planetary::PlanetaryDrive>(),
     Scene::of::<crane_travel::CraneTravel>(crane_travel::SCENE),
-    Scene::of::<Skip>(skip_winch::SCENE).geared::<Skip>().gap::<Skip>(),
+    Scene::of::<Skip>(skip_winch::SCENE).geared::<Skip>().gap::<skip_winch::SkipOnRope>(),
     Scene::of::<punch_press::PunchPress>(punch_press::SCENE).crank::<punch_press::PunchPress>(),
     Scene::of::<blooming_mill::BloomingMill>(blooming_mill::SCENE).gap::<blooming_mill::BloomingMill>(),
     Scene::of::<converter::Converter>(converter::SCENE).gap::<converter::Converter>(),
