@@ -562,7 +562,7 @@ fn a_hard_bearing_machine_needs_no_trial_runs() {
 fn what_a_hard_bearing_machine_lacks_is_told() {
     for (from, to, expected) in [
         ("span = 0.7\ncentre = 0.33\nplanes_at = [0.2, 0.5]", "", "[rotor] with `span`, `centre` and `planes_at`"),
-        ("rpm = 600\n", "", "[baseline] with `rpm`"),
+        ("rpm = 600\n", "", "`baseline`: found a table, expected `rpm`"),
         ("\"bearing B\"]", "\"bearing B\", \"frame\"]", "`sensors`"),
         ("hard-bearing", "soft", "\"none\" or \"hard-bearing\""),
         ("diameter = 0.3\n", "", "`diameter`: a number"),
