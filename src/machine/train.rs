@@ -134,7 +134,7 @@ impl Train {
         if self.count + branch.count - 1 > CAPACITY {
             return self.refuse(Error::TooManyMasses);
         }
-        let [efficiency, back] = [self.efficiency(at), self.back_efficiency(at)];
+        let [efficiency, back] = self.efficiencies(at);
         let (flow, loss) = (self.flow, if matches!(self.flow, Flow::Overhauling) { back } else { efficiency });
         self.inertia[at] += refer_inertia(branch.inertia[0], ratio.0, loss, Side::Load, flow);
         self.gravity[0] += branch.gravity[0] / ratio.0;
@@ -250,25 +250,25 @@ impl Train {
     /// Efficiency between the motor and a mass while the motor drives, by the shafts of the tree; 1 beyond the masses.
     #[must_use]
     pub const fn efficiency(&self, mass: usize) -> f64 {
-        let mut efficiency = 1.0;
-        let mut node = if mass < self.count { mass } else { 0 };
-        while node != 0 {
-            efficiency *= self.joint[node - 1].shaft.efficiency;
-            node = self.joint[node - 1].from;
-        }
-        efficiency
+        self.efficiencies(mass)[0]
     }
 
     /// [`efficiency`](Self::efficiency) while the load drives.
     #[must_use]
     pub const fn back_efficiency(&self, mass: usize) -> f64 {
-        let mut efficiency = 1.0;
+        self.efficiencies(mass)[1]
+    }
+
+    /// Both.
+    const fn efficiencies(&self, mass: usize) -> [f64; 2] {
+        let mut both = [1.0; 2];
         let mut node = if mass < self.count { mass } else { 0 };
         while node != 0 {
-            efficiency *= self.joint[node - 1].shaft.back_efficiency;
-            node = self.joint[node - 1].from;
+            let Joint { from, shaft, .. } = self.joint[node - 1];
+            both = [both[0] * shaft.efficiency, both[1] * shaft.back_efficiency];
+            node = from;
         }
-        efficiency
+        both
     }
 
     /// The whole train as one mass.
