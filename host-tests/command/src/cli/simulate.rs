@@ -1,6 +1,7 @@
 //! `cargo driveline simulate`: a run of any train by the full solver.
 
 mod result;
+mod starting_time;
 
 use std::path::PathBuf;
 
@@ -151,6 +152,13 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
         steady.row([cycle.name.clone()].into_iter().chain(numbers));
         let text = format!("Repeats after {} cycles from the end of the run.", cycle.cycles);
         all.push(Section::new("Steady cycle", text, steady));
+    }
+    if let Some(starting) = &simulation.starting {
+        let mut table = Table::new(["coordinate", "speed rad/s", "time s", "rigid s"]);
+        let time = |time: Option<f64>| time.map_or_else(|| "none".to_owned(), significant);
+        table.row([starting.name.clone(), significant(starting.speed), time(starting.time), time(starting.rigid)]);
+        let text = "Until the speed is first reached; rigid, in closed form of a machine without twist or gap.";
+        all.push(Section::new("Starting time", text, table));
     }
     if let Some(bare) = &simulation.without_dampers {
         let mut table = Table::new(["link", "without least N m", "greatest N m", "with least N m", "greatest N m"]);

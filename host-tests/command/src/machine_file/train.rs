@@ -60,8 +60,8 @@
 //! `table` `points`; `triangle`, `square`, `sawtooth up`, `sawtooth down`, `rectified` `height` `period` `terms`; `arc`
 //! `torque` `from` `to` (`turns`); `stroke` `force` (`from` `to`); `orders` `harmonics` |
 //! | `[start]` | `kind`: `rest`, `slack`, or `pretensioned` with `held` |
-//! | `[run]` | `time` s, `step` s, a whole number of which is the time, (`cycle`, `cycle_turns`); `modes` does without
-//! it |
+//! | `[run]` | `time` s, `step` s, a whole number of which is the time, (`cycle`, `cycle_turns`, `starting` with
+//! `starting_speed`); `modes` does without it |
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -122,6 +122,8 @@ pub struct TrainFile {
     pub without_dampers: Option<Box<Self>>,
     /// The coordinate whose steady cycle is wanted, and its turns.
     pub cycle: Option<(usize, u32)>,
+    /// The coordinate whose starting time is wanted, and the speed that it reaches (rad/s or m/s).
+    pub starting: Option<(usize, f64)>,
     /// Why a run of this length cannot be solved, where the train is too stiff for it; its modes can be found all the
     /// same.
     pub too_stiff: Option<Diagnostic>,
@@ -335,9 +337,10 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         };
         start.finish()?;
     }
+    let motion = train.clone().build().map_err(|error| refused(error, whole.clone()))?;
     let (running, excitations) = excitations(&mut root)?;
-    let (time, step, cycle) = if asked == Asked::Modes && !root.has("run") {
-        (0.0, 0.0, None)
+    let (time, step, cycle, starting) = if asked == Asked::Modes && !root.has("run") {
+        (0.0, 0.0, None, None)
     } else {
         let mut run = root.table("run")?;
         let time = run.number("time", Quantity::TIME)?;
@@ -353,11 +356,19 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         }
         let turns = run.number_or("cycle_turns", Quantity::TURNS, 1.0)? as u32;
         let cycle = if run.has("cycle") { Some((file.named(&mut run, "cycle")?, turns)) } else { None };
+        let starting = if run.has("starting") {
+            let (at, speed) = (file.named(&mut run, "starting")?, run.number("starting_speed", Quantity::SPEED)?);
+            if !(speed > motion.speed(at)) {
+                return Err(run.wrong("starting_speed", "a speed above that of the coordinate at the start"));
+            }
+            Some((at, speed))
+        } else {
+            None
+        };
         run.finish()?;
-        (time, step, cycle)
+        (time, step, cycle, starting)
     };
     root.finish()?;
-    let motion = train.clone().build().map_err(|error| refused(error, whole.clone()))?;
     let too_stiff = too_stiff(&motion, time).map(|(place, found, expected)| {
         let name = match place {
             Place::Node(j) => &file.names[j],
@@ -384,6 +395,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         forwards,
         without_dampers,
         cycle,
+        starting,
         running,
         excitations,
         too_stiff,

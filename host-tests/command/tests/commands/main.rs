@@ -26,4 +26,5 @@ mod scope;
 mod simulate;
 #[path = "../../../report/tests/report/sound.rs"]
 mod sound;
+mod starting_time;
 mod survey;

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::starting_time::StartingTime;
 use crate::cli::{Failure, Progress};
 use crate::machine_file::TrainFile;
 use driveline_report::format::counted;
@@ -40,6 +41,8 @@ pub struct Simulation {
     pub not_proven: Option<String>,
     /// The steady cycle; `null` where the file asks for none.
     pub cycle: Option<Steady>,
+    /// The starting time; `null` where the file asks for none.
+    pub starting: Option<StartingTime>,
     /// The same run without the dampers; `null` of a machine that has none.
     pub without_dampers: Option<Box<Self>>,
     /// Times of the lines (s).
@@ -171,12 +174,17 @@ impl Simulation {
         let mut run = Recording::new(start);
         // a stiff train's step is divided, so that the bar moves within it
         let looks = (file.motion.rate() * file.step / BETWEEN_LOOKS).ceil().max(1.0) as u64;
+        let mut reached = None;
         for step in 0..steps {
             for look in 0..looks {
                 run.advance(file.step / looks as f64);
                 progress.at((step * looks + look + 1) * 100 / (steps * looks));
             }
             let motion = run.motion();
+            if let Some((at, speed)) = file.starting.filter(|_| reached.is_none()) {
+                let peak = motion.extremes(Signal::Speed(at)).map(|extremes| extremes.peak);
+                reached = peak.filter(|peak| *peak >= speed).map(|_| step);
+            }
             if motion.events().last().is_some_and(|event| event.kind == EventKind::Unresolved) {
                 let at = motion.time();
                 let mut before = motion.events().iter().rev().filter(|event| event.kind != EventKind::Unresolved);
@@ -216,6 +224,7 @@ impl Simulation {
         };
         let motion = run.motion();
         let cycle = file.cycle.map(|(at, turns)| steady(file, motion.clone(), at, turns, proven)).transpose()?;
+        let starting = file.starting.map(|wanted| StartingTime::of(file, wanted, looks, reached));
         let moved = |j: usize| {
             let extremes = motion.extremes(Signal::Speed(j));
             let (least, greatest) = extremes.map_or((f64::NAN, f64::NAN), |e| (e.least, e.peak));
@@ -285,6 +294,7 @@ impl Simulation {
             sensitive: proof.and_then(|proof| proof.sensitive).map(Pieces::from),
             not_proven,
             cycle,
+            starting,
             without_dampers,
             times,
             speeds: rows,
