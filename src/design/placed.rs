@@ -1,6 +1,6 @@
-//! Observer of two masses by pole placement, for the points of a gain schedule.
+//! Observer of two masses by pole placement: for the points of a gain schedule, and by a bandwidth.
 //!
-//! A schedule has dozens of points, and the Riccati equation of each would cost the compiler a third of a second. Here
+//! A schedule has dozens of points, and the Riccati equation of each would cost the compiler a third of a second. There
 //! the poles are those of the continuous Kalman filter, which are the left roots of a polynomial in `X = s^2`
 //! (symmetric root locus [Kwakernaak and Sivan 1972, Linear Optimal Control Systems, §5.5]),
 //!
@@ -66,6 +66,72 @@ impl TwoMass {
         let motor = variances.torque / variances.angle;
         let load = variances.load_torque / (variances.angle * period * period);
         let (unit, roots) = self.filter_poles(motor, load);
+        self.observer_of_poles(period, unit, &roots)
+    }
+
+    /// Gains by one number: five poles in Butterworth's pattern [Butterworth 1930, Experimental Wireless 7, 536] at a
+    /// radius of `bandwidth` (rad/s).
+    ///
+    /// For an observer that is tuned by hand, where neither the encoder's errors nor the disturbances are known. The
+    /// bandwidth is between zero and half the rate, as a circular frequency. A larger one follows the load faster and
+    /// lets more noise through.
+    ///
+    /// # Errors
+    /// A value out of range; [`Error::ObserverBandwidth`]; [`Error::Unobservable`] without stiffness;
+    /// [`Error::SampleRate`] where the resonance lies above half the rate; [`Error::NotStabilising`] where the poles
+    /// cannot be placed in `f64`.
+    ///
+    /// ```
+    /// use driveline::design::Rate;
+    /// use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
+    ///
+    /// const ROLL: TwoMass = TwoMass::new(Inertia(0.4), Inertia(0.5), Stiffness(2e4), Damping(1.0));
+    /// let slow = ROLL.try_observer_of_bandwidth(Rate::hz(10_000), 100.0)?;
+    /// let fast = ROLL.try_observer_of_bandwidth(Rate::hz(10_000), 400.0)?;
+    /// assert!(fast.gains[4].abs() > slow.gains[4].abs());
+    /// # Ok::<(), driveline::design::Error>(())
+    /// ```
+    pub const fn try_observer_of_bandwidth(&self, rate: Rate, bandwidth: f64) -> Result<PlacedObserver, Error> {
+        // cosine and sine of 36 and 72 degrees
+        const POLES: [(f64, f64); 5] = [
+            (-1.0, 0.0),
+            (-0.809_016_994_374_947_4, 0.587_785_252_292_473_1),
+            (-0.809_016_994_374_947_4, -0.587_785_252_292_473_1),
+            (-0.309_016_994_374_947_4, 0.951_056_516_295_153_5),
+            (-0.309_016_994_374_947_4, -0.951_056_516_295_153_5),
+        ];
+        if let Err(error) = self.check() {
+            return Err(Error::Machine(error));
+        }
+        let period = match rate.period() {
+            Ok(period) => period,
+            Err(error) => return Err(error),
+        };
+        if !(bandwidth > 0.0 && bandwidth * period < core::f64::consts::PI) {
+            return Err(Error::ObserverBandwidth);
+        }
+        if self.stiffness == 0.0 {
+            return Err(Error::Unobservable);
+        }
+        if self.resonance() * period >= core::f64::consts::PI {
+            return Err(Error::SampleRate);
+        }
+        let mut roots = POLES;
+        let mut k = 0;
+        while k < 5 {
+            roots[k] = (roots[k].0 * bandwidth, roots[k].1 * bandwidth);
+            k += 1;
+        }
+        self.observer_of_poles(period, bandwidth, &roots)
+    }
+
+    /// Gains at these poles (1/s), in a unit of frequency (rad/s) of their size.
+    const fn observer_of_poles(
+        &self,
+        period: f64,
+        unit: f64,
+        roots: &[(f64, f64); 5],
+    ) -> Result<PlacedObserver, Error> {
         let step = ExactStep::new(self, period);
         let mut poles = [(0.0, 0.0); 5];
         let mut k = 0;

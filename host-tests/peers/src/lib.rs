@@ -7,7 +7,7 @@
 //!
 //! | observer | model | tuning |
 //! |---|---|---|
-//! | [`library`] | as the scenes have them | the scene's; `tuned` with Luenberger's gains |
+//! | [`library`] | as the scenes have them | the scene's; `tuned` by a bandwidth, which is swept |
 //! | [`ByHand`], [`ByNalgebra`] | two masses and load torque, 5 states | gains of the library's design |
 //! | [`ByHand`] as Luenberger | the same | poles of Butterworth's pattern, their radius swept |
 //! | [`DisturbanceObserver`] | motor's inertia | its corner, swept |

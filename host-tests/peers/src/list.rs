@@ -1,5 +1,6 @@
 //! All observers by their names.
 
+use driveline::design::{Rate, StepChoice};
 use driveline::governor::SpeedLoopConfig;
 use driveline::number::Fixed;
 use driveline::observer::{
@@ -109,17 +110,23 @@ pub fn with<V: Visitor>(scene: &Scene, peer: usize, value: f32, visitor: V) -> O
                     RigidConfig::<$number>::try_new(&scene.rigid, scene.load_share, bases).ok()?
                 ),
                 1 | 2 | 5 | 6 => {
-                    let (_, mut design) = Model::of(scene)?;
-                    if $which > 4 {
-                        design.gains = luenberger::gains(&design, f64::from(value))?.map(f64::from);
-                    }
-                    if $which == 1 || $which == 5 {
-                        behind!(
+                    let (_, design) = Model::of(scene)?;
+                    let placed = || design.machine.try_observer_of_bandwidth(Rate::every(period), f64::from(value));
+                    match $which {
+                        1 => behind!(
                             SemiImplicitObserver<$number>,
                             SemiImplicitConfig::<$number>::try_new(&design, bases).ok()?
-                        )
-                    } else {
-                        behind!(TwoMassObserver<$number>, TwoMassConfig::<$number>::try_new(&design, bases).ok()?)
+                        ),
+                        2 => behind!(TwoMassObserver<$number>, TwoMassConfig::<$number>::try_new(&design, bases).ok()?),
+                        5 if design.chosen != StepChoice::Exact => behind!(
+                            SemiImplicitObserver<$number>,
+                            SemiImplicitConfig::<$number>::try_of_placed(&placed().ok()?, bases).ok()?
+                        ),
+                        5 => None,
+                        _ => behind!(
+                            TwoMassObserver<$number>,
+                            TwoMassConfig::<$number>::try_of_placed(&placed().ok()?, bases).ok()?
+                        ),
                     }
                 }
                 3 => behind!(

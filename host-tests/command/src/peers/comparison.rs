@@ -56,13 +56,6 @@ pub struct SceneComparison {
     pub observers: Vec<Observer>,
 }
 
-impl Observer {
-    /// Whether it is the library's with the gains of its design.
-    pub const fn is_designed(&self) -> bool {
-        self.library && self.own.tuned.is_none()
-    }
-}
-
 /// All scenes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Comparison {
@@ -194,7 +187,7 @@ impl SceneComparison {
         for (observer, cost) in self.on(core).filter(|(observer, _)| !observer.library) {
             let rivals: Vec<&Observer> = self
                 .on(core)
-                .filter(|(rival, of)| rival.is_designed() && of.median <= cost.median)
+                .filter(|(rival, of)| rival.library && of.median <= cost.median)
                 .map(|(rival, _)| rival)
                 .collect();
             if is(observer, &rivals) {

@@ -51,10 +51,7 @@ pub fn fronts(comparison: &Comparison) -> Table {
             let names = |names: Vec<&str>| if names.is_empty() { "none".to_owned() } else { names.join("; ") };
             for of in runs {
                 row.extend([true, false].map(|library| {
-                    let all = scene.on(core).filter(|(observer, _)| match library {
-                        true => observer.is_designed(),
-                        false => !observer.library,
-                    });
+                    let all = scene.on(core).filter(|(observer, _)| observer.library == library);
                     let least = all.min_by(|(a, cost), (b, than)| {
                         of(a).shaft_torque.total_cmp(&of(b).shaft_torque).then(cost.median.cmp(&than.median))
                     });

@@ -1,9 +1,10 @@
 //! Gains at the points of a schedule, against the Riccati equation's.
 
 use driveline::configure::{Family, Machine};
-use driveline::design::{Disturbance, Rate};
+use driveline::design::{Disturbance, Error, PlacedObserver, Rate};
+use driveline::machine::TwoMass;
 use driveline_firmware::scenes::hoist::Hoist;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 
 type Known = Hoist<10_000>;
 
@@ -26,22 +27,50 @@ fn gains_at_the_points_are_the_kalman_filters() {
 }
 
 /// The poles of `(1 - K C) F`, by nalgebra, are where they were to be placed.
+fn poles_lie_where_they_were_placed(machine: &TwoMass, observer: &PlacedObserver) {
+    let whole = machine.observer(Known::RATE, Known::ENCODER, Known::DISTURBANCE).transition;
+    let f = DMatrix::from_fn(5, 5, |i, j| whole.0[i][j]);
+    let k = DVector::from_row_slice(&observer.gains);
+    let error = &f - &k * f.row(0);
+    for (re, im) in observer.poles {
+        // |det(error - z)| is the product of the distances of z from the five poles, next to 1 - 1e-2
+        let z = Complex::new(1.0 + re, im);
+        let shifted = error.map(|x| Complex::new(x, 0.0)) - DMatrix::identity(5, 5) * z;
+        let others = observer.poles.iter().map(|other| (re - other.0).hypot(im - other.1)).filter(|&far| far > 0.0);
+        let distance = shifted.determinant().norm() / others.product::<f64>();
+        // of poles 1e-3 from one another, from entries with the rounding of 1: 1e-16/(1e-3)^2, with room
+        assert!(distance < 1e-7, "{distance:e} from ({re}, {im})");
+    }
+}
+
 #[test]
 fn poles_are_where_they_were_placed() {
     for (member, observer) in Known::MEMBERS.iter().flatten().zip(Known::OBSERVERS.iter().flatten()) {
-        let whole = member.observer(Known::RATE, Known::ENCODER, Known::DISTURBANCE).transition;
-        let f = DMatrix::from_fn(5, 5, |i, j| whole.0[i][j]);
-        let k = DVector::from_row_slice(&observer.gains);
-        let error = &f - &k * f.row(0);
-        for (re, im) in observer.poles {
-            // |det(error - z)| is the product of the distances of z from the five poles, next to 1 - 1e-2
-            let z = nalgebra::Complex::new(1.0 + re, im);
-            let shifted = error.map(|x| nalgebra::Complex::new(x, 0.0)) - DMatrix::identity(5, 5) * z;
-            let others = observer.poles.iter().map(|other| (re - other.0).hypot(im - other.1)).filter(|&far| far > 0.0);
-            let distance = shifted.determinant().norm() / others.product::<f64>();
-            // of poles 1e-3 from one another, from entries with the rounding of 1: 1e-16/(1e-3)^2, with room
-            assert!(distance < 1e-7, "{distance:e} from ({re}, {im})");
+        poles_lie_where_they_were_placed(member, observer);
+    }
+}
+
+/// Butterworth's polynomial of odd order has the left roots of `s^10 = 1`, here sampled at 10 kHz.
+#[test]
+fn a_bandwidth_is_the_radius_of_five_poles() {
+    for bandwidth in [50.0, 200.0, 1_500.0] {
+        let observer = Known::TWO_MASS.try_observer_of_bandwidth(Known::RATE, bandwidth).unwrap();
+        poles_lie_where_they_were_placed(&Known::TWO_MASS, &observer);
+        let roots = (3..8).map(|k| Complex::from_polar(bandwidth, std::f64::consts::PI * f64::from(k) / 5.0));
+        for pole in roots.map(|root| (root * 1e-4).exp()) {
+            let nearest = observer.poles.iter().map(|&(re, im)| (Complex::new(1.0 + re, im) - pole).norm());
+            // the rounding of 1
+            assert!(nearest.fold(1.0, f64::min) < 1e-15, "{bandwidth}: {pole}");
         }
+    }
+}
+
+/// Half the rate of 10 kHz is 31 416 rad/s.
+#[test]
+fn a_bandwidth_out_of_range_is_refused() {
+    for bandwidth in [0.0, -1.0, f64::NAN, f64::INFINITY, 31_416.0] {
+        let refused = Known::TWO_MASS.try_observer_of_bandwidth(Known::RATE, bandwidth).unwrap_err();
+        assert_eq!(refused, Error::ObserverBandwidth, "{bandwidth}");
     }
 }
 
