@@ -138,6 +138,38 @@ fn a_blind_tick_begins_the_search_anew() {
     assert_eq!(search(&[Some(50_000), Some(50_000), Some(50_100), Some(50_200)]), [false, false, false, true]);
 }
 
+/// Three ticks may pass without an angle, whether they ran or not; and a tick that did not run ends the search as well.
+#[test]
+fn missed_ticks_up_to_the_limit_keep_the_angle() {
+    for (missed, lost) in [(1, false), (2, false), (3, false), (4, true), (1000, true)] {
+        let mut drive = Watched::new(&WATCHED, 0);
+        assert_eq!(drive.make_up(&WATCHED, 0.0, missed), Faults::TICK_MISSED);
+        assert_eq!(drive.is_lost(), lost, "{missed}");
+    }
+    let mut drive = Watched::new(&WATCHED, 0);
+    for lost in [false, false, false, true] {
+        drive.coast(&WATCHED, 0.0, 0.0);
+        assert_eq!(drive.is_lost(), lost);
+    }
+    let mut lost_at = |angle| {
+        drive.tick(&WATCHED, &Sample { angle, torque: 0.0, setpoint: 0.0 });
+        drive.make_up(&WATCHED, 0.0, 1);
+        drive.is_lost()
+    };
+    assert_eq!([lost_at(50_000), lost_at(50_100)], [true, true]);
+}
+
+#[test]
+fn a_torque_that_cannot_be_is_told_of_while_the_angle_is_lost() {
+    let mut drive = Watched::new(&WATCHED, 0);
+    for _ in 0..4 {
+        drive.coast(&WATCHED, 0.0, 0.0);
+    }
+    let lost = Faults::ANGLE_MISSING | Faults::ANGLE_LOST;
+    assert_eq!(drive.coast(&WATCHED, 10.0, 0.0).faults, lost);
+    assert_eq!(drive.coast(&WATCHED, -10.1, 0.0).faults, lost | Faults::TORQUE);
+}
+
 type Governed = Drive<f64, RigidObserver<f64>, (), SpeedLoop<f64>>;
 
 const GOVERNED: driveline::drive::ConfigOf<Governed> = Config {

@@ -1,9 +1,9 @@
 //! Single ticks of the governors.
 
 use driveline::governor::{
-    Gains, Governor, MovingAverage, MovingAverageConfig, RunRequest, RunState, Sequencer, SequencerConfig, Slew,
-    SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SpeedRange,
-    SymmetricLimit, SymmetricLimitConfig,
+    Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, MovingAverage, MovingAverageConfig,
+    RunRequest, RunState, Sequencer, SequencerConfig, Slew, SlewConfig, SpeedFilter, SpeedGovernor,
+    SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SpeedRange, SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::number::{Coefficient, Fixed};
 use driveline::sample::Estimate;
@@ -31,6 +31,52 @@ fn a_start_beyond_the_torque_limit_starts_at_the_limit() {
         governor.start(&config, &at(0.0), sign * 1000.0);
         assert_eq!(governor.command(&config, &at(sign * 10.0)), sign * 40.0);
     }
+}
+
+/// The law on paper: integral, proportional part and damping, with a machine that turns and whose shaft winds up.
+#[test]
+fn the_speed_loop_is_the_law_on_paper() {
+    let config = SpeedLoopConfig::<f64> {
+        proportional: 2.0,
+        integral: 0.5,
+        damping: -3.0,
+        anti_windup: 0.0,
+        torque_limit: 1000.0,
+        ramp: 4.0,
+        filter: (),
+    };
+    let mut governor = SpeedLoop::<f64>::default();
+    let turning = Estimate { load_speed: 9.0, ..at(11.0) };
+    governor.start(&config, &at(10.0), 6.0);
+    governor.set_setpoint(12.0);
+    // error 1, twist rate 2: 6 + 1/2 + 2 (1) - 3 (2)
+    assert_eq!(governor.command(&config, &turning), 2.5);
+    assert_eq!(governor.command(&config, &turning), 3.0);
+    governor.set_setpoint(-30.0);
+    // the ramp has come down to 8: error -3
+    assert_eq!(governor.command(&config, &turning), 7.0 - 1.5 - 6.0 - 6.0);
+}
+
+/// The load's part and the droop are there from the first tick, and the torque is still the one that there was.
+#[test]
+fn a_start_with_droop_and_feed_forward_is_bumpless() {
+    type Drooped = SpeedGovernor<f64, Droop, FeedForward>;
+    let config = SpeedGovernorConfig {
+        gains: Gains { ramp: 0.0, ..GAINS },
+        shape: DroopConfig { droop: 0.25 },
+        compensation: FeedForwardConfig { share: 0.5 },
+        limit: SymmetricLimitConfig { torque: 100.0 },
+        sequence: (),
+        filter: (),
+    };
+    let loaded = Estimate { load_torque: 8.0, ..at(50.0) };
+    let mut governor = Drooped::default();
+    governor.start(&config, &loaded, 20.0);
+    // half the load's 8 N m is fed forward; a quarter of 20 N m is the droop
+    assert_eq!((governor.integral(), governor.ramped_setpoint()), (16.0, 55.0));
+    assert_eq!(governor.command(&config, &loaded), 20.0);
+    // 2 rad/s too slow are 2 N m, whatever the torque
+    assert_eq!(governor.command(&config, &Estimate { load_torque: 8.0, ..at(48.0) }), 22.0);
 }
 
 type Slewed = SpeedGovernor<f64, (), (), Slew<f64, SymmetricLimit>>;
