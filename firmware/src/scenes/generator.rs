@@ -36,15 +36,17 @@ use core::marker::PhantomData;
 
 use driveline::configure::{GainSource, HasBarredSpeeds, HasDroop, HasSequencer, HasTorqueCurve, Machine, Rating};
 use driveline::design::{
-    Actuator, BarredSpeeds, Disturbance, Encoder, GovernorDesign, LoadFeedForward, Rate, TorqueCurve, TwoMassDesign,
-    USUAL_MARGIN, VirtualInertia,
+    Actuator, BarredSpeeds, Disturbance, Encoder, GovernorDesign, LoadFeedForward, NaturalDamping, Rate, TorqueCurve,
+    TwoMassDesign, USUAL_MARGIN, VirtualInertia,
 };
 use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::{
     AccelerationFeedback, ActuatorMonitor, ActuatorMonitorConfig, Barred, Compensation, Curve, Droop, FeedForward,
     MovingAverage, RunRequest, RunState, Sequencer, SpeedGovernor, TransportDelay, TransportDelayConfig, Trip,
 };
-use driveline::machine::{Chain, Damping, Inertia, Match, Stiffness, TwoMass as TwoMassMachine};
+use driveline::machine::{
+    Chain, Characteristic, Damping, Inertia, Line, Match, Parabola, Speed, Stiffness, Torque, TwoMass as TwoMassMachine,
+};
 use driveline::number::{Fixed, Number};
 use driveline::observer::TwoMassObserver;
 use driveline::sample::Sample;
@@ -91,6 +93,8 @@ pub struct Set {
     pub timeout: f64,
     /// Largest torque against speed.
     pub curve: TorqueCurve<4>,
+    /// Slopes of prime mover and load at the rated point, where the governor is to be stable.
+    pub natural: NaturalDamping,
     /// Acceleration of the setpoint (rad/s2).
     pub ramp: f64,
     /// Barred speeds.
@@ -114,6 +118,32 @@ pub const TORQUE_DELAY: f64 = 0.0065;
 /// Dead time that the governor allows for (s), which has to bear with every phase of the firing.
 pub const FIRING_DELAY: f64 = Actuator::firing_delay(6, true, RATED_SPEED);
 
+/// Friction of the diesel at rated speed, of rated torque: a mean effective pressure of 2 bar in 12.4 l.
+pub const DIESEL_FRICTION: f64 = 0.08;
+
+/// Full-load curve of the diesel: what the charge lets burn, through three points as a maker gives them.
+const DIESEL_FULL_LOAD: Characteristic = Characteristic::Parabola(Parabola::through([
+    (Speed(0.4 * RATED_SPEED), Torque(0.75 * DIESEL_TORQUE)),
+    (Speed(0.7 * RATED_SPEED), Torque(1.05 * DIESEL_TORQUE)),
+    (Speed(1.05 * RATED_SPEED), Torque(1.2 * DIESEL_TORQUE)),
+]));
+
+/// The diesel at the rack of its rated torque: a cycle's fuel gives the same torque at every speed, less the friction.
+const DIESEL_MOVER: Characteristic =
+    Characteristic::Line(Line::new((Speed(RATED_SPEED), Torque(DIESEL_TORQUE)), falling_by(DIESEL_FRICTION)));
+
+/// Speed without load of a mover whose torque falls by a share of the rated one from standstill to rated speed.
+const fn falling_by(share: f64) -> Speed {
+    Speed(RATED_SPEED * (1.0 + 1.0 / share))
+}
+
+/// Natural damping at the rated point, with a load of constant power: its torque falls as the speed rises, which takes
+/// some of the margins.
+const fn natural(mover: &Characteristic, rated_torque: f64) -> NaturalDamping {
+    let power = Characteristic::Line(Line::new((Speed(RATED_SPEED), Torque(rated_torque)), falling_by(1.0)));
+    NaturalDamping::of(mover, &power, Speed(RATED_SPEED))
+}
+
 /// Delay of the speed filter (s): half of its interval.
 const VIEW_DELAY: f64 = 0.5 * FIRING as f64 * PERIOD;
 
@@ -132,12 +162,8 @@ pub const DIESEL: Set = Set {
     // one lag; two ticks of it stand for the second
     lags: [RACK_LAG - 2.0 * PERIOD, 2.0 * PERIOD],
     timeout: 0.1,
-    curve: TorqueCurve::through([
-        [0.0, 0.5 * DIESEL_TORQUE],
-        [0.4 * RATED_SPEED, 0.7 * DIESEL_TORQUE],
-        [0.8 * RATED_SPEED, 1.2 * DIESEL_TORQUE],
-        [1.05 * RATED_SPEED, 1.2 * DIESEL_TORQUE],
-    ]),
+    curve: TorqueCurve::of(&DIESEL_FULL_LOAD, [0.0, 0.4 * RATED_SPEED, 0.8 * RATED_SPEED, 1.05 * RATED_SPEED]),
+    natural: natural(&DIESEL_MOVER, DIESEL_TORQUE),
     ramp: 0.25 * RATED_SPEED,
     barred: BarredSpeeds::new(&[DIESEL_MACHINE.resonance()], &[1.5], USUAL_MARGIN, 0.9 * RATED_SPEED),
 };
@@ -149,6 +175,14 @@ pub const TURBINE_TORQUE: f64 = 2.0e6 / RATED_SPEED;
 pub const VALVE_LAG: f64 = 0.1;
 /// See [`VALVE_LAG`].
 pub const CHEST_LAG: f64 = 0.25;
+
+/// Friction and windage of turbine and gear at rated speed, of rated torque.
+pub const TURBINE_FRICTION: f64 = 0.02;
+
+/// The turbine at the valve of its rated torque: half of it is lost by twice the rated speed [Wang 1989 (1-6)], and the
+/// friction.
+const TURBINE_MOVER: Characteristic =
+    Characteristic::Line(Line::new((Speed(RATED_SPEED), Torque(TURBINE_TORQUE)), falling_by(0.5 + TURBINE_FRICTION)));
 
 /// Sum of the turbine set's inertias (kg m2), from its acceleration time of 8 s.
 pub const TURBINE_INERTIA: f64 = 8.0 * TURBINE_TORQUE / RATED_SPEED;
@@ -181,6 +215,7 @@ pub const TURBINE: Set = Set {
         [1.1 * RATED_SPEED, TURBINE_TORQUE],
     ])
     .with_power_limit(1.1 * TURBINE_TORQUE * RATED_SPEED),
+    natural: natural(&TURBINE_MOVER, TURBINE_TORQUE),
     ramp: 0.05 * RATED_SPEED,
     barred: BarredSpeeds::new(&[0.01], &[1.0], USUAL_MARGIN, RATED_SPEED),
 };
@@ -201,10 +236,15 @@ impl Set {
     pub const fn governor(&self, forward: bool) -> GovernorDesign {
         if forward {
             let forward = LoadFeedForward { share: self.share, lag: self.estimate_lag };
-            return self.machine.governor(RATE, self.actuator, self.optimum_factor[0], forward);
+            return self
+                .machine
+                .governor(RATE, self.actuator, self.optimum_factor[0], forward)
+                .with_natural_damping(&self.machine, self.natural);
         }
         let inertia = VirtualInertia { share: self.inertia, lag: self.estimate_lag };
-        self.machine.governor_with_inertia(RATE, self.actuator, self.optimum_factor[1], inertia)
+        self.machine
+            .governor_with_inertia(RATE, self.actuator, self.optimum_factor[1], inertia)
+            .with_natural_damping(&self.machine, self.natural)
     }
 
     /// The observer.

@@ -6,7 +6,8 @@
 //! chain proven.
 
 use driveline_firmware::scenes::generator::{
-    CHEST_LAG, DIESEL, RACK_LAG, RATED_SPEED, Set as Constants, TURBINE, TURBINE_INERTIA, VALVE_LAG,
+    CHEST_LAG, DIESEL, DIESEL_FRICTION, RACK_LAG, RATED_SPEED, Set as Constants, TURBINE, TURBINE_FRICTION,
+    TURBINE_INERTIA, VALVE_LAG,
 };
 
 use super::diesel::{CYLINDERS, Diesel};
@@ -15,11 +16,6 @@ use driveline_solver::plant::{Chain, Plant, PlantError, Shaft, Start};
 
 /// Steps of the plant in a tick.
 pub const STEPS: u32 = 8;
-
-/// Friction of the engine at rated speed, of rated torque: a mean effective pressure of 2 bar in 12.4 l.
-const FRICTION: f64 = 0.08;
-/// Friction and windage of turbine and gear, of rated torque.
-const TURBINE_FRICTION: f64 = 0.02;
 
 /// Prime mover of a genset.
 #[derive(Clone, Debug)]
@@ -78,7 +74,7 @@ impl Set {
                 // The ring of the vibration damper, tuned to the crank's first vibration (240 Hz) by Den Hartog's rule;
                 // hub with the first of six throws; flywheel. 2 % of critical between the throws.
                 let throw = Shaft::elastic(4.0e6).damping(20.0);
-                let friction = FRICTION * rated_torque / (RATED_SPEED * CYLINDERS as f64);
+                let friction = DIESEL_FRICTION * rated_torque / (RATED_SPEED * CYLINDERS as f64);
                 let mut chain = Chain::motor(0.2);
                 chain = chain.shaft(Shaft::elastic(2.33e5).damping(141.0), 0.05 + 0.12).viscous(friction);
                 for _ in 1..CYLINDERS {
