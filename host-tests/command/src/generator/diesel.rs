@@ -4,11 +4,13 @@
 //! assumption but comes of the firing. Its torque is gas pressure times lever `dV/dphi` [Wang 1989 §1-2]: compression
 //! and expansion by the polytrope 1.36, and a pressure of combustion by Wiebe's function [Heywood 1988, Internal
 //! Combustion Engine Fundamentals, §9.2.2], scaled so that its mean over the cycle is the torque that the rack stands
-//! for. The rotating inertia counts as constant: what the pistons' masses do to it is left out.
+//! for. The reciprocating masses have their own torque, `-J'(phi) omega^2/2 - (J(phi) - J_mean) omega'` at each throw
+//! [Wang 1989 (1-14), (1-15)]: its orders at a steady speed are those of `CrankSlider::mass_torque`.
 //!
 //! The charge pressure follows the load with a lag, and the fuel is held to what the air burns: a turbocharged engine
 //! takes no full load at once.
 
+use core::array;
 use core::f64::consts::TAU;
 
 use driveline::machine::{CrankSlider, Cylinder, Inertia, Length, Mass};
@@ -18,7 +20,7 @@ pub const CYLINDERS: usize = 6;
 /// A third of a turn.
 const THIRD: f64 = TAU / 3.0;
 /// Six in line, 150 mm apart, in the firing order 1-5-3-6-2-4.
-const ENGINE: [Cylinder; CYLINDERS] = Cylinder::fired(
+pub const ENGINE: [Cylinder; CYLINDERS] = Cylinder::fired(
     Cylinder::in_line([0.0, 2.0 * THIRD, THIRD, THIRD, 2.0 * THIRD, 0.0], Length(0.15)),
     [1, 5, 3, 6, 2, 4],
 );
@@ -27,8 +29,11 @@ const BORE: f64 = 0.126;
 const STROKE: f64 = 0.166;
 const COMPRESSION: f64 = 17.0;
 const LAMBDA: f64 = 0.32;
-const CRANK: CrankSlider =
-    CrankSlider::massless_rod(Length(0.5 * STROKE), Length(0.5 * STROKE / LAMBDA), Inertia(0.0), Mass(0.0));
+/// Piston, pin and the connecting rod's share of a cylinder of 2 l: 4 kg, of the usual size.
+pub const CRANK: CrankSlider =
+    CrankSlider::massless_rod(Length(0.5 * STROKE), Length(0.5 * STROKE / LAMBDA), Inertia(0.0), Mass(4.0));
+/// Mean inertia of a cylinder's reciprocating mass, which the throw's inertia has in it (kg m2).
+const MEAN_INERTIA: f64 = CRANK.mean_inertia().0;
 /// Combustion begins 5 degrees before the dead centre and takes 60.
 const IGNITION: f64 = -5.0 / 360.0 * TAU;
 const BURNING: f64 = 60.0 / 360.0 * TAU;
@@ -59,6 +64,8 @@ pub struct Diesel {
     fuel: [f64; CYLINDERS],
     /// Cycle angle of each at the last step.
     angle: [f64; CYLINDERS],
+    /// Speed of each throw at the beginning of the last step; none before the first.
+    speeds: Option<[f64; CYLINDERS]>,
     /// The rack no longer moves.
     seized: bool,
 }
@@ -104,6 +111,7 @@ impl Diesel {
             charge: 0.0,
             fuel: [0.0; CYLINDERS],
             angle,
+            speeds: None,
             seized: false,
         }
     }
@@ -130,8 +138,20 @@ impl Diesel {
         self.rack
     }
 
+    /// Torque of each cylinder's reciprocating mass over a step of `dt` (s), the crank at `angle` (rad) in its middle,
+    /// the throws at `speeds` (rad/s) at its beginning. The acceleration is that of the step before.
+    pub fn mass_torques(&mut self, angle: f64, speeds: [f64; CYLINDERS], dt: f64) -> [f64; CYLINDERS] {
+        let before = self.speeds.replace(speeds).unwrap_or(speeds);
+        array::from_fn(|k| {
+            let law = CRANK.inertia(angle - ENGINE[k].firing);
+            let gained = speeds[k] - before[k];
+            let middle = speeds[k] + 0.5 * gained;
+            -0.5 * law.derivative * middle * middle - (law.inertia - MEAN_INERTIA) * gained / dt
+        })
+    }
+
     /// Runs on by `dt` with the rack commanded to a torque, the crank at `angle` (rad) in the middle of the step: the
-    /// torque of each cylinder.
+    /// torque of each cylinder's gas.
     pub fn advance(&mut self, command: f64, angle: f64, dt: f64) -> [f64; CYLINDERS] {
         if !self.seized {
             let stop = 1.25 * self.rated_torque;

@@ -5,6 +5,8 @@
 //! load's that of its beginning, for eight steps a tick, 52 us. `tests/governor` makes the steps finer and has the
 //! chain proven.
 
+use core::array;
+
 use driveline_firmware::scenes::generator::{
     CHEST_LAG, DIESEL, DIESEL_FRICTION, RACK_LAG, RATED_SPEED, Set as Constants, TURBINE, TURBINE_FRICTION,
     TURBINE_INERTIA, VALVE_LAG,
@@ -153,9 +155,10 @@ impl Set {
         match &mut self.mover {
             Mover::Diesel(diesel) => {
                 let middle = self.plant.motor_angle() - self.plant.twist(0) + 0.5 * dt * self.plant.speed(1);
-                for (cylinder, torque) in diesel.advance(command, middle, dt).into_iter().enumerate() {
-                    self.held.push((cylinder + 1, torque));
-                }
+                let speeds = array::from_fn(|throw| self.plant.speed(throw + 1));
+                let (gas, masses) = (diesel.advance(command, middle, dt), diesel.mass_torques(middle, speeds, dt));
+                self.held
+                    .extend(gas.iter().zip(masses).enumerate().map(|(throw, (gas, mass))| (throw + 1, gas + mass)));
             }
             Mover::Turbine(turbine) => {
                 let torque = turbine.advance(command, self.plant.speed(0), dt);

@@ -1,11 +1,12 @@
 //! The generator sets' plants against closed forms, finer steps and the second integrator.
 
-use cargo_driveline::generator::diesel::Diesel;
+use cargo_driveline::generator::diesel::{CRANK, Diesel, ENGINE};
 use cargo_driveline::generator::set::{Kind, Set};
 use cargo_driveline::generator::turbine::Turbine;
 use driveline::governor::{TransportDelay, TransportDelayConfig};
 use driveline_firmware::scenes::generator::{DIESEL_TORQUE, FIRING_DELAY, RATED_SPEED, TORQUE_DELAY};
 use driveline_solver::plant::converge::{Recording, prove};
+use driveline_solver::plant::train::{Coordinate, Link, Orders, Train};
 
 /// An engine turned at rated speed whose rack goes from nothing to a torque at `at`: the sum of its cylinders' torques
 /// in steps of 31.25 us, the compression taken off by an engine that burns nothing.
@@ -70,6 +71,72 @@ fn the_engine_is_as_late_as_the_observer_is_told() {
     // the two engines.
     assert!((lateness - TORQUE_DELAY).abs() < 5e-4, "{lateness} {TORQUE_DELAY}");
     assert!(lateness < FIRING_DELAY);
+}
+
+/// Six throws in thirds of a turn leave every third order of the masses' torque, `-3/4 lambda - 9/32 lambda^3 -
+/// 81/512 lambda^5` of `m r^2 omega^2` to each cylinder in order 3, the series of a massless rod [derived].
+#[test]
+fn the_masses_torque_has_the_orders_of_the_series() {
+    let (count, dt) = (720, 1e-4);
+    let mut engine = Diesel::new(DIESEL_TORQUE, 0.02);
+    let mut sines = [0.0; 5];
+    for step in 0..count {
+        let angle = core::f64::consts::TAU * f64::from(step) / f64::from(count);
+        let torque: f64 = engine.mass_torques(angle, [RATED_SPEED; 6], dt).iter().sum();
+        for (order, sine) in sines.iter_mut().enumerate() {
+            *sine += torque * (order as f64 * angle).sin() * 2.0 / f64::from(count);
+        }
+    }
+    let (lambda, unit) = (0.32_f64, 6.0 * 4.0 * (0.083 * RATED_SPEED).powi(2));
+    let third = -(0.75 * lambda + 9.0 / 32.0 * lambda.powi(3) + 81.0 / 512.0 * lambda.powi(5)) * unit;
+    // The next term of the series is about a tenth of lambda^7, 3e-5 of the whole.
+    assert!((sines[3] / third - 1.0).abs() < 2e-4, "{} {third}", sines[3]);
+    for order in [1, 2, 4] {
+        assert!(sines[order].abs() < 1e-12 * unit, "{order}: {}", sines[order]);
+    }
+}
+
+/// The plant's chain under the masses' torques alone, against the solver's train whose throws have an inertia by their
+/// angle: throws and flywheel of a set that nothing drives.
+#[test]
+fn the_masses_swing_the_crank_as_inertias_by_the_angle_do() {
+    let free = |steps: u32| {
+        let mut engine = Diesel::new(DIESEL_TORQUE, 0.02);
+        let mut plant = Set::new(Kind::Diesel, RATED_SPEED).unwrap().plant().clone();
+        let dt = 0.1 / f64::from(steps);
+        for _ in 0..steps {
+            let middle = plant.motor_angle() - plant.twist(0) + 0.5 * dt * plant.speed(1);
+            let speeds = core::array::from_fn(|throw| plant.speed(throw + 1));
+            for (throw, torque) in engine.mass_torques(middle, speeds, dt).into_iter().enumerate() {
+                plant.set_load_torque(throw + 1, -torque);
+            }
+            plant.advance(0.0, dt);
+        }
+        [1, 4, 7].map(|node| plant.speed(node))
+    };
+    // As in the plant: 8 % of the rated torque is friction on the throws, whose 0.12 kg m2 have the masses' mean.
+    let friction = 0.08 * DIESEL_TORQUE / (RATED_SPEED * 6.0);
+    let mean = CRANK.mean_inertia().0;
+    let mut train = Train::new().coordinate(Coordinate::new(0.2).speed(RATED_SPEED));
+    for (throw, cylinder) in ENGINE.iter().enumerate() {
+        let law = Orders::sampled(|angle| CRANK.inertia(angle - cylinder.firing).inertia);
+        let own = if throw == 0 { 0.17 } else { 0.12 };
+        train = train.coordinate(Coordinate::new(own - mean).speed(RATED_SPEED).viscous(friction).inertia_law(law));
+    }
+    train = train.coordinate(Coordinate::new(3.43).speed(RATED_SPEED));
+    train = train.coordinate(Coordinate::new(8.0).speed(RATED_SPEED));
+    let shafts = [(2.33e5, 141.0)].into_iter().chain([(4.0e6, 20.0); 6]).chain([(5.0e4, 66.0)]);
+    for (from, (stiffness, damping)) in shafts.enumerate() {
+        train = train.link(Link::shaft(from, from + 1, stiffness).damping(damping));
+    }
+    let mut train = train.build().unwrap();
+    train.advance(0.1);
+    let exact = [1, 4, 7].map(|node| train.speed(node));
+    // As it is run, 19,200 steps a second. The masses alone swing the flywheel by 1e-3; what is left is the step's, and
+    // the crank's twist of a few 1e-3 rad, which the torques leave out.
+    for (speed, exact) in free(1920).into_iter().zip(exact) {
+        assert!((speed - exact).abs() < 5e-6 * RATED_SPEED, "{speed} {exact}");
+    }
 }
 
 /// A full charge is needed for full load: the first step is cut to what burns without it.
