@@ -1,15 +1,17 @@
 //! Result of `design` for a machine: step, observer, governor.
 
+use std::fmt;
+
 use driveline::design::{
     ClosedLoop, Error, EstimateError, LoopObserver, ObserverChoice, ObserverSelection, Penalty, Plant, PredictedErrors,
     RigidDesign, StepChoice,
 };
-use driveline::machine::{Match, Train, TwoMass};
+use driveline::machine::{Match, Mode, Train, TwoMass};
 use driveline_report::format::{percent, significant};
 use serde::Serialize;
 
-use crate::machine_file::MachineFile;
 use crate::machine_file::designs::{Designs, Lack};
+use crate::machine_file::{DamperKind, DamperRing, MachineFile};
 
 /// The controller of a machine, in SI units at the motor.
 #[derive(Clone, Debug, Serialize)]
@@ -38,6 +40,8 @@ pub struct Plan {
     pub need: Option<Needed>,
     /// Errors over the tolerances, for two masses.
     pub predicted: Option<Predicted>,
+    /// What the machine's dampers change of the two masses; `null` where it has none.
+    pub dampers: Option<Damped>,
     /// Reasons why the design may not do for this machine.
     pub warnings: Vec<String>,
 }
@@ -285,31 +289,97 @@ impl Margins {
     }
 }
 
-/// What the dampers of a machine would change of its two masses, which leave them out.
-fn without_dampers(machine: &MachineFile) -> Option<String> {
-    if machine.dampers.is_empty() {
-        return None;
+/// What the dampers of a machine change of its two masses.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Damped {
+    /// Antiresonance (rad/s) with the dampers.
+    pub antiresonance: f64,
+    /// Resonance (rad/s) with the dampers.
+    pub resonance: f64,
+    /// Antiresonance and resonance without them; `null` where the machine then has no shaft.
+    pub without: Option<[f64; 2]>,
+    /// Share by which they enlarge the inertia.
+    pub inertia: f64,
+    /// Label of the mass whose ring swings most in the vibration that the two masses keep; `null` where a mass of the
+    /// machine does.
+    pub ring: Option<String>,
+}
+
+impl Damped {
+    /// Of a machine and the same with its dampers; none where that has no observable shaft.
+    fn of(machine: &MachineFile, damped: &MachineFile) -> Option<Self> {
+        let two = damped.two_masses()?;
+        // by the same rule as with the dampers: a chain's own keeps another mode
+        let train = machine.train.unwrap_or_else(|| Train::of(machine.chain));
+        let bare = train.try_reduce(Match::ResonanceAntiresonance).ok();
+        let modes = damped.modes();
+        let off = |mode: &Mode| (mode.frequency / two.resonance() - 1.0).abs();
+        let kept = modes.resonances().iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let energy = |mass: usize| damped.masses()[mass] * kept.shape[mass] * kept.shape[mass];
+        let most = (0..damped.masses().len()).max_by(|&a, &b| energy(a).total_cmp(&energy(b)))?;
+        // rings that are masses of their own follow the machine's
+        let is_mass =
+            |ring: &&DamperRing| !matches!(ring.kind, DamperKind::Friction { .. } | DamperKind::Viscous { .. });
+        let ring =
+            most.checked_sub(machine.masses().len()).and_then(|at| machine.dampers.iter().filter(is_mass).nth(at));
+        Some(Self {
+            antiresonance: two.antiresonance(),
+            resonance: two.resonance(),
+            without: bare.map(|bare| [bare.antiresonance(), bare.resonance()]),
+            inertia: two.total_inertia() / machine.masses().iter().sum::<f64>() - 1.0,
+            ring: ring.map(|ring| ring.at.clone()),
+        })
     }
-    // by the same rule as with the dampers: a chain's own keeps another mode
-    let bare =
-        machine.train.unwrap_or_else(|| Train::of(machine.chain)).try_reduce(Match::ResonanceAntiresonance).ok()?;
-    let hertz = |omega: f64| significant(omega / core::f64::consts::TAU);
-    Some(match machine.with_dampers().try_reduce(Match::ResonanceAntiresonance) {
-        Ok(with) => format!(
-            "the observer leaves the dampers out: with them the antiresonance is {} Hz instead of {} Hz, the resonance \
-             {} Hz instead of {} Hz, and the inertia {} larger; a machine in Rust has them by `Train::damper`",
-            hertz(with.antiresonance()),
-            hertz(bare.antiresonance()),
-            hertz(with.resonance()),
-            hertz(bare.resonance()),
-            percent(with.total_inertia() / bare.total_inertia() - 1.0)
-        ),
-        Err(error) => format!("the observer leaves the dampers out: {error}"),
-    })
+}
+
+impl fmt::Display for Damped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let hertz = |omega: f64| significant(omega / core::f64::consts::TAU);
+        let (held, free, larger) = (hertz(self.antiresonance), hertz(self.resonance), percent(self.inertia));
+        match (&self.ring, self.without.map(|without| without.map(hertz))) {
+            (None, Some([bare_held, bare_free])) => write!(
+                f,
+                "with the dampers the antiresonance is {held} Hz instead of {bare_held} Hz, the resonance {free} Hz \
+                 instead of {bare_free} Hz, and the inertia {larger} larger"
+            ),
+            (Some(ring), Some([_, bare_free])) => write!(
+                f,
+                "the two masses have the vibration of the damper of `{ring}` at {free} Hz, its antiresonance at {held} \
+                 Hz, and the inertia {larger} larger; that of the machine without its dampers, at {bare_free} Hz, is \
+                 left out"
+            ),
+            (_, None) => write!(
+                f,
+                "without the dampers the machine has no shaft; with them the antiresonance is {held} Hz, the resonance \
+                 {free} Hz, and the inertia {larger} larger"
+            ),
+        }
+    }
 }
 
 impl Plan {
-    /// Designs observer and governor.
+    /// Designs observer and governor of the machine with its dampers.
+    ///
+    /// # Errors
+    /// The library's sentence for a machine that cannot be observed or governed so.
+    pub fn with_dampers(machine: &MachineFile) -> Result<Self, Error> {
+        if machine.dampers.is_empty() {
+            return Self::of(machine);
+        }
+        match machine.damped() {
+            Ok(damped) => {
+                let plan = Self::of(&damped)?;
+                Ok(Self { dampers: Damped::of(machine, &damped), ..plan })
+            }
+            Err(error) => {
+                let mut plan = Self::of(machine)?;
+                plan.warnings.push(format!("the design leaves the dampers out: {error}"));
+                Ok(plan)
+            }
+        }
+    }
+
+    /// Designs observer and governor of the machine without its dampers.
     ///
     /// # Errors
     /// The library's sentence for a machine that cannot be observed or governed so.
@@ -344,7 +414,6 @@ impl Plan {
                 percent(shaft.reduction_error)
             ));
         }
-        self.warnings.extend(without_dampers(machine));
         self
     }
 
@@ -368,6 +437,7 @@ impl Plan {
         Self {
             name: machine.name.clone(),
             need: machine.duty.map(|_| needed(&designs.nominal)),
+            dampers: None,
             warnings: Vec::new(),
             predicted: Some(Predicted::of(machine, designs)),
             observer: "two-mass",
@@ -399,6 +469,7 @@ impl Plan {
             name: machine.name.clone(),
             need: None,
             predicted: None,
+            dampers: None,
             warnings: Vec::new(),
             observer: "rigid",
             rate_hz: machine.control.rate_hz,

@@ -52,7 +52,7 @@ impl Design {
         let refused = |error: driveline::design::Error| {
             Failure::usage(format!("{}: no controller can be designed: {error}", self.file.display()))
         };
-        let plan = Plan::of(&machine).map_err(refused)?;
+        let plan = Plan::with_dampers(&machine).map_err(refused)?;
         let speed_loop = plan.speed_loop.as_ref();
         let unstable = speed_loop.and_then(|governor| governor.no_margins.as_ref());
         if let (Some(_), Some(why)) = (self.emit, unstable) {
@@ -108,6 +108,9 @@ fn text(machine: &MachineFile, plan: &Plan) -> String {
     }
     fact("weight", machine.gravity_torque(), "N m");
     text.push_str(&format!("{facts}\n"));
+    if let Some(dampers) = &plan.dampers {
+        text.push_str(&format!("{dampers}\n\n"));
+    }
     for warning in &plan.warnings {
         text.push_str(&format!("warning: {warning}\n\n"));
     }

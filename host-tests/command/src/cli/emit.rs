@@ -4,18 +4,22 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use driveline::design::SpeedLoopTuning;
-use driveline::machine::Member;
+use driveline::machine::{Damper, Member};
 
-use crate::machine_file::{Branch, Element, MachineFile, Part};
+use crate::machine_file::{Branch, DamperKind, Element, MachineFile, Part};
 
 /// The constants: the chain, its reduction, the observer's design and, for two masses, the speed loop's.
 pub fn rust(machine: &MachineFile) -> String {
     let name = machine.constant();
     let mut words = words(machine);
-    if !machine.branches.is_empty() {
+    // what no train takes is left out, as of the design
+    let damped = machine.damped().ok().filter(|_| !machine.dampers.is_empty());
+    let rings = if damped.is_some() { machine.rings() } else { Vec::new() };
+    let is_train = !machine.branches.is_empty() || !rings.is_empty();
+    if is_train {
         words.extend(["Train", "Ratio", "Inertia"]);
     }
-    let two = machine.two_masses().is_some();
+    let two = damped.as_ref().unwrap_or(machine).two_masses().is_some();
     words.extend(if two { ["Match", "TwoMass"].as_slice() } else { ["Rigid"].as_slice() });
     let designs = if two {
         "Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign"
@@ -23,14 +27,28 @@ pub fn rust(machine: &MachineFile) -> String {
         "Disturbance, Encoder, Rate, RigidDesign"
     };
     let mut chain = written(&machine.elements, "    ");
-    if !machine.branches.is_empty() {
+    if is_train {
         chain = format!("Train::of(\n    {}\n)", written(&machine.elements, "        "));
     }
     for Branch { node, ratio, elements, .. } in &machine.branches {
         let branch = written(elements, "        ");
         chain.push_str(&format!("\n.branch(\n    {node},\n    Ratio({ratio:?}),\n    {branch},\n)"));
     }
-    let kind = if machine.branches.is_empty() { "Chain" } else { "Train" };
+    for (ring, Damper { inertia, stiffness, damping }) in rings {
+        let mass = ring.mass;
+        chain.push_str(&match ring.kind {
+            // it sticks to its mass while the vibration is small
+            DamperKind::Friction { .. } => {
+                format!("\n.branch({mass}, Ratio(1.0), Chain::motor(Inertia({inertia:?})))")
+            }
+            _ => {
+                words.insert("Damper");
+                let sizes = format!("inertia: {inertia:?}, stiffness: {stiffness:?}, damping: {damping:?}");
+                format!("\n.damper({mass}, Ratio(1.0), Damper {{ {sizes} }})")
+            }
+        });
+    }
+    let kind = if is_train { "Train" } else { "Chain" };
     let (torque, step, within) =
         (machine.disturbance.torque_accuracy, machine.disturbance.load_torque_step, machine.disturbance.within);
     let encoder = encoder(machine);

@@ -1,6 +1,8 @@
 //! Where the elements of a machine come to stand: their masses and shafts, and how fast they turn.
 
-use driveline::machine::{Chain, Error, Inertia, Joint, Match, Modes, Ratio, Resonance, Rigid, Shaft, Train, TwoMass};
+use driveline::machine::{
+    Chain, Damper, Error, Inertia, Joint, Match, Modes, Ratio, Resonance, Rigid, Shaft, Train, TwoMass,
+};
 
 use super::{Branch, DamperKind, DamperRing, Element, MachineFile, Part};
 
@@ -105,23 +107,31 @@ impl MachineFile {
         self.train.as_ref().map_or_else(|| self.chain.try_reduce(by), |train| train.try_reduce(by))
     }
 
-    /// The machine with its dampers; a ring on dry friction sticks to its mass.
-    pub fn with_dampers(&self) -> Train {
+    /// The dampers with their sizes at the motor, as they come to stand on the train: a viscous ring takes its share of
+    /// the mode that all other masses have, so after all others.
+    pub(crate) fn rings<'a>(&'a self) -> Vec<(&'a DamperRing, Damper)> {
         let modes = self.modes();
-        let bare = self.train.unwrap_or_else(|| Train::of(self.chain));
-        // a viscous ring takes its share of the mode that all other masses have
         let is_viscous = |ring: &&DamperRing| matches!(ring.kind, DamperKind::Viscous { .. });
         let others = self.dampers.iter().filter(|ring| !is_viscous(ring));
-        others.chain(self.dampers.iter().filter(is_viscous)).fold(bare, |train, ring| {
-            let main = ring.kind.mode().map(|mode| Resonance::of(&modes.resonances()[mode], ring.mass));
-            let damper = ring.sized(main.as_ref());
-            match ring.kind {
-                DamperKind::Friction { .. } => {
-                    train.branch(ring.mass, Ratio(1.0), Chain::motor(Inertia(damper.inertia)))
-                }
-                _ => train.damper(ring.mass, Ratio(1.0), damper),
-            }
-        })
+        let sized = |ring: &'a DamperRing| {
+            let DamperRing { kind, mass, .. } = ring;
+            let main = DamperKind::mode(kind).map(|mode| Resonance::of(&modes.resonances()[mode], *mass));
+            (ring, ring.sized(main.as_ref()))
+        };
+        others.chain(self.dampers.iter().filter(is_viscous)).map(sized).collect()
+    }
+
+    /// The machine with its dampers in its train; a ring on dry friction sticks to its mass.
+    ///
+    /// # Errors
+    /// The library's sentence for rings that a train does not take.
+    pub fn damped(&self) -> Result<Self, Error> {
+        let bare = self.train.unwrap_or_else(|| Train::of(self.chain));
+        let train = self.rings().into_iter().fold(bare, |train, (ring, damper)| match ring.kind {
+            DamperKind::Friction { .. } => train.branch(ring.mass, Ratio(1.0), Chain::motor(Inertia(damper.inertia))),
+            _ => train.damper(ring.mass, Ratio(1.0), damper),
+        });
+        train.error().map_or_else(|| Ok(Self { train: Some(train), dampers: Vec::new(), ..self.clone() }), Err)
     }
 
     /// One mass for the machine.

@@ -80,44 +80,86 @@ fn dampers_have_their_best_size_and_the_response_of_the_whole_machine() {
     }
 }
 
-/// `design` says what the dampers would move: of a ring on a spring by the biquadratic equation of three masses, of a
-/// stuck one by its inertia.
+/// `design` has the dampers in its two masses: a ring on a spring by the biquadratic equation of three masses, a stuck
+/// one by its inertia, a viscous one by the share that it carries, a soft one as the vibration itself.
 #[test]
-fn a_design_says_what_the_dampers_move() {
-    let warnings = |damper: &str| {
-        let plan = Plan::of(&parse("damped", &machine(damper)).unwrap()).unwrap();
-        plan.warnings.into_iter().find(|warning| warning.contains("dampers"))
-    };
-    let hertz = |square: f64| significant(square.sqrt() / std::f64::consts::TAU);
-    let (load, ring, spring) = (LOAD / 4.0, RING / 4.0, 0.25 * 2.0e5);
+fn a_design_has_the_dampers_in_its_two_masses() {
+    let (load, ring) = (LOAD / 4.0, RING / 4.0);
     let bare = [STIFFNESS / load, STIFFNESS * (1.0 / MOTOR + 1.0 / load)];
-    let stuck = [STIFFNESS / (load + ring), STIFFNESS * (1.0 / MOTOR + 1.0 / (load + ring))];
-    // a ring that is stiffer than the machine: the first roots of the equations with the motor locked and free
+    let carrying = |share: f64| [STIFFNESS / (load + share), STIFFNESS * (1.0 / MOTOR + 1.0 / (load + share))];
+    // the first roots of the equations with the motor locked and free
     let root = |a: f64, b: f64, c: f64| (b - (b * b - 4.0 * a * c).sqrt()) / (2.0 * a);
-    let sprung = [
-        root(load * ring, (STIFFNESS + spring) * ring + spring * load, STIFFNESS * spring),
-        root(
-            1.0,
-            STIFFNESS * (1.0 / MOTOR + 1.0 / load) + spring * (1.0 / load + 1.0 / ring),
-            STIFFNESS * spring * (MOTOR + load + ring) / (MOTOR * load * ring),
-        ),
-    ];
-    for (damper, [held, free]) in [
-        ("kind = \"friction\"\nexcitation = 1.0\n", stuck),
-        ("kind = \"tuned\"\nstiffness = 200000\ndamping = 1\n", sprung),
-    ] {
-        let expected = format!(
-            "the antiresonance is {} Hz instead of {} Hz, the resonance {} Hz instead of {} Hz, and the inertia {} \
-             larger",
-            hertz(held),
-            hertz(bare[0]),
-            hertz(free),
-            hertz(bare[1]),
-            percent(ring / (MOTOR + load))
-        );
-        let found = warnings(damper).unwrap();
-        assert!(found.contains(&expected), "{found}, not {expected}");
+    let sprung = |spring: f64| {
+        [
+            root(load * ring, (STIFFNESS + spring) * ring + spring * load, STIFFNESS * spring),
+            root(
+                1.0,
+                STIFFNESS * (1.0 / MOTOR + 1.0 / load) + spring * (1.0 / load + 1.0 / ring),
+                STIFFNESS * spring * (MOTOR + load + ring) / (MOTOR * load * ring),
+            ),
+        ]
+    };
+    // the ring's share at the resonance that it belongs to, on its own shaft 20 N m s/rad
+    let mut slipping = carrying(0.0);
+    for _ in 0..50 {
+        slipping = carrying(ring * 25.0 / (25.0 + ring * ring * slipping[1]));
     }
+    // spring and viscous coupling are at the load's shaft, a quarter of it at the motor's
+    for (damper, squares, tolerance, rings) in [
+        ("kind = \"friction\"\nexcitation = 1.0\n", carrying(ring), 1e-12, None),
+        ("kind = \"tuned\"\nstiffness = 200000\ndamping = 1\n", sprung(5.0e4), 1e-12, None),
+        // four passes, each a factor of a few hundredths, the ring's share of the inertia
+        ("kind = \"viscous\"\ndamping = 20\n", slipping, 1e-6, None),
+        // small roots: the squares of the coefficients cancel to 1e-4
+        ("kind = \"tuned\"\nstiffness = 50\ndamping = 1\n", sprung(12.5), 1e-10, Some("load")),
+    ] {
+        let file = parse("damped", &machine(damper)).unwrap();
+        let plan = Plan::with_dampers(&file).unwrap();
+        let shaft = plan.shaft.unwrap();
+        for (found, square) in [shaft.antiresonance, shaft.resonance].into_iter().zip(squares) {
+            assert!((found / square.sqrt() - 1.0).abs() < tolerance, "{damper}: {found} {}", square.sqrt());
+        }
+        let sum = MOTOR + load + ring;
+        assert!((plan.inertias.iter().sum::<f64>() / sum - 1.0).abs() < 1e-12, "{damper}: {:?}", plan.inertias);
+        let dampers = plan.dampers.unwrap();
+        assert_eq!(dampers.ring.as_deref(), rings);
+        let without = dampers.without.unwrap();
+        for (found, square) in without.into_iter().zip(bare) {
+            assert!((found / square.sqrt() - 1.0).abs() < 1e-12, "{damper}: {without:?}");
+        }
+        let hertz = |square: f64| significant(square.sqrt() / std::f64::consts::TAU);
+        let [held, free] = squares.map(hertz);
+        let larger = percent(ring / (MOTOR + load));
+        let expected = match rings {
+            None => format!(
+                "the antiresonance is {held} Hz instead of {} Hz, the resonance {free} Hz instead of {} Hz, and the \
+                 inertia {larger} larger",
+                hertz(bare[0]),
+                hertz(bare[1])
+            ),
+            Some(_) => format!("the vibration of the damper of `load` at {free} Hz, its antiresonance at {held} Hz"),
+        };
+        assert!(dampers.to_string().contains(&expected), "{dampers}, not {expected}");
+    }
+    let none = parse("bare", machine("").split("[[damper]]").next().unwrap()).unwrap();
+    assert_eq!(Plan::with_dampers(&none).unwrap().dampers, None);
+}
+
+/// What is printed to paste is the train with its dampers, to the bit.
+#[test]
+fn printed_constants_have_the_dampers() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("damped.toml");
+    let two = "kind = \"viscous\"\ndamping = 20\n[[damper]]\nat = \"load\"\ninertia = 0.4\nkind = \"tuned\"\n\
+               stiffness = 14000\ndamping = 40\n";
+    std::fs::write(&path, machine(two)).unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let output = command.args(["design", path.to_str().unwrap(), "--emit", "rust"]).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    // at the motor, a quarter; the tuned ring first: a viscous one takes its share of the mode that all others have
+    let tuned = text.find(".damper(1, Ratio(1.0), Damper { inertia: 0.1, stiffness: 3500.0, damping: 10.0 })").unwrap();
+    let viscous = text.find(".damper(1, Ratio(1.0), Damper { inertia: 0.2, stiffness: 0.0, damping: 5.0 });").unwrap();
+    assert!(tuned < viscous && text.contains(": Train = Train::of("), "{text}");
 }
 
 #[test]
