@@ -86,6 +86,9 @@ use driveline_solver::plant::{LoadProgram, Place, PlantError};
 /// Most lines that a run may have.
 const LINES: f64 = 1e6;
 
+/// Of a rod that is hardly longer than its crank.
+const LONGER: &str = "more than the crank's radius by a thousandth of it: the slider's way has no series otherwise";
+
 /// Most coordinates: their modes take time with the third power of their number.
 const COORDINATES: usize = 200;
 
@@ -269,6 +272,10 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     for (at, crank, pins) in &file.pins {
         let forces: Vec<SliderForce> = file.forces.iter().filter(|(on, _)| on == at).map(|(_, force)| *force).collect();
         let torques = pins.sources(crank, &forces);
+        // pins that nothing loads, or without a radius, let it turn either way
+        if !torques.is_empty() && pins.coefficient * (pins.main + pins.crank + pins.wrist) > 0.0 {
+            file.forwards.push(*at);
+        }
         coordinates[*at] = torques.into_iter().fold(coordinates[*at].clone(), Coordinate::source);
     }
     let mut train = Train::new();
@@ -494,13 +501,21 @@ impl Reading {
                     wrist: pins.number_or("wrist", Quantity::PIN, 0.0)?,
                 };
                 pins.finish()?;
+                let all_round = SliderForce { force: 1.0, from: 0.0, to: TAU };
+                let sources = found.sources(&drive, &[all_round]);
+                if sources.iter().any(|arc| matches!(arc, Torque::Stroke { torque, .. } if torque.at(0.0).is_nan())) {
+                    return Err(crank.wrong("rod", LONGER));
+                }
                 self.pins.push((self.names.len(), drive, found));
-                self.forwards.push(self.names.len());
             }
             friction = crank.number_or("friction", Quantity::SIZE, 0.0)?;
-            crank.finish()?;
             let reach = move |angle: f64| (rod * rod - (radius * angle.sin()).powi(2)).sqrt();
-            way = Some(Orders::sampled(|angle| radius * angle.cos() + reach(angle)));
+            let slider = Orders::sampled(|angle| radius * angle.cos() + reach(angle));
+            if slider.at(0.0).is_nan() {
+                return Err(crank.wrong("rod", LONGER));
+            }
+            way = Some(slider);
+            crank.finish()?;
         } else if let Some(mut four) = table.table_if("four_bar")? {
             let (bars, parts) = four_bar(&mut four)?;
             let rocker = Orders::sampled(|angle| bars.angles(angle)[1]);

@@ -660,6 +660,51 @@ fn mechanisms_by_their_keys_do_their_work() {
     assert!(said.unwrap_err().to_string().contains("an odd number of values"));
 }
 
+/// Pins that nothing loads let a crank turn either way; those that a force loads are of forward motion, and a start
+/// backwards is named as such.
+#[test]
+fn pins_are_of_forward_motion_where_they_take_a_torque() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("pins.toml");
+    let crank = "inertia = 2.0\nspeed = -20.0\n[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 8.0\n\
+                 [coordinate.crank.pins]\ncoefficient = 0.1\nmain = 0.03\n";
+    let loaded = press(crank, "force = 30.0\n").replace("cycle = \"crank\"\n", "");
+    let bare = loaded.replace("[[torque]]\non = \"crank\"\nkind = \"stroke\"\nforce = 30.0\n", "");
+    assert!(bare.len() < loaded.len());
+    for (text, without_effect) in [
+        (bare, true),
+        (loaded.replace("coefficient = 0.1", "coefficient = 0.0"), true),
+        (loaded.replace("main = 0.03\n", ""), true),
+        (loaded.clone(), false),
+    ] {
+        std::fs::write(&file, &text).unwrap();
+        let output = simulate(&[file.to_str().unwrap()]);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.success(), without_effect, "{text}{said}");
+        assert!(without_effect || said.contains("\"crank\" starts backwards, at a `speed` of -20,"), "{said}");
+    }
+}
+
+/// A rod so near the crank's radius that its way has no series: refused at the rod. One a thousandth longer runs, with
+/// pins as well.
+#[test]
+fn a_rod_barely_longer_than_its_crank_is_refused_at_the_rod() {
+    let pins = "[coordinate.crank.pins]\ncoefficient = 0.1\nmain = 0.03\nwrist = 0.02\n";
+    let text = |rod: f64, pins: &str| {
+        let crank = format!(
+            "inertia = 2.0\nspeed = 20.0\n[coordinate.crank]\nradius = 0.1\nrod = {rod:?}\nslider_mass = 8.0\n"
+        );
+        press(&(crank + pins), "force = 30.0\n")
+    };
+    for pins in ["", pins] {
+        let text_of = text(0.100_000_01, pins);
+        let fault = parse_train("press", &text_of).unwrap_err();
+        assert_eq!(text_of.lines().nth(fault.line - 1), Some("rod = 0.10000001"), "{fault}");
+        assert!(fault.to_string().contains("more than the crank's radius by a thousandth"), "{fault}");
+        assert!(parse_train("press", &text(0.1001, pins)).is_ok());
+    }
+}
+
 /// Friction against a surface that moves, on a mechanism's coordinate: refused at the friction, not at the coordinate.
 #[test]
 fn friction_on_a_moving_surface_is_refused_at_its_table() {

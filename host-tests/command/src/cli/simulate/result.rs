@@ -233,10 +233,16 @@ impl Simulation {
         let backwards = |j: &&usize| motion.extremes(Signal::Speed(**j)).is_some_and(|e| e.least < 0.0);
         if let Some(&j) = file.forwards.iter().find(backwards) {
             let name = &file.coordinates[j];
-            return Err(Failure::failed(if file.motion.speed(j) > 0.0 {
+            let start = file.motion.speed(j);
+            return Err(Failure::failed(if start > 0.0 {
                 format!(
                     "\"{name}\" turns backwards, where the friction of its mechanism would drive it; expected torques \
                      that keep it turning forwards, or no `friction`"
+                )
+            } else if start < 0.0 {
+                format!(
+                    "\"{name}\" starts backwards, at a `speed` of {start}, where the friction of its mechanism, that \
+                     of forward motion, would drive it; expected a `speed` of zero or above, or no `friction`"
                 )
             } else {
                 format!(
