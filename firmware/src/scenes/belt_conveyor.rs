@@ -7,13 +7,21 @@
 //!
 //! A belt must not be jerked: the strand swings at 0.5 Hz, and a slack strand leaves the drum. So the setpoint reaches
 //! rated speed in 12 s, and the speed loop damps the swing.
+//!
+//! | variant | starts by |
+//! |---|---|
+//! | `semi-implicit`, `rigid` | a slow ramp of the setpoint, with two masses or one |
+//! | `eased` | its torque limit, which a torque slew approaches; it stops by its resistance to motion |
 
-use driveline::configure::{Machine, Rating};
-use driveline::design::{Disturbance, Encoder, RigidDesign};
-use driveline::machine::{Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Ratio, Stiffness};
+use driveline::configure::{HasSlew, Machine, Rating};
+use driveline::design::{Disturbance, Encoder, RigidDesign, SpeedLoopDesign};
+use driveline::governor::{Slew, SpeedGovernor, TorqueRange};
+use driveline::machine::{
+    Chain, Damping, Diameter, Efficiency, Falls, Inertia, LinearDamping, Mass, Ratio, Stiffness, Torque,
+};
 use driveline::observer::{RigidObserver, SemiImplicitObserver};
 
-use crate::scene::composed::Governed;
+use crate::scene::composed::{Governed, GovernedBy};
 use crate::scene::table::variants;
 
 /// Motor, gear, drum, belt.
@@ -40,6 +48,28 @@ impl Machine for BeltConveyor {
     const RAMP: f64 = Self::RATING.speed / 12.0;
 }
 
+/// The same conveyor, whose start the torque shapes: the setpoint is there within an eighth of a second, and the motor
+/// gives its largest torque until the belt is up to speed. It does not brake.
+pub struct TorqueStart;
+
+impl Machine for TorqueStart {
+    const CHAIN: Chain = BeltConveyor::CHAIN;
+    const RATING: Rating = BeltConveyor::RATING;
+    const ENCODER: Encoder = BeltConveyor::ENCODER;
+    const RATE_HZ: u32 = BeltConveyor::RATE_HZ;
+    const DISTURBANCE: Disturbance = BeltConveyor::DISTURBANCE;
+    /// The design's proportional and integral gains, without its damping.
+    const SPEED_LOOP: SpeedLoopDesign = SpeedLoopDesign { damping: 0.0, ..BeltConveyor::SPEED_LOOP };
+    const RAMP: f64 = 8.0 * Self::RATING.speed;
+}
+
+/// Dynamic factor of the strand that the start is allowed.
+pub const ALLOWED: f64 = 1.2;
+
+impl HasSlew for TorqueStart {
+    const SLEW: f64 = Self::TWO_MASS.slew_for_factor(Torque(Self::RATING.torque_limit), ALLOWED);
+}
+
 /// Counts of the encoder on a turn.
 pub const COUNTS: u32 = 8_192;
 
@@ -47,8 +77,13 @@ pub const COUNTS: u32 = 8_192;
 pub type Rigid<N> = Governed<N, RigidObserver<N>>;
 /// Two masses, semi-implicit step: the design's choice.
 pub type SemiImplicit<N> = Governed<N, SemiImplicitObserver<N>>;
+/// The torque limit, approached by the slew.
+pub type Eased<N> = GovernedBy<N, SemiImplicitObserver<N>, SpeedGovernor<N, (), (), Slew<N, TorqueRange>>>;
+/// The torque limit at once; for comparison, in no image.
+pub type AtOnce<N> = GovernedBy<N, SemiImplicitObserver<N>, SpeedGovernor<N, (), (), TorqueRange>>;
 
 variants! {
     "rigid": Rigid for BeltConveyor;
     "semi-implicit": SemiImplicit for BeltConveyor;
+    "eased": Eased for TorqueStart;
 }

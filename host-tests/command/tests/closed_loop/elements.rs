@@ -1,4 +1,5 @@
 //! Elements of machines in closed loop.
 
+mod eased;
 mod excited;
 mod scenes;

@@ -160,6 +160,7 @@ fn a_thousand_machines_within_each_scene_s_tolerances_are_stable_with_6_db_to_sp
         gear_drive Exact gear_drive::GearDrive;
         belt_conveyor SemiImplicit belt_conveyor::BeltConveyor;
         belt_conveyor Rigid belt_conveyor::BeltConveyor;
+        belt_conveyor Eased belt_conveyor::TorqueStart;
         balanced_fan TwoMass balanced_fan::BalancedFan;
         flexible TwoMass flexible::Flexible;
         grinding_spindle TwoMass grinding_spindle::GrindingSpindle;
