@@ -47,6 +47,7 @@ macro_rules! others {
             grinding_spindle
             surface_grinder
             commission
+            tube_mill
             test_rig
         }
     };

@@ -3,3 +3,4 @@
 mod eased;
 mod excited;
 mod scenes;
+mod stepped;
