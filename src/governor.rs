@@ -13,8 +13,8 @@
 //! | [`SpeedGovernor`] | composed of parts: droop, feed-forward, limits by a curve, run sequence and trips |
 //! | [`InputShaper`] round one of them | a swinging load: the setpoint in parts whose swings cancel |
 //!
-//! [`LoadSharing`] stands behind any of them, where several motors turn one gear. [`ResistorStarter`] starts a motor
-//! that none of them governs.
+//! [`LoadSharing`] stands behind any of them, where several motors turn one gear. [`ResistorStarter`] and
+//! [`SoftStarter`] start a motor that none of them governs.
 
 mod actuator_monitor;
 mod backlash_takeup;
@@ -26,6 +26,7 @@ mod loop_filter;
 mod resistor_starter;
 mod sequencer;
 mod setpoint;
+mod soft_starter;
 mod speed_filter;
 mod speed_governor;
 mod speed_loop;
@@ -47,6 +48,7 @@ pub use loop_filter::{DampingLag, DampingLagConfig, LoopFilter, SetpointLag};
 pub use resistor_starter::{ResistorStarter, ResistorStarterConfig};
 pub use sequencer::{RunAction, RunRequest, RunState, Sequence, Sequencer, SequencerConfig, Trip};
 pub use setpoint::{Barred, BarredConfig, Droop, DroopConfig, SetpointShape, SpeedRange};
+pub use soft_starter::{SoftStarter, SoftStarterConfig};
 pub use speed_filter::{CycleAverage, MovingAverage, MovingAverageConfig, SpeedFilter};
 pub use speed_governor::{Gains, SpeedGovernor, SpeedGovernorConfig, SpeedGovernorConfigOf};
 pub use speed_loop::{SpeedLoop, SpeedLoopConfig};

@@ -65,7 +65,7 @@ pub use linear::STANDARD_GRAVITY;
 pub use modes::{Mode, Modes};
 pub use planetary::{Member, Planetary, PlanetaryGear};
 pub use prime_mover::{
-    Characteristic, Combustion, CombustionType, Induction, Line, Parabola, ResistorStart, Series, Shunt,
+    Characteristic, Combustion, CombustionType, Induction, Line, Parabola, ResistorStart, Series, Shunt, SoftStart,
     StartCondition, StartingLaw,
 };
 pub use quantity::{

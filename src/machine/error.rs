@@ -66,6 +66,8 @@ sentences! {
         pressure finite and above that of the compression (Pa, absolute)",
     ResistorStart => "peak torque of the start must be positive and at most the breakdown torque, of a motor whose own \
         resistance does not keep it to that, with at least one step",
+    SoftStart => "initial voltage of the start must be above 0 and below 1 of the full one, its rise positive and \
+        finite (s), its torque at most that of standstill and at least the breakdown torque at the initial voltage",
     StartingTime => "starting time must be positive and finite, the starting torque finite (s, N m)",
 }
 

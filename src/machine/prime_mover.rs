@@ -9,6 +9,7 @@
 //! | [`Shunt`], [`Series`] | direct-current motors from voltage, resistance and flux | [Wang 1989 §1-2] |
 //! | [`Characteristic`] | any of them, with its slope | |
 //! | [`ResistorStart`] | start of a slip-ring motor by resistors in steps | derived |
+//! | [`SoftStart`] | start by reduced voltage under a torque limit | derived |
 //! | [`StartingLaw`] | `tau`, `tau (1 - t/T)`, `tau (1 - t^2/T^2)` | [Huang 1987 §2.2] |
 //!
 //! Torques are in N m, speeds in rad/s, at the motor's shaft. The stiffness of a characteristic is `|d tau/d omega|`
@@ -30,6 +31,7 @@ mod direct_current;
 mod dynamic_factor;
 mod induction;
 mod resistor_start;
+mod soft_start;
 mod starting;
 mod starting_time;
 
@@ -39,4 +41,5 @@ pub use curve::{Line, Parabola};
 pub use direct_current::{Series, Shunt};
 pub use induction::Induction;
 pub use resistor_start::ResistorStart;
+pub use soft_start::SoftStart;
 pub use starting::{StartCondition, StartingLaw};

@@ -8,15 +8,18 @@ use super::to::Values;
 use super::{Bases, Error, Format};
 use crate::design::{BarredSpeeds, InputShaperDesign, TorqueCurve};
 use crate::governor::{
-    BarredConfig, CurveConfig, CurvePiece, InputShaperConfig, ResistorStarterConfig, SlewConfig, SpeedRange,
+    BarredConfig, CurveConfig, CurvePiece, InputShaperConfig, ResistorStarterConfig, SlewConfig, SoftStarterConfig,
+    SpeedRange,
 };
-use crate::machine::ResistorStart;
+use crate::machine::{ResistorStart, SoftStart};
 
 const SLEW: &str =
     "the slew of the torque must be positive and finite, and within a tick at most twice the base of the torque";
 const CURVE: &str = "the torque curve and its slopes must be finite; in fixed point it must lie within twice the \
     bases, and its slopes within 2 bases of the torque per base of the speed";
 const STARTER: &str = "the speeds of a start by resistors must be finite, and within twice the base of the speed";
+const SOFT: &str = "the torque limit of a start by reduced voltage must be within twice the base of the torque, and \
+    the voltage must rise by 1e-6 to 0.1 of the full one in a tick";
 const SHAPER: &str = "the input shaper's slots must be whole ticks within 2 % of the delay, below 2^31 ticks, \
     and its share above 0 and at most 1/2: take fewer slots or raise the rate";
 const BARRED: &str = "the barred ranges must be as many as the governor has and lie within twice the base of the speed";
@@ -27,6 +30,16 @@ const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
         Ok(([step], []))
     } else {
         Err(Error::Value(SLEW))
+    }
+}
+
+/// In a float a millionth of 1 is rounded by 3 %.
+const fn soft(start: &SoftStart, period: f64, format: &Format) -> Values<3, 0> {
+    let step = (1.0 - start.initial) * period / start.rise;
+    if step >= 1e-6 && step <= 0.1 {
+        Ok(([start.initial, step, start.peak / format.bases.torque], []))
+    } else {
+        Err(Error::Value(SOFT))
     }
 }
 
@@ -111,6 +124,15 @@ constants! {
             k += 1;
         }
         Ok(ResistorStarterConfig { speeds, interval })
+    }
+}
+
+constants! {
+    /// [`Error::Value`] for a torque limit beyond twice its base, or a voltage that rises in a tick by less than
+    /// 1e-6 or more than 0.1 of the full one.
+    impl[] SoftStarterConfig[], new, try_new(start: &SoftStart, period: f64), |format| {
+        let ([initial, step, limit], []) = get!(To::part(soft(start, period, &format), SOFT));
+        Ok(SoftStarterConfig { initial, step, limit })
     }
 }
 

@@ -9,6 +9,7 @@ mod natural_damping;
 mod resistor_starter;
 mod sharing;
 mod slew;
+mod soft_starter;
 mod sway;
 mod switch;
 mod torque_curve;
