@@ -146,8 +146,8 @@ fn damping_is_the_slope_of_both_characteristics() {
     }
 }
 
-/// The sets' slopes at 1500 r/min by hand: the diesel's friction of 8 % of 2546 N m, half the torque and 2 % of friction
-/// of the turbine's 12,732 N m, and for both a load of constant power. The limit keeps to a parabola's chords.
+/// The sets' slopes at 1500 r/min by hand: the diesel's friction of 8 % of 2546 N m, half the torque and 2 % of
+/// friction of the turbine's 12,732 N m, and for both a load of constant power. The limit is of a parabola's chords.
 #[test]
 fn the_sets_have_the_slopes_of_their_movers_and_of_a_load_of_constant_power() {
     for (set, torque, falls) in [(&DIESEL, 4.0e5 / RATED_SPEED, 0.08), (&TURBINE, 2.0e6 / RATED_SPEED, 0.52)] {
