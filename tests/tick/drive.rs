@@ -5,7 +5,7 @@ use driveline::drive::{Config, Drive, Limits};
 use driveline::fault::Faults;
 use driveline::fluctuation::Fluctuation;
 use driveline::governor::{SpeedLoop, SpeedLoopConfig};
-use driveline::observer::RigidObserver;
+use driveline::observer::{Observer, RigidObserver};
 use driveline::sample::{Estimate, Sample};
 
 use super::UNIT;
@@ -136,6 +136,33 @@ fn a_blind_tick_begins_the_search_anew() {
     assert_eq!(search(&[Some(50_000), None, Some(50_100), Some(50_200)]), [false, false, false, true]);
     // and so does an angle that stands
     assert_eq!(search(&[Some(50_000), Some(50_000), Some(50_100), Some(50_200)]), [false, false, false, true]);
+}
+
+#[test]
+fn faults_are_a_set() {
+    let (one, two) = (Faults::TORQUE, Faults::SETPOINT);
+    let both = one | two;
+    assert_eq!((both | one, both & one, one & two), (both, one, Faults::NONE));
+    assert!(both.contains(one) && both.contains(both) && !one.contains(both) && !one.contains(two));
+    assert!(both.intersects(one) && one.intersects(both) && one.intersects(one) && !one.intersects(two));
+}
+
+/// Up to eight ticks that did not run are predicted, and after more the angle alone is taken: 5 rad/s turn by 5 a tick.
+#[test]
+fn ticks_that_did_not_run_are_predicted_before_the_next() {
+    let at = |angle| Sample { angle, torque: 0.0, setpoint: 0.0 };
+    let config = Config { limits: Limits { max_coast: 20, innovation: 3.0, ..LIMITS }, ..WATCHED };
+    for (missed, turned, faults) in [
+        (0, 5, Faults::NONE),
+        (2, 15, Faults::TICK_MISSED),
+        (8, 45, Faults::TICK_MISSED),
+        (9, 50, Faults::TICK_MISSED | Faults::ANGLE_MISSING),
+    ] {
+        let mut drive = Watched::new(&config, 0);
+        drive.observer_mut().restart(&config.observer, 0, 0.0, 5.0);
+        assert_eq!(drive.tick_after(&config, &at(turned), missed).faults, faults, "{missed}");
+        assert_eq!((drive.angle(), drive.estimate(&config).motor_speed), (turned, 5.0));
+    }
 }
 
 /// Three ticks may pass without an angle, whether they ran or not; and a tick that did not run ends the search as well.

@@ -1,11 +1,13 @@
 //! Single ticks of the governors.
 
 use driveline::governor::{
-    Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, MovingAverage, MovingAverageConfig,
-    RunRequest, RunState, Sequencer, SequencerConfig, Slew, SlewConfig, SpeedFilter, SpeedGovernor,
-    SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SpeedRange, SymmetricLimit, SymmetricLimitConfig,
+    BacklashTakeUp, BacklashTakeUpConfig, Barred, BarredConfig, CycleAverage, Droop, DroopConfig, FeedForward,
+    FeedForwardConfig, Gains, Governor, InputShaper, InputShaperConfig, Limit, LoadSharing, LoadSharingConfig,
+    MovingAverage, MovingAverageConfig, RunRequest, RunState, Sequencer, SequencerConfig, SetpointShape, Slew,
+    SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SpeedRange,
+    SymmetricLimit, SymmetricLimitConfig,
 };
-use driveline::number::{Coefficient, Fixed};
+use driveline::number::{Coefficient, Fixed, Weight};
 use driveline::sample::Estimate;
 
 const GAINS: Gains<f64> = Gains { proportional: 1.0, integral: 0.0, anti_windup: 0.0, ramp: 10.0 };
@@ -94,6 +96,46 @@ fn the_slew_starts_from_the_torque_that_there_is() {
     assert_eq!(governor.command(&config, &at(-20.0)), -28.0);
 }
 
+/// On the driven flank the reach rises by 2 to 9; in the gap and on the other flank it falls by 1 to 3.
+#[test]
+fn the_reach_of_a_take_up_rises_on_the_driven_flank_alone() {
+    let config = BacklashTakeUpConfig {
+        torque: 3.0,
+        braking: -0.25,
+        step: 2.0,
+        fall: -1.0,
+        max_torque: 9.0,
+        damping: -0.5,
+        tracking: 0.125,
+        limit: SymmetricLimitConfig { torque: 100.0 },
+    };
+    for side in [1.0, -1.0] {
+        let mut limit = BacklashTakeUp::<f64, SymmetricLimit>::default();
+        limit.start(side * 4.0);
+        let mut allowed = |shaft_torque: f64, wanted: f64| {
+            // a twist rate of 4
+            let estimate = Estimate { shaft_torque: side * shaft_torque, load_speed: 46.0, ..at(50.0) };
+            side * (limit.limit(&config, &estimate, side * wanted)
+                - 4.0 * if shaft_torque == 0.0 { -0.25 } else { -0.5 })
+        };
+        let driven = [50.0; 3].map(|wanted| allowed(10.0, wanted));
+        assert_eq!(driven, [6.0, 8.0, 9.0]);
+        assert_eq!([allowed(0.0, 50.0), allowed(-10.0, 50.0)], [8.0, 7.0]);
+        assert_eq!([50.0; 6].map(|wanted| allowed(0.0, wanted)), [6.0, 5.0, 4.0, 3.0, 3.0, 3.0]);
+        assert_eq!([allowed(0.0, 1.0), allowed(0.0, -50.0)], [1.0, -3.0]);
+        // 47 of 50 N m are withheld
+        assert_eq!(limit.track(&config, 20.0, side * 50.0), 20.0 - side * 47.0 / 8.0);
+    }
+}
+
+#[test]
+fn a_barred_range_is_passed_quickly_and_no_setpoint_stands_in_it() {
+    let config = BarredConfig { ranges: [SpeedRange { middle: 50.0, half: 10.0 }], quick: 5.0 };
+    let goal = |setpoint, ramped| Barred::<1>.goal(&config, setpoint, ramped, 1.0);
+    assert_eq!([goal(100.0, 30.0), goal(100.0, 45.0), goal(100.0, 70.0)], [(100.0, 1.0), (100.0, 5.0), (100.0, 1.0)]);
+    assert_eq!([goal(55.0, 30.0), goal(45.0, 70.0)], [(40.0, 1.0), (60.0, 1.0)]);
+}
+
 type Sequenced = SpeedGovernor<f64, (), (), SymmetricLimit, Sequencer>;
 
 const SEQUENCE: SequencerConfig<f64> = SequencerConfig {
@@ -171,4 +213,73 @@ fn a_moving_average_does_not_drift() {
     let load = average.filter(&config, &fixed(100)).load_torque.to_bits();
     // -100/16 cut downwards is -7
     assert_eq!(load, -112);
+}
+
+/// Deviations of 11 degrees, twice what an operand holds: each is cut to 2^26 units, times 2^5 and the gain of 2^-4.
+#[test]
+fn a_large_deviation_of_a_motor_is_damped_towards_the_mean() {
+    let config = LoadSharingConfig::<Fixed> {
+        share: Coefficient::ZERO,
+        preload: Fixed::from_bits(0),
+        equal_above: Fixed::ONE,
+        bias_below: Fixed::ONE,
+        step: Fixed::ONE,
+        torque_limit: Fixed::ONE,
+        damping: Coefficient::from_f64(-0.0625).unwrap(),
+        lag: 31,
+        max_deviation: i32::MAX,
+    };
+    let mut sharing = LoadSharing::<Fixed, 2>::default();
+    sharing.hold(&[0, 0]);
+    assert_eq!(sharing.mean_angle(&config, &[0, 1 << 28]), 1 << 27);
+    let torques = sharing.torques(&config, Fixed::from_bits(0), Fixed::from_bits(0)).map(Fixed::to_bits);
+    // a unit less in the operand, and the product cut downwards
+    for (torque, expected) in torques.into_iter().zip([1 << 27, -(1 << 27)]) {
+        assert!((torque - expected).abs() <= 3, "{torque}");
+    }
+}
+
+/// A step of 8 in the speed and of -4 in the load's torque goes over four ticks.
+#[test]
+fn a_moving_average_takes_a_step_in_its_ticks() {
+    let config = MovingAverageConfig::<f64, 4> { share: 0.25 };
+    let mut average = MovingAverage::<f64, 4>::default();
+    average.start(&config, &Estimate { load_torque: 2.0, ..at(1.0) });
+    let seen = [(); 5].map(|()| {
+        let estimate = average.filter(&config, &Estimate { load_torque: -2.0, ..at(9.0) });
+        (estimate.motor_speed, estimate.load_torque)
+    });
+    assert_eq!(seen, [(3.0, 1.0), (5.0, 0.0), (7.0, -1.0), (9.0, -2.0), (9.0, -2.0)]);
+}
+
+/// A shaper hands on what its governor alone knows: the speed without its ripple, and a trip.
+#[test]
+fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
+    type Inner = SpeedGovernor<f64, (), (), SymmetricLimit, Sequencer, CycleAverage<f64>>;
+    let governor = SpeedGovernorConfig {
+        gains: GAINS,
+        shape: (),
+        compensation: (),
+        limit: SymmetricLimitConfig { torque: 100.0 },
+        sequence: SEQUENCE,
+        filter: (),
+    };
+    let config = InputShaperConfig { ramp: 1.0, slot: 10, share: 0.5, governor };
+    let mut shaper = InputShaper::<f64, Inner, 2>::default();
+    shaper.start(&config, &at(100.0), 0.0);
+    assert!(shaper.permits());
+    shaper.set_setpoint(100.0);
+    shaper.set_steady_speed(Some(93.0));
+    assert_eq!(shaper.command(&config, &at(100.0)), 7.0);
+    shaper.set_steady_speed(None);
+    assert_eq!(shaper.command(&config, &at(100.0)), 0.0);
+    shaper.angle_lost(&config, &at(100.0));
+    assert!(!shaper.permits(), "the angle is lost");
+}
+
+#[test]
+fn a_weight_between_inverses_is_that_of_their_values() {
+    // 1/(3/4 + 1/4 3) is 2/3, half way between 1/1 and 1/3
+    assert_eq!(Weight::share(0.25).of_inverses(&1.0_f32, &3.0), Weight::share(0.5));
+    assert_eq!(Weight::share(0.25).of_inverses(&-1.0_f64, &-3.0), Weight::share(0.5));
 }

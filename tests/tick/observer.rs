@@ -3,8 +3,9 @@
 use driveline::angle::RotorAngleConfig;
 use driveline::number::{Coefficient, Fixed, Number};
 use driveline::observer::{
-    CrankConfig, CrankObserver, GearedConfig, GearedObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig,
-    SemiImplicitObserver, TABLE_POINTS, TablePoint, TwoMassConfig, TwoMassObserver,
+    BacklashConfig, BacklashObserver, Contact, Correction, CrankConfig, CrankObserver, FreeFlight, GearedConfig,
+    GearedObserver, Observer, RigidConfig, RigidObserver, SemiImplicitConfig, SemiImplicitObserver, TABLE_POINTS,
+    TablePoint, TwoMassConfig, TwoMassObserver,
 };
 
 use super::UNIT;
@@ -215,4 +216,140 @@ fn a_crank_behind_a_gear_turns_back_over_its_zero() {
         // 2^-26 turns of resolution, and the motor's angle times 2/5 cut to whole units
         assert!(off.abs() < 1 << 8, "{motor}: {off}");
     }
+}
+
+/// Half a gap of one; the forcing is the motor's torque less the load's.
+const BACKLASH: BacklashConfig<f64> = BacklashConfig {
+    forcing: [1.0, -1.0],
+    half_gap: 1.0,
+    contact: Contact { twist: [-0.25, 2.0, 0.5], twist_rate: [-0.5, 0.25, 0.5], leaving: [2.0, 3.0, -0.5] },
+    free: FreeFlight { twist: [1.0, 0.5], twist_rate: 0.0, meeting: [2.0, 3.0, 0.25] },
+    acceleration: 1.0,
+    turn: [0.5, 0.25],
+    settled: Correction { states: [0.0; 4], angle: 0.0 },
+    searching: Correction { states: [0.5, 0.0, 0.0, 0.0], angle: 0.0 },
+    hold: 2,
+    speed: 1.0,
+    share: [0.5, -0.5],
+    shaft: [4.0, 2.0],
+    compliance: 0.25,
+};
+
+/// Twist, motor speed, shaft torque, load torque.
+fn seen(observer: &BacklashObserver<f64>) -> [f64; 4] {
+    let estimate = observer.estimate(&BACKLASH);
+    [observer.twist(), estimate.motor_speed, estimate.shaft_torque, estimate.load_torque]
+}
+
+/// One step without a correction; the turn that it predicts.
+fn glide(observer: &mut BacklashObserver<f64>, torque: f64) -> f64 {
+    let predicted = observer.predict(&BACKLASH, 0, torque);
+    let turn = predicted.turn();
+    observer.coast(predicted, 0);
+    turn
+}
+
+/// A shaft in contact on either side: 8 N m stretch it by 2 beyond half the gap.
+#[test]
+fn a_stretched_shaft_moves_about_its_flank() {
+    for side in [1.0, -1.0] {
+        let mut observer = BacklashObserver::<f64>::steady(&BACKLASH, 0, side * 8.0, side * 100.0);
+        assert_eq!(seen(&observer), [3.0, 100.0, 8.0, 8.0].map(|x| side * x));
+        // 4 accelerate: twist 3 - 2/4 + 4/2, rate -2/2 + 4/2; mean speed 104, half of the rate above it
+        assert_eq!(glide(&mut observer, side * 12.0), side * (0.5 * 204.0 + 0.25 * 1.5));
+        assert_eq!(seen(&observer), [4.5, 104.5, 4.0 * 3.5 + 2.0, 8.0].map(|x| side * x));
+        // and with the rate of 1: twist 4.5 - 3.5/4 + 2, rate 1 - 3.5/2 + 1/4
+        glide(&mut observer, side * 8.0);
+        assert_eq!(seen(&observer), [5.625, 103.75, 4.0 * 4.625 - 1.0, 8.0].map(|x| side * x));
+    }
+    assert_eq!(BacklashObserver::<f64>::steady(&BACKLASH, 0, 0.0, 5.0).twist(), 0.0);
+}
+
+/// A twist that passes a flank is put right by how far, and by that times the share of the tick that it took.
+#[test]
+fn a_flank_that_is_met_or_left_within_a_tick_puts_the_motion_right() {
+    for side in [1.0, -1.0] {
+        // 3 - 2/4 - 7/2 is 2 behind the flank, of 4 travelled: 4/4 passed, against the motion
+        let mut observer = BacklashObserver::<f64>::steady(&BACKLASH, 0, side * 8.0, 0.0);
+        glide(&mut observer, side);
+        // rate -2/2 - 7/2 - 2 (2) - 3 (1); mean speed -7; the gap is open
+        assert_eq!(seen(&observer), [-0.5, -7.0 - 5.75, 0.0, 8.0].map(|x| side * x));
+        assert!(observer.is_open(&BACKLASH));
+        // a quarter of the gap first, without a contact; then 0.5 + 4/2 is 1.5 beyond, of 2 travelled: 9/8 passed
+        let mut observer = BacklashObserver::<f64>::at_rest(&BACKLASH, 0, 0.0);
+        glide(&mut observer, side);
+        assert_eq!(seen(&observer), [0.5, 1.0, 0.0, 0.0].map(|x| side * x));
+        glide(&mut observer, side * 4.0);
+        let (twist, rate) = (2.5 + 0.25 * 1.125, 2.0 * 1.5 + 3.0 * 1.125);
+        assert_eq!(seen(&observer), [twist, 5.0 + 0.5 * rate, 4.0 * (twist - 1.0) + 2.0 * rate, 0.0].map(|x| side * x));
+    }
+}
+
+/// The searching gains stand in the gap, and after a start for two ticks, of which the second is the last.
+#[test]
+fn the_searching_gains_stand_in_the_gap_and_for_their_ticks_after_it() {
+    // a shaft that stays as it is stretched
+    let contact = Contact { twist: [0.0; 3], twist_rate: [0.0; 3], ..BACKLASH.contact };
+    let config = BacklashConfig { contact, ..BACKLASH };
+    let corrected = |torque: f64| {
+        let mut observer = BacklashObserver::<f64>::steady(&config, 0, torque, 64.0);
+        // the angle stands, so that every tick has an innovation; the settled gains are zero
+        [(); 4].map(|()| {
+            let before = observer.estimate(&config).motor_speed;
+            observer.step(&config, 0, torque);
+            observer.estimate(&config).motor_speed != before
+        })
+    };
+    assert_eq!(corrected(8.0), [true, false, false, false], "in contact");
+    assert_eq!(corrected(0.0), [true; 4], "in the gap");
+}
+
+/// A speed or a torque beyond its base is told of, and one within it is not.
+fn tells<O: Observer<Fixed>>(config: &O::Config) {
+    let (half, beyond) = (Fixed::from_bits(1 << 27), Fixed::from_bits(3 << 27));
+    for (torque, speed, told) in [(half, half, 0), (beyond, half, 1), (half, beyond, 1), (-beyond, -half, 1)] {
+        assert_eq!(O::steady(config, 0, torque, speed).beyond_base(), told, "{torque:?} {speed:?}");
+    }
+}
+
+#[test]
+fn the_observers_tell_of_a_state_beyond_its_base() {
+    let zero = Coefficient::ZERO;
+    tells::<RigidObserver<Fixed>>(&RigidConfig {
+        acceleration: zero,
+        turn: zero,
+        correction: [zero; 2],
+        angle_correction: zero,
+        speed: zero,
+        load_share: zero,
+    });
+    tells::<TwoMassObserver<Fixed>>(&TwoMassConfig {
+        forcing: [zero; 2],
+        twist: [zero; 3],
+        twist_rate: [zero; 3],
+        acceleration: zero,
+        turn: [zero; 2],
+        correction: [zero; 4],
+        angle_correction: zero,
+        speed: zero,
+        share: [zero; 2],
+        shaft: [zero; 2],
+        compliance: zero,
+    });
+    let gains = Correction { states: [zero; 4], angle: zero };
+    tells::<BacklashObserver<Fixed>>(&BacklashConfig {
+        forcing: [zero; 2],
+        half_gap: Fixed::from_bits(1 << 20),
+        contact: Contact { twist: [zero; 3], twist_rate: [zero; 3], leaving: [zero; 3] },
+        free: FreeFlight { twist: [zero; 2], twist_rate: zero, meeting: [zero; 3] },
+        acceleration: zero,
+        turn: [zero; 2],
+        settled: gains,
+        searching: gains,
+        hold: 0,
+        speed: zero,
+        share: [zero; 2],
+        shaft: [zero; 2],
+        compliance: zero,
+    });
 }
