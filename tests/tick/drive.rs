@@ -144,6 +144,11 @@ fn faults_are_a_set() {
     let both = one | two;
     assert_eq!((both | one, both & one, one & two), (both, one, Faults::NONE));
     assert!(both.contains(one) && both.contains(both) && !one.contains(both) && !one.contains(two));
+    assert_eq!((one.with(two), both.with(one)), (both, both));
+    assert_eq!((Faults::from_bits(both.bits()), both.bits() & one.bits(), Faults::NONE.bits()), (both, one.bits(), 0));
+    // a bit that means nothing
+    assert_eq!(Faults::from_bits(1 << 20 | one.bits()), one);
+    assert_eq!((Faults::NONE.to_string(), both.to_string()), ("none".into(), "torque, setpoint".into()));
     assert!(both.intersects(one) && one.intersects(both) && one.intersects(one) && !one.intersects(two));
 }
 

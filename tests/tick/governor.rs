@@ -1,11 +1,12 @@
 //! Single ticks of the governors.
 
 use driveline::governor::{
-    BacklashTakeUp, BacklashTakeUpConfig, Barred, BarredConfig, CycleAverage, Droop, DroopConfig, FeedForward,
-    FeedForwardConfig, Gains, Governor, InputShaper, InputShaperConfig, Limit, LoadSharing, LoadSharingConfig,
-    MovingAverage, MovingAverageConfig, RunRequest, RunState, Sequencer, SequencerConfig, SetpointShape, Slew,
-    SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SpeedRange,
-    SymmetricLimit, SymmetricLimitConfig,
+    AccelerationFeedback, AccelerationFeedbackConfig, ActiveDamping, ActiveDampingConfig, BacklashTakeUp,
+    BacklashTakeUpConfig, Barred, BarredConfig, Compensation, Curve, CurveConfig, CurvePiece, CycleAverage, Droop,
+    DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor, InputShaper, InputShaperConfig, Limit, LoadSharing,
+    LoadSharingConfig, MovingAverage, MovingAverageConfig, RunRequest, RunState, Sequencer, SequencerConfig,
+    SetpointShape, Slew, SlewConfig, SpeedFilter, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig,
+    SpeedRange, SymmetricLimit, SymmetricLimitConfig, TransportDelay, TransportDelayConfig, Trip,
 };
 use driveline::number::{Coefficient, Fixed, Weight};
 use driveline::sample::Estimate;
@@ -282,4 +283,45 @@ fn a_weight_between_inverses_is_that_of_their_values() {
     // 1/(3/4 + 1/4 3) is 2/3, half way between 1/1 and 1/3
     assert_eq!(Weight::share(0.25).of_inverses(&1.0_f32, &3.0), Weight::share(0.5));
     assert_eq!(Weight::share(0.25).of_inverses(&-1.0_f64, &-3.0), Weight::share(0.5));
+}
+
+#[test]
+fn a_torque_is_delayed_by_its_ticks() {
+    for (ticks, expected) in [(0, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), (3, [0.0, 0.0, 0.0, 1.0, 2.0, 3.0])] {
+        let mut delay = TransportDelay::<f64, 4>::new();
+        let config = TransportDelayConfig { ticks };
+        assert_eq!([1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(|torque| delay.delayed(&config, torque)), expected);
+    }
+}
+
+/// Two compensations, one after the other: 2 of the twist rate's 4, and a quarter of the torque that accelerates the load.
+#[test]
+fn compensations_add_up() {
+    type Both = (ActiveDamping, (AccelerationFeedback, FeedForward));
+    let config = (
+        ActiveDampingConfig { damping: -2.0 },
+        (AccelerationFeedbackConfig { feedback: 0.25 }, FeedForwardConfig { share: 0.5 }),
+    );
+    let estimate = Estimate { motor_speed: 50.0, load_speed: 46.0, shaft_torque: 20.0, load_torque: 8.0 };
+    let both = Both::default();
+    assert_eq!(both.transient(&config, &estimate, 100.0), 100.0 - 8.0 + 3.0);
+    assert_eq!(both.steady(&config, &estimate, 100.0), 104.0);
+}
+
+/// 100 N m to 50 rad/s, and 1 N m less for each rad/s beyond it.
+#[test]
+fn a_curve_falls_from_its_corner() {
+    let pieces =
+        [CurvePiece { speed: 0.0, torque: 100.0, slope: 0.0 }, CurvePiece { speed: 50.0, torque: 100.0, slope: -1.0 }];
+    let config = CurveConfig::<f64, 2> { pieces, min: -10.0 };
+    for (speed, torque) in [(0.0, 100.0), (49.0, 100.0), (50.0, 100.0), (60.0, 90.0), (-60.0, 90.0)] {
+        assert_eq!(Curve::<2>.limit(&config, &at(speed), 1000.0), torque, "{speed}");
+    }
+    assert_eq!([-11.0, -9.0].map(|wanted| Curve::<2>.limit(&config, &at(60.0), wanted)), [-10.0, -9.0]);
+}
+
+/// Each trip has a name of its own.
+#[test]
+fn a_trip_is_told_by_its_name() {
+    assert_eq!((Trip::Reverse.to_string(), Trip::Actuator.to_string()), ("reverse".into(), "actuator".into()));
 }

@@ -5,7 +5,9 @@
 
 mod drive;
 mod governor;
+mod number;
 mod observer;
+mod switch;
 
 use driveline::observer::RigidConfig;
 

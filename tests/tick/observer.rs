@@ -315,14 +315,6 @@ fn tells<O: Observer<Fixed>>(config: &O::Config) {
 #[test]
 fn the_observers_tell_of_a_state_beyond_its_base() {
     let zero = Coefficient::ZERO;
-    tells::<RigidObserver<Fixed>>(&RigidConfig {
-        acceleration: zero,
-        turn: zero,
-        correction: [zero; 2],
-        angle_correction: zero,
-        speed: zero,
-        load_share: zero,
-    });
     tells::<TwoMassObserver<Fixed>>(&TwoMassConfig {
         forcing: [zero; 2],
         twist: [zero; 3],
@@ -335,6 +327,27 @@ fn the_observers_tell_of_a_state_beyond_its_base() {
         share: [zero; 2],
         shaft: [zero; 2],
         compliance: zero,
+    });
+    let rigid = RigidConfig {
+        acceleration: zero,
+        turn: zero,
+        correction: [zero; 2],
+        angle_correction: zero,
+        speed: zero,
+        load_share: zero,
+    };
+    tells::<RigidObserver<Fixed>>(&rigid);
+    tells::<GearedObserver<RigidObserver<Fixed>>>(&GearedConfig {
+        observer: rigid,
+        friction: zero,
+        stiction_gain: (),
+        deadband: Fixed::ZERO,
+    });
+    let flat = TablePoint { inertia_ratio: Fixed::ONE, inertia_slope: Fixed::ZERO };
+    tells::<CrankObserver<Fixed>>(&CrankConfig {
+        rigid,
+        turning: RotorAngleConfig::new(1, 1).unwrap(),
+        points: [flat; TABLE_POINTS],
     });
     let gains = Correction { states: [zero; 4], angle: zero };
     tells::<BacklashObserver<Fixed>>(&BacklashConfig {
@@ -352,4 +365,38 @@ fn the_observers_tell_of_a_state_beyond_its_base() {
         shaft: [zero; 2],
         compliance: zero,
     });
+}
+
+/// An angle that is taken over moves no state, and a turn in a tick is a speed in each of them.
+fn follows<O: Observer<f64>>(config: &O::Config) {
+    let mut observer = O::steady(config, 7, 4.0, 50.0);
+    assert_eq!((observer.angle(), O::speed_of_turn(config, 3.0)), (7, 3.0));
+    let before = observer.estimate(config);
+    observer.resync(1000);
+    assert_eq!((observer.angle(), observer.estimate(config)), (1000, before));
+}
+
+#[test]
+fn the_observers_take_an_angle_over() {
+    follows::<RigidObserver<f64>>(&UNIT);
+    follows::<SemiImplicitObserver<f64>>(&SEMI_IMPLICIT);
+    follows::<BacklashObserver<f64>>(&BACKLASH);
+    follows::<GearedObserver<RigidObserver<f64>>>(&geared(16.0));
+    follows::<CrankObserver<f64>>(&cranked([FLAT; TABLE_POINTS]));
+}
+
+/// The estimate is the same under both constants: in contact the stretch takes the stiffness over, in the gap nothing.
+#[test]
+fn a_switch_of_a_shaft_with_a_gap_leaves_speed_and_shaft_torque() {
+    let to = BacklashConfig { share: [0.75, -0.25], shaft: [8.0, 2.0], compliance: 0.125, ..BACKLASH };
+    let mut observer = BacklashObserver::<f64>::steady(&BACKLASH, 0, 8.0, 100.0);
+    glide(&mut observer, 12.0);
+    let before = observer.estimate(&BACKLASH);
+    observer.switch(&BACKLASH, &to);
+    let after = observer.estimate(&to);
+    assert_eq!((after.motor_speed, after.shaft_torque), (before.motor_speed, before.shaft_torque));
+    let mut open = BacklashObserver::<f64>::at_rest(&BACKLASH, 0, 0.0);
+    glide(&mut open, 1.0);
+    open.switch(&BACKLASH, &to);
+    assert_eq!((open.twist(), open.estimate(&to).motor_speed), (0.5, 1.0));
 }

@@ -1,0 +1,93 @@
+//! Constants that change between two ticks: the estimate and the next torque are the same under both.
+
+use driveline::governor::{
+    CycleAverage, DampingLag, DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor,
+    SetpointLag, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
+};
+use driveline::observer::{GearedConfig, GearedObserver, Observer, TwoMassConfig, TwoMassObserver};
+use driveline::sample::Estimate;
+
+/// Shares and stiffness that a switch changes; the compliance is one over the stiffness.
+fn two_mass(share: [f64; 2], stiffness: f64) -> TwoMassConfig<f64> {
+    TwoMassConfig {
+        forcing: [1.0, 0.0],
+        twist: [0.0, 0.0, 1.0],
+        twist_rate: [0.0, 0.0, 0.5],
+        acceleration: 1.0,
+        turn: [0.0; 2],
+        correction: [0.0; 4],
+        angle_correction: 0.0,
+        speed: 1.0,
+        share,
+        shaft: [stiffness, 0.5],
+        compliance: 1.0 / stiffness,
+    }
+}
+
+/// A rate of 4 moves the motor's speed by its share of it, and the mean speed takes that over.
+#[test]
+fn a_switch_of_two_masses_leaves_speed_and_shaft_torque() {
+    let (from, to) = (two_mass([0.25, -0.75], 2.0), two_mass([0.75, -0.25], 8.0));
+    let geared = |observer| GearedConfig { observer, friction: 0.0, stiction_gain: 0.0, deadband: 0.0 };
+    let mut observer = GearedObserver::<TwoMassObserver<f64>>::steady(&geared(from), 0, 0.0, 100.0);
+    observer.step(&geared(from), 0, 8.0);
+    let before = observer.estimate(&geared(from));
+    // mean speed 108, rate 4, twist 8
+    assert_eq!((before.motor_speed, before.shaft_torque), (109.0, 18.0));
+    observer.switch(&geared(from), &geared(to));
+    let after = observer.estimate(&geared(to));
+    assert_eq!((after.motor_speed, after.shaft_torque), (109.0, 18.0));
+    // the load turns by the rate slower than the motor
+    assert_eq!((before.load_speed, after.load_speed), (105.0, 105.0));
+}
+
+/// A lag that holds the setpoint 8 behind the ramp, and one of the damping that follows at once.
+#[test]
+fn a_switch_of_a_speed_loop_with_lags_is_bumpless() {
+    type Lagged = SpeedLoop<f64, (SetpointLag<f64>, DampingLag<f64>)>;
+    let config = |proportional, damping| SpeedLoopConfig {
+        proportional,
+        integral: 0.0,
+        damping,
+        anti_windup: 0.0,
+        torque_limit: 1000.0,
+        ramp: 4.0,
+        filter: ((), DampingLagConfig { share: 1.0 }),
+    };
+    let (from, to) = (config(2.0, -3.0), config(5.0, 1.0));
+    let at = |speed| Estimate { motor_speed: speed, shaft_torque: 0.0, load_speed: speed - 2.0, load_torque: 0.0 };
+    let mut governor = Lagged::default();
+    governor.start(&from, &at(10.0), 6.0);
+    governor.set_setpoint(18.0);
+    // the loop's setpoint stays at 10: error -1, twist rate 2
+    assert_eq!([(); 3].map(|()| governor.command(&from, &at(11.0))), [6.0 - 2.0 - 6.0; 3]);
+    governor.switch(&from, &to, &at(11.0));
+    assert_eq!(governor.command(&to, &at(11.0)), -2.0);
+    // and from there by the new gain
+    assert_eq!(governor.command(&to, &at(12.0)), -7.0);
+}
+
+#[test]
+fn a_switch_of_gain_droop_and_feed_forward_is_bumpless() {
+    type Drooped = SpeedGovernor<f64, (Droop, ()), (FeedForward, ()), SymmetricLimit, (), CycleAverage<f64>>;
+    let config = |proportional, droop, share| SpeedGovernorConfig {
+        gains: Gains { proportional, integral: 0.0, anti_windup: 0.0, ramp: 0.0 },
+        shape: (DroopConfig { droop }, ()),
+        compensation: (FeedForwardConfig { share }, ()),
+        limit: SymmetricLimitConfig { torque: 100.0 },
+        sequence: (),
+        filter: (),
+    };
+    let (from, to) = (config(2.0, 0.25, 0.5), config(4.0, 0.5, 0.25));
+    let at = |speed| Estimate { motor_speed: speed, shaft_torque: 0.0, load_speed: speed, load_torque: 8.0 };
+    let mut governor = Drooped::default();
+    governor.start(&from, &at(50.0), 20.0);
+    // 3 too slow, by the filtered speed alone
+    governor.set_steady_speed(Some(47.0));
+    assert_eq!(governor.command(&from, &at(50.0)), 26.0);
+    Governor::switch(&mut governor, &from, &to, &at(50.0));
+    assert_eq!(governor.command(&to, &at(50.0)), 26.0);
+    // without the filter's speed the estimate's counts, and a start forgets it
+    governor.start(&from, &at(50.0), 20.0);
+    assert_eq!(governor.command(&from, &at(50.0)), 20.0);
+}
