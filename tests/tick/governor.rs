@@ -294,7 +294,7 @@ fn a_torque_is_delayed_by_its_ticks() {
     }
 }
 
-/// Two compensations, one after the other: 2 of the twist rate's 4, and a quarter of the torque that accelerates the load.
+/// Two compensations, one after the other: 2 of the twist rate of 4, and a quarter of what accelerates the load.
 #[test]
 fn compensations_add_up() {
     type Both = (ActiveDamping, (AccelerationFeedback, FeedForward));
