@@ -24,8 +24,8 @@ pub struct ActuatorMonitor<N, const K: usize> {
     expected: [N; K],
     /// Ticks without a plausible position, less those with one.
     outside: u32,
-    /// The last rejected one is no torque at all.
-    absent: bool,
+    /// Cause by the last rejected one.
+    cause: Trip,
 }
 
 /// Constants of [`ActuatorMonitor`].
@@ -46,7 +46,7 @@ impl<N: Number, const K: usize> ActuatorMonitor<N, K> {
     /// A monitor of an actuator that has been at zero torque.
     pub const fn new() -> Self {
         const { assert!(K > 0, "an actuator that is watched has a lag") };
-        ActuatorMonitor { expected: [N::ZERO; K], outside: 0, absent: false }
+        ActuatorMonitor { expected: [N::ZERO; K], outside: 0, cause: Trip::Actuator }
     }
 
     /// The expected torque of the actuator's position (N m).
@@ -64,7 +64,8 @@ impl<N: Number, const K: usize> ActuatorMonitor<N, K> {
             if self.outside <= config.timeout {
                 self.outside = self.outside.wrapping_add(1);
             }
-            self.absent = measured.exceeds(config.max_torque);
+            let absent = measured.exceeds(config.max_torque);
+            self.cause = if absent { Trip::SensorLoss } else { Trip::Actuator };
             return (expected, Faults::TORQUE);
         }
         self.outside = self.outside.saturating_sub(1);
@@ -84,10 +85,7 @@ impl<N: Number, const K: usize> ActuatorMonitor<N, K> {
     /// The trip to pass to [`Sequencer::trip`](super::Sequencer::trip), if any.
     #[inline(always)]
     pub fn trip(&self, config: &ActuatorMonitorConfig<N, K>) -> Option<Trip> {
-        if self.outside <= config.timeout {
-            return None;
-        }
-        Some(if self.absent { Trip::SensorLoss } else { Trip::Actuator })
+        (self.outside > config.timeout).then_some(self.cause)
     }
 }
 

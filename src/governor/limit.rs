@@ -113,13 +113,13 @@ impl<N: Number, const K: usize> CurveConfig<N, K> {
     #[inline(always)]
     pub fn max_torque(&self, speed: N) -> N {
         let speed = speed.magnitude();
-        let (mut torque, mut slope, mut from) = (N::ZERO, N::Coefficient::default(), N::ZERO);
-        for piece in &self.pieces {
-            if speed >= piece.speed {
-                (torque, slope, from) = (piece.torque, piece.slope, piece.speed);
+        let Some((mut piece, others)) = self.pieces.split_first() else { return N::ZERO };
+        for other in others {
+            if speed >= other.speed {
+                piece = other;
             }
         }
-        torque + (speed - from).saturated().widened().times(slope)
+        piece.torque + (speed - piece.speed).saturated().widened().times(piece.slope)
     }
 }
 

@@ -193,18 +193,24 @@ impl Sequencer {
         if matches!(self.state, RunState::Tripped(_)) {
             return false;
         }
-        *self = Sequencer { state: RunState::Tripped(reason), ..Sequencer::default() };
+        self.state = RunState::Tripped(reason);
         true
     }
 
-    /// Counts a tick outside or within the limits.
-    fn count<N: Number>(&mut self, config: &SequencerConfig<N>, estimate: &Estimate<N>, window: &SpeedRange<N>) {
+    /// Counts a tick outside or within the limits; whether the machine has tripped.
+    #[inline(always)]
+    fn count<N: Number>(
+        &mut self,
+        config: &SequencerConfig<N>,
+        estimate: &Estimate<N>,
+        window: &SpeedRange<N>,
+    ) -> bool {
         let speed = estimate.motor_speed;
         let (trip, ticks) = if estimate.shaft_torque.exceeds(config.shaft_torque) {
             (Trip::ShaftOverload, config.trip_delay)
         } else if !(speed - window.middle).exceeds(window.half) {
             self.outside = self.outside.saturating_sub(1);
-            return;
+            return false;
         } else if !(speed - config.allowed.middle).exceeds(config.allowed.half) {
             (Trip::Underspeed, config.underspeed_delay)
         } else if speed > config.allowed.middle {
@@ -213,24 +219,29 @@ impl Sequencer {
             (Trip::Reverse, config.trip_delay)
         };
         self.outside = self.outside.saturating_add(1);
-        if self.outside > ticks {
+        let tripped = self.outside > ticks;
+        if tripped {
             self.state = RunState::Tripped(trip);
         }
+        tripped
     }
 
-    /// A tick in any state but [`RunState::Running`].
-    #[cold]
+    /// A tick in any state. Inlined, with the count in each state of its own: the longest path then goes through one.
+    #[inline(always)]
     fn other<N: Number>(&mut self, config: &SequencerConfig<N>, estimate: &Estimate<N>) -> RunAction {
         match self.state {
-            RunState::Stopped | RunState::Tripped(_) => return RunAction::Idle,
-            RunState::Running => self.count(config, estimate, &config.running),
-            RunState::Starting | RunState::Braking => self.count(config, estimate, &config.allowed),
-        }
-        let action = if self.fresh { RunAction::Begin } else { RunAction::Govern };
-        self.fresh = false;
-        match self.state {
-            RunState::Running => action,
+            RunState::Stopped | RunState::Tripped(_) => RunAction::Idle,
+            RunState::Running => {
+                if self.count(config, estimate, &config.running) {
+                    RunAction::Idle
+                } else {
+                    RunAction::Govern
+                }
+            }
             RunState::Starting => {
+                if self.count(config, estimate, &config.allowed) {
+                    return RunAction::Idle;
+                }
                 self.elapsed = self.elapsed.saturating_add(1);
                 if !(estimate.motor_speed - config.running.middle).exceeds(config.running.half) {
                     self.state = RunState::Running;
@@ -238,18 +249,19 @@ impl Sequencer {
                     self.state = RunState::Tripped(Trip::NotStarted);
                     return RunAction::Idle;
                 }
-                action
+                if core::mem::take(&mut self.fresh) { RunAction::Begin } else { RunAction::Govern }
             }
-            // A machine stopped before its first tick still begins at its speed.
-            RunState::Braking if estimate.motor_speed.exceeds(config.standstill) => match action {
-                RunAction::Begin => action,
-                _ => RunAction::Brake,
-            },
             RunState::Braking => {
-                self.state = RunState::Stopped;
-                RunAction::Idle
+                if self.count(config, estimate, &config.allowed) {
+                    return RunAction::Idle;
+                }
+                if !estimate.motor_speed.exceeds(config.standstill) {
+                    self.state = RunState::Stopped;
+                    return RunAction::Idle;
+                }
+                // A machine stopped before its first tick still begins at its speed.
+                if core::mem::take(&mut self.fresh) { RunAction::Begin } else { RunAction::Brake }
             }
-            RunState::Stopped | RunState::Tripped(_) => RunAction::Idle,
         }
     }
 }
@@ -259,10 +271,12 @@ impl<N: Number> Sequence<N> for Sequencer {
 
     #[inline(always)]
     fn action(&mut self, config: &SequencerConfig<N>, estimate: &Estimate<N>) -> RunAction {
-        let outside = (estimate.motor_speed - config.running.middle).exceeds(config.running.half)
-            || estimate.shaft_torque.exceeds(config.shaft_torque);
-        if self.state == RunState::Running && self.outside == 0 && !outside {
-            return RunAction::Govern;
+        if self.state == RunState::Running && self.outside == 0 {
+            let outside = (estimate.motor_speed - config.running.middle).exceeds(config.running.half)
+                || estimate.shaft_torque.exceeds(config.shaft_torque);
+            if !outside {
+                return RunAction::Govern;
+            }
         }
         self.other(config, estimate)
     }

@@ -455,7 +455,8 @@ impl<N: Number + 'static, S: InNumber<N>> Actuated<N, S> {
         drive.governor_mut().sequence_mut().trip(reason);
     }
 
-    #[cold]
+    // inlined: a call would cost as much again
+    #[inline(always)]
     fn switched(&mut self, drive: &mut DriveOf<N, S::Added>, released: bool) {
         self.released = released;
         let modes = drive.governor_mut().sequence_mut();
