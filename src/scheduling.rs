@@ -3,7 +3,8 @@
 //! A [`Schedule`] holds the constants at the points of a grid, designed by the compiler (see
 //! [`Family`](crate::configure::Family)). Between two ticks, some twenty times a second, the drive takes those of the
 //! present parameters ([`Drive::follow`](crate::drive::Drive::follow)): bilinear interpolation, and bumpless transfer.
-//! The tick is that of a drive without a schedule.
+//! The tick is that of a drive without a schedule. [`ShaperSlots`] is the schedule of an input shaper, over the rope
+//! alone.
 //!
 //! | scheduling variable | from |
 //! |---|---|
@@ -18,7 +19,9 @@ mod constants;
 mod grid;
 mod load_mass;
 mod rope_length;
+mod shaper_slots;
 
 pub use grid::{Axis, Schedule};
 pub use load_mass::{LoadMass, LoadMassConfig};
 pub use rope_length::RopeLength;
+pub use shaper_slots::ShaperSlots;

@@ -56,6 +56,43 @@ impl InputShaperDesign {
         Self::new(sqrt(STANDARD_GRAVITY / rope.0), 0.0)
     }
 
+    /// The design for a rope of the length `from`, at the length `to` (m): the frequency goes with the inverse root of
+    /// the length. The speed loop that holds the trolley changes it by the same share at both lengths, as far as it is
+    /// wide above the swing.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    #[must_use]
+    pub const fn at_rope(self, from: Length, to: Length) -> Self {
+        match self.try_at_rope(from, to) {
+            Ok(design) => design,
+            Err(error) => error.stop(),
+        }
+    }
+
+    /// [`at_rope`](Self::at_rope), with an error instead of a panic.
+    ///
+    /// # Errors
+    /// [`Error::Shaper`].
+    pub const fn try_at_rope(self, from: Length, to: Length) -> Result<Self, Error> {
+        let delay = self.delay * sqrt(to.0 / from.0);
+        if from.0 > 0.0 && to.0 > 0.0 && delay > 0.0 && delay.is_finite() {
+            Ok(Self { delay, ..self })
+        } else {
+            Err(Error::Shaper)
+        }
+    }
+
+    /// Ticks of one of so many slots between two parts. A delay that is 2 % off leaves 3 % of the swing with two parts:
+    /// none where whole ticks are further off.
+    pub(crate) const fn slot(&self, slots: u32, period: f64) -> Option<u32> {
+        let exact = self.delay / (slots as f64 * period);
+        let slot = (exact + 0.5) as u32;
+        let off = slot as f64 / exact - 1.0;
+        let is_near = off <= 0.02 && off >= -0.02;
+        if slot >= 1 && exact < 2_147_483_647.0 && is_near { Some(slot) } else { None }
+    }
+
     /// Vibration that a shaper of so many parts leaves at another frequency (rad/s) and damping ratio, over that of the
     /// unshaped setpoint at the same time: `|1 - v + v exp((zeta omega + i omega_d) d)|^(parts - 1)` with the share v
     /// and the delay d.

@@ -104,6 +104,13 @@ fn bits(from: i32, to: i32, weight: Weight) -> i32 {
     (i64::from(from) + ((change * i64::from(weight.0)) >> 16)) as i32
 }
 
+/// Whole numbers, rounded down.
+impl Interpolate for u32 {
+    fn between(&self, other: &Self, weight: Weight) -> Self {
+        bits(self.cast_signed(), other.cast_signed(), weight).cast_unsigned()
+    }
+}
+
 impl Interpolate for Fixed {
     fn between(&self, other: &Self, weight: Weight) -> Self {
         Fixed::from_bits(bits(self.to_bits(), other.to_bits(), weight))

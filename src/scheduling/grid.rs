@@ -43,7 +43,7 @@ impl<const K: usize> Axis<K> {
 
     /// The point below a value and the weight of the next. A value beyond an end is taken to be at the end, NaN at the
     /// first point.
-    fn place(&self, value: f32) -> (usize, Weight) {
+    pub(super) fn place(&self, value: f32) -> (usize, Weight) {
         let mut below = 0;
         let mut ends = [0.0, 1.0];
         for (k, pair) in self.points.windows(2).enumerate() {

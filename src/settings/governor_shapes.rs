@@ -145,17 +145,14 @@ constants! {
     }
 }
 
-/// Ticks of a slot, and the share of the later part. A delay that is 2 % off leaves 3 % of the swing with two parts.
+/// Ticks of a slot, and the share of the later part.
 const fn shaper(design: &InputShaperDesign, slots: u32, period: f64) -> Result<(u32, f64), Error> {
-    let exact = design.delay / (slots as f64 * period);
-    let slot = (exact + 0.5) as u32;
-    let off = slot as f64 / exact - 1.0;
-    let is_near = off <= 0.02 && off >= -0.02;
-    if slot >= 1 && exact < 2_147_483_647.0 && is_near && design.share > 0.0 && design.share <= 0.5 {
+    match design.slot(slots, period) {
         // a coefficient in fixed point ends at 1/2 less 2^-32
-        Ok((slot, design.share.min(0.5 - 0.25 / 1_073_741_824.0)))
-    } else {
-        Err(Error::Value(SHAPER))
+        Some(slot) if design.share > 0.0 && design.share <= 0.5 => {
+            Ok((slot, design.share.min(0.5 - 0.25 / 1_073_741_824.0)))
+        }
+        _ => Err(Error::Value(SHAPER)),
     }
 }
 

@@ -11,15 +11,21 @@
 
 use driveline::configure::{HasInputShaper, Machine, Rating};
 use driveline::design::{Disturbance, Encoder, LoadCycle, ObserverSelection, Requirement, SpeedLoopTuning};
-use driveline::drive::Drive;
+use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::{InputShaper, SetpointLag, SpeedLoop};
 use driveline::machine::{Chain, Diameter, Efficiency, Inertia, Length, Mass, Ratio};
+use driveline::number::Number;
 use driveline::observer;
+use driveline::scheduling::ShaperSlots;
 use driveline::settings::{Bases, Screening};
 
-use crate::scene::composed::{Composed, GovernedBy};
+use crate::scene::composed::{Beside, Composed, GovernedBy, OverWords};
 use crate::scene::no_load::{NoLoadLearner, NoLoadRun};
 use crate::scene::table::variants;
+use crate::scene::{Input, Output};
+
+/// Length of the rope that the observer and the speed loop are designed for.
+pub const ROPE: Length = Length(10.0);
 
 /// The machine, from the motors to the load.
 pub struct CraneTravel;
@@ -29,7 +35,7 @@ impl Machine for CraneTravel {
         .gear(Ratio(30.0), Efficiency(1.0))
         .drum(Diameter(0.5))
         .driven(Mass(25_000.0))
-        .swinging(Mass(15_000.0), Length(10.0));
+        .swinging(Mass(15_000.0), ROPE);
     /// Both motors.
     const RATING: Rating = Rating { torque: 147.0, speed: 150.0, torque_limit: 290.0 };
     const ENCODER: Encoder = Encoder::lines(COUNTS / 4);
@@ -126,11 +132,53 @@ pub type SemiImplicit<N> = GovernedBy<N, observer::SemiImplicitObserver<N>, Loop
 /// weight.
 pub type Learnt<N> = Composed<Drive<N, observer::SemiImplicitObserver<N>, (), Loop<N>>, NoLoadLearner<N, CraneTravel>>;
 
-/// Two masses, a stiff speed loop, and a setpoint that leaves no swing behind; taken every 0.2 s.
-pub type Shaped<N> = GovernedBy<N, observer::SemiImplicitObserver<N>, InputShaper<N, Loop<N>, SLOTS>>;
+/// The drive of two masses, a stiff speed loop, and a setpoint that leaves no swing behind; taken every 0.2 s.
+pub type ShapedDrive<N> = Drive<N, observer::SemiImplicitObserver<N>, (), InputShaper<N, Loop<N>, SLOTS>>;
+/// The same with a shaper that follows the length of the rope from travel to travel.
+pub type Shaped<N> = Composed<ShapedDrive<N>, ByRope<N>>;
 
 /// Slots of the shaper: two parts are 3.2 s apart.
 pub const SLOTS: usize = 32;
+
+/// Its slots over the rope that the crane works with.
+pub const BY_ROPE: ShaperSlots<3> =
+    ShaperSlots::new(&StiffTravel::SHAPER, ROPE, [8.0, 10.0, 12.0], SLOTS as u32 / 2, StiffTravel::PERIOD);
+
+/// Key of the panel: the rope's length (mm), as the hoist has it, before a travel.
+pub const ROPE_KEY: u32 = 1;
+
+/// The drive's constants, whose shaper is that of the rope.
+pub struct ByRope<N: Number> {
+    config: ConfigOf<ShapedDrive<N>>,
+}
+
+impl<N: Number> Beside<ShapedDrive<N>> for ByRope<N> {
+    fn start(_: &mut ShapedDrive<N>, config: &ConfigOf<ShapedDrive<N>>) -> Self {
+        ByRope { config: *config }
+    }
+
+    #[inline(always)]
+    fn tick(&mut self, drive: &mut ShapedDrive<N>, _: &ConfigOf<ShapedDrive<N>>, input: &Input) -> Output {
+        drive.advance(&self.config, input)
+    }
+
+    fn panel(
+        &mut self,
+        _: &mut ShapedDrive<N>,
+        _: &mut &'static ConfigOf<ShapedDrive<N>>,
+        [key, value]: [u32; 2],
+    ) -> u32 {
+        if key == ROPE_KEY {
+            self.config.governor.slot = BY_ROPE.at(value as f32 * 1e-3);
+        }
+        self.config.governor.slot
+    }
+
+    #[cfg(not(target_os = "none"))]
+    fn copy(&self) -> Option<Self> {
+        Some(ByRope { config: self.config })
+    }
+}
 
 variants! {
     "rigid": Rigid for CraneTravel;
