@@ -212,7 +212,9 @@ mod tests {
         let mut sharing = LoadSharing::default();
         assert_eq!(steady(&mut sharing, 44.0, 44.0), [11.0; 4]);
         assert_eq!(steady(&mut sharing, 36.0, 36.0), [9.0; 4]);
+        assert!(sharing.is_equal());
         assert_eq!(steady(&mut sharing, 28.0, 28.0), [16.0, -2.0, 16.0, -2.0]);
+        assert!(!sharing.is_equal());
         assert_eq!(steady(&mut sharing, 36.0, 36.0), [20.0, -2.0, 20.0, -2.0]);
     }
 

@@ -183,12 +183,19 @@ fn missed_ticks_up_to_the_limit_keep_the_angle() {
         drive.coast(&WATCHED, 0.0, 0.0);
         assert_eq!(drive.is_lost(), lost);
     }
-    let mut lost_at = |angle| {
+    let lost_at = |drive: &mut Watched, angle| {
         drive.tick(&WATCHED, &Sample { angle, torque: 0.0, setpoint: 0.0 });
-        drive.make_up(&WATCHED, 0.0, 1);
         drive.is_lost()
     };
-    assert_eq!([lost_at(50_000), lost_at(50_100)], [true, true]);
+    assert!(lost_at(&mut drive, 50_000));
+    drive.make_up(&WATCHED, 0.0, 1);
+    // the search begins anew
+    assert_eq!([lost_at(&mut drive, 50_100), lost_at(&mut drive, 50_200)], [true, false]);
+    // one tick without an angle and one that did not run
+    let mut drive = Watched::new(&WATCHED, 0);
+    drive.coast(&WATCHED, 0.0, 0.0);
+    drive.make_up(&WATCHED, 0.0, 1);
+    assert!(!drive.is_lost());
 }
 
 #[test]

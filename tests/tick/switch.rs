@@ -1,11 +1,12 @@
 //! Constants that change between two ticks: the estimate and the next torque are the same under both.
 
+use driveline::drive::{Config, Drive, Limits};
 use driveline::governor::{
     CycleAverage, DampingLag, DampingLagConfig, Droop, DroopConfig, FeedForward, FeedForwardConfig, Gains, Governor,
     SetpointLag, SpeedGovernor, SpeedGovernorConfig, SpeedLoop, SpeedLoopConfig, SymmetricLimit, SymmetricLimitConfig,
 };
 use driveline::observer::{GearedConfig, GearedObserver, Observer, TwoMassConfig, TwoMassObserver};
-use driveline::sample::Estimate;
+use driveline::sample::{Estimate, Sample};
 
 /// Shares and stiffness that a switch changes; the compliance is one over the stiffness.
 fn two_mass(share: [f64; 2], stiffness: f64) -> TwoMassConfig<f64> {
@@ -65,6 +66,40 @@ fn a_switch_of_a_speed_loop_with_lags_is_bumpless() {
     assert_eq!(governor.command(&to, &at(11.0)), -2.0);
     // and from there by the new gain
     assert_eq!(governor.command(&to, &at(12.0)), -7.0);
+}
+
+/// Without filters, through a drive; a lost angle then leaves neither torque nor setpoint.
+#[test]
+fn a_switch_of_a_drive_is_bumpless() {
+    type Plain = Drive<f64, TwoMassObserver<f64>, (), SpeedLoop<f64>>;
+    let config = |proportional, damping, share, stiffness| Config {
+        limits: Limits { torque: 1e3, setpoint: 1e3, innovation: 1e3, frozen_turn: 1e3, max_coast: 3 },
+        observer: two_mass(share, stiffness),
+        fluctuation: (),
+        governor: SpeedLoopConfig {
+            proportional,
+            integral: 0.0,
+            damping,
+            anti_windup: 0.0,
+            torque_limit: 1e3,
+            ramp: 8.0,
+            filter: (),
+        },
+        balancer: (),
+    };
+    let (from, to) = (config(2.0, -3.0, [0.25, -0.75], 2.0), config(5.0, 1.0, [0.75, -0.25], 8.0));
+    let mut drive = Plain::new(&from, 0);
+    // mean speed 8, rate 4: the motor at 9, the load at 5; the ramp is at 8
+    let first = drive.tick(&from, &Sample { angle: 0, torque: 8.0, setpoint: 8.0 });
+    assert_eq!(first.torque, -2.0 - 12.0);
+    let (before, mut switched) = (drive.estimate(&from), drive);
+    switched.switch(&from, &to);
+    let after = switched.estimate(&to);
+    assert_eq!((after.motor_speed, after.shaft_torque), (before.motor_speed, before.shaft_torque));
+    assert_eq!(switched.governor_mut().command(&to.governor, &after), -14.0);
+    let mut governor = *switched.governor();
+    governor.angle_lost(&to.governor, &Estimate { motor_speed: 9.0, load_speed: 9.0, ..after });
+    assert_eq!(governor.command(&to.governor, &Estimate { motor_speed: 9.0, load_speed: 9.0, ..after }), 5.0 * -8.0);
 }
 
 #[test]
