@@ -460,6 +460,7 @@ mod tests {
     fn a_seal_is_whole_in_every_state_of_a_drive_and_in_no_memory_of_equal_bytes() {
         type Sealed = Drive<f64, RigidObserver<f64>, (), (), (), 0x5b00_5b00>;
         let mut drive = Sealed::new(&CONFIG, 0);
+        assert_eq!(Sealed::seal(&CONFIG, drive.coasted as u32), Seal::Sighted, "new");
         let mut tick = |angle| {
             drive.tick(&CONFIG, &Sample { angle, torque: 0.0, setpoint: 0.0 });
             Sealed::seal(&CONFIG, drive.coasted as u32)

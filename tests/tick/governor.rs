@@ -280,9 +280,9 @@ fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
 
 #[test]
 fn a_weight_between_inverses_is_that_of_their_values() {
-    // 1/(3/4 + 1/4 3) is 2/3, half way between 1/1 and 1/3
-    assert_eq!(Weight::share(0.25).of_inverses(&1.0_f32, &3.0), Weight::share(0.5));
-    assert_eq!(Weight::share(0.25).of_inverses(&-1.0_f64, &-3.0), Weight::share(0.5));
+    // 1/(3/4 2 + 1/4 6) is 1/3, half way between 1/2 and 1/6
+    assert_eq!(Weight::share(0.25).of_inverses(&2.0_f32, &6.0), Weight::share(0.5));
+    assert_eq!(Weight::share(0.25).of_inverses(&-2.0_f64, &-6.0), Weight::share(0.5));
 }
 
 #[test]
@@ -324,4 +324,39 @@ fn a_curve_falls_from_its_corner() {
 #[test]
 fn a_trip_is_told_by_its_name() {
     assert_eq!((Trip::Reverse.to_string(), Trip::Actuator.to_string()), ("reverse".into(), "actuator".into()));
+}
+
+/// A trip delay of two ticks: the third beyond the limit trips.
+#[test]
+fn a_trip_comes_after_its_delay() {
+    let mut governor = Sequenced::default();
+    governor.start(&SEQUENCED, &at(100.0), 0.0);
+    governor.command(&SEQUENCED, &at(100.0));
+    let mut state_at = |speed| {
+        governor.command(&SEQUENCED, &at(speed));
+        governor.sequence().state()
+    };
+    // overspeed from 150; a tick within the limits takes one off
+    assert_eq!([160.0, 160.0, 100.0, 160.0].map(&mut state_at), [RunState::Running; 4]);
+    assert_eq!(state_at(160.0), RunState::Tripped(Trip::Overspeed));
+}
+
+/// Started and stopped before its first tick, it brakes from the speed that it has.
+#[test]
+fn a_machine_stopped_before_its_first_tick_begins_at_its_speed() {
+    let mut governor = Sequenced::default();
+    assert!(governor.sequence_mut().request(RunRequest::Start) && governor.sequence_mut().request(RunRequest::Stop));
+    governor.command(&SEQUENCED, &at(50.0));
+    assert_eq!(governor.ramped_setpoint(), 40.0);
+}
+
+#[test]
+fn shapes_follow_one_another() {
+    type Both = (Barred<1>, (Droop, ()));
+    let barred = BarredConfig { ranges: [SpeedRange { middle: 50.0, half: 10.0 }], quick: 5.0 };
+    let config = (barred, (DroopConfig { droop: 0.25 }, ()));
+    assert_eq!(Both::default().goal(&config, 55.0, 30.0, 1.0), (40.0, 1.0));
+    assert_eq!(Both::default().lower(&config, 40.0, 8.0), 38.0);
+    // without a sequence there is nothing that forbids a torque
+    assert!(SpeedGovernor::<f64>::default().permits());
 }

@@ -13,6 +13,7 @@ fn a_fixed_number_knows_its_flank() {
         assert_eq!(fixed(number).flank(fixed(1000)), fixed(flank), "{number}");
     }
     for (one, other) in [(7, 3), (-7, -3), (i32::MAX, 1), (i32::MIN, -1)] {
+        assert!(!fixed(one).opposes(fixed(one)), "{one}");
         assert!(!fixed(one).opposes(fixed(other)) && fixed(one).opposes(fixed(-other)), "{one} {other}");
     }
 }
@@ -31,6 +32,15 @@ fn how_far_a_motion_has_passed_a_flank() {
                 "{number} {travel}: {passed}"
             );
         }
+    }
+}
+
+/// No travel is divided by zero, however short; what has passed is on the motion's side.
+#[test]
+fn a_short_travel_has_passed_something() {
+    for travel in [1000, 4500, 8000, 20_000] {
+        assert!(fixed(travel).passed(fixed(travel)).to_bits() > 0, "{travel}");
+        assert!(fixed(-travel).passed(fixed(-travel)).to_bits() < 0, "-{travel}");
     }
 }
 
