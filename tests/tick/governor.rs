@@ -272,6 +272,12 @@ fn a_shaper_hands_on_the_steady_speed_and_a_trip() {
     shaper.set_setpoint(100.0);
     shaper.set_steady_speed(Some(93.0));
     assert_eq!(shaper.command(&config, &at(100.0)), 7.0);
+    // bumpless: the integral takes over what twice the gain gives more
+    let mut doubled = config;
+    doubled.governor.gains.proportional = 2.0;
+    let mut switched = shaper;
+    switched.switch(&config, &doubled, &at(100.0));
+    assert_eq!(switched.command(&doubled, &at(100.0)), 7.0);
     shaper.set_steady_speed(None);
     assert_eq!(shaper.command(&config, &at(100.0)), 0.0);
     shaper.angle_lost(&config, &at(100.0));
