@@ -137,3 +137,17 @@ impl PerCount<Fixed> {
         PerCount((factor * 17_592_186_044_416.0) as i64, PhantomData)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Fixed, Scaled};
+
+    /// The base is full scale, so that 2^13 of the number make one of the output.
+    #[test]
+    fn an_output_in_fixed_point_is_the_nearest_one() {
+        for (quarters, output) in [(1, 0), (3, 1), (4, 1), (5, 1), (-1, 0), (-3, -1), (-5, -1)] {
+            assert_eq!(Fixed::from_bits(quarters << 11).fraction(1 << 16), Some(output), "{quarters}/4");
+        }
+        assert_eq!([1, -1].map(|side| Fixed::from_bits(side << 29).fraction(1 << 16)), [Some(32767), Some(-32767)]);
+    }
+}
