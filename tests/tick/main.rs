@@ -4,9 +4,11 @@
 //! state that is kept or lost. It needs the library alone, so that every mutant of the tick path is judged in seconds.
 
 mod drive;
+mod fluctuation;
 mod governor;
 mod number;
 mod observer;
+mod settings;
 mod switch;
 
 use driveline::observer::RigidConfig;

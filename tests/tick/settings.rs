@@ -1,0 +1,693 @@
+//! Constants against their formulas, in SI units and per unit of bases that are no round numbers; and each limit of
+//! what is accepted, from both sides.
+//!
+//! Fixed point has 2^28 to the base and 2^32 to a coefficient's one. A coefficient that is stated over four is widened
+//! after the product; a gain is shifted up by five places, as an innovation is before its gains, a turn down by seven,
+//! and the factor from a turn to a speed up by sixteen (`number`).
+
+use core::f64::consts::TAU;
+
+use driveline::design::{
+    Actuator, BarredSpeeds, ExactStep, GovernorDesign, InputShaperDesign, NaturalDamping, PlacedObserver, RigidDesign,
+    SpeedLoopDesign, TorqueCurve,
+};
+use driveline::drive::Limits;
+use driveline::governor::*;
+use driveline::machine::{Damping, Inertia, ResistorStart, Rigid, SoftStart, Stiffness, TwoMass};
+use driveline::number::{Coefficient, Fixed};
+use driveline::observer::{RigidConfig, SemiImplicitConfig, TwoMassConfig};
+use driveline::settings::*;
+
+/// 2^-32 turns of a radian, and what a base is of the last place.
+const ANGLE: f64 = 4_294_967_296.0 / TAU;
+const UNIT: f64 = 268_435_456.0;
+
+/// No round numbers.
+const BASES: Bases = Bases { torque: 310.0, speed: 170.0, twist: 0.031, twist_rate: 13.0, forcing: 2_700.0 };
+const PERIOD: f64 = 1e-4;
+
+/// Bases that the observers' coefficients of the machine below are within.
+const SLOW: Bases = Bases { speed: 57.0, twist: 0.027, ..BASES };
+
+/// A coefficient to half a unit in the last place.
+fn coefficient(found: Coefficient, expected: f64) {
+    assert!((found.to_f64() - expected).abs() <= 0.5001 / 4_294_967_296.0, "{} {expected}", found.to_f64());
+}
+
+fn number(found: Fixed, expected: f64) {
+    assert!((found.to_f64() - expected).abs() <= 0.5001 / UNIT, "{} {expected}", found.to_f64());
+}
+
+/// A double to some of its last places.
+fn double(found: f64, expected: f64) {
+    assert!((found - expected).abs() <= 1e-14 * expected.abs(), "{found} {expected}");
+}
+
+fn machine() -> TwoMass {
+    TwoMass::new(Inertia(0.35), Inertia(0.48), Stiffness(2.0e4), Damping(0.5))
+}
+
+#[test]
+fn the_constants_of_two_masses() {
+    let step = ExactStep::new(&machine(), PERIOD);
+    let gains = [0.21, 3.0, 2e-4, 1.5, 40.0];
+    let design = PlacedObserver { period: PERIOD, machine: machine(), step, gains, poles: [(0.0, 0.0); 5] };
+    let (motor, load) = (0.35 / 0.83, 0.48 / 0.83);
+    let Bases { torque, speed, twist, twist_rate: rate, forcing } = SLOW;
+    let (si, fixed) = (
+        TwoMassConfig::<f64>::try_of_placed(&design, SLOW).unwrap(),
+        TwoMassConfig::<Fixed>::try_of_placed(&design, SLOW).unwrap(),
+    );
+    let check = |si: f64, fixed: Coefficient, value: f64, per_unit: f64| {
+        double(si, value);
+        coefficient(fixed, value * per_unit);
+    };
+    check(si.forcing[0], fixed.forcing[0], 1.0 / 0.35, torque / forcing);
+    check(si.forcing[1], fixed.forcing[1], 1.0 / 0.48, torque / forcing);
+    check(si.twist[2], fixed.twist[2], step.g1, forcing / twist / 4.0);
+    check(si.twist_rate[2], fixed.twist_rate[2], step.g2, forcing / rate / 4.0);
+    check(si.acceleration, fixed.acceleration, PERIOD / 0.83, torque / speed);
+    let turn = 1.0 / (128.0 * UNIT);
+    check(si.turn[0], fixed.turn[0], 0.5 * PERIOD * ANGLE, speed * turn);
+    check(si.turn[1], fixed.turn[1], load * ANGLE, twist * turn / 4.0);
+    let gain = UNIT / 32.0;
+    check(si.correction[0], fixed.correction[0], (motor * 3.0 + load * 1.5) / ANGLE, gain / speed);
+    check(si.correction[1], fixed.correction[1], (3.0 - 1.5) / ANGLE, gain / rate);
+    check(si.correction[2], fixed.correction[2], 2e-4 / ANGLE, gain / twist);
+    check(si.correction[3], fixed.correction[3], 40.0 / ANGLE, gain / torque);
+    check(si.angle_correction, fixed.angle_correction, -0.21, 1.0 / 32.0);
+    check(si.speed, fixed.speed, 1.0 / (ANGLE * PERIOD), UNIT / speed / 65_536.0);
+    check(si.share[0], fixed.share[0], load, rate / speed / 4.0);
+    check(si.share[1], fixed.share[1], -motor, rate / speed / 4.0);
+    check(si.shaft[0], fixed.shaft[0], 2.0e4, twist / torque / 4.0);
+    check(si.shaft[1], fixed.shaft[1], 0.5, rate / torque / 4.0);
+    check(si.compliance, fixed.compliance, 1.0 / 2.0e4, torque / twist / 4.0);
+    // the free pair may be a unit in the last place off, so that it does not grow
+    let pair = [fixed.twist[0], fixed.twist[1], fixed.twist_rate[0], fixed.twist_rate[1]].map(Coefficient::to_f64);
+    let exact = [step.n11, step.n12 * rate / twist, step.n21 * twist / rate, step.n22].map(|n| n / 4.0);
+    for (found, expected) in pair.iter().zip(exact) {
+        assert!((found - expected).abs() <= 1.5001 / 4_294_967_296.0, "{found} {expected}");
+    }
+    let growth = |[a, b, c, d]: [f64; 4]| a + d + 4.0 * (a * d - b * c);
+    assert!(growth(pair) <= growth(exact) && growth(exact) - growth(pair) < 1e-9);
+    assert_eq!(
+        [si.twist[0], si.twist[1], si.twist_rate[0], si.twist_rate[1]],
+        [step.n11, step.n12, step.n21, step.n22]
+    );
+}
+
+#[test]
+fn the_constants_of_a_semi_implicit_step() {
+    let step = ExactStep::new(&machine(), PERIOD);
+    let gains = [0.21, 3.0, 2e-4, 1.5, 40.0];
+    let design = PlacedObserver { period: PERIOD, machine: machine(), step, gains, poles: [(0.0, 0.0); 5] };
+    let Bases { torque, speed, .. } = SLOW;
+    let (si, fixed) = (
+        SemiImplicitConfig::<f64>::try_of_placed(&design, SLOW).unwrap(),
+        SemiImplicitConfig::<Fixed>::try_of_placed(&design, SLOW).unwrap(),
+    );
+    let check = |si: f64, fixed: Coefficient, value: f64, per_unit: f64| {
+        double(si, value);
+        coefficient(fixed, value * per_unit);
+    };
+    check(si.motor, fixed.motor, PERIOD / 0.35, torque / speed);
+    check(si.load, fixed.load, PERIOD / 0.48, torque / speed);
+    // the spring grows by k T v, the damper's part by d v less d v before
+    check(si.shaft[0], fixed.shaft[0], 2.0e4 * PERIOD + 0.5, speed / torque);
+    check(si.shaft[1], fixed.shaft[1], -0.5, speed / torque);
+    check(si.turn, fixed.turn, PERIOD * ANGLE, speed / (128.0 * UNIT));
+    let gain = UNIT / 32.0;
+    check(si.correction[0], fixed.correction[0], 3.0 / ANGLE, gain / speed);
+    check(si.correction[1], fixed.correction[1], 1.5 / ANGLE, gain / speed);
+    check(si.correction[2], fixed.correction[2], (2.0e4 * 2e-4 + 0.5 * 1.5) / ANGLE, gain / torque);
+    check(si.correction[3], fixed.correction[3], 40.0 / ANGLE, gain / torque);
+    check(si.angle_correction, fixed.angle_correction, -0.21, 1.0 / 32.0);
+    check(si.speed, fixed.speed, 1.0 / (ANGLE * PERIOD), UNIT / speed / 65_536.0);
+}
+
+#[test]
+fn the_constants_of_a_rigid_machine() {
+    let machine = Rigid { inertia: 0.83, gravity_torque: 0.0 };
+    let design = RigidDesign {
+        period: PERIOD,
+        machine,
+        transition: driveline::design::Matrix([[0.0; 3]; 3]),
+        input: [0.0; 3],
+        gains: [0.21, 3.0, 40.0],
+        poles: [(0.0, 0.0); 3],
+        spectral_radius: 0.0,
+        standard_deviation: [0.0; 3],
+        innovation: 0.0,
+    };
+    let Bases { torque, speed, .. } = BASES;
+    let (si, fixed) = (
+        RigidConfig::<f64>::try_new(&design, 0.6, BASES).unwrap(),
+        RigidConfig::<Fixed>::try_new(&design, 0.6, BASES).unwrap(),
+    );
+    let check = |si: f64, fixed: Coefficient, value: f64, per_unit: f64| {
+        double(si, value);
+        coefficient(fixed, value * per_unit);
+    };
+    check(si.acceleration, fixed.acceleration, PERIOD / 0.83, torque / speed);
+    check(si.turn, fixed.turn, 0.5 * PERIOD * ANGLE, speed / (128.0 * UNIT));
+    check(si.correction[0], fixed.correction[0], 3.0 / ANGLE, UNIT / 32.0 / speed);
+    check(si.correction[1], fixed.correction[1], 40.0 / ANGLE, UNIT / 32.0 / torque);
+    check(si.angle_correction, fixed.angle_correction, -0.21, 1.0 / 32.0);
+    check(si.speed, fixed.speed, 1.0 / (ANGLE * PERIOD), UNIT / speed / 65_536.0);
+    check(si.load_share, fixed.load_share, 0.6, 0.25);
+    for (share, is_right) in [(0.0, true), (1.0, true), (-1e-9, false), (1.0 + 1e-9, false), (f64::NAN, false)] {
+        assert_eq!(RigidConfig::<f32>::try_new(&design, share, BASES).is_ok(), is_right, "{share}");
+    }
+}
+
+/// Bases of a machine: [`Bases::new`] by its rules, for each of the three that may decide the twist rate's.
+#[test]
+fn the_bases_of_a_machine() {
+    let machine = machine();
+    let bases = Bases::new(&machine, 300.0, 150.0);
+    let twist = 1.9 * 300.0 / 2.0e4;
+    double(bases.twist, twist);
+    // sqrt(k (1/Jm + 1/Jl)) = 314.3 rad/s
+    let resonance = (2.0e4 * (1.0 / 0.35 + 1.0 / 0.48_f64)).sqrt();
+    double(bases.twist_rate, resonance * twist);
+    // the lighter mass's coefficient is 0.49
+    double(bases.forcing, 300.0 / (0.49 * 0.35));
+    double(
+        Bases::new(&TwoMass::new(Inertia(0.5), Inertia(0.48), Stiffness(2.0e4), Damping(0.5)), 300.0, 150.0).forcing,
+        300.0 / (0.49 * 0.48),
+    );
+    // a damper whose torque would be beyond 1.9 of the base
+    double(
+        Bases::new(&TwoMass::new(Inertia(0.35), Inertia(0.48), Stiffness(2.0e4), Damping(70.0)), 300.0, 150.0)
+            .twist_rate,
+        1.9 * 300.0 / 70.0,
+    );
+    // and a rate beyond twice the base of the speed
+    assert_eq!(Bases::new(&machine, 300.0, 4.0).twist_rate, 8.0);
+    let rigid = Bases::rigid(3.0, 2.0);
+    assert_eq!((rigid.torque, rigid.speed, rigid.twist, rigid.twist_rate, rigid.forcing), (3.0, 2.0, 1.0, 1.0, 1.0));
+    for value in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+        for bases in [
+            Bases { torque: value, ..BASES },
+            Bases { speed: value, ..BASES },
+            Bases { twist: value, ..BASES },
+            Bases { twist_rate: value, ..BASES },
+            Bases { forcing: value, ..BASES },
+        ] {
+            assert!(DroopConfig::<Fixed>::try_new(0.03, 150.0, 300.0, bases).is_err(), "{bases:?}");
+        }
+    }
+}
+
+fn speed_loop(proportional: f64, integral: f64, damping: f64) -> SpeedLoopDesign {
+    SpeedLoopDesign {
+        period: PERIOD,
+        proportional,
+        integral,
+        damping,
+        damping_lag: 0.0,
+        bandwidth: 0.0,
+        shaft_frequency: 0.0,
+        spectral_radius: 0.0,
+    }
+}
+
+#[test]
+fn the_constants_of_a_speed_loop() {
+    let design = speed_loop(4.0, 50.0, 3.0);
+    let settings = SpeedLoopSettings { torque_limit: 400.0, ramp: 70.0 };
+    let si = SpeedLoopConfig::<f64>::try_new(&design, settings, BASES).unwrap();
+    let fixed = SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES).unwrap();
+    let gain = BASES.speed / BASES.torque / 32.0;
+    for (si, fixed, value, per_unit) in [
+        (si.proportional, fixed.proportional, 4.0, gain),
+        (si.integral, fixed.integral, 50.0 * PERIOD, gain),
+        (si.damping, fixed.damping, -3.0, gain),
+        (si.anti_windup, fixed.anti_windup, 50.0 * PERIOD / 4.0, 1.0),
+    ] {
+        double(si, value);
+        coefficient(fixed, value * per_unit);
+    }
+    assert_eq!((si.torque_limit, si.ramp), (400.0, 70.0 * PERIOD));
+    number(fixed.torque_limit, 400.0 / BASES.torque);
+    number(fixed.ramp, 70.0 * PERIOD / BASES.speed);
+    // eight times the sum of the coefficients is 5.99 at most
+    let unit = 32.0 * BASES.torque / BASES.speed;
+    for (share, is_right) in [(0.999, true), (1.001, false)] {
+        let left = |others: f64| share * 5.99 / 8.0 - others;
+        for [proportional, integral, damping] in
+            [[left(0.35), 0.15, 0.2], [0.4, left(0.6), -0.2], [0.4, 0.15, left(0.55)], [0.4, 0.15, -left(0.55)]]
+        {
+            let design = speed_loop(proportional * unit, integral * unit / PERIOD, damping * unit);
+            let tried = SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES);
+            assert_eq!(tried.is_ok(), is_right, "{share} {design:?} {tried:?}");
+            assert!(SpeedLoopConfig::<f32>::try_new(&design, settings, BASES).is_ok());
+        }
+    }
+    for value in [0.0, -1.0, f64::INFINITY, f64::NAN, 1e43, 1e-50] {
+        let torque = SpeedLoopSettings { torque_limit: value, ..settings };
+        let ramp = SpeedLoopSettings { ramp: value, ..settings };
+        for settings in [torque, ramp] {
+            assert!(SpeedLoopConfig::<f32>::try_new(&design, settings, BASES).is_err(), "{settings:?}");
+            assert!(SpeedLoopConfig::<f64>::try_new(&design, settings, BASES).is_err(), "{settings:?}");
+            assert!(SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES).is_err(), "{settings:?}");
+        }
+    }
+    for (limit, is_right) in [(2.0 * BASES.torque, true), (2.0001 * BASES.torque, false)] {
+        let settings = SpeedLoopSettings { torque_limit: limit, ..settings };
+        assert_eq!(SpeedLoopConfig::<Fixed>::try_new(&design, settings, BASES).is_ok(), is_right);
+    }
+}
+
+fn governor(proportional: f64, integral: f64, acceleration: f64) -> GovernorDesign {
+    GovernorDesign {
+        period: PERIOD,
+        proportional,
+        integral,
+        equivalent_delay: 0.0,
+        share: 0.0,
+        acceleration,
+        actuator: Actuator::DIRECT,
+        lag: 0.0,
+        natural: NaturalDamping::NONE,
+    }
+}
+
+#[test]
+fn the_constants_of_a_governor() {
+    let gain = BASES.speed / BASES.torque / 32.0;
+    let design = governor(4.0, 50.0, 0.3);
+    let si = Gains::<f64>::try_new(&design, 70.0, BASES).unwrap();
+    let fixed = Gains::<Fixed>::try_new(&design, 70.0, BASES).unwrap();
+    for (si, fixed, value, per_unit) in [
+        (si.proportional, fixed.proportional, 4.0, gain),
+        (si.integral, fixed.integral, 50.0 * PERIOD, gain),
+        (si.anti_windup, fixed.anti_windup, 50.0 * PERIOD / 4.0, 1.0),
+    ] {
+        double(si, value);
+        coefficient(fixed, value * per_unit);
+    }
+    assert_eq!(si.ramp, 70.0 * PERIOD);
+    number(fixed.ramp, 70.0 * PERIOD / BASES.speed);
+    // eight times the coefficients and twice the acceleration's are 3.99 at most
+    let unit = 32.0 * BASES.torque / BASES.speed;
+    for (share, is_right) in [(0.999, true), (1.001, false)] {
+        let left = |others: f64| share * (3.99 - 0.6) / 8.0 - others;
+        for [proportional, integral] in [[left(0.1), 0.1], [0.3, left(0.3)]] {
+            let design = governor(proportional * unit, integral * unit / PERIOD, 0.3);
+            assert_eq!(Gains::<Fixed>::try_new(&design, 70.0, BASES).is_ok(), is_right, "{share} {design:?}");
+            assert!(Gains::<f32>::try_new(&design, 70.0, BASES).is_ok());
+        }
+        for slip in [0.1, -0.1] {
+            let design = speed_loop((share * 3.99 / 8.0 - 0.2) * unit, 0.1 * unit / PERIOD, slip * unit);
+            assert_eq!(Gains::<Fixed>::try_of_speed_loop(&design, 70.0, BASES).is_ok(), is_right, "{design:?}");
+        }
+    }
+    let of_loop = Gains::<f64>::try_of_speed_loop(&speed_loop(4.0, 50.0, 3.0), 70.0, BASES).unwrap();
+    assert_eq!(of_loop, si);
+    for proportional in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(Gains::<f64>::try_new(&governor(proportional, 50.0, 0.3), 70.0, BASES).is_err(), "{proportional}");
+    }
+    for integral in [f64::NAN, f64::INFINITY] {
+        assert!(Gains::<f64>::try_new(&governor(4.0, integral, 0.3), 70.0, BASES).is_err(), "{integral}");
+    }
+    for ramp in [0.0, -70.0, f64::NAN, f64::INFINITY, 1e43] {
+        assert!(Gains::<f32>::try_new(&design, ramp, BASES).is_err(), "{ramp}");
+        assert!(Gains::<Fixed>::try_new(&design, ramp, BASES).is_err(), "{ramp}");
+    }
+    // a unit in the last place of the base in a tick
+    for (places, is_right) in [(1.001, true), (0.999, false)] {
+        let ramp = places / UNIT * BASES.speed / PERIOD;
+        assert_eq!(Gains::<Fixed>::try_new(&design, ramp, BASES).is_ok(), is_right, "{places}");
+        assert!(Gains::<f32>::try_new(&design, ramp, BASES).is_ok());
+    }
+    let least = f64::from(f32::MIN_POSITIVE) / PERIOD;
+    assert!(Gains::<f32>::try_new(&design, 1.001 * least, BASES).is_ok());
+    assert!(Gains::<f32>::try_new(&design, 0.999 * least, BASES).is_err());
+}
+
+#[test]
+fn the_constants_of_a_governors_parts() {
+    // 3 % of 150 rad/s at 300 N m
+    let si = DroopConfig::<f64>::try_new(0.03, 150.0, 300.0, BASES).unwrap();
+    let fixed = DroopConfig::<Fixed>::try_new(0.03, 150.0, 300.0, BASES).unwrap();
+    double(si.droop, 0.015);
+    coefficient(fixed.droop, 0.015 * BASES.torque / BASES.speed);
+    assert!(DroopConfig::<f64>::try_new(0.0, 150.0, 300.0, BASES).is_ok());
+    for (droop, speed, torque) in [
+        (-0.01, 150.0, 300.0),
+        (0.01, 0.0, 300.0),
+        (0.01, -150.0, -300.0),
+        (0.0, 150.0, 0.0),
+        (0.01, 150.0, 0.0),
+        (-0.01, 150.0, -300.0),
+        (f64::NAN, 150.0, 300.0),
+        (f64::INFINITY, 150.0, 300.0),
+    ] {
+        assert!(DroopConfig::<f32>::try_new(droop, speed, torque, BASES).is_err(), "{droop} {speed} {torque}");
+    }
+    let si = FeedForwardConfig::<f64>::try_new(0.7, BASES).unwrap();
+    assert_eq!(si.share, 0.7);
+    coefficient(FeedForwardConfig::<Fixed>::try_new(0.7, BASES).unwrap().share, 0.175);
+    for (share, is_right) in [(0.0, true), (1.0, true), (-1e-9, false), (1.0 + 1e-9, false), (f64::NAN, false)] {
+        assert_eq!(FeedForwardConfig::<f64>::try_new(share, BASES).is_ok(), is_right, "{share}");
+    }
+    let si = AccelerationFeedbackConfig::<f64>::try_new(&governor(4.0, 50.0, 0.7), BASES).unwrap();
+    assert_eq!(si.feedback, -0.7);
+    let fixed = AccelerationFeedbackConfig::<Fixed>::try_new(&governor(4.0, 50.0, 0.7), BASES).unwrap();
+    coefficient(fixed.feedback, -0.175);
+    for (feedback, is_right) in [(0.0, true), (-1e-9, false), (1e39, false), (f64::NAN, false)] {
+        let design = governor(4.0, 50.0, feedback);
+        assert_eq!(AccelerationFeedbackConfig::<f32>::try_new(&design, BASES).is_ok(), is_right, "{feedback}");
+    }
+    let si = ActiveDampingConfig::<f64>::try_new(&speed_loop(4.0, 50.0, 3.0), BASES).unwrap();
+    assert_eq!(si.damping, -3.0);
+    let fixed = ActiveDampingConfig::<Fixed>::try_new(&speed_loop(4.0, 50.0, 3.0), BASES).unwrap();
+    coefficient(fixed.damping, -3.0 * BASES.speed / BASES.torque / 32.0);
+    assert!(ActiveDampingConfig::<f32>::try_new(&speed_loop(4.0, 50.0, f64::NAN), BASES).is_err());
+    assert_eq!(SymmetricLimitConfig::<f64>::try_new(400.0, BASES).unwrap().torque, 400.0);
+    number(SymmetricLimitConfig::<Fixed>::try_new(400.0, BASES).unwrap().torque, 400.0 / BASES.torque);
+    let range = TorqueRangeConfig::<f64>::try_new(-40.0, 400.0, BASES).unwrap();
+    assert_eq!((range.min, range.max), (-40.0, 400.0));
+    let range = TorqueRangeConfig::<Fixed>::try_new(-40.0, 400.0, BASES).unwrap();
+    number(range.min, -40.0 / BASES.torque);
+    number(range.max, 400.0 / BASES.torque);
+    for (min, max, is_right) in [
+        (0.0, 1.0, true),
+        (1e-9, 1.0, false),
+        (-1.0, 0.0, false),
+        (-1.0, 1e-9, true),
+        (-1e39, 1.0, false),
+        (-1.0, 1e39, false),
+        (f64::NAN, 1.0, false),
+        (-1.0, f64::NAN, false),
+    ] {
+        assert_eq!(TorqueRangeConfig::<f32>::try_new(min, max, BASES).is_ok(), is_right, "{min} {max}");
+    }
+    for (most, is_right) in [(2.0, true), (2.0001, false)] {
+        let torque = most * BASES.torque;
+        assert_eq!(TorqueRangeConfig::<Fixed>::try_new(-torque, 1.0, BASES).is_ok(), is_right);
+        assert_eq!(SymmetricLimitConfig::<Fixed>::try_new(torque, BASES).is_ok(), is_right);
+    }
+    for (delay, ticks) in [(0.0, Some(0)), (1.49e-4, Some(1)), (1.51e-4, Some(2)), (3.49e-4, Some(3))] {
+        assert_eq!(TransportDelayConfig::<4>::try_new(delay, PERIOD).map(|delay| delay.ticks).ok(), ticks);
+    }
+    for (delay, period) in [(3.51e-4, PERIOD), (-1e-9, PERIOD), (1e-4, 0.0), (-1e-4, -1e-4), (f64::NAN, 1.0)] {
+        assert!(TransportDelayConfig::<4>::try_new(delay, period).is_err(), "{delay} {period}");
+    }
+    assert_eq!(MovingAverageConfig::<f64, 8>::of_ticks().share, 0.125);
+    assert_eq!(MovingAverageConfig::<f32, 8>::of_ticks().share, 0.125);
+    assert_eq!(MovingAverageConfig::<Fixed, 8>::of_ticks().share.to_f64(), 0.125);
+}
+
+#[test]
+fn the_constants_of_a_sequencer() {
+    let settings = SequencerSettings {
+        overspeed: 180.0,
+        underspeed: 120.0,
+        reverse: 10.0,
+        shaft_torque: 500.0,
+        standstill: 2.0,
+        trip_delay: 2.49e-4,
+        underspeed_delay: 3.51e-4,
+        start: 9.0,
+    };
+    let si = SequencerConfig::<f64>::try_new(&settings, PERIOD, BASES).unwrap();
+    assert_eq!((si.running.middle, si.running.half), (150.0, 30.0));
+    assert_eq!((si.allowed.middle, si.allowed.half), (85.0, 95.0));
+    assert_eq!((si.shaft_torque, si.standstill), (500.0, 2.0));
+    assert_eq!((si.trip_delay, si.underspeed_delay, si.start), (2, 4, 90_000));
+    let fixed = SequencerConfig::<Fixed>::try_new(&settings, PERIOD, BASES).unwrap();
+    for (found, expected) in [
+        (fixed.running.middle, 150.0 / BASES.speed),
+        (fixed.running.half, 30.0 / BASES.speed),
+        (fixed.allowed.middle, 85.0 / BASES.speed),
+        (fixed.allowed.half, 95.0 / BASES.speed),
+        (fixed.shaft_torque, 500.0 / BASES.torque),
+        (fixed.standstill, 2.0 / BASES.speed),
+    ] {
+        number(found, expected);
+    }
+    // both ways
+    let both = SequencerSettings { underspeed: -1.0, reverse: 180.0, ..settings };
+    let si = SequencerConfig::<f64>::try_new(&both, PERIOD, BASES).unwrap();
+    assert_eq!((si.running.middle, si.running.half, si.allowed.middle, si.allowed.half), (0.0, 180.0, 0.0, 180.0));
+    let tried = |change: &dyn Fn(&mut SequencerSettings)| {
+        let mut settings = settings;
+        change(&mut settings);
+        SequencerConfig::<f64>::try_new(&settings, PERIOD, BASES).is_ok()
+    };
+    for (change, is_right) in [
+        ((|s| s.standstill = 0.0) as fn(&mut SequencerSettings), false),
+        (|s| s.standstill = 119.0, true),
+        (|s| s.standstill = 120.0, false),
+        (|s| s.underspeed = 179.0, true),
+        (|s| s.underspeed = 180.0, false),
+        (|s| s.underspeed = 0.0, false),
+        (|s| s.underspeed = -0.1, true),
+        (|s| (s.underspeed, s.standstill) = (-0.1, 179.0), true),
+        (|s| (s.underspeed, s.standstill) = (-0.1, 180.0), false),
+        (|s| s.reverse = 0.0, true),
+        (|s| s.reverse = -0.1, false),
+        (|s| s.shaft_torque = 0.0, false),
+        (|s| s.shaft_torque = f64::INFINITY, false),
+        (|s| s.overspeed = f64::INFINITY, false),
+        (|s| s.reverse = f64::INFINITY, false),
+        (|s| s.underspeed = f64::NEG_INFINITY, false),
+        (|s| s.trip_delay = -1e-9, false),
+        (|s| s.trip_delay = 0.0, true),
+        (|s| s.start = 2_147_483_646.9 * PERIOD, true),
+        (|s| s.start = 2_147_483_647.9 * PERIOD, false),
+        (|s| s.underspeed_delay = f64::NAN, false),
+    ] {
+        assert_eq!(tried(&change), is_right);
+    }
+}
+
+#[test]
+fn the_constants_of_shapes() {
+    let barred = BarredSpeeds::<1>::new(&[100.0], &[1.0], 0.1, 200.0);
+    let si = BarredConfig::<f64, 1>::try_new(&barred, 70.0, PERIOD, BASES).unwrap();
+    let [[low, high]] = [barred.ranges()[0]];
+    double(si.ranges[0].middle, 0.5 * (low + high));
+    double(si.ranges[0].half, 0.5 * (high - low));
+    double(si.quick, 70.0 * PERIOD);
+    let fixed = BarredConfig::<Fixed, 1>::try_new(&barred, 70.0, PERIOD, BASES).unwrap();
+    number(fixed.ranges[0].middle, 0.5 * (low + high) / BASES.speed);
+    number(fixed.ranges[0].half, 0.5 * (high - low) / BASES.speed);
+    number(fixed.quick, 70.0 * PERIOD / BASES.speed);
+    assert!(
+        BarredConfig::<f64, 2>::try_new(&BarredSpeeds::new(&[100.0], &[1.0], 0.1, 200.0), 70.0, PERIOD, BASES).is_err()
+    );
+    for ramp in [0.0, -70.0, f64::NAN, 1e43] {
+        assert!(BarredConfig::<f32, 1>::try_new(&barred, ramp, PERIOD, BASES).is_err(), "{ramp}");
+    }
+    for (places, is_right) in [(1.001, true), (0.999, false)] {
+        let ramp = places / UNIT * BASES.speed / PERIOD;
+        assert_eq!(BarredConfig::<Fixed, 1>::try_new(&barred, ramp, PERIOD, BASES).is_ok(), is_right);
+        let rate = places / UNIT * BASES.torque / PERIOD;
+        assert_eq!(SlewConfig::<Fixed, ()>::try_new(rate, (), PERIOD, BASES).is_ok(), is_right);
+    }
+
+    let curve = TorqueCurve::through([[0.0, 100.0], [50.0, 250.0], [90.0, 200.0]]);
+    let si = CurveConfig::<f64, 3>::try_new(&curve, -20.0, BASES).unwrap();
+    let fixed = CurveConfig::<Fixed, 3>::try_new(&curve, -20.0, BASES).unwrap();
+    for (k, [speed, torque, slope]) in
+        [[0.0, 100.0, 3.0], [50.0, 250.0, -1.25], [90.0, 200.0, 0.0]].into_iter().enumerate()
+    {
+        let piece = si.pieces[k];
+        assert_eq!([piece.speed, piece.torque, piece.slope], [speed, torque, slope]);
+        number(fixed.pieces[k].speed, speed / BASES.speed);
+        number(fixed.pieces[k].torque, torque / BASES.torque);
+        coefficient(fixed.pieces[k].slope, slope * BASES.speed / BASES.torque / 4.0);
+    }
+    assert_eq!(si.min, -20.0);
+    number(fixed.min, -20.0 / BASES.torque);
+    assert!(CurveConfig::<f64, 3>::try_new(&curve, 0.0, BASES).is_ok());
+    for min in [1e-9, f64::NAN, f64::NEG_INFINITY] {
+        assert!(CurveConfig::<f64, 3>::try_new(&curve, min, BASES).is_err(), "{min}");
+    }
+
+    let resistors = ResistorStart { peak: 0.0, switching: 0.0, resistances: [3.0, 2.0], speeds: [60.0, 110.0] };
+    let si = ResistorStarterConfig::<f64, 2>::try_new(&resistors, 0.5, PERIOD, BASES).unwrap();
+    assert_eq!((si.speeds, si.interval), ([60.0, 110.0], 5_000));
+    let fixed = ResistorStarterConfig::<Fixed, 2>::try_new(&resistors, 0.5, PERIOD, BASES).unwrap();
+    number(fixed.speeds[0], 60.0 / BASES.speed);
+    number(fixed.speeds[1], 110.0 / BASES.speed);
+
+    let soft = SoftStart { peak: 250.0, initial: 0.4, rise: 3.0 };
+    let si = SoftStarterConfig::<f64>::try_new(&soft, PERIOD, BASES).unwrap();
+    double(si.step, 0.6 * PERIOD / 3.0);
+    assert_eq!((si.initial, si.limit), (0.4, 250.0));
+    let fixed = SoftStarterConfig::<Fixed>::try_new(&soft, PERIOD, BASES).unwrap();
+    number(fixed.initial, 0.4);
+    number(fixed.limit, 250.0 / BASES.torque);
+    for (step, is_right) in [(1.001e-6, true), (0.999e-6, false), (0.0999, true), (0.1001, false)] {
+        let soft = SoftStart { rise: 0.6 * PERIOD / step, ..soft };
+        assert_eq!(SoftStarterConfig::<f64>::try_new(&soft, PERIOD, BASES).is_ok(), is_right, "{step}");
+    }
+
+    let si = SlewConfig::<f64, ()>::try_new(5_000.0, (), PERIOD, BASES).unwrap();
+    double(si.step, 0.5);
+    number(SlewConfig::<Fixed, ()>::try_new(5_000.0, (), PERIOD, BASES).unwrap().step, 0.5 / BASES.torque);
+    for rate in [0.0, -1.0, f64::NAN, 1e43] {
+        assert!(SlewConfig::<f32, ()>::try_new(rate, (), PERIOD, BASES).is_err(), "{rate}");
+    }
+
+    let design = InputShaperDesign { delay: 0.8, share: 0.4 };
+    let si = InputShaperConfig::<f64, ()>::try_new(&design, 16, 70.0, (), PERIOD, BASES).unwrap();
+    assert_eq!((si.slot, si.share, si.ramp), (500, 0.4, 70.0 * PERIOD));
+    let fixed = InputShaperConfig::<Fixed, ()>::try_new(&design, 16, 70.0, (), PERIOD, BASES).unwrap();
+    coefficient(fixed.share, 0.4);
+    number(fixed.ramp, 70.0 * PERIOD / BASES.speed);
+    for (share, is_right) in [(0.5, true), (0.5001, false), (1e-6, true), (0.0, false), (f64::NAN, false)] {
+        let design = InputShaperDesign { share, ..design };
+        assert_eq!(InputShaperConfig::<f64, ()>::try_new(&design, 16, 70.0, (), PERIOD, BASES).is_ok(), is_right);
+        assert_eq!(InputShaperConfig::<Fixed, ()>::try_new(&design, 16, 70.0, (), PERIOD, BASES).is_ok(), is_right);
+    }
+}
+
+#[test]
+fn the_constants_of_a_load_sharing() {
+    let settings = LoadSharingSettings {
+        motors: 4,
+        preload: 30.0,
+        equal_above: 60.0,
+        bias_below: 40.0,
+        slew: 900.0,
+        torque_limit: 400.0,
+        damping: 2.5,
+        lag: 0.0017,
+        max_deviation: 0.2,
+    };
+    let si = LoadSharingConfig::<f64>::try_new(&settings, PERIOD, BASES).unwrap();
+    assert_eq!((si.share, si.preload, si.equal_above, si.bias_below), (0.25, 30.0, 60.0, 40.0));
+    double(si.step, 0.09);
+    // 17 ticks are next to 16 by ratio
+    assert_eq!((si.torque_limit, si.lag, si.max_deviation), (400.0, 4, (0.2 * ANGLE) as i32));
+    let damping = -2.5 / (16.0 * PERIOD) / ANGLE;
+    double(si.damping, damping);
+    let fixed = LoadSharingConfig::<Fixed>::try_new(&settings, PERIOD, BASES).unwrap();
+    coefficient(fixed.share, 0.25 / 4.0);
+    coefficient(fixed.damping, damping * UNIT / BASES.torque / 32.0);
+    for (found, expected) in [
+        (fixed.preload, 30.0),
+        (fixed.equal_above, 60.0),
+        (fixed.bias_below, 40.0),
+        (fixed.step, 0.09),
+        (fixed.torque_limit, 400.0),
+    ] {
+        number(found, expected / BASES.torque);
+    }
+    for (ticks, lag) in
+        [(1.0, 0), (1.41, 0), (1.42, 1), (2.82, 1), (2.83, 2), (46_340.0, 15), (46_342.0, 16), (65_536.0, 16)]
+    {
+        let settings = LoadSharingSettings { lag: ticks, ..settings };
+        assert_eq!(LoadSharingConfig::<f64>::try_new(&settings, 1.0, BASES).unwrap().lag, lag, "{ticks}");
+    }
+    let tried = |change: fn(&mut LoadSharingSettings)| {
+        let mut settings = settings;
+        change(&mut settings);
+        LoadSharingConfig::<f64>::try_new(&settings, PERIOD, BASES).is_ok()
+    };
+    for (change, is_right) in [
+        ((|s| s.motors = 2) as fn(&mut LoadSharingSettings), true),
+        (|s| s.motors = 0, false),
+        (|s| s.motors = 3, false),
+        (|s| (s.motors, s.max_deviation) = (32, 0.09), true),
+        (|s| (s.motors, s.max_deviation) = (34, 0.09), false),
+        (|s| s.bias_below = 0.0, false),
+        (|s| s.bias_below = 60.0, false),
+        (|s| s.bias_below = 59.9, true),
+        (|s| s.torque_limit = 150.0, true),
+        (|s| s.torque_limit = 149.9, false),
+        (|s| s.preload = 0.0, false),
+        (|s| s.preload = -1.0, false),
+        (|s| s.slew = 0.0, false),
+        (|s| s.damping = 0.0, true),
+        (|s| s.damping = -1e-9, false),
+        (|s| s.damping = f64::NAN, false),
+        (|s| s.lag = 0.99e-4, false),
+        (|s| s.lag = 6.5537, false),
+        (|s| s.lag = f64::NAN, false),
+        // a count of 2^-32 turn, and half a turn among four
+        (|s| s.max_deviation = 1.001 / ANGLE, true),
+        (|s| s.max_deviation = 0.999 / ANGLE, false),
+        (|s| s.max_deviation = 0.999 * TAU / 8.0, true),
+        (|s| s.max_deviation = 1.001 * TAU / 8.0, false),
+    ] {
+        assert_eq!(tried(change), is_right);
+    }
+}
+
+#[test]
+fn the_constants_of_screening_and_monitor() {
+    let screening = Screening { torque: 400.0, setpoint: 160.0, innovation: 0.01, frozen_turn: 0.02, max_coast: 7 };
+    let si = Limits::<f64>::try_new(&screening, BASES).unwrap();
+    assert_eq!((si.torque, si.setpoint, si.max_coast), (400.0, 160.0, 7));
+    double(si.innovation, 0.01 * ANGLE);
+    double(si.frozen_turn, 0.02 * ANGLE);
+    let fixed = Limits::<Fixed>::try_new(&screening, BASES).unwrap();
+    number(fixed.torque, 400.0 / BASES.torque);
+    number(fixed.setpoint, 160.0 / BASES.speed);
+    assert_eq!(fixed.innovation.to_bits(), (0.01 * ANGLE) as i32);
+    assert_eq!(fixed.frozen_turn.to_bits(), (0.02 * ANGLE) as i32 >> 7);
+    // 2^26 - 1 counts of 2^-32 turn
+    for (counts, is_right) in [(67_108_862.5, true), (67_108_863.5, false)] {
+        let innovation = Screening { innovation: counts / ANGLE, ..screening };
+        let frozen = Screening { frozen_turn: counts / ANGLE, ..screening };
+        for screening in [innovation, frozen] {
+            assert_eq!(Limits::<Fixed>::try_new(&screening, BASES).is_ok(), is_right, "{counts}");
+            assert!(Limits::<f32>::try_new(&screening, BASES).is_ok());
+        }
+    }
+    for (frozen_turn, is_right) in [(0.0, true), (-1e-9, false), (f64::NAN, false), (f64::INFINITY, false)] {
+        let screening = Screening { frozen_turn, ..screening };
+        assert_eq!(Limits::<f64>::try_new(&screening, BASES).is_ok(), is_right, "{frozen_turn}");
+        assert_eq!(Limits::<Fixed>::try_new(&screening, BASES).is_ok(), is_right, "{frozen_turn}");
+    }
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for screening in [
+            Screening { torque: value, ..screening },
+            Screening { setpoint: value, ..screening },
+            Screening { innovation: value, ..screening },
+        ] {
+            assert!(Limits::<f32>::try_new(&screening, BASES).is_err(), "{screening:?}");
+            assert!(Limits::<Fixed>::try_new(&screening, BASES).is_err(), "{screening:?}");
+        }
+    }
+
+    let settings = ActuatorMonitorSettings { tolerance: 15.0, max_torque: 350.0, timeout: 0.25 };
+    let si = ActuatorMonitorConfig::<f64, 2>::try_new(&[1e-4, 3e-4], &settings, PERIOD, BASES).unwrap();
+    // 1 - 1/e, and 1 - e^(-1/3)
+    double(si.share[0], 0.632_120_558_828_557_7);
+    double(si.share[1], 0.283_468_689_426_210_74);
+    assert_eq!((si.tolerance, si.max_torque, si.timeout), (15.0, 350.0, 2_500));
+    let fixed = ActuatorMonitorConfig::<Fixed, 1>::try_new(&[3e-4], &settings, PERIOD, BASES).unwrap();
+    coefficient(fixed.share[0], 0.283_468_689_426_210_74);
+    number(fixed.tolerance, 15.0 / BASES.torque);
+    number(fixed.max_torque, 350.0 / BASES.torque);
+    let tried = |lag: f64, settings: &ActuatorMonitorSettings| {
+        ActuatorMonitorConfig::<f32, 1>::try_new(&[lag], settings, PERIOD, BASES).is_ok()
+    };
+    for lag in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(!tried(lag, &settings), "{lag}");
+    }
+    for (tolerance, max_torque, is_right) in [
+        (349.0, 350.0, true),
+        (350.0, 350.0, false),
+        (0.0, 350.0, false),
+        (-1.0, 350.0, false),
+        (1e-46, 350.0, false),
+        (f64::NAN, 350.0, false),
+        (15.0, f64::INFINITY, false),
+    ] {
+        let settings = ActuatorMonitorSettings { tolerance, max_torque, ..settings };
+        assert_eq!(tried(1e-3, &settings), is_right, "{settings:?}");
+    }
+    for (places, is_right) in [(1.001, true), (0.999, false)] {
+        let settings = ActuatorMonitorSettings { tolerance: places / UNIT * BASES.torque, ..settings };
+        let fixed = ActuatorMonitorConfig::<Fixed, 1>::try_new(&[1e-3], &settings, PERIOD, BASES);
+        assert_eq!(fixed.is_ok(), is_right, "{places}");
+    }
+}
