@@ -65,16 +65,22 @@ impl TwoMass {
         // Intensities over that of the angle's noise, whose variance in a tick is r: intensity r T.
         let motor = variances.torque / variances.angle;
         let load = variances.load_torque / (variances.angle * period * period);
-        let (unit, roots) = self.filter_poles(motor, load);
-        self.observer_of_poles(period, unit, &roots)
+        let (unit, mut poles) = self.filter_poles(motor, load);
+        let mut k = 0;
+        while k < 5 {
+            poles[k] = sampled(poles[k], period);
+            k += 1;
+        }
+        self.observer_of_poles(period, unit, poles)
     }
 
     /// Gains by one number: five poles in Butterworth's pattern [Butterworth 1930, Experimental Wireless 7, 536] at a
     /// radius of `bandwidth` (rad/s).
     ///
-    /// For an observer that is tuned by hand, where neither the encoder's errors nor the disturbances are known. The
-    /// bandwidth is between zero and half the rate, as a circular frequency. A larger one follows the load faster and
-    /// lets more noise through.
+    /// For an observer that is tuned by hand, where neither the encoder's errors nor the disturbances are known. A
+    /// larger bandwidth follows the load faster and lets more noise through. The pattern is that of the increment over
+    /// a tick, `z = 1 + s T`, whose outer pair leaves the unit circle at 0.618 of the rate (twice the sine of 18
+    /// degrees): the bandwidth is between zero and that.
     ///
     /// # Errors
     /// A value out of range; [`Error::ObserverBandwidth`]; [`Error::Unobservable`] without stiffness;
@@ -107,7 +113,7 @@ impl TwoMass {
             Ok(period) => period,
             Err(error) => return Err(error),
         };
-        if !(bandwidth > 0.0 && bandwidth * period < core::f64::consts::PI) {
+        if !(bandwidth > 0.0 && bandwidth * period < 0.618_033_988_749_894_8) {
             return Err(Error::ObserverBandwidth);
         }
         if self.stiffness == 0.0 {
@@ -116,29 +122,18 @@ impl TwoMass {
         if self.resonance() * period >= core::f64::consts::PI {
             return Err(Error::SampleRate);
         }
-        let mut roots = POLES;
+        let (mut poles, tick) = (POLES, bandwidth * period);
         let mut k = 0;
         while k < 5 {
-            roots[k] = (roots[k].0 * bandwidth, roots[k].1 * bandwidth);
+            poles[k] = (poles[k].0 * tick, poles[k].1 * tick);
             k += 1;
         }
-        self.observer_of_poles(period, bandwidth, &roots)
+        self.observer_of_poles(period, bandwidth, poles)
     }
 
-    /// Gains at these poles (1/s), in a unit of frequency (rad/s) of their size.
-    const fn observer_of_poles(
-        &self,
-        period: f64,
-        unit: f64,
-        roots: &[(f64, f64); 5],
-    ) -> Result<PlacedObserver, Error> {
+    /// Gains at these poles, each less one, in a unit of frequency (rad/s) of their size.
+    const fn observer_of_poles(&self, period: f64, unit: f64, poles: [(f64, f64); 5]) -> Result<PlacedObserver, Error> {
         let step = ExactStep::new(self, period);
-        let mut poles = [(0.0, 0.0); 5];
-        let mut k = 0;
-        while k < 5 {
-            poles[k] = sampled(roots[k], period);
-            k += 1;
-        }
         match placed(self, &step, period, unit, &poles) {
             Some(gains) => Ok(PlacedObserver { period, machine: *self, step, gains, poles }),
             None => Err(Error::NotStabilising),

@@ -50,14 +50,14 @@ fn poles_are_where_they_were_placed() {
     }
 }
 
-/// Butterworth's polynomial of odd order has the left roots of `s^10 = 1`, here sampled at 10 kHz.
+/// Butterworth's polynomial of odd order has the left roots of `s^10 = 1`; in increments at 10 kHz, `z = 1 + s T`.
 #[test]
 fn a_bandwidth_is_the_radius_of_five_poles() {
     for bandwidth in [50.0, 200.0, 1_500.0] {
         let observer = Known::TWO_MASS.try_observer_of_bandwidth(Known::RATE, bandwidth).unwrap();
         poles_lie_where_they_were_placed(&Known::TWO_MASS, &observer);
         let roots = (3..8).map(|k| Complex::from_polar(bandwidth, std::f64::consts::PI * f64::from(k) / 5.0));
-        for pole in roots.map(|root| (root * 1e-4).exp()) {
+        for pole in roots.map(|root| 1.0 + root * 1e-4) {
             let nearest = observer.poles.iter().map(|&(re, im)| (Complex::new(1.0 + re, im) - pole).norm());
             // the rounding of 1
             assert!(nearest.fold(1.0, f64::min) < 1e-15, "{bandwidth}: {pole}");
@@ -65,10 +65,13 @@ fn a_bandwidth_is_the_radius_of_five_poles() {
     }
 }
 
-/// Half the rate of 10 kHz is 31 416 rad/s.
+/// `|1 + s T|` is 1 where `w T` is twice the sine of 18 degrees, 0.618034: at 10 kHz 6180.34 rad/s.
 #[test]
 fn a_bandwidth_out_of_range_is_refused() {
-    for bandwidth in [0.0, -1.0, f64::NAN, f64::INFINITY, 31_416.0] {
+    let fastest = Known::TWO_MASS.try_observer_of_bandwidth(Known::RATE, 6_180.0).unwrap();
+    let size = fastest.poles.map(|(re, im)| (1.0 + re).hypot(im)).into_iter().fold(0.0, f64::max);
+    assert!(size < 1.0 && size > 0.9999, "{size}");
+    for bandwidth in [0.0, -1.0, f64::NAN, f64::INFINITY, 6_180.4] {
         let refused = Known::TWO_MASS.try_observer_of_bandwidth(Known::RATE, bandwidth).unwrap_err();
         assert_eq!(refused, Error::ObserverBandwidth, "{bandwidth}");
     }
