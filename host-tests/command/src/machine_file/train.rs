@@ -454,6 +454,8 @@ fn said(error: &PlantError) -> (String, String) {
 #[derive(Default)]
 struct Reading {
     names: Vec<String>,
+    /// Of each coordinate, its speed at the start; those of elements and of gear pairs rest.
+    speeds: Vec<f64>,
     /// Of each coordinate, the way of the slider (m) or the angle of the rocker (rad) by its own angle.
     ways: Vec<Option<Orders>>,
     links: Vec<String>,
@@ -469,8 +471,10 @@ struct Reading {
 impl Reading {
     fn coordinate(&mut self, mut table: Table<'_>) -> Result<Coordinate, Diagnostic> {
         let name = fresh(&mut table, &self.names)?;
+        let speed = table.number_or("speed", Quantity::ANY, 0.0)?;
+        self.speeds.push(speed);
         let mut coordinate = Coordinate::new(table.number("inertia", Quantity::INERTIA_OR_MASS)?)
-            .speed(table.number_or("speed", Quantity::ANY, 0.0)?)
+            .speed(speed)
             .angle(table.number_or("angle", Quantity::ANY, 0.0)?)
             .viscous(table.number_or("viscous", Quantity::DAMPER, 0.0)?);
         let (mut way, mut friction) = (None::<Orders>, 0.0);
@@ -730,6 +734,16 @@ impl Reading {
                 let resistance = table.number("resistance", Quantity::RESISTANCE)?;
                 let flux = table.number("flux", Quantity::FLUX)?;
                 if kind == "series" {
+                    let (pole, start) = (-resistance / flux, self.speeds.get(on).copied().unwrap_or(0.0));
+                    if start <= pole {
+                        return Err(table.wrong(
+                            "on",
+                            format!(
+                                "a coordinate that starts above {pole} rad/s, -resistance/flux, where the current has \
+                                 no bound; this one starts at {start} rad/s"
+                            ),
+                        ));
+                    }
                     Torque::Series { voltage, resistance, flux }
                 } else {
                     Torque::Line { stall: flux * voltage / resistance, slope: flux * flux / resistance }

@@ -59,3 +59,18 @@ fn a_prime_mover_that_cannot_be_is_refused_at_its_key() {
         assert!(fault.expected.contains(expected), "{to}: {}", fault.explained());
     }
 }
+
+/// At -R/c, -60 rad/s here, the current of a series motor has no bound, and below it the formula is of no motor.
+#[test]
+fn a_series_motor_that_starts_at_its_pole_or_below_is_refused_where_it_acts() {
+    let text = MOVERS.replace("TYPE", "spark");
+    let start = |speed: &str| {
+        parse_train("movers", &text.replace("inertia = 40.0\n", &format!("inertia = 40.0\nspeed = {speed}\n")))
+    };
+    assert!(start("-59.0").is_ok());
+    for speed in ["-60.0", "-65.0"] {
+        let fault = start(speed).unwrap_err();
+        assert_eq!(fault.key, "torque[1].on");
+        assert!(fault.expected.contains("above -60 rad/s") && fault.expected.contains(speed.trim_end_matches(".0")));
+    }
+}
