@@ -74,3 +74,20 @@ fn a_series_motor_that_starts_at_its_pole_or_below_is_refused_where_it_acts() {
         assert!(fault.expected.contains("above -60 rad/s") && fault.expected.contains(speed.trim_end_matches(".0")));
     }
 }
+
+/// The torque of the first instant halves within 1e-18 s, a tiny part of a step; the motion is smooth all the same.
+#[test]
+fn a_series_motor_almost_without_resistance_runs_up_as_its_closed_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("movers.toml");
+    let text = MOVERS.replace("TYPE", "spark").replace("resistance = 1.2", "resistance = 1e-6");
+    std::fs::write(&file, text).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let output = command.args(["simulate", "--json"]).arg(&file).current_dir(folder.path()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let series = ((1e-6_f64.powi(3) + 3.0 * (0.02 * 600.0_f64).powi(2) * 2.5 / 40.0).cbrt() - 1e-6) / 0.02;
+    // 250 steps, and some hundred from the first instant to them, each rounded
+    assert!((found["coordinates"][1]["last"].as_f64().unwrap() / series - 1.0).abs() < 1e-12, "{found}");
+    assert!(found["proof"][0].as_f64().unwrap() < 1e-8);
+}

@@ -22,6 +22,11 @@ pub(super) struct Stretch {
     pub friction: Vec<Sized>,
 }
 
+/// Lengths that are tried before terms that are no numbers are left as they are, and each over the one before: down to
+/// 2^-80.
+const ATTEMPTS: usize = 5;
+const SHORTER: f64 = 1.0 / 1_048_576.0;
+
 /// Course of a link's stiffness and error over a stretch.
 enum Law {
     Fixed(f64),
@@ -31,10 +36,25 @@ enum Law {
 impl Stretch {
     /// From a state at the time `t`, at most `length` long: shorter where its series would not converge to rounding.
     pub fn new(train: &Train, mode: &Mode, state: &State, held: &[f64], t: f64, length: f64) -> Self {
-        let mut stretch = Self::of(train, state, length);
+        let mut length = length;
+        for _ in 0..ATTEMPTS {
+            let mut stretch = Self::of(train, state, length);
+            stretch.solve(train, mode, held, t, TERMS - 1);
+            if stretch.is_finite() {
+                stretch.shorten();
+                return stretch;
+            }
+            length *= SHORTER;
+        }
+        let mut stretch = Self::of(train, state, length / SHORTER);
         stretch.solve(train, mode, held, t, TERMS - 1);
-        stretch.shorten();
         stretch
+    }
+
+    /// Whether its terms are numbers. They are not where a torque changes within a tiny part of the length: at the
+    /// start of a series motor almost without resistance.
+    fn is_finite(&self) -> bool {
+        self.speed.iter().chain(&self.elongation).all(|terms| terms.value.iter().sum::<f64>().is_finite())
     }
 
     /// The lowest terms alone: what is there now, and its rates.
