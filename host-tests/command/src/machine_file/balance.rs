@@ -54,6 +54,23 @@ use toml::de::DeTable;
 
 use crate::machine_file::{Diagnostic, Item, Quantity, Source, Table, not_toml, text};
 
+/// Keys of the file that go with readings with phases.
+const OF_PHASES: [&str; 13] = [
+    "baseline",
+    "sensors",
+    "trial",
+    "machine",
+    "influence",
+    "correction",
+    "trials",
+    "aim",
+    "good",
+    "independence",
+    "weighting",
+    "limits",
+    "run_out",
+];
+
 /// Most readings of a run.
 pub const ROWS: usize = 24;
 /// Most planes.
@@ -349,6 +366,11 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
         }
         if !file.splits.is_empty() {
             return Err(root.wrong("split", "no [[split]] beside [amplitudes]: [[holes]] at the two angles"));
+        }
+        if let Some(key) = OF_PHASES.iter().find(|key| root.has(key)) {
+            let expected =
+                format!("no `{key}` beside [amplitudes]: it goes with [baseline], whose readings have phases");
+            return Err(root.wrong(key, expected));
         }
         let mut table = root.table("amplitudes")?;
         let expected = "a list of two numbers, [angle in degrees, amplitude]";
