@@ -548,19 +548,36 @@ fn hard_bearing(root: &Table<'_>, file: &BalanceFile, rpm: &[f64]) -> Result<Inf
     if file.sensors.len() != 2 {
         return Err(root.wrong("sensors", "two of them: the forces in bearing A and in bearing B"));
     }
+    let bearings = bearings(&file.sensors).ok_or_else(|| {
+        root.wrong("sensors", "one name that ends in \"A\" and one that ends in \"B\", or neither: the first is A then")
+    })?;
     let speeds = radians_per_second(rpm);
-    let [a, b] = speeds[..] else {
+    if speeds.len() != 2 {
         return Err(root.wrong("baseline", "`rpm` in it: the forces of a hard-bearing machine go with its square"));
-    };
+    }
     let mut influence =
         Influence::new(2, file.planes.len()).map_err(|refusal| root.wrong("planes", refusal.to_string()))?;
     for (plane, at) in along.planes.iter().enumerate() {
         let shares = two_planes([(Complex::new(unbalance, 0.0), *at)], 0.0, along.span)
             .map_err(|refusal| root.wrong("machine", refusal.to_string()))?;
-        let column = [shares[0] * a * a, shares[1] * b * b];
+        let column = [0, 1].map(|row| shares[bearings[row]] * speeds[row] * speeds[row]);
         influence.set(plane, &column).map_err(|refusal| root.wrong("machine", refusal.to_string()))?;
     }
     Ok(influence)
+}
+
+/// The bearing of each of two sensors, 0 for A: by the last word of the names, else in their order.
+///
+/// None where one name says a bearing and the other does not, or both say the same.
+fn bearings(sensors: &[String]) -> Option<[usize; 2]> {
+    let [first, second] = sensors else { return None };
+    let last = |name: &str| name.split_whitespace().last().map(str::to_uppercase);
+    let of = |name| ["A", "B"].iter().position(|bearing| last(name).as_deref() == Some(bearing));
+    match (of(first), of(second)) {
+        (Some(0), Some(1)) | (None, None) => Some([0, 1]),
+        (Some(1), Some(0)) => Some([1, 0]),
+        _ => None,
+    }
 }
 
 /// A refusal with the planes by their names.

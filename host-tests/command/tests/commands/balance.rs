@@ -565,6 +565,28 @@ fn a_hard_bearing_machine_needs_no_trial_runs() {
     }
 }
 
+/// The same forces with the sensors the other way round, each named by its bearing.
+#[test]
+fn the_bearings_of_a_hard_bearing_machine_go_by_the_names_of_the_sensors() {
+    let weights = |text: &str| json(text)["planes"].clone();
+    let swapped = MACHINE
+        .replace("[\"bearing A\", \"bearing B\"]", "[\"bearing b\", \"bearing a\"]")
+        .replace("[[1.4, 25], [0.9, 310]]", "[[0.9, 310], [1.4, 25]]");
+    let unnamed = MACHINE.replace("[\"bearing A\", \"bearing B\"]", "[\"left\", \"right\"]");
+    for (plane, expected) in weights(MACHINE).as_array().unwrap().iter().enumerate() {
+        for text in [&swapped, &unnamed] {
+            let found = &weights(text)[plane]["weight"];
+            // a few roundings of some hundred g mm
+            near(&found["amplitude"], expected["weight"]["amplitude"].as_f64().unwrap(), 1e-9);
+            near(&found["degrees"], expected["weight"]["degrees"].as_f64().unwrap(), 1e-9);
+        }
+    }
+    for names in ["[\"bearing A\", \"frame\"]", "[\"left A\", \"right A\"]"] {
+        let said = refused(&MACHINE.replace("[\"bearing A\", \"bearing B\"]", names));
+        assert!(said.contains("`sensors`") && said.contains("ends in \"B\""), "{said}");
+    }
+}
+
 #[test]
 fn what_a_hard_bearing_machine_lacks_is_told() {
     for (from, to, expected) in [
