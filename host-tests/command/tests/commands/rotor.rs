@@ -167,3 +167,22 @@ fn planes_that_cannot_balance_are_refused() {
     let none = LONG.lines().filter(|line| !line.starts_with("unbalance")).collect::<Vec<_>>().join("\n");
     assert!(parse_rotor("r.toml", &none).unwrap_err().to_string().contains("an [[unbalance]] to be balanced"));
 }
+
+/// On bearings that give way long before the shaft bends, the first modes are those of a rigid rotor.
+#[test]
+fn a_mode_of_soft_bearings_is_not_blamed_on_a_plane() {
+    let text = std::fs::read_to_string(FILE).unwrap();
+    let text = text.replace("stiffness_x = 4.0e6", "stiffness_x = 100.0").replace("damping_x = 2.5e3", "");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("soft.toml");
+    let run = |planes: &str| {
+        std::fs::write(&path, format!("{text}\n[balancing]\n{planes}\n")).unwrap();
+        let output = driveline(&["rotor", path.to_str().unwrap(), "--json"]);
+        (output.status.success(), String::from_utf8(output.stdout).unwrap() + &String::from_utf8_lossy(&output.stderr))
+    };
+    let (done, said) = run("planes = [2, 6, 10]\nmodes = 1");
+    assert!(!done && said.contains("rigid rotor on soft bearings") && said.contains("0 for a rotor"), "{said}");
+    // its advice helps
+    let (done, said) = run("planes = [2, 10]\nmodes = 0");
+    assert!(done, "{said}");
+}

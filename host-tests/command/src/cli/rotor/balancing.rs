@@ -51,6 +51,17 @@ struct Unbalance {
     after: f64,
 }
 
+/// A shape that bends by less than this, where it is 1 at its largest, is one of the rigid rotor: no plane has more of
+/// an effect on it apart from static and couple.
+const BENT: f64 = 1e-4;
+
+/// Whether a mode leaves the shaft straight: beside the line through its ends nothing is left.
+fn is_straight(shape: &[f64], rotor: &RotorFile) -> bool {
+    let (Some(first), Some(last)) = (rotor.places.first(), rotor.places.last()) else { return false };
+    let slope = (shape[shape.len() - 1] - shape[0]) / (last - first);
+    shape.iter().zip(&rotor.places).all(|(at, place)| (at - shape[0] - slope * (place - first)).abs() < BENT)
+}
+
 impl Balanced {
     /// The weights, and the unbalance of every node with them (kg m).
     ///
@@ -82,6 +93,16 @@ impl Balanced {
         }
         let correction = influence.correct(&conditions, &aim).map_err(said)?;
         if let Some(out) = correction.left_out.first() {
+            if plan.planes.len() > plan.modes.len()
+                && let Some((speed, _)) = plan.modes.iter().find(|(_, shape)| is_straight(shape, rotor))
+            {
+                return Err(format!(
+                    "the mode at {:.0} r/min is that of a rigid rotor on soft bearings, which static and couple \
+                     balance already: no node can balance it apart from them; expected fewer `modes`, 0 for a rotor \
+                     that stays rigid, or stiffer bearings",
+                    rpm(*speed)
+                ));
+            }
             let node = plan.planes[out.plane];
             return Err(format!("plane {node} is not independent of the other planes: expected another node"));
         }
