@@ -10,7 +10,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::results::{Destination, check};
-use super::{Failure, say, say_json};
+use super::{Failure, Progress, say, say_json};
 use crate::machine_file::{RotorFile, read_rotor};
 use driveline_report::chart::{Curve, Lines};
 use driveline_report::format::{percent, significant};
@@ -80,27 +80,35 @@ impl Rotor {
     /// # Errors
     /// A rotor file with a fault; a page that cannot be written.
     pub fn execute(&self) -> Result<(), Failure> {
-        let rotor = read_rotor(&self.file)?;
+        let place = self.file.display();
+        let rotor = Progress::during(|| read_rotor(&self.file), &format!("{place}: critical speeds"))?;
         let file = Destination::page_unless(self.json, self.html.as_deref(), &format!("{}-rotor", rotor.slug()));
         check(&[&self.file], &file)?;
-        let failed = |error: RotorError| Failure::failed(error.to_string());
-        let (response, peaks) = response(&rotor, &rotor.unbalances()).map_err(failed)?;
-        let mut found = find(&rotor, peaks).map_err(failed)?;
-        let mut responses = vec![response];
-        if let Some(plan) = &rotor.balancing {
-            let fault = |fault| Failure::failed(format!("{}: {fault}", self.file.display()));
-            let (mut balanced, unbalance) = Balanced::of(&rotor, plan).map_err(fault)?;
-            let (with_weights, peaks) = self::response(&rotor, &unbalance).map_err(failed)?;
-            balanced.peaks = peaks;
-            found.balancing = Some(balanced);
-            responses.push(with_weights);
-        }
+        let (found, responses) =
+            Progress::during(|| self.found(&rotor), &format!("{place}: whirls and vibration over the speed"))?;
         if self.json {
             say_json(&found)?;
         } else {
             tables(&found).into_iter().for_each(say);
         }
         file.map_or(Ok(()), |file| file.write_and_say(&page(&rotor, &found, &responses), self.json))
+    }
+
+    /// What is shown, with the vibration as it is and with the weights.
+    fn found(&self, rotor: &RotorFile) -> Result<(Found, Vec<Response>), Failure> {
+        let failed = |error: RotorError| Failure::failed(error.to_string());
+        let (response, peaks) = response(rotor, &rotor.unbalances()).map_err(failed)?;
+        let mut found = find(rotor, peaks).map_err(failed)?;
+        let mut responses = vec![response];
+        if let Some(plan) = &rotor.balancing {
+            let fault = |fault| Failure::failed(format!("{}: {fault}", self.file.display()));
+            let (mut balanced, unbalance) = Balanced::of(rotor, plan).map_err(fault)?;
+            let (with_weights, peaks) = self::response(rotor, &unbalance).map_err(failed)?;
+            balanced.peaks = peaks;
+            found.balancing = Some(balanced);
+            responses.push(with_weights);
+        }
+        Ok((found, responses))
     }
 }
 

@@ -186,3 +186,19 @@ fn a_mode_of_soft_bearings_is_not_blamed_on_a_plane() {
     let (done, said) = run("planes = [2, 10]\nmodes = 0");
     assert!(done, "{said}");
 }
+
+/// Some seconds of work have a line on standard error for every five of them.
+#[test]
+fn a_rotor_of_many_pieces_says_what_takes_long() {
+    let text =
+        std::fs::read_to_string(FILE).unwrap().replace("pieces = 12", "pieces = 64").replace("node = 12", "node = 64");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("many.toml");
+    std::fs::write(&path, text).unwrap();
+    let begun = std::time::Instant::now();
+    let output = driveline(&["rotor", path.to_str().unwrap(), "--json"]);
+    let (took, said) = (begun.elapsed().as_secs(), String::from_utf8(output.stderr).unwrap());
+    assert!(output.status.success(), "{said}");
+    // two stages, each of up to five seconds without a word
+    assert!(took < 11 || said.contains("vibration over the speed"), "{took} s: {said}");
+}
