@@ -62,6 +62,14 @@ impl Progress {
         Self { bar, said: Mutex::new(Instant::now()) }
     }
 
+    /// Names the present step where there is no bar and a line is due; made only then.
+    pub fn says_when_due(&self, step: impl FnOnce() -> String) {
+        let due = || self.said.lock().unwrap_or_else(PoisonError::into_inner).elapsed() >= BETWEEN;
+        if self.bar.is_hidden() && due() {
+            self.says(&step());
+        }
+    }
+
     /// Names the present step.
     pub fn says(&self, step: &str) {
         if self.bar.is_hidden() {

@@ -1,11 +1,13 @@
 //! Result of `simulate`: a run line by line, its extremes, its events, and whether it is proven.
 
+use std::time::{Duration, Instant};
+
 use serde::Serialize;
 
 use super::starting_time::StartingTime;
 use crate::cli::{Failure, Progress};
 use crate::machine_file::TrainFile;
-use driveline_report::format::counted;
+use driveline_report::format::{counted, significant};
 use driveline_solver::plant::train::converge::{BOUND, Recording, Sensitive, prove, prove_in_pieces};
 use driveline_solver::plant::train::{Cycle, Motion, Signal};
 use driveline_solver::plant::{EventKind, Place};
@@ -150,6 +152,19 @@ pub struct Happened {
     pub place: String,
 }
 
+/// How far a run has come, and how long the rest takes at this rate.
+fn so_far(file: &TrainFile, share: f64, took: Duration) -> String {
+    let left = took.as_secs_f64() * (1.0 - share) / share;
+    let left = match left {
+        left if left < 100.0 => format!("{left:.0} s"),
+        left if left < 6_000.0 => format!("{:.0} min", left / 60.0),
+        left if left < 360_000.0 => format!("{:.0} h", left / 3_600.0),
+        left => format!("{:.0} days", left / 86_400.0),
+    };
+    let (solved, time) = (share * file.time, significant(file.time));
+    format!("{}: {solved:.1e} of {time} s solved, at this rate the rest takes {left}", file.name)
+}
+
 impl Simulation {
     /// Runs a train and proves the run.
     ///
@@ -175,10 +190,13 @@ impl Simulation {
         // a stiff train's step is divided, so that the bar moves within it
         let looks = (file.motion.rate() * file.step / BETWEEN_LOOKS).ceil().max(1.0) as u64;
         let mut reached = None;
+        let begun = Instant::now();
         for step in 0..steps {
             for look in 0..looks {
                 run.advance(file.step / looks as f64);
-                progress.at((step * looks + look + 1) * 100 / (steps * looks));
+                let (done, all) = (step * looks + look + 1, steps * looks);
+                progress.at(done * 100 / all);
+                progress.says_when_due(|| so_far(file, done as f64 / all as f64, begun.elapsed()));
             }
             let motion = run.motion();
             if let Some((at, speed)) = file.starting.filter(|_| reached.is_none()) {
@@ -375,4 +393,23 @@ fn happened(file: &TrainFile, event: &driveline_solver::plant::Event) -> Happene
         (EventKind::Unresolved, _) => "not resolved",
     };
     Happened { time: event.time, what: what.to_owned(), place: place.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::so_far;
+    use crate::machine_file::parse_train;
+
+    #[test]
+    fn a_long_run_says_how_far_it_has_come_and_how_long_the_rest_takes() {
+        let text = "name = \"mill\"\n[[coordinate]]\nname = \"motor\"\ninertia = 1.0\n[run]\ntime = 1e9\nstep = 1e3\n";
+        let file = parse_train("mill", text).unwrap();
+        let said = |share, seconds| so_far(&file, share, Duration::from_secs(seconds));
+        assert_eq!(said(0.25, 10), "mill: 2.5e8 of 1.00e9 s solved, at this rate the rest takes 30 s");
+        assert!(said(0.5, 3_000).ends_with("takes 50 min"));
+        assert!(said(0.1, 3_600).ends_with("takes 9 h"));
+        assert!(said(1e-5, 5).ends_with("takes 6 days"));
+    }
 }
