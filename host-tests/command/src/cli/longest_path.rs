@@ -9,7 +9,7 @@ use clap::Args;
 use driveline_firmware::board::{BOARDS, FURTHER};
 use driveline_firmware::scenes::VARIANTS;
 use driveline_qemu::image::{Image, Program, belongs, build};
-use driveline_qemu::measure::{Bound, Core, Cycles, Flash, Loops, MachineCode, Piece, Refusal, count};
+use driveline_qemu::measure::{Bound, Core, Cycles, Flash, Loops, MachineCode, Piece, Refusal, worst_drawn};
 use driveline_qemu::setup::Need;
 use driveline_report::Table;
 use serde_json::json;
@@ -95,7 +95,7 @@ impl LongestPath {
         let Cycles { least, most } = code.cycles(start, core, flash).map_err(refused)?;
         let counted = match (image, self.ticks) {
             (Some(image), Some(ticks)) => {
-                Some(count(&image, ticks).map_err(|error| Failure::failed(error.to_string()))?.max)
+                Some(worst_drawn(&image, ticks).map_err(|error| Failure::failed(error.to_string()))?)
             }
             _ => None,
         };

@@ -31,6 +31,8 @@ pub use telemetry::Telling;
 
 /// Longest wait for one output: a tick takes microseconds, a stalled machine some seconds.
 const TICK_LIMIT: Duration = Duration::from_secs(20);
+/// Inputs that are written together: a page, which the buffer of every pipe has.
+const TOGETHER: usize = 4096 / words::LENGTH;
 /// Longest wait for the end after the last tick.
 const END_LIMIT: Duration = Duration::from_secs(20);
 
@@ -74,12 +76,31 @@ impl Link {
 
     /// One tick.
     pub fn exchange(&mut self, input: &Input) -> io::Result<Output> {
-        let Link { qemu, pipes, ticks, .. } = self;
-        let answer = pipes
-            .exchange(&words::of_input(input), TICK_LIMIT, || qemu.is_running())
-            .map_err(|error| qemu.describe(&error, &format!("at tick {ticks}")))?;
-        *ticks += 1;
+        let mut answer = [0; words::LENGTH];
+        self.pass(&words::of_input(input), &mut answer)?;
         Ok(words::to_output(&answer))
+    }
+
+    /// Ticks whose inputs do not depend on each other's outputs: in open loop a switch of context serves many of them.
+    pub fn exchange_all(&mut self, inputs: &[Input]) -> io::Result<Vec<Output>> {
+        let mut outputs = Vec::with_capacity(inputs.len());
+        for inputs in inputs.chunks(TOGETHER) {
+            let message: Vec<u8> = inputs.iter().flat_map(words::of_input).collect();
+            let mut answer = vec![0; message.len()];
+            self.pass(&message, &mut answer)?;
+            outputs.extend(answer.as_chunks().0.iter().map(words::to_output));
+        }
+        Ok(outputs)
+    }
+
+    /// Inputs in, as many outputs out.
+    fn pass(&mut self, message: &[u8], answer: &mut [u8]) -> io::Result<()> {
+        let Link { qemu, pipes, ticks, .. } = self;
+        pipes
+            .exchange(message, answer, TICK_LIMIT, || qemu.is_running())
+            .map_err(|error| qemu.describe(&error, &format!("at tick {ticks}")))?;
+        *ticks += (message.len() / words::LENGTH) as u64;
+        Ok(())
     }
 
     /// Ends the run and gives what the loop says of it.

@@ -9,8 +9,6 @@ use std::time::{Duration, Instant};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{CWD, FileType, Mode, OFlags, mknodat};
 
-use super::words::LENGTH;
-
 /// How often a wait looks whether QEMU still runs.
 const LOOK: Timespec = Timespec { tv_sec: 0, tv_nsec: 100_000_000 };
 
@@ -34,19 +32,19 @@ impl Pipes {
         Ok(Pipes { input, output })
     }
 
-    /// Writes a message and waits for the answer, as long as `is_running` and at most `limit`.
+    /// Writes a message and waits until the answer is full, as long as `is_running` and at most `limit`.
     pub fn exchange(
         &mut self,
-        message: &[u8; LENGTH],
+        message: &[u8],
+        answer: &mut [u8],
         limit: Duration,
         mut is_running: impl FnMut() -> bool,
-    ) -> io::Result<[u8; LENGTH]> {
-        // shorter than a pipe's buffer, which is empty: does not block
+    ) -> io::Result<()> {
+        // no longer than a pipe's buffer, which is empty: does not block
         self.input.write_all(message)?;
-        let mut answer = [0; LENGTH];
         let mut length = 0;
         let mut started = None;
-        while length < LENGTH {
+        while length < answer.len() {
             let ready = poll(&mut [PollFd::new(&self.output, PollFlags::IN)], Some(&LOOK))?;
             if ready > 0 {
                 match self.output.read(&mut answer[length..]) {
@@ -64,7 +62,7 @@ impl Pipes {
                 return Err(io::Error::new(ErrorKind::TimedOut, message));
             }
         }
-        Ok(answer)
+        Ok(())
     }
 }
 
@@ -73,16 +71,16 @@ mod tests {
     use std::io::ErrorKind;
     use std::time::{Duration, Instant};
 
-    use super::{LENGTH, Pipes};
+    use super::Pipes;
 
     #[test]
     fn nobody_at_the_other_end_is_an_error_and_not_a_wait() {
         let directory = tempfile::tempdir().unwrap();
         let mut pipes = Pipes::make(directory.path()).unwrap();
         let started = Instant::now();
-        let hangs = pipes.exchange(&[0; LENGTH], Duration::from_millis(250), || true).unwrap_err();
+        let hangs = pipes.exchange(&[0; 32], &mut [0; 32], Duration::from_millis(250), || true).unwrap_err();
         assert_eq!(hangs.kind(), ErrorKind::TimedOut);
-        let died = pipes.exchange(&[0; LENGTH], Duration::from_secs(3600), || false).unwrap_err();
+        let died = pipes.exchange(&[0; 32], &mut [0; 32], Duration::from_secs(3600), || false).unwrap_err();
         assert_eq!(died.kind(), ErrorKind::BrokenPipe);
         // three or four looks of 0.1 s each and one more; a loaded machine takes longer, an hour is the other limit
         assert!(started.elapsed() < Duration::from_secs(60));

@@ -98,14 +98,6 @@ impl Cost {
     }
 }
 
-/// Counts the instructions of some ticks of a control loop in open loop.
-///
-/// # Errors
-/// An image that does not run to its end.
-pub fn count(image: &Image, ticks: usize) -> Result<Spread, Box<dyn Error>> {
-    Ok(run(image, ticks, |_, _| ())?.0)
-}
-
 /// Runs an image over the built-in inputs and hands on each input with its output.
 fn run(image: &Image, ticks: usize, mut each: impl FnMut(Input, Output)) -> Result<(Spread, Summary), Box<dyn Error>> {
     let mut inputs = Inputs::new(SEED, variant(image)?.words());
@@ -120,7 +112,7 @@ fn run(image: &Image, ticks: usize, mut each: impl FnMut(Input, Output)) -> Resu
     Ok((Spread::of(instructions), link.finish()?))
 }
 
-fn variant(image: &Image) -> Result<&'static Row, Box<dyn Error>> {
+pub(super) fn variant(image: &Image) -> Result<&'static Row, Box<dyn Error>> {
     Ok(find(&image.variant).ok_or_else(|| format!("no variant is called `{}`", image.variant))?)
 }
 
