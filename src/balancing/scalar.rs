@@ -67,3 +67,30 @@ pub(crate) fn zero<T: Scalar>() -> Complex<T> {
 pub(crate) fn given<T: Scalar>(z: Complex<T>) -> bool {
     z.re.is_finite() && z.im.is_finite()
 }
+
+/// Random numbers of a fixed seed.
+#[cfg(test)]
+pub(crate) mod noise {
+    use super::Complex;
+
+    /// Marsaglia's xorshift64 (Journal of Statistical Software 8, 14, 2003).
+    pub(crate) struct Noise(u64);
+
+    impl Noise {
+        pub(crate) fn new(seed: u64) -> Self {
+            Noise(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+        }
+
+        /// Even in -0.5..0.5.
+        pub(crate) fn even(&mut self) -> f64 {
+            self.0 ^= self.0 << 13;
+            self.0 ^= self.0 >> 7;
+            self.0 ^= self.0 << 17;
+            (self.0 >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        }
+
+        pub(crate) fn complex(&mut self) -> Complex<f64> {
+            Complex { re: self.even(), im: self.even() }
+        }
+    }
+}
