@@ -13,6 +13,9 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 use std::{env, io::Write};
 
+use serde::Serialize;
+use serde_json::json;
+
 const HELP: &str = "Mutants of the tick path, all in one build, each behind a switch; which of them the tests notice.
 
 It needs `cargo install cargo-mutants --locked`, and works in a copy of this clone.
@@ -22,18 +25,25 @@ options:
   --minutes MINUTES  stop after so long: what was judged is a random sample [all]
   --seed NUMBER      order of the mutants [1]
   --longest SECONDS  leave out tests that take longer, alone [1]
-  --file PREFIX      mutants of files that begin with it [src/]
+  --file PREFIX      mutants of files that begin with it; as often as wanted [src/]
   --quick            the tests of the library's own package alone, without the host's: a build of minutes
-  --again            those that no test noticed the last time";
+  --again            leave out those that a test noticed the last time
+  --least PERCENT    exit code 1 where less than that of a part is killed [0]
+  --json             print `{parts: [...], left: [...]}`: the shares, and the mutants that no test noticed";
+
+/// Between two lines of progress.
+const PROGRESS: Duration = Duration::from_secs(30);
 
 struct Options {
     copy: PathBuf,
     minutes: f64,
     seed: u64,
     longest: f64,
-    file: String,
+    files: Vec<String>,
     quick: bool,
     again: bool,
+    least: f64,
+    json: bool,
 }
 
 fn options(root: &Path) -> Options {
@@ -43,9 +53,11 @@ fn options(root: &Path) -> Options {
         minutes: f64::INFINITY,
         seed: 1,
         longest: 1.0,
-        file: "src/".into(),
+        files: vec![],
         quick: false,
         again: false,
+        least: 0.0,
+        json: false,
     };
     let mut arguments = env::args().skip(1);
     while let Some(name) = arguments.next() {
@@ -56,9 +68,11 @@ fn options(root: &Path) -> Options {
             "--minutes" => options.minutes = number(value()),
             "--seed" => options.seed = number(value()) as u64,
             "--longest" => options.longest = number(value()),
-            "--file" => options.file = value(),
+            "--file" => options.files.push(value()),
             "--quick" => options.quick = true,
             "--again" => options.again = true,
+            "--least" => options.least = number(value()),
+            "--json" => options.json = true,
             "--help" | "-h" => {
                 println!("{HELP}");
                 std::process::exit(0)
@@ -90,13 +104,23 @@ fn main() {
     let programs = build::programs(&options.copy, options.quick);
     let tests = run::tests(&programs, Duration::from_secs_f64(options.longest), &options.copy.join("reached"));
 
-    let mut order: Vec<_> = mutants.iter().filter(|mutant| mutant.file.starts_with(&options.file)).collect();
-    order.retain(|mutant| !options.again || before.get(&mutant.key).is_some_and(|outcome| !noticed(outcome)));
+    let chosen = |mutant: &&list::Mutant| {
+        options.files.is_empty() || options.files.iter().any(|prefix| mutant.file.starts_with(prefix))
+    };
+    let mut order: Vec<_> = mutants.iter().filter(chosen).collect();
+    order.retain(|mutant| !options.again || before.get(&mutant.key).is_none_or(|outcome| !noticed(outcome)));
     order.sort_by_key(|mutant| mixed(options.seed, mutant.number));
-    let start = Instant::now();
+    let (start, all) = (Instant::now(), order.len());
+    let mut told = start;
     let mut outcomes = if options.again { before } else { BTreeMap::new() };
     let mut file = fs::File::create(options.copy.join("progress.tsv")).expect("the copy");
-    for mutant in order {
+    for (done, mutant) in order.into_iter().enumerate() {
+        if told.elapsed() > PROGRESS {
+            told = Instant::now();
+            let left = start.elapsed().as_secs_f64() / 60.0 * (all - done) as f64 / done.max(1) as f64;
+            eprintln!("{done} of {all} mutants judged, {left:.0} min for the others");
+            write(&results, &outcomes);
+        }
         if start.elapsed().as_secs_f64() > 60.0 * options.minutes {
             break;
         }
@@ -107,9 +131,23 @@ fn main() {
         let _ = writeln!(file, "{}\t{outcome}\t{}", mutant.key, mutant.name);
         outcomes.insert(mutant.key.clone(), outcome);
     }
-    let lines: String = outcomes.iter().map(|(key, outcome)| format!("{key}\t{outcome}\n")).collect();
-    fs::write(results, lines).expect("the copy");
-    print(&mutants, &outcomes);
+    write(&results, &outcomes);
+    let parts = parts(&mutants, &outcomes);
+    if options.json {
+        let left = mutants.iter().filter_map(|mutant| {
+            let outcome = outcomes.get(&mutant.key).filter(|outcome| !noticed(outcome))?;
+            Some(json!({ "mutant": mutant.name, "outcome": outcome }))
+        });
+        println!("{}", json!({ "parts": parts, "left": left.collect::<Vec<_>>() }));
+    } else {
+        print(&parts);
+    }
+    let short = parts.iter().filter(|part| part.compiled() > 0 && part.share() < options.least);
+    let short: Vec<_> = short.map(|part| format!("{}: {:.1} %", part.part, part.share())).collect();
+    if !short.is_empty() {
+        eprintln!("less than {} % killed: {}", options.least, short.join(", "));
+        std::process::exit(1);
+    }
 }
 
 fn noticed(outcome: &str) -> bool {
@@ -121,6 +159,11 @@ fn read(results: &Path) -> BTreeMap<String, String> {
     text.lines().filter_map(|line| line.split_once('\t')).map(|(key, outcome)| (key.into(), outcome.into())).collect()
 }
 
+fn write(results: &Path, outcomes: &BTreeMap<String, String>) {
+    let lines: String = outcomes.iter().map(|(key, outcome)| format!("{key}\t{outcome}\n")).collect();
+    fs::write(results, lines).expect("the copy");
+}
+
 /// A random order, by the last step of SplitMix64.
 fn mixed(seed: u64, number: u32) -> u64 {
     let mut z = (seed << 32 | u64::from(number)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -129,33 +172,58 @@ fn mixed(seed: u64, number: u32) -> u64 {
     z ^ z >> 31
 }
 
-fn print(mutants: &[list::Mutant], outcomes: &BTreeMap<String, String>) {
-    const COLUMNS: [&str; 4] = ["does not compile", "killed", "survived", "not reached"];
-    let mut rows: BTreeMap<&str, [usize; 5]> = BTreeMap::new();
-    for mutant in mutants {
-        let row = rows.entry(mutant.module()).or_default();
-        row[4] += 1;
-        let outcome = outcomes.get(&mutant.key).map_or("", String::as_str);
-        if let Some(column) = COLUMNS.iter().position(|column| outcome.starts_with(column)) {
-            row[column] += 1;
-        }
-    }
-    println!(
-        "| part | listed | judged | do not compile | killed | survived | not reached | killed, of those that compile |"
-    );
-    println!("|---|---|---|---|---|---|---|---|");
-    let mut sum = [0; 5];
-    for (part, row) in &rows {
-        for (sum, count) in sum.iter_mut().zip(row) {
-            *sum += count;
-        }
-        line(&format!("`{part}`"), row);
-    }
-    line("all", &sum);
+/// A part of the library, or all of it.
+#[derive(Serialize)]
+struct Part {
+    part: String,
+    listed: usize,
+    refused: usize,
+    killed: usize,
+    survived: usize,
+    unreached: usize,
 }
 
-fn line(part: &str, [refused, killed, survived, unreached, listed]: &[usize; 5]) {
-    let judged = refused + killed + survived + unreached;
-    let share = 100.0 * *killed as f64 / (killed + survived + unreached).max(1) as f64;
-    println!("| {part} | {listed} | {judged} | {refused} | {killed} | {survived} | {unreached} | {share:.1} % |");
+impl Part {
+    fn compiled(&self) -> usize {
+        self.killed + self.survived + self.unreached
+    }
+
+    /// Killed, of those that compile (%).
+    fn share(&self) -> f64 {
+        100.0 * self.killed as f64 / self.compiled().max(1) as f64
+    }
+}
+
+/// Each part, and the sum of all.
+fn parts(mutants: &[list::Mutant], outcomes: &BTreeMap<String, String>) -> Vec<Part> {
+    let mut rows: BTreeMap<&str, Part> = BTreeMap::new();
+    let part = |name: &str| Part { part: name.into(), listed: 0, refused: 0, killed: 0, survived: 0, unreached: 0 };
+    let mut all = part("all");
+    for mutant in mutants {
+        let row = rows.entry(mutant.module()).or_insert_with_key(|name| part(name));
+        let outcome = outcomes.get(&mutant.key).map_or("", String::as_str);
+        for row in [row, &mut all] {
+            row.listed += 1;
+            row.refused += usize::from(outcome == "does not compile");
+            row.killed += usize::from(outcome.starts_with("killed"));
+            row.survived += usize::from(outcome.starts_with("survived"));
+            row.unreached += usize::from(outcome == "not reached");
+        }
+    }
+    rows.into_values().chain([all]).collect()
+}
+
+fn print(parts: &[Part]) {
+    println!("| part | listed | judged | do not compile | killed | survived | not reached | killed |");
+    println!("|---|---|---|---|---|---|---|---|");
+    for row in parts {
+        let Part { part, listed, refused, killed, survived, unreached } = row;
+        let (judged, share) = (refused + row.compiled(), row.share());
+        println!("| {part} | {listed} | {judged} | {refused} | {killed} | {survived} | {unreached} | {share:.1} % |");
+    }
+    if let Some(all) = parts.last() {
+        let shares = parts.iter().map(|part| format!("{} {:.1} %", part.part, part.share()));
+        let shares: Vec<_> = shares.collect();
+        println!("measured: {} mutants that compile; killed: {}", all.compiled(), shares.join(", "));
+    }
 }
