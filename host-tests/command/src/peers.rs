@@ -23,7 +23,7 @@ mod solving;
 pub use comparison::{Accuracy, Comparison, Observer, SceneComparison, scenes};
 pub use count::{Cost, Images};
 pub use governing::{Governor, governors};
-pub use markdown::peers_markdown;
+pub use markdown::{beside_observers, peers_markdown};
 pub use page::peers_page;
 pub use recording::Recording;
 pub use replay::Replay;

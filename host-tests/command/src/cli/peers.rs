@@ -9,7 +9,8 @@ use super::results::{Destination, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
 use crate::peers::{
-    Comparison, Images, Replay, SceneComparison, governors, peers_markdown, peers_page, scenes, solvers,
+    Comparison, Images, Replay, SceneComparison, beside_observers, governors, peers_markdown, peers_page, scenes,
+    solvers,
 };
 use driveline_qemu::setup::Need;
 
@@ -83,6 +84,9 @@ impl Peers {
         } else {
             for scene in &comparison.scenes {
                 say(format_args!("{}\n{}", scene.scene, scene.table()));
+            }
+            for (opening, table) in beside_observers(&comparison) {
+                say(format_args!("{}\n{table}", opening.lines().next().unwrap_or_default().trim_start_matches("## ")));
             }
         }
         if let Some(markdown) = markdown {

@@ -9,26 +9,32 @@ use super::solving::solvers_table;
 use driveline_report::Table;
 use driveline_report::format::percent;
 
-/// What stands above the tables.
+/// What stands above the tables, and what is concluded from them: prose, revised when they change.
 const OPENING: &str = include_str!("opening.md");
+const WINS: &str = include_str!("wins.md");
+/// What stands above the tables of speed loops and of least squares.
+const GOVERNORS: &str = include_str!("governors.md");
+const SOLVERS: &str = include_str!("solvers.md");
 
 /// The page, its tables in Markdown.
 pub fn peers_markdown(comparison: &Comparison) -> String {
     let mut page = OPENING.to_owned();
-    let _ = writeln!(page, "\n## The fronts\n\n{}", rows(&fronts(comparison)));
+    let _ = writeln!(page, "\n{WINS}\n## The fronts\n\n{}", rows(&fronts(comparison)));
     for scene in &comparison.scenes {
         let heading = format!("## {}, {} ticks at {} Hz", scene.scene, scene.ticks, scene.rate_hz);
         let _ = writeln!(page, "{heading}\n\n{}", rows(&scene.table()));
     }
-    for (opening, table) in [
-        (include_str!("governors.md"), governors_table(&comparison.governors)),
-        (include_str!("solvers.md"), solvers_table(&comparison.solvers)),
-    ] {
+    for (opening, table) in beside_observers(comparison) {
         let _ = writeln!(page, "{opening}\n{}", rows(&table));
     }
     page.truncate(page.trim_end().len());
     page.push('\n');
     page
+}
+
+/// What is compared beside observers: its heading and text in Markdown, and its table.
+pub fn beside_observers(comparison: &Comparison) -> [(&'static str, Table); 2] {
+    [(GOVERNORS, governors_table(&comparison.governors)), (SOLVERS, solvers_table(&comparison.solvers))]
 }
 
 /// A row a scene and a core: the library's best, the best of the others, and who wins.

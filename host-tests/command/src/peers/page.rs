@@ -2,7 +2,7 @@
 
 use super::comparison::{Comparison, Observer, SceneComparison};
 use super::count::CORES;
-use super::markdown::fronts;
+use super::markdown::{beside_observers, fronts};
 use driveline_report::chart::{Cost, Quality, error_against_cost};
 use driveline_report::{Arrangement, Deviation, Figure, Instructions, Key, Section, Sheet, Variant};
 
@@ -16,6 +16,10 @@ pub fn peers_page(comparison: &Comparison) -> String {
         fronts(comparison),
     )];
     tables.extend(comparison.scenes.iter().map(|scene| Section::new(scene.scene.clone(), "", scene.table())));
+    tables.extend(beside_observers(comparison).map(|(opening, table)| {
+        let (heading, text) = opening.split_once('\n').unwrap_or((opening, ""));
+        Section::new(heading.trim_start_matches("## "), text.trim().replace('`', ""), table)
+    }));
     Sheet {
         name: "Peers".to_owned(),
         kicker: "other observers".to_owned(),
