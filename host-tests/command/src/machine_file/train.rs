@@ -63,7 +63,7 @@
 //! | `[run]` | `time` s, `step` s, a whole number of which is the time, (`cycle`, `cycle_turns`, `starting` with
 //! `starting_speed`); `modes` does without it |
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use toml::de::DeTable;
@@ -271,12 +271,12 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     }
     for (at, crank, pins) in &file.pins {
         let forces: Vec<SliderForce> = file.forces.iter().filter(|(on, _)| on == at).map(|(_, force)| *force).collect();
-        let torques = pins.sources(crank, &forces);
         // pins that nothing loads, or without a radius, let it turn either way
-        if !torques.is_empty() && pins.coefficient * (pins.main + pins.crank + pins.wrist) > 0.0 {
+        let loaded = crank.slider_mass > 0.0 || forces.iter().any(|force| force.force != 0.0);
+        if loaded && pins.coefficient * (pins.main + pins.crank + pins.wrist) > 0.0 {
             file.forwards.push(*at);
         }
-        coordinates[*at] = torques.into_iter().fold(coordinates[*at].clone(), Coordinate::source);
+        coordinates[*at] = coordinates[*at].clone().pins(*pins, &forces);
     }
     let mut train = Train::new();
     for coordinate in coordinates {
@@ -505,14 +505,14 @@ impl Reading {
                     wrist: pins.number_or("wrist", Quantity::PIN, 0.0)?,
                 };
                 pins.finish()?;
-                let all_round = SliderForce { force: 1.0, from: 0.0, to: TAU };
-                let sources = found.sources(&drive, &[all_round]);
-                if sources.iter().any(|arc| matches!(arc, Torque::Stroke { torque, .. } if torque.at(0.0).is_nan())) {
-                    return Err(crank.wrong("rod", LONGER));
-                }
                 self.pins.push((self.names.len(), drive, found));
             }
             friction = crank.number_or("friction", Quantity::SIZE, 0.0)?;
+            if friction > 0.0 {
+                // against the slider, which goes inwards first
+                let on = |force, from, to| (self.names.len(), SliderForce { force, from, to });
+                self.forces.extend([on(friction, 0.0, PI), on(-friction, PI, TAU)]);
+            }
             let reach = move |angle: f64| (rod * rod - (radius * angle.sin()).powi(2)).sqrt();
             let slider = Orders::sampled(|angle| radius * angle.cos() + reach(angle));
             if slider.at(0.0).is_nan() {

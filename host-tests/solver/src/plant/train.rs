@@ -69,6 +69,7 @@ mod steady;
 mod stiffest;
 mod stretch;
 mod unbalance;
+mod varying;
 
 pub use crank::Crank;
 pub use friction::Friction;
@@ -78,6 +79,7 @@ pub use linkage::{FourBar, Orders, Toggle};
 pub use mesh::{Harmonic, Teeth, Variation, Zone};
 pub use modes::{Decay, TrainModes};
 pub use motion::Motion;
+use pins::Pinned;
 pub use pins::{Pins, SliderForce};
 pub use rigid::RigidPart;
 pub use rubbing::rubbing;
@@ -99,6 +101,7 @@ pub struct Coordinate {
     speed: f64,
     angle: f64,
     crank: Option<Crank>,
+    pins: Option<Pinned>,
     law: Option<Orders>,
     sources: Vec<Source>,
 }
@@ -107,7 +110,7 @@ impl Coordinate {
     /// Of this inertia, kg m2, or mass, kg, above zero; at rest at zero.
     #[must_use]
     pub fn new(inertia: f64) -> Self {
-        Self { inertia, viscous: 0.0, speed: 0.0, angle: 0.0, crank: None, law: None, sources: Vec::new() }
+        Self { inertia, viscous: 0.0, speed: 0.0, angle: 0.0, crank: None, pins: None, law: None, sources: Vec::new() }
     }
 
     /// With viscous friction to the ground, N m s/rad, zero or above.
@@ -135,6 +138,15 @@ impl Coordinate {
     #[must_use]
     pub fn crank(mut self, crank: Crank) -> Self {
         self.crank = Some(crank);
+        self
+    }
+
+    /// With dry friction in the pins of its crank, which only turns forwards. Their forces are those of the slider's
+    /// mass and of these forces on it, which act on the crank by sources of their own; forces at the same angle add.
+    /// The mass of the rod does not load them.
+    #[must_use]
+    pub fn pins(mut self, pins: Pins, forces: &[SliderForce]) -> Self {
+        self.pins = Pinned::of(pins, forces);
         self
     }
 
@@ -227,6 +239,10 @@ impl Train {
             finite("speed at the start", place, coordinate.speed)?;
             finite("angle at the start", place, coordinate.angle)?;
             coordinate.crank.map_or(Ok(()), |crank| crank.validate(place))?;
+            coordinate
+                .pins
+                .as_ref()
+                .map_or(Ok(()), |pins| pins.validate(coordinate.crank, |angle| coordinate.inertia_at(angle), place))?;
             if let Some(law) = &coordinate.law {
                 let least = law.least();
                 in_range("law of inertia", place, least, least + coordinate.inertia > 0.0, "an inertia above zero")?;

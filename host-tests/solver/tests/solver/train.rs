@@ -10,6 +10,7 @@ mod linkage;
 mod losses;
 mod modes;
 mod mover;
+mod pins;
 mod proof;
 mod spur_pair;
 mod start;

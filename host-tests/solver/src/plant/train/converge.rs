@@ -24,6 +24,7 @@ mod textbook;
 
 pub use crate::plant::converge::{BOUND, Deviation, NotProven, Proof, Sensitive};
 
+use super::Coordinate;
 use super::linkage::Orders;
 use super::motion::Motion;
 use super::rank::Elimination;
@@ -359,8 +360,11 @@ fn turning(motion: &Motion, speeds: &[f64]) -> f64 {
         let felt = orders.iter().filter(|h| h.cosine.hypot(h.sine) > 1e-6 * most);
         felt.map(|h| h.order.abs()).fold(0.0, f64::max)
     };
+    // second and higher orders of the slider's way load the pins
+    let pinned =
+        |c: &Coordinate| c.pins.as_ref().and(c.crank).map_or(0.0, |k| 2.0 / (1.0 - (k.radius / k.rod).powi(2)).sqrt());
     let coordinates = motion.train.coordinates.iter().zip(speeds);
-    coordinates.map(|(c, speed)| speed * c.sources.iter().map(highest).fold(0.0, f64::max)).fold(0.0, f64::max)
+    coordinates.map(|(c, speed)| speed * c.sources.iter().map(highest).fold(pinned(c), f64::max)).fold(0.0, f64::max)
 }
 
 fn peaks(run: &Recording) -> Vec<f64> {

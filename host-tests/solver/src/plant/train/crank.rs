@@ -3,8 +3,6 @@
 
 use super::super::error::{PlantError, in_range, not_negative, positive};
 use super::super::event::Place;
-use super::linkage::Orders;
-use super::mesh::Harmonic;
 use super::series::{Series, Turn, ZERO, product, quotient, root};
 
 /// Crank, rod and slider on a coordinate. The slider's way is `r cos phi + sqrt(l^2 - r^2 sin^2 phi)`.
@@ -41,6 +39,13 @@ impl Crank {
         (work.inertia[0], 2.0 * work.half_slope[0])
     }
 
+    /// Derivative of the slider's way by the angle, m, at an angle, rad.
+    pub(super) fn slope(&self, angle: f64) -> f64 {
+        let (sine, cosine) = angle.sin_cos();
+        let reach = (self.rod.powi(2) - (self.radius * sine).powi(2)).sqrt();
+        -self.radius * sine * (1.0 + self.radius * cosine / reach)
+    }
+
     pub(super) fn validate(&self, place: Place) -> Result<(), PlantError> {
         positive("crank radius", place, self.radius)?;
         positive("rod length", place, self.rod)?;
@@ -53,58 +58,24 @@ impl Crank {
     }
 }
 
-/// The inertia of a coordinate over a stretch beside its own, and half its slope.
-#[derive(Debug, Clone)]
-pub(super) struct Varying {
-    crank: Option<(Crank, Box<Work>)>,
-    law: Vec<(Harmonic, Turn)>,
-    pub inertia: Series,
-    pub half_slope: Series,
-}
-
-impl Varying {
-    /// Of a crank, a law, or both; none without either.
-    pub fn of(crank: Option<Crank>, law: Option<&Orders>) -> Option<Self> {
-        if crank.is_none() && law.is_none() {
-            return None;
-        }
-        let crank = crank.map(|crank| (crank, Box::new(Work::new())));
-        let law = law.iter().flat_map(|law| &law.0).map(|h| (*h, Turn::new(h.order))).collect();
-        Some(Self { crank, law, inertia: ZERO, half_slope: ZERO })
-    }
-
-    /// Fills in coefficient `k` from the angle's coefficients up to it.
-    pub fn extend(&mut self, angle: &Series, k: usize) {
-        if let Some((crank, work)) = &mut self.crank {
-            work.extend(crank, angle, k);
-            (self.inertia[k], self.half_slope[k]) = (work.inertia[k], work.half_slope[k]);
-        }
-        for (h, turn) in &mut self.law {
-            turn.extend(angle, k);
-            self.inertia[k] += h.cosine * turn.cosine[k] + h.sine * turn.sine[k];
-            self.half_slope[k] += 0.5 * h.order * (h.sine * turn.cosine[k] - h.cosine * turn.sine[k]);
-        }
-    }
-}
-
 /// The series of a crank over a stretch. Slopes are derivatives by the angle.
 #[derive(Debug, Clone)]
 pub(super) struct Work {
     turn: Turn,
     /// `S^2 = l^2 - r^2 sin^2` and `S`, the rod's reach along the slider's way.
     square: Series,
-    reach: Series,
+    pub reach: Series,
     /// `sin cos`, `u = sin cos / S`, and `u' S`.
     both: Series,
-    share: Series,
+    pub share: Series,
     share_over: Series,
     share_slope: Series,
     /// `L = cos / S`, by which the rod leans `r L` per angle, and `L' S`.
-    lean: Series,
+    pub lean: Series,
     lean_over: Series,
-    lean_slope: Series,
+    pub lean_slope: Series,
     /// First and second derivatives: of the slider's way, of the way of the rod's centre, of its height.
-    slider: [Series; 2],
+    pub slider: [Series; 2],
     centre: [Series; 2],
     height: [Series; 2],
     /// Of slider and rod, kg m2.

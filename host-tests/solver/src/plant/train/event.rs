@@ -25,6 +25,10 @@ enum Action {
     Slip(usize, i8),
     /// The arc's ends passed become one more or one less.
     Arc(usize, i64),
+    /// The ends passed by a crank with friction in its pins become one more or one less.
+    Pin(usize, i64),
+    /// The force in the rod of such a crank turns about.
+    Rod(usize),
     /// The tooth edge ahead becomes the next or the one before.
     Tooth(usize, i64),
 }
@@ -136,6 +140,14 @@ impl Motion {
                 add(Action::Arc(arc, -1), at.guard(1.0, -behind));
             }
         }
+        for (i, pinning) in self.mode.pins.iter().enumerate() {
+            add(Action::Rod(i), stretch.rod[i].guard(pinning.pull, 0.0));
+            if let Some(pinned) = &self.train.coordinates[pinning.at].pins {
+                let angle = &stretch.angle[pinning.at];
+                add(Action::Pin(i, 1), angle.guard(-1.0, pinned.end(pinning.passed)));
+                add(Action::Pin(i, -1), angle.guard(1.0, -pinned.end(pinning.passed - 1)));
+            }
+        }
         for (i, &(l, edge)) in self.mode.teeth.iter().enumerate() {
             if let Some(Variation::Teeth(teeth)) = &self.train.links[l].variation {
                 let angle = &stretch.angle[teeth.coordinate];
@@ -207,6 +219,8 @@ impl Motion {
                 self.log(EventKind::Slip, Place::Node(self.train.frictions[s].terms[0].0), new);
             }
             Action::Arc(arc, step) => self.mode.arcs[arc].2 += step,
+            Action::Pin(i, step) => self.mode.pins[i].passed += step,
+            Action::Rod(i) => self.mode.pins[i].pull *= -1.0,
             Action::Tooth(i, step) => self.mode.teeth[i].1 += step,
         }
     }

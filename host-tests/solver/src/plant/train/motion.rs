@@ -3,10 +3,11 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::leap::Leap;
+use super::pins::Pinning;
 use super::signal::Watch;
 use super::state::{Mode, State, TRAILING};
 use super::stretch::Stretch;
-use super::{Friction, Source, Train, Variation, coupling};
+use super::{Coordinate, Friction, Source, Train, Variation, coupling};
 use crate::plant::error::PlantError;
 use crate::plant::event::Event;
 
@@ -88,6 +89,7 @@ impl Motion {
             slip: vec![0; train.frictions.len()],
             flow: vec![1; train.links.len()],
             arcs,
+            pins: pins_of(&train),
             teeth: teeth_of(&train),
             stuck: Vec::new(),
             holding: DMatrix::zeros(0, 0),
@@ -218,6 +220,15 @@ pub(super) fn teeth_of(train: &Train) -> Vec<(usize, i64)> {
         _ => None,
     };
     train.links.iter().enumerate().filter_map(edge).collect()
+}
+
+/// Where every crank with friction in its pins begins, as if its rod pulled; the first event says if it pushes.
+pub(super) fn pins_of(train: &Train) -> Vec<Pinning> {
+    let pinning = |(at, coordinate): (usize, &Coordinate)| {
+        let passed = coordinate.pins.as_ref()?.passed(coordinate.angle);
+        Some(Pinning { at, passed, pull: 1.0 })
+    };
+    train.coordinates.iter().enumerate().filter_map(pinning).collect()
 }
 
 /// Bound of the rates of a train, 1/s: the highest natural frequency with every link in contact at its stiffest, the

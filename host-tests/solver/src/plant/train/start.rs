@@ -30,7 +30,7 @@ impl Train {
         frictionless.links.clear();
         frictionless.unbalances.clear();
         // what stands has no use for the inertia of a mechanism
-        frictionless.coordinates.iter_mut().for_each(|c| (c.crank, c.law) = (None, None));
+        frictionless.coordinates.iter_mut().for_each(|c| (c.crank, c.pins, c.law) = (None, None, None));
         let n = self.coordinates.len();
         if held >= n {
             return Err(PlantError::Count { name: "locked coordinate", found: held, expected: n });

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::Train;
+use super::pins::Pinning;
 
 /// Side of a rope that is stretched but whose damper has stopped pulling.
 pub(super) const TRAILING: i8 = 2;
@@ -27,6 +28,8 @@ pub(super) struct Mode {
     /// Arcs as coordinate and source, and how many of their ends have been passed; odd on the arc. So are sources whose
     /// pieces follow the speed.
     pub arcs: Vec<(usize, usize, i64)>,
+    /// Cranks with friction in their pins.
+    pub pins: Vec<Pinning>,
     /// Links whose teeth follow an angle, and the edge ahead of each.
     pub teeth: Vec<(usize, i64)>,
     /// The frictions that stick, and what turns the accelerations they must stop into their forces.
@@ -64,6 +67,11 @@ impl Mode {
     /// The tooth edge ahead of a link.
     pub fn edge(&self, link: usize) -> i64 {
         self.teeth.iter().find(|tooth| tooth.0 == link).map_or(0, |tooth| tooth.1)
+    }
+
+    /// The pins of a coordinate's crank.
+    pub fn pinning(&self, coordinate: usize) -> Option<&Pinning> {
+        self.pins.iter().find(|pinning| pinning.at == coordinate)
     }
 
     /// Gathers what sticks.

@@ -1,11 +1,11 @@
 //! The motion over a stretch as its Taylor series, order by order, with what rounding may have done to it.
 
 use super::Train;
-use super::crank::Varying;
 use super::series::{Series, TERMS, ZERO, product, value};
 use super::sized::Sized;
 use super::source::Work as SourceWork;
 use super::state::{Mode, State, TRAILING};
+use super::varying::Varying;
 use super::{coupling, series};
 
 /// Negligible share of the largest coefficient.
@@ -20,6 +20,8 @@ pub(super) struct Stretch {
     pub strain: Vec<Sized>,
     /// Of every friction, the force along its terms, while it sticks or slides.
     pub friction: Vec<Sized>,
+    /// Of every crank with friction in its pins, the force in its rod along the slider's way.
+    pub rod: Vec<Sized>,
 }
 
 /// Lengths that are tried before terms that are no numbers are left as they are, and each over the one before: down to
@@ -74,6 +76,7 @@ impl Stretch {
             angle: new(&state.angle),
             strain: empty(train.links.len()),
             friction: empty(train.frictions.len()),
+            rod: empty(train.coordinates.iter().filter(|coordinate| coordinate.pins.is_some()).count()),
         }
     }
 
@@ -102,7 +105,8 @@ impl Stretch {
             }
             let sources = coordinate.sources.iter().enumerate();
             works.push(sources.map(|(s, source)| source.work(mode.passed(j, s))).collect());
-            cranks.push(Varying::of(coordinate.crank, coordinate.law.as_ref()).map(|mut work| {
+            let pins = coordinate.pins.as_ref().zip(mode.pinning(j));
+            cranks.push(Varying::of(coordinate.crank, pins, coordinate.law.as_ref()).map(|mut work| {
                 work.extend(&self.angle[j].value, 0);
                 let momentum = (coordinate.inertia + work.inertia[0]) * self.speed[j].value[0];
                 (work, Sized::new(momentum))
@@ -122,6 +126,10 @@ impl Stretch {
                     sum += torque;
                     size[j] += torque.abs();
                 }
+                if let Some((work, _)) = &cranks[j] {
+                    sum += work.torque(k);
+                    size[j] += work.torque(k).abs();
+                }
                 net[j] = sum - coordinate.viscous * speed[k];
                 size[j] += coordinate.viscous * self.speed[j].size[k];
                 let (v, v_size) = (speed[k], self.speed[j].size[k]);
@@ -136,19 +144,24 @@ impl Stretch {
             for (j, coordinate) in train.coordinates.iter().enumerate() {
                 match &mut cranks[j] {
                     Some((work, momentum)) => {
-                        // (J w)' = net + J' w^2 / 2
+                        // (J w)' = net + J' w^2 / 2 without pins
                         let speed = &mut self.speed[j];
                         let mut square = ZERO;
                         for (i, s) in square.iter_mut().enumerate().take(k + 1) {
                             *s = product(&speed.value, &speed.value, i);
                         }
-                        let push = net[j] + product(&work.half_slope, &square, k);
+                        let push = net[j] + product(&work.push, &square, k);
                         momentum.put(k + 1, step * push, step * size[j]);
                         work.extend(&self.angle[j].value, k + 1);
                         let mut inertia = work.inertia;
                         inertia[0] += coordinate.inertia;
                         let next = series::quotient(&momentum.value, &inertia, &speed.value, k + 1);
                         speed.put(k + 1, next, next.abs().max(momentum.size[k + 1] / inertia[0]));
+                        if let Some((force, size)) = work.rod(&speed.value, k, step)
+                            && let Some(row) = mode.pins.iter().position(|pinning| pinning.at == j)
+                        {
+                            self.rod[row].put(k, force, size);
+                        }
                     }
                     None if unbalances.is_some() => {}
                     None => {
@@ -269,8 +282,9 @@ impl Stretch {
                 return;
             }
             self.length *= 0.5;
-            let all = [&mut self.speed, &mut self.angle, &mut self.elongation, &mut self.strain, &mut self.friction];
-            for sized in all.into_iter().flatten() {
+            let moved = [&mut self.speed, &mut self.angle, &mut self.elongation];
+            let forces = [&mut self.strain, &mut self.friction, &mut self.rod];
+            for sized in moved.into_iter().chain(forces).flatten() {
                 let mut scale = 1.0;
                 for k in 0..TERMS {
                     sized.value[k] *= scale;

@@ -4,8 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use driveline_solver::plant::train::converge::{Recording, prove};
 use driveline_solver::plant::train::{
-    Coordinate, Crank, FourBar, Friction, Link, Motion, Orders, Pins, Signal, SliderForce, Source, Toggle, Train,
-    rubbing,
+    Coordinate, Crank, FourBar, Friction, Link, Motion, Orders, Signal, Source, Toggle, Train, rubbing,
 };
 
 /// A four-bar press: motor line, flywheel, coupler and rocker.
@@ -381,92 +380,4 @@ fn a_steady_cycle_is_found_from_rest_and_nowhere_else() {
     assert_eq!(cycle(Coordinate::new(1.0).speed(10.0).viscous(1.0), 1.0), None);
     let drift = Coordinate::new(2e5).speed(157.0).source(Source::Constant(0.05));
     assert_eq!(cycle(drift, 0.1), None);
-}
-
-/// A crank of 0.1 m with a rod of 0.25 m, and its pins.
-const PRESS: Crank = Crank::new(0.1, 0.25, 0.0);
-const PINS: Pins = Pins { coefficient: 0.1, main: 0.06, crank: 0.05, wrist: 0.03 };
-
-/// The torque at the crank of a force of 1 N that pushes the slider towards it, by the friction circles: the force in
-/// the rod is tangent to the circles of mu r about both of its pins, each on the side that is against the turning of
-/// the rod in that pin.
-fn by_friction_circles(pins: &Pins, angle: f64) -> f64 {
-    let [main, crank, wrist] = [pins.main, pins.crank, pins.wrist].map(|radius| pins.coefficient * radius);
-    let (r, l) = (PRESS.radius, PRESS.rod);
-    let lean = (r * angle.sin() / l).asin();
-    // the rod turns against the crank at all angles, against the slider in the half turn about the dead centre
-    let sense = -angle.cos().signum();
-    let line = -lean + ((crank - sense * wrist) / l).asin();
-    // along the slider's way the force is 1 N; its lever about the crank's axis, less the circle of the crank pin
-    (r * (angle - line).sin() - crank - main) / line.cos()
-}
-
-#[test]
-fn pins_take_what_the_friction_circles_say() {
-    for step in 0..36 {
-        let angle = 0.05 + TAU * f64::from(step) / 36.0;
-        let off = |coefficient: f64| {
-            let pins = Pins { coefficient, ..PINS };
-            let frictionless = by_friction_circles(&Pins { coefficient: 0.0, ..PINS }, angle);
-            let loss = frictionless - by_friction_circles(&pins, angle);
-            (loss - pins.loss(&PRESS, angle), loss)
-        };
-        // of the second order in the coefficient: mu times the pins' radii over the rod's length, 3.2 %
-        let [(coarse, loss), (fine, _)] = [0.1, 0.05].map(off);
-        assert!(coarse.abs() < 0.032 * loss, "{angle}: {coarse} of {loss}");
-        // a quarter of it for half the coefficient, but for the third order, 3.2 % squared
-        assert!((coarse - 4.0 * fine).abs() < 1e-3 * loss, "{angle}: {coarse} {fine}");
-    }
-}
-
-/// Over a turn `4 mu F ((r_main + r_crank) K(lambda) + r_wrist artanh lambda)`, with the elliptic integral by the
-/// arithmetic-geometric mean; a run loses it, turn by turn.
-#[test]
-fn pins_take_their_energy_from_every_turn() {
-    let lambda = PRESS.radius / PRESS.rod;
-    let (mut a, mut g) = (1.0, (1.0 - lambda * lambda).sqrt());
-    for _ in 0..5 {
-        (a, g) = (0.5 * (a + g), f64::sqrt(a * g));
-    }
-    let elliptic = PI / (2.0 * a);
-    let turn = 4.0 * 0.1 * 900.0 * ((0.06 + 0.05) * elliptic + 0.03 * lambda.atanh());
-    // two arcs that make a turn, whatever the sense of the force; what pushes against it elsewhere is taken off
-    let force = |force, from, to| SliderForce { force, from, to };
-    let forces = [force(-900.0, 0.0, TAU), force(1800.0, 1.0, 4.0), force(500.0, 5.0, 6.0), force(-500.0, 5.0, 6.0)];
-    let sources = PINS.sources(&PRESS, &forces);
-    let mut run = Recording::new(
-        Train::new()
-            .coordinate(sources.into_iter().fold(Coordinate::new(4.0).speed(20.0), Coordinate::source))
-            .build()
-            .unwrap(),
-    );
-    // the loss from the start to an angle, by Simpson's rule between the corners at a quarter and three quarters
-    let lost = |angle: f64| {
-        let turns = (angle / TAU).floor();
-        let corners = [0.0, 0.25 * TAU, 0.75 * TAU, angle - turns * TAU];
-        let within = corners[3];
-        let pieces = corners[..3].iter().zip(&corners[1..]).map(|(&from, &to)| (from.min(within), to.min(within)));
-        let last = (within.min(corners[2]), within);
-        let simpson = |(from, to): (f64, f64)| {
-            if to - from < 1e-9 {
-                return 0.0;
-            }
-            let h = (to - from) / 1000.0;
-            // off the corners, where the loss has one value on each side
-            let at = |k: i32| PINS.loss(&PRESS, (from + h * f64::from(k)).clamp(from + 1e-13, to - 1e-13));
-            (0..500).map(|k| h / 3.0 * (at(2 * k) + 4.0 * at(2 * k + 1) + at(2 * k + 2))).sum::<f64>()
-        };
-        let part: f64 = pieces.take(2).chain([last]).map(simpson).sum();
-        turns * turn + 900.0 * part
-    };
-    // fourth order of a thousand pieces, and the clamped ends
-    assert!((lost(TAU - 1e-12) / turn - 1.0).abs() < 1e-9, "{} {turn}", lost(TAU - 1e-12));
-    for _ in 0..1000 {
-        run.advance(1e-3);
-        let (angle, speed) = (run.motion().angle(0), run.motion().speed(0));
-        let expected = 800.0 - lost(angle);
-        assert!((2.0 * speed * speed / expected - 1.0).abs() < 1e-9, "{angle}: {} {expected}", 2.0 * speed * speed);
-    }
-    assert!(run.motion().angle(0) > 2.0 * TAU);
-    prove(&run).unwrap();
 }

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::super::pins::Pinning;
 use super::super::{Source, Train, Variation};
 use crate::plant::converge::pass::Hybrid;
 
@@ -16,6 +17,8 @@ pub enum Change {
     Rest(usize),
     Loose(usize, f64),
     Arc(usize, i64),
+    Pin(usize, i64),
+    Rod(usize),
     Tooth(usize, i64),
 }
 
@@ -40,6 +43,7 @@ pub struct Double<'a> {
     stuck: Vec<usize>,
     holding: DMatrix<f64>,
     arcs: Vec<(usize, usize, i64)>,
+    pins: Vec<Pinning>,
     /// Links whose teeth follow an angle, and the edge ahead of each.
     teeth: Vec<(usize, i64)>,
     pub settled: bool,
@@ -66,6 +70,7 @@ impl<'a> Double<'a> {
             stuck: Vec::new(),
             holding: DMatrix::zeros(0, 0),
             arcs: arcs.to_vec(),
+            pins: super::super::motion::pins_of(train),
             teeth: super::super::motion::teeth_of(train),
             held,
             settled: false,
@@ -221,6 +226,26 @@ impl<'a> Double<'a> {
         }
     }
 
+    /// Of a crank with friction in its pins: the force on its slider, the torque that the pins take of a force of 1 N
+    /// in the rod along the slider's way, and first and second derivative of that way by the angle. Powers over the
+    /// speed of the crank, pin by pin, from the angle of the rod.
+    fn pinned(&self, y: &[f64], pinning: &Pinning) -> [f64; 4] {
+        let coordinate = &self.train.coordinates[pinning.at];
+        let (Some(crank), Some(pinned)) = (coordinate.crank, &coordinate.pins) else { return [0.0; 4] };
+        let (force, sense) = pinned.piece(pinning.passed);
+        let (sine, cosine) = self.angle(y, pinning.at).sin_cos();
+        let (r, l) = (crank.radius, crank.rod);
+        let lean = (r * sine / l).asin();
+        let rate = r * cosine / (l * lean.cos());
+        let bend = (l * lean.sin() * rate * rate - r * sine) / (l * lean.cos());
+        let pins = pinned.pins;
+        // frame and crank at 1 rad/s, crank and rod at 1 + rate, rod and slider at the rate
+        let slip = pins.main + pins.crank * (1.0 + rate) + pins.wrist * sense * rate;
+        let way = -r * sine - l * lean.sin() * rate;
+        let turned = -r * cosine - l * (lean.cos() * rate * rate + lean.sin() * bend);
+        [force, pins.coefficient / lean.cos() * slip, way, turned]
+    }
+
     fn on_arc(&self, j: usize, s: usize) -> bool {
         self.arcs.iter().any(|arc| arc.0 == j && arc.1 == s && arc.2.rem_euclid(2) == 1)
     }
@@ -274,6 +299,10 @@ impl<'a> Double<'a> {
             let sources = coordinate.sources.iter().enumerate();
             let torque: f64 = sources.map(|(s, source)| self.torque(t, y, j, s, source)).sum();
             net[j] = self.held[j] + torque - coordinate.viscous * self.speed(y, j);
+        }
+        for pinning in &self.pins {
+            let [force, loss, _, _] = self.pinned(y, pinning);
+            net[pinning.at] -= pinning.pull * loss * force;
         }
         for (l, link) in train.links.iter().enumerate() {
             let force = self.carried(t, y, l);
@@ -378,7 +407,14 @@ impl Hybrid for Double<'_> {
                 let [more, steeper] = series(law, angle);
                 (inertia, slope) = (inertia + more, slope + steeper);
             }
-            out[links + j] = (out[links + j] - 0.5 * slope * speed * speed) / (coordinate.inertia + inertia);
+            let mut push = 0.5 * slope * speed * speed;
+            if let (Some(pinning), Some(crank)) = (self.pins.iter().find(|pinning| pinning.at == j), coordinate.crank) {
+                // the pins take a share of what speeds the slider up
+                let [_, loss, way, bend] = self.pinned(y, pinning);
+                let share = pinning.pull * loss * crank.slider_mass;
+                (inertia, push) = (inertia - share * way, push - share * bend * speed * speed);
+            }
+            out[links + j] = (out[links + j] - push) / (coordinate.inertia + inertia);
             out[links + n + j] = speed;
         }
         if !torques.is_empty() {
@@ -447,6 +483,23 @@ impl Hybrid for Double<'_> {
                 all.push((at - behind, behind.abs(), Change::Arc(arc, -1)));
             }
         }
+        let mut rates = vec![0.0; if self.pins.is_empty() { 0 } else { y.len() }];
+        if !rates.is_empty() {
+            self.rate(t, y, &mut rates);
+        }
+        for (i, pinning) in self.pins.iter().enumerate() {
+            let coordinate = &self.train.coordinates[pinning.at];
+            let (Some(crank), Some(pinned)) = (coordinate.crank, &coordinate.pins) else { continue };
+            let [force, _, way, bend] = self.pinned(y, pinning);
+            let speeding = crank.slider_mass * way * rates[self.train.links.len() + pinning.at];
+            let turning = crank.slider_mass * bend * self.speed(y, pinning.at).powi(2);
+            let size = force.abs() + speeding.abs() + turning.abs();
+            all.push((pinning.pull * (force - speeding - turning), size, Change::Rod(i)));
+            let angle = self.angle(y, pinning.at);
+            let (ahead, behind) = (pinned.end(pinning.passed), pinned.end(pinning.passed - 1));
+            all.push((ahead - angle, ahead.abs(), Change::Pin(i, 1)));
+            all.push((angle - behind, behind.abs(), Change::Pin(i, -1)));
+        }
         for (i, &(l, edge)) in self.teeth.iter().enumerate() {
             if let Some(Variation::Teeth(teeth)) = &self.train.links[l].variation {
                 let (angle, ahead, behind) = (self.angle(y, teeth.coordinate), teeth.edge(edge), teeth.edge(edge - 1));
@@ -479,6 +532,8 @@ impl Hybrid for Double<'_> {
                 self.judge(t, y, s);
             }
             Change::Arc(arc, step) => self.arcs[arc].2 += step,
+            Change::Pin(i, step) => self.pins[i].passed += step,
+            Change::Rod(i) => self.pins[i].pull *= -1.0,
             Change::Tooth(i, step) => self.teeth[i].1 += step,
         }
     }
