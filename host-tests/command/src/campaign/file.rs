@@ -9,7 +9,8 @@ use driveline::observer::{
 use driveline::sample::Sample;
 use driveline::settings::{Bases, Gear, SpeedLoopSettings};
 use driveline_firmware::scene::{Input, Output, Scene};
-use driveline_solver::plant::{Chain, LoadProgram, Plant, PlantError, Shaft, Start};
+use driveline_solver::plant::train::{Coordinate, Link, Source, Train};
+use driveline_solver::plant::{Chain, LoadProgram, PlantError, Shaft, Start};
 
 use crate::closed_loop::sensors::Encoder;
 use crate::drivetrains::departure::Departure;
@@ -73,11 +74,13 @@ impl FileCase {
         if !machine.branches.is_empty() {
             return Err("a campaign runs a chain of elements; this machine has branches".to_owned());
         }
-        let two = machine.two_masses().ok_or("a campaign needs a machine with a shaft; this one is rigid")?;
+        let refused = |error: driveline::design::Error| format!("no controller can be designed: {error}");
+        let damped = machine.with_dampers().map_err(|error| refused(error.into()))?;
+        let two = damped.two_masses().ok_or("a campaign needs a machine with a shaft; this one is rigid")?;
         if let Some(label) = machine.losses_of_no_chain() {
             return Err(format!("the losses of `{label}` need a shaft behind it; leave it out of a copy of the file"));
         }
-        let designs = Designs::of(&machine, &two).map_err(|error| format!("no controller can be designed: {error}"))?;
+        let designs = Designs::of(&damped, &two).map_err(refused)?;
         let cycle = machine.cycle(two.gravity_torque);
         let ramp = machine.limits.speed / designs.ramp;
         // the loop has settled to e^-5
@@ -111,16 +114,12 @@ impl FileCase {
     pub fn departing(&'static self, by: &Departure) -> Result<Machine, PlantError> {
         let Self { machine, designs, times: [on, off, slower, end], .. } = self;
         let cycle = machine.cycle(designs.two.gravity_torque);
-        let program = LoadProgram::table(&[
-            (*on, 0.0),
-            (on + cycle.rise.max(1e-6), cycle.change),
-            (*off, cycle.change),
-            (off + cycle.rise.max(1e-6), 0.0),
-        ]);
+        let rise = cycle.rise.max(1e-6);
+        let program = [(*on, 0.0), (on + rise, cycle.change), (*off, cycle.change), (off + rise, 0.0)];
         let speed = machine.limits.speed;
         let run = Scenario {
             name: "run-up, a load that comes and goes, slower",
-            plant: plant(machine, program, by)?.into(),
+            plant: plant(machine, program, by)?,
             held: designs.two.gravity_torque * by.load,
             actions: vec![
                 (RELEASE, Action::Release),
@@ -191,32 +190,43 @@ impl FileCase {
 }
 
 /// A machine as a plant that departs from the file: it hangs on its shafts, its gears have their losses, its ropes
-/// only pull, and a load torque is added at its far end.
+/// only pull, and a load torque (s, N m) is added at its far end. Its dampers stand on it with their nominal sizes.
 ///
 /// # Errors
 /// What the plant refuses.
-fn plant(machine: &MachineFile, load: LoadProgram, by: &Departure) -> Result<Plant, PlantError> {
+fn plant(machine: &MachineFile, load: [(f64, f64); 4], by: &Departure) -> Result<Body, PlantError> {
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
     let (rope, efficiency) = machine.ropes_and_efficiencies();
     let (weight, last) = (machine.chain.gravity_torque() * by.load, masses.len() - 1);
     let loaded = |node: usize, inertia: f64| if node == last { inertia * by.load_inertia * by.load } else { inertia };
     let viscous = machine.viscous();
     let mut known = Chain::motor(masses[0] * by.motor_inertia).viscous(viscous[0]);
+    let mut train = Train::new().coordinate(Coordinate::new(masses[0] * by.motor_inertia).viscous(viscous[0]));
     let mut twists = Vec::new();
     for (s, (shaft, inertia)) in shafts.iter().zip(&masses[1..]).enumerate() {
         let (stiffness, gap) = (shaft.stiffness * by.stiffness, shaft.gap * by.gap);
         let of = if rope[s] { Shaft::rope(stiffness) } else { Shaft::elastic(stiffness) };
         let flank = if weight > 0.0 && !rope[s] { 0.5 * gap } else { 0.0 };
         twists.push(flank + weight / stiffness);
+        let inertia = loaded(s + 1, *inertia);
+        let mut link = Link::shaft(s, s + 1, stiffness).damping(shaft.damping).gap(gap).elongated(twists[s]);
         if efficiency[s] != [1.0; 2] {
             let [ahead, back] =
                 efficiency[s].map(|efficiency| (efficiency + by.efficiency).clamp(LEAST_EFFICIENCY, 1.0));
             known = known.efficiency(ahead).back_efficiency(back);
+            link = link.efficiency(ahead).back_efficiency(back);
         }
-        known = known.shaft(of.damping(shaft.damping).gap(gap), loaded(s + 1, *inertia)).viscous(viscous[s + 1]);
+        known = known.shaft(of.damping(shaft.damping).gap(gap), inertia).viscous(viscous[s + 1]);
+        train = train.coordinate(Coordinate::new(inertia).viscous(viscous[s + 1]));
+        train = train.link(if rope[s] { link.rope() } else { link });
     }
-    let start = Start::Given { twists, speeds: vec![0.0; masses.len()] };
-    known.load(weight).program(load).start(start).build()
+    if machine.dampers.is_empty() {
+        let start = Start::Given { twists, speeds: vec![0.0; masses.len()] };
+        return Ok(known.load(weight).program(LoadProgram::table(&load)).start(start).build()?.into());
+    }
+    let against = load.map(|(time, torque)| (time, -torque));
+    train = train.source(last, Source::Constant(-weight)).source(last, Source::Program(LoadProgram::table(&against)));
+    Ok(Body::train(machine.put_dampers(train, masses.len()).build()?, &[]))
 }
 
 fn governor(design: &SpeedLoopDesign, torque_limit: f64, ramp: f64) -> Result<SpeedLoopConfig<f32>, String> {

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use driveline::design::SpeedLoopTuning;
 use driveline::machine::{Damper, Member};
 
-use crate::machine_file::{Branch, DamperKind, Element, MachineFile, Part};
+use crate::machine_file::{Branch, DamperKind, DamperRing, Element, MachineFile, Part};
 
 /// The constants: the chain, its reduction, the observer's design and, for two masses, the speed loop's.
 pub fn rust(machine: &MachineFile) -> String {
@@ -34,20 +34,7 @@ pub fn rust(machine: &MachineFile) -> String {
         let branch = written(elements, "        ");
         chain.push_str(&format!("\n.branch(\n    {node},\n    Ratio({ratio:?}),\n    {branch},\n)"));
     }
-    for (ring, Damper { inertia, stiffness, damping }) in rings {
-        let mass = ring.mass;
-        chain.push_str(&match ring.kind {
-            // it sticks to its mass while the vibration is small
-            DamperKind::Friction { .. } => {
-                format!("\n.branch({mass}, Ratio(1.0), Chain::motor(Inertia({inertia:?})))")
-            }
-            _ => {
-                words.insert("Damper");
-                let sizes = format!("inertia: {inertia:?}, stiffness: {stiffness:?}, damping: {damping:?}");
-                format!("\n.damper({mass}, Ratio(1.0), Damper {{ {sizes} }})")
-            }
-        });
-    }
+    chain.push_str(&dampers(&rings, &mut words));
     let kind = if is_train { "Train" } else { "Chain" };
     let (torque, step, within) =
         (machine.disturbance.torque_accuracy, machine.disturbance.load_torque_step, machine.disturbance.within);
@@ -106,6 +93,22 @@ pub const {name}_SPEED: f64 = {:?};
         machine.limits.torque, machine.limits.speed
     );
     text
+}
+
+/// The calls that put rings on a train, each on a line of its own, and their words.
+pub(super) fn dampers(rings: &[(&DamperRing, Damper)], words: &mut BTreeSet<&'static str>) -> String {
+    let call = |(ring, Damper { inertia, stiffness, damping }): &(&DamperRing, Damper)| match ring.kind {
+        // it sticks to its mass while the vibration is small
+        DamperKind::Friction { .. } => {
+            format!("\n.branch({}, Ratio(1.0), Chain::motor(Inertia({inertia:?})))", ring.mass)
+        }
+        _ => {
+            words.insert("Damper");
+            let sizes = format!("inertia: {inertia:?}, stiffness: {stiffness:?}, damping: {damping:?}");
+            format!("\n.damper({}, Ratio(1.0), Damper {{ {sizes} }})", ring.mass)
+        }
+    };
+    rings.iter().map(call).collect()
 }
 
 /// The library's words that the elements are written with.

@@ -141,7 +141,8 @@ impl Replay {
         let sheet = Destination::page_unless(self.json, self.html.as_deref(), &format!("{name}-replay"));
         let destination = self.csv.as_deref().map(|path| Destination::chosen("table", path));
         check(&[&self.file, path], destination.iter().chain(&sheet))?;
-        let machine = read(path)?;
+        let machine =
+            read(path)?.with_dampers().map_err(|error| Failure::usage(format!("{}: {error}", path.display())))?;
         let recording = read_recording(&self.file, &asked)?;
         if recording.len() < 100 || !recording.period.is_finite() {
             let found = format!("{} samples over time", recording.len());

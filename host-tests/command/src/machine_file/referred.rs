@@ -2,8 +2,8 @@
 
 use super::station::{Station, stations};
 use super::{DamperRing, Element, MachineFile, Part};
-use driveline::machine::Resonance;
-use driveline_solver::plant::train::{Coordinate, Friction, Link, Source};
+use driveline::machine::{Damper, Resonance};
+use driveline_solver::plant::train::{Coordinate, Friction, Link, Source, Train};
 use driveline_solver::plant::{Chain, Plant, PlantError, Shaft, Start};
 
 /// Masses and shafts with their names.
@@ -117,11 +117,8 @@ pub(super) struct DamperParts {
 impl MachineFile {
     /// The dampers as parts of a run in which `before` coordinates come before them.
     pub(super) fn damper_parts(&self, before: usize) -> Vec<DamperParts> {
-        let modes = self.modes();
-        let parts = |(index, damper): (usize, &DamperRing)| {
-            let main = damper.kind.mode().map(|mode| Resonance::of(&modes.resonances()[mode], damper.mass));
-            let (sized, ring) = (damper.sized(main.as_ref()), before + index);
-            let friction = main.as_ref().and_then(|main| damper.friction(main));
+        let parts = |(index, (damper, sized, friction)): (usize, (&DamperRing, Damper, Option<f64>))| {
+            let ring = before + index;
             let link = Link::shaft(damper.mass, ring, sized.stiffness).damping(sized.damping);
             let same = self.dampers[..index].iter().filter(|other| other.at == damper.at).count();
             let number = if same == 0 { String::new() } else { format!(" {}", same + 1) };
@@ -129,10 +126,32 @@ impl MachineFile {
                 name: format!("damper{number} of {}", damper.at),
                 ring: Coordinate::new(sized.inertia),
                 link: friction.is_none().then_some(link),
-                friction: friction.map(|friction| Friction::between(damper.mass, ring, friction.torque)),
+                friction: friction.map(|torque| Friction::between(damper.mass, ring, torque)),
             }
         };
-        self.dampers.iter().enumerate().map(parts).collect()
+        self.sized_dampers().into_iter().enumerate().map(parts).collect()
+    }
+
+    /// The dampers in the order of the file, with their sizes at the motor, and the friction torque (N m) of those on
+    /// dry friction.
+    pub(crate) fn sized_dampers<'a>(&'a self) -> Vec<(&'a DamperRing, Damper, Option<f64>)> {
+        let modes = self.modes();
+        let sized = |damper: &'a DamperRing| {
+            let main = damper.kind.mode().map(|mode| Resonance::of(&modes.resonances()[mode], damper.mass));
+            let friction = main.as_ref().and_then(|main| damper.friction(main));
+            (damper, damper.sized(main.as_ref()), friction.map(|friction| friction.torque))
+        };
+        self.dampers.iter().map(sized).collect()
+    }
+
+    /// A train of `before` coordinates, the machine's masses first, with the dampers on them: a coordinate each, and a
+    /// link or a friction.
+    pub fn put_dampers(&self, train: Train, before: usize) -> Train {
+        self.damper_parts(before).into_iter().fold(train, |train, part| {
+            let train = train.coordinate(part.ring);
+            let train = part.link.into_iter().fold(train, Train::link);
+            part.friction.into_iter().fold(train, Train::friction)
+        })
     }
 }
 

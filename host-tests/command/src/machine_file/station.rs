@@ -134,6 +134,14 @@ impl MachineFile {
         train.error().map_or_else(|| Ok(Self { train: Some(train), dampers: Vec::new(), ..self.clone() }), Err)
     }
 
+    /// The machine that a controller is designed for: [`damped`](Self::damped) where it has dampers, else itself.
+    ///
+    /// # Errors
+    /// As [`damped`](Self::damped).
+    pub fn with_dampers(&self) -> Result<Self, Error> {
+        if self.dampers.is_empty() { Ok(self.clone()) } else { self.damped() }
+    }
+
     /// One mass for the machine.
     ///
     /// # Errors

@@ -1,6 +1,8 @@
 //! Dampers in a machine file: their sizes, and the machine's response with and without them.
 
+use cargo_driveline::campaign::scenes::CampaignScene;
 use cargo_driveline::cli::Plan;
+use cargo_driveline::drivetrains::departure::Departure;
 use cargo_driveline::machine_file::parse;
 use driveline_report::format::{percent, significant};
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -160,6 +162,85 @@ fn printed_constants_have_the_dampers() {
     let tuned = text.find(".damper(1, Ratio(1.0), Damper { inertia: 0.1, stiffness: 3500.0, damping: 10.0 })").unwrap();
     let viscous = text.find(".damper(1, Ratio(1.0), Damper { inertia: 0.2, stiffness: 0.0, damping: 5.0 });").unwrap();
     assert!(tuned < viscous && text.contains(": Train = Train::of("), "{text}");
+}
+
+/// Two rings on the load: what `new` writes, with the sizes of `design --emit rust`.
+#[test]
+fn a_project_has_the_dampers() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, project) = (folder.path().join("damped.toml"), folder.path().join("press"));
+    let two = "kind = \"viscous\"\ndamping = 20\n[[damper]]\nat = \"load\"\ninertia = 0.4\nkind = \"tuned\"\n\
+               stiffness = 14000\ndamping = 40\n";
+    std::fs::write(&path, machine(two)).unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let output = command.arg("new").arg(&project).arg("--machine").arg(&path).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = std::fs::read_to_string(project.join("src/machine.rs")).unwrap();
+    let places = [
+        "const DAMPED: Train = Train::of(<Press as Machine>::CHAIN)",
+        ".damper(1, Ratio(1.0), Damper { inertia: 0.1, stiffness: 3500.0, damping: 10.0 })",
+        ".damper(1, Ratio(1.0), Damper { inertia: 0.2, stiffness: 0.0, damping: 5.0 });",
+        "const TWO_MASS: TwoMass = DAMPED.reduce(Match::ResonanceAntiresonance);",
+    ]
+    .map(|words| text.find(words).unwrap_or_else(|| panic!("no {words}: {text}")));
+    assert!(places.is_sorted(), "{text}");
+}
+
+/// The observer of a replay is designed with the dampers: its innovation is that of `design` at the same rate.
+#[test]
+fn a_replay_has_the_dampers() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, recording) = (folder.path().join("damped.toml"), folder.path().join("run.csv"));
+    let text = machine("kind = \"tuned\"\nstiffness = 14000\ndamping = 40\n");
+    std::fs::write(&path, &text).unwrap();
+    let row = |tick: i32| {
+        let time = f64::from(tick) * 1e-4;
+        format!("{time},10,{}\n", time * time)
+    };
+    let rows: String = (0..2000).map(row).collect();
+    std::fs::write(&recording, format!("time_s,torque_Nm,angle_rad\n{rows}")).unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let output = command.arg("replay").arg(&recording).arg("--machine").arg(&path).arg("--json").output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found = number(&serde_json::from_slice::<Value>(&output.stdout).unwrap()["predicted_innovation"]);
+    let file = parse("damped", &text).unwrap();
+    let [with, without] = [Plan::with_dampers(&file), Plan::of(&file)].map(|plan| plan.unwrap().innovation);
+    // the period of a recording is a mean of decimal times
+    assert!((found / with - 1.0).abs() < 1e-9, "{found} {with}");
+    assert!((without / with - 1.0).abs() > 1e-6, "{without} {with}");
+}
+
+/// A campaign's drive has the two masses of `design`, and its plants, drawn ones too, the ring: three masses under a
+/// torque by Runge-Kutta of order four.
+#[test]
+fn a_campaign_has_the_dampers() {
+    let file = parse("damped", &machine("kind = \"tuned\"\nstiffness = 14000\ndamping = 40\n")).unwrap();
+    let shaft = Plan::with_dampers(&file).unwrap().shaft.unwrap();
+    let scene = CampaignScene::of_file(file).unwrap();
+    assert_eq!(scene.resonance, shaft.resonance);
+    let drawn = Departure { stiffness: 1.2, motor_inertia: 0.9, load_inertia: 1.1, ..Departure::NONE };
+    for by in [Departure::NONE, drawn] {
+        let inertias = [MOTOR * by.motor_inertia, LOAD / 4.0 * by.load_inertia, RING / 4.0];
+        let rate = |[a, b, c, v, w, u]: [f64; 6]| {
+            let (shaft, ring) = (STIFFNESS * by.stiffness * (a - b), 3500.0 * (b - c) + 10.0 * (w - u));
+            [v, w, u, (50.0 - shaft) / inertias[0], (shaft - ring) / inertias[1], ring / inertias[2]]
+        };
+        let after = |y: [f64; 6], k: [f64; 6], h: f64| std::array::from_fn(|i| y[i] + h * k[i]);
+        let (mut y, h) = ([0.0; 6], 1e-6);
+        for _ in 0..50_000 {
+            let k1 = rate(y);
+            let k2 = rate(after(y, k1, 0.5 * h));
+            let k3 = rate(after(y, k2, 0.5 * h));
+            let k4 = rate(after(y, k3, h));
+            y = std::array::from_fn(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+        }
+        let mut plant = scene.departing(&by).unwrap().scenarios[0].plant.clone();
+        (0..500).for_each(|_| plant.advance(50.0, 1e-4));
+        for (node, expected) in y[3..].iter().enumerate() {
+            // 50,000 roundings
+            assert!((plant.speed(node) / expected - 1.0).abs() < 1e-10, "{node}: {} {expected}", plant.speed(node));
+        }
+    }
 }
 
 #[test]

@@ -17,8 +17,16 @@ fn cosim(drive: &Path, machine: &Path, arguments: &[&str]) -> Output {
     command.arg("cosim").args([drive, machine]).args(arguments).output().unwrap()
 }
 
+/// The table of a run.
+pub fn run(drive: &Path, machine: &Path, arguments: &[&str]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("run.csv");
+    ended_well(&cosim(drive, machine, &[arguments, &["--json", "--csv", file.to_str().unwrap()]].concat()));
+    fs::read_to_string(file).unwrap()
+}
+
 /// A column of a table with a header.
-fn column(table: &str, name: &str) -> Vec<f64> {
+pub fn column(table: &str, name: &str) -> Vec<f64> {
     let (header, rows) = table.split_once('\n').unwrap();
     let at = header.split(',').position(|other| other == name).unwrap_or_else(|| panic!("no {name}: {header}"));
     rows.lines().map(|row| row.split(',').nth(at).unwrap().parse().unwrap()).collect()
@@ -27,12 +35,9 @@ fn column(table: &str, name: &str) -> Vec<f64> {
 /// The drive is compiled from the machine file by the command; the machine is at the beginning of a tick where the
 /// host's has it at the end of the one before.
 pub fn has_the_bits_of_the_host(plant: &Path, expected: &[[f64; 13]]) {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("run.csv");
     let arguments = ["--set", "0:load_torque=747", "--set", "2:load_torque=1000", "--setpoint", "100"];
-    let rest = ["--setpoint", "2.5:60", "--time", "3", "--json", "--csv", file.to_str().unwrap()];
-    ended_well(&cosim(Path::new(MACHINE), plant, &[&arguments[..], &rest].concat()));
-    let table = fs::read_to_string(file).unwrap();
+    let rest = ["--setpoint", "2.5:60", "--time", "3"];
+    let table = run(Path::new(MACHINE), plant, &[&arguments[..], &rest].concat());
     let names = [
         "drive.torque_setpoint",
         "drive.motor_speed",

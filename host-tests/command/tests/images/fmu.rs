@@ -11,6 +11,7 @@ use driveline::drive::{ConfigOf, Drive};
 use driveline::governor::SpeedLoop;
 use driveline::observer::{GearedObserver, SemiImplicitObserver};
 use driveline::sample::Sample;
+use driveline_solver::plant::train::{Coordinate, Link, Source, Train};
 use driveline_solver::plant::{Chain, Plant, Shaft, Start};
 use tempfile::TempDir;
 use zip::ZipArchive;
@@ -234,6 +235,47 @@ fn the_fmus_in_closed_loop_give_the_bits_of_the_host() {
     assert!((settled[8] - 100.0).abs() < 2.0 && settled[5] == 0.0, "{settled:?}");
 }
 
+/// The hoist with a ring on its motor, in closed loop: the plant is the train with the ring as a coordinate more.
+#[test]
+fn a_plants_damper_is_a_further_mass() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("hoist.toml");
+    let ring = "[[damper]]\nat = \"motor\"\nkind = \"tuned\"\ninertia = 0.05\nstiffness = 2000.0\ndamping = 1.5\n";
+    fs::write(&file, format!("{}\n{ring}", fs::read_to_string(MACHINE).unwrap())).unwrap();
+    let plant = Fmu::new(file.to_str().unwrap(), "plant");
+    is_described_as_the_standard_wants(&plant);
+    let chain = Hoist::CHAIN;
+    let of = |name: &str, at: usize| plant.start(&format!("{name}[{at}]"));
+    assert_eq!([of("inertia", 4), of("stiffness", 3), of("damping", 3), of("gap", 3)], [0.05, 2000.0, 1.5, 0.0]);
+    let weight = chain.gravity_torque();
+    let table = super::cosim::run(&file, &plant.file(), &["--setpoint", "100", "--time", "0.5"]);
+    let [torque, angle, speed] = ["drive.torque_setpoint", "machine.motor_angle", "machine.load_speed"]
+        .map(|name| super::cosim::column(&table, name));
+    let [shaft, rope] = [0, 1].map(|at| chain.shafts()[at]);
+    let train = chain.masses().iter().chain(&[0.05]).fold(Train::new(), |train, inertia| {
+        let bare = Coordinate::new(*inertia);
+        train.coordinate(bare)
+    });
+    let train = train
+        .link(Link::shaft(0, 1, shaft.stiffness).damping(shaft.damping))
+        .link(Link::shaft(1, 2, rope.stiffness).damping(rope.damping).efficiency(chain.efficiency()).rope())
+        .link(Link::shaft(0, 3, 2000.0).damping(1.5))
+        .source(2, Source::Constant(-weight));
+    let mut host = train.pretensioned(0).unwrap().build().unwrap();
+    let mut swing = 0.0_f64;
+    for (tick, torque) in torque.iter().enumerate() {
+        for (found, expected) in [(angle[tick], host.angle(0)), (speed[tick], host.speed(2))] {
+            // the same series, summed by another program
+            assert!((found - expected).abs() < 1e-11, "tick {tick}: {found} {expected}");
+        }
+        host.set_torque(0, *torque);
+        host.advance(1e-4);
+        swing = swing.max((host.angle(3) - host.angle(0)).abs());
+    }
+    // the ring swings: its inertia times the ramp over its stiffness, at least
+    assert!(angle.len() == 5000 && angle[4999] > 1.0 && swing > 1e-4, "{} {swing}", angle[4999]);
+}
+
 #[test]
 fn options_of_the_other_form_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -269,6 +311,10 @@ fn a_machine_that_no_plant_is_true_of_is_refused() {
             .map(|at| hoist.split_once(at).unwrap());
     assert!(start.starts_with(head) && head.starts_with(motor));
     for (machine, word) in [
+        (
+            format!("{hoist}\n[[damper]]\nat = \"motor\"\nkind = \"friction\"\ninertia = 0.05\nexcitation = 5.0\n"),
+            "a damper of the kind `friction`",
+        ),
         (format!("{hoist}\n[[friction]]\non = \"motor\"\ntorque = 3.0\n"), "it has `friction`"),
         (format!("{hoist}\n[[torque]]\non = \"motor\"\nkind = \"constant\"\ntorque = 3.0\n"), "it has `torque`"),
         (format!("{head}{worm}\n[encoder]{limits}"), "the losses of `drive`"),

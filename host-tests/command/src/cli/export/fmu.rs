@@ -13,7 +13,7 @@ use super::build::build;
 use super::interface::{Fault, faults};
 use crate::cli::Failure;
 use crate::cli::project::{Project, Source, fill};
-use crate::machine_file::MachineFile;
+use crate::machine_file::{DamperKind, MachineFile};
 
 /// Simulated part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
@@ -36,7 +36,7 @@ impl Of {
 }
 
 /// Tables of a machine file that change its motion and that the plant does not have.
-const NOT_OF_THE_PLANT: [&str; 5] = ["engine", "damper", "link", "torque", "friction"];
+const NOT_OF_THE_PLANT: [&str; 4] = ["engine", "link", "torque", "friction"];
 
 /// Whether a plant has all that moves the machine of a file with this text.
 ///
@@ -54,6 +54,9 @@ pub fn is_a_plant(machine: &MachineFile, source: &str) -> Result<(), Failure> {
     let tables = DeTable::parse(source).map(|table| table.into_inner()).unwrap_or_default();
     if let Some(table) = NOT_OF_THE_PLANT.iter().find(|table| tables.contains_key(**table)) {
         return refused(format!("it has `{table}`, which the plant does not have"));
+    }
+    if machine.dampers.iter().any(|ring| matches!(ring.kind, DamperKind::Friction { .. })) {
+        return refused("it has a damper of the kind `friction`, and the plant's masses have shafts only".to_owned());
     }
     if machine.viscous().iter().any(|viscous| *viscous > 0.0) {
         return refused("it has `viscous`, which the plant does not have".to_owned());

@@ -3,13 +3,14 @@
 use std::f64::consts::TAU;
 
 use driveline::design::{Actuator, Spread, Tolerance};
+use driveline::machine::Damper;
 use serde::Serialize;
 
 use super::{Part, PartOptions, Source};
 use crate::cli::Failure;
 use crate::cli::controller::Plan;
-use crate::cli::emit::{encoder, has_tuning, tuning, words, written};
-use crate::machine_file::MachineFile;
+use crate::cli::emit::{dampers, encoder, has_tuning, tuning, words, written};
+use crate::machine_file::{DamperRing, MachineFile};
 
 /// The number of a drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,6 +63,8 @@ pub struct Project {
     /// Fields of the tolerance that are not the usual ones, in the words of Rust.
     tolerance: Vec<String>,
     designs: String,
+    /// Calls that put the dampers on a train; empty where there are none.
+    dampers: String,
     number: &'static str,
     observer: String,
     observers: String,
@@ -71,7 +74,10 @@ pub struct Project {
     vibration_base: String,
     counts: u32,
     weight: String,
+    /// The masses of the chain, then the rings of dampers.
     nodes: Vec<Node>,
+    /// Index of the chain's last mass.
+    load: usize,
     plant: TwoMasses,
     dependency_note: &'static str,
     driveline: String,
@@ -85,6 +91,8 @@ pub struct Project {
 /// A mass of the machine, and the shaft before it, at the motor.
 #[derive(Clone, Debug, Serialize)]
 struct Node {
+    /// Index of the mass before it.
+    from: usize,
     inertia: String,
     /// Viscous damping against the ground; empty for none.
     viscous: String,
@@ -98,6 +106,8 @@ struct Node {
     /// Empty for none.
     gap: String,
     twist: String,
+    /// Of a ring that dry friction holds instead of a shaft (N m); empty for a shaft.
+    friction: String,
 }
 
 /// The two masses that an example simulates, and its steps.
@@ -123,12 +133,17 @@ impl Project {
         if !machine.branches.is_empty() {
             return Err(refused("it has branches; leave them out, or write its constants by hand"));
         }
-        let Some(two) = machine.two_masses() else {
+        let damped = machine.with_dampers().map_err(|error| refused(error.message()))?;
+        let Some(two) = damped.two_masses() else {
             return Err(refused("it has no shaft, and a drive needs one between motor and load"));
         };
-        let plan = Plan::of(machine);
+        let plan = Plan::of(&damped);
         let observers = plan.as_ref().map_or_else(|_| Vec::new(), |plan| observers(machine, plan));
-        let words = words(machine);
+        let mut words = words(machine);
+        let dampers = dampers(&machine.rings(), &mut words).replace('\n', "\n    ");
+        if !dampers.is_empty() {
+            words.extend(["Inertia", "Match", "Ratio", "Train", "TwoMass"]);
+        }
         let float = |value: f64| format!("{value:?}");
         let weight = machine.chain.gravity_torque();
         let seconds = 2.0 * machine.limits.speed / machine.limits.torque * machine.chain.total_inertia();
@@ -152,6 +167,7 @@ impl Project {
             tuning: has_tuning(machine).then(|| tuning(machine, "&Self::TWO_MASS")),
             actuator: (actuator != Actuator::DIRECT).then(|| [actuator.delay, actuator.lag].map(float)),
             designs: designs(machine, &tolerance).join(", "),
+            dampers,
             tolerance,
             number: match number {
                 Number::Single => "f32",
@@ -173,6 +189,7 @@ impl Project {
             counts: 4 * machine.encoder.lines,
             weight: float(weight),
             nodes: nodes(machine, weight),
+            load: machine.chain.masses().len() - 1,
             plant: TwoMasses {
                 motor_inertia: float(two.motor_inertia),
                 load_inertia: float(two.load_inertia),
@@ -232,6 +249,7 @@ fn designs(machine: &MachineFile, tolerance: &[String]) -> Vec<&'static str> {
         has("Actuator", machine.actuator() != Actuator::DIRECT),
         Some("Disturbance"),
         Some("Encoder"),
+        has("RigidDesign", !machine.dampers.is_empty()),
         has("SpeedLoopTuning", has_tuning(machine)),
         has("Spread", tolerance.iter().any(|field| field.contains("Spread"))),
         has("Tolerance", !tolerance.is_empty()),
@@ -268,6 +286,7 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
         let [ahead, back] = efficiencies.get(at).copied().unwrap_or([1.0; 2]);
         let is_rope = before.and_then(|before| ropes.get(before)).is_some_and(|&rope| rope);
         Node {
+            from: before.unwrap_or(0),
             inertia: format!("{inertia:?}"),
             viscous: unless(0.0, viscous[at]),
             efficiency: unless(1.0, ahead),
@@ -277,9 +296,23 @@ fn nodes(machine: &MachineFile, weight: f64) -> Vec<Node> {
             damping: format!("{damping:?}"),
             gap: unless(0.0, gap),
             twist: format!("{:?}", flank + weight / stiffness),
+            friction: String::new(),
         }
     };
-    masses.iter().enumerate().map(node).collect()
+    let ring = |(ring, sized, friction): (&DamperRing, Damper, Option<f64>)| Node {
+        from: ring.mass,
+        inertia: format!("{:?}", sized.inertia),
+        viscous: String::new(),
+        efficiency: String::new(),
+        back_efficiency: String::new(),
+        kind: "elastic",
+        stiffness: format!("{:?}", sized.stiffness),
+        damping: format!("{:?}", sized.damping),
+        gap: String::new(),
+        twist: "0.0".to_owned(),
+        friction: friction.map_or_else(String::new, |torque| format!("{torque:?}")),
+    };
+    masses.iter().enumerate().map(node).chain(machine.sized_dampers().into_iter().map(ring)).collect()
 }
 
 /// The crate of a package's name, as cargo has it.
