@@ -12,6 +12,8 @@ mod number;
 mod observer;
 mod settings;
 mod switch;
+mod wheel;
+mod window;
 
 use driveline::observer::RigidConfig;
 

@@ -1,0 +1,355 @@
+//! The waveform of motions whose slowness is given in closed form: `dt/dphi = r(theta)/sqrt(w^2 + 2 a phi)`, with the
+//! mean 1 of r over the cycle.
+
+use core::f64::consts::TAU;
+
+use driveline::fluctuation::{
+    CycleConfig, Extremes, Fluctuation, Ripple, Series, Unusable, Waveform, WaveformConfig, Window,
+};
+use driveline::sample::Estimate;
+use driveline::settings::{Bases, Cycle};
+
+const PERIOD: f64 = 1e-4;
+const BINS: usize = 64;
+
+#[derive(Clone, Copy)]
+struct Motion {
+    /// Ticks to a turn.
+    ticks: f64,
+    acceleration: f64,
+    forward: bool,
+    /// Order, cosine and sine of the slowness over its mean.
+    orders: [[f64; 3]; 3],
+    cycle: Cycle,
+    cycles: u32,
+}
+
+const STEADY: Motion = Motion {
+    ticks: 4_000.3,
+    acceleration: 0.0,
+    forward: true,
+    orders: [[1.0, 0.02, -0.01], [2.0, -0.015, 0.02], [5.0, 0.004, 0.003]],
+    cycle: Cycle::TURN,
+    cycles: 4,
+};
+
+impl Motion {
+    fn turns(&self) -> f64 {
+        f64::from(self.cycle.turns) / f64::from(self.cycle.cycles)
+    }
+
+    fn speed(&self) -> f64 {
+        TAU / self.ticks / PERIOD
+    }
+
+    /// The slowness over its mean, at an angle of the cycle.
+    fn slowness(&self, theta: f64) -> f64 {
+        1.0 + self.orders.iter().map(|[n, cos, sin]| cos * (n * theta).cos() + sin * (n * theta).sin()).sum::<f64>()
+    }
+
+    fn config(&self) -> WaveformConfig {
+        WaveformConfig::new::<BINS>(CycleConfig::new(self.cycle, PERIOD, Bases::SI), self.cycles)
+    }
+
+    /// Hands on angle (rad) and speed of each tick until that is enough.
+    fn run(&self, mut tick: impl FnMut(f64, f64) -> bool) {
+        let sign = if self.forward { 1.0 } else { -1.0 };
+        let mut phi = 0.3 * sign;
+        let rate = |phi: f64| {
+            let square = self.speed() * self.speed() + 2.0 * self.acceleration * phi * sign;
+            sign * square.sqrt() / self.slowness(phi / self.turns())
+        };
+        for _ in 0..400_000 {
+            // Runge and Kutta; a tick is a small part of a turn
+            let one = rate(phi);
+            let two = rate(phi + 0.5 * PERIOD * one);
+            let three = rate(phi + 0.5 * PERIOD * two);
+            let four = rate(phi + PERIOD * three);
+            phi += PERIOD / 6.0 * (one + 2.0 * two + 2.0 * three + four);
+            if tick(phi, rate(phi)) {
+                return;
+            }
+        }
+    }
+
+    /// The first window, if there is one.
+    fn window(&self, torque: impl Fn(f64) -> f64) -> Option<Window<f64, BINS>> {
+        let (config, mut waveform) = (self.config(), Waveform::<f64, BINS>::default());
+        let mut window = None;
+        self.run(|phi, motor_speed| {
+            let estimate = Estimate { motor_speed, ..Estimate::default() };
+            waveform.measure(&config, angle(phi), torque(phi / self.turns()), &estimate);
+            window = waveform.take();
+            window.is_some()
+        });
+        window
+    }
+
+    fn ripple(&self, highest: usize) -> Result<Ripple, Unusable> {
+        self.window(|_| 0.0).expect("a window").ripple(&self.config(), highest)
+    }
+
+    /// The speed over its mean by time.
+    fn expected(&self) -> Series {
+        let table: Vec<f64> = (0..64).map(|k| 1.0 / self.slowness(f64::from(k) / 64.0 * TAU)).collect();
+        Series::from_samples(&table)
+    }
+}
+
+fn angle(phi: f64) -> u32 {
+    ((phi / TAU).rem_euclid(1.0) * 4_294_967_296.0) as u32
+}
+
+/// The largest error of an order up to the fifth, over the mean.
+fn off(motion: &Motion, ripple: &Ripple) -> f64 {
+    let expected = motion.expected();
+    let orders = (1..=5).map(|n| {
+        let (found, expected) = (ripple.speed.order(n), expected.order(n));
+        let (cos, sin) = (found.cos / ripple.mean - expected.cos, found.sin / ripple.mean - expected.sin);
+        cos.hypot(sin)
+    });
+    orders.fold(0.0, f64::max)
+}
+
+/// Ticks to a turn, and what may be left of an order over the mean: the parabola of a bin, of the fifth order with 13
+/// bins to a period, leaves 1e-5; the ends of a window of few cycles lie between two ticks.
+const ACCURACY: [(f64, f64); 3] = [(4_000.3, 3e-5), (400.7, 1e-4), (130.7, 2e-4)];
+
+/// Both directions, cycles of one turn, of two and of three fifths.
+#[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
+fn orders_mean_and_extremes_of_a_steady_motion() {
+    for (ticks, accuracy) in ACCURACY {
+        for cycles in [1, 2, 16] {
+            for (cycle, forward) in [
+                (Cycle::TURN, true),
+                (Cycle::TURN, false),
+                (Cycle::FOUR_STROKE, true),
+                (Cycle { turns: 3, cycles: 5 }, false),
+            ] {
+                let motion = Motion { ticks, cycles, cycle, forward, ..STEADY };
+                let ripple = motion.ripple(8).unwrap();
+                let sign = if forward { 1.0 } else { -1.0 };
+                assert!(off(&motion, &ripple) < accuracy, "{ticks} {cycles} {cycle:?} {ripple:?}");
+                assert!((sign * ripple.mean / motion.speed() - 1.0).abs() < 0.3 * accuracy, "{ticks} {ripple:?}");
+                // the part of an order by which a cycle may seem shorter than the other, over its duration
+                let firm = motion.speed() * motion.speed() / (TAU * motion.turns());
+                assert!(ripple.acceleration.abs() < accuracy * firm && ripple.quality.trend.abs() < accuracy);
+                assert_eq!((ripple.cycles, ripple.quality.missed, ripple.quality.spread), (cycles, 0, 0.0));
+                let (mut fast, mut slow) = ((0.0, 0.0), (f64::INFINITY, 0.0));
+                for k in 0..20_000 {
+                    let theta = f64::from(k) / 20_000.0 * TAU;
+                    let speed = 1.0 / motion.slowness(theta);
+                    fast = if speed > fast.0 { (speed, theta) } else { fast };
+                    slow = if speed < slow.0 { (speed, theta) } else { slow };
+                }
+                // backwards the speeds are negative, and the least magnitude is the largest of them
+                let [max, min] = if forward { [fast, slow] } else { [slow, fast] };
+                for (found, (speed, theta)) in [(ripple.motor.max, max), (ripple.motor.min, min)] {
+                    assert!((found.speed / ripple.mean - speed).abs() < 4.0 * accuracy, "{found:?} {speed}");
+                    // the curvature there is 0.1 of the mean: the root of the speed's error over half of it
+                    let beside = (found.angle / motion.turns() - theta).abs();
+                    assert!(beside.min(TAU - beside) < (8.0 * accuracy / 0.05).sqrt(), "{found:?} {theta}");
+                }
+            }
+        }
+    }
+}
+
+/// The trend is taken off: the same orders, and the acceleration; a cycle's duration rises by `-a angle/w^2`.
+#[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
+fn a_steady_acceleration_is_taken_off() {
+    for (ticks, accuracy) in ACCURACY {
+        for cycles in [2, 4, 16] {
+            for (cycle, forward, share) in [
+                (Cycle::TURN, true, 0.002),
+                (Cycle::TURN, false, 0.002),
+                (Cycle::FOUR_STROKE, true, -0.004),
+                (Cycle::TURN, true, 0.02),
+            ] {
+                let mut motion = Motion { ticks, cycles, cycle, forward, ..STEADY };
+                let angle = TAU * motion.turns();
+                motion.acceleration = share * motion.speed() * motion.speed() / angle;
+                let ripple = motion.ripple(8).unwrap();
+                assert!(off(&motion, &ripple) < accuracy, "{ticks} {cycles} {share} {ripple:?}");
+                let sign = if forward { 1.0 } else { -1.0 };
+                // what an end may be off, over the change of a cycle's duration
+                let part = 0.01 * accuracy / 2e-5 / f64::from(cycles) + 1e-3;
+                assert!((sign * ripple.acceleration / motion.acceleration - 1.0).abs() < part, "{ticks} {ripple:?}");
+                let rise = -motion.acceleration * angle / ripple.mean / ripple.mean;
+                // the square of the window's change of speed beside its mean
+                let bent = (share * f64::from(cycles)).powi(2) + part;
+                assert!((ripple.quality.trend / rise - 1.0).abs() < bent, "{ticks} {cycles} {ripple:?} {rise}");
+            }
+        }
+    }
+}
+
+/// An order beyond the highest is the residue: its slowness c in the n-th order is a lateness of c/n.
+#[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
+fn the_residue_is_the_lateness_of_the_other_orders() {
+    for (cycle, turns) in [(Cycle::TURN, 1.0), (Cycle::FOUR_STROKE, 2.0)] {
+        let orders = [[1.0, 0.02, -0.01], [0.0, 0.0, 0.0], [5.0, 0.03, 0.04]];
+        let motion = Motion { cycle, cycles: 16, orders, ..STEADY };
+        let residue = 0.05 / 5.0 / 2.0_f64.sqrt() * turns;
+        let found = motion.ripple(4).unwrap().quality.residue;
+        // the ends of bins, between two ticks of 4,000 in 16 cycles
+        assert!((found / residue - 1.0).abs() < 0.01, "{found} {residue}");
+        assert!(motion.ripple(5).unwrap().quality.residue < 0.05 * residue);
+        // orders up to the highest alone
+        assert_eq!(motion.ripple(4).unwrap().speed.order(5), Default::default());
+        assert!(motion.ripple(99).unwrap().speed.order(16).amplitude() < 1e-4 * motion.speed());
+    }
+}
+
+/// 72 ticks to a turn in fewer than eight cycles or where a cycle is not a turn, and twelve to a segment of another
+/// cycle. A window's ends are noticed up to 24 ticks late, which many cycles hide.
+#[test]
+fn too_few_ticks() {
+    for (cycle, cycles, least) in
+        [(Cycle::TURN, 7, 72.0), (Cycle::FOUR_STROKE, 200, 72.0), (Cycle { turns: 3, cycles: 5 }, 200, 80.0)]
+    {
+        for (ticks, is_right) in [(least + 0.7, true), (least - 0.7, false)] {
+            let motion = Motion { ticks, cycle, cycles, orders: [[0.0; 3]; 3], ..STEADY };
+            // with too few the ends of cycles may be missed altogether
+            let found = motion.window(|_| 0.0).map(|window| window.ripple(&motion.config(), 4));
+            assert_eq!(found.is_some_and(|ripple| ripple.is_ok()), is_right, "{ticks} {cycle:?} {cycles}");
+        }
+    }
+}
+
+/// A cycle that takes a tenth longer than the one before, or shorter, is too much.
+#[test]
+fn too_much_of_a_trend() {
+    // two cycles from the end of the first on: in their middle the square of the speed is 1 + 4 shares
+    for (share, is_right) in [(0.15, true), (0.2, false), (-0.06, true), (-0.08, false)] {
+        let mut motion = Motion { cycles: 2, orders: [[0.0; 3]; 3], ..STEADY };
+        motion.acceleration = share * motion.speed() * motion.speed() / TAU;
+        let ripple = motion.ripple(4);
+        assert_eq!(ripple.is_ok(), is_right, "{share} {ripple:?}");
+        assert!(is_right || ripple == Err(Unusable::Trend));
+    }
+}
+
+/// The extremes of motor and load, each of its own slowness. The parabola through three samples four ticks apart, a
+/// thousandth of a turn, leaves the fourth power of that.
+#[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
+fn extremes_cycle_by_cycle() {
+    for (cycle, forward) in [
+        (Cycle::TURN, true),
+        (Cycle::TURN, false),
+        (Cycle::FOUR_STROKE, true),
+        (Cycle::FOUR_STROKE, false),
+        (Cycle { turns: 3, cycles: 5 }, true),
+        (Cycle { turns: 16, cycles: 1 }, false),
+    ] {
+        let motion = Motion { cycle, forward, ..STEADY };
+        let load = Motion { orders: [[1.0, -0.01, 0.02], [3.0, 0.006, 0.0], [2.0, 0.0, 0.01]], ..motion };
+        let sign = if forward { 1.0 } else { -1.0 };
+        let config = CycleConfig::new(cycle, PERIOD, Bases::SI);
+        let (mut extremes, mut turned, mut seen) = (Extremes::<f64>::default(), 0.0, 0);
+        let mut first = None;
+        motion.run(|phi, motor_speed| {
+            let load_speed = sign * load.speed() / load.slowness(phi / load.turns());
+            let estimate = Estimate { motor_speed, load_speed, ..Estimate::default() };
+            extremes.measure(&config, angle(phi), 0.0, &estimate);
+            turned = phi.abs() / motion.turns() / TAU;
+            if extremes.cycles() != seen {
+                seen = extremes.cycles();
+                let reading = extremes.reading(&config).unwrap();
+                first.get_or_insert(reading);
+                assert!((sign * reading.mean / motion.speed() - 1.0).abs() < 1e-6, "{cycle:?} {reading:?}");
+                let duration = motion.ticks * motion.turns() * PERIOD;
+                assert!((reading.duration / duration - 1.0).abs() < 1e-6, "{reading:?}");
+                for (found, of) in [(reading.motor, &motion), (reading.load, &load)] {
+                    let (mut fast, mut slow) = ((0.0, 0.0), (f64::INFINITY, 0.0));
+                    for k in 0..20_000 {
+                        let theta = f64::from(k) / 20_000.0 * TAU;
+                        let speed = of.speed() / of.slowness(theta);
+                        fast = if speed > fast.0 { (speed, theta) } else { fast };
+                        slow = if speed < slow.0 { (speed, theta) } else { slow };
+                    }
+                    let [max, min] = if forward { [fast, slow] } else { [slow, fast] };
+                    for (found, (speed, theta)) in [(found.max, max), (found.min, min)] {
+                        assert!((found.speed - sign * speed).abs() < 1e-6 * of.speed(), "{found:?} {speed}");
+                        let beside = (found.angle / motion.turns() - theta).abs();
+                        // the closed form is on a grid of 3e-4
+                        assert!(beside.min(TAU - beside) < 1e-3, "{cycle:?} {forward} {found:?} {theta}");
+                        assert!((0.0..config.angle).contains(&found.angle));
+                    }
+                    let swing = (max.0 - min.0).abs();
+                    assert!((found.delta - swing / of.speed()).abs() < 1e-6);
+                    assert!((found.delta_arithmetic - 2.0 * swing / (max.0 + min.0)).abs() < 1e-6);
+                }
+            }
+            turned > 6.0
+        });
+        // the first end of a cycle is found with the first segments, the last one is just passed
+        assert!((4..=5).contains(&seen), "{cycle:?} {seen}");
+        assert_eq!(first.unwrap().change, None);
+        assert!(extremes.reading(&config).unwrap().change.unwrap().abs() < 1e-5 * motion.speed());
+    }
+}
+
+/// The torque over the angle at a steady speed: of some 250 ticks in a bin one may be missing at an end, 1/250 of what
+/// the torque changes by in it, 0.5.
+#[test]
+fn the_motors_torque() {
+    let orders = [[0.0; 3]; 3];
+    for forward in [true, false] {
+        let motion = Motion { forward, orders, ..STEADY };
+        let torque = |theta: f64| 100.0 + 7.0 * theta.cos() - 3.0 * (5.0 * theta).sin();
+        let found = motion.window(torque).unwrap().motor_torque(&motion.config(), 8);
+        for k in 0..100 {
+            let theta = f64::from(k) / 100.0 * TAU;
+            assert!((found.at(theta) - torque(theta)).abs() < 0.01, "{theta} {} {}", found.at(theta), torque(theta));
+        }
+    }
+}
+
+/// The cycle's constants by hand: two turns in eight segments, three fifths of a turn in four, 2 of 2^-32 turn left of
+/// ten times 429,496,729.
+#[test]
+fn the_constants_of_a_cycle() {
+    let of = |turns, cycles| CycleConfig::try_new(Cycle { turns, cycles }, PERIOD, Bases::SI);
+    let two = of(2, 1).unwrap();
+    assert_eq!((two.length, two.last_segment, two.whole, two.part, two.divisor), (1 << 30, 7, 0, 0, 1));
+    assert_eq!((two.angle, two.period, two.speed, two.torque), (2.0 * TAU, PERIOD, 1.0, 1.0));
+    // 2^32 of 3/5 in four parts: 644,245,094.4 each
+    let three = of(3, 5).unwrap();
+    assert_eq!((three.length, three.last_segment, three.divisor), (644_245_094, 3, 5));
+    // 3 2^32 = 20 * 644,245,094 + 8: one whole and three fifths
+    assert_eq!((three.whole, three.part), (1, 3));
+    assert_eq!(three.angle, 0.6 * TAU);
+    for (turns, cycles, is_right) in [
+        (16, 1, true),
+        (17, 1, false),
+        (0, 1, false),
+        (1, 0, false),
+        (65_535, 65_535, true),
+        (65_536, 65_535, false),
+        (65_535, 65_536, false),
+        (1, 65_535, true),
+    ] {
+        assert_eq!(of(turns, cycles).is_ok(), is_right, "{turns} {cycles}");
+    }
+    for period in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(CycleConfig::try_new(Cycle::TURN, period, Bases::SI).is_err(), "{period}");
+    }
+    let waveform = WaveformConfig::try_new::<64>(two, 5).unwrap();
+    // eight bins to a segment of 2^30, in 2^-50
+    assert_eq!((waveform.cycles, waveform.per_segment, waveform.scale), (5, 8, 1 << 23));
+    for (cycles, is_right) in [(1, true), (65_535, true), (0, false), (65_536, false)] {
+        assert_eq!(WaveformConfig::try_new::<64>(two, cycles).is_ok(), is_right, "{cycles}");
+    }
+    assert!(WaveformConfig::try_new::<8>(two, 1).is_ok() && WaveformConfig::try_new::<4>(two, 1).is_err());
+    assert!(WaveformConfig::try_new::<1024>(two, 1).is_ok() && WaveformConfig::try_new::<2048>(two, 1).is_err());
+    assert!(WaveformConfig::try_new::<48>(two, 1).is_err());
+    let short = of(1, 16).unwrap();
+    assert!(WaveformConfig::try_new::<4>(short, 1).is_ok() && WaveformConfig::try_new::<2>(short, 1).is_err());
+    // 8192 bins to a turn: 512 of a sixteenth
+    assert!(WaveformConfig::try_new::<256>(short, 1).is_ok() && WaveformConfig::try_new::<512>(short, 1).is_err());
+}
