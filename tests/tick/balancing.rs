@@ -257,3 +257,86 @@ fn a_model_corrects_at_once() {
     let next = set(other.advise(&[re(6.0)], 0.0));
     assert!((next - re(5.0)).norm_sqr().sqrt() < 0.05, "{next}");
 }
+
+/// A head that stands still while the reading changes by itself: 0.7 of the change over the larger reading is 0.08 from
+/// 7/0.62 = 11.29 on, which is too much to begin.
+#[test]
+fn readings_that_change_by_themselves() {
+    for (reading, goes_on) in [(11.28, true), (11.30, false)] {
+        let mut run = begun(CONFIG, 0.5);
+        set(run.advise(&[re(10.0)], 0.0));
+        let action = run.advise(&[re(reading)], 0.0);
+        let expected = if goes_on { Action::Set([re(0.5)]) } else { abandoned() };
+        assert_eq!(action, expected, "{reading}");
+    }
+    // 10.5 after 10: 0.35/10.5 = 1/30. The variance of the reading is 0.01 and 0.001 of its walk, so 0.011/0.021 of the
+    // change is taken over: 10.2619. Of the next change counts 0.7 again, its square with 0.35 beside 0.65 of the first
+    // one's: 0.08 at 0.1274 of the reading, which is 12.544.
+    for (reading, goes_on) in [(12.53, true), (12.56, false)] {
+        let mut run = begun(CONFIG, 0.5);
+        set(run.advise(&[re(10.0)], 0.0));
+        set(run.advise(&[re(10.5)], 0.0));
+        let action = run.advise(&[re(reading)], 0.0);
+        let expected = if goes_on { Action::Set([re(0.5)]) } else { abandoned() };
+        assert_eq!(action, expected, "{reading}");
+    }
+}
+
+fn abandoned() -> Action<f64, 1> {
+    Action::Abort([re(0.5)], AbortReason::Unidentified)
+}
+
+/// Begun again, the head stands still for five further readings. Where the largest safe move, 0.395 of the vibration,
+/// is less than 2.5 errors of a reading, 1 % of the very first one's 10, it holds: below 0.633.
+#[test]
+fn begun_again() {
+    let (aborted, _, action) = after_probe(re(8.0));
+    assert!(matches!(action, Action::Abort(..)));
+    let mut run = aborted;
+    run.resume(&[re(0.3)]);
+    for _ in 0..5 {
+        assert_eq!(set(run.advise(&[re(10.0)], 0.0)), re(0.3));
+    }
+    let to = set(run.advise(&[re(10.0)], 0.0));
+    // the influence was not confirmed, and is not known any more
+    assert!((to - re(0.3 + 3.95 / 4.75)).norm_sqr() < 1e-20, "{to}");
+    for (reading, holds) in [(0.51, true), (0.62, true), (0.65, false)] {
+        let mut run = aborted;
+        run.resume(&[re(0.3)]);
+        set(run.advise(&[re(reading)], 0.0));
+        let expected = if holds { Action::Hold } else { Action::Set([re(0.3)]) };
+        assert_eq!(run.advise(&[re(reading)], 0.0), expected, "{reading}");
+    }
+    // a first run does not hold for that: its first reading is what it is judged by
+    let mut run = begun(CONFIG, 0.3);
+    set(run.advise(&[re(0.62)], 0.0));
+    assert_eq!(set(run.advise(&[re(0.62)], 0.0)), re(0.3));
+}
+
+/// No move goes farther from where it began than 2.5 times what was read, or 0.6 of it over the relative uncertainty of
+/// the influence; nor than a head's limit.
+#[test]
+fn moves_grow_with_what_was_read() {
+    for a in [re(1.5), Complex { re: -0.9, im: 1.2 }, Complex { re: 0.0, im: -1.8 }] {
+        let rest = Complex { re: 0.5, im: -0.3 };
+        let mut run = One::new(InRunConfig { limits: [9.0], ..CONFIG }, 1, [rest]).unwrap();
+        let (mut reach, mut moves) = (0.0_f64, 0);
+        loop {
+            let weight = run.weights()[0];
+            reach = reach.max((weight - rest).norm_sqr().sqrt());
+            match run.advise(&[re(10.0) + a * (weight - rest)], 0.0) {
+                Action::Set([to]) => {
+                    let (influence, deviation) = run.influence(0, 0);
+                    let growth = 2.5_f64.max(0.6 * influence.norm_sqr().sqrt() / deviation);
+                    let far = (to - rest).norm_sqr().sqrt();
+                    assert!(reach == 0.0 || far <= growth * reach * (1.0 + 1e-9), "{a}: {to}");
+                    assert!(to.norm_sqr().sqrt() <= 9.0 + 1e-9);
+                    moves += 1;
+                    assert!(moves < 16, "{a}: no end at {to}");
+                }
+                Action::Hold => break,
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}
