@@ -114,18 +114,22 @@ fn proof(simulation: &Simulation) -> Vec<String> {
 }
 
 fn tables(simulation: &Simulation) -> Vec<Section> {
+    // a file of coordinates does not say which of them are ways
+    let [torque, angle, speed] =
+        if simulation.turns { ["N m", "rad", "rad/s"] } else { ["N m or N", "rad or m", "rad/s or m/s"] };
+    let of = |what: &str, unit: &str| format!("{what} {unit}");
     let mut forces = Table::new([
-        "link",
-        "least N m",
-        "at s",
-        "greatest N m",
-        "at s",
-        "static N m",
-        "K",
-        "elastic K",
-        "least rad",
-        "greatest rad",
-        "contacts",
+        "link".to_owned(),
+        of("least", torque),
+        "at s".to_owned(),
+        of("greatest", torque),
+        "at s".to_owned(),
+        of("static", torque),
+        "K".to_owned(),
+        "elastic K".to_owned(),
+        of("least", angle),
+        of("greatest", angle),
+        "contacts".to_owned(),
     ]);
     for link in &simulation.links {
         let numbers = [link.least, link.least_time, link.greatest, link.greatest_time, link.static_force];
@@ -135,33 +139,50 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
         let rest = factors.into_iter().chain(elongations).chain([link.contacts.to_string()]);
         forces.row([link.name.clone()].into_iter().chain(numbers.map(significant)).chain(rest));
     }
-    let mut speeds = Table::new(["coordinate", "least rad/s", "greatest rad/s", "at the end rad/s"]);
+    let mut speeds =
+        Table::new(["coordinate".to_owned(), of("least", speed), of("greatest", speed), of("at the end", speed)]);
     for coordinate in &simulation.coordinates {
         let numbers = [coordinate.least, coordinate.greatest, coordinate.last];
         speeds.row([coordinate.name.clone()].into_iter().chain(numbers.map(significant)));
     }
-    let text = "Torques of links between angles and elongations in rad; along a line of action or a way, forces in N \
-                and elongations in m. The dynamic factor K is \
-                the greatest size over the static force: that of the file, or the mean of the second half of the run; \
+    let text = "Torques of links between angles in N m and elongations in rad; along a line of action or a way, forces \
+                in N and elongations in m. The dynamic factor K is the greatest size over the static force: that of the file, or the mean of the second half of the run; \
                 elastic, of the spring without its damper. \
                 Extremes are found between the lines of the run, not on them.";
-    let mut all = vec![Section::new("Forces", text, forces), Section::new("Speeds", "Of ways in m/s.", speeds)];
+    let mut all = vec![
+        Section::new("Forces", text, forces),
+        Section::new("Speeds", if simulation.turns { "" } else { "Of ways in m/s." }, speeds),
+    ];
     if let Some(cycle) = &simulation.cycle {
-        let mut steady = Table::new(["coordinate", "delta", "least rad/s", "greatest rad/s", "mean rad/s", "time s"]);
+        let mut steady = Table::new([
+            "coordinate".to_owned(),
+            "delta".to_owned(),
+            of("least", speed),
+            of("greatest", speed),
+            of("mean", speed),
+            "time s".to_owned(),
+        ]);
         let numbers = [cycle.delta, cycle.least, cycle.greatest, cycle.mean, cycle.time].map(significant);
         steady.row([cycle.name.clone()].into_iter().chain(numbers));
         let text = format!("Repeats after {} cycles from the end of the run.", cycle.cycles);
         all.push(Section::new("Steady cycle", text, steady));
     }
     if let Some(starting) = &simulation.starting {
-        let mut table = Table::new(["coordinate", "speed rad/s", "time s", "rigid s"]);
+        let mut table =
+            Table::new(["coordinate".to_owned(), of("speed", speed), "time s".to_owned(), "rigid s".to_owned()]);
         let time = |time: Option<f64>| time.map_or_else(|| "none".to_owned(), significant);
         table.row([starting.name.clone(), significant(starting.speed), time(starting.time), time(starting.rigid)]);
         let text = "Until the speed is first reached; rigid, in closed form of a machine without twist or gap.";
         all.push(Section::new("Starting time", text, table));
     }
     if let Some(bare) = &simulation.without_dampers {
-        let mut table = Table::new(["link", "without least N m", "greatest N m", "with least N m", "greatest N m"]);
+        let mut table = Table::new([
+            "link".to_owned(),
+            of("without least", torque),
+            of("greatest", torque),
+            of("with least", torque),
+            of("greatest", torque),
+        ]);
         for (bare, damped) in bare.links.iter().zip(&simulation.links) {
             let numbers = [bare.least, bare.greatest, damped.least, damped.greatest].map(significant);
             table.row([bare.name.clone()].into_iter().chain(numbers));

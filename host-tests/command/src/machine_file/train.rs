@@ -105,6 +105,8 @@ pub struct TrainFile {
     pub coordinates: Vec<String>,
     /// Names of the links.
     pub links: Vec<String>,
+    /// Whether all coordinates are angles, as those of elements are; others may be ways.
+    pub turns: bool,
     /// Static force of each link where the file gives one.
     pub static_force: Vec<Option<f64>>,
     /// What it is made of.
@@ -394,6 +396,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         name: title,
         coordinates: names,
         links,
+        turns: !labels.is_empty(),
         static_force,
         train,
         motion,

@@ -718,3 +718,16 @@ fn friction_on_a_moving_surface_is_refused_at_its_table() {
     // against the ground at rest it runs
     assert!(parse_train("press", &text.replace("surface = 2.0\n", "")).is_ok());
 }
+
+/// Elements turn; of its own coordinates a file does not say which are ways.
+#[test]
+fn the_tables_have_the_units_that_the_file_leaves_open() {
+    let headings = |file: &str| String::from_utf8(simulate(&[file, "--html", "units.html"]).stdout).unwrap();
+    let elements = headings(&machine("hoist-start"));
+    assert!(elements.contains("least N m ") && elements.contains("least rad/s ") && !elements.contains(" or N"));
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("step.toml");
+    std::fs::write(&file, STEP).unwrap();
+    let own = headings(file.to_str().unwrap());
+    assert!(own.contains("least N m or N ") && own.contains("least rad or m ") && own.contains("least rad/s or m/s "));
+}

@@ -26,6 +26,9 @@ const OVERFLOW: f64 = 1e30;
 pub struct Simulation {
     /// The machine's name.
     pub name: String,
+    /// Whether all coordinates are angles.
+    #[serde(skip)]
+    pub turns: bool,
     /// Length of the run (s).
     pub time: f64,
     /// Extremes of the speeds.
@@ -310,6 +313,7 @@ impl Simulation {
         };
         Ok(Self {
             name: file.name.clone(),
+            turns: file.turns,
             time: motion.time(),
             coordinates: (0..n).map(moved).collect(),
             links: (0..links).map(carried).collect(),
