@@ -368,8 +368,7 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
             return Err(root.wrong("split", "no [[split]] beside [amplitudes]: [[holes]] at the two angles"));
         }
         if let Some(key) = OF_PHASES.iter().find(|key| root.has(key)) {
-            let expected =
-                format!("no `{key}` beside [amplitudes]: it goes with [baseline], whose readings have phases");
+            let expected = "only beside [baseline], whose readings have phases, not beside [amplitudes]";
             return Err(root.wrong(key, expected));
         }
         let mut table = root.table("amplitudes")?;

@@ -383,17 +383,13 @@ fn amplitudes_alone_refuse_what_they_cannot_use() {
     refused_at(&sound.replacen("weight = 10.0", "weight = 0", 1), "0\nruns", &["`amplitudes.weight`", "is zero"]);
     refused_at(&sound.replacen("baseline = 5.0", "baseline = 0", 1), "0\nweight", &["`amplitudes.baseline`"]);
     // keys that readings with phases have
-    refused_at(
-        &format!("machine = \"hard-bearing\"\n{sound}"),
-        "\"hard",
-        &["`machine`", "no `machine` beside [amplitudes]"],
-    );
-    refused_at(&format!("sensors = [\"A\"]\n{sound}"), "[\"A", &["`sensors`", "goes with [baseline]"]);
+    refused_at(&format!("machine = \"hard-bearing\"\n{sound}"), "\"hard", &["`machine`", "only beside [baseline]"]);
+    refused_at(&format!("sensors = [\"A\"]\n{sound}"), "[\"A", &["`sensors`", "not beside [amplitudes]"]);
     refused_at(&grinder("", &[0.0]), "[[0, ", &["`amplitudes.runs`", "three runs"]);
     refused_at(&grinder("", &[30.0, 30.0, 30.0]), "[[30, ", &["`amplitudes.runs`", "different angles"]);
     refused_at(&grinder("", &[0.5, 2.1, 4.2]), "[[0.5, ", &["`amplitudes.runs`", "radians"]);
     let limited = sound.replacen("planes", "limits = [1]\nplanes", 1);
-    refused_at(&limited, "[1]", &["`limits`", "goes with [baseline]"]);
+    refused_at(&limited, "[1]", &["`limits`", "not beside [amplitudes]"]);
     let heavy = grinder("[[holes]]\nplane = \"wheel\"\ncount = 8\nweights = [0.1]\n", &[0.0, 120.0, 240.0]);
     refused_at(&heavy, "[0.1]", &["`holes[0].weights`", "more than its holes can take"]);
 }
