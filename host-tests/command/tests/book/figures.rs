@@ -1,5 +1,6 @@
 //! Instructions and bytes on the pages against `budgets.toml`, which `cargo driveline check --only budgets` measures.
 
+use driveline_firmware::scenes::VARIANTS;
 use driveline_qemu::measure::budgets::{Budget, Budgets};
 
 use super::pages::{Page, root};
@@ -120,6 +121,21 @@ fn the_gaps_are_those_between_counts_and_bounds() {
         let both = ["m4f", "m3"];
         assert_eq!(numbers(&row[2]), both.map(|core| counted(function, core)), "{row:?}");
         assert_eq!(numbers(&row[3]), both.map(|core| longest(function, core)), "{row:?}");
+    }
+}
+
+/// The table of a long run: its longest paths are of the commit that it was made on.
+#[test]
+fn no_worst_input_exceeds_its_longest_path() {
+    for row in rows("doc/worst-case.md", "Worst inputs") {
+        assert!(VARIANTS.contains(&row[0].as_str()), "{row:?}");
+        for cell in row[1..].iter().filter(|cell| !cell.is_empty() && !cell.starts_with("no bound")) {
+            let (counts, gap) = cell.split_once(": ").unwrap();
+            let [longest, drawn, sought] = numbers(counts)[..] else { panic!("{row:?}") };
+            assert!(drawn <= longest && sought <= longest, "{row:?}");
+            let expected = 100.0 * (1.0 - drawn.max(sought) as f64 / longest as f64);
+            assert_eq!(gap, format!("{expected:.1} %"), "{row:?}");
+        }
     }
 }
 
