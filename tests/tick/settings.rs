@@ -96,6 +96,48 @@ fn the_constants_of_two_masses() {
     );
 }
 
+/// Rounded to `f32`, a pair without damping neither grows nor loses more than it must: of the 81 neighbours of the
+/// nearest coefficients none has a square of its size, less one, between that of the one taken and the exact one. Two
+/// real poles are rounded to the nearest.
+#[test]
+fn a_free_pair_is_rounded_so_that_it_does_not_grow() {
+    let of = |stiffness: f64, damping: f64| {
+        let machine = TwoMass::new(Inertia(0.35), Inertia(0.48), Stiffness(stiffness), Damping(damping));
+        let step = ExactStep::new(&machine, PERIOD);
+        let design = PlacedObserver { period: PERIOD, machine, step, gains: [0.0; 5], poles: [(0.0, 0.0); 5] };
+        let config = TwoMassConfig::<f32>::try_of_placed(&design, BASES).unwrap();
+        let found = [config.twist[0], config.twist[1], config.twist_rate[0], config.twist_rate[1]];
+        (found, [step.n11, step.n12, step.n21, step.n22])
+    };
+    // determinant of 1 + N, less one
+    let growth = |[a, b, c, d]: [f64; 4]| a + d + (a * d - b * c);
+    for k in 0..60 {
+        for damping in [0.0, 0.01] {
+            let (found, exact) = of(1e3 * 1.2_f64.powi(k), damping);
+            let (taken, limit) = (growth(found.map(f64::from)), growth(exact));
+            assert!(taken <= limit, "{k}: {taken:e} {limit:e}");
+            let next = |value: f32, steps: i32| {
+                let unit = f32::from_bits(value.abs().to_bits() + 1) - value.abs();
+                f64::from(value) + f64::from(steps) * f64::from(unit)
+            };
+            for near in 0..81 {
+                let steps = [near % 3, near / 3 % 3, near / 9 % 3, near / 27].map(|step| step - 1);
+                let tried = core::array::from_fn(|i| next(exact[i] as f32, steps[i]));
+                let other = growth(tried);
+                assert!(other <= taken || other > limit, "{k}: {other:e} between {taken:e} and {limit:e}");
+            }
+            for (found, exact) in found.iter().zip(exact) {
+                let rounded = exact as f32;
+                assert!((-1..=1).any(|steps| f64::from(*found) == next(rounded, steps)), "{found} {exact}");
+            }
+        }
+    }
+    for damping in [200.0, 800.0, 3_000.0] {
+        let (found, exact) = of(1e3, damping);
+        assert_eq!(found, exact.map(|exact| exact as f32), "{damping}");
+    }
+}
+
 #[test]
 fn the_constants_of_a_semi_implicit_step() {
     let step = ExactStep::new(&machine(), PERIOD);
