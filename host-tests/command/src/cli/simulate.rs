@@ -145,10 +145,10 @@ fn tables(simulation: &Simulation) -> Vec<Section> {
         let numbers = [coordinate.least, coordinate.greatest, coordinate.last];
         speeds.row([coordinate.name.clone()].into_iter().chain(numbers.map(significant)));
     }
-    let text = "Torques of links between angles in N m and elongations in rad; along a line of action or a way, forces \
-                in N and elongations in m. The dynamic factor K is the greatest size over the static force: that of the file, or the mean of the second half of the run; \
-                elastic, of the spring without its damper. \
-                Extremes are found between the lines of the run, not on them.";
+    let text = "Torques of links between angles in N m and elongations in rad; along a line of action or a way, \
+                forces in N and elongations in m. The dynamic factor K is the greatest size over the static force: \
+                that of the file, or the mean of the second half of the run; elastic, of the spring without its \
+                damper. Extremes are found between the lines of the run, not on them.";
     let mut all = vec![
         Section::new("Forces", text, forces),
         Section::new("Speeds", if simulation.turns { "" } else { "Of ways in m/s." }, speeds),
