@@ -222,8 +222,8 @@ fn print(parts: &[Part]) {
         println!("| {part} | {listed} | {judged} | {refused} | {killed} | {survived} | {unreached} | {share:.1} % |");
     }
     if let Some(all) = parts.last() {
-        let shares = parts.iter().map(|part| format!("{} {:.1} %", part.part, part.share()));
-        let shares: Vec<_> = shares.collect();
+        let judged = parts.iter().filter(|part| part.compiled() > 0);
+        let shares: Vec<_> = judged.map(|part| format!("{} {:.1} %", part.part, part.share())).collect();
         println!("measured: {} mutants that compile; killed: {}", all.compiled(), shares.join(", "));
     }
 }
