@@ -10,7 +10,7 @@ use super::steps::{each, passed, together};
 use super::{Count, Failed, Step, Voice, cargo, pages};
 
 /// All long steps, the shortest first.
-pub const LONG: [Step; 7] = [
+pub const LONG: [Step; 8] = [
     Step {
         name: "power-cuts",
         content: "the flash's power cut at every byte of a save: the record is the old one or the new one",
@@ -52,6 +52,12 @@ pub const LONG: [Step; 7] = [
         content: "three million inputs of each image in QEMU, and a million sought: none above the longest path",
         repeat: "cargo driveline check --long --only inputs",
         run: inputs,
+    },
+    Step {
+        name: "mutants",
+        content: "each operator and result of the tick path changed: at least 95 % of each part noticed by a test",
+        repeat: "cargo driveline check --long --only mutants",
+        run: mutants,
     },
 ];
 
@@ -118,4 +124,9 @@ fn inputs(voice: &Voice) -> Result<Count, Failed> {
     let failed = faults.len() as u64;
     let count = Count { passed: gaps.len() as u64 - failed, failed };
     Err(Failed { count, message: faults.join("\n") })
+}
+
+/// It says how far it is, and what it has found at the end.
+fn mutants(voice: &Voice) -> Result<Count, Failed> {
+    cargo::passes(&["run", "--manifest-path=host-tests/mutants/Cargo.toml", "--", "--least", "95"], voice)
 }
