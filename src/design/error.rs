@@ -27,7 +27,8 @@ sentences! {
     Noise => "the measurement noise must have a positive definite covariance",
     Bandwidth => "the bandwidth of the speed loop must be above zero and below the antiresonance of the machine, or \
         above its resonance",
-    ObserverBandwidth => "the bandwidth of the observer must be above zero and below 0.618 of the sample rate (rad/s)",
+    ObserverBandwidth => "the bandwidth of the observer must be above zero and below 0.618 times the sample rate in Hz \
+        (rad/s), and not so far below the resonance that rounding moves its poles: two thousandths of it are enough",
     Shaper => "the input shaper needs a frequency above zero and finite (rad/s), and a damping ratio from 0 to below 1",
     DampingRatio => "the damping ratios of the speed loop must be above zero and finite",
     TwistGain => "the gain on the twist rate must be above zero and finite (of the proportional gain): 0.1 for much \

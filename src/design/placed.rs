@@ -1,7 +1,7 @@
-//! Observer of two masses by pole placement: for the points of a gain schedule, and by a bandwidth.
+//! Observer of two masses by pole placement: for the points of a gain schedule, or from a bandwidth.
 //!
-//! A schedule has dozens of points, and the Riccati equation of each would cost the compiler a third of a second. There
-//! the poles are those of the continuous Kalman filter, which are the left roots of a polynomial in `X = s^2`
+//! A schedule has dozens of points, and the Riccati equation of each would cost the compiler a third of a second. In a
+//! schedule the poles are those of the continuous Kalman filter, which are the left roots of a polynomial in `X = s^2`
 //! (symmetric root locus [Kwakernaak and Sivan 1972, Linear Optimal Control Systems, §5.5]),
 //!
 //! ```text
@@ -10,7 +10,8 @@
 //! ```
 //!
 //! with q_m and q_l the intensities of the motor's and the load's torque over that of the angle's noise. The gains put
-//! the poles of the exact sampled machine there (Ackermann's formula), so the observer is stable by construction.
+//! the poles of the exact sampled machine there (Ackermann's formula), so the observer is stable. Gains whose poles
+//! rounding has moved are refused.
 
 use super::observer::transition;
 use super::tuning::{Disturbance, Encoder, Rate, Variances};
@@ -71,7 +72,10 @@ impl TwoMass {
             poles[k] = sampled(poles[k], period);
             k += 1;
         }
-        self.observer_of_poles(period, unit, poles)
+        match self.observer_of_poles(period, unit, poles) {
+            Some(observer) => Ok(observer),
+            None => Err(Error::NotStabilising),
+        }
     }
 
     /// Gains by one number: five poles in Butterworth's pattern [Butterworth 1930, Experimental Wireless 7, 536] at a
@@ -80,12 +84,12 @@ impl TwoMass {
     /// For an observer that is tuned by hand, where neither the encoder's errors nor the disturbances are known. A
     /// larger bandwidth follows the load faster and lets more noise through. The pattern is that of the increment over
     /// a tick, `z = 1 + s T`, whose outer pair leaves the unit circle at 0.618 of the rate (twice the sine of 18
-    /// degrees): the bandwidth is between zero and that.
+    /// degrees): the bandwidth is between zero and that. Below two thousandths of the resonance rounding may move the
+    /// poles; gains are refused where it changes a coefficient of their polynomial by more than a thousandth.
     ///
     /// # Errors
     /// A value out of range; [`Error::ObserverBandwidth`]; [`Error::Unobservable`] without stiffness;
-    /// [`Error::SampleRate`] where the resonance lies above half the rate; [`Error::NotStabilising`] where the poles
-    /// cannot be placed in `f64`.
+    /// [`Error::SampleRate`] where the resonance lies above half the rate.
     ///
     /// ```
     /// use driveline::design::Rate;
@@ -128,15 +132,19 @@ impl TwoMass {
             poles[k] = (poles[k].0 * tick, poles[k].1 * tick);
             k += 1;
         }
-        self.observer_of_poles(period, bandwidth, poles)
+        match self.observer_of_poles(period, bandwidth, poles) {
+            Some(observer) => Ok(observer),
+            None => Err(Error::ObserverBandwidth),
+        }
     }
 
-    /// Gains at these poles, each less one, in a unit of frequency (rad/s) of their size.
-    const fn observer_of_poles(&self, period: f64, unit: f64, poles: [(f64, f64); 5]) -> Result<PlacedObserver, Error> {
+    /// Gains at these poles, each less one; `unit` is their scale (rad/s), for conditioning. None where rounding moves
+    /// the poles.
+    const fn observer_of_poles(&self, period: f64, unit: f64, poles: [(f64, f64); 5]) -> Option<PlacedObserver> {
         let step = ExactStep::new(self, period);
         match placed(self, &step, period, unit, &poles) {
-            Some(gains) => Ok(PlacedObserver { period, machine: *self, step, gains, poles }),
-            None => Err(Error::NotStabilising),
+            Some(gains) => Some(PlacedObserver { period, machine: *self, step, gains, poles }),
+            None => None,
         }
     }
 
@@ -183,6 +191,29 @@ const fn sampled(s: (f64, f64), period: f64) -> (f64, f64) {
     let (sine, _) = sin_cos(0.5 * s.1 * period);
     let versine = 2.0 * sine * sine;
     (decay - (1.0 + decay) * versine, (1.0 + decay) * sin_cos(s.1 * period).0)
+}
+
+/// How far a coefficient of the poles' polynomial may be out: the poles of a well-damped pattern move by as much.
+const ROUNDING: f64 = 1e-3;
+
+/// The characteristic polynomial of a matrix, from its highest coefficient on, by the method of Leverrier and Faddeev.
+const fn characteristic(matrix: &Matrix<5, 5>) -> [f64; 6] {
+    let mut polynomial = [1.0; 6];
+    let mut sum = Matrix::<5, 5>::IDENTITY;
+    let mut n = 1;
+    while n < 6 {
+        let product = matrix.times(&sum);
+        let mut trace = 0.0;
+        let mut k = 0;
+        while k < 5 {
+            trace += product.0[k][k];
+            k += 1;
+        }
+        polynomial[n] = -trace / n as f64;
+        sum = product.plus(polynomial[n], &Matrix::IDENTITY);
+        n += 1;
+    }
+    polynomial
 }
 
 /// The filter gains that put the poles of `(1 - K C) F` at these places, each less one.
@@ -249,9 +280,26 @@ const fn placed(
         n += 1;
     }
     // From the predictor's gain to the filter's: F K = L.
-    let Some(gain) = whole.scaled(&per, &per).solve(&predictor) else {
+    let transition = whole.scaled(&per, &per);
+    let Some(gain) = transition.solve(&predictor) else {
         return None;
     };
+    // What rounding has left of the polynomial; where the resonance is far beyond the poles, that is little.
+    let mut error = rates;
+    let placed = transition.times(&gain);
+    let mut k = 0;
+    while k < 5 {
+        error.0[k][0] -= placed.0[k][0];
+        k += 1;
+    }
+    let found = characteristic(&error);
+    let mut n = 1;
+    while n < 6 {
+        if !((found[n] - wanted[n].0).abs() <= ROUNDING * wanted[n].0.abs()) {
+            return None;
+        }
+        n += 1;
+    }
     let mut gains = [0.0; 5];
     let mut k = 0;
     while k < 5 {

@@ -98,28 +98,27 @@ macro_rules! float {
 float!(f32);
 float!(f64);
 
-/// Of bits: 48 of the product's 64 are needed.
-fn bits(from: i32, to: i32, weight: Weight) -> i32 {
-    let change = i64::from(to) - i64::from(from);
-    (i64::from(from) + ((change * i64::from(weight.0)) >> 16)) as i32
+/// Of 32 bits with or without a sign: 49 of the product's 64 are needed.
+fn bits(from: i64, to: i64, weight: Weight) -> i64 {
+    from + (((to - from) * i64::from(weight.0)) >> 16)
 }
 
 /// Whole numbers, rounded down.
 impl Interpolate for u32 {
     fn between(&self, other: &Self, weight: Weight) -> Self {
-        bits(self.cast_signed(), other.cast_signed(), weight).cast_unsigned()
+        bits((*self).into(), (*other).into(), weight) as u32
     }
 }
 
 impl Interpolate for Fixed {
     fn between(&self, other: &Self, weight: Weight) -> Self {
-        Fixed::from_bits(bits(self.to_bits(), other.to_bits(), weight))
+        Fixed::from_bits(bits(self.to_bits().into(), other.to_bits().into(), weight) as i32)
     }
 }
 
 impl Interpolate for Coefficient {
     fn between(&self, other: &Self, weight: Weight) -> Self {
-        Coefficient::from_bits(bits(self.to_bits(), other.to_bits(), weight))
+        Coefficient::from_bits(bits(self.to_bits().into(), other.to_bits().into(), weight) as i32)
     }
 }
 
@@ -159,6 +158,8 @@ mod tests {
             // floor of the mean of two integers
             assert_eq!(i64::from(from.between(&to, half).to_bits()), (i64::from(a) + i64::from(b)) >> 1);
         }
+        // across 2^31, where a word with a sign would turn over
+        assert_eq!(0x7fff_ffff_u32.between(&0x8000_0001, half), 0x8000_0000);
         // k from 1 to 3, half way at 2: its inverse 1/2 is three quarters of the way from 1 to 1/3
         assert_eq!(half.of_inverses(&1.0_f32, &3.0), Weight::share(0.75));
         let (from, to) = (Coefficient::from_f64(-0.5).unwrap(), Coefficient::from_f64(0.25).unwrap());

@@ -2,7 +2,7 @@
 
 use driveline::configure::{Family, Machine};
 use driveline::design::{Disturbance, Error, PlacedObserver, Rate};
-use driveline::machine::TwoMass;
+use driveline::machine::{Damping, Inertia, Stiffness, TwoMass};
 use driveline_firmware::scenes::hoist::Hoist;
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -74,6 +74,24 @@ fn a_bandwidth_out_of_range_is_refused() {
     for bandwidth in [0.0, -1.0, f64::NAN, f64::INFINITY, 6_180.4] {
         let refused = Known::TWO_MASS.try_observer_of_bandwidth(Known::RATE, bandwidth).unwrap_err();
         assert_eq!(refused, Error::ObserverBandwidth, "{bandwidth}");
+    }
+}
+
+/// In 60 digits the poles of the machines here are within 3e-5 of the bandwidth from two thousandths of the resonance
+/// on; without the check those at a hundred-thousandth of it were beyond the unit circle.
+#[test]
+fn poles_that_rounding_moves_are_refused() {
+    let rate = Rate::hz(10_000);
+    for machine in [
+        TwoMass::new(Inertia(0.4), Inertia(0.5), Stiffness(2e4), Damping(1.0)),
+        TwoMass::new(Inertia(1e-3), Inertia(1e-3), Stiffness(1e4), Damping(0.0)),
+        TwoMass::new(Inertia(0.01), Inertia(5.0), Stiffness(1e5), Damping(0.0)),
+        TwoMass::new(Inertia(5.0), Inertia(0.01), Stiffness(1e5), Damping(0.0)),
+    ] {
+        let resonance = machine.resonance();
+        let place = |share: f64| machine.try_observer_of_bandwidth(rate, share * resonance);
+        assert!(place(2e-3).is_ok() && place(0.1).is_ok(), "{machine:?}");
+        assert_eq!(place(1e-5).unwrap_err(), Error::ObserverBandwidth, "{machine:?}");
     }
 }
 
