@@ -159,6 +159,21 @@ const SEQUENCED: driveline::governor::SpeedGovernorConfigOf<f64, (), (), Symmetr
         filter: (),
     };
 
+/// Backwards at the very speed that it ran forwards with: beyond what is allowed, and tripped after the delay.
+#[test]
+fn a_running_machine_that_is_turned_backwards_trips() {
+    let mut governor = Sequenced::default();
+    governor.start(&SEQUENCED, &at(100.0), 0.0);
+    governor.command(&SEQUENCED, &at(100.0));
+    assert_eq!(governor.sequence().state(), RunState::Running);
+    for _ in 0..SEQUENCE.trip_delay {
+        governor.command(&SEQUENCED, &at(-100.0));
+        assert_eq!(governor.sequence().state(), RunState::Running);
+    }
+    assert_eq!(governor.command(&SEQUENCED, &at(-100.0)), 0.0);
+    assert_eq!(governor.sequence().state(), RunState::Tripped(Trip::Reverse));
+}
+
 #[test]
 fn braking_goes_to_standstill_and_forgets_no_setpoint() {
     let mut governor = Sequenced::default();

@@ -112,8 +112,14 @@ fn main() {
     order.sort_by_key(|mutant| mixed(options.seed, mutant.number));
     let (start, all) = (Instant::now(), order.len());
     let mut told = start;
-    let mut outcomes = if options.again { before } else { BTreeMap::new() };
-    let mut file = fs::File::create(options.copy.join("progress.tsv")).expect("the copy");
+    // of files that were not chosen the last outcomes stand
+    let mut outcomes = before;
+    if !options.again {
+        order.iter().for_each(|mutant| drop(outcomes.remove(&mutant.key)));
+    }
+    let progress = options.copy.join("progress.tsv");
+    let mut file =
+        fs::File::create(&progress).unwrap_or_else(|error| stop(&format!("writing {}: {error}", progress.display())));
     for (done, mutant) in order.into_iter().enumerate() {
         if told.elapsed() > PROGRESS {
             told = Instant::now();
