@@ -57,8 +57,8 @@ impl InputShaperDesign {
     }
 
     /// The design for a rope of the length `from`, at the length `to` (m): the frequency goes with the inverse root of
-    /// the length. The speed loop that holds the trolley changes it by the same share at both lengths, as far as it is
-    /// wide above the swing.
+    /// the length. The speed loop that holds the trolley changes it by the same share at both lengths, if its bandwidth
+    /// is well above the swing's frequency.
     ///
     /// # Panics
     /// As [`new`](Self::new).

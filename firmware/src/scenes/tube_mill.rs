@@ -7,7 +7,7 @@
 //!
 //! No governor commands this motor. The drive observes; beside it the starter cuts out six resistors one after another,
 //! each at its speed, so that the torque never exceeds 1.8 times the rated one. The torque in its output is that of the
-//! motor on the present step, by straight lines along its curve: what the drive would be told where no current is
+//! motor on the present step, by straight lines along its curve: what the drive would get where no current is
 //! measured. The number of resistors that are cut out is in the telemetry.
 
 use core::marker::PhantomData;
@@ -83,7 +83,7 @@ pub struct Start<N: Number> {
 
 /// A number that the start has constants in.
 pub trait Starting: Number + 'static {
-    /// They.
+    /// The constants of the start in this number.
     const START: &'static Start<Self>;
 }
 

@@ -9,10 +9,10 @@ use super::solving::solvers_table;
 use driveline_report::Table;
 use driveline_report::format::percent;
 
-/// What stands above the tables, and what is concluded from them: prose, revised when they change.
+/// The text above the tables, and the conclusions from them: prose, revised when the tables change.
 const OPENING: &str = include_str!("opening.md");
 const WINS: &str = include_str!("wins.md");
-/// What stands above the tables of speed loops and of least squares.
+/// The texts above the tables of speed loops and of least squares.
 const GOVERNORS: &str = include_str!("governors.md");
 const SOLVERS: &str = include_str!("solvers.md");
 
@@ -32,7 +32,7 @@ pub fn peers_markdown(comparison: &Comparison) -> String {
     page
 }
 
-/// What is compared beside observers: its heading and text in Markdown, and its table.
+/// The other comparisons: heading and text in Markdown, and the table.
 pub fn beside_observers(comparison: &Comparison) -> [(&'static str, Table); 2] {
     [(GOVERNORS, governors_table(&comparison.governors)), (SOLVERS, solvers_table(&comparison.solvers))]
 }
