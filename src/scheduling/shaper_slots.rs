@@ -74,15 +74,16 @@ impl<const K: usize> ShaperSlots<K> {
         Ok(Self { ropes: axis, slots: found })
     }
 
-    /// The slot (ticks) at a length of the rope (m), by straight lines; at the end for a length beyond it. Between two
-    /// lengths with the ratio q the line lies below the root by at most `(q^(1/4) - 1)^2/(1 + q^(1/2))` of it, 0.16 %
-    /// at q = 1.25.
+    /// The slot (ticks) at a length of the rope (m), by straight lines, to the nearest tick; at the end for a length
+    /// beyond it. Between two lengths with the ratio q the line lies below the root by at most
+    /// `(q^(1/4) - 1)^2/(1 + q^(1/2))` of it, 0.16 % at q = 1.25.
     #[must_use]
     pub fn at(&self, rope: f32) -> u32 {
         let (below, weight) = self.ropes.place(rope);
         match (self.slots.get(below), self.slots.get(below + 1)) {
-            (Some(low), Some(high)) => low.between(high, weight),
-            _ => 1,
+            // twice the slot, so that half a tick can be added
+            (Some(low), Some(high)) => (2 * low).between(&(2 * high), weight).div_ceil(2),
+            _ => self.slots.first().copied().unwrap_or(1),
         }
     }
 }

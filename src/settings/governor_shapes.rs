@@ -36,8 +36,10 @@ const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
 /// In a float a millionth of 1 is rounded by 3 %.
 const fn soft(start: &SoftStart, period: f64, format: &Format) -> Values<3, 0> {
     let step = (1.0 - start.initial) * period / start.rise;
-    if step >= 1e-6 && step <= 0.1 {
-        Ok(([start.initial, step, start.peak / format.bases.torque], []))
+    let limit = start.peak / format.bases.torque;
+    // in fixed point an observed torque ends at twice its base
+    if step >= 1e-6 && step <= 0.1 && (format.widened == 1.0 || limit < 2.0) {
+        Ok(([start.initial, step, limit], []))
     } else {
         Err(Error::Value(SOFT))
     }

@@ -144,7 +144,8 @@ pub const SLOTS: usize = 32;
 pub const BY_ROPE: ShaperSlots<3> =
     ShaperSlots::new(&StiffTravel::SHAPER, ROPE, [8.0, 10.0, 12.0], SLOTS as u32 / 2, StiffTravel::PERIOD);
 
-/// Key of the panel: the rope's length (mm), as the hoist has it, before a travel.
+/// Key of the operator's panel: the rope's length (mm), as the hoist has it. It is taken at rest, from 8 to 12 m; the
+/// answer is the slot (ticks), or 0 where it is not taken.
 pub const ROPE_KEY: u32 = 1;
 
 /// The drive's constants, whose shaper is that of the rope.
@@ -164,13 +165,17 @@ impl<N: Number> Beside<ShapedDrive<N>> for ByRope<N> {
 
     fn panel(
         &mut self,
-        _: &mut ShapedDrive<N>,
+        drive: &mut ShapedDrive<N>,
         _: &mut &'static ConfigOf<ShapedDrive<N>>,
         [key, value]: [u32; 2],
     ) -> u32 {
-        if key == ROPE_KEY {
-            self.config.governor.slot = BY_ROPE.at(value as f32 * 1e-3);
+        if key != ROPE_KEY
+            || !(8_000..=12_000).contains(&value)
+            || drive.governor().governor().ramped_setpoint() != N::ZERO
+        {
+            return 0;
         }
+        self.config.governor.slot = BY_ROPE.at(value as f32 * 1e-3);
         self.config.governor.slot
     }
 

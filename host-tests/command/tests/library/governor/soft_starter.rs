@@ -4,7 +4,7 @@ use driveline::governor::{SoftStarter, SoftStarterConfig};
 use driveline::machine::{Error, Induction, Inertia, Parabola, Rigid, SoftStart, Speed, Torque};
 use driveline::number::{Fixed, Number};
 use driveline::settings::{self, Bases};
-use driveline_solver::plant::train::{Coordinate, Link, Source, Train};
+use driveline_solver::plant::train::{Coordinate, Friction, Link, Source, Train};
 
 /// A pump's motor with a high-resistance cage: 1724 N m at standstill, 1200 N m at most in the start.
 const MOTOR: Induction = Induction { synchronous: 104.72, breakdown: 2500.0, breakdown_slip: 0.4 };
@@ -36,57 +36,71 @@ fn a_short_rise_starts_in_the_time_of_the_limit() {
         |start: &SoftStart, load: &Parabola| start.time_to(&MOTOR, &Rigid::new(Inertia(INERTIA)), load, Speed(TARGET));
     // A rise of 1e-6 s, and the midpoint rule's error of 1e-10.
     assert!((time(&short, &PUMP) - expected).abs() < 1e-6, "{} {expected}", time(&short, &PUMP));
-    // Against a constant load of 500 N m the motor stands until the voltage carries it: u1 and u2 of full voltage.
     let load = Parabola { constant: 500.0, linear: 0.0, square: 0.0 };
-    let (u1, u2) = ((500.0_f64 / kloss(0.0)).sqrt(), (1200.0_f64 / kloss(0.0)).sqrt());
-    let impulse = kloss(0.0) * (u2.powi(3) - u1.powi(3)) / 3.0 - 500.0 * (u2 - u1);
-    // Rise and start at 60 rad/s, where 700 N m accelerate: (J w - impulse)/700 behind the rise.
-    let expected = (u2 - 0.5) + (INERTIA * 60.0 - impulse) / 700.0;
-    let slow = MOTOR.soft_start(Torque(1200.0), 0.5, 0.5);
-    let found = slow.time_to(&MOTOR, &Rigid::new(Inertia(INERTIA)), &load, Speed(60.0));
-    assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
     let heavy = Parabola { constant: 1200.0, ..load };
     assert_eq!(time(&START, &heavy), f64::INFINITY);
     assert_eq!(MOTOR.at_voltage(0.5).torque(Speed(40.0)).0, 0.25 * MOTOR.torque(Speed(40.0)).0);
 }
 
-/// The starter on the full solver's motor, shaft and pump: time to the target, and the largest torque (N m).
-fn run<N: Number>(config: &SoftStarterConfig<N>, to: impl Fn(f64) -> N, of: impl Fn(N) -> f64) -> (f64, f64) {
+/// The starter on the full solver's motor, shaft and load: time to the target, and the largest torque (N m).
+fn run<N: Number>(
+    config: &SoftStarterConfig<N>,
+    load: &Parabola,
+    target: f64,
+    to: impl Fn(f64) -> N,
+    of: impl Fn(N) -> f64,
+) -> (f64, f64) {
     let mut motion = Train::new()
         .coordinate(Coordinate::new(20.0))
-        .coordinate(Coordinate::new(INERTIA - 20.0).source(Source::Parabola(-200.0, 0.0, -0.05)))
+        .coordinate(Coordinate::new(INERTIA - 20.0).source(Source::Parabola(0.0, 0.0, -load.square)))
+        .friction(Friction::ground(1, load.constant))
         .link(Link::shaft(0, 1, 2.0e6).damping(2000.0))
         .build()
         .unwrap();
     let mut starter = SoftStarter::default();
     let (mut torque, mut peak) = (0.0, 0.0_f64);
-    for tick in 0..10_000 {
+    for tick in 0..20_000 {
         let share = of(starter.tick(config, to(torque)));
         assert!((0.5 - 1e-6..=1.0).contains(&share), "{share}");
         torque = share * share * kloss(motion.speed(0));
         peak = peak.max(torque);
         motion.set_torque(0, torque);
         motion.advance(PERIOD);
-        if motion.speed(0) >= TARGET {
+        if motion.speed(0) >= target {
             return (f64::from(tick + 1) * PERIOD, peak);
         }
     }
-    panic!("{TARGET} rad/s is not reached: {}", motion.speed(0));
+    panic!("{target} rad/s is not reached: {}", motion.speed(0));
 }
 
 #[test]
 fn the_starter_keeps_the_torque_and_the_starting_time() {
     let bases = Bases { torque: 4000.0, speed: 110.0, ..Bases::SI };
-    let float = run(&SoftStarterConfig::<f32>::new(&START, PERIOD, Bases::SI), |t| t as f32, f64::from);
+    let float = run(&SoftStarterConfig::<f32>::new(&START, PERIOD, Bases::SI), &PUMP, TARGET, |t| t as f32, f64::from);
     let fixed = SoftStarterConfig::<Fixed>::new(&START, PERIOD, bases);
-    let fixed = run(&fixed, |torque| Fixed::from_f64(torque / 4000.0), Fixed::to_f64);
+    let fixed = run(&fixed, &PUMP, TARGET, |torque| Fixed::from_f64(torque / 4000.0), Fixed::to_f64);
     let expected = START.time_to(&MOTOR, &Rigid::new(Inertia(INERTIA)), &PUMP, Speed(TARGET));
     for (time, peak) in [float, fixed] {
-        // By the end of the rise, at 3 rad/s, the torque is 2 % above that of standstill: half of it, of the rise's
-        // impulse of 195 N m s, is 2 ms of 1000 N m. The target is seen up to a tick late.
+        // The target is seen up to a tick late, after voltages that are held for a tick.
         assert!((time - expected).abs() < 0.003, "{time} {expected}");
         // The voltage is above what the limit allows by a step of 0.001 at most, of 0.69: 0.3 % of the torque.
         assert!(peak < 1.003 * START.peak && peak > START.peak, "{peak}");
+    }
+}
+
+#[test]
+fn starts_that_end_or_turn_in_the_rise_have_their_time() {
+    // it stands until the voltage carries that
+    let held = Parabola { constant: 500.0, linear: 0.0, square: 0.0 };
+    let starts = [(0.5, 1.0), (5.0, 20.0), (10.0, 95.0), (20.0, 20.0), (20.0, 95.0)].map(|start| (start, PUMP));
+    for ((rise, target), load) in starts.into_iter().chain([((0.5, 60.0), held), ((8.0, 30.0), held)]) {
+        let start = SoftStart { rise, ..START };
+        let config = SoftStarterConfig::<f32>::new(&start, PERIOD, Bases::SI);
+        let (found, _) = run(&config, &load, target, |torque| torque as f32, f64::from);
+        let time = start.time_to(&MOTOR, &Rigid::new(Inertia(INERTIA)), &load, Speed(target));
+        // The target is seen up to a tick late, after voltages that are held for a tick. Under the limit the voltage
+        // goes a step up and down: its torque is up to 0.3 % out, half of it on average, for part of the start.
+        assert!((time - found).abs() < 0.002 + 0.001 * found, "{rise} s to {target} rad/s: {time} {found}");
     }
 }
 
