@@ -62,7 +62,10 @@ fn options(root: &Path) -> Options {
     let mut arguments = env::args().skip(1);
     while let Some(name) = arguments.next() {
         let mut value = || arguments.next().unwrap_or_else(|| stop(&format!("{name} needs a value")));
-        let number = |text: String| text.parse().unwrap_or_else(|_| stop(&format!("{text} is not a number")));
+        let number = |text: String| match text.parse() {
+            Ok(number) if (0.0..1e9).contains(&number) => number,
+            _ => stop(&format!("{name} is `{text}`, expected a number from 0 to below 1e9")),
+        };
         match name.as_str() {
             "--copy" => options.copy = value().into(),
             "--minutes" => options.minutes = number(value()),
@@ -96,7 +99,15 @@ fn main() {
     }
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().expect("the clone");
     let options = options(&root);
-    fs::create_dir_all(&options.copy).expect("the copy");
+    let place = format!("--copy {}", options.copy.display());
+    if let Err(error) = fs::create_dir_all(&options.copy) {
+        stop(&format!("{place}: {error}"));
+    }
+    // the copy's sources are overwritten: none but those of an earlier copy
+    let is_empty = fs::read_dir(&options.copy).is_ok_and(|mut entries| entries.next().is_none());
+    if !is_empty && !options.copy.join("src/switch.rs").exists() {
+        stop(&format!("{place}: found files, expected an empty folder or an earlier copy"));
+    }
     let mutants = list::list(&root);
     let switched = build::switched(&root, &options.copy, &mutants);
     let results = options.copy.join("outcomes.tsv");
@@ -109,6 +120,9 @@ fn main() {
     };
     let mut order: Vec<_> = mutants.iter().filter(chosen).collect();
     order.retain(|mutant| !options.again || before.get(&mutant.key).is_none_or(|outcome| !noticed(outcome)));
+    if order.is_empty() && !options.again {
+        stop("no mutant is in these files");
+    }
     order.sort_by_key(|mutant| mixed(options.seed, mutant.number));
     let (start, all) = (Instant::now(), order.len());
     let mut told = start;

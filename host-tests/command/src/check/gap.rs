@@ -16,7 +16,8 @@ impl Inputs {
     /// Three million and one million, or as many as `INPUTS` says of both.
     pub fn of_environment() -> Result<Self, String> {
         let Ok(text) = std::env::var("INPUTS") else { return Ok(Inputs { drawn: 3_000_000, sought: 1_000_000 }) };
-        let count = text.parse().map_err(|_| format!("INPUTS is `{text}`, expected a number of inputs"))?;
+        let count = text.parse().ok().filter(|&count| count > 0);
+        let count = count.ok_or_else(|| format!("INPUTS is `{text}`, expected a number of inputs, 1 or more"))?;
         Ok(Inputs { drawn: count, sought: count })
     }
 }

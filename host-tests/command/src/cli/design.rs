@@ -223,8 +223,9 @@ fn within_tolerances(machine: &MachineFile, speed_loop: &SpeedLoop) -> String {
     let range = |spread: Spread| format!("{} to {}", significant(spread.min), significant(spread.max));
     let control =
         if lag > 0.0 { format!(", current control of {} Hz", significant(1.0 / (TAU * lag))) } else { String::new() };
+    let masses = if machine.dampers.is_empty() { "" } else { " of the two masses, without rings," };
     let within = format!(
-        "margins within tolerances (motor side {}, load side {}, stiffness {}, torque {}, {} late{control})",
+        "margins{masses} within tolerances (motor side {}, load side {}, stiffness {}, torque {}, {} late{control})",
         range(motor_inertia),
         range(load_inertia),
         range(stiffness),

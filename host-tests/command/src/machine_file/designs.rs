@@ -215,8 +215,9 @@ impl MachineFile {
         Actuator { delay: self.actuator.delay, lag }
     }
 
-    /// What a speed loop lacks: 6 dB and 30 degrees at the nominal machine, stability within the tolerances, with two
-    /// masses or with all the machine's vibrations. `None` where it has all.
+    /// What a speed loop lacks: 6 dB and 30 degrees at the nominal machine, with two masses and with the rings of its
+    /// dampers; stability within the tolerances, with two masses; stability with all the machine's vibrations. `None`
+    /// where it has all.
     ///
     /// # Errors
     /// An actuator or a rate that the loop cannot have.
@@ -229,7 +230,14 @@ impl MachineFile {
         let closed = observer.close(speed_loop, self.actuator())?;
         let robust = two.try_robust(observer, speed_loop, self.actuator(), &self.tolerance(), &Robustness::USUAL);
         let plant = Plant::of_modes(two.total_inertia(), &self.modes());
-        let neglected = (!closed.is_stable(&plant, 1.0)).then_some(Lack::NEGLECTED);
+        let mut neglected = (!closed.is_stable(&plant, 1.0)).then_some(Lack::NEGLECTED);
+        // the rings of dampers and branches may swing within the loop's bandwidth
+        if neglected.is_none() && self.train.is_some() {
+            let (margins, usual) = (closed.margins(&plant)?, Robustness::USUAL);
+            let least = margins.gain_up.min(1.0 / margins.gain_down);
+            let low = if least < usual.gain { Some(Error::LoopGain) } else { None };
+            neglected = low.or((margins.phase < usual.phase).then_some(Error::LoopPhase)).map(Lack::of);
+        }
         // two masses that are unstable themselves leave nothing out; tolerances come after the machine as it is
         Ok(match robust.err() {
             Some(Error::LoopUnstable) => Some(Lack::of(Error::LoopUnstable)),
