@@ -186,6 +186,21 @@ fn a_project_has_the_dampers() {
     assert!(places.is_sorted(), "{text}");
 }
 
+/// A pendulum on the roll of the README: without the check a drive was made; of three drawn machines two swung up.
+#[test]
+fn a_loop_without_margins_for_its_rings_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, project) = (folder.path().join("roll.toml"), folder.path().join("roll"));
+    let pendulum = "[[damper]]\nkind = \"pendulum\"\nat = \"roll\"\nmass = 2.0\nradius = 0.2\n\
+                    order = 2.0\nspeed = 100.0\n";
+    std::fs::write(&path, include_str!("../../machines/roll.toml").to_owned() + pendulum).unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let output = command.arg("new").arg(&project).arg("--machine").arg(&path).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && said.contains("the speed loop with its observer"), "{said}");
+    assert!(!project.exists());
+}
+
 /// The observer of a replay is designed with the dampers: its innovation is that of `design` at the same rate.
 #[test]
 fn a_replay_has_the_dampers() {
