@@ -63,9 +63,13 @@ pub(super) struct Pinned {
 }
 
 impl Pinned {
-    /// None where nothing rubs.
+    /// None where nothing rubs; numbers out of range are kept for [`validate`](Self::validate).
     pub fn of(pins: Pins, forces: &[SliderForce]) -> Option<Self> {
-        if pins.coefficient == 0.0 || (pins.main, pins.crank, pins.wrist) == (0.0, 0.0, 0.0) {
+        let radii = [pins.main, pins.crank, pins.wrist];
+        let is_size = |value: &f64| *value >= 0.0 && value.is_finite();
+        let given = forces.iter().flat_map(|force| [force.force, force.from, force.to]);
+        let in_range = radii.iter().chain([&pins.coefficient]).all(is_size) && given.into_iter().all(f64::is_finite);
+        if in_range && (pins.coefficient == 0.0 || radii == [0.0; 3]) {
             return None;
         }
         let turns = |angle: f64| angle.rem_euclid(TAU);
