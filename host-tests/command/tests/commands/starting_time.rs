@@ -65,9 +65,8 @@ fn one_mass_starts_in_the_time_of_its_closed_form() {
     }
 }
 
-#[test]
-fn a_hoist_with_losses_starts_in_the_time_of_its_rigid_machine() {
-    let text = "name = \"hoist\"\n[[coordinate]]\nname = \"motor\"\ninertia = 0.5\n\
+/// A motor that lifts by a drum behind a gear of ten, and its friction.
+const HOIST: &str = "name = \"hoist\"\n[[coordinate]]\nname = \"motor\"\ninertia = 0.5\n\
         [[coordinate]]\nname = \"drum\"\ninertia = 30.0\n\
         [[link]]\nname = \"gear\"\nbetween = [\"motor\", \"drum\"]\nratio = 10.0\nstiffness = 2.0e5\n\
         damping = 20.0\nefficiency = 0.9\n\
@@ -76,13 +75,66 @@ fn a_hoist_with_losses_starts_in_the_time_of_its_rigid_machine() {
         [[friction]]\non = \"drum\"\ntorque = 90.0\n\
         [start]\nkind = \"pretensioned\"\nheld = \"motor\"\n\
         [run]\ntime = 2.0\nstep = 1e-3\nstarting = \"drum\"\nstarting_speed = 10.0\n";
-    let (time, rigid, _) = starting(text);
+
+#[test]
+fn a_hoist_with_losses_starts_in_the_time_of_its_rigid_machine() {
+    let (time, rigid, _) = starting(HOIST);
     // (J_m + J/(i^2 eta)) w/(tau - tau_L/eta), at the motor.
     let expected = (0.5 + 0.3 / 0.9) * 100.0 / (120.0 - 54.0 / 0.9);
     assert!((rigid.unwrap() / expected - 1.0).abs() < 1e-12, "{rigid:?} {expected}");
     // The swing of 1033 rad/s has died out by e^-74, and moves no momentum. Until the load breaks loose, within a
     // quarter of its period, friction takes up to 9 N m less than it slides with, of 60 N m that accelerate.
     assert!((time.unwrap() - expected).abs() < 9.0 / 60.0 * 1.6e-3, "{time:?} {expected}");
+}
+
+#[test]
+fn a_start_from_rest_has_to_break_loose() {
+    let mover = |breakaway: f64| {
+        format!(
+            "kind = \"constant\"\ntorque = 120.0\n[[friction]]\non = \"drum\"\ntorque = 80.0\nbreakaway = {breakaway:?}"
+        )
+    };
+    // At rest 100 N m push, in motion 20 N m accelerate 2 kg m2.
+    for (breakaway, speed, expected) in [(99.0, 0.0, Some(5.0)), (101.0, 0.0, None), (101.0, 1.0, Some(4.9))] {
+        let (time, rigid, _) = starting(&one_mass(&mover(breakaway), speed, 50.0));
+        assert_eq!([time.is_some(), rigid.is_some()], [expected.is_some(); 2], "{breakaway}: {time:?} {rigid:?}");
+        for (found, expected) in [time, rigid].into_iter().flatten().zip([expected; 2].into_iter().flatten()) {
+            // Roundings of a thousand steps.
+            assert!((found / expected - 1.0).abs() < 1e-11, "{breakaway}: {time:?} {rigid:?}");
+        }
+    }
+}
+
+#[test]
+fn a_damper_that_slips_leaves_the_rigid_machine_without_a_starting_time() {
+    let with = |ratio: f64| {
+        let damper = format!(
+            "[[link]]\nname = \"brake\"\nbetween = [\"motor\", \"drum\"]\nratio = {ratio:?}\nstiffness = 0.0\n\
+             damping = 0.2\n[[torque]]"
+        );
+        let text = HOIST.replace("efficiency = 0.9\n", "").replace("torque = 90.0", "torque = 0.0");
+        starting(&text.replacen("[[torque]]", &damper, 1))
+    };
+    // 0.8 kg m2 and 75 N m at the motor: at the gear's own ratio the damper stands still.
+    let (time, rigid, _) = with(10.0);
+    let expected = 0.8 * 100.0 / 75.0;
+    assert!((rigid.unwrap() / expected - 1.0).abs() < 1e-12, "{rigid:?} {expected}");
+    // A quarter of a period of 1033 rad/s, in which the shaft winds up further.
+    assert!((time.unwrap() - expected).abs() < 1.6e-3, "{time:?} {expected}");
+    // At half of it, it slips by half the motor's speed, and takes a quarter of 0.2 N m s/rad of it.
+    let (time, rigid, _) = with(5.0);
+    let slipping = 0.8 / 0.05 * (75.0_f64 / (75.0 - 5.0)).ln();
+    assert!(rigid.is_none() && (time.unwrap() - slipping).abs() < 1.6e-3, "{time:?} {rigid:?} {slipping}");
+}
+
+#[test]
+fn a_load_that_drives_on_the_way_leaves_the_losses_open() {
+    let of = |constant: f64| {
+        let parabola = format!("kind = \"parabola\"\na = {constant:?}\nb = 200.0\nc = -20.0\n");
+        starting(&HOIST.replace("kind = \"constant\"\ntorque = -450.0\n", &parabola)).1
+    };
+    // -50 N m at rest and at 10 rad/s, and 450 N m half way; of -550 N m there are -50.
+    assert!(of(-50.0).is_none() && of(-550.0).is_some());
 }
 
 #[test]

@@ -192,9 +192,13 @@ impl Simulation {
         let mut run = Recording::new(start);
         // a stiff train's step is divided, so that the bar moves within it
         let looks = (file.motion.rate() * file.step / BETWEEN_LOOKS).ceil().max(1.0) as u64;
-        let mut reached = None;
+        let (mut reached, mut kept) = (None, None);
         let begun = Instant::now();
         for step in 0..steps {
+            // so that little of a long run is repeated to find when the speed is reached
+            if file.starting.is_some() && reached.is_none() && step % (steps / 100 + 1) == 0 {
+                kept = Some((run.motion().clone(), step));
+            }
             for look in 0..looks {
                 run.advance(file.step / looks as f64);
                 let (done, all) = (step * looks + look + 1, steps * looks);
@@ -245,7 +249,8 @@ impl Simulation {
         };
         let motion = run.motion();
         let cycle = file.cycle.map(|(at, turns)| steady(file, motion.clone(), at, turns, proven)).transpose()?;
-        let starting = file.starting.map(|wanted| StartingTime::of(file, wanted, looks, reached));
+        let before = kept.zip(reached).map(|((motion, at), line)| (motion, line - at));
+        let starting = file.starting.map(|wanted| StartingTime::of(file, wanted, looks, before));
         let moved = |j: usize| {
             let extremes = motion.extremes(Signal::Speed(j));
             let (least, greatest) = extremes.map_or((f64::NAN, f64::NAN), |e| (e.least, e.peak));

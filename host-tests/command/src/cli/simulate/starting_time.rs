@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::machine_file::TrainFile;
 use driveline::machine::{Characteristic, Induction, Inertia, Parabola, Rigid, Series, Speed};
-use driveline_solver::plant::train::{RigidPart, Signal, Source};
+use driveline_solver::plant::train::{Motion, RigidPart, Signal, Source};
 
 /// Halvings of a line of the run: to 1e-15 of it.
 const HALVINGS: u32 = 50;
@@ -26,15 +26,13 @@ pub struct StartingTime {
 }
 
 impl StartingTime {
-    /// Of a run whose lines have been looked at `looks` times each; `line` is the first one in which the speed is
-    /// reached.
-    pub fn of(file: &TrainFile, (at, speed): (usize, f64), looks: u64, line: Option<u64>) -> Self {
-        let time = line.map(|line| {
-            let mut motion = file.motion.clone();
-            for _ in 0..line * looks {
+    /// Of a run whose lines have been looked at `looks` times each; `before` is the run some lines before the first one
+    /// in which the speed is reached, and how many.
+    pub fn of(file: &TrainFile, (at, speed): (usize, f64), looks: u64, before: Option<(Motion, u64)>) -> Self {
+        let time = before.map(|(mut motion, lines)| {
+            for _ in 0..lines * looks {
                 motion.advance(file.step / looks as f64);
             }
-            motion.watch(Signal::Speed(at));
             let (mut before, mut after) = (0.0, file.step);
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (before + after);
@@ -100,17 +98,24 @@ fn rigid(file: &TrainFile, driving: usize, (at, speed): (usize, f64)) -> Option<
     if !(parts.iter().all(alike) && 0.0 <= from && from < to) {
         return None;
     }
-    let (mut inertia, mut load, mut motor, mut drives) = (0.0, [0.0; 3], None, false);
-    for (j, RigidPart { ratio, efficiency, inertia: own, torques, .. }) in parts.iter().enumerate() {
+    let (mut inertia, mut load, mut motor, mut drives, mut at_rest) = (0.0, [0.0; 3], None, false, 0.0);
+    for (j, RigidPart { ratio, efficiency, inertia: own, torques, breakaway, .. }) in parts.iter().enumerate() {
         inertia += own * ratio * ratio / efficiency;
+        at_rest -= breakaway * ratio.abs() / efficiency;
         for source in torques {
             let curve = Curve::of(source)?;
-            let [first, last] = [from, to].map(|speed| ratio * curve.torque(ratio * speed));
+            let driven = |speed: f64| ratio * curve.torque(ratio * speed);
+            // where a parabola turns about, within the run
+            let bend = match curve {
+                Curve::Polynomial([_, b, c]) => (-b / (2.0 * c * ratio)).clamp(from, to),
+                _ => from,
+            };
             if j == driving {
-                drives |= first > 0.0;
-            } else if first > 0.0 || last > 0.0 {
+                drives |= driven(from) > 0.0;
+            } else if [from, bend, to].into_iter().any(|speed| driven(speed) > 0.0) {
                 return None;
             }
+            at_rest += driven(0.0) / efficiency;
             match curve {
                 Curve::Polynomial(torque) => {
                     let mut share = -ratio / efficiency;
@@ -123,6 +128,9 @@ fn rigid(file: &TrainFile, driving: usize, (at, speed): (usize, f64)) -> Option<
                 _ => return None,
             }
         }
+    }
+    if from == 0.0 && at_rest <= 0.0 {
+        return None;
     }
     let machine = Rigid::try_new(Inertia(inertia)).ok()?;
     let [constant, linear, square] = load;

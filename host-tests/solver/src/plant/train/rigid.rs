@@ -18,13 +18,15 @@ pub struct RigidPart {
     pub speed: f64,
     /// Its torques, friction included, while the driving coordinate moves forwards.
     pub torques: Vec<Source>,
+    /// Torque that its friction takes at rest beyond that of `torques`, N m or N.
+    pub breakaway: f64,
 }
 
 impl Train {
     /// The coordinates of the train as parts of one body that a coordinate drives, gaps and slack aside. None where
     /// they are not one: a coordinate that no link of two terms with a stiffness joins, a link to the ground or of
-    /// several terms, a loop that is locked or loses power, a gear that locks itself, friction against what moves, an
-    /// unbalance, an inertia that changes with the angle.
+    /// several terms, a loop that is locked or loses power, a damper that slips, a gear that locks itself, friction
+    /// against what moves, an unbalance, an inertia that changes with the angle.
     #[must_use]
     pub fn rigid(&self, driving: usize) -> Option<Vec<RigidPart>> {
         let mut ways = vec![None; self.coordinates.len()];
@@ -47,13 +49,13 @@ impl Train {
             }
         }
         let ways: Vec<(f64, f64)> = ways.into_iter().collect::<Option<_>>()?;
-        let elastic = self.links.iter().filter(|link| link.stiffness > 0.0);
-        let is_loop = elastic.clone().count() >= self.coordinates.len();
+        let is_loop = self.links.iter().filter(|link| link.stiffness > 0.0).count() >= self.coordinates.len();
         let strains = |terms: &[(usize, f64)]| {
             let shares = terms.iter().map(|&(at, share)| share * ways[at].0);
             shares.clone().sum::<f64>().abs() > LOOP * shares.map(f64::abs).sum::<f64>()
         };
-        let is_locked = elastic.clone().any(|link| strains(&link.terms) || is_loop && link.is_lossy());
+        let mut holding = self.links.iter().filter(|link| link.stiffness > 0.0 || link.damping > 0.0);
+        let is_locked = holding.any(|link| strains(&link.terms) || is_loop && link.is_lossy());
         let rubs = self.frictions.iter().any(|friction| friction.terms.len() > 1 || friction.surface != 0.0);
         let changes = self.coordinates.iter().any(super::Coordinate::is_cranked);
         if is_locked || rubs || changes || !self.unbalances.is_empty() || ways.iter().any(|way| way.1 <= 0.0) {
@@ -65,8 +67,9 @@ impl Train {
                 torques.push(Source::Line { stall: 0.0, slope: coordinate.viscous });
             }
             let on = self.frictions.iter().filter(|friction| friction.terms[0].0 == at);
-            torques.extend(on.map(|friction| Source::Constant(-friction.kinetic * ratio.signum())));
-            RigidPart { ratio, efficiency, inertia: coordinate.inertia, speed: coordinate.speed, torques }
+            torques.extend(on.clone().map(|friction| Source::Constant(-friction.kinetic * ratio.signum())));
+            let breakaway = on.map(|friction| friction.breakaway - friction.kinetic).sum();
+            RigidPart { ratio, efficiency, inertia: coordinate.inertia, speed: coordinate.speed, torques, breakaway }
         };
         Some(self.coordinates.iter().zip(ways).enumerate().map(part).collect())
     }
