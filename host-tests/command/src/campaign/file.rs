@@ -74,13 +74,13 @@ impl FileCase {
         if !machine.branches.is_empty() {
             return Err("a campaign runs a chain of elements; this machine has branches".to_owned());
         }
-        let refused = |error: driveline::design::Error| format!("no controller can be designed: {error}");
-        let damped = machine.with_dampers().map_err(|error| refused(error.into()))?;
+        let refused = |error: String| format!("no controller can be designed: {error}");
+        let damped = machine.with_dampers().map_err(refused)?;
         let two = damped.two_masses().ok_or("a campaign needs a machine with a shaft; this one is rigid")?;
         if let Some(label) = machine.losses_of_no_chain() {
             return Err(format!("the losses of `{label}` need a shaft behind it; leave it out of a copy of the file"));
         }
-        let designs = Designs::of(&damped, &two).map_err(refused)?;
+        let designs = Designs::of(&damped, &two).map_err(|error| refused(error.to_string()))?;
         let cycle = machine.cycle(two.gravity_torque);
         let ramp = machine.limits.speed / designs.ramp;
         // the loop has settled to e^-5

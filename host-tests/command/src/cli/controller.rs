@@ -361,22 +361,12 @@ impl Plan {
     /// Designs observer and governor of the machine with its dampers.
     ///
     /// # Errors
-    /// The library's sentence for a machine that cannot be observed or governed so.
-    pub fn with_dampers(machine: &MachineFile) -> Result<Self, Error> {
-        if machine.dampers.is_empty() {
-            return Self::of(machine);
-        }
-        match machine.damped() {
-            Ok(damped) => {
-                let plan = Self::of(&damped)?;
-                Ok(Self { dampers: Damped::of(machine, &damped), ..plan })
-            }
-            Err(error) => {
-                let mut plan = Self::of(machine)?;
-                plan.warnings.push(format!("the design leaves the dampers out: {error}"));
-                Ok(plan)
-            }
-        }
+    /// As [`MachineFile::with_dampers`], and the library's sentence for a machine that cannot be observed or governed so.
+    pub fn with_dampers(machine: &MachineFile) -> Result<Self, String> {
+        let damped = machine.with_dampers()?;
+        let plan = Self::of(&damped).map_err(|error| error.to_string())?;
+        let dampers = if machine.dampers.is_empty() { None } else { Damped::of(machine, &damped) };
+        Ok(Self { dampers, ..plan })
     }
 
     /// Designs observer and governor of the machine without its dampers.

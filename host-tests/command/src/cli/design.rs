@@ -49,9 +49,8 @@ impl Design {
     /// the design is printed and no constants.
     pub fn execute(&self) -> Result<(), Failure> {
         let machine = read(&self.file)?;
-        let refused = |error: driveline::design::Error| {
-            Failure::usage(format!("{}: no controller can be designed: {error}", self.file.display()))
-        };
+        let refused =
+            |error: String| Failure::usage(format!("{}: no controller can be designed: {error}", self.file.display()));
         let plan = Plan::with_dampers(&machine).map_err(refused)?;
         let speed_loop = plan.speed_loop.as_ref();
         let unstable = speed_loop.and_then(|governor| governor.no_margins.as_ref());
@@ -59,8 +58,10 @@ impl Design {
             return Err(Failure::failed(format!("{}: no constants are printed: {why}", self.file.display())));
         }
         match (self.emit, self.json) {
-            (Some(Language::Rust), true) => say_json(&serde_json::json!({ "rust": emitted(&machine, &plan) }))?,
-            (Some(Language::Rust), false) => say(emitted(&machine, &plan).trim_end()),
+            (Some(Language::Rust), true) => {
+                say_json(&serde_json::json!({ "rust": emitted(&machine, &plan).map_err(refused)? }))?;
+            }
+            (Some(Language::Rust), false) => say(emitted(&machine, &plan).map_err(refused)?.trim_end()),
             (None, true) => say_json(&plan)?,
             (None, false) => say(text(&machine, &plan)),
         }
@@ -70,7 +71,7 @@ impl Design {
 }
 
 /// The constants, and which parts of the design are none of them.
-fn emitted(machine: &MachineFile, plan: &Plan) -> String {
+fn emitted(machine: &MachineFile, plan: &Plan) -> Result<String, String> {
     let rigid = plan.predicted.as_ref().is_some_and(|predicted| predicted.observer == "rigid");
     let left_out = [
         rigid.then_some("the selected observer, of one mass"),
@@ -84,7 +85,7 @@ fn emitted(machine: &MachineFile, plan: &Plan) -> String {
             format!("\n// Not among these: {}; `cargo driveline new` writes a project with them.\n", parts.join(", "))
         }
     };
-    rust(machine) + &note
+    rust(machine).map(|text| text + &note)
 }
 
 /// The design in words and tables.

@@ -9,17 +9,18 @@ use driveline::machine::{Damper, Member};
 use crate::machine_file::{Branch, DamperKind, DamperRing, Element, MachineFile, Part};
 
 /// The constants: the chain, its reduction, the observer's design and, for two masses, the speed loop's.
-pub fn rust(machine: &MachineFile) -> String {
+///
+/// # Errors
+/// As [`MachineFile::with_dampers`].
+pub fn rust(machine: &MachineFile) -> Result<String, String> {
     let name = machine.constant();
     let mut words = words(machine);
-    // what no train takes is left out, as of the design
-    let damped = machine.damped().ok().filter(|_| !machine.dampers.is_empty());
-    let rings = if damped.is_some() { machine.rings() } else { Vec::new() };
+    let rings = machine.rings();
     let is_train = !machine.branches.is_empty() || !rings.is_empty();
     if is_train {
         words.extend(["Train", "Ratio", "Inertia"]);
     }
-    let two = damped.as_ref().unwrap_or(machine).two_masses().is_some();
+    let two = machine.with_dampers()?.two_masses().is_some();
     words.extend(if two { ["Match", "TwoMass"].as_slice() } else { ["Rigid"].as_slice() });
     let designs = if two {
         "Disturbance, Encoder, Rate, SpeedLoopDesign, SpeedLoopTuning, TwoMassDesign"
@@ -92,7 +93,7 @@ pub const {name}_SPEED: f64 = {:?};
 ",
         machine.limits.torque, machine.limits.speed
     );
-    text
+    Ok(text)
 }
 
 /// The calls that put rings on a train, each on a line of its own, and their words.

@@ -1,8 +1,6 @@
 //! Where the elements of a machine come to stand: their masses and shafts, and how fast they turn.
 
-use driveline::machine::{
-    Chain, Damper, Error, Inertia, Joint, Match, Modes, Ratio, Resonance, Rigid, Shaft, Train, TwoMass,
-};
+use driveline::machine::{Chain, Damper, Error, Inertia, Joint, Match, Modes, Ratio, Rigid, Shaft, Train, TwoMass};
 
 use super::{Branch, DamperKind, DamperRing, Element, MachineFile, Part};
 
@@ -109,37 +107,37 @@ impl MachineFile {
 
     /// The dampers with their sizes at the motor, as they come to stand on the train: a viscous ring takes its share of
     /// the mode that all other masses have, so after all others.
-    pub(crate) fn rings<'a>(&'a self) -> Vec<(&'a DamperRing, Damper)> {
-        let modes = self.modes();
-        let is_viscous = |ring: &&DamperRing| matches!(ring.kind, DamperKind::Viscous { .. });
-        let others = self.dampers.iter().filter(|ring| !is_viscous(ring));
-        let sized = |ring: &'a DamperRing| {
-            let DamperRing { kind, mass, .. } = ring;
-            let main = DamperKind::mode(kind).map(|mode| Resonance::of(&modes.resonances()[mode], *mass));
-            (ring, ring.sized(main.as_ref()))
-        };
-        others.chain(self.dampers.iter().filter(is_viscous)).map(sized).collect()
+    pub(crate) fn rings(&self) -> Vec<(&DamperRing, Damper)> {
+        let sized = self.sized_dampers().into_iter().map(|(ring, damper, _)| (ring, damper));
+        let is_viscous = |(ring, _): &(&DamperRing, Damper)| matches!(ring.kind, DamperKind::Viscous { .. });
+        let (viscous, mut rings): (Vec<_>, Vec<_>) = sized.partition(is_viscous);
+        rings.extend(viscous);
+        rings
     }
 
-    /// The machine with its dampers in its train; a ring on dry friction sticks to its mass.
+    /// The machine that a controller is designed for: with its dampers in its train, where it has any. A ring on dry
+    /// friction sticks to its mass.
     ///
     /// # Errors
-    /// The library's sentence for rings that a train does not take.
-    pub fn damped(&self) -> Result<Self, Error> {
-        let bare = self.train.unwrap_or_else(|| Train::of(self.chain));
-        let train = self.rings().into_iter().fold(bare, |train, (ring, damper)| match ring.kind {
-            DamperKind::Friction { .. } => train.branch(ring.mass, Ratio(1.0), Chain::motor(Inertia(damper.inertia))),
-            _ => train.damper(ring.mass, Ratio(1.0), damper),
-        });
-        train.error().map_or_else(|| Ok(Self { train: Some(train), dampers: Vec::new(), ..self.clone() }), Err)
-    }
-
-    /// The machine that a controller is designed for: [`damped`](Self::damped) where it has dampers, else itself.
-    ///
-    /// # Errors
-    /// As [`damped`](Self::damped).
-    pub fn with_dampers(&self) -> Result<Self, Error> {
-        if self.dampers.is_empty() { Ok(self.clone()) } else { self.damped() }
+    /// The library's sentence for a ring that a train does not take, with its key.
+    pub fn with_dampers(&self) -> Result<Self, String> {
+        if self.dampers.is_empty() {
+            return Ok(self.clone());
+        }
+        let mut train = self.train.unwrap_or_else(|| Train::of(self.chain));
+        for (ring, damper) in self.rings() {
+            train = match ring.kind {
+                DamperKind::Friction { .. } => {
+                    train.branch(ring.mass, Ratio(1.0), Chain::motor(Inertia(damper.inertia)))
+                }
+                _ => train.damper(ring.mass, Ratio(1.0), damper),
+            };
+            if let Some(error) = train.error() {
+                let index = self.dampers.iter().take_while(|other| !std::ptr::eq(*other, ring)).count();
+                return Err(format!("`damper[{index}]`: {error}"));
+            }
+        }
+        Ok(Self { train: Some(train), dampers: Vec::new(), ..self.clone() })
     }
 
     /// One mass for the machine.

@@ -27,7 +27,7 @@ mod ship;
 fn printed(name: &str, compiled: &str) -> (MachineFile, Plan) {
     let root = env!("CARGO_MANIFEST_DIR");
     let machine = read(format!("{root}/machines/{name}.toml").as_ref()).unwrap();
-    let text = rust(&machine);
+    let text = rust(&machine).unwrap();
     if std::env::var_os("DRIVELINE_EMIT").is_some() {
         std::fs::write(format!("{root}/tests/commands/cli_emit/{name}.rs"), &text).unwrap();
     } else {

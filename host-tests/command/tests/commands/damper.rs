@@ -219,7 +219,7 @@ fn a_replay_has_the_dampers() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let found = number(&serde_json::from_slice::<Value>(&output.stdout).unwrap()["predicted_innovation"]);
     let file = parse("damped", &text).unwrap();
-    let [with, without] = [Plan::with_dampers(&file), Plan::of(&file)].map(|plan| plan.unwrap().innovation);
+    let [with, without] = [Plan::with_dampers(&file).unwrap(), Plan::of(&file).unwrap()].map(|plan| plan.innovation);
     // the period of a recording is a mean of decimal times
     assert!((found / with - 1.0).abs() < 1e-9, "{found} {with}");
     assert!((without / with - 1.0).abs() > 1e-6, "{without} {with}");
@@ -321,6 +321,36 @@ fn damping_of_the_machine_limits_its_response_without_a_damper() {
     assert!((without / peak - 1.0).abs() < 1e-3, "{without} {peak}");
     // a quality of k/(d omega) = 73 without, fixed points of 8.7 with
     assert!(number(&found["dampers"][0]["with"]) < 0.2 * without);
+}
+
+/// Two masses, a viscous ring, which is no mass of its own, and fourteen or fifteen others: 16 masses or one more.
+#[test]
+fn a_ring_too_many_is_refused_by_all_that_design_with_dampers() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("damped.toml");
+    let another = format!("[[damper]]\nat = \"load\"\ninertia = {RING}\nkind = \"absorber\"\nfrequency = 30.0\n");
+    let rings = |count: usize| machine(&format!("kind = \"viscous\"\ndamping = 20\n{}", another.repeat(count - 1)));
+    assert!(Plan::with_dampers(&parse("damped", &rings(15)).unwrap()).is_ok());
+    let file = parse("damped", &rings(16)).unwrap();
+    let expected = "`damper[15]`: a chain holds at most 16 masses";
+    assert_eq!(Plan::with_dampers(&file).unwrap_err(), expected);
+    let refused = CampaignScene::of_file(file).map(|_| ()).unwrap_err();
+    assert!(refused.contains(expected), "{refused}");
+    std::fs::write(&path, rings(16)).unwrap();
+    std::fs::write(folder.path().join("run.csv"), "").unwrap();
+    for arguments in [
+        &["design", "damped.toml"][..],
+        &["design", "damped.toml", "--emit", "rust"],
+        &["new", "press", "--machine", "damped.toml"],
+        &["export", "fmu", "damped.toml", "--out", "press.fmu"],
+        &["replay", "run.csv", "--machine", "damped.toml"],
+    ] {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+        let output = command.args(arguments).current_dir(&folder).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains(expected), "{arguments:?}: {said}");
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+    }
 }
 
 #[test]

@@ -133,7 +133,7 @@ impl Project {
         if !machine.branches.is_empty() {
             return Err(refused("it has branches; leave them out, or write its constants by hand"));
         }
-        let damped = machine.with_dampers().map_err(|error| refused(error.message()))?;
+        let damped = machine.with_dampers().map_err(|error| refused(&error))?;
         let Some(two) = damped.two_masses() else {
             return Err(refused("it has no shaft, and a drive needs one between motor and load"));
         };
