@@ -361,7 +361,7 @@ impl Plan {
     /// Designs observer and governor of the machine with its dampers.
     ///
     /// # Errors
-    /// As [`MachineFile::with_dampers`], and the library's sentence for a machine that cannot be observed or governed so.
+    /// As [`MachineFile::with_dampers`], and the library's sentence for a machine that cannot be observed or governed.
     pub fn with_dampers(machine: &MachineFile) -> Result<Self, String> {
         let damped = machine.with_dampers()?;
         let plan = Self::of(&damped).map_err(|error| error.to_string())?;
