@@ -70,7 +70,7 @@ impl Induction {
 impl SoftStart {
     /// Starting time (s) from standstill to a speed, in steps of a two-thousandth of a start under the largest torque:
     /// the voltage rises where the torque is below its limit and falls where it is above, no faster than it rises.
-    /// Infinite where the torque does not suffice, or hardly: beyond fifty times the start under the largest torque.
+    /// Infinite where the torque does not suffice.
     ///
     /// The load is constant or rises as that of a fan, and does not turn the machine backwards.
     #[must_use]
@@ -85,7 +85,7 @@ impl SoftStart {
         let mut time = (share - self.initial) / rate;
         let coarse = machine.inertia * to.0 / self.peak / STEPS;
         let mut step = coarse.min(self.rise / STEPS);
-        let mut left = 50.0 * STEPS;
+        let (mut moved, mut left) = (0.0, 50.0 * STEPS);
         while speed < to.0 {
             if share >= 1.0 {
                 return time + Characteristic::Induction(*motor).time_to(machine, load, Speed(speed), to);
@@ -111,10 +111,12 @@ impl SoftStart {
             if left < 0.0 || limited && next <= speed {
                 return f64::INFINITY;
             }
-            (time, speed) = (time + step, next);
+            (time, speed, moved) = (time + step, next, moved + step);
             if limited {
                 step = coarse;
             }
+            // a rise that is slow against the start
+            step = step.max(0.5 * moved / STEPS);
         }
         time
     }

@@ -93,7 +93,9 @@ fn starts_that_end_or_turn_in_the_rise_have_their_time() {
     // it stands until the voltage carries that
     let held = Parabola { constant: 500.0, linear: 0.0, square: 0.0 };
     let starts = [(0.5, 1.0), (5.0, 20.0), (10.0, 95.0), (20.0, 20.0), (20.0, 95.0)].map(|start| (start, PUMP));
-    for ((rise, target), load) in starts.into_iter().chain([((0.5, 60.0), held), ((8.0, 30.0), held)]) {
+    for ((rise, target), load) in
+        starts.into_iter().chain([(0.5, 60.0), (8.0, 30.0), (20.0, 0.2), (60.0, 1.0)].map(|start| (start, held)))
+    {
         let start = SoftStart { rise, ..START };
         let config = SoftStarterConfig::<f32>::new(&start, PERIOD, Bases::SI);
         let (found, _) = run(&config, &load, target, |torque| torque as f32, f64::from);
