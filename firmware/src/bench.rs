@@ -26,10 +26,54 @@ use crate::measure::stack;
 use crate::self_test::fingerprint::SEED;
 use crate::self_test::inputs::Program;
 
-/// Calls of each function; odd, so that the median is one of them.
+/// Calls of a function. For a long run the host writes another number over this one, in a copy of the image.
+#[unsafe(no_mangle)]
+static DRIVELINE_CALLS: u32 = CALLS as u32;
+/// So many as a rule; odd, so that the median is one of them.
 const CALLS: usize = 1001;
 /// Calls of a long function; odd too.
 const LONG_CALLS: usize = 15;
+
+/// Calls of a function in this run.
+fn calls() -> u32 {
+    // SAFETY: a static, always valid; volatile, because the image may hold another number than the source.
+    unsafe { (&raw const DRIVELINE_CALLS).read_volatile() }
+}
+
+/// What the calls of a function took. The first so many are kept for the median.
+struct Counts<const KEPT: usize> {
+    kept: [u32; KEPT],
+    calls: u32,
+    least: u32,
+    most: u32,
+}
+
+impl<const KEPT: usize> Counts<KEPT> {
+    fn new() -> Self {
+        Counts { kept: [0; KEPT], calls: 0, least: u32::MAX, most: 0 }
+    }
+
+    fn add(&mut self, count: u32) {
+        if let Some(place) = self.kept.get_mut(self.calls as usize) {
+            *place = count;
+        }
+        self.calls += 1;
+        self.least = self.least.min(count);
+        self.most = self.most.max(count);
+    }
+
+    /// The middle value of those that are kept: at most half of them are smaller, and at most half greater.
+    fn median(&self) -> u32 {
+        let kept = self.kept.get(..self.calls as usize).unwrap_or(&self.kept);
+        let half = kept.len() / 2;
+        let is_middle = |&&value: &&u32| {
+            let smaller = kept.iter().filter(|&&other| other < value).count();
+            let greater = kept.iter().filter(|&&other| other > value).count();
+            smaller <= half && greater <= half
+        };
+        kept.iter().find(is_middle).copied().unwrap_or(0)
+    }
+}
 
 /// Measures functions one by one.
 pub struct Bench<'b, B> {
@@ -55,9 +99,9 @@ impl<'b, B: Board> Bench<'b, B> {
     ) {
         let mut inputs = self.inputs.clone();
         let mut output = O::default();
-        let mut counts = [0; CALLS];
-        for count in &mut counts {
-            *count = self.counter.call(function, &mut state, &input(&mut inputs), &mut output);
+        let mut counts = Counts::<CALLS>::new();
+        for _ in 0..calls() {
+            counts.add(self.counter.call(function, &mut state, &input(&mut inputs), &mut output));
         }
         self.print(name, function as usize, &counts);
     }
@@ -72,10 +116,10 @@ impl<'b, B: Board> Bench<'b, B> {
         step: Stepped<C, S, N>,
     ) {
         let mut inputs = self.inputs.clone();
-        let mut counts = [0; CALLS];
-        for count in &mut counts {
+        let mut counts = Counts::<CALLS>::new();
+        for _ in 0..calls() {
             let (angle, torque) = input(&mut inputs);
-            *count = self.counter.step(step, constants, &mut state, angle, torque);
+            counts.add(self.counter.step(step, constants, &mut state, angle, torque));
         }
         self.print(name, step as usize, &counts);
     }
@@ -90,10 +134,10 @@ impl<'b, B: Board> Bench<'b, B> {
     ) {
         let mut inputs = Program::new(SEED, words);
         let mut output = O::default();
-        let mut counts = [0; LONG_CALLS];
+        let mut counts = Counts::<LONG_CALLS>::new();
         stack::paint();
-        for count in &mut counts {
-            *count = self.counter.call(function, &mut (), &input(&mut inputs), &mut output);
+        for _ in 0..LONG_CALLS {
+            counts.add(self.counter.call(function, &mut (), &input(&mut inputs), &mut output));
         }
         let used = stack::used();
         self.board.print(self.line(name, function as usize, &counts).number("stack", used).finish());
@@ -105,34 +149,21 @@ impl<'b, B: Board> Bench<'b, B> {
         self.board.print(line.finish());
     }
 
-    fn print(&self, name: &str, function: usize, counts: &[u32]) {
+    fn print<const KEPT: usize>(&self, name: &str, function: usize, counts: &Counts<KEPT>) {
         self.board.print(self.line(name, function, counts).finish());
     }
 
     /// The line of a function at an address, where the host finds its machine code.
-    fn line(&self, name: &str, function: usize, counts: &[u32]) -> Line {
-        let least = counts.iter().fold(u32::MAX, |least, &count| least.min(count));
-        let most = counts.iter().fold(0, |most, &count| most.max(count));
+    fn line<const KEPT: usize>(&self, name: &str, function: usize, counts: &Counts<KEPT>) -> Line {
         Line::new()
             .text("bench", name)
             .text("variant", self.variant)
             .text("board", B::FACTS.name)
-            .number("min", least)
-            .number("median", median(counts))
-            .number("max", most)
-            .number("calls", counts.len() as u32)
+            .number("min", counts.least)
+            .number("median", counts.median())
+            .number("max", counts.most)
+            .number("calls", counts.calls)
             .number("function", function as u32)
             .text("unit", B::UNIT)
     }
-}
-
-/// The middle value: at most half of the values are smaller, and at most half greater.
-fn median(counts: &[u32]) -> u32 {
-    let half = counts.len() / 2;
-    let is_middle = |&&value: &&u32| {
-        let smaller = counts.iter().filter(|&&other| other < value).count();
-        let greater = counts.iter().filter(|&&other| other > value).count();
-        smaller <= half && greater <= half
-    };
-    counts.iter().find(is_middle).copied().unwrap_or(0)
 }

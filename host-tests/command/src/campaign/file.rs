@@ -65,6 +65,9 @@ const LEAST_EFFICIENCY: f64 = 1e-3;
 /// Longest run (s).
 const LONGEST: f64 = 600.0;
 
+/// A run of so many stretches takes some seconds; with a stiff damper it would take hours.
+const STRETCHES: f64 = 1e6;
+
 impl FileCase {
     /// A machine that a campaign can be run of.
     ///
@@ -94,6 +97,13 @@ impl FileCase {
         let ticks = machine.actuator.delay * f64::from(machine.control.rate_hz);
         if ticks > 1.0 {
             return Err(format!("the torque is {ticks:.1} ticks late; a campaign has room for one tick"));
+        }
+        if let Some(rate) = rate_with_dampers(&machine).filter(|rate| rate * end > STRETCHES) {
+            return Err(format!(
+                "with its dampers the machine moves at up to {rate:.1e} 1/s, and a campaign of {end:.1} s can follow \
+                 {:.1e} 1/s: leave the stiffest damper out of a copy of the file",
+                STRETCHES / end
+            ));
         }
         let shafts = machine.chain.shafts();
         let softest = shafts.iter().enumerate().min_by(|a, b| a.1.stiffness.total_cmp(&b.1.stiffness));
@@ -194,6 +204,18 @@ impl FileCase {
 ///
 /// # Errors
 /// What the plant refuses.
+/// The rate of the fastest part of a machine with dampers (1/s); none without.
+fn rate_with_dampers(machine: &MachineFile) -> Option<f64> {
+    let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
+    let train = masses.iter().fold(Train::new(), |train, &inertia| train.coordinate(Coordinate::new(inertia)));
+    let train = shafts
+        .iter()
+        .enumerate()
+        .fold(train, |train, (s, shaft)| train.link(Link::shaft(s, s + 1, shaft.stiffness).damping(shaft.damping)));
+    let motion = machine.put_dampers(train, masses.len()).build().ok()?;
+    (!machine.dampers.is_empty()).then(|| motion.rate())
+}
+
 fn plant(machine: &MachineFile, load: [(f64, f64); 4], by: &Departure) -> Result<Body, PlantError> {
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
     let (rope, efficiency) = machine.ropes_and_efficiencies();

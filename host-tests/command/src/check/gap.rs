@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use driveline_firmware::board::Facts;
 use driveline_qemu::image::Image;
-use driveline_qemu::measure::{Loops, MachineCode, worst_drawn, worst_sought};
+use driveline_qemu::measure::{Called, Loops, MachineCode, worst_called, worst_drawn, worst_sought};
 
 /// Inputs of an image that are drawn, and that are sought.
 #[derive(Clone, Copy, Debug)]
@@ -31,8 +32,8 @@ pub struct Gap {
     pub longest: Option<u64>,
     /// The worst of the inputs that were drawn.
     pub drawn: u64,
-    /// The worst of those that were sought.
-    pub sought: u64,
+    /// The worst of those that were sought; none for a function of the bench.
+    pub sought: Option<u64>,
 }
 
 /// The hoist's worst input takes at least this share of its longest path: the bound is hardly more than is reached.
@@ -49,13 +50,27 @@ impl Gap {
             core: image.board.core,
             longest: code.bound(start).ok().map(|bound| bound.instructions),
             drawn: worst(worst_drawn(image, inputs.drawn))?.into(),
-            sought: worst(worst_sought(image, inputs.sought))?.into(),
+            sought: Some(worst(worst_sought(image, inputs.sought))?.into()),
         })
+    }
+
+    /// The worst calls of the bench's functions on a board.
+    pub fn of_functions(board: Facts, inputs: Inputs) -> Result<Vec<Self>, String> {
+        let calls = u32::try_from(inputs.drawn).map_err(|error| format!("INPUTS is {}: {error}", inputs.drawn))?;
+        let called = worst_called(board, calls).map_err(|error| error.to_string())?;
+        let gap = |Called { name, longest, most }| Gap {
+            variant: format!("bench/{name}"),
+            core: board.core,
+            longest,
+            drawn: most,
+            sought: None,
+        };
+        Ok(called.into_iter().map(gap).collect())
     }
 
     /// The worst input's share of the longest path.
     pub fn share(&self) -> Option<f64> {
-        Some(self.drawn.max(self.sought) as f64 / self.longest? as f64)
+        Some(self.drawn.max(self.sought.unwrap_or(0)) as f64 / self.longest? as f64)
     }
 
     /// Whether no input exceeds the longest path, and the hoist's comes near it.
@@ -79,7 +94,10 @@ impl Gap {
 impl fmt::Display for Gap {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Gap { variant, core, drawn, sought, .. } = self;
-        write!(f, "{variant} on {core}: {drawn} of the inputs drawn, {sought} of those sought")?;
+        write!(f, "{variant} on {core}: {drawn} of the inputs drawn")?;
+        if let Some(sought) = sought {
+            write!(f, ", {sought} of those sought")?;
+        }
         match (self.longest, self.share()) {
             (Some(longest), Some(share)) => {
                 write!(f, ", longest path {longest}, gap {:.1} %", 100.0 * (1.0 - share))
@@ -100,10 +118,11 @@ pub fn table(gaps: &[Gap], cores: &[&str]) -> String {
             let Some(gap) = gaps.iter().find(|gap| gap.variant == variant && gap.core == *core) else {
                 return String::new();
             };
+            let sought = gap.sought.map(|sought| format!(", {sought}")).unwrap_or_default();
             let (Some(longest), Some(share)) = (gap.longest, gap.share()) else {
-                return format!("no bound, {}, {}", gap.drawn, gap.sought);
+                return format!("no bound, {}{sought}", gap.drawn);
             };
-            format!("{longest}, {}, {}: {:.1} %", gap.drawn, gap.sought, 100.0 * (1.0 - share))
+            format!("{longest}, {}{sought}: {:.1} %", gap.drawn, 100.0 * (1.0 - share))
         };
         text += &format!("| {variant} | {} |\n", cores.iter().map(cell).collect::<Vec<_>>().join(" | "));
     }
@@ -115,7 +134,7 @@ mod tests {
     use super::{Gap, table};
 
     fn gap(variant: &str, longest: Option<u64>, drawn: u64, sought: u64) -> Gap {
-        Gap { variant: variant.into(), core: "m3", longest, drawn, sought }
+        Gap { variant: variant.into(), core: "m3", longest, drawn, sought: Some(sought) }
     }
 
     #[test]
@@ -135,9 +154,11 @@ mod tests {
     #[test]
     fn the_table_has_a_row_for_a_variant_and_a_column_for_a_core() {
         let first = Gap { core: "m4f", ..gap("b", Some(200), 150, 190) };
-        let gaps = [first, gap("b", Some(100), 96, 93), gap("a", None, 7, 9)];
+        let function = Gap { sought: None, ..gap("c", Some(50), 40, 0) };
+        let gaps = [first, gap("b", Some(100), 96, 93), gap("a", None, 7, 9), function];
         let expected = "| image | m4f | m3 |\n|---|---|---|\n| a |  | no bound, 7, 9 |\n\
-                        | b | 200, 150, 190: 5.0 % | 100, 96, 93: 4.0 % |\n";
+                        | b | 200, 150, 190: 5.0 % | 100, 96, 93: 4.0 % |\n\
+                        | c |  | 50, 40: 20.0 % |\n";
         assert_eq!(table(&gaps, &["m4f", "m3"]), expected);
     }
 }

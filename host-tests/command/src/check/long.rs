@@ -49,7 +49,7 @@ pub const LONG: [Step; 8] = [
     },
     Step {
         name: "inputs",
-        content: "three million inputs of each image in QEMU, and a million sought: none above the longest path",
+        content: "three million inputs of each image and function in QEMU, and a million sought: none above the longest path",
         repeat: "cargo driveline check --long --only inputs",
         run: inputs,
     },
@@ -92,12 +92,23 @@ fn seeds(voice: &Voice) -> Result<Count, Failed> {
 /// A variant without a bound has nothing to exceed.
 fn inputs(voice: &Voice) -> Result<Count, Failed> {
     let inputs = Inputs::of_environment().map_err(Failed::whole)?;
-    let gaps = each(|variant, board| {
+    let mut gaps = each(|variant, board| {
         let image = build(variant, board, Program::ControlLoop, |_| {}).map_err(|error| error.to_string())?;
         let gap = Gap::of(&image, inputs)?;
         voice.say(&gap.to_string());
         Ok(gap)
     })?;
+    let images = gaps.len();
+    let functions = std::thread::scope(|scope| {
+        let boards: Vec<_> =
+            BOARDS.iter().map(|&board| scope.spawn(move || Gap::of_functions(board, inputs))).collect();
+        boards
+            .into_iter()
+            .map(|board| board.join().unwrap_or_else(|_| Err("a board's thread panicked".into())))
+            .collect()
+    });
+    let functions: Result<Vec<_>, _> = functions;
+    gaps.extend(functions.map_err(Failed::whole)?.into_iter().flatten());
     voice.say(&table(&gaps, &BOARDS.iter().map(|board| board.core).collect::<Vec<_>>()));
     let shares = |of: fn(&Gap) -> bool| {
         let mut shares: Vec<f64> = gaps.iter().filter(|gap| of(gap)).filter_map(Gap::share).collect();
@@ -108,9 +119,10 @@ fn inputs(voice: &Voice) -> Result<Count, Failed> {
     if let (Some(least), Some(median), Some(of_hoist)) = (all.first(), all.get(all.len() / 2), hoist.first()) {
         let Inputs { drawn, sought } = inputs;
         voice.say(&format!(
-            "measured: {drawn} inputs drawn and {sought} sought for each of {} images; of {} with a bound the worst is \
-             {:.1} % of it at least, {:.1} % in the median, {:.1} % at least for the hoist",
-            gaps.len(),
+            "measured: {drawn} inputs drawn and {sought} sought for each of {images} images, {drawn} calls of each of {} \
+             functions; of {} with a bound the worst is {:.1} % of it at least, {:.1} % in the median, {:.1} % at least \
+             for the hoist",
+            gaps.len() - images,
             all.len(),
             100.0 * least,
             100.0 * median,

@@ -7,7 +7,7 @@ use driveline_firmware::board::BOARDS;
 use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
 use driveline_qemu::image::{Contents, ON_NUCLEO, Program, board, build, tick_code};
 use driveline_qemu::link;
-use driveline_qemu::measure::{Cost, Loops, MachineCode, self_test};
+use driveline_qemu::measure::{Called, Cost, Loops, MachineCode, self_test, worst_called};
 use object::{Object, ObjectSection, ObjectSymbol};
 
 /// A bench takes well under a second of QEMU.
@@ -206,4 +206,17 @@ fn the_stack_of_the_board_with_a_motor_ends_where_the_memory_ends() {
     let vectors = file.section_by_name(".vector_table").unwrap();
     let first = vectors.data_range(vectors.address(), 4).unwrap().unwrap();
     assert_eq!(u64::from(u32::from_le_bytes(first.try_into().unwrap())), address("_stack_start"));
+}
+
+#[test]
+fn a_longer_bench_is_the_same_machine_code_with_more_calls() {
+    for &board in BOARDS {
+        let called = worst_called(board, 2000).unwrap();
+        for Called { name, longest, most } in &called {
+            assert!(longest.is_none_or(|longest| *most <= longest), "{name} on {}", board.core);
+        }
+        for name in ["tick", "step/exact", "drive/semi-implicit", "phasor/1", "wheel/tooth"] {
+            assert!(called.iter().any(|called| called.name == name), "{name} on {}", board.core);
+        }
+    }
 }

@@ -156,8 +156,7 @@ impl Cost {
     /// # Errors
     /// What the build or QEMU says, or that a function was not measured.
     pub fn benches(board: Facts) -> Result<Vec<(String, Self)>, Box<dyn Error>> {
-        let number = if board.target.ends_with("hf") { "f32" } else { "fixed" };
-        let image = build(&format!("hoist/{number}/reduced/10000"), board, Program::Bench, |_| {})?;
+        let image = super::calls::bench(board)?;
         let lines = crate::link::run(&image, BENCH_LIMIT)?.lines;
         let code = MachineCode::read(&image.path, Loops::default())?;
         let cost = |name: &str| -> Result<_, Box<dyn Error>> {
@@ -178,4 +177,4 @@ impl Cost {
 }
 
 /// A bench takes a second; this is for a QEMU that hangs.
-const BENCH_LIMIT: Duration = Duration::from_secs(60);
+pub(super) const BENCH_LIMIT: Duration = Duration::from_secs(60);
