@@ -199,11 +199,6 @@ impl FileCase {
     }
 }
 
-/// A machine as a plant that departs from the file: it hangs on its shafts, its gears have their losses, its ropes
-/// only pull, and a load torque (s, N m) is added at its far end. Its dampers stand on it with their nominal sizes.
-///
-/// # Errors
-/// What the plant refuses.
 /// The rate of the fastest part of a machine with dampers (1/s); none without.
 fn rate_with_dampers(machine: &MachineFile) -> Option<f64> {
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
@@ -216,6 +211,11 @@ fn rate_with_dampers(machine: &MachineFile) -> Option<f64> {
     (!machine.dampers.is_empty()).then(|| motion.rate())
 }
 
+/// A machine as a plant that departs from the file: it hangs on its shafts, its gears have their losses, its ropes
+/// only pull, and a load torque (s, N m) is added at its far end. Its dampers stand on it with their nominal sizes.
+///
+/// # Errors
+/// What the plant refuses.
 fn plant(machine: &MachineFile, load: [(f64, f64); 4], by: &Departure) -> Result<Body, PlantError> {
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
     let (rope, efficiency) = machine.ropes_and_efficiencies();

@@ -49,7 +49,7 @@ pub const LONG: [Step; 8] = [
     },
     Step {
         name: "inputs",
-        content: "three million inputs of each image and function in QEMU, and a million sought: none above the longest path",
+        content: "three million inputs of each image and function in QEMU, a million sought: none above its bound",
         repeat: "cargo driveline check --long --only inputs",
         run: inputs,
     },
@@ -119,9 +119,9 @@ fn inputs(voice: &Voice) -> Result<Count, Failed> {
     if let (Some(least), Some(median), Some(of_hoist)) = (all.first(), all.get(all.len() / 2), hoist.first()) {
         let Inputs { drawn, sought } = inputs;
         voice.say(&format!(
-            "measured: {drawn} inputs drawn and {sought} sought for each of {images} images, {drawn} calls of each of {} \
-             functions; of {} with a bound the worst is {:.1} % of it at least, {:.1} % in the median, {:.1} % at least \
-             for the hoist",
+            "measured: {drawn} inputs drawn and {sought} sought for each of {images} images, {drawn} calls of each of \
+             {} functions; of {} with a bound the worst is {:.1} % of it at least, {:.1} % in the median, {:.1} % at \
+             least for the hoist",
             gaps.len() - images,
             all.len(),
             100.0 * least,

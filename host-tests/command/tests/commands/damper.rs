@@ -258,6 +258,18 @@ fn a_campaign_has_the_dampers() {
     }
 }
 
+/// Steps as short as its absorber asks for would take hours; the same machine with a slow one is a campaign.
+#[test]
+fn a_campaign_refuses_an_absorber_too_fast_to_follow() {
+    let scene = |hertz: f64| {
+        let file = parse("damped", &machine(&format!("kind = \"absorber\"\nfrequency = {hertz}\n"))).unwrap();
+        CampaignScene::of_file(file).map(|_| ())
+    };
+    let refusal = scene(1e9).unwrap_err().to_string();
+    assert!(refusal.contains("with its dampers") && refusal.contains("leave the stiffest damper out"), "{refusal}");
+    scene(20.0).unwrap();
+}
+
 #[test]
 fn the_sharp_peaks_of_a_weakly_damped_ring_are_found() {
     let (stiffness, damping) = (2.0e4, 1e-3);

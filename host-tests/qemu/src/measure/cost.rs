@@ -1,7 +1,6 @@
 //! Cost of a variant on a board: instructions a tick and stack, counted and bounded; flash and RAM.
 
 use std::error::Error;
-use std::time::Duration;
 
 use driveline_firmware::board::Facts;
 use driveline_firmware::scene::{Input, Output};
@@ -14,6 +13,7 @@ use crate::image::{Contents, Image, Program, Sizes, build};
 use crate::link::{Link, Summary};
 
 use super::bound::MachineCode;
+use super::calls::{BENCH_LIMIT, bench};
 use super::{Bound, Loops, Refusal};
 
 /// Least, middle and most of a set of numbers.
@@ -156,7 +156,7 @@ impl Cost {
     /// # Errors
     /// What the build or QEMU says, or that a function was not measured.
     pub fn benches(board: Facts) -> Result<Vec<(String, Self)>, Box<dyn Error>> {
-        let image = super::calls::bench(board)?;
+        let image = bench(board)?;
         let lines = crate::link::run(&image, BENCH_LIMIT)?.lines;
         let code = MachineCode::read(&image.path, Loops::default())?;
         let cost = |name: &str| -> Result<_, Box<dyn Error>> {
@@ -175,6 +175,3 @@ impl Cost {
         BENCHES.iter().map(|name| cost(name)).collect()
     }
 }
-
-/// A bench takes a second; this is for a QEMU that hangs.
-pub(super) const BENCH_LIMIT: Duration = Duration::from_secs(60);
