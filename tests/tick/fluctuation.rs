@@ -3,8 +3,10 @@
 use core::f64::consts::TAU;
 
 use driveline::fluctuation::{
-    Balance, Cylinder, CylinderVerdict, Drivetrain, Engine, Extreme, Fluctuations, Order, Quality, Ripple, Series,
+    Balance, Cylinder, CylinderVerdict, Drivetrain, Engine, Extreme, Fluctuations, MachineClass, Order, Quality,
+    Ripple, Series, Summed,
 };
+use driveline::number::Fixed;
 use driveline::settings::{Bases, Cycle};
 
 type CycleConfig = driveline::fluctuation::CycleConfig;
@@ -368,4 +370,39 @@ fn a_series_is_its_orders() {
     let table: Vec<f64> = (0..10).map(|k| of(f64::from(k) / 10.0 * TAU)).collect();
     assert_eq!(Series::from_samples(&table).order(5), Order::default());
     assert_eq!(Series::from_samples(&[]), Series::default());
+}
+
+/// A number of fixed point has 2^28 to its base: a total is the sum of them as whole numbers, over 2^28, however often
+/// it passes a word's end, either way.
+#[test]
+fn a_total_of_fixed_point_is_the_sum_in_two_words() {
+    let (mut total, mut sum) = (Default::default(), 0_i64);
+    let numbers = [7.5, 7.9, -0.25, 6.0, -7.75, -7.75, -7.75, -7.5, 1e-8, -7.0, 3.0];
+    for number in numbers.iter().cycle().take(2_000).map(|&number| Fixed::from_f64(number)) {
+        total = number.added_to(total);
+        sum += i64::from(number.to_bits());
+        assert_eq!(Fixed::total_to_real(total), sum as f64 / 268_435_456.0);
+    }
+    assert!(sum < -(1 << 32), "{sum}");
+    assert_eq!(f64::total_to_real(0.5_f64.added_to(0.25)), 0.75);
+}
+
+/// As printed, the tolerant one first [Notes ch. 5].
+#[test]
+fn permissible_fluctuations_are_those_of_the_table() {
+    for (class, tolerant, strict) in [
+        (MachineClass::Crusher, 5.0, 20.0),
+        (MachineClass::Press, 7.0, 10.0),
+        (MachineClass::Farm, 10.0, 50.0),
+        (MachineClass::MachineTool, 20.0, 50.0),
+        (MachineClass::Vehicle, 20.0, 60.0),
+        (MachineClass::MarineEngine, 20.0, 150.0),
+        (MachineClass::Compressor, 50.0, 100.0),
+        (MachineClass::CombustionEngine, 80.0, 150.0),
+        (MachineClass::Generator, 100.0, 300.0),
+    ] {
+        let [least, most] = class.permissible();
+        // a rounding of the quotient and one of the product
+        assert!((least * strict - 1.0).abs() < 3e-16 && (most * tolerant - 1.0).abs() < 3e-16, "{class:?}");
+    }
 }

@@ -8,14 +8,14 @@
 use core::f64::consts::TAU;
 
 use driveline::design::{
-    Actuator, BarredSpeeds, ExactStep, GovernorDesign, InputShaperDesign, NaturalDamping, PlacedObserver, RigidDesign,
-    SpeedLoopDesign, TorqueCurve,
+    Actuator, BacklashTakeUpDesign, BacklashTuning, BarredSpeeds, Disturbance, Encoder, ExactStep, GovernorDesign,
+    InputShaperDesign, NaturalDamping, PlacedObserver, Rate, RigidDesign, SpeedLoopDesign, TorqueCurve,
 };
 use driveline::drive::Limits;
 use driveline::governor::*;
-use driveline::machine::{Damping, Inertia, ResistorStart, Rigid, SoftStart, Stiffness, TwoMass};
+use driveline::machine::{Damping, Gap, Inertia, ResistorStart, Rigid, SoftStart, Stiffness, TwoMass};
 use driveline::number::{Coefficient, Fixed};
-use driveline::observer::{RigidConfig, SemiImplicitConfig, TwoMassConfig};
+use driveline::observer::{BacklashConfig, RigidConfig, SemiImplicitConfig, TwoMassConfig};
 use driveline::settings::*;
 
 /// 2^-32 turns of a radian, and what a base is of the last place.
@@ -732,4 +732,84 @@ fn the_constants_of_screening_and_monitor() {
         let fixed = ActuatorMonitorConfig::<Fixed, 1>::try_new(&[1e-3], &settings, PERIOD, BASES);
         assert_eq!(fixed.is_ok(), is_right, "{places}");
     }
+}
+
+/// Torques over the base, a rate times the period, what damps with its sign and per unit of the bases, and 1/k_p.
+#[test]
+fn the_constants_of_a_backlash_take_up() {
+    let design = BacklashTakeUpDesign {
+        period: PERIOD,
+        approach_speed: 0.3,
+        torque: 11.0,
+        braking: 27.0,
+        slew: 4_100.0,
+        fall: 9_300.0,
+        max_torque: 290.0,
+        damping: 23.0,
+    };
+    let limit = SymmetricLimitConfig { torque: 1.0 };
+    let si = BacklashTakeUpConfig::<f64, _>::try_new(&design, 17.0, limit, Bases::SI).unwrap();
+    let fixed = BacklashTakeUpConfig::<Fixed, _>::try_new(&design, 17.0, limit, BASES).unwrap();
+    let Bases { torque, speed, .. } = BASES;
+    for (si, fixed, expected) in [
+        (si.torque, fixed.torque, 11.0),
+        (si.step, fixed.step, 0.41),
+        (si.fall, fixed.fall, -0.93),
+        (si.max_torque, fixed.max_torque, 290.0),
+    ] {
+        double(si, expected);
+        number(fixed, expected / torque);
+    }
+    double(si.braking, -27.0);
+    double(si.damping, -23.0);
+    double(si.tracking, 1.0 / 17.0);
+    coefficient(fixed.braking, -27.0 * speed / torque / 32.0);
+    coefficient(fixed.damping, -23.0 * speed / torque / 32.0);
+    coefficient(fixed.tracking, torque / (17.0 * speed) / 4.0);
+}
+
+/// In contact the constants of two masses; the damper's law that a tick begins or ends with, the step of free flight,
+/// and the searching gains.
+#[test]
+fn the_constants_of_a_backlash_observer() {
+    let machine = TwoMass::new(Inertia(0.35), Inertia(0.48), Stiffness(2.0e4), Damping(40.0)).with_gap(Gap(0.004));
+    let disturbance = Disturbance { torque_accuracy: 1.0, load_torque_step: 10.0, within: 0.05 };
+    let mut design = machine.backlash_observer(
+        Rate::hz(10_000),
+        Encoder::lines(2048),
+        disturbance,
+        BacklashTuning { wander: 0.5, hold: 1.0 },
+    );
+    design.searching = [0.31, 5.0, 3e-4, 2.0, 60.0];
+    let bases = Bases::new(&machine, 310.0, 57.0);
+    let (si, fixed) = (
+        BacklashConfig::<f64>::try_new(&design, bases).unwrap(),
+        BacklashConfig::<Fixed>::try_new(&design, bases).unwrap(),
+    );
+    let Bases { torque, speed, twist, twist_rate: rate, forcing } = bases;
+    let check = |si: f64, fixed: Coefficient, value: f64, per_unit: f64| {
+        double(si, value);
+        coefficient(fixed, value * per_unit);
+    };
+    // d/J of the two masses in series
+    let damper = 40.0 * (1.0 / 0.35 + 1.0 / 0.48);
+    let step = design.contact.step;
+    let rest = -step.n22 / PERIOD - damper;
+    let late = 1.0 - step.n12 / PERIOD;
+    number(fixed.half_gap, 0.002 / twist);
+    for (index, value, per_unit) in [(0, damper, twist / rate / 4.0), (1, rest, twist / rate / 4.0), (2, late, 0.25)] {
+        check(si.contact.leaving[index], fixed.contact.leaving[index], value, per_unit);
+        check(si.free.meeting[index], fixed.free.meeting[index], -value, per_unit);
+    }
+    // without a shaft the twist rate stays: the twist moves by T v + T^2/2 s
+    check(si.free.twist[0], fixed.free.twist[0], PERIOD, rate / twist / 4.0);
+    check(si.free.twist[1], fixed.free.twist[1], 0.5 * PERIOD * PERIOD, forcing / twist / 4.0);
+    check(si.free.twist_rate, fixed.free.twist_rate, PERIOD, forcing / rate / 4.0);
+    let (motor, load, gain) = (0.35 / 0.83, 0.48 / 0.83, UNIT / 32.0);
+    let (si, fixed) = (si.searching, fixed.searching);
+    check(si.states[0], fixed.states[0], (motor * 5.0 + load * 2.0) / ANGLE, gain / speed);
+    check(si.states[1], fixed.states[1], (5.0 - 2.0) / ANGLE, gain / rate);
+    check(si.states[2], fixed.states[2], 3e-4 / ANGLE, gain / twist);
+    check(si.states[3], fixed.states[3], 60.0 / ANGLE, gain / torque);
+    check(si.angle, fixed.angle, -0.31, 1.0 / 32.0);
 }

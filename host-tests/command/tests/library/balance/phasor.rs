@@ -440,6 +440,45 @@ fn run_out_and_sensor_are_taken_off() {
     assert!((seen.re - 1.0).abs() < 1e-6 && seen.im.abs() < 1e-6, "{seen:?}");
 }
 
+/// x = 1e-4 m at 100 rad/s: 1e-2 m/s a quarter turn ahead, 1 m/s2 half a turn ahead. From each of them to each.
+#[test]
+fn any_motion_is_had_from_any_other() {
+    let motions = [
+        (Motion::Displacement, Phasor { re: 1e-4, im: 0.0 }),
+        (Motion::Velocity, Phasor { re: 0.0, im: 1e-2 }),
+        (Motion::Acceleration, Phasor { re: -1.0, im: 0.0 }),
+    ];
+    for (measured, phasor) in motions {
+        for (wanted, expected) in motions {
+            let found = Sensor::ideal(measured).motion(phasor, 100.0, wanted).unwrap();
+            // some roundings of an f32
+            assert!(
+                found.less(expected).amplitude() < 1e-6 * expected.amplitude(),
+                "{measured:?} {wanted:?} {found:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_phasor_is_a_complex_number() {
+    let phasor = Phasor { re: 1.5, im: -0.25 };
+    assert_eq!(phasor.conjugate(), Phasor { re: 1.5, im: 0.25 });
+    assert_eq!(nalgebra::Complex::<f32>::from(phasor), nalgebra::Complex::new(1.5, -0.25));
+    assert_eq!(nalgebra::Complex::<f64>::from(phasor), nalgebra::Complex::new(1.5, -0.25));
+}
+
+#[test]
+fn faults_of_a_reading_give_their_share_in_tenths_of_a_percent() {
+    for (fault, expected) in [
+        (ReadingFault::SpeedMoved { spread: 0.0346 }, "the speed moved by 3.5 %"),
+        (ReadingFault::SpeedMoved { spread: 0.0344 }, "the speed moved by 3.4 %"),
+        (ReadingFault::Scattered { scatter: 1.25 }, "the vibration fluctuates: the mean is uncertain by 125.0 %"),
+    ] {
+        assert_eq!(fault.to_string(), expected);
+    }
+}
+
 /// Each wrong setting of a sensor has a sentence of its own.
 #[test]
 fn a_sensor_that_cannot_be_is_refused() {

@@ -281,3 +281,31 @@ fn a_damaged_record_is_noticed() {
         assert!(Field::resume(plan(true), &garbage).is_err());
     }
 }
+
+/// Everything that can be entered fills `words` to the last: one word less is too few.
+#[test]
+fn the_longest_record_is_as_long_as_stated() {
+    fn check<T: driveline::balancing::Scalar + From<f32>>(turned: impl Fn(f32) -> Run<T, 3>) {
+        type Whole<T> = Procedure<T, 3, 2, 5>;
+        let z = |re: f32, im: f32| Complex::new(T::from(re), T::from(im));
+        let mut field = Whole::<T>::new(Plan { leave_trials: false, ..Plan::usual(3, 2, T::from(1e-6)) }).unwrap();
+        field.baseline(&turned(0.0)).unwrap();
+        let trials =
+            (0..9).take_while(|&k| field.extra_trial(k % 2, z(1.0, k as f32), &turned(1.0 + k as f32)).is_ok());
+        assert_eq!(trials.count(), 5);
+        let corrections = (0..9).take_while(|&k| {
+            field.installed(&[z(0.1, k as f32), z(0.2, 0.0)]).is_ok() && field.verified(&turned(0.1 * k as f32)).is_ok()
+        });
+        assert_eq!(corrections.count(), driveline::balancing::CORRECTIONS);
+        let mut words = vec![0; Whole::<T>::words(3, 2)];
+        assert_eq!(field.record(&mut words), Ok(words.len()));
+        let short = words.len() - 1;
+        assert_eq!(field.record(&mut words[..short]), Err(Error::Size));
+    }
+    let readings = |by: f32| [(3.0 + by, 1.0), (2.0, -by), (by * by, 4.0)];
+    check(|by| Run::new(&readings(by).map(|(re, im)| Complex::new(re, im)), &[157.0; 3]).unwrap());
+    check(|by| {
+        let readings = readings(by).map(|(re, im)| Complex::new(f64::from(re), f64::from(im)));
+        Run::new(&readings, &[157.0; 3]).unwrap()
+    });
+}

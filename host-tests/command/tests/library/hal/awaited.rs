@@ -55,6 +55,18 @@ fn an_accelerometer_starts_and_gives_its_samples() {
 }
 
 #[test]
+fn another_chip_or_none_does_not_start() {
+    for answer in [[0, 0xe5, 0, 0], [0xff; 4], [0; 4]] {
+        let mut expected = Expected::default();
+        expected.exchange(&[0x01, 0, 0, 0], &answer);
+        let started = awaited(Adxl355::start_async(expected.bus(), Along::X, Range::G2, PER_COUNT, 3));
+        let (faults, bus) = started.err().unwrap();
+        assert_eq!(faults, Faults::VIBRATION_MISSING);
+        bus.done();
+    }
+}
+
+#[test]
 fn a_torque_goes_to_a_dac_or_a_drive_or_is_a_fault() {
     let mut expected = Expected::default();
     expected.write(&[0, 0x40, 0x00]);

@@ -1,7 +1,7 @@
 //! The order of the enable chain, and what a line that fails does to the others.
 
 use driveline::fault::Faults;
-use driveline::hal::{EnableChain, EnableLine, Enabling, TripLine};
+use driveline::hal::{AngleSensor, Board, EnableChain, EnableLine, Enabling, Parts, TorqueOutput, TripLine};
 use embedded_hal::digital::{ErrorType, OutputPin};
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction};
@@ -94,4 +94,44 @@ fn a_trip_output_begins_tripped_and_is_off_on_any_failure() {
         line.release().done();
         faults == Faults::ENABLE
     }));
+}
+
+/// Of a board made of parts, two lines: on one after the other, off in reverse, and both off where the second fails.
+#[test]
+fn two_lines_of_a_board_go_on_in_order_and_off_in_reverse() {
+    let order = Order::default();
+    let line = |expected: &[Transaction], name| {
+        EnableChain::new([EnableLine::high(Noted(Pin::new(expected), name, order.clone()))])
+    };
+    let contactor = line(&[set(ON), set(OFF), set(ON), set(OFF)], "contactor");
+    let brake = line(&[set(ON), set(OFF), set(ON).with_error(FAILED), set(OFF), set(OFF)], "brake");
+    let mut board = Parts { angle: NoAngle, torque: NoTorque, enable: (contactor, brake) };
+    assert_eq!(board.set_enabled(true), Ok(()));
+    assert_eq!(board.set_enabled(false), Ok(()));
+    assert_eq!(*order.borrow(), ["contactor", "brake", "brake", "contactor"]);
+    order.borrow_mut().clear();
+    assert_eq!(board.set_enabled(true), Err(Faults::ENABLE));
+    // the chain of the brake takes its own line off before both go off
+    assert_eq!(*order.borrow(), ["contactor", "brake", "brake", "brake", "contactor"]);
+    let (contactor, brake) = board.enable;
+    for chain in [contactor, brake] {
+        let [line] = chain.release();
+        line.release().0.done();
+    }
+}
+
+/// A board without a motor.
+struct NoAngle;
+struct NoTorque;
+
+impl AngleSensor for NoAngle {
+    fn angle(&mut self) -> Result<u32, Faults> {
+        Err(Faults::ANGLE_MISSING)
+    }
+}
+
+impl TorqueOutput<f32> for NoTorque {
+    fn set_torque(&mut self, _: f32, _: u32) -> Result<(), Faults> {
+        Err(Faults::TORQUE_OUTPUT)
+    }
 }

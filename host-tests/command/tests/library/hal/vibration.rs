@@ -49,6 +49,25 @@ fn a_sample_is_an_acceleration_once() {
     sensor.release().done();
 }
 
+/// Each range has its own word and its own counts to a g [ADXL355 datasheet, tables 1 and 43].
+#[test]
+fn every_range_is_set_at_the_chip() {
+    for (range, word, of_a_g) in [(Range::G2, 0x81, 256_000), (Range::G4, 0x82, 128_000), (Range::G8, 0x83, 64_000)] {
+        let mut expected = Expected::default();
+        expected.exchange(&[0x01, 0, 0, 0], &[0, 0xad, 0x1d, 0xed]);
+        expected.write(&[0x58, word]);
+        expected.write(&[0x50, 0x00]);
+        expected.write(&[0x5a, 0x00]);
+        burst(&mut expected, 1, of_a_g);
+        let per_count = PerCount::<f32>::new(range.per_count());
+        let mut sensor =
+            Adxl355::start(expected.bus(), Along::Z, range, per_count, 3).map_err(|(faults, _)| faults).unwrap();
+        // a g, to the digits of an f32
+        assert!((sensor.vibration().unwrap().unwrap() - 9.806_65).abs() < 1e-6, "{range:?}");
+        sensor.release().done();
+    }
+}
+
 #[test]
 fn fixed_point_is_per_unit() {
     let mut expected = Expected::default();
