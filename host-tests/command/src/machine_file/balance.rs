@@ -548,7 +548,7 @@ fn hard_bearing(root: &Table<'_>, file: &BalanceFile, rpm: &[f64]) -> Result<Inf
         return Err(root.wrong("sensors", "two of them: the forces in bearing A and in bearing B"));
     }
     let bearings = bearings(&file.sensors).ok_or_else(|| {
-        root.wrong("sensors", "one name that ends in \"A\" and one that ends in \"B\", or neither: the first is A then")
+        root.wrong("sensors", "one name with the word \"A\" and one with \"B\", or neither: the first is A then")
     })?;
     let speeds = radians_per_second(rpm);
     if speeds.len() != 2 {
@@ -565,16 +565,16 @@ fn hard_bearing(root: &Table<'_>, file: &BalanceFile, rpm: &[f64]) -> Result<Inf
     Ok(influence)
 }
 
-/// The bearing of each of two sensors, 0 for A: by the last word of the names, else in their order.
+/// The bearing of each of two sensors, 0 for A: by a word of the names, else in their order.
 ///
-/// None where one name says a bearing and the other does not, or both say the same.
+/// None where one name says a bearing and the other does not, both say the same, or one says both.
 fn bearings(sensors: &[String]) -> Option<[usize; 2]> {
     let [first, second] = sensors else { return None };
-    let last = |name: &str| name.split_whitespace().last().map(str::to_uppercase);
-    let of = |name| ["A", "B"].iter().position(|bearing| last(name).as_deref() == Some(bearing));
-    match (of(first), of(second)) {
-        (Some(0), Some(1)) | (None, None) => Some([0, 1]),
-        (Some(1), Some(0)) => Some([1, 0]),
+    let says =
+        |name: &str| ["A", "B"].map(|bearing| name.split_whitespace().any(|word| word.to_uppercase() == bearing));
+    match (says(first), says(second)) {
+        ([true, false], [false, true]) | ([false, false], [false, false]) => Some([0, 1]),
+        ([false, true], [true, false]) => Some([1, 0]),
         _ => None,
     }
 }

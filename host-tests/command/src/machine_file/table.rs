@@ -29,6 +29,11 @@ impl<'a> Table<'a> {
         Self { source, table, place: 0..0, path: String::new(), asked: Vec::new() }
     }
 
+    /// Its place in the file.
+    pub fn place(&self) -> Range<usize> {
+        self.place.clone()
+    }
+
     fn name(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }

@@ -271,7 +271,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         let (on, torque) = file.torque(table)?;
         coordinates[on] = coordinates[on].clone().source(torque);
     }
-    for (at, crank, pins) in &file.pins {
+    for (at, crank, pins, _) in &file.pins {
         let forces: Vec<SliderForce> = file.forces.iter().filter(|(on, _)| on == at).map(|(_, force)| *force).collect();
         // pins that nothing loads, or without a radius, let it turn either way
         let loaded = crank.slider_mass > 0.0 || forces.iter().any(|force| force.force != 0.0);
@@ -321,6 +321,9 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     // what the solver refuses is told at the table that it is about
     let refused = |error: PlantError, otherwise: std::ops::Range<usize>| {
         let place = match &error {
+            PlantError::Parameter { name, place: Place::Node(j), .. } if name.ends_with("the pins") => {
+                file.pins.iter().find(|(at, ..)| at == j).map(|(.., place)| place.clone())
+            }
             PlantError::Parameter { place, .. } | PlantError::TimesNotIncreasing { place, .. } => match place {
                 Place::Node(j) => places.get(*j).cloned().or_else(|| element_of(file.names.get(*j)?)),
                 Place::Shaft(l) => {
@@ -371,6 +374,8 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
                 return Err(run.wrong("starting_speed", "a speed above that of the coordinate at the start"));
             }
             Some((at, speed))
+        } else if run.number_if("starting_speed", Quantity::SPEED)?.is_some() {
+            return Err(run.wrong("starting_speed", "`starting` beside it, the coordinate that reaches it"));
         } else {
             None
         };
@@ -466,7 +471,7 @@ struct Reading {
     /// Coordinates whose mechanism rubs.
     forwards: Vec<usize>,
     /// Coordinates whose crank has friction in its pins.
-    pins: Vec<(usize, Crank, Pins)>,
+    pins: Vec<(usize, Crank, Pins, std::ops::Range<usize>)>,
     /// Forces on the slider of a coordinate's crank.
     forces: Vec<(usize, SliderForce)>,
 }
@@ -507,8 +512,9 @@ impl Reading {
                     crank: pins.number_or("crank", Quantity::PIN, 0.0)?,
                     wrist: pins.number_or("wrist", Quantity::PIN, 0.0)?,
                 };
+                let place = pins.place();
                 pins.finish()?;
-                self.pins.push((self.names.len(), drive, found));
+                self.pins.push((self.names.len(), drive, found, place));
             }
             friction = crank.number_or("friction", Quantity::SIZE, 0.0)?;
             if friction > 0.0 {

@@ -568,18 +568,19 @@ fn the_bearings_of_a_hard_bearing_machine_go_by_the_names_of_the_sensors() {
     let swapped = MACHINE
         .replace("[\"bearing A\", \"bearing B\"]", "[\"bearing b\", \"bearing a\"]")
         .replace("[[1.4, 25], [0.9, 310]]", "[[0.9, 310], [1.4, 25]]");
+    let numbered = swapped.replace("[\"bearing b\", \"bearing a\"]", "[\"B 1\", \"A 1\"]");
     let unnamed = MACHINE.replace("[\"bearing A\", \"bearing B\"]", "[\"left\", \"right\"]");
     for (plane, expected) in weights(MACHINE).as_array().unwrap().iter().enumerate() {
-        for text in [&swapped, &unnamed] {
+        for text in [&swapped, &numbered, &unnamed] {
             let found = &weights(text)[plane]["weight"];
             // a few roundings of some hundred g mm
             near(&found["amplitude"], expected["weight"]["amplitude"].as_f64().unwrap(), 1e-9);
             near(&found["degrees"], expected["weight"]["degrees"].as_f64().unwrap(), 1e-9);
         }
     }
-    for names in ["[\"bearing A\", \"frame\"]", "[\"left A\", \"right A\"]"] {
+    for names in ["[\"bearing A\", \"frame\"]", "[\"left A\", \"right A\"]", "[\"A by B\", \"B\"]"] {
         let said = refused(&MACHINE.replace("[\"bearing A\", \"bearing B\"]", names));
-        assert!(said.contains("`sensors`") && said.contains("ends in \"B\""), "{said}");
+        assert!(said.contains("`sensors`") && said.contains("one with \"B\""), "{said}");
     }
 }
 

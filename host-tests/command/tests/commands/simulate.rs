@@ -707,6 +707,18 @@ fn a_rod_barely_longer_than_its_crank_is_refused_at_the_rod() {
     }
 }
 
+/// A crank that its pins hold is refused at them, and what would free it is named.
+#[test]
+fn pins_that_jam_are_refused_at_their_table() {
+    let crank = "inertia = 0.01\nspeed = 20.0\n[coordinate.crank]\nradius = 0.08\nrod = 0.3\nslider_mass = 80.0\n\
+                 [coordinate.crank.pins]\ncoefficient = 0.5\nmain = 0.07\n";
+    let text = press(crank, "force = 1.0\n");
+    let fault = parse_train("press", &text).unwrap_err();
+    assert_eq!(text.lines().nth(fault.line - 1), Some("[coordinate.crank.pins]"), "{fault}");
+    assert!(fault.to_string().contains("smaller radii, a lighter slider or more inertia"), "{fault}");
+    assert!(parse_train("press", &text.replace("inertia = 0.01", "inertia = 2.0")).is_ok());
+}
+
 /// Friction against a surface that moves, on a mechanism's coordinate: refused at the friction, not at the coordinate.
 #[test]
 fn friction_on_a_moving_surface_is_refused_at_its_table() {

@@ -157,6 +157,7 @@ fn what_has_no_starting_time_says_so() {
         (one_mass(line, 80.0, 80.0), "a speed above that of the coordinate at the start"),
         (one_mass(line, 0.0, -5.0), "rad/s"),
         (one_mass(line, 0.0, 5.0).replace("starting = \"drum\"", "starting = \"dram\""), "\"drum\""),
+        (one_mass(line, 0.0, 5.0).replace("starting = \"drum\"\n", ""), "`starting` beside it"),
     ] {
         let fault = parse_train("one", &text).unwrap_err();
         assert!(fault.expected.contains(expected), "{}", fault.explained());

@@ -263,17 +263,19 @@ impl Simulation {
             return Err(Failure::failed(if start > 0.0 {
                 format!(
                     "\"{name}\" turns backwards, where the friction of its mechanism would drive it; expected torques \
-                     that keep it turning forwards, or no `friction`"
+                     that keep it turning forwards, or neither `friction` nor `pins`"
                 )
             } else if start < 0.0 {
                 format!(
                     "\"{name}\" starts backwards, at a `speed` of {start}, where the friction of its mechanism, that \
-                     of forward motion, would drive it; expected a `speed` of zero or above, or no `friction`"
+                     of forward motion, would drive it; expected a `speed` of zero or above, or neither \
+                     `friction` nor `pins`"
                 )
             } else {
                 format!(
                     "\"{name}\" starts at rest, where the friction of its mechanism, that of forward motion, drives it \
-                     backwards; expected a `speed` above zero, a torque from the start, or no `friction`"
+                     backwards; expected a `speed` above zero, a torque from the start, or neither \
+                     `friction` nor `pins`"
                 )
             }));
         }

@@ -226,7 +226,9 @@ static void wrong_calls(const fmu *c, const fmu *p)
     REFUSED(p->leave(one), "gap[2] is NaN, expected 0 or");
     REQUIRE(set(p, one, 501, 0) == OK && set(p, one, 202, 1e-300) == OK);
     REFUSED(p->leave(one), "inertia[3] is 1e-300,");
-    REQUIRE(set(p, one, 202, 1) == OK && p->leave(one) == OK);
+    REQUIRE(set(p, one, 202, 1) == OK && set(p, one, 300, 0) == OK);
+    REFUSED(p->leave(one), "stiffness[1] is 0.0, expected 1e-12 to 1e12");
+    REQUIRE(set(p, one, 300, 1) == OK && p->leave(one) == OK);
     p->free_instance(one);
     /* the values before a refused one are set, and the start follows from them */
     one = instance(p);

@@ -123,7 +123,8 @@ impl Pinned {
             crank.slider_mass * way * self.pins.loss(&crank, angle) / inertia(angle)
         };
         let most = (0..TRIED).map(|i| share(TAU * f64::from(i) / f64::from(TRIED))).fold(0.0, f64::max);
-        in_range("coefficient of friction of the pins", place, coefficient, most < 0.99, "one that lets the crank turn")
+        let turning = "pins that let the crank turn: less friction, smaller radii, a lighter slider or more inertia";
+        in_range("coefficient of friction of the pins", place, coefficient, most < 0.99, turning)
     }
 }
 
