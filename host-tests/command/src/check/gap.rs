@@ -65,7 +65,8 @@ impl Gap {
             drawn: most,
             sought: None,
         };
-        Ok(called.into_iter().map(gap).collect())
+        // those of `nops` calibrate the counter
+        Ok(called.into_iter().filter(|called| !called.name.starts_with("nops/")).map(gap).collect())
     }
 
     /// The worst input's share of the longest path.
