@@ -312,3 +312,35 @@ fn wrong_use_is_refused_and_loses_nothing() {
         "the trial weight in plane 2 is zero: put a weight there and run again"
     );
 }
+
+/// Two trial runs of a plane whose readings do not agree, least squares by hand: `sum conj(w) dv / sum |w|^2`.
+#[test]
+fn further_trial_runs_count_by_the_squares_of_their_weights() {
+    let z = Complex::<f64>::new;
+    let before = [z(1.0, 0.5), z(-2.0, 0.25)];
+    let trials = [
+        (z(0.5, -0.25), [z(1.5, 0.0), z(-1.0, 1.0)]),
+        (z(-0.75, 1.0), [z(0.25, 3.0), z(-3.0, 0.0)]),
+        (z(2.0, 0.0), [z(2.0, -1.0), z(-2.5, 0.5)]),
+    ];
+    let mut influence = Influence::<f64, 2, 1>::new(2, 1).unwrap();
+    let (mut known, mut sums) = (0.0, [z(0.0, 0.0); 2]);
+    for (count, (weight, with)) in trials.iter().enumerate() {
+        known = influence.learn_further(0, &before, with, *weight, known).unwrap();
+        let all: f64 = trials[..=count].iter().map(|(weight, _)| weight.norm_sqr()).sum();
+        assert!((known - all).abs() < 1e-15 * all);
+        for (row, sum) in sums.iter_mut().enumerate() {
+            *sum += weight.conj() * (with[row] - before[row]);
+            let found = influence.get(row, 0).unwrap();
+            // a dozen roundings
+            assert!((found - *sum / all).norm() < 1e-14, "{count} {row} {found}");
+        }
+    }
+    // readings that differ by less than four roundings show no effect
+    for (roundings, is_learnt) in [(3.0, false), (6.0, true)] {
+        let with = [before[0], before[1] - f64::EPSILON * roundings * before[1].norm()];
+        let learnt = influence.learn_further(0, &before, &with, z(1.0, 0.0), 0.0);
+        assert_eq!(learnt.is_ok(), is_learnt, "{roundings} {learnt:?}");
+    }
+    assert!(influence.get(2, 0).is_none() && influence.get(0, 1).is_none() && influence.get(1, 0).is_some());
+}

@@ -149,3 +149,65 @@ fn phases_in_radians_are_noticed() {
     let (amplitude, phase) = degrees(Entry::new().polar(2.0, -90.0));
     assert!((amplitude - 2.0_f64).abs() < 1e-15 && (phase - 270.0).abs() < 1e-12);
 }
+
+/// Runs that contradict each other: their amplitudes' squares are `v0^2 + (1 + d) x^2 + 2 v0 x cos`, by a part d of the
+/// effect's square too large.
+#[test]
+fn runs_that_contradict_each_other_say_by_how_much() {
+    let (v0, effect) = (2.0, Complex::from_polar(0.7, 0.4));
+    let amplitude = |degrees: f64, d: f64| {
+        let alpha = degrees.to_radians();
+        let turned = effect * Complex::from_polar(1.0, alpha);
+        (alpha, (v0 * v0 + (1.0 + d) * effect.norm_sqr() + 2.0 * v0 * turned.re).sqrt())
+    };
+    for d in [0.0, 0.03, -0.2] {
+        for angles in [&[0.0, 120.0, 240.0][..], &[20.0, 80.0, 200.0, 290.0]] {
+            let runs: Vec<(f64, f64)> = angles.iter().map(|angle| amplitude(*angle, d)).collect();
+            let found = from_amplitudes(v0, 5.0, &runs).unwrap();
+            // some roundings over the effect's share of the amplitude
+            assert!((found.disagreement - f64::abs(d)).abs() < 1e-13, "{d} {found:?}");
+            let expected = -Complex::new(v0 * 5.0, 0.0) / effect;
+            assert!((found.weight - expected).norm() < 1e-13 * expected.norm(), "{found:?} {expected}");
+        }
+    }
+}
+
+/// Two runs a quarter turn apart: the centres of their circles are `v0 sqrt 2` apart, and a reading error may leave the
+/// circles apart by a hundredth of that, squared.
+#[test]
+fn two_circles_that_hardly_meet() {
+    let runs = |height: f64| {
+        let r = 3.0 * (2.0 * (0.25 + height)).sqrt();
+        from_amplitudes(3.0, 1.0, &[(0.0, r), (std::f64::consts::FRAC_PI_2, r)])
+    };
+    let touching = runs(-0.009).unwrap();
+    assert_eq!(touching.or, Some(touching.weight));
+    assert_eq!(runs(-0.011), Err(Error::NotFound));
+    assert_ne!(runs(1e-3).unwrap().or, Some(runs(1e-3).unwrap().weight));
+    // 1.5e-3 rad apart, and half of that
+    for (angle, is_found) in [(1.5e-3, true), (0.75e-3, false)] {
+        let v = Complex::new(3.0, 0.0) + Complex::new(0.0, 1.0);
+        let turned = Complex::new(3.0, 0.0) + Complex::new(0.0, 1.0) * Complex::from_polar(1.0, angle);
+        let found = from_amplitudes(3.0, 1.0, &[(0.0, v.norm()), (angle, turned.norm())]);
+        assert_eq!(found.is_ok(), is_found, "{angle} {found:?}");
+    }
+}
+
+/// An effect of less than 1e-6 of the baseline is none: it is the rounding of the amplitudes' squares.
+#[test]
+fn amplitudes_that_the_trial_hardly_changes_are_refused() {
+    for (effect, is_found) in [(1.1e-6, true), (0.9e-6, false)] {
+        let run = |degrees: f64| {
+            let alpha = degrees.to_radians();
+            (alpha, (Complex::new(4.0, 0.0) + Complex::from_polar(4.0 * effect, alpha)).norm())
+        };
+        let found = from_amplitudes(4.0, 1.0, &[run(0.0), run(120.0), run(240.0)]);
+        assert_eq!(found.is_ok(), is_found, "{found:?}");
+        assert!(is_found || found == Err(Error::NoEffect { plane: 0 }));
+    }
+    for wrong in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
+        let runs = [(0.0, 1.1), (2.0, 0.9)];
+        assert_eq!(from_amplitudes(wrong, 1.0, &runs), Err(Error::Reading { row: 0 }));
+        assert_eq!(from_amplitudes(1.0, wrong, &runs), Err(Error::TrialWeightZero { plane: 0 }));
+    }
+}
