@@ -118,9 +118,9 @@ fn typed_readings_are_not_refused() {
 }
 
 /// Weights that would balance to nothing, each a little beyond its limit: the search begins well inside the limits,
-/// where most of the vibration is left, and ends at a small part of it. None is refused. Double precision proves 1e-6 of
-/// the optimum, as it promises; single precision is off by some roundings of the vibration and by its limits, which it
-/// keeps by four of its last places.
+/// where most of the vibration is left, and ends at a small part of it. None is refused. Double precision proves 1e-6
+/// of the optimum, as it promises; single precision is off by some roundings of the vibration and by its limits, which
+/// it keeps by four of its last places.
 #[test]
 fn limits_a_little_below_the_weights_that_balance_to_nothing() {
     let mut noise = Noise::new(41);
