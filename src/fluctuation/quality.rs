@@ -25,7 +25,7 @@ pub enum Unusable {
     NoCycle,
     /// A tooth is out of place by more than the orders and half the least of its spans explain.
     Teeth,
-    /// The speed changes by more than a tenth from one cycle to the next, or the motor stops.
+    /// The speed changes by more than a tenth from one cycle to the next, or the motor stops or turns back.
     Trend,
     /// Too few ticks to a cycle: fewer than 12 to a quarter of a turn, or to the segment that the cycle is in. Fewer
     /// than 18 to a quarter of a turn where a cycle is not a turn, or the window has fewer than eight cycles.

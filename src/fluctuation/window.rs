@@ -62,6 +62,10 @@ impl<N: Summed, const BINS: usize> Window<N, BINS> {
         let highest = highest.min(MAX_ORDER).min(BINS / 4);
         let cycles = f64::from(self.cycles.max(1));
         let sign = if self.forward { 1.0 } else { -1.0 };
+        // back again while the end of a cycle was dealt with: the ticks there are not one way
+        if self.edges.iter().any(|edge| sign * edge.speed.to_real() < 0.0) {
+            return Err(Unusable::Trend);
+        }
         let mut counted = Series::default();
         for (n, order) in (1_u32..).zip(counted.orders.iter_mut().take(highest)) {
             *order = self.counted(f64::from(n));

@@ -11,6 +11,8 @@ use driveline::settings::{Bases, Cycle};
 
 const PERIOD: f64 = 1e-4;
 const BINS: usize = 64;
+/// 2^-32 turns of a radian.
+const ANGLE: f64 = 4_294_967_296.0 / TAU;
 
 #[derive(Clone, Copy)]
 struct Motion {
@@ -381,4 +383,107 @@ fn the_constants_of_a_cycle() {
     assert!(WaveformConfig::try_new::<4>(short, 1).is_ok() && WaveformConfig::try_new::<2>(short, 1).is_err());
     // 8192 bins to a turn: 512 of a sixteenth
     assert!(WaveformConfig::try_new::<256>(short, 1).is_ok() && WaveformConfig::try_new::<512>(short, 1).is_err());
+}
+
+/// A disturbance with a jump of the angle, or a turn back by more than a segment, in each tick of two cycles: no window
+/// is handed on that holds it, and the next one is right. The window is asked for after each tick, or after every
+/// seventh one alone.
+#[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
+fn no_window_holds_a_disturbance() {
+    const TICKS: f64 = 400.7;
+    for (forward, asked, back) in
+        [(true, 1, false), (false, 1, false), (true, 7, false), (false, 7, false), (true, 1, true), (false, 1, true)]
+    {
+        let motion = Motion { ticks: TICKS, forward, cycles: 2, ..STEADY };
+        let mut path = Vec::new();
+        motion.run(|phi, speed| {
+            path.push((angle(phi), speed));
+            path.len() > 4_000
+        });
+        let config = motion.config();
+        for disturbed in 700..1_520 {
+            let mut waveform = Waveform::<f64, BINS>::default();
+            let (mut at, mut windows) = (0, 0);
+            for tick in 0..3_600 {
+                if tick == disturbed && !back {
+                    // a fifth of a turn, unseen
+                    at += 80;
+                    waveform.disturb();
+                }
+                let (angle, speed) = path[at];
+                let is_back = back && (disturbed..disturbed + 120).contains(&tick);
+                at = if is_back { at - 1 } else { at + 1 };
+                let motor_speed = if is_back { -speed } else { speed };
+                waveform.measure(&config, angle, 0.0, &Estimate { motor_speed, ..Estimate::default() });
+                if tick % asked == 0
+                    && let Some(window) = waveform.take()
+                {
+                    match window.ripple(&config, 8) {
+                        Ok(ripple) => {
+                            assert!(off(&motion, &ripple) < 1e-4, "{forward} {back} {disturbed} {tick} {ripple:?}");
+                            windows += 1;
+                        }
+                        // turned back while the end was dealt with, of which the window says the speed
+                        Err(fault) => assert!(back && fault == Unusable::Trend, "{forward} {disturbed} {tick}"),
+                    }
+                }
+            }
+            // behind the disturbance one begins within two turns and is two long
+            assert!(windows >= 1, "{forward} {asked} {back} {disturbed}");
+        }
+    }
+}
+
+/// Half of 2^22 ticks are enough for a window, whatever the cycles that are wanted; one of more than 2^22 is given up.
+#[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
+fn a_window_has_at_most_four_million_ticks() {
+    // steady, in 2^-32 turn a tick
+    let run = |step: f64, cycles: u32, ticks: u32, asked: u32| {
+        let config = WaveformConfig::new::<BINS>(CycleConfig::new(Cycle::TURN, PERIOD, Bases::SI), cycles);
+        let mut waveform = Waveform::<f64, BINS>::default();
+        let motor_speed = step / ANGLE / PERIOD;
+        let mut found = Vec::new();
+        for tick in 0..ticks {
+            let angle = (f64::from(tick) * step) as u64 as u32;
+            waveform.measure(&config, angle, 0.0, &Estimate { motor_speed, ..Estimate::default() });
+            if tick % asked == 0
+                && let Some(window) = waveform.take()
+            {
+                let ripple = window.ripple(&config, 4).unwrap();
+                assert!((ripple.mean / motor_speed - 1.0).abs() < 1e-6, "{ripple:?}");
+                found.push(ripple.cycles);
+            }
+        }
+        found
+    };
+    const TURN: f64 = 4_294_967_296.0;
+    // 2^21 ticks are 524.2 turns of 4,001
+    assert_eq!(run(TURN / 4_001.0, 1_000, 2_200_000, 1), [525]);
+    assert_eq!(run(TURN / 4_001.0, 524, 2_200_000, 1), [524]);
+    // one turn of a little less and of a little more than 2^22; asked for after every tick, now and then, or at the end
+    for asked in [1, 1_000, 8_599_999] {
+        assert_eq!(run(TURN / 4.15e6, 1, 8_600_000, asked), [1], "{asked}");
+        assert!(run(TURN / 4.25e6, 1, 8_600_000, asked).is_empty(), "{asked}");
+    }
+}
+
+/// Of a cycle in which the load's speed changes its sign, and of one with an infinite estimate, there is no reading.
+#[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
+fn a_cycle_without_a_sign_has_no_reading() {
+    let config = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
+    for (swing, is_right) in [(24.9, true), (25.1, false), (f64::INFINITY, false)] {
+        let mut extremes = Extremes::<f64>::default();
+        let step = 1.0 / 1_000.3;
+        for tick in 0..4_200 {
+            let turns = f64::from(tick) * step;
+            let load_speed = 25.0 + swing * (TAU * turns).cos();
+            let estimate = Estimate { motor_speed: 62.8, load_speed, ..Estimate::default() };
+            extremes.measure(&config, (turns.fract() * 4_294_967_296.0) as u32, 0.0, &estimate);
+        }
+        assert!(extremes.mean(&config).is_some());
+        assert_eq!(extremes.reading(&config).is_some(), is_right, "{swing}");
+    }
 }
