@@ -126,7 +126,7 @@ fn limits_a_little_below_the_weights_that_balance_to_nothing() {
     let mut noise = Noise::new(41);
     for decade in 1..8 {
         let part = 1.0 - 10_f64.powi(-decade);
-        for _ in 0..100 {
+        for _ in 0..25 {
             let planes = 1 + (noise.even() * 4.0) as usize;
             let rows = planes + (noise.even() * (9 - planes) as f64) as usize;
             let a: Rows = (0..rows).map(|_| std::array::from_fn(|_| normal(&mut noise))).collect();

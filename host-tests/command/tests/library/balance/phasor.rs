@@ -545,3 +545,34 @@ fn channels_and_orders_side_by_side() {
     near(&both.0.reading(&config.0, 1).unwrap(), 1.0, -1.0 - TAU / 4.0, 5e-4, 0.03);
     near(&both.1.reading(&config.1, 0).unwrap(), 1.0, 0.0, 1e-3, 0.06);
 }
+
+/// Eight blocks whose amplitude rises by a twentieth each and by a hundredth up and down. Of the alternation -4/42 a
+/// block is taken for a rise, and the rest is scatter: of eight values less two degrees of freedom. Three deviations of
+/// a line through such scatter are taken off the drift.
+#[test]
+fn drift_and_scatter_are_those_of_a_line_through_the_blocks() {
+    let loose = Steadiness { speed: 1.0, scatter: 1.0, drift: 1.0, floor: 0.0 };
+    let config = PhasorsConfig::<f64, 1>::new(&PhasorSettings { steadiness: loose, ..CALM }, [20.0]);
+    for (rise, up_and_down) in [(0.05, 0.01), (-0.05, 0.01), (0.0, 0.01), (0.002, 0.01)] {
+        let mut rig = Rig::new(400.3);
+        let mut phasors = Phasors::<f64, 1, 9>::default();
+        while !phasors.is_complete() {
+            let (angle, theta) = rig.next();
+            let block = ((rig.turned - 1.0) / 8.0).floor().max(0.0);
+            let sign = if block % 2.0 == 0.0 { 1.0 } else { -1.0 };
+            let amplitude = 3.0 * (1.0 + rise * (block - 3.5) + up_and_down * sign);
+            phasors.measure(&config, angle, &[amplitude * (theta + 0.8).cos()]);
+        }
+        let reading = phasors.reading(&config, 0).unwrap();
+        near(&reading, 3.0, 0.8, 2e-4, 0.02);
+        // half a tick of a turn of 400 on either side of a block of eight turns, of what changes there
+        let rounding = 2e-4;
+        let slope: f64 = rise - up_and_down * 4.0 / 42.0;
+        let variance = up_and_down * up_and_down * (8.0 - 16.0 / 42.0) / 6.0;
+        let taken_off = 3.0 * (variance / 42.0).sqrt() * 7.0;
+        assert!((f64::from(reading.scatter) - variance.sqrt()).abs() < rounding, "{rise} {reading:?}");
+        assert!((f64::from(reading.variance) / 9.0 - variance / 8.0).abs() < rounding * variance.sqrt(), "{reading:?}");
+        let drift = (7.0 * slope.abs() - taken_off).max(0.0);
+        assert!((f64::from(reading.drift) - drift).abs() < 7.0 * rounding, "{rise} {drift} {reading:?}");
+    }
+}
