@@ -65,7 +65,7 @@ const LEAST_EFFICIENCY: f64 = 1e-3;
 /// Longest run (s).
 const LONGEST: f64 = 600.0;
 
-/// A run of so many stretches takes some seconds; with a stiff damper it would take hours.
+/// Most stretches of a run: its length times the rate of its fastest part. With a stiff damper it would not end.
 const STRETCHES: f64 = 1e6;
 
 impl FileCase {
@@ -201,14 +201,16 @@ impl FileCase {
 
 /// The rate of the fastest part of a machine with dampers (1/s); none without.
 fn rate_with_dampers(machine: &MachineFile) -> Option<f64> {
+    if machine.dampers.is_empty() {
+        return None;
+    }
     let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
     let train = masses.iter().fold(Train::new(), |train, &inertia| train.coordinate(Coordinate::new(inertia)));
     let train = shafts
         .iter()
         .enumerate()
         .fold(train, |train, (s, shaft)| train.link(Link::shaft(s, s + 1, shaft.stiffness).damping(shaft.damping)));
-    let motion = machine.put_dampers(train, masses.len()).build().ok()?;
-    (!machine.dampers.is_empty()).then(|| motion.rate())
+    machine.put_dampers(train, masses.len()).build().ok().map(|motion| motion.rate())
 }
 
 /// A machine as a plant that departs from the file: it hangs on its shafts, its gears have their losses, its ropes

@@ -17,8 +17,13 @@ const PER_COUNT: PerCount<f32> = PerCount::<f32>::new(Range::G2.per_count());
 
 /// The chip says who it is and takes its settings [ADXL355 datasheet, tables 17, 43, 46 and 47].
 pub fn started(expected: &mut Expected) {
+    started_at(expected, 0x81);
+}
+
+/// The same with the word of a range.
+fn started_at(expected: &mut Expected, range: u8) {
     expected.exchange(&[0x01, 0, 0, 0], &[0, 0xad, 0x1d, 0xed]);
-    expected.write(&[0x58, 0x81]);
+    expected.write(&[0x58, range]);
     expected.write(&[0x50, 0x00]);
     expected.write(&[0x5a, 0x00]);
 }
@@ -54,10 +59,7 @@ fn a_sample_is_an_acceleration_once() {
 fn every_range_is_set_at_the_chip() {
     for (range, word, of_a_g) in [(Range::G2, 0x81, 256_000), (Range::G4, 0x82, 128_000), (Range::G8, 0x83, 64_000)] {
         let mut expected = Expected::default();
-        expected.exchange(&[0x01, 0, 0, 0], &[0, 0xad, 0x1d, 0xed]);
-        expected.write(&[0x58, word]);
-        expected.write(&[0x50, 0x00]);
-        expected.write(&[0x5a, 0x00]);
+        started_at(&mut expected, word);
         burst(&mut expected, 1, of_a_g);
         let per_count = PerCount::<f32>::new(range.per_count());
         let mut sensor =
