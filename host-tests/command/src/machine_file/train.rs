@@ -41,7 +41,8 @@
 //! | `[[coordinate]]` | `name`, `inertia`, (`speed`, `angle`, `viscous`), (`[coordinate.crank]` with `radius`, `rod`,
 //! `slider_mass`, (`rod_mass`, `rod_inertia`, `rod_centre`, `[coordinate.crank.pins]` with `coefficient` and the radii
 //! (`main`, `crank`, `wrist`)), or `[coordinate.four_bar]` with `crank`, `coupler`,
-//! `rocker`, `ground`, (`coupler_mass`, `coupler_centre`, `coupler_inertia`, `rocker_inertia`), or
+//! `rocker`, `ground`, (`coupler_mass`, `coupler_centre`, `coupler_inertia`, `rocker_inertia`,
+//! `[coordinate.four_bar.pins]` with `coefficient` and (`main`, `crank`, `rocker`, `pivot`)), or
 //! `[coordinate.toggle]` with the same and `link`, `direction`, `slider_mass`, or `[coordinate.cam]` with `lift`,
 //! `mass`; each with (`friction`)), (`inertia_table`) |
 //! | `[[spur_pair]]` | `name`, `mesh_stiffness`, (`mesh_damping`, `gap`), `[spur_pair.pinion]` and `[spur_pair.wheel]`
@@ -78,8 +79,8 @@ use super::referred::referred;
 use super::source::Source;
 use super::table::Table;
 use driveline_solver::plant::train::{
-    Coordinate, Crank, FourBar, Friction, Harmonic, Link, Motion, Orders, Pins, SliderForce, Source as Torque,
-    SpurBearing, SpurPair, SpurWheel, Teeth, Toggle, Train, Variation, Waveform, rubbing,
+    Coordinate, Crank, FourBar, FourBarPins, Friction, Harmonic, Link, Motion, Orders, Pins, SliderForce,
+    Source as Torque, SpurBearing, SpurPair, SpurWheel, Teeth, Toggle, Train, Variation, Waveform, rubbing,
 };
 use driveline_solver::plant::{LoadProgram, Place, PlantError};
 
@@ -271,14 +272,24 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         let (on, torque) = file.torque(table)?;
         coordinates[on] = coordinates[on].clone().source(torque);
     }
-    for (at, crank, pins, _) in &file.pins {
+    for (at, pins, _) in &file.pins {
         let forces: Vec<SliderForce> = file.forces.iter().filter(|(on, _)| on == at).map(|(_, force)| *force).collect();
+        let coordinate = coordinates[*at].clone();
+        let (coordinate, mass, size) = match pins {
+            Joints::Crank(crank, pins) => {
+                let size = pins.coefficient * (pins.main + pins.crank + pins.wrist);
+                (coordinate.pins(*pins, &forces), crank.slider_mass, size)
+            }
+            Joints::FourBar(bars, inertia, pins) => {
+                let size = pins.coefficient * (pins.main + pins.crank + pins.rocker + pins.pivot);
+                (coordinate.four_bar_pins(*bars, *inertia, *pins, &forces), *inertia, size)
+            }
+        };
         // pins that nothing loads, or without a radius, let it turn either way
-        let loaded = crank.slider_mass > 0.0 || forces.iter().any(|force| force.force != 0.0);
-        if loaded && pins.coefficient * (pins.main + pins.crank + pins.wrist) > 0.0 {
+        if size > 0.0 && (mass > 0.0 || forces.iter().any(|force| force.force != 0.0)) {
             file.forwards.push(*at);
         }
-        coordinates[*at] = coordinates[*at].clone().pins(*pins, &forces);
+        coordinates[*at] = coordinate;
     }
     let mut train = Train::new();
     for coordinate in coordinates {
@@ -470,10 +481,17 @@ struct Reading {
     static_force: Vec<Option<f64>>,
     /// Coordinates whose mechanism rubs.
     forwards: Vec<usize>,
-    /// Coordinates whose crank has friction in its pins.
-    pins: Vec<(usize, Crank, Pins, std::ops::Range<usize>)>,
-    /// Forces on the slider of a coordinate's crank.
+    /// Coordinates whose mechanism has friction in its pins.
+    pins: Vec<(usize, Joints, std::ops::Range<usize>)>,
+    /// Forces on the slider of a coordinate's crank, or torques on the rocker of its four-bar.
     forces: Vec<(usize, SliderForce)>,
+}
+
+/// Pins with friction, and what loads them beside the forces.
+enum Joints {
+    Crank(Crank, Pins),
+    /// With the inertia of the rocker about its pivot, kg m2.
+    FourBar(FourBar, f64, FourBarPins),
 }
 
 impl Reading {
@@ -514,7 +532,7 @@ impl Reading {
                 };
                 let place = pins.place();
                 pins.finish()?;
-                self.pins.push((self.names.len(), drive, found, place));
+                self.pins.push((self.names.len(), Joints::Crank(drive, found), place));
             }
             friction = crank.number_or("friction", Quantity::SIZE, 0.0)?;
             if friction > 0.0 {
@@ -534,9 +552,29 @@ impl Reading {
             let rocker = Orders::sampled(|angle| bars.angles(angle)[1]);
             law = inertia(&four, "crank", &parts, &rocker)?;
             (way, friction) = (Some(rocker), four.number_or("friction", Quantity::SIZE, 0.0)?);
+            if let Some(mut pins) = four.table_if("pins")? {
+                let found = FourBarPins {
+                    coefficient: pins.number("coefficient", Quantity::FRICTION)?,
+                    main: pins.number_or("main", Quantity::PIN, 0.0)?,
+                    crank: pins.number_or("crank", Quantity::PIN, 0.0)?,
+                    rocker: pins.number_or("rocker", Quantity::PIN, 0.0)?,
+                    pivot: pins.number_or("pivot", Quantity::PIN, 0.0)?,
+                };
+                let place = pins.place();
+                pins.finish()?;
+                let [.., (inertia, _)] = parts;
+                self.pins.push((self.names.len(), Joints::FourBar(bars, inertia, found), place));
+            }
+            if friction > 0.0 {
+                // against the rocker, which turns about at its dead centres
+                let [stretched, folded] = bars.dead_centres();
+                let against = -friction * bars.rates(0.5 * (stretched + folded))[1].signum();
+                let on = |force, from, to| (self.names.len(), SliderForce { force, from, to });
+                self.forces.extend([on(against, stretched, folded), on(-against, folded, stretched + TAU)]);
+            }
             four.finish()?;
         } else if let Some(mut knee) = table.table_if("toggle")? {
-            let (bars, mut parts) = four_bar(&mut knee)?;
+            let (bars, parts) = four_bar(&mut knee)?;
             let link = knee.number("link", Quantity::DIAMETER)?;
             if link <= bars.rocker {
                 return Err(knee.wrong("link", "more than the rocker"));
@@ -544,7 +582,8 @@ impl Reading {
             let direction = knee.number("direction", Quantity::DIRECTION)?;
             let toggle = Toggle { bars, link, direction };
             let slider = Orders::sampled(|angle| toggle.way(angle));
-            parts.push((knee.number("slider_mass", Quantity::SIZE)?, slider.clone()));
+            let moved = (knee.number("slider_mass", Quantity::SIZE)?, slider.clone());
+            let parts: Vec<(f64, Orders)> = parts.into_iter().chain([moved]).collect();
             law = inertia(&knee, "crank", &parts, &slider)?;
             (way, friction) = (Some(slider), knee.number_or("friction", Quantity::SIZE, 0.0)?);
             knee.finish()?;
@@ -915,7 +954,7 @@ fn spur_wheel(mut table: Table<'_>) -> Result<SpurWheel, Diagnostic> {
 }
 
 /// The bars of a four-bar, and what moves with them: masses (kg) on ways (m), inertias (kg m2) on angles (rad).
-fn four_bar(table: &mut Table<'_>) -> Result<(FourBar, Vec<(f64, Orders)>), Diagnostic> {
+fn four_bar(table: &mut Table<'_>) -> Result<(FourBar, [(f64, Orders); 4]), Diagnostic> {
     let bars = FourBar {
         crank: table.number("crank", Quantity::DIAMETER)?,
         coupler: table.number("coupler", Quantity::DIAMETER)?,
@@ -933,7 +972,7 @@ fn four_bar(table: &mut Table<'_>) -> Result<(FourBar, Vec<(f64, Orders)>), Diag
     let [coupler, rocker] = [0, 1].map(|bar| Orders::sampled(|angle| bars.angles(angle)[bar]));
     let x = Orders::sampled(|angle| bars.crank * angle.cos() + centre * bars.angles(angle)[0].cos());
     let y = Orders::sampled(|angle| bars.crank * angle.sin() + centre * bars.angles(angle)[0].sin());
-    Ok((bars, vec![(mass, x), (mass, y), (coupler_inertia, coupler), (rocker_inertia, rocker)]))
+    Ok((bars, [(mass, x), (mass, y), (coupler_inertia, coupler), (rocker_inertia, rocker)]))
 }
 
 /// The inertia (kg m2) of a mechanism by the angle of its crank.

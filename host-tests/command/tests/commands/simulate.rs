@@ -715,8 +715,39 @@ fn pins_that_jam_are_refused_at_their_table() {
     let text = press(crank, "force = 1.0\n");
     let fault = parse_train("press", &text).unwrap_err();
     assert_eq!(text.lines().nth(fault.line - 1), Some("[coordinate.crank.pins]"), "{fault}");
-    assert!(fault.to_string().contains("smaller radii, a lighter slider or more inertia"), "{fault}");
+    assert!(fault.to_string().contains("smaller radii, less mass behind them or more inertia"), "{fault}");
     assert!(parse_train("press", &text.replace("inertia = 0.01", "inertia = 2.0")).is_ok());
+}
+
+/// The pins of a four-bar are refused where they jam; the energy that they take is lost.
+#[test]
+fn the_pins_of_a_four_bar_are_read_and_felt() {
+    let text = |pins: &str| {
+        let bars = "inertia = 0.2\nspeed = 20.0\n[coordinate.four_bar]\ncrank = 0.1\ncoupler = 0.35\nrocker = 0.3\n\
+                    ground = 0.4\nrocker_inertia = 2.5\nfriction = 1.0\n";
+        press(&(bars.to_owned() + pins), "force = 3.0\n").replace("cycle = \"crank\"\n", "")
+    };
+    let table = "[coordinate.four_bar.pins]\ncoefficient = 0.1\nmain = 0.04\ncrank = 0.03\nrocker = 0.02\n\
+                 pivot = 0.025\n";
+    let forwards = |pins: &str| parse_train("press", &text(pins)).unwrap().forwards.len();
+    // by its friction and by its pins
+    assert_eq!([forwards(table), forwards("")], [2, 1]);
+    let jammed = text(&table.replace("0.04", "0.9").replace("= 0.1\n", "= 1.0\n"));
+    let fault = parse_train("press", &jammed).err().unwrap();
+    assert_eq!(jammed.lines().nth(fault.line - 1), Some("[coordinate.four_bar.pins]"), "{fault}");
+    assert!(fault.to_string().contains("more inertia of the crank"), "{fault}");
+    let folder = tempfile::tempdir().unwrap();
+    let last = |pins: &str| {
+        let file = folder.path().join("press.toml");
+        std::fs::write(&file, text(pins)).unwrap();
+        let output = simulate(&[file.to_str().unwrap(), "--json"]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let result: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert!(!result["proof"].is_null(), "{result}");
+        result["coordinates"][0]["last"].as_f64().unwrap()
+    };
+    // no motor drives it: the friction of the rocker slows both down, the pins slow one down more
+    assert!(last(table) < last("") - 0.01, "{} {}", last(table), last(""));
 }
 
 /// Friction against a surface that moves, on a mechanism's coordinate: refused at the friction, not at the coordinate.

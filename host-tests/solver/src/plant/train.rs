@@ -80,7 +80,7 @@ pub use mesh::{Harmonic, Teeth, Variation, Zone};
 pub use modes::{Decay, TrainModes};
 pub use motion::Motion;
 use pins::Pinned;
-pub use pins::{Pins, SliderForce};
+pub use pins::{FourBarPins, Pins, SliderForce};
 pub use rigid::RigidPart;
 pub use rubbing::rubbing;
 pub use signal::Signal;
@@ -150,6 +150,16 @@ impl Coordinate {
         self
     }
 
+    /// With dry friction in the pins of a four-bar behind it, whose crank only turns forwards. Their forces are those
+    /// of the rocker's inertia about its pivot (kg m2), which is part of the [law of inertia](Self::inertia_law), and
+    /// of these torques on the rocker, which act on the crank by sources of their own. The mass of the coupler does
+    /// not load them.
+    #[must_use]
+    pub fn four_bar_pins(mut self, bars: FourBar, rocker: f64, pins: FourBarPins, torques: &[SliderForce]) -> Self {
+        self.pins = Pinned::four_bar(bars, rocker, pins, torques);
+        self
+    }
+
     /// With an inertia by its angle beside its own, kg m2: of a mechanism behind it.
     #[must_use]
     pub fn inertia_law(mut self, law: Orders) -> Self {
@@ -165,7 +175,7 @@ impl Coordinate {
     }
 
     fn is_cranked(&self) -> bool {
-        self.crank.is_some() || self.law.is_some()
+        self.crank.is_some() || self.pins.is_some() || self.law.is_some()
     }
 
     /// Inertia at an angle, rad, with what a crank or a law adds; kg m2 or kg.

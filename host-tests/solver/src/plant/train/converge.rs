@@ -26,6 +26,7 @@ pub use crate::plant::converge::{BOUND, Deviation, NotProven, Proof, Sensitive};
 
 use super::Coordinate;
 use super::linkage::Orders;
+use super::mesh::Harmonic;
 use super::motion::Motion;
 use super::rank::Elimination;
 use super::signal::Signal;
@@ -351,18 +352,20 @@ impl Again for Integrator<'_> {
 /// The fastest rate, 1/s, at which torques swing with the angles: order times peak speed. An order of a millionth of
 /// the largest turns nothing.
 fn turning(motion: &Motion, speeds: &[f64]) -> f64 {
-    let highest = |source: &Source| {
-        let orders = match source {
-            Source::Orders(orders) | Source::Stroke { torque: Orders(orders), .. } => orders.as_slice(),
-            _ => &[],
-        };
+    let of_orders = |orders: &[Harmonic]| {
         let most = orders.iter().map(|h| h.cosine.hypot(h.sine)).fold(0.0, f64::max);
         let felt = orders.iter().filter(|h| h.cosine.hypot(h.sine) > 1e-6 * most);
         felt.map(|h| h.order.abs()).fold(0.0, f64::max)
     };
-    // second and higher orders of the slider's way load the pins
-    let pinned =
-        |c: &Coordinate| c.pins.as_ref().and(c.crank).map_or(0.0, |k| 2.0 / (1.0 - (k.radius / k.rod).powi(2)).sqrt());
+    let highest = |source: &Source| match source {
+        Source::Orders(orders) | Source::Stroke { torque: Orders(orders), .. } => of_orders(orders),
+        _ => 0.0,
+    };
+    // second and higher orders of the way of the slider or rocker load the pins
+    let pinned = |c: &Coordinate| {
+        let rod = c.pins.as_ref().and(c.crank).map_or(0.0, |k| 2.0 / (1.0 - (k.radius / k.rod).powi(2)).sqrt());
+        c.pins.iter().flat_map(|pinned| pinned.orders()).map(|orders| of_orders(&orders.0)).fold(rod, f64::max)
+    };
     let coordinates = motion.train.coordinates.iter().zip(speeds);
     coordinates.map(|(c, speed)| speed * c.sources.iter().map(highest).fold(pinned(c), f64::max)).fold(0.0, f64::max)
 }

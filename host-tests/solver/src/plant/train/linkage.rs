@@ -7,7 +7,7 @@
 //! - the torque of a force along it, `F y'(phi)` `[Wang 1989 (1-12)]`, and so that of a weight against it,
 //!   `-m g y'(phi)`.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::mesh::Harmonic;
 
@@ -154,5 +154,26 @@ impl FourBar {
         let coupler = dy.atan2(dx) + at_pin.clamp(-1.0, 1.0).acos();
         let (kx, ky) = (x + self.coupler * coupler.cos() - self.ground, y + self.coupler * coupler.sin());
         [coupler, ky.atan2(kx)]
+    }
+
+    /// Rates of coupler and rocker per rate of the crank, at an angle of the crank (rad) to the line of the pivots:
+    /// `a sin(phi - psi)/(b sin(psi - theta))` and `a sin(phi - theta)/(c sin(psi - theta))`, the derivatives of the
+    /// closed loop.
+    #[must_use]
+    pub fn rates(&self, crank: f64) -> [f64; 2] {
+        let [coupler, rocker] = self.angles(crank);
+        let over = self.crank / (rocker - coupler).sin();
+        [over * (crank - rocker).sin() / self.coupler, over * (crank - coupler).sin() / self.rocker]
+    }
+
+    /// Angles of the crank, rad, at which the rocker turns about: with the coupler stretched out, and folded back.
+    #[must_use]
+    pub fn dead_centres(&self) -> [f64; 2] {
+        // from the crank's pivot to the knee along the coupler, in the triangle with rocker and ground
+        let towards = |reach: f64| {
+            let across = reach * reach + self.ground * self.ground - self.rocker * self.rocker;
+            (across / (2.0 * reach * self.ground)).clamp(-1.0, 1.0).acos()
+        };
+        [towards(self.coupler + self.crank), towards(self.coupler - self.crank) + PI]
     }
 }

@@ -1,11 +1,13 @@
-//! Dry friction in the pins of a slider-crank that is driven forwards.
+//! Dry friction in the pins of a slider-crank or a four-bar that is driven forwards.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::super::error::{PlantError, finite, in_range, not_negative};
 use super::super::event::Place;
 use super::crank::{Crank, Work};
-use super::series::{Series, ZERO, product, quotient};
+use super::linkage::{FourBar, Orders};
+use super::mesh::Harmonic;
+use super::series::{Series, Turn, ZERO, product, quotient};
 
 /// Angles of a turn at which a train's pins are tried for jamming.
 const TRIED: i32 = 4096;
@@ -23,8 +25,25 @@ pub struct Pins {
     pub wrist: f64,
 }
 
-/// A force (N) on the slider of a crank from one of its angles to another, rad: `from` within a turn, `to` behind it by
-/// a turn at most. Positive outwards, away from the crank.
+/// Pins of a four-bar: the main bearing of the crank, the crank pin, the pin between coupler and rocker, and the pivot
+/// of the rocker.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FourBarPins {
+    /// Coefficient of friction of all four.
+    pub coefficient: f64,
+    /// Radius of the main bearing, m.
+    pub main: f64,
+    /// Radius of the crank pin, m.
+    pub crank: f64,
+    /// Radius of the pin between coupler and rocker, m.
+    pub rocker: f64,
+    /// Radius of the rocker's pivot, m.
+    pub pivot: f64,
+}
+
+/// A force (N) on the slider of a crank, or a torque (N m) on the rocker of a four-bar, from one angle of the crank to
+/// another, rad: `from` within a turn, `to` behind it by a turn at most. A force is positive outwards, away from the
+/// crank, a torque as the rocker's angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SliderForce {
     /// Force.
@@ -52,39 +71,106 @@ impl Pins {
     }
 }
 
-/// Pins with what loads them beside the slider's mass.
+impl FourBarPins {
+    /// The torque at the crank that the pins take under a torque of 1 N m on the rocker, of either sense, at an angle
+    /// of the crank (rad): `mu/(c sin(psi - theta)) (r_main + r_crank (1 - theta') + r_rocker |theta' - psi'| +
+    /// r_pivot |psi'|)`, `theta` and `psi` the angles of coupler and rocker, with their derivatives by that of the
+    /// crank, `c` the rocker. Derived: the coupler passes on the torque over its arm about the rocker's pivot, and
+    /// each pin turns in its eye at the difference of the speeds of its two parts. Of the first order in the
+    /// coefficient, as [`Pins::loss`].
+    #[must_use]
+    pub fn loss(&self, bars: &FourBar, angle: f64) -> f64 {
+        let [coupler, rocker] = bars.rates(angle);
+        self.smooth(bars, angle, [(coupler - rocker).signum(), rocker.signum()])
+    }
+
+    /// The same with the senses in which the coupler turns on the rocker, and the rocker.
+    fn smooth(&self, bars: &FourBar, angle: f64, senses: [f64; 2]) -> f64 {
+        let ([theta, psi], [coupler, rocker]) = (bars.angles(angle), bars.rates(angle));
+        let slips = self.main
+            + self.crank * (1.0 - coupler)
+            + self.rocker * senses[0] * (coupler - rocker)
+            + self.pivot * senses[1] * rocker;
+        self.coefficient * slips / (bars.rocker * (psi - theta).sin().abs())
+    }
+}
+
+/// The parts of a mechanism in whose pins there is friction.
+#[derive(Debug, Clone, PartialEq)]
+enum Parts {
+    /// The coordinate's own crank.
+    Crank(Pins),
+    FourBar(Box<Rocker>),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Rocker {
+    bars: FourBar,
+    pins: FourBarPins,
+    /// About its pivot, kg m2.
+    inertia: f64,
+    /// Its speed per speed of the crank.
+    way: Orders,
+    /// What the pins take, by the senses: both backwards, the rocker forwards, the coupler forwards, both.
+    loss: [Orders; 4],
+}
+
+/// Which of the four a pair of senses is.
+fn quarter(senses: [f64; 2]) -> usize {
+    2 * usize::from(senses[0] > 0.0) + usize::from(senses[1] > 0.0)
+}
+
+/// Pins with what loads them beside the mass of the slider or the inertia of the rocker.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Pinned {
-    pub pins: Pins,
-    /// Angles, rad within a turn and rising, at which a force begins or ends or the rod turns about.
+    parts: Parts,
+    /// Angles, rad within a turn and rising, at which a force begins or ends or a pin turns about.
     ends: Vec<f64>,
-    /// From each end to the next: force on the slider, N, and the sense in which the rod swings.
-    pieces: Vec<(f64, f64)>,
+    /// From each end to the next: force on the slider, N, or torque on the rocker, N m, and the senses in which the
+    /// pins turn: the rod, or the coupler on the rocker and the rocker.
+    pieces: Vec<(f64, [f64; 2])>,
 }
 
 impl Pinned {
     /// None where nothing rubs; numbers out of range are kept for [`validate`](Self::validate).
     pub fn of(pins: Pins, forces: &[SliderForce]) -> Option<Self> {
-        let radii = [pins.main, pins.crank, pins.wrist];
-        let is_size = |value: &f64| *value >= 0.0 && value.is_finite();
-        let given = forces.iter().flat_map(|force| [force.force, force.from, force.to]);
-        let in_range = radii.iter().chain([&pins.coefficient]).all(is_size) && given.into_iter().all(f64::is_finite);
-        if in_range && (pins.coefficient == 0.0 || radii == [0.0; 3]) {
+        let rub = rubs(pins.coefficient, &[pins.main, pins.crank, pins.wrist], forces);
+        let senses = |angle: f64| [angle.cos().signum(), 1.0];
+        rub.then(|| Self::pieces(Parts::Crank(pins), &[FRAC_PI_2, 3.0 * FRAC_PI_2], forces, senses))
+    }
+
+    /// The same for a four-bar, whose rocker has an inertia about its pivot, kg m2.
+    pub fn four_bar(bars: FourBar, inertia: f64, pins: FourBarPins, forces: &[SliderForce]) -> Option<Self> {
+        if !rubs(pins.coefficient, &[pins.main, pins.crank, pins.rocker, pins.pivot], forces) {
             return None;
         }
+        let loss = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]]
+            .map(|senses| Orders::sampled(|angle| pins.smooth(&bars, angle, senses)));
+        let way = Orders::sampled(|angle| bars.rates(angle)[1]);
+        let [stretched, folded] = bars.dead_centres();
+        let senses = |angle: f64| {
+            let [coupler, rocker] = bars.rates(angle);
+            [(coupler - rocker).signum(), rocker.signum()]
+        };
+        let parts = Parts::FourBar(Box::new(Rocker { bars, pins, inertia, way, loss }));
+        // the angle between coupler and rocker is least and greatest where the crank lies along the ground
+        Some(Self::pieces(parts, &[0.0, PI, stretched, folded], forces, senses))
+    }
+
+    fn pieces(parts: Parts, corners: &[f64], forces: &[SliderForce], senses: impl Fn(f64) -> [f64; 2]) -> Self {
         let turns = |angle: f64| angle.rem_euclid(TAU);
         let mut ends: Vec<f64> = forces.iter().flat_map(|force| [turns(force.from), turns(force.to)]).collect();
-        ends.extend([FRAC_PI_2, 3.0 * FRAC_PI_2]);
+        ends.extend(corners);
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let next = ends.iter().skip(1).copied().chain([ends[0] + TAU]);
         let piece = |(from, to): (&f64, f64)| {
             let middle = 0.5 * (from + to);
             let acts = |force: &&SliderForce| turns(middle - force.from) < force.to - force.from;
-            (forces.iter().filter(acts).map(|force| force.force).sum(), middle.cos().signum())
+            (forces.iter().filter(acts).map(|force| force.force).sum(), senses(middle))
         };
         let pieces = ends.iter().zip(next).map(piece).collect();
-        Some(Self { pins, ends, pieces })
+        Self { parts, ends, pieces }
     }
 
     /// Ends that lie at or before an angle, rad.
@@ -100,90 +186,179 @@ impl Pinned {
         TAU * passed.div_euclid(count) as f64 + self.ends[passed.rem_euclid(count) as usize]
     }
 
-    /// Force on the slider, N, and the sense of the rod's swing behind so many ends.
-    pub fn piece(&self, passed: i64) -> (f64, f64) {
+    /// Force on the slider, N, or torque on the rocker, N m, and the senses of the pins behind so many ends.
+    pub fn piece(&self, passed: i64) -> (f64, [f64; 2]) {
         self.pieces[(passed - 1).rem_euclid(self.pieces.len() as i64) as usize]
     }
 
-    /// The pins take their torque from what the rod carries, and the rod carries what speeds the slider up. Where a
-    /// change of that torque would change the rod's force by as much again, the crank jams. With the coordinate's
-    /// inertia (kg m2) at an angle (rad).
+    /// Pins of a slider-crank.
+    pub fn of_crank(&self) -> Option<&Pins> {
+        if let Parts::Crank(pins) = &self.parts { Some(pins) } else { None }
+    }
+
+    /// Those of a four-bar, with its bars and the inertia of its rocker.
+    pub fn of_four_bar(&self) -> Option<(&FourBarPins, &FourBar, f64)> {
+        if let Parts::FourBar(rocker) = &self.parts { Some((&rocker.pins, &rocker.bars, rocker.inertia)) } else { None }
+    }
+
+    /// What swings with the angle of a four-bar.
+    pub fn orders(&self) -> impl Iterator<Item = &Orders> {
+        let rocker = if let Parts::FourBar(rocker) = &self.parts { Some(rocker) } else { None };
+        rocker.into_iter().flat_map(|rocker| rocker.loss.iter().chain([&rocker.way]))
+    }
+
+    /// The pins take their torque from what the rod or coupler carries, and that carries what speeds the slider or the
+    /// rocker up. Where a change of that torque would change the force by as much again, the crank jams. With the
+    /// coordinate's inertia (kg m2) at an angle (rad).
     pub fn validate(&self, crank: Option<Crank>, inertia: impl Fn(f64) -> f64, place: Place) -> Result<(), PlantError> {
-        let Pins { coefficient, main, crank: pin, wrist } = self.pins;
+        let (coefficient, radii) = match &self.parts {
+            Parts::Crank(pins) => (pins.coefficient, vec![pins.main, pins.crank, pins.wrist]),
+            Parts::FourBar(rocker) => {
+                let FourBarPins { coefficient, main, crank, rocker: knee, pivot } = rocker.pins;
+                (coefficient, vec![main, crank, knee, pivot])
+            }
+        };
         not_negative("coefficient of friction of the pins", place, coefficient)?;
-        [main, pin, wrist].into_iter().try_for_each(|radius| not_negative("radius of a pin", place, radius))?;
+        radii.into_iter().try_for_each(|radius| not_negative("radius of a pin", place, radius))?;
         self.ends.iter().try_for_each(|end| finite("end of a force on a slider", place, *end))?;
         self.pieces.iter().try_for_each(|piece| finite("force on a slider", place, piece.0))?;
-        let Some(crank) = crank else {
-            let expected = "pins of a coordinate with a crank";
-            return Err(PlantError::Parameter { name: "pins", place, value: coefficient, expected });
+        let of_crank = |crank: Crank| {
+            let mass = crank.slider_mass;
+            let pins = self.of_crank().copied();
+            move |angle: f64| mass * crank.slope(angle).abs() * pins.map_or(0.0, |pins| pins.loss(&crank, angle))
         };
-        let share = |angle: f64| {
-            let way = crank.slope(angle).abs();
-            crank.slider_mass * way * self.pins.loss(&crank, angle) / inertia(angle)
+        let share: Box<dyn Fn(f64) -> f64> = match (&self.parts, crank) {
+            (Parts::Crank(_), Some(crank)) => Box::new(of_crank(crank)),
+            (Parts::Crank(_), None) => {
+                let expected = "pins of a coordinate with a crank";
+                return Err(PlantError::Parameter { name: "pins", place, value: coefficient, expected });
+            }
+            (Parts::FourBar(rocker), _) => {
+                not_negative("inertia of a rocker", place, rocker.inertia)?;
+                let turning = "a crank as the shortest bar, which with the longest one is shorter than the other two";
+                let turns = rocker.bars.is_crank_rocker();
+                in_range("crank of a four-bar", place, rocker.bars.crank, turns, turning)?;
+                let resolved = self.orders().flat_map(|orders| &orders.0).all(|h| h.cosine.is_finite());
+                let apart = "bars that are not so near to lying in one line";
+                in_range("crank between the pins", place, rocker.bars.crank, resolved, apart)?;
+                let Rocker { bars, pins, inertia, .. } = **rocker;
+                Box::new(move |angle| inertia * bars.rates(angle)[1].abs() * pins.loss(&bars, angle))
+            }
         };
-        let most = (0..TRIED).map(|i| share(TAU * f64::from(i) / f64::from(TRIED))).fold(0.0, f64::max);
-        let turning = "pins that let the crank turn: less friction, smaller radii, a lighter slider or more inertia";
+        let angles = (0..TRIED).map(|i| TAU * f64::from(i) / f64::from(TRIED));
+        let most = angles.map(|angle| share(angle) / inertia(angle)).fold(0.0, f64::max);
+        let turning = "pins that let the crank turn: less friction, smaller radii, less mass behind them or more \
+                       inertia of the crank";
         in_range("coefficient of friction of the pins", place, coefficient, most < 0.99, turning)
     }
 }
 
-/// Where a pinned crank is: ends passed, and the sense of the force in its rod.
+/// Whether there is friction, or a number out of range.
+fn rubs(coefficient: f64, radii: &[f64], forces: &[SliderForce]) -> bool {
+    let is_size = |value: &f64| *value >= 0.0 && value.is_finite();
+    let mut given = forces.iter().flat_map(|force| [force.force, force.from, force.to]);
+    let in_range = radii.iter().chain([&coefficient]).all(is_size) && given.all(f64::is_finite);
+    !in_range || (coefficient > 0.0 && radii.iter().any(|radius| *radius > 0.0))
+}
+
+/// Where a pinned crank is: ends passed, and the sense of the force in its rod or coupler.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pinning {
     /// The coordinate.
     pub at: usize,
     pub passed: i64,
-    /// Of the force along the slider's way that the rod takes from the slider, positive outwards.
+    /// Of the force along the slider's way that the rod takes from the slider, positive outwards; of the torque that
+    /// the coupler takes from the rocker.
     pub pull: f64,
 }
 
-/// The pins' loss over a stretch and what it does to the inertia, as series. `g` is [`Pins::loss`], `y` the slider's
-/// way, `s` the sense of `Q = F - m d(y' w)/dt`. They take `s g Q`, so that
+/// The pins' loss over a stretch and what it does to the inertia, as series. `g` is [`Pins::loss`] or
+/// [`FourBarPins::loss`], `y` the way of the slider or the angle of the rocker, `m` its mass or inertia, `F` the force
+/// or torque on it, `s` the sense of `Q = F - m d(y' w)/dt`. They take `s g Q`, so that
 ///
 /// `(J + m y' (y' - s g)) w' + m y'' (y' - s g) w^2 = torque + F y' - s g F`.
 #[derive(Debug, Clone)]
 pub(super) struct Loss {
-    pins: Pins,
+    course: Course,
+    mass: f64,
     force: f64,
-    sense: f64,
     pull: f64,
+    /// `y'`.
+    way: Series,
+    /// `g`, and its derivative by the angle.
     value: Series,
-    value_over: Series,
     slope: Series,
-    slope_over: Series,
+}
+
+/// Where `g` and `y'` come from.
+#[derive(Debug, Clone)]
+enum Course {
+    Crank { pins: Pins, sense: f64, over: Box<[Series; 2]> },
+    FourBar { way: Vec<(Harmonic, Turn)>, loss: Vec<(Harmonic, Turn)> },
 }
 
 impl Loss {
-    pub fn new(pinned: &Pinned, pinning: &Pinning) -> Self {
-        let (force, sense) = pinned.piece(pinning.passed);
-        let [value, value_over, slope, slope_over] = [ZERO; 4];
-        Self { pins: pinned.pins, force, sense, pull: pinning.pull, value, value_over, slope, slope_over }
+    pub fn new(pinned: &Pinned, pinning: &Pinning, crank: Option<Crank>) -> Self {
+        let (force, senses) = pinned.piece(pinning.passed);
+        let turns = |orders: &Orders| orders.0.iter().map(|h| (*h, Turn::new(h.order))).collect();
+        let (course, mass) = match &pinned.parts {
+            Parts::Crank(pins) => {
+                let course = Course::Crank { pins: *pins, sense: senses[0], over: Box::new([ZERO; 2]) };
+                (course, crank.map_or(0.0, |crank| crank.slider_mass))
+            }
+            Parts::FourBar(rocker) => {
+                let loss = turns(&rocker.loss[quarter(senses)]);
+                (Course::FourBar { way: turns(&rocker.way), loss }, rocker.inertia)
+            }
+        };
+        Self { course, mass, force, pull: pinning.pull, way: ZERO, value: ZERO, slope: ZERO }
     }
 
-    /// Fills in coefficient `k` from those of the crank up to it; what is added to that of the inertia, and to that of
-    /// what the square of the speed pushes by.
-    pub fn extend(&mut self, crank: &Crank, work: &Work, k: usize) -> [f64; 2] {
-        let (r, one) = (crank.radius, if k == 0 { 1.0 } else { 0.0 });
-        let Pins { coefficient, main, crank: pin, wrist } = self.pins;
-        let size = coefficient * crank.rod;
-        let swing = size * (pin + self.sense * wrist) * r;
-        // g S = mu l (r_main + r_crank + (r_crank +- r_wrist) r L), and S' = -r^2 u
-        self.value_over[k] = size * (main + pin) * one + swing * work.lean[k];
-        self.value[k] = quotient(&self.value_over, &work.reach, &self.value, k);
-        self.slope_over[k] = swing * work.lean_slope[k] + r * r * product(&self.value, &work.share, k);
-        self.slope[k] = quotient(&self.slope_over, &work.reach, &self.slope, k);
-        let mass = -self.pull * crank.slider_mass;
-        [mass * product(&self.value, &work.slider[0], k), mass * product(&self.slope, &work.slider[0], k)]
+    /// Fills in coefficient `k` from those of the angle, and of a crank, up to it; what is added to that of the
+    /// inertia, and to that of what the square of the speed pushes by.
+    pub fn extend(&mut self, crank: Option<(&Crank, &Work)>, angle: &Series, k: usize) -> [f64; 2] {
+        match &mut self.course {
+            Course::Crank { pins, sense, over } => {
+                let Some((crank, work)) = crank else { return [0.0; 2] };
+                let [value_over, slope_over] = &mut **over;
+                let (r, one) = (crank.radius, if k == 0 { 1.0 } else { 0.0 });
+                let Pins { coefficient, main, crank: pin, wrist } = *pins;
+                let size = coefficient * crank.rod;
+                let swing = size * (pin + *sense * wrist) * r;
+                // g S = mu l (r_main + r_crank + (r_crank +- r_wrist) r L), and S' = -r^2 u
+                value_over[k] = size * (main + pin) * one + swing * work.lean[k];
+                self.value[k] = quotient(value_over, &work.reach, &self.value, k);
+                slope_over[k] = swing * work.lean_slope[k] + r * r * product(&self.value, &work.share, k);
+                self.slope[k] = quotient(slope_over, &work.reach, &self.slope, k);
+                self.way[k] = work.slider[0][k];
+            }
+            Course::FourBar { way, loss } => {
+                for (h, turn) in way {
+                    turn.extend(angle, k);
+                    self.way[k] += h.cosine * turn.cosine[k] + h.sine * turn.sine[k];
+                }
+                for (h, turn) in loss {
+                    turn.extend(angle, k);
+                    self.value[k] += h.cosine * turn.cosine[k] + h.sine * turn.sine[k];
+                    self.slope[k] += h.order * (h.sine * turn.cosine[k] - h.cosine * turn.sine[k]);
+                }
+            }
+        }
+        let mass = -self.pull * self.mass;
+        [mass * product(&self.value, &self.way, k), mass * product(&self.slope, &self.way, k)]
     }
 
-    /// Coefficient `k` of the torque of the pins under the force on the slider.
+    /// Coefficient `k` of the torque of the pins under the force on the slider or the torque on the rocker.
     pub fn torque(&self, k: usize) -> f64 {
         -self.pull * self.force * self.value[k]
     }
 
-    /// The force on the slider.
-    pub fn force(&self) -> f64 {
-        self.force
+    /// Coefficient `k` of the force that the rod takes from the slider, or the torque that the coupler takes from the
+    /// rocker, and what sizes its rounding, from coefficient `k + 1` of the speed, of which `step` is the time.
+    pub fn carried(&self, speed: &Series, k: usize, step: f64) -> (f64, f64) {
+        let force = if k == 0 { self.force } else { 0.0 };
+        let mass = self.mass / step;
+        let size: f64 = (0..=k + 1).map(|i| (self.way[i] * speed[k + 1 - i]).abs()).sum();
+        (force - mass * product(&self.way, speed, k + 1), force.abs() + mass * size)
     }
 }

@@ -4,7 +4,7 @@ use super::crank::{Crank, Work};
 use super::linkage::Orders;
 use super::mesh::Harmonic;
 use super::pins::{Loss, Pinned, Pinning};
-use super::series::{Series, Turn, ZERO, product};
+use super::series::{Series, Turn, ZERO};
 
 /// The inertia of a coordinate over a stretch beside its own.
 #[derive(Debug, Clone)]
@@ -18,12 +18,12 @@ pub(super) struct Varying {
 }
 
 impl Varying {
-    /// Of a crank with its pins, a law, or both; none without either.
+    /// Of a crank, pins and a law; none without any of them.
     pub fn of(crank: Option<Crank>, pins: Option<(&Pinned, &Pinning)>, law: Option<&Orders>) -> Option<Self> {
-        if crank.is_none() && law.is_none() {
+        if crank.is_none() && pins.is_none() && law.is_none() {
             return None;
         }
-        let loss = pins.map(|(pinned, pinning)| Box::new(Loss::new(pinned, pinning)));
+        let loss = pins.map(|(pinned, pinning)| Box::new(Loss::new(pinned, pinning, crank)));
         let crank = crank.map(|crank| (crank, Box::new(Work::new())));
         let law = law.iter().flat_map(|law| &law.0).map(|h| (*h, Turn::new(h.order))).collect();
         Some(Self { crank, loss, law, inertia: ZERO, push: ZERO })
@@ -33,8 +33,12 @@ impl Varying {
     pub fn extend(&mut self, angle: &Series, k: usize) {
         if let Some((crank, work)) = &mut self.crank {
             work.extend(crank, angle, k);
-            let [inertia, push] = self.loss.as_mut().map_or([0.0; 2], |loss| loss.extend(crank, work, k));
-            (self.inertia[k], self.push[k]) = (work.inertia[k] + inertia, work.half_slope[k] + push);
+            (self.inertia[k], self.push[k]) = (work.inertia[k], work.half_slope[k]);
+        }
+        if let Some(loss) = &mut self.loss {
+            let crank = self.crank.as_ref().map(|(crank, work)| (crank, &**work));
+            let [inertia, push] = loss.extend(crank, angle, k);
+            (self.inertia[k], self.push[k]) = (self.inertia[k] + inertia, self.push[k] + push);
         }
         for (h, turn) in &mut self.law {
             turn.extend(angle, k);
@@ -43,18 +47,13 @@ impl Varying {
         }
     }
 
-    /// Coefficient `k` of the torque of the pins under the force on the slider.
+    /// Coefficient `k` of the torque of the pins under the force on the slider or the torque on the rocker.
     pub fn torque(&self, k: usize) -> f64 {
         self.loss.as_ref().map_or(0.0, |loss| loss.torque(k))
     }
 
-    /// Coefficient `k` of the force that the rod takes from the slider, and what sizes its rounding, from coefficient
-    /// `k + 1` of the speed, of which `step` is the time.
+    /// Coefficient `k` of the force in the rod or coupler of a crank with friction in its pins, see [`Loss::carried`].
     pub fn rod(&self, speed: &Series, k: usize, step: f64) -> Option<(f64, f64)> {
-        let (Some((crank, work)), Some(loss)) = (&self.crank, &self.loss) else { return None };
-        let force = if k == 0 { loss.force() } else { 0.0 };
-        let (mass, way) = (crank.slider_mass / step, &work.slider[0]);
-        let size: f64 = (0..=k + 1).map(|i| (way[i] * speed[k + 1 - i]).abs()).sum();
-        Some((force - mass * product(way, speed, k + 1), force.abs() + mass * size))
+        self.loss.as_ref().map(|loss| loss.carried(speed, k, step))
     }
 }

@@ -227,23 +227,39 @@ impl<'a> Double<'a> {
     }
 
     /// Of a crank with friction in its pins: the force on its slider, the torque that the pins take of a force of 1 N
-    /// in the rod along the slider's way, and first and second derivative of that way by the angle. Powers over the
-    /// speed of the crank, pin by pin, from the angle of the rod.
-    fn pinned(&self, y: &[f64], pinning: &Pinning) -> [f64; 4] {
+    /// in the rod along the slider's way, first and second derivative of that way by the angle, and the slider's mass.
+    /// Powers over the speed of the crank, pin by pin, from the angle of the rod. Of a four-bar those of the torque on
+    /// its rocker.
+    fn pinned(&self, y: &[f64], pinning: &Pinning) -> [f64; 5] {
         let coordinate = &self.train.coordinates[pinning.at];
-        let (Some(crank), Some(pinned)) = (coordinate.crank, &coordinate.pins) else { return [0.0; 4] };
-        let (force, sense) = pinned.piece(pinning.passed);
-        let (sine, cosine) = self.angle(y, pinning.at).sin_cos();
-        let (r, l) = (crank.radius, crank.rod);
-        let lean = (r * sine / l).asin();
-        let rate = r * cosine / (l * lean.cos());
-        let bend = (l * lean.sin() * rate * rate - r * sine) / (l * lean.cos());
-        let pins = pinned.pins;
-        // frame and crank at 1 rad/s, crank and rod at 1 + rate, rod and slider at the rate
-        let slip = pins.main + pins.crank * (1.0 + rate) + pins.wrist * sense * rate;
-        let way = -r * sine - l * lean.sin() * rate;
-        let turned = -r * cosine - l * (lean.cos() * rate * rate + lean.sin() * bend);
-        [force, pins.coefficient / lean.cos() * slip, way, turned]
+        let Some(pinned) = &coordinate.pins else { return [0.0; 5] };
+        let (force, [sense, second]) = pinned.piece(pinning.passed);
+        let angle = self.angle(y, pinning.at);
+        if let (Some(crank), Some(pins)) = (coordinate.crank, pinned.of_crank()) {
+            let (sine, cosine) = angle.sin_cos();
+            let (r, l) = (crank.radius, crank.rod);
+            let lean = (r * sine / l).asin();
+            let rate = r * cosine / (l * lean.cos());
+            let bend = (l * lean.sin() * rate * rate - r * sine) / (l * lean.cos());
+            // frame and crank at 1 rad/s, crank and rod at 1 + rate, rod and slider at the rate
+            let slip = pins.main + pins.crank * (1.0 + rate) + pins.wrist * sense * rate;
+            let way = -r * sine - l * lean.sin() * rate;
+            let turned = -r * cosine - l * (lean.cos() * rate * rate + lean.sin() * bend);
+            return [force, pins.coefficient / lean.cos() * slip, way, turned, crank.slider_mass];
+        }
+        let Some((pins, bars, inertia)) = pinned.of_four_bar() else { return [0.0; 5] };
+        let [theta, psi] = bars.angles(angle);
+        let arm = bars.rocker * (psi - theta).sin();
+        // crank pin and knee move alike along the coupler, and alike along the rocker
+        let rocker = bars.crank * (angle - theta).sin() / arm;
+        let coupler = bars.rocker * bars.crank * (angle - psi).sin() / (bars.coupler * arm);
+        let along = bars.crank * (angle - theta).cos() + bars.coupler * coupler * coupler;
+        let turned = (along - bars.rocker * rocker * rocker * (psi - theta).cos()) / arm;
+        let slip = pins.main
+            + pins.crank * (1.0 - coupler)
+            + pins.rocker * sense * (coupler - rocker)
+            + pins.pivot * second * rocker;
+        [force, pins.coefficient * slip / arm.abs(), rocker, turned, inertia]
     }
 
     fn on_arc(&self, j: usize, s: usize) -> bool {
@@ -301,7 +317,7 @@ impl<'a> Double<'a> {
             net[j] = self.held[j] + torque - coordinate.viscous * self.speed(y, j);
         }
         for pinning in &self.pins {
-            let [force, loss, _, _] = self.pinned(y, pinning);
+            let [force, loss, ..] = self.pinned(y, pinning);
             net[pinning.at] -= pinning.pull * loss * force;
         }
         for (l, link) in train.links.iter().enumerate() {
@@ -408,10 +424,10 @@ impl Hybrid for Double<'_> {
                 (inertia, slope) = (inertia + more, slope + steeper);
             }
             let mut push = 0.5 * slope * speed * speed;
-            if let (Some(pinning), Some(crank)) = (self.pins.iter().find(|pinning| pinning.at == j), coordinate.crank) {
-                // the pins take a share of what speeds the slider up
-                let [_, loss, way, bend] = self.pinned(y, pinning);
-                let share = pinning.pull * loss * crank.slider_mass;
+            if let Some(pinning) = self.pins.iter().find(|pinning| pinning.at == j) {
+                // the pins take a share of what speeds the slider or the rocker up
+                let [_, loss, way, bend, mass] = self.pinned(y, pinning);
+                let share = pinning.pull * loss * mass;
                 (inertia, push) = (inertia - share * way, push - share * bend * speed * speed);
             }
             out[links + j] = (out[links + j] - push) / (coordinate.inertia + inertia);
@@ -488,11 +504,10 @@ impl Hybrid for Double<'_> {
             self.rate(t, y, &mut rates);
         }
         for (i, pinning) in self.pins.iter().enumerate() {
-            let coordinate = &self.train.coordinates[pinning.at];
-            let (Some(crank), Some(pinned)) = (coordinate.crank, &coordinate.pins) else { continue };
-            let [force, _, way, bend] = self.pinned(y, pinning);
-            let speeding = crank.slider_mass * way * rates[self.train.links.len() + pinning.at];
-            let turning = crank.slider_mass * bend * self.speed(y, pinning.at).powi(2);
+            let Some(pinned) = &self.train.coordinates[pinning.at].pins else { continue };
+            let [force, _, way, bend, mass] = self.pinned(y, pinning);
+            let speeding = mass * way * rates[self.train.links.len() + pinning.at];
+            let turning = mass * bend * self.speed(y, pinning.at).powi(2);
             let size = force.abs() + speeding.abs() + turning.abs();
             all.push((pinning.pull * (force - speeding - turning), size, Change::Rod(i)));
             let angle = self.angle(y, pinning.at);
