@@ -547,3 +547,6 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> InRun<T, ROWS, PLANES> {
 fn largest<T: Scalar>(reading: &[Complex<T>], rows: usize) -> T {
     reading.iter().take(rows).fold(T::zero(), |most, value| most.max(size(*value)))
 }
+
+#[cfg(test)]
+mod tests;
