@@ -179,3 +179,71 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANE
         largest * sums * T::default_epsilon() * real((PLANES + 2) as f64)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn re(re: f64) -> Complex<f64> {
+        Complex { re, im: 0.0 }
+    }
+
+    /// Of one reading and one plane.
+    fn one(coefficient: f64) -> Influence<f64, 1, 1> {
+        let mut influence = Influence::new(1, 1).unwrap();
+        influence.set(0, &[re(coefficient)]).unwrap();
+        influence
+    }
+
+    /// Each error is beside its row: magnitudes summed, by the epsilon and the number of operations, three planes and
+    /// two more; over the rows by the root of their number.
+    #[test]
+    fn rounding_is_bounded_by_the_sums() {
+        let mut influence = Influence::<f64, 3, 3>::new(2, 2).unwrap();
+        influence.set(0, &[re(2.0), re(1.0)]).unwrap();
+        influence.set(1, &[re(-3.0), re(1.0)]).unwrap();
+        for (objective, sums) in [(Objective::MinMax, 1.0), (Objective::LeastSquares, f64::sqrt(2.0))] {
+            let aim = Aim { objective, ..Aim::default() };
+            let found = influence.rounding(&[re(1.0), re(2.0)], &[re(4.0), re(-5.0), re(0.0)], &aim);
+            // 1 + 2 4 + 3 5, which is more than 2 + 4 + 5
+            let expected = 24.0 * sums * f64::EPSILON * 5.0;
+            assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn limits_are_positive_and_finite() {
+        for limit in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+            let aim = Aim { limits: [Some(limit)], ..Aim::default() };
+            assert_eq!(one(1.0).correct(&[re(1.0)], &aim), Err(Error::Setting { index: 0 }), "{limit}");
+        }
+    }
+
+    /// Weights at their limit, and a solution that leaves no more than rounding, are not searched for.
+    #[test]
+    fn nothing_is_searched_for_without_need() {
+        let bounds = |coefficient: f64, vibration: f64, aim: Aim<f64, 1, 1>| {
+            one(coefficient).correct(&[re(vibration)], &aim).unwrap().bounds.is_some()
+        };
+        let limited = |limit: f64| Aim { limits: [Some(limit)], ..Aim::default() };
+        assert!(!bounds(1.0, -2.0, limited(2.0)) && bounds(1.0, -2.0, limited(1.9)));
+        let min_max = Aim { objective: Objective::MinMax, ..Aim::default() };
+        // quotients and products of three tenths that leave some 1e-17 or nothing
+        for coefficient in [0.1, 0.3, 0.7, 1.1, 1.3, 2.3, 4.9] {
+            for vibration in [0.1, 0.3, 0.7, 0.9, 1.7, 3.1, 5.3] {
+                assert!(!bounds(coefficient, vibration, min_max), "{coefficient} {vibration}");
+            }
+        }
+    }
+
+    /// The bound is proven, so it stays below the optimum by what rounding may have added: of readings 1 and 0.5 of
+    /// one weight the largest is least at 0.75.
+    #[test]
+    fn the_bound_allows_for_rounding() {
+        let mut influence = Influence::<f64, 2, 1>::new(2, 1).unwrap();
+        influence.set(0, &[re(1.0), re(1.0)]).unwrap();
+        let aim = Aim { objective: Objective::MinMax, ..Aim::default() };
+        let (below, reached) = influence.correct(&[re(1.0), re(-0.5)], &aim).unwrap().bounds.unwrap();
+        assert!(below < 0.75 && 0.75 - below < 1e-9 && (reached - 0.75).abs() < 1e-9, "{below} {reached}");
+    }
+}

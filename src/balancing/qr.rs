@@ -112,9 +112,6 @@ impl<T: Scalar, const PLANES: usize> Qr<T, PLANES> {
         }
         put(&mut v, k, head + away.scale(norm));
         let length = v.iter().fold(T::zero(), |sum, v| sum + square(*v));
-        if !(length > T::zero()) {
-            return;
-        }
         let two = real::<T>(2.0) / length;
         for j in k..PLANES {
             let along = v.iter().enumerate().fold(zero(), |sum, (i, v)| sum + v.conj() * self.r.at(i, j)).scale(two);
@@ -217,4 +214,81 @@ fn orthogonalise<T: Scalar, const PLANES: usize>(a: &mut Matrix<T, PLANES, PLANE
         a.set(i, q, x.scale(s) + y.scale(c));
     }
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn re(re: f64) -> Complex<f64> {
+        Complex { re, im: 0.0 }
+    }
+
+    /// Of columns.
+    fn of<const N: usize>(columns: [[f64; N]; N], right: [f64; N]) -> Qr<f64, N> {
+        let mut qr = Qr::new();
+        for (row, right) in right.into_iter().enumerate() {
+            qr.absorb(&columns.map(|column| re(column[row])), re(right));
+        }
+        qr
+    }
+
+    /// Shares of their own are of the columns' own sizes.
+    #[test]
+    fn a_small_column_is_independent() {
+        let pivoted = of([[1.0, 0.0], [0.0, 1e-9]], [2.0, 3e-9]).pivoted(1e-6);
+        assert_eq!((pivoted.rank, pivoted.order), (2, [0, 1]));
+        // one division and one product
+        let [x, y] = pivoted.solve();
+        assert!((x - re(2.0)).norm_sqr() < 1e-30 && (y - re(3.0)).norm_sqr() < 1e-30, "{x} {y}");
+    }
+
+    /// With a share of four epsilon for each of two planes, or with the share that is asked for, a column is dependent.
+    #[test]
+    fn a_column_without_a_share_of_its_own_is_dependent() {
+        let rank = |column: [f64; 2], independence: f64| of([[1.0, 0.0], column], [0.0; 2]).pivoted(independence).rank;
+        let share = |epsilons: f64| rank([1.0, epsilons * f64::EPSILON], 0.0);
+        assert_eq!([share(1.5), share(7.0), share(9.0)], [1, 1, 2]);
+        // 3, 4 and 5
+        assert_eq!([rank([3.0, 4.0], 0.8), rank([3.0, 4.0], 0.79)], [1, 2]);
+    }
+
+    /// The second pivot is the column with most beside the first, if that is more by a thousandth.
+    #[test]
+    fn pivots_are_in_order() {
+        let order = |second: f64, third: f64| {
+            let column = |own: f64, at: usize| {
+                let mut column = [(1.0 - own * own).sqrt(), 0.0, 0.0];
+                column[at] = own;
+                column
+            };
+            of([[1.0, 0.0, 0.0], column(second, 1), column(third, 2)], [0.0; 3]).pivoted(0.0).order
+        };
+        assert_eq!([order(0.5, 0.8), order(0.8, 0.5)], [[0, 2, 1], [0, 1, 2]]);
+        assert_eq!([order(0.5, 0.5002), order(0.5, 0.502)], [[0, 1, 2], [0, 2, 1]]);
+    }
+
+    #[test]
+    fn a_plane_without_effect_is_left_out() {
+        let pivoted = of([[0.0, 0.0], [2.0, 0.0]], [4.0, 0.0]).pivoted(0.0);
+        let [x, y] = pivoted.solve();
+        assert_eq!((pivoted.rank, x), (1, re(0.0)));
+        assert!((y - re(2.0)).norm_sqr() < 1e-30, "{y}");
+    }
+
+    /// The singular values of `[[a, b], [0, c]]` are those of `s^4 - (a^2 + b^2 + c^2) s^2 + a^2 c^2`.
+    #[test]
+    fn the_condition_is_that_of_the_closed_form() {
+        for [a, b, c] in [[1.0, 0.5, 0.5], [1.0, 3.0, 0.5], [1.0, 0.6, 0.8], [2.0, 0.5, 0.1], [0.2, 0.5, 3.0]] {
+            for size in [1.0, 1e-10, 1e10] {
+                let found = of([[size * a, 0.0], [size * b, size * c]], [0.0; 2]).pivoted(0.0).condition();
+                let sum: f64 = a * a + b * b + c * c;
+                let apart = (sum * sum - 4.0 * a * a * c * c).sqrt();
+                // the greater over the least, whose product is a c
+                let expected = (sum + apart) / (2.0 * a * c);
+                // rounding of the least singular value, a tenth of the greatest and less
+                assert!((found / expected - 1.0).abs() < 1e-13, "{a} {b} {c} {size}: {found} {expected}");
+            }
+        }
+    }
 }

@@ -147,6 +147,20 @@ fn a_jump_is_judged_from_where_it_began() {
     }
 }
 
+/// Before the influence is confirmed a surprise makes it less certain: Kalman's update, and the square of the surprise
+/// over four of its deviations, four times.
+#[test]
+fn a_surprise_of_an_influence_that_is_not_confirmed() {
+    let mut run = moved(-0.5, 0.3, 1.0);
+    learnt(&mut run, 1.5, 1e-6);
+    let (prior, spread) = (0.0225, 0.0225 + 1.1e-6);
+    let left: f64 = prior - prior * prior / spread;
+    let expected = 2.0 * left.sqrt() / (4.0 * spread.sqrt());
+    // the difference of 0.0225 and almost as much loses four digits
+    assert!((run.estimate.deviation(0) / expected - 1.0).abs() < 1e-10, "{} {expected}", run.estimate.deviation(0));
+    assert_eq!((run.failures, run.jumped), (1, false));
+}
+
 /// With an exact reading a change of four deviations is none, in numbers of few bits.
 #[test]
 fn four_deviations_are_no_surprise() {
@@ -309,6 +323,7 @@ fn the_way_of_a_probe() {
     // nothing wanted: no way either
     let mut run = known(0.5, 0.4);
     run.estimate.restart(&[re(0.0)], 0.0);
+    run.level = 0.0;
     assert_eq!(run.correct(0.0, 0.0), Action::Set([re(0.0)]));
 }
 
