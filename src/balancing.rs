@@ -159,3 +159,38 @@ impl<N: Number, A: Balancer<N>, B: Balancer<N>, C: Balancer<N>> Balancer<N> for 
         self.2.missed(faults);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sum of the vibration, and the ticks without one.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    struct Counted(u32, u32);
+
+    impl Balancer<f64> for Counted {
+        type Config = u32;
+        type Vibration = u32;
+
+        fn measure(&mut self, config: &u32, angle: u32, vibration: &u32) {
+            self.0 += config * angle + vibration;
+        }
+
+        fn missed(&mut self, _faults: Faults) {
+            self.1 += 1;
+        }
+    }
+
+    /// Each one of a tuple takes every tick, with its own constants and vibration.
+    #[test]
+    fn a_tuple_is_side_by_side() {
+        let mut two = (Counted::default(), Counted::default());
+        two.measure(&(1, 2), 10, &(3, 4));
+        two.missed(Faults::VIBRATION_CLIPPED);
+        assert_eq!(two, (Counted(13, 1), Counted(24, 1)));
+        let mut three = (Counted::default(), Counted::default(), Counted::default());
+        three.measure(&(1, 2, 3), 10, &(4, 5, 6));
+        three.missed(Faults::VIBRATION_CLIPPED);
+        assert_eq!(three, (Counted(14, 1), Counted(25, 1), Counted(36, 1)));
+    }
+}

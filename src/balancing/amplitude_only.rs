@@ -7,7 +7,7 @@
 use super::error::Error;
 use super::matrix::pick;
 use super::qr::Qr;
-use super::scalar::{Complex, Scalar, real, zero};
+use super::scalar::{Complex, Scalar, real, size};
 
 /// A weight found from amplitudes alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,5 +99,37 @@ fn two<T: Scalar>(baseline: T, a: (T, T), b: (T, T)) -> Result<(Complex<T>, Comp
     let middle = from + apart.scale(along);
     let aside = Complex { re: -apart.im, im: apart.re }.scale(height);
     let (one, other) = (middle + aside, middle - aside);
-    if one == zero() || other == zero() { Err(Error::NoEffect { plane: 0 }) } else { Ok((one, other)) }
+    // an answer of no effect, but for rounding
+    let little = |effect: Complex<T>| size(effect) < baseline * real(1e-6);
+    if little(one) || little(other) { Err(Error::NoEffect { plane: 0 }) } else { Ok((one, other)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
+
+    use super::*;
+
+    /// Runs that differ from the baseline by ten units in the last place are no different.
+    #[test]
+    fn no_effect() {
+        let (more, less) = (1.0 + 10.0 * f64::EPSILON, 1.0 - 10.0 * f64::EPSILON);
+        let refused = Err(Error::NoEffect { plane: 0 });
+        assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, more), (FRAC_PI_2, less)]), refused);
+        assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, more), (FRAC_PI_2, less), (PI, more)]), refused);
+        // of two runs, one answer is none, or both are: a weight cannot lower the vibration on either side
+        assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0 + 1e-9), (FRAC_PI_2, 1.0)]), refused);
+        assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 0.999), (PI, 0.999)]), refused);
+    }
+
+    /// An effect of i/2 on a baseline of one: at the angle alpha the amplitude's square is 5/4 - sin alpha, and the
+    /// weight is -1/(i/2) = 2i of the trial weight.
+    #[test]
+    fn two_runs_a_twelfth_of_a_turn_apart() {
+        let run = |angle: f64| (angle, (1.25 - angle.sin()).sqrt());
+        let found = from_amplitudes(1.0, 3.0, &[run(0.0), run(FRAC_PI_6)]).unwrap();
+        let is = |weight: Complex<f64>| (weight - Complex { re: 0.0, im: 6.0 }).norm_sqr() < 1e-26;
+        // rounding over the angle between the runs
+        assert!(is(found.weight) || found.or.is_some_and(is), "{found:?}");
+    }
 }

@@ -130,3 +130,50 @@ impl<T: Scalar> Holes<'_, T> {
         [T::zero(), below, above]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fit(angles: &[f64], weights: &[f64], wanted: f64) -> Result<Fitted<f64>, Error> {
+        Holes { angles, weights, method: CorrectionMethod::Adding }.fit(Complex { re: wanted, im: 0.0 })
+    }
+
+    #[test]
+    fn a_stock_weight_of_nothing_is_refused() {
+        assert_eq!(fit(&[0.0], &[1.0, 0.0], 1.0), Err(Error::Setting { index: 1 }));
+    }
+
+    /// One weight of one leaves half of two, which is not more than half, and more than half of three. Where all holes
+    /// are on other sides a weight of one is not too heavy for a weight of one: the best is none.
+    #[test]
+    fn too_heavy_is_more_than_half() {
+        assert_eq!(fit(&[0.0], &[1.0], 2.0).unwrap().holes[0], (0, 1.0));
+        assert_eq!(fit(&[0.0], &[1.0], 3.0), Err(Error::TooHeavy { plane: 0 }));
+        let aside = fit(&[core::f64::consts::FRAC_PI_2], &[1.0], 1.0).unwrap();
+        assert_eq!(aside, Fitted { holes: [(0, 0.0); 2], sum: zero() });
+    }
+
+    /// Two angles of the same hole take one weight.
+    #[test]
+    fn a_hole_given_twice_is_one_hole() {
+        for again in [0.0, core::f64::consts::TAU] {
+            let fitted = fit(&[0.0, again], &[1.0], 2.0).unwrap();
+            // the sine of a turn is a rounding from zero
+            assert!((fitted.sum.re - 1.0).abs() < 1e-15 && fitted.sum.im.abs() < 1e-15, "{fitted:?}");
+        }
+    }
+
+    /// Of weights that miss by one and by two units in the last place, the lighter; of those that miss by thirty and by
+    /// fifty, where sixteen count as rounding, the nearer. Whatever the unit of the weights is.
+    #[test]
+    fn rounding_does_not_choose_the_heavier() {
+        for unit in [1.0, 1.0 / 1_048_576.0, 1_048_576.0] {
+            let units = |count: f64| unit * (1.0 + count * f64::EPSILON);
+            for (heavier, wanted, expected) in [(3.0, 2.0, 0.0), (80.0, 50.0, 80.0)] {
+                let fitted = fit(&[0.0], &[unit, units(heavier)], units(wanted)).unwrap();
+                assert_eq!(fitted.holes[0], (0, units(expected)), "{unit}");
+            }
+        }
+    }
+}

@@ -164,3 +164,32 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANE
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn re(re: f64) -> Complex<f64> {
+        Complex { re, im: 0.0 }
+    }
+
+    /// A first trial run replaces what was set, with nothing of its size left: (3 - 1)/1 is exact.
+    #[test]
+    fn a_first_trial_run_counts_alone() {
+        let mut influence = Influence::<f64, 1, 1>::new(1, 1).unwrap();
+        influence.set(0, &[re(1e20)]).unwrap();
+        assert_eq!(influence.learn_further(0, &[re(1.0)], &[re(3.0)], re(1.0), 0.0), Ok(1.0));
+        assert_eq!(influence.get(0, 0), Some(re(2.0)));
+    }
+
+    /// Readings that are the same are no effect, and so are four units in the last place; more are one.
+    #[test]
+    fn equal_readings_are_no_effect() {
+        let mut influence = Influence::<f64, 1, 1>::new(1, 1).unwrap();
+        let refused = Err(Error::NoEffect { plane: 0 });
+        assert_eq!(influence.learn(0, &[re(0.0)], &[re(0.0)], re(1.0)), refused);
+        assert_eq!(influence.learn(0, &[re(1.0)], &[re(1.0 + 4.0 * f64::EPSILON)], re(1.0)), refused);
+        assert_eq!(influence.learn(0, &[re(1.0)], &[re(1.0 + 5.0 * f64::EPSILON)], re(1.0)), Ok(()));
+        assert_eq!(influence.get(0, 0), Some(re(5.0 * f64::EPSILON)));
+    }
+}

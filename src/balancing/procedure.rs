@@ -568,3 +568,26 @@ impl Reader<'_> {
         Ok(run)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nine words of its own; 3 numbers for each reading of a run; a plane, a weight of two numbers and a run for each
+    /// trial; a flag, a weight for each plane and a run for each of six corrections.
+    #[test]
+    fn the_words_of_a_record() {
+        assert_eq!(Procedure::<f32, 3, 3, 2>::words(1, 1), 9 + 3 + 2 * (1 + 2 + 3) + 6 * (1 + 2 + 3));
+        assert_eq!(Procedure::<f64, 3, 3>::words(3, 2), 9 + 18 + 3 * (1 + 4 + 18) + 6 * (1 + 8 + 18));
+    }
+
+    #[test]
+    fn coefficients_of_another_size_are_refused() {
+        let plan = Plan::<f64, 3, 3>::usual(2, 2, 1.0);
+        for (rows, planes) in [(3, 2), (2, 1)] {
+            let known = Influence::new(rows, planes).unwrap();
+            let refused = Procedure::<f64, 3, 3>::new(plan).unwrap().with_coefficients(known).unwrap_err();
+            assert_eq!(refused, Error::Size);
+        }
+    }
+}

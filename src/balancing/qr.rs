@@ -291,4 +291,36 @@ mod tests {
             }
         }
     }
+
+    /// Beside (1, 0, 0) and (0, 1, d) the column (4, 3, 0) has 3 d of its own, 0.6 d of its length, but for d^2. A
+    /// reflection that took a difference of the head and the norm, which are equal but for d^2/2, would lose it.
+    #[test]
+    fn a_reflection_loses_nothing() {
+        let d = 1e-9;
+        let pivoted = of([[1.0, 0.0, 0.0], [4.0, 3.0, 0.0], [0.0, 1.0, d]], [0.0; 3]).pivoted(0.01);
+        assert_eq!((pivoted.order, pivoted.rank), ([0, 2, 1], 2));
+        let (own, like) = pivoted.combination(2);
+        // some units in the last place
+        assert!((own / (0.6 * d) - 1.0).abs() < 1e-14, "{own}");
+        // four of the first and three of the third
+        let expected = [re(4.0), re(0.0), re(3.0)];
+        assert!(like.iter().zip(expected).all(|(like, expected)| (*like - expected).norm_sqr() < 1e-28), "{like:?}");
+    }
+
+    /// A pivot with nothing in its row: the third column beside the first, before the second. The solution is ones.
+    #[test]
+    fn a_reflection_begins_with_a_zero() {
+        let pivoted = of([[1.0, 0.0, 0.0], [4.0, 3.0, 0.0], [0.0, 0.0, 2.0]], [5.0, 3.0, 2.0]).pivoted(0.01);
+        assert_eq!(pivoted.order, [0, 2, 1]);
+        // some units in the last place
+        assert!(pivoted.solve().iter().all(|x| (*x - re(1.0)).norm_sqr() < 1e-28), "{:?}", pivoted.solve());
+    }
+
+    /// Three columns of squares of two and products of one have singular values of the roots of 1, 1 and 4.
+    #[test]
+    fn the_condition_of_three_columns() {
+        let found = of([[1.0, 1.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]], [0.0; 3]).pivoted(0.01).condition();
+        // some units in the last place
+        assert!((found / 2.0 - 1.0).abs() < 1e-14, "{found}");
+    }
 }

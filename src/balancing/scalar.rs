@@ -94,3 +94,18 @@ pub(crate) mod noise {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Scalar;
+
+    /// The words of IEEE 754: 1.5 has the exponent's bias, 127 or 1023, and half of the fraction.
+    #[test]
+    fn numbers_are_their_words() {
+        assert_eq!((1.5_f32.to_words(), f32::from_words([0x3fc0_0000, 0])), ([0x3fc0_0000, 0], 1.5));
+        assert_eq!((1.5_f64.to_words(), f64::from_words([0x3ff8_0000, 0])), ([0x3ff8_0000, 0], 1.5));
+        // with a unit in the last place
+        assert_eq!((1.5 + f64::EPSILON).to_words(), [0x3ff8_0000, 1]);
+        assert_eq!(f64::from_words([0x3ff8_0000, 1]), 1.5 + f64::EPSILON);
+    }
+}

@@ -76,11 +76,8 @@ impl<T: Scalar> Tolerance<T> {
     pub fn judge(&self, residual: T) -> Result<Verdict<T>, Error> {
         let permissible = self.permissible()?;
         let grade = residual * self.speed / self.mass * real(1e3);
-        // near a grade rounded as the permissible residual is, so that one of exactly that is within it
-        let within = |known: &T| match (grade - *known).abs() <= *known * real(1e-5) {
-            true => Tolerance { grade: *known, ..*self }.permissible().is_ok_and(|most| residual <= most),
-            false => grade <= *known,
-        };
+        // by the permissible residual itself, so that one of exactly that is within its grade
+        let within = |known: &T| Tolerance { grade: *known, ..*self }.permissible().is_ok_and(|most| residual <= most);
         let fulfils = GRADES.iter().map(|&known| real::<T>(known)).find(within);
         Ok(Verdict { grade, fulfils, passed: residual <= permissible })
     }
@@ -115,4 +112,28 @@ pub fn two_planes<T: Scalar>(
 /// The unbalance of the whole rotor (kg m): the size of the sum of its planes'.
 pub fn resultant<T: Scalar>(unbalances: &[Complex<T>]) -> T {
     size(unbalances.iter().fold(zero(), |sum, unbalance| sum + *unbalance))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three and four at right angles are five, whose square and root are exact.
+    #[test]
+    fn unbalances_add_as_vectors() {
+        let z = |re: f64, im: f64| Complex { re, im };
+        assert_eq!(resultant(&[z(3.0, -2.0), z(0.0, 6.0)]), 5.0);
+        assert_eq!(resultant::<f64>(&[]), 0.0);
+    }
+
+    /// A rotor of 1 kg at 1 rad/s has its grade's thousandth (kg m): 2.5 mm/s is 0.0025, and a millionth more is of the
+    /// next grade, 6.3; a worse one than 4000 mm/s has none.
+    #[test]
+    fn a_residual_has_the_grade_that_it_is_within() {
+        let rotor = Tolerance { grade: 40.0, mass: 1.0, speed: 1.0 };
+        let fulfils = |residual: f64| rotor.judge(residual).unwrap().fulfils;
+        assert_eq!(fulfils(Tolerance { grade: 2.5, ..rotor }.permissible().unwrap()), Some(2.5));
+        assert_eq!((fulfils(0.0025 * (1.0 + 1e-6)), fulfils(0.0025 * (1.0 - 1e-6))), (Some(6.3), Some(2.5)));
+        assert_eq!((fulfils(0.0), fulfils(3.999), fulfils(4.001)), (Some(0.4), Some(4000.0), None));
+    }
 }
