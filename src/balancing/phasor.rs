@@ -195,3 +195,43 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::PhasorSettings;
+
+    /// Sixteen ticks on a turn, begun a sixteenth after the zero, with nothing to measure.
+    fn turned<const EDGES: usize>(ticks: u32) -> (Phasors<f64, 1, EDGES>, PhasorsConfig<f64, 1>) {
+        let mut config = PhasorsConfig::<f64, 1>::new(&PhasorSettings::DIRECT, [1.0]);
+        config.block = 3;
+        let mut phasors = Phasors::default();
+        for tick in 1..=ticks {
+            phasors.measure(&config, tick << 28, &[0.0]);
+        }
+        (phasors, config)
+    }
+
+    /// The first zero after 16 ticks, blocks of three turns every 48.
+    #[test]
+    fn blocks_are_counted() {
+        let (phasors, config) = turned::<4>(16 + 2 * 48 + 1);
+        assert_eq!(phasors.blocks(), 2);
+        let incomplete = Err(ReadingFault::Incomplete { turns: 6, of: 9 });
+        assert_eq!(phasors.reading(&config, 0), incomplete);
+        assert_eq!(phasors.unjudged(&config, 0), incomplete);
+    }
+
+    /// One block is a reading, and stays when the rotor turns back.
+    #[test]
+    fn a_complete_reading_stays() {
+        let (mut phasors, config) = turned::<2>(16 + 48 + 1);
+        let measured = |reading: Result<Reading, ReadingFault>| reading.map(|reading| (reading.turns, reading.ticks));
+        assert_eq!(measured(phasors.reading(&config, 0)), Ok((3, 16.0)));
+        assert_eq!(measured(phasors.unjudged(&config, 0)), Ok((3, 16.0)));
+        for tick in [64_u32, 63, 62] {
+            phasors.measure(&config, tick.wrapping_shl(28), &[0.0]);
+        }
+        assert_eq!(measured(phasors.reading(&config, 0)), Ok((3, 16.0)));
+    }
+}
