@@ -117,6 +117,9 @@ mod tests {
         let refused = Err(Error::NoEffect { plane: 0 });
         assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, more), (FRAC_PI_2, less)]), refused);
         assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, more), (FRAC_PI_2, less), (PI, more)]), refused);
+        let more = 1.0 + 50.0 * f32::EPSILON;
+        let refused_single = Err(Error::NoEffect { plane: 0 });
+        assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0_f32, more), (1.5, 2.0 - more)]), refused_single);
         // of two runs, one answer is none, or both are: a weight cannot lower the vibration on either side
         assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0 + 1e-9), (FRAC_PI_2, 1.0)]), refused);
         assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 0.999), (PI, 0.999)]), refused);
@@ -131,5 +134,7 @@ mod tests {
         let is = |weight: Complex<f64>| (weight - Complex { re: 0.0, im: 6.0 }).norm_sqr() < 1e-26;
         // rounding over the angle between the runs
         assert!(is(found.weight) || found.or.is_some_and(is), "{found:?}");
+        // a little more than a thousandth of a radian apart are two angles
+        assert!(from_amplitudes(1.0, 3.0, &[run(0.0), run(1.2e-3)]).is_ok());
     }
 }
