@@ -299,3 +299,78 @@ fn combined(a: &Series, share: f64, b: &Series) -> Series {
     }
     sum
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::{Teeth, ToothClock};
+
+    fn wheel() -> ToothedWheelConfig<4> {
+        ToothedWheelConfig::new(&Teeth::<4>::gap(4, 0), ToothClock { turns: 1, clock: 1e6, lowest_speed: 10.0 })
+    }
+
+    fn window(cycles: u32, opening: f64, closing: f64, missed: u32) -> ToothWindow<4> {
+        ToothWindow { cycles, opening, closing, missed, whole: 1.5 * f64::from(cycles), ..ToothWindow::default() }
+    }
+
+    /// Cycles of 2 s and at last 1 s: the slowness falls by the logarithm of two, the speed rises by half of the
+    /// angle, over the cycles between, missed ones too, of 1.5 s.
+    #[test]
+    fn the_trend_is_that_from_the_first_cycle_to_the_last() {
+        let fall = -core::f64::consts::LN_2;
+        for (cycles, missed, between) in [(2, 0, 1.0), (4, 3, 6.0), (2, 3, 4.0)] {
+            let (rise, acceleration) = window(cycles, 2.0, 1.0, missed).trend(3.0);
+            // one logarithm and two divisions
+            assert!((rise - fall / between).abs() < 1e-15, "{rise}");
+            assert!((acceleration - 1.5 / (between * 1.5)).abs() < 1e-15, "{acceleration}");
+        }
+        for window in [window(1, 2.0, 1.0, 0), window(0, 2.0, 1.0, 0), window(3, 0.0, 1.0, 0), window(3, 1.0, 0.0, 0)] {
+            assert_eq!(window.trend(3.0), (0.0, 0.0));
+        }
+    }
+
+    /// A steady acceleration by the closed form: the square of the speed falls by `2 e` of itself in a cycle, which
+    /// takes `(1 - sqrt(1 - 2 e x))/e` to the share `x`. The slowness rises by `e/(1 - e)` of itself in the middle.
+    #[test]
+    fn a_steady_acceleration_is_taken_off() {
+        let e = 0.05;
+        let time = |x: f64| (1.0 - sqrt(1.0 - 2.0 * e * x)) / e;
+        let rise = e / (1.0 - e);
+        let late = [0.0, 0.25, 0.5, 0.75].map(|x| (time(x) / time(1.0) - x) as f32);
+        let window = ToothWindow { late, cycles: 1, ..ToothWindow::default() };
+        let left = window.lateness(&wheel(), rise);
+        assert!(late[2] < -0.005);
+        // of the third order
+        assert!(left.iter().all(|left| left.abs() < 0.1 * rise * rise * rise), "{left:?} {rise}");
+    }
+
+    /// The first cycle may have the number zero; the same one again is left out; one after a lost place begins anew.
+    #[test]
+    fn cycles_are_counted_by_their_numbers() {
+        let cycle = |number: u32| ToothCycle { times: [0, 250, 500, 750], end: 1000, number };
+        let mut window = ToothWindow::<4>::default();
+        for (number, cycles, missed) in [(0, 1, 0), (0, 1, 0), (1, 2, 0), (4, 3, 2), (4 + LOST, 1, 0), (3, 1, 0)] {
+            window.add(&wheel(), &cycle(number));
+            assert_eq!((window.cycles(), window.missed), (cycles, missed), "{number}");
+        }
+    }
+
+    /// A tooth without an edge is as late as its neighbours; places are counted from the first tooth.
+    #[test]
+    fn a_tooth_without_an_edge_is_between_its_neighbours() {
+        let clock = ToothClock { turns: 1, clock: 1e6, lowest_speed: 10.0 };
+        let turned = ToothedWheelConfig::new(&Teeth { angles: [0.125, 0.375, 0.625, 0.875] }, clock);
+        for config in [wheel(), turned] {
+            let mut window = ToothWindow::<4>::default();
+            // the second is late by 0.01, the third has no edge: its time is before the first's
+            let cycle = ToothCycle { times: [1000, 1260, 999, 1770], end: 2000, number: 7 };
+            window.add(&config, &cycle);
+            let expected = [0.0, 0.01, 0.015, 0.02];
+            // rounding of f32
+            assert!(
+                window.late.iter().zip(expected).all(|(late, expected)| (late - expected).abs() < 1e-7),
+                "{window:?}"
+            );
+        }
+    }
+}

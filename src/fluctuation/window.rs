@@ -338,3 +338,106 @@ impl Ramp {
         ripple
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A slowness of one with this first order.
+    fn of(cos: f64, sin: f64) -> Series {
+        let mut series = Series::constant(1.0);
+        series.orders[0] = Order { cos, sin };
+        series
+    }
+
+    fn ripple(cos: f64, sin: f64) -> Ripple {
+        Ripple::of(of(cos, sin), 10.0, 0.0, TAU, 1, 1)
+    }
+
+    /// The antiderivative of `e^(j n theta)` over the ticks, times `x/sin x - 1`.
+    #[test]
+    fn ticks_are_beyond_their_integral_as_by_the_closed_form() {
+        for (turned, speed, n) in [(0.4, 0.02, 1.0), (1.3, 0.2, 3.0), (2.0, 0.05, 9.0), (0.7, 0.6, 1.0)] {
+            let (cos, sin) = Part { turned, speed }.sampled(&Series::constant(1.0), n);
+            let x: f64 = 0.5 * n * speed;
+            let share = (x / x.sin() - 1.0) / (n * speed);
+            // the next term of x/sin x, and what rounding leaves of a small difference from one
+            let left = (127.0 / 604_800.0 * x.powi(8) * 1.1 + 2e-16) / (n * speed);
+            let (s, c) = (n * turned).sin_cos();
+            assert!((cos - share * s).abs() < left && (sin + share * c).abs() < left, "{cos} {sin} {share}");
+        }
+        // the turn of a tick by the slowness there
+        let slow = Part { turned: 0.0, speed: 0.2 }.sampled(&of(1.0, 0.0), 1.0);
+        assert_eq!(slow, Part { turned: 0.0, speed: 0.1 }.sampled(&Series::constant(1.0), 1.0));
+    }
+
+    /// Ticks spread evenly over a bin: the mean of `cos(n e)` is `sin(h/2)/(h/2)`, with `h` the order's turn over it.
+    #[test]
+    fn a_bin_counts_its_ticks_as_the_integral_over_it() {
+        let ticks = 12_000.0;
+        let mut window =
+            Window { bins: [Bin::<f32>::default(); 8], edges: [Edge::default(); 4], cycles: 1, forward: true };
+        // the mean of the distances is zero, of their squares a twelfth; each was rounded down
+        let bin = &mut window.bins[2];
+        (bin.ticks, bin.first) = (12_000, -6_000);
+        bin.second = (4096.0 * ticks / 12.0 + ticks / 3.0) as _;
+        for n in [1.0, 2.0] {
+            let h = n * TAU / 8.0;
+            let found = window.counted(n);
+            let expected = ticks * (0.5 * h).sin() / (0.5 * h);
+            let (s, c) = (n * TAU / 8.0 * 2.5).sin_cos();
+            // the polynomial's next term, h^6/322560
+            let left = ticks * f64::powi(h, 6) / 3e5;
+            assert!(
+                (found.cos - expected * c).abs() < left && (found.sin - expected * s).abs() < left,
+                "{n} {found:?}"
+            );
+        }
+        // all of them at the bin's end, where the parabola and the cubic are farthest off: by h^3 (1/24 - 1/40)/2
+        let bin = &mut window.bins[2];
+        (bin.first, bin.second) =
+            (512 * 12_000 - 6_000, (4096.0 * ticks / 4.0 + ticks / 3.0 - 64.0 * ticks / 2.0) as _);
+        let found = window.counted(1.0);
+        let (s, c) = (TAU / 8.0 * 3.0).sin_cos();
+        let off = (found.cos / ticks - c).hypot(found.sin / ticks - s);
+        assert!(off < f64::powi(TAU / 8.0, 3) / 120.0, "{off}");
+    }
+
+    #[test]
+    fn a_speed_against_the_mean_is_seen() {
+        let mut ripple = ripple(0.1, 0.0);
+        assert!(ripple.turns_one_way());
+        for (speed, mean, is_so) in [(0.0, 10.0, false), (-1.0, 10.0, false), (1.0, -10.0, false), (1.0, 10.0, true)] {
+            (ripple.motor.min.speed, ripple.mean) = (speed, mean);
+            ripple.motor.max.speed = mean;
+            assert_eq!(ripple.turns_one_way(), is_so, "{speed} {mean}");
+        }
+    }
+
+    /// The slowness is least a little before the cycle's end, or at its beginning.
+    #[test]
+    fn extremes_are_within_the_cycle() {
+        for (phase, expected) in [(-0.001, TAU - 0.001), (0.001, 0.001), (0.0, 0.0)] {
+            let (sin, cos) = f64::sin_cos(phase);
+            let angle = ripple(-0.1 * cos, -0.1 * sin).motor.max.angle;
+            // Newton's method ends within rounding of a turn
+            assert!((angle - expected).abs() < 1e-14, "{phase}: {angle}");
+        }
+    }
+
+    /// A flywheel where delta is more than permissible, a governor where the drift is more than so much of the mean.
+    #[test]
+    fn remedies_are_for_what_is_beyond_the_limits() {
+        use crate::fluctuation::flywheel::Remedy;
+        let mut ripple = ripple(0.1, 0.0);
+        for (delta, acceleration, expected) in [
+            (0.25, 2.5, Remedy::Nothing),
+            (0.26, 2.5, Remedy::Flywheel),
+            (0.25, -2.6, Remedy::Governor),
+            (0.26, 2.6, Remedy::Both),
+        ] {
+            (ripple.motor.delta, ripple.acceleration, ripple.mean) = (delta, acceleration, -10.0);
+            assert_eq!(ripple.remedy(0.25, 0.25), expected, "{delta} {acceleration}");
+        }
+    }
+}
