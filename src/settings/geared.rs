@@ -115,3 +115,42 @@ impl<C: Copy> GearedConfig<Fixed, C> {
         Ok(GearedConfig { observer, friction, stiction_gain: (), deadband: Fixed::from_bits(deadband as i32) })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GEAR: Gear = Gear { efficiency: 0.8, inertia: 0.5, deadband: 0.01 };
+
+    /// Sixteen times the torque's base over the speed's, against the inertia over the period.
+    #[test]
+    fn a_firm_gear_is_brought_to_rest() {
+        let bases = Bases { torque: 2.0, speed: 4.0, ..Bases::SI };
+        assert!(GEAR.holds(0.0625, bases) && !GEAR.holds(0.063, bases));
+    }
+
+    #[test]
+    fn losses_are_in_range() {
+        // the mean of what is lost forwards and backwards, half of 0.25 and 0.2
+        let [friction, stiction, deadband] = GEAR.losses(0.01).unwrap();
+        // some operations
+        assert!((friction - 0.225).abs() < 1e-15 && stiction == 25.0, "{friction} {stiction}");
+        assert!((deadband / (4_294_967_296.0 * 0.01 / core::f64::consts::TAU) - 1.0).abs() < 1e-15);
+        let refused = |gear: Gear, period: f64| gear.losses(period).err();
+        for inertia in [0.0, -1.0, f64::INFINITY, 1e39, 1e-60] {
+            assert_eq!(refused(Gear { inertia, ..GEAR }, 0.01), Some(Error::Value(MOTOR)), "{inertia}");
+        }
+        for period in [0.0, -0.01, f64::NAN] {
+            assert_eq!(refused(GEAR, period), Some(Error::Value(MOTOR)));
+        }
+        assert_eq!(refused(Gear { inertia: -0.5, ..GEAR }, -0.01), Some(Error::Value(MOTOR)));
+        for efficiency in [0.0, -0.5, 1.1, f64::NAN, 1e-39] {
+            assert_eq!(refused(Gear { efficiency, ..GEAR }, 0.01), Some(Error::Value(EFFICIENCY)), "{efficiency}");
+        }
+        let most = INNOVATION_RANGE / ANGLE_PER_RADIAN;
+        for (deadband, is_right) in [(0.0, true), (0.999 * most, true), (-1e-9, false), (1.001 * most, false)] {
+            assert_eq!(Gear { deadband, ..GEAR }.losses(0.01).is_ok(), is_right, "{deadband}");
+        }
+        assert!(Gear { efficiency: 1.0, ..GEAR }.losses(0.01).is_ok());
+    }
+}

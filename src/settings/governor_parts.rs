@@ -283,3 +283,43 @@ impl<const K: usize> MovingAverageConfig<Fixed, K> {
         MovingAverageConfig { share }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In fixed point eight times the gains that act on the speed and twice the acceleration's stay below 3.99 bases of
+    /// the torque: with bases of one each gain has a share of its own.
+    #[test]
+    fn gains_are_within_the_range_of_their_sum() {
+        let format = Format { gain: 1.0, ..Format::fixed(Bases::SI) };
+        let fits = |design: [f64; 5]| gains(&design, 1.0, &format).is_ok();
+        for design in [
+            [0.498, 0.0, 0.0, 0.0, 0.1],
+            [0.1, 3.98, 0.0, 0.0, 0.1],
+            [0.1, 0.0, -0.398, 0.0, 0.1],
+            [0.1, 0.0, 0.0, 1.59, 0.1],
+        ] {
+            assert!(fits(design), "{design:?}");
+            let more = design.map(|gain| if gain == 0.1 { gain } else { 1.01 * gain });
+            assert!(!fits(more), "{more:?}");
+        }
+        // in units of other bases: a torque of two to a speed of one halves the gains
+        let halved = Format { bases: Bases { torque: 2.0, ..Bases::SI }, ..format };
+        assert!(gains(&[0.997, 0.0, 0.0, 0.0, 0.1], 1.0, &halved).is_ok());
+        assert!(gains(&[0.1, 0.0, 0.0, 0.0, 0.1], 1.0, &format).is_ok() && !fits([0.0, 0.0, 0.0, 0.0, 0.1]));
+    }
+
+    /// To the nearest tick, below 2^31 of them; a rated torque of zero has no droop.
+    #[test]
+    fn limits_of_times_and_droop() {
+        assert_eq!([ticks(0.0, 1.0).ok(), ticks(1.4, 1.0).ok(), ticks(1.5, 1.0).ok()], [Some(0), Some(1), Some(2)]);
+        assert_eq!(ticks(2_147_483_647.4, 1.0).ok(), Some(2_147_483_647));
+        for (time, period) in [(2_147_483_647.5, 1.0), (-0.1, 1.0), (1.0, 0.0), (0.0, 0.0), (f64::NAN, 1.0)] {
+            assert_eq!(ticks(time, period), Err(Error::Value(TIMES)), "{time} {period}");
+        }
+        for (speed, torque) in [(0.0, 1.0), (1.0, 0.0), (-1.0, -1.0)] {
+            assert!(droop(0.0, speed, torque, &Format::FLOAT).is_err(), "{speed} {torque}");
+        }
+    }
+}

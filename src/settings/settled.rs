@@ -48,3 +48,66 @@ pub(super) const fn unit_single(value: f64) -> f64 {
     let single = (value as f32).abs();
     (f32::from_bits(single.to_bits() + 1) - single) as f64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A turn of the pair: its poles are on the unit circle.
+    fn turned(angle: f64) -> [f64; 4] {
+        let (sine, cosine) = angle.sin_cos();
+        [cosine - 1.0, -sine, sine, cosine - 1.0]
+    }
+
+    /// Of all neighbours none takes less off the damping and does not grow.
+    #[test]
+    fn an_undamped_pair_does_not_grow() {
+        for step in 1..40 {
+            let exact = turned(0.07 * f64::from(step));
+            let unit = [1e-3, 2e-3, 5e-4, 1e-3];
+            let rounded: [f64; 4] = core::array::from_fn(|i| (exact[i] / unit[i]).round() * unit[i]);
+            let found = settled(exact, rounded, unit);
+            // the square of the poles' size, by the determinant of 1 + N
+            let grown = |[a, b, c, d]: [f64; 4]| (1.0 + a) * (1.0 + d) - b * c - 1.0;
+            let near = (0..4).all(|i| (found[i] - rounded[i]).abs() < 1.001 * unit[i]);
+            // some operations on numbers of the order of one
+            assert!(near && grown(found) < grown(exact) + 1e-15, "{step}: {found:?}");
+            for k in 0..81 {
+                let offsets = [k % 3, k / 3 % 3, k / 9 % 3, k / 27];
+                let other: [f64; 4] = core::array::from_fn(|i| rounded[i] + (f64::from(offsets[i]) - 1.0) * unit[i]);
+                let nearer = grown(other) <= grown(exact) - 1e-15 && grown(other) > grown(found) + 1e-15;
+                assert!(!nearer, "{step}: {other:?} {found:?}");
+            }
+        }
+    }
+
+    /// Half the sample rate: no coefficient below -2, and both real poles within the circle. With a share of 1e-3 off
+    /// one coefficient and a turn by 1e-2 the determinant is 0.9991; with that off both it would be 0.9981.
+    #[test]
+    fn a_pair_next_to_half_the_sample_rate_stays_within_the_circle() {
+        let exact = [-2.0 + 5e-7, 0.0, 0.0, -2.0];
+        let found = settled(exact, [-2.0, 0.0, 0.0, -2.0], [1e-3, 1e-2, 1e-2, 1e-3]);
+        let (trace, excess) = invariants(found);
+        // some operations on numbers up to four
+        assert!((excess + 9e-4).abs() < 1e-14 && (2.0 + trace).abs() <= 2.0 + excess, "{found:?} {trace} {excess}");
+    }
+
+    /// Real poles of a damped pair stay as they are, even where they were rounded upwards; next to the circle they do
+    /// not.
+    #[test]
+    fn real_poles_are_left_alone() {
+        let damped = [-0.5, 0.0, 0.0, -0.2];
+        let rounded = [-0.499, 0.0, 0.0, -0.199];
+        assert_eq!(settled(damped, rounded, [1e-3; 4]), rounded);
+        let slow = [0.0, 0.0, 0.0, -5e-7];
+        let found = settled(slow, [0.0, 0.0, 0.0, -4e-7], [1e-7, 1e-9, 1e-9, 1e-7]);
+        assert!((invariants(found).1 + 5e-7).abs() < 1e-20, "{found:?}");
+    }
+
+    #[test]
+    fn a_unit_is_the_distance_to_the_next_larger_number() {
+        for (value, unit) in [(1.0, 1.0 / 8_388_608.0), (-1.0, 1.0 / 8_388_608.0), (0.75, 1.0 / 16_777_216.0)] {
+            assert_eq!(unit_single(value), unit);
+        }
+    }
+}
