@@ -200,3 +200,24 @@ impl WaveformConfig {
         Ok(WaveformConfig { cycle, cycles, scale: scale as i32, per_segment })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Segments are a power of two, 4 to 1024, each of eight units of 2^-26 turn or more.
+    #[test]
+    fn segments_of_a_mean_cycle() {
+        let made = |turns: u32, cycles: u32, segments: usize| {
+            mean_cycle(Cycle { turns, cycles }, segments, 1e-3, Bases::SI).map(|(_, whole)| whole)
+        };
+        assert_eq!([made(3, 2, 16).unwrap(), made(1, 1, 16).unwrap()], [3 << 25, 1 << 26]);
+        let refused = Err(Error::Value(SEGMENTS_SENTENCE));
+        for segments in [2, 6, 12, 1000, 2048] {
+            assert_eq!(made(1, 1, segments), refused, "{segments}");
+        }
+        assert!(made(1, 1, 4).is_ok() && made(1, 1, 1024).is_ok());
+        // 2^26/2^15 is 2048: 256 segments of eight
+        assert_eq!([made(1, 1 << 15, 256), made(1, 1 << 15, 512)], [Ok(2048), refused]);
+    }
+}

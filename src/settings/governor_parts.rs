@@ -310,6 +310,21 @@ mod tests {
         assert!(gains(&[0.1, 0.0, 0.0, 0.0, 0.1], 1.0, &format).is_ok() && !fits([0.0, 0.0, 0.0, 0.0, 0.1]));
     }
 
+    /// Each product is finite in `f32`, where its factors are.
+    #[test]
+    fn gains_are_finite() {
+        let format = Format { bases: Bases { torque: 1e-20, ..Bases::SI }, ..Format::FLOAT };
+        let refused = |design: [f64; 5]| gains(&design, 1.0, &format).err();
+        for (design, expected) in [
+            ([1e18, 0.0, 0.0, 0.0, 1.0], None),
+            ([1e20, 0.0, 0.0, 0.0, 1.0], Some(Error::Coefficient(NO_GAIN))),
+            ([1.0, 1e9, 0.0, 0.0, 1e9], None),
+            ([1.0, 1e10, 0.0, 0.0, 1e10], Some(Error::Coefficient(NO_GAIN))),
+        ] {
+            assert_eq!(refused(design), expected, "{design:?}");
+        }
+    }
+
     /// To the nearest tick, below 2^31 of them; a rated torque of zero has no droop.
     #[test]
     fn limits_of_times_and_droop() {
