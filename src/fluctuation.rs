@@ -143,3 +143,31 @@ impl<N: Number, A: Fluctuation<N>, B: Fluctuation<N>> Fluctuation<N> for (A, B) 
         self.0.steady_speed().or(self.1.steady_speed())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Default)]
+    struct Known(Option<f32>);
+
+    impl Fluctuation<f32> for Known {
+        type Config = ();
+
+        fn measure(&mut self, _config: &(), _angle: u32, _torque: f32, _estimate: &Estimate<f32>) {}
+
+        fn disturb(&mut self) {}
+
+        fn steady_speed(&self) -> Option<f32> {
+            self.0
+        }
+    }
+
+    /// Of two measurements the first that knows it; one that knows none has none.
+    #[test]
+    fn a_steady_speed_is_that_of_the_first_that_knows_it() {
+        let both = |first: Option<f32>, second: Option<f32>| (Known(first), Known(second)).steady_speed();
+        assert_eq!([both(Some(1.0), Some(2.0)), both(None, Some(2.0)), both(None, None)], [Some(1.0), Some(2.0), None]);
+        assert_eq!(Fluctuation::<f32>::steady_speed(&()), None);
+    }
+}

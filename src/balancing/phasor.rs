@@ -222,6 +222,20 @@ mod tests {
         assert_eq!(phasors.unjudged(&config, 0), incomplete);
     }
 
+    /// The rotor on the motor's shaft is where the motor is, or as far from it as an index mark showed.
+    #[test]
+    fn the_rotor_is_where_its_mark_says() {
+        let (mut phasors, config) = turned::<4>(16 + 48 + 3);
+        // a turn is counted in 2^26 units, rounded down
+        let is_at = |phasors: &Phasors<f64, 1, 4>, angle: u32| angle - phasors.angle(&config) <= 64;
+        assert!(is_at(&phasors, 3 << 28) && phasors.blocks() == 1);
+        phasors.align(&config, 3 << 28, 8 << 28);
+        // and the reading begins anew
+        assert!(is_at(&phasors, 8 << 28) && phasors.blocks() == 0);
+        phasors.measure(&config, 4 << 28, &[0.0]);
+        assert!(is_at(&phasors, 9 << 28));
+    }
+
     /// One block is a reading, and stays when the rotor turns back.
     #[test]
     fn a_complete_reading_stays() {

@@ -363,7 +363,7 @@ mod tests {
             let exact = if x < f32::MIN_POSITIVE { 0.0 } else { x.sqrt() };
             assert!((root(x) - exact).abs() <= 2e-7 * exact, "{x}");
         }
-        assert_eq!((root(0.0), root(-1.0), root(f32::NAN)), (0.0, 0.0, 0.0));
+        assert_eq!((root(0.0), root(-1.0), root(f32::NAN), root(f32::INFINITY)), (0.0, 0.0, 0.0, f32::INFINITY));
     }
 
     /// Blocks of one turn of ten ticks, with these growths of sine and cosine, in units of pi.

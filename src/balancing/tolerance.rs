@@ -134,6 +134,8 @@ mod tests {
         let fulfils = |residual: f64| rotor.judge(residual).unwrap().fulfils;
         assert_eq!(fulfils(Tolerance { grade: 2.5, ..rotor }.permissible().unwrap()), Some(2.5));
         assert_eq!((fulfils(0.0025 * (1.0 + 1e-6)), fulfils(0.0025 * (1.0 - 1e-6))), (Some(6.3), Some(2.5)));
+        // two products and a division
+        assert!((rotor.judge(0.0025).unwrap().grade - 2.5).abs() < 1e-15);
         assert_eq!((fulfils(0.0), fulfils(3.999), fulfils(4.001)), (Some(0.4), Some(4000.0), None));
     }
 }

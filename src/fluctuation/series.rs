@@ -181,3 +181,46 @@ pub(super) fn circle() -> Circle {
     }
     points
 }
+
+#[cfg(test)]
+mod tests {
+    use core::f64::consts::TAU;
+
+    use super::*;
+
+    fn of(n: usize, cos: f64, sin: f64) -> Series {
+        let mut series = Series::constant(1.0);
+        series.orders[n - 1] = Order { cos, sin };
+        series
+    }
+
+    #[test]
+    fn the_highest_order_has_a_sine_or_a_cosine() {
+        assert_eq!(Series::constant(1.0).highest(), 0);
+        for n in [1, 3, MAX_ORDER] {
+            assert_eq!([of(n, 0.1, 0.0).highest(), of(n, 0.0, -0.1).highest(), of(n, 0.1, 0.1).highest()], [n; 3]);
+        }
+    }
+
+    /// A little before the cycle's end, at its beginning, and a little behind it.
+    #[test]
+    fn extremes_are_within_the_cycle() {
+        for (phase, expected) in [(-0.001, 2.0 - 0.001 / core::f64::consts::PI), (0.0, 0.0), (TAU / 8.0, 0.25)] {
+            let (sin, cos) = f64::sin_cos(phase);
+            let found = of(1, cos, sin).fluctuations(1.0, 2.0, &circle());
+            // Newton's method ends within rounding of a turn
+            assert!((found.max.angle - expected).abs() < 1e-14, "{phase}: {}", found.max.angle);
+            assert!((found.max.speed - 2.0).abs() < 1e-14 && found.min.speed.abs() < 1e-14, "{found:?}");
+        }
+    }
+
+    /// Newton's method finds what is within a step of the grid, and stays where it was otherwise.
+    #[test]
+    fn a_stationary_value_is_near() {
+        let near = TAU / GRID as f64;
+        assert!(of(1, 1.0, 0.0).stationary(0.9 * near).abs() < 1e-14);
+        for far in [1.5 * near, 0.8, -0.8] {
+            assert_eq!(of(1, 1.0, 0.0).stationary(far), far);
+        }
+    }
+}

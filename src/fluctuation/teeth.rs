@@ -305,8 +305,15 @@ mod tests {
     use super::*;
     use crate::settings::{Teeth, ToothClock};
 
+    const CLOCK: ToothClock = ToothClock { turns: 1, clock: 1e6, lowest_speed: 10.0 };
+
     fn wheel() -> ToothedWheelConfig<4> {
-        ToothedWheelConfig::new(&Teeth::<4>::gap(4, 0), ToothClock { turns: 1, clock: 1e6, lowest_speed: 10.0 })
+        ToothedWheelConfig::new(&Teeth::<4>::gap(4, 0), CLOCK)
+    }
+
+    /// The same, an eighth of a turn further.
+    fn turned() -> ToothedWheelConfig<4> {
+        ToothedWheelConfig::new(&Teeth { angles: [0.125, 0.375, 0.625, 0.875] }, CLOCK)
     }
 
     fn window(cycles: u32, opening: f64, closing: f64, missed: u32) -> ToothWindow<4> {
@@ -338,10 +345,13 @@ mod tests {
         let rise = e / (1.0 - e);
         let late = [0.0, 0.25, 0.5, 0.75].map(|x| (time(x) / time(1.0) - x) as f32);
         let window = ToothWindow { late, cycles: 1, ..ToothWindow::default() };
-        let left = window.lateness(&wheel(), rise);
         assert!(late[2] < -0.005);
-        // of the third order
-        assert!(left.iter().all(|left| left.abs() < 0.1 * rise * rise * rise), "{left:?} {rise}");
+        // the cycle begins with its first tooth, wherever that is
+        for config in [wheel(), turned()] {
+            let left = window.lateness(&config, rise);
+            // of the third order
+            assert!(left.iter().all(|left| left.abs() < 0.1 * rise * rise * rise), "{left:?} {rise}");
+        }
     }
 
     /// The first cycle may have the number zero; the same one again is left out; one after a lost place begins anew.
@@ -355,12 +365,25 @@ mod tests {
         }
     }
 
+    /// No more orders than a quarter of the teeth, and no cycle whose length changes by more than a tenth.
+    #[test]
+    fn what_a_window_of_teeth_cannot_say() {
+        let window = ToothWindow { late: [0.0, 0.01, 0.0, -0.01], ..window(1, 1.0, 1.0, 0) };
+        let ripple = window.ripple(&wheel(), &ToothErrors::NONE, 16).unwrap();
+        // lateness of sin(theta)/100, and its derivative
+        assert!((ripple.motor.delta - 0.04 * core::f64::consts::PI).abs() < 1e-3, "{ripple:?}");
+        assert_eq!(ripple.speed.highest(), 1);
+        let trend = |closing: f64| {
+            let window = ToothWindow { late: window.late.map(|late| 2.0 * late), ..self::window(2, 1.0, closing, 0) };
+            window.ripple(&wheel(), &ToothErrors::NONE, 1).err()
+        };
+        assert_eq!([trend(1.05), trend(1.12), trend(0.88)], [None, Some(Unusable::Trend), Some(Unusable::Trend)]);
+    }
+
     /// A tooth without an edge is as late as its neighbours; places are counted from the first tooth.
     #[test]
     fn a_tooth_without_an_edge_is_between_its_neighbours() {
-        let clock = ToothClock { turns: 1, clock: 1e6, lowest_speed: 10.0 };
-        let turned = ToothedWheelConfig::new(&Teeth { angles: [0.125, 0.375, 0.625, 0.875] }, clock);
-        for config in [wheel(), turned] {
+        for config in [wheel(), turned()] {
             let mut window = ToothWindow::<4>::default();
             // the second is late by 0.01, the third has no edge: its time is before the first's
             let cycle = ToothCycle { times: [1000, 1260, 999, 1770], end: 2000, number: 7 };

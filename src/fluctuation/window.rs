@@ -361,8 +361,8 @@ mod tests {
             let (cos, sin) = Part { turned, speed }.sampled(&Series::constant(1.0), n);
             let x: f64 = 0.5 * n * speed;
             let share = (x / x.sin() - 1.0) / (n * speed);
-            // the next term of x/sin x, and what rounding leaves of a small difference from one
-            let left = (127.0 / 604_800.0 * x.powi(8) * 1.1 + 2e-16) / (n * speed);
+            // the next term of x/sin x, and what some units in the last place of the sine leave of a small difference
+            let left = (127.0 / 604_800.0 * x.powi(8) * 1.1 + 2e-15) / (n * speed);
             let (s, c) = (n * turned).sin_cos();
             assert!((cos - share * s).abs() < left && (sin + share * c).abs() < left, "{cos} {sin} {share}");
         }

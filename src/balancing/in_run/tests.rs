@@ -368,3 +368,18 @@ fn a_correction_that_could_do_harm_is_not_made() {
     assert_eq!(run.probes, 1);
     assert!(to.iter().filter(|to| **to != re(0.0)).count() == 1, "{to:?}");
 }
+
+/// The sentences of all four, each of its own.
+#[test]
+fn an_abort_has_its_sentence() {
+    extern crate std;
+    use std::string::ToString;
+    for (reason, part) in [
+        (AbortReason::Diverging, "rose above its bound"),
+        (AbortReason::Stalled, "eight moves"),
+        (AbortReason::NoReading, "missing or not a number"),
+        (AbortReason::Unidentified, "no more than these change by themselves"),
+    ] {
+        assert!(reason.to_string().contains(part));
+    }
+}
