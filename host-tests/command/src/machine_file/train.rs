@@ -380,13 +380,13 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         let turns = run.number_or("cycle_turns", Quantity::TURNS, 1.0)? as u32;
         let cycle = if run.has("cycle") { Some((file.named(&mut run, "cycle")?, turns)) } else { None };
         let starting = if run.has("starting") {
-            let (at, speed) = (file.named(&mut run, "starting")?, run.number("starting_speed", Quantity::SPEED)?);
-            if !(speed > motion.speed(at)) {
-                return Err(run.wrong("starting_speed", "a speed above that of the coordinate at the start"));
+            let (at, speed) = (file.named(&mut run, "starting")?, run.number("starting_speed", Quantity::ANY)?);
+            if speed == motion.speed(at) {
+                return Err(run.wrong("starting_speed", "a speed other than that of the coordinate at the start"));
             }
             Some((at, speed))
-        } else if run.number_if("starting_speed", Quantity::SPEED)?.is_some() {
-            return Err(run.wrong("starting_speed", "`starting` beside it, the coordinate that reaches it"));
+        } else if run.number_if("starting_speed", Quantity::ANY)?.is_some() {
+            return Err(run.wrong("starting_speed", "`starting`, the coordinate that must reach this speed"));
         } else {
             None
         };

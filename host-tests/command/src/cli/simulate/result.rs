@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use super::starting_time::StartingTime;
+use super::starting_time::{StartingTime, is_reached};
 use crate::cli::{Failure, Progress};
 use crate::machine_file::TrainFile;
 use driveline_report::format::{counted, significant};
@@ -206,9 +206,8 @@ impl Simulation {
                 progress.says_when_due(|| so_far(file, done as f64 / all as f64, begun.elapsed()));
             }
             let motion = run.motion();
-            if let Some((at, speed)) = file.starting.filter(|_| reached.is_none()) {
-                let peak = motion.extremes(Signal::Speed(at)).map(|extremes| extremes.peak);
-                reached = peak.filter(|peak| *peak >= speed).map(|_| step);
+            if let Some(wanted) = file.starting.filter(|_| reached.is_none()) {
+                reached = is_reached(file, motion, wanted).then_some(step);
             }
             if motion.events().last().is_some_and(|event| event.kind == EventKind::Unresolved) {
                 let at = motion.time();

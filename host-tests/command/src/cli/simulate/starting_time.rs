@@ -38,14 +38,20 @@ impl StartingTime {
                 let middle = 0.5 * (before + after);
                 let mut trial = motion.clone();
                 trial.advance(middle);
-                let is_reached = trial.extremes(Signal::Speed(at)).is_some_and(|extremes| extremes.peak >= speed);
-                *(if is_reached { &mut after } else { &mut before }) = middle;
+                *(if is_reached(file, &trial, (at, speed)) { &mut after } else { &mut before }) = middle;
             }
             motion.time() + after
         });
         let rigid = (0..file.coordinates.len()).find_map(|driving| rigid(file, driving, (at, speed)));
         Self { name: file.coordinates[at].clone(), speed, time, rigid: rigid.filter(|time| time.is_finite()) }
     }
+}
+
+/// Whether the coordinate has had this speed, above or below that at the start.
+pub fn is_reached(file: &TrainFile, motion: &Motion, (at, speed): (usize, f64)) -> bool {
+    let is_rise = speed > file.motion.speed(at);
+    let extremes = motion.extremes(Signal::Speed(at));
+    extremes.is_some_and(|extremes| if is_rise { extremes.peak >= speed } else { extremes.least <= speed })
 }
 
 /// A torque against speed that has a closed form.
