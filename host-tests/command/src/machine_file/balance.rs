@@ -548,7 +548,7 @@ fn hard_bearing(root: &Table<'_>, file: &BalanceFile, rpm: &[f64]) -> Result<Inf
         return Err(root.wrong("sensors", "two of them: the forces in bearing A and in bearing B"));
     }
     let bearings = bearings(&file.sensors).ok_or_else(|| {
-        root.wrong("sensors", "one name with the word \"A\" and one with \"B\", or neither: the first is A then")
+        root.wrong("sensors", "one name with a capital \"A\" and one with \"B\", or neither: the first is A then")
     })?;
     let speeds = radians_per_second(rpm);
     if speeds.len() != 2 {
@@ -565,18 +565,27 @@ fn hard_bearing(root: &Table<'_>, file: &BalanceFile, rpm: &[f64]) -> Result<Inf
     Ok(influence)
 }
 
-/// The bearing of each of two sensors, 0 for A: by a word of the names, else in their order.
+/// The bearing of each of two sensors, 0 for A: by a letter of the names, else in their order.
 ///
-/// None where one name says a bearing and the other does not, both say the same, or one says both.
+/// None where only one name has a bearing, both have the same, or one has both.
 fn bearings(sensors: &[String]) -> Option<[usize; 2]> {
     let [first, second] = sensors else { return None };
-    let says =
-        |name: &str| ["A", "B"].map(|bearing| name.split_whitespace().any(|word| word.to_uppercase() == bearing));
-    match (says(first), says(second)) {
+    match (letters(first), letters(second)) {
         ([true, false], [false, true]) | ([false, false], [false, false]) => Some([0, 1]),
         ([false, true], [true, false]) => Some([1, 0]),
         _ => None,
     }
+}
+
+/// Whether a sensor's name has the letter of bearing A, and of B: a capital that ends a word, as in `B`, `B1` or
+/// `bearingB`, or a small letter as a word. An `a` before another word is the article.
+fn letters(name: &str) -> [bool; 2] {
+    let words: Vec<&str> = name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
+    let ends_word = |letter: char| {
+        let before = |word: &str| word.strip_suffix(letter).is_some_and(|rest| !rest.ends_with(char::is_uppercase));
+        words.iter().any(|word| before(word))
+    };
+    [ends_word('A') || words.last() == Some(&"a"), ends_word('B') || words.contains(&"b")]
 }
 
 /// A refusal with the planes by their names.

@@ -564,22 +564,33 @@ fn a_hard_bearing_machine_needs_no_trial_runs() {
 /// The same forces with the sensors the other way round, each named by its bearing.
 #[test]
 fn the_bearings_of_a_hard_bearing_machine_go_by_the_names_of_the_sensors() {
-    let weights = |text: &str| json(text)["planes"].clone();
-    let swapped = MACHINE
-        .replace("[\"bearing A\", \"bearing B\"]", "[\"bearing b\", \"bearing a\"]")
-        .replace("[[1.4, 25], [0.9, 310]]", "[[0.9, 310], [1.4, 25]]");
-    let numbered = swapped.replace("[\"bearing b\", \"bearing a\"]", "[\"B 1\", \"A 1\"]");
-    let unnamed = MACHINE.replace("[\"bearing A\", \"bearing B\"]", "[\"left\", \"right\"]");
-    for (plane, expected) in weights(MACHINE).as_array().unwrap().iter().enumerate() {
-        for text in [&swapped, &numbered, &unnamed] {
-            let found = &weights(text)[plane]["weight"];
+    let named = |names: [&str; 2]| MACHINE.replace("[\"bearing A\", \"bearing B\"]", &format!("{names:?}"));
+    let swapped = |names| named(names).replace("[[1.4, 25], [0.9, 310]]", "[[0.9, 310], [1.4, 25]]");
+    let expected = json(MACHINE);
+    for text in [
+        swapped(["bearing b", "bearing a"]),
+        swapped(["B 1", "A 1"]),
+        swapped(["b1", "a1"]),
+        swapped(["bearing B, radial", "bearing A, radial"]),
+        swapped(["force (B)", "force (A)"]),
+        swapped(["B-side", "A: fan"]),
+        swapped(["bearingB", "bearing_A"]),
+        swapped(["probe in a housing B", "probe on A"]),
+        named(["left", "right"]),
+        named(["on a motor side", "fan side"]),
+        // of other words
+        named(["BASE", "BrgAb"]),
+    ] {
+        let found = json(&text);
+        for plane in [0, 1] {
+            let [found, expected] = [&found, &expected].map(|outcome| &outcome["planes"][plane]["weight"]);
             // a few roundings of some hundred g mm
-            near(&found["amplitude"], expected["weight"]["amplitude"].as_f64().unwrap(), 1e-9);
-            near(&found["degrees"], expected["weight"]["degrees"].as_f64().unwrap(), 1e-9);
+            near(&found["amplitude"], expected["amplitude"].as_f64().unwrap(), 1e-9);
+            near(&found["degrees"], expected["degrees"].as_f64().unwrap(), 1e-9);
         }
     }
-    for names in ["[\"bearing A\", \"frame\"]", "[\"left A\", \"right A\"]", "[\"A by B\", \"B\"]"] {
-        let said = refused(&MACHINE.replace("[\"bearing A\", \"bearing B\"]", names));
+    for names in [["bearing A", "frame"], ["left A", "right A"], ["A by B", "B"], ["b-side", "a-side"]] {
+        let said = refused(&named(names));
         assert!(said.contains("`sensors`") && said.contains("one with \"B\""), "{said}");
     }
 }
