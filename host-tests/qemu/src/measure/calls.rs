@@ -40,14 +40,19 @@ pub fn worst_called(board: Facts, calls: u32) -> Result<Vec<Called>, Box<dyn Err
     let image = bench(board)?;
     let code = MachineCode::read(&image.path, Loops::default())?;
     let image = with_calls(image, calls)?;
-    let limit = BENCH_LIMIT * (1 + calls / 1000);
+    // a thousand calls of each take less than a second
+    let limit = BENCH_LIMIT + Duration::from_secs(2) * (calls / 1000);
     let lines = crate::link::run(&image, limit)?.lines;
     let called = lines.iter().filter(|line| line["calls"] == calls).filter_map(|line| {
         let function = u32::try_from(line["function"].as_u64()?).ok()?;
         let longest = code.bound(function).ok().map(|bound| bound.instructions);
         Some(Called { name: line["bench"].as_str()?.into(), longest, most: line["max"].as_u64()? })
     });
-    Ok(called.collect())
+    let called: Vec<Called> = called.collect();
+    if called.is_empty() {
+        return Err(format!("the bench on {} called no function {calls} times", board.name).into());
+    }
+    Ok(called)
 }
 
 /// Where the bench's image has the number of its calls.
