@@ -29,7 +29,7 @@ use crate::self_test::inputs::Program;
 /// Calls of a function. For a long run the host writes another number over this one, in a copy of the image.
 #[unsafe(no_mangle)]
 static DRIVELINE_CALLS: u32 = CALLS as u32;
-/// So many as a rule; odd, so that the median is one of them.
+/// Default number of calls; odd, so that the median is one of them.
 const CALLS: usize = 1001;
 /// Calls of a long function; odd too.
 const LONG_CALLS: usize = 15;
@@ -40,7 +40,7 @@ fn calls() -> u32 {
     unsafe { (&raw const DRIVELINE_CALLS).read_volatile() }
 }
 
-/// What the calls of a function took. The first so many are kept for the median.
+/// Instruction counts of a function's calls. The first `KEPT` are kept for the median.
 struct Counts<const KEPT: usize> {
     kept: [u32; KEPT],
     calls: u32,
