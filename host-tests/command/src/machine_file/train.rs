@@ -566,7 +566,7 @@ impl Reading {
                 self.pins.push((self.names.len(), Joints::FourBar(bars, inertia, found), place));
             }
             if friction > 0.0 {
-                // against the rocker, which turns about at its dead centres
+                // against the rocker, which reverses at its dead centres
                 let [stretched, folded] = bars.dead_centres();
                 let against = -friction * bars.rates(0.5 * (stretched + folded))[1].signum();
                 let on = |force, from, to| (self.names.len(), SliderForce { force, from, to });

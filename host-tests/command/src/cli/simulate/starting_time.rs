@@ -111,7 +111,7 @@ fn rigid(file: &TrainFile, driving: usize, (at, speed): (usize, f64)) -> Option<
         for source in torques {
             let curve = Curve::of(source)?;
             let driven = |speed: f64| ratio * curve.torque(ratio * speed);
-            // where a parabola turns about, within the run
+            // where a parabola has its extreme, within the run
             let bend = match curve {
                 Curve::Polynomial([_, b, c]) => (-b / (2.0 * c * ratio)).clamp(from, to),
                 _ => from,

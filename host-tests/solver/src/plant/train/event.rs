@@ -27,7 +27,7 @@ enum Action {
     Arc(usize, i64),
     /// The ends passed by a crank with friction in its pins become one more or one less.
     Pin(usize, i64),
-    /// The force in the rod of such a crank turns about.
+    /// The force in the rod of such a crank reverses.
     Rod(usize),
     /// The tooth edge ahead becomes the next or the one before.
     Tooth(usize, i64),

@@ -166,10 +166,10 @@ impl FourBar {
         [over * (crank - rocker).sin() / self.coupler, over * (crank - coupler).sin() / self.rocker]
     }
 
-    /// Angles of the crank, rad, at which the rocker turns about: with the coupler stretched out, and folded back.
+    /// Angles of the crank, rad, at which the rocker reverses: with the coupler stretched out, and folded back.
     #[must_use]
     pub fn dead_centres(&self) -> [f64; 2] {
-        // from the crank's pivot to the knee along the coupler, in the triangle with rocker and ground
+        // from the crank's pivot to the pin of coupler and rocker, in the triangle with rocker and ground
         let towards = |reach: f64| {
             let across = reach * reach + self.ground * self.ground - self.rocker * self.rocker;
             (across / (2.0 * reach * self.ground)).clamp(-1.0, 1.0).acos()

@@ -124,7 +124,7 @@ fn quarter(senses: [f64; 2]) -> usize {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Pinned {
     parts: Parts,
-    /// Angles, rad within a turn and rising, at which a force begins or ends or a pin turns about.
+    /// Angles, rad within a turn and rising, at which a force begins or ends or the turning in a pin reverses.
     ends: Vec<f64>,
     /// From each end to the next: force on the slider, N, or torque on the rocker, N m, and the senses in which the
     /// pins turn: the rod, or the coupler on the rocker and the rocker.

@@ -148,7 +148,7 @@ fn the_sliders_mass_loads_the_pins_as_by_the_closed_form_of_a_long_rod() {
 #[test]
 fn the_sliders_mass_and_a_force_load_the_pins_of_a_short_rod_as_by_quadrature() {
     let crank = Crank::new(0.1, 0.25, 30.0);
-    // m r w^2 is 1200 N: the force adds to it, and moves where the rod's force turns about
+    // m r w^2 is 1200 N: the force adds to it, and moves where the rod's force reverses
     for force in [0.0, 500.0, -900.0] {
         let expected = taken(&crank, &PINS, force, 20.0);
         let found = lost(crank, PINS, force, 20.0);
@@ -253,11 +253,11 @@ const ROCKER: f64 = 2.5;
 
 /// Angle of the rocker, rad, from where two circles meet.
 fn rocker(angle: f64) -> f64 {
-    knee(angle)[1].atan2(knee(angle)[0] - BARS.ground)
+    rocker_pin(angle)[1].atan2(rocker_pin(angle)[0] - BARS.ground)
 }
 
 /// Where coupler and rocker meet, m.
-fn knee(angle: f64) -> [f64; 2] {
+fn rocker_pin(angle: f64) -> [f64; 2] {
     let (x, y) = (BARS.crank * angle.cos(), BARS.crank * angle.sin());
     let (dx, dy) = (BARS.ground - x, -y);
     let across = dx.hypot(dy);
@@ -270,7 +270,7 @@ fn knee(angle: f64) -> [f64; 2] {
 fn swings(angle: f64) -> [f64; 2] {
     const NEAR: f64 = 1e-5;
     let coupler = |angle: f64| {
-        let [x, y] = knee(angle);
+        let [x, y] = rocker_pin(angle);
         (y - BARS.crank * angle.sin()).atan2(x - BARS.crank * angle.cos())
     };
     let rate = |of: &dyn Fn(f64) -> f64| (of(angle + NEAR) - of(angle - NEAR)) / (2.0 * NEAR);
@@ -283,14 +283,14 @@ fn by_equilibrium(pins: &FourBarPins, angle: f64, torque: f64) -> f64 {
     let [coupler, rocker] = swings(angle);
     let moment = |radius: f64, turning: f64, force: f64| -pins.coefficient * radius * force * turning.signum();
     let a = [BARS.crank * angle.cos(), BARS.crank * angle.sin()];
-    let b = knee(angle);
+    let b = rocker_pin(angle);
     let (bar, lever) = ([b[0] - a[0], b[1] - a[1]], [b[0] - BARS.ground, b[1]]);
     let (mut size, mut force) = (0.0, [0.0; 2]);
     for _ in 0..200 {
         // coupler about the crank pin: bar x F = -moments; rocker about its pivot: lever x F = torque + moments
-        let knee = moment(pins.rocker, coupler - rocker, size);
-        let first = -moment(pins.crank, coupler - 1.0, size) - knee;
-        let second = torque - knee + moment(pins.pivot, rocker, size);
+        let between = moment(pins.rocker, coupler - rocker, size);
+        let first = -moment(pins.crank, coupler - 1.0, size) - between;
+        let second = torque - between + moment(pins.pivot, rocker, size);
         let determinant = bar[1] * lever[0] - bar[0] * lever[1];
         force =
             [(bar[0] * second - lever[0] * first) / determinant, (bar[1] * second - lever[1] * first) / determinant];
@@ -301,7 +301,7 @@ fn by_equilibrium(pins: &FourBarPins, angle: f64, torque: f64) -> f64 {
 }
 
 #[test]
-fn pins_of_a_four_bar_take_what_the_balance_of_its_bars_says() {
+fn pin_friction_of_a_four_bar_agrees_with_the_equilibrium_of_its_bars() {
     for step in 0..36 {
         let angle = 0.05 + TAU * f64::from(step) / 36.0;
         for torque in [1.0, -1.0] {
@@ -324,10 +324,10 @@ fn pins_of_a_four_bar_take_what_the_balance_of_its_bars_says() {
 }
 
 #[test]
-fn the_rocker_turns_about_at_its_dead_centres() {
+fn the_rocker_reverses_at_its_dead_centres() {
     let [stretched, folded] = BARS.dead_centres();
     for (angle, reach) in [(stretched, 0.45), (folded, 0.25)] {
-        let [x, y] = knee(angle);
+        let [x, y] = rocker_pin(angle);
         // sums of lengths below one
         assert!((x.hypot(y) - reach).abs() < 1e-14 && BARS.rates(angle)[1].abs() < 1e-13, "{angle}");
     }
@@ -341,7 +341,7 @@ fn a_light_four_bar_is_slowed_by_its_pins_as_its_speed_swings() {
     let fall = |angle: f64, square: f64| {
         let [coupler, way] = swings(angle);
         let bend = (rocker(angle + 1e-4) - 2.0 * rocker(angle) + rocker(angle - 1e-4)) / 1e-8;
-        let [x, y] = knee(angle);
+        let [x, y] = rocker_pin(angle);
         let lean = (y - BARS.crank * angle.sin()).atan2(x - BARS.crank * angle.cos());
         let slips = 0.04 + 0.03 * (1.0 - coupler) + 0.02 * (coupler - way).abs() + 0.025 * way.abs();
         let arm = 0.1 * slips / (BARS.rocker * (rocker(angle) - lean).sin());

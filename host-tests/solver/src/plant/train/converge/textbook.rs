@@ -250,7 +250,7 @@ impl<'a> Double<'a> {
         let Some((pins, bars, inertia)) = pinned.of_four_bar() else { return [0.0; 5] };
         let [theta, psi] = bars.angles(angle);
         let arm = bars.rocker * (psi - theta).sin();
-        // crank pin and knee move alike along the coupler, and alike along the rocker
+        // both pins of the coupler move alike along it; that at the rocker does not move along the rocker
         let rocker = bars.crank * (angle - theta).sin() / arm;
         let coupler = bars.rocker * bars.crank * (angle - psi).sin() / (bars.coupler * arm);
         let along = bars.crank * (angle - theta).cos() + bars.coupler * coupler * coupler;
