@@ -208,8 +208,8 @@ fn a_light_crank_is_slowed_by_its_pins_as_its_speed_swings() {
         motion.advance(0.5 * (TAU - motion.angle(0)) / motion.speed(0));
     }
     let (found, expected) = (motion.speed(0), square.sqrt());
-    // small differences of 1e-5 rad in the bend, 1e-10 of it; the kinks where the rod's force turns about are of the
-    // second order of a step of 1e-3
+    // Runge-Kutta with 4000 steps and these small differences is within 1e-9 of 16,000 steps with the closed form of
+    // the bend
     assert!((found / expected - 1.0).abs() < 1e-8, "{found} {expected}");
     // driven through a gap, with a torque that jumps, so that the rod's force jumps as well
     let motor = Coordinate::new(0.5).speed(30.0).source(Source::Line { stall: 400.0, slope: 10.0 });
@@ -313,12 +313,12 @@ fn pin_friction_of_a_four_bar_agrees_with_the_equilibrium_of_its_bars() {
                 let loss = by_equilibrium(&pins, angle, torque) - frictionless;
                 (loss - pins.loss(&BARS, angle), loss)
             };
-            // of the second order in the coefficient: mu times the sum of the radii over the arm of the coupler, at
-            // least c sin(46 degrees), 0.1 0.115/0.216
+            // of the second order in the coefficient: the moments in the pins change the coupler's force by mu times
+            // the sum of the radii over its arm at most, 0.1 0.115/0.2437, the arm at least c sin(54.3 degrees)
             let [(coarse, loss), (fine, _)] = [0.1, 0.05].map(off);
-            assert!(coarse.abs() < 0.054 * loss, "{angle}: {coarse} of {loss}");
+            assert!(coarse.abs() < 0.0472 * loss, "{angle}: {coarse} of {loss}");
             // a quarter of it for half the coefficient, but for the third order, the square of that
-            assert!((coarse - 4.0 * fine).abs() < 0.054 * 0.054 * loss, "{angle}: {coarse} {fine}");
+            assert!((coarse - 4.0 * fine).abs() < 0.0472 * 0.0472 * loss, "{angle}: {coarse} {fine}");
         }
     }
 }
@@ -381,12 +381,11 @@ fn a_light_four_bar_is_slowed_by_its_pins_as_its_speed_swings() {
         motion.advance(0.5 * (TAU - motion.angle(0)) / motion.speed(0));
     }
     let (found, expected) = (motion.speed(0), square.sqrt());
-    println!("{found} {expected}");
     // it is felt: a run without friction ends as fast as it began
     assert!(expected < 29.9, "{expected}");
-    // small differences of 1e-4 rad in the bend, 1e-8 of it; the kinks where the coupler's force turns about are of the
-    // second order of a step of 2e-3
-    assert!((found / expected - 1.0).abs() < 1e-7, "{found} {expected}");
+    // Runge-Kutta with 2000 steps is within 1e-9 of one with 8000; small differences of 1e-4 rad in the bend, instead
+    // of its closed form, change the end by 2e-9
+    assert!((found / expected - 1.0).abs() < 1e-8, "{found} {expected}");
     // driven through a gap, with a torque that jumps, so that the coupler's force jumps as well
     let motor = Coordinate::new(0.5).speed(30.0).source(Source::Line { stall: 400.0, slope: 10.0 });
     let arc = Source::Arc { torque: -100.0, from: 1.0, to: 4.0 };
