@@ -79,8 +79,8 @@ use super::referred::referred;
 use super::source::Source;
 use super::table::Table;
 use driveline_solver::plant::train::{
-    Coordinate, Crank, FourBar, FourBarPins, Friction, Harmonic, Link, Motion, Orders, Pins, SliderForce,
-    Source as Torque, SpurBearing, SpurPair, SpurWheel, Teeth, Toggle, Train, Variation, Waveform, rubbing,
+    Coordinate, Crank, FourBar, FourBarPins, Friction, Harmonic, Link, Motion, Orders, Pins, Source as Torque,
+    SpurBearing, SpurPair, SpurWheel, StrokeLoad, Teeth, Toggle, Train, Variation, Waveform, rubbing,
 };
 use driveline_solver::plant::{LoadProgram, Place, PlantError};
 
@@ -273,20 +273,20 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         coordinates[on] = coordinates[on].clone().source(torque);
     }
     for (at, pins, _) in &file.pins {
-        let forces: Vec<SliderForce> = file.forces.iter().filter(|(on, _)| on == at).map(|(_, force)| *force).collect();
+        let loads: Vec<StrokeLoad> = file.loads.iter().filter(|(on, _)| on == at).map(|(_, load)| *load).collect();
         let coordinate = coordinates[*at].clone();
         let (coordinate, mass, size) = match pins {
             Joints::Crank(crank, pins) => {
                 let size = pins.coefficient * (pins.main + pins.crank + pins.wrist);
-                (coordinate.pins(*pins, &forces), crank.slider_mass, size)
+                (coordinate.pins(*pins, &loads), crank.slider_mass, size)
             }
             Joints::FourBar(bars, inertia, pins) => {
                 let size = pins.coefficient * (pins.main + pins.crank + pins.rocker + pins.pivot);
-                (coordinate.four_bar_pins(*bars, *inertia, *pins, &forces), *inertia, size)
+                (coordinate.four_bar_pins(*bars, *inertia, *pins, &loads), *inertia, size)
             }
         };
         // pins that nothing loads, or without a radius, let it turn either way
-        if size > 0.0 && (mass > 0.0 || forces.iter().any(|force| force.force != 0.0)) {
+        if size > 0.0 && (mass > 0.0 || loads.iter().any(|load| load.load != 0.0)) {
             file.forwards.push(*at);
         }
         coordinates[*at] = coordinate;
@@ -484,7 +484,7 @@ struct Reading {
     /// Coordinates whose mechanism has friction in its pins.
     pins: Vec<(usize, Joints, std::ops::Range<usize>)>,
     /// Forces on the slider of a coordinate's crank, or torques on the rocker of its four-bar.
-    forces: Vec<(usize, SliderForce)>,
+    loads: Vec<(usize, StrokeLoad)>,
 }
 
 /// Pins with friction, and what loads them beside the forces.
@@ -537,8 +537,8 @@ impl Reading {
             friction = crank.number_or("friction", Quantity::SIZE, 0.0)?;
             if friction > 0.0 {
                 // against the slider, which goes inwards first
-                let on = |force, from, to| (self.names.len(), SliderForce { force, from, to });
-                self.forces.extend([on(friction, 0.0, PI), on(-friction, PI, TAU)]);
+                let on = |load, from, to| (self.names.len(), StrokeLoad { load, from, to });
+                self.loads.extend([on(friction, 0.0, PI), on(-friction, PI, TAU)]);
             }
             let reach = move |angle: f64| (rod * rod - (radius * angle.sin()).powi(2)).sqrt();
             let slider = Orders::sampled(|angle| radius * angle.cos() + reach(angle));
@@ -569,8 +569,8 @@ impl Reading {
                 // against the rocker, which reverses at its dead centres
                 let [stretched, folded] = bars.dead_centres();
                 let against = -friction * bars.rates(0.5 * (stretched + folded))[1].signum();
-                let on = |force, from, to| (self.names.len(), SliderForce { force, from, to });
-                self.forces.extend([on(against, stretched, folded), on(-against, folded, stretched + TAU)]);
+                let on = |load, from, to| (self.names.len(), StrokeLoad { load, from, to });
+                self.loads.extend([on(against, stretched, folded), on(-against, folded, stretched + TAU)]);
             }
             four.finish()?;
         } else if let Some(mut knee) = table.table_if("toggle")? {
@@ -842,7 +842,7 @@ impl Reading {
                     return Err(table.wrong("on", "a coordinate with a `crank`, a `four_bar`, a `toggle` or a `cam`"));
                 };
                 let torque = way.slope().times(force);
-                let mut acts = SliderForce { force, from: 0.0, to: TAU };
+                let mut acts = StrokeLoad { load: force, from: 0.0, to: TAU };
                 let torque = if table.has("from") || table.has("to") {
                     let turn = Quantity { most: TAU, ..Quantity::SIZE };
                     let (from, to) = (table.number("from", turn)?, arc_end(&mut table, turn)?);
@@ -852,7 +852,7 @@ impl Reading {
                 } else {
                     Torque::Orders(torque.0)
                 };
-                self.forces.push((on, acts));
+                self.loads.push((on, acts));
                 torque
             }
             "orders" => Torque::Orders(harmonics(&mut table, "harmonics")?),

@@ -715,7 +715,7 @@ fn pins_that_jam_are_refused_at_their_table() {
     let text = press(crank, "force = 1.0\n");
     let fault = parse_train("press", &text).unwrap_err();
     assert_eq!(text.lines().nth(fault.line - 1), Some("[coordinate.crank.pins]"), "{fault}");
-    assert!(fault.to_string().contains("smaller radii, less mass behind them or more inertia"), "{fault}");
+    assert!(fault.to_string().contains("smaller radii, a lighter slider or more inertia"), "{fault}");
     assert!(parse_train("press", &text.replace("inertia = 0.01", "inertia = 2.0")).is_ok());
 }
 
@@ -735,7 +735,7 @@ fn the_pins_of_a_four_bar_are_read_and_felt() {
     let jammed = text(&table.replace("0.04", "0.9").replace("= 0.1\n", "= 1.0\n"));
     let fault = parse_train("press", &jammed).err().unwrap();
     assert_eq!(jammed.lines().nth(fault.line - 1), Some("[coordinate.four_bar.pins]"), "{fault}");
-    assert!(fault.to_string().contains("more inertia of the crank"), "{fault}");
+    assert!(fault.to_string().contains("less inertia of the rocker or more of the crank"), "{fault}");
     let folder = tempfile::tempdir().unwrap();
     let last = |pins: &str| {
         let file = folder.path().join("press.toml");

@@ -80,7 +80,7 @@ pub use mesh::{Harmonic, Teeth, Variation, Zone};
 pub use modes::{Decay, TrainModes};
 pub use motion::Motion;
 use pins::Pinned;
-pub use pins::{FourBarPins, Pins, SliderForce};
+pub use pins::{FourBarPins, Pins, StrokeLoad};
 pub use rigid::RigidPart;
 pub use rubbing::rubbing;
 pub use signal::Signal;
@@ -145,7 +145,7 @@ impl Coordinate {
     /// mass and of these forces on it, which act on the crank by sources of their own; forces at the same angle add.
     /// The mass of the rod does not load them.
     #[must_use]
-    pub fn pins(mut self, pins: Pins, forces: &[SliderForce]) -> Self {
+    pub fn pins(mut self, pins: Pins, forces: &[StrokeLoad]) -> Self {
         self.pins = Pinned::of(pins, forces);
         self
     }
@@ -155,8 +155,14 @@ impl Coordinate {
     /// of these torques on the rocker, which act on the crank by sources of their own. The mass of the coupler does
     /// not load them.
     #[must_use]
-    pub fn four_bar_pins(mut self, bars: FourBar, rocker: f64, pins: FourBarPins, torques: &[SliderForce]) -> Self {
-        self.pins = Pinned::four_bar(bars, rocker, pins, torques);
+    pub fn four_bar_pins(
+        mut self,
+        bars: FourBar,
+        rocker_inertia: f64,
+        pins: FourBarPins,
+        torques: &[StrokeLoad],
+    ) -> Self {
+        self.pins = Pinned::four_bar(bars, rocker_inertia, pins, torques);
         self
     }
 
@@ -249,10 +255,9 @@ impl Train {
             finite("speed at the start", place, coordinate.speed)?;
             finite("angle at the start", place, coordinate.angle)?;
             coordinate.crank.map_or(Ok(()), |crank| crank.validate(place))?;
-            coordinate
-                .pins
-                .as_ref()
-                .map_or(Ok(()), |pins| pins.validate(coordinate.crank, |angle| coordinate.inertia_at(angle), place))?;
+            if let Some(pins) = &coordinate.pins {
+                pins.validate(coordinate.crank, |angle| coordinate.inertia_at(angle), place)?;
+            }
             if let Some(law) = &coordinate.law {
                 let least = law.least();
                 in_range("law of inertia", place, least, least + coordinate.inertia > 0.0, "an inertia above zero")?;

@@ -45,9 +45,9 @@ pub struct FourBarPins {
 /// another, rad: `from` within a turn, `to` behind it by a turn at most. A force is positive outwards, away from the
 /// crank, a torque as the rocker's angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SliderForce {
-    /// Force.
-    pub force: f64,
+pub struct StrokeLoad {
+    /// Force, N, or torque, N m.
+    pub load: f64,
     /// Where it begins.
     pub from: f64,
     /// Where it ends.
@@ -110,7 +110,7 @@ struct Rocker {
     /// About its pivot, kg m2.
     inertia: f64,
     /// Its speed per speed of the crank.
-    way: Orders,
+    slope: Orders,
     /// What the pins take, by the senses: both backwards, the rocker forwards, the coupler forwards, both.
     loss: [Orders; 4],
 }
@@ -124,7 +124,7 @@ fn quarter(senses: [f64; 2]) -> usize {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Pinned {
     parts: Parts,
-    /// Angles, rad within a turn and rising, at which a force begins or ends or the turning in a pin reverses.
+    /// Angles, rad within a turn and rising, at which a load begins or ends or the turning in a pin reverses.
     ends: Vec<f64>,
     /// From each end to the next: force on the slider, N, or torque on the rocker, N m, and the senses in which the
     /// pins turn: the rod, or the coupler on the rocker and the rocker.
@@ -133,41 +133,41 @@ pub(super) struct Pinned {
 
 impl Pinned {
     /// None where nothing rubs; numbers out of range are kept for [`validate`](Self::validate).
-    pub fn of(pins: Pins, forces: &[SliderForce]) -> Option<Self> {
-        let rub = rubs(pins.coefficient, &[pins.main, pins.crank, pins.wrist], forces);
+    pub fn of(pins: Pins, loads: &[StrokeLoad]) -> Option<Self> {
+        let rub = rubs(pins.coefficient, &[pins.main, pins.crank, pins.wrist], loads);
         let senses = |angle: f64| [angle.cos().signum(), 1.0];
-        rub.then(|| Self::pieces(Parts::Crank(pins), &[FRAC_PI_2, 3.0 * FRAC_PI_2], forces, senses))
+        rub.then(|| Self::pieces(Parts::Crank(pins), &[FRAC_PI_2, 3.0 * FRAC_PI_2], loads, senses))
     }
 
     /// The same for a four-bar, whose rocker has an inertia about its pivot, kg m2.
-    pub fn four_bar(bars: FourBar, inertia: f64, pins: FourBarPins, forces: &[SliderForce]) -> Option<Self> {
-        if !rubs(pins.coefficient, &[pins.main, pins.crank, pins.rocker, pins.pivot], forces) {
+    pub fn four_bar(bars: FourBar, inertia: f64, pins: FourBarPins, loads: &[StrokeLoad]) -> Option<Self> {
+        if !rubs(pins.coefficient, &[pins.main, pins.crank, pins.rocker, pins.pivot], loads) {
             return None;
         }
         let loss = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]]
             .map(|senses| Orders::sampled(|angle| pins.smooth(&bars, angle, senses)));
-        let way = Orders::sampled(|angle| bars.rates(angle)[1]);
+        let slope = Orders::sampled(|angle| bars.rates(angle)[1]);
         let [stretched, folded] = bars.dead_centres();
         let senses = |angle: f64| {
             let [coupler, rocker] = bars.rates(angle);
             [(coupler - rocker).signum(), rocker.signum()]
         };
-        let parts = Parts::FourBar(Box::new(Rocker { bars, pins, inertia, way, loss }));
+        let parts = Parts::FourBar(Box::new(Rocker { bars, pins, inertia, slope, loss }));
         // the angle between coupler and rocker is least and greatest where the crank lies along the ground
-        Some(Self::pieces(parts, &[0.0, PI, stretched, folded], forces, senses))
+        Some(Self::pieces(parts, &[0.0, PI, stretched, folded], loads, senses))
     }
 
-    fn pieces(parts: Parts, corners: &[f64], forces: &[SliderForce], senses: impl Fn(f64) -> [f64; 2]) -> Self {
+    fn pieces(parts: Parts, corners: &[f64], loads: &[StrokeLoad], senses: impl Fn(f64) -> [f64; 2]) -> Self {
         let turns = |angle: f64| angle.rem_euclid(TAU);
-        let mut ends: Vec<f64> = forces.iter().flat_map(|force| [turns(force.from), turns(force.to)]).collect();
+        let mut ends: Vec<f64> = loads.iter().flat_map(|load| [turns(load.from), turns(load.to)]).collect();
         ends.extend(corners);
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let next = ends.iter().skip(1).copied().chain([ends[0] + TAU]);
         let piece = |(from, to): (&f64, f64)| {
             let middle = 0.5 * (from + to);
-            let acts = |force: &&SliderForce| turns(middle - force.from) < force.to - force.from;
-            (forces.iter().filter(acts).map(|force| force.force).sum(), senses(middle))
+            let acts = |load: &&StrokeLoad| turns(middle - load.from) < load.to - load.from;
+            (loads.iter().filter(acts).map(|load| load.load).sum(), senses(middle))
         };
         let pieces = ends.iter().zip(next).map(piece).collect();
         Self { parts, ends, pieces }
@@ -191,6 +191,14 @@ impl Pinned {
         self.pieces[(passed - 1).rem_euclid(self.pieces.len() as i64) as usize]
     }
 
+    /// The mass of the slider, kg, or the inertia of the rocker, kg m2.
+    fn moved(&self, crank: Option<Crank>) -> f64 {
+        match &self.parts {
+            Parts::Crank(_) => crank.map_or(0.0, |crank| crank.slider_mass),
+            Parts::FourBar(rocker) => rocker.inertia,
+        }
+    }
+
     /// Pins of a slider-crank.
     pub fn of_crank(&self) -> Option<&Pins> {
         if let Parts::Crank(pins) = &self.parts { Some(pins) } else { None }
@@ -204,24 +212,33 @@ impl Pinned {
     /// What swings with the angle of a four-bar.
     pub fn orders(&self) -> impl Iterator<Item = &Orders> {
         let rocker = if let Parts::FourBar(rocker) = &self.parts { Some(rocker) } else { None };
-        rocker.into_iter().flat_map(|rocker| rocker.loss.iter().chain([&rocker.way]))
+        rocker.into_iter().flat_map(|rocker| rocker.loss.iter().chain([&rocker.slope]))
     }
 
     /// The pins take their torque from what the rod or coupler carries, and that carries what speeds the slider or the
     /// rocker up. Where a change of that torque would change the force by as much again, the crank jams. With the
     /// coordinate's inertia (kg m2) at an angle (rad).
     pub fn validate(&self, crank: Option<Crank>, inertia: impl Fn(f64) -> f64, place: Place) -> Result<(), PlantError> {
-        let (coefficient, radii) = match &self.parts {
-            Parts::Crank(pins) => (pins.coefficient, vec![pins.main, pins.crank, pins.wrist]),
-            Parts::FourBar(rocker) => {
-                let FourBarPins { coefficient, main, crank, rocker: knee, pivot } = rocker.pins;
-                (coefficient, vec![main, crank, knee, pivot])
-            }
+        let (coefficient, radii, load, lighter) = match &self.parts {
+            Parts::Crank(pins) => (
+                pins.coefficient,
+                vec![pins.main, pins.crank, pins.wrist],
+                ["force on a slider", "end of a force on a slider"],
+                "pins that let the crank turn: less friction, smaller radii, a lighter slider or more inertia of the \
+                 crank",
+            ),
+            Parts::FourBar(four) => (
+                four.pins.coefficient,
+                vec![four.pins.main, four.pins.crank, four.pins.rocker, four.pins.pivot],
+                ["torque on a rocker", "end of a torque on a rocker"],
+                "pins that let the crank turn: less friction, smaller radii, less inertia of the rocker or more of \
+                 the crank",
+            ),
         };
         not_negative("coefficient of friction of the pins", place, coefficient)?;
         radii.into_iter().try_for_each(|radius| not_negative("radius of a pin", place, radius))?;
-        self.ends.iter().try_for_each(|end| finite("end of a force on a slider", place, *end))?;
-        self.pieces.iter().try_for_each(|piece| finite("force on a slider", place, piece.0))?;
+        self.ends.iter().try_for_each(|end| finite(load[1], place, *end))?;
+        self.pieces.iter().try_for_each(|piece| finite(load[0], place, piece.0))?;
         let of_crank = |crank: Crank| {
             let mass = crank.slider_mass;
             let pins = self.of_crank().copied();
@@ -247,16 +264,14 @@ impl Pinned {
         };
         let angles = (0..TRIED).map(|i| TAU * f64::from(i) / f64::from(TRIED));
         let most = angles.map(|angle| share(angle) / inertia(angle)).fold(0.0, f64::max);
-        let turning = "pins that let the crank turn: less friction, smaller radii, less mass behind them or more \
-                       inertia of the crank";
-        in_range("coefficient of friction of the pins", place, coefficient, most < 0.99, turning)
+        in_range("coefficient of friction of the pins", place, coefficient, most < 0.99, lighter)
     }
 }
 
 /// Whether there is friction, or a number out of range.
-fn rubs(coefficient: f64, radii: &[f64], forces: &[SliderForce]) -> bool {
+fn rubs(coefficient: f64, radii: &[f64], loads: &[StrokeLoad]) -> bool {
     let is_size = |value: &f64| *value >= 0.0 && value.is_finite();
-    let mut given = forces.iter().flat_map(|force| [force.force, force.from, force.to]);
+    let mut given = loads.iter().flat_map(|load| [load.load, load.from, load.to]);
     let in_range = radii.iter().chain([&coefficient]).all(is_size) && given.all(f64::is_finite);
     !in_range || (coefficient > 0.0 && radii.iter().any(|radius| *radius > 0.0))
 }
@@ -279,86 +294,83 @@ pub(super) struct Pinning {
 /// `(J + m y' (y' - s g)) w' + m y'' (y' - s g) w^2 = torque + F y' - s g F`.
 #[derive(Debug, Clone)]
 pub(super) struct Loss {
-    course: Course,
+    profile: Profile,
     mass: f64,
-    force: f64,
+    load: f64,
     pull: f64,
     /// `y'`.
-    way: Series,
-    /// `g`, and its derivative by the angle.
-    value: Series,
     slope: Series,
+    /// `g`, and its derivative by the angle.
+    loss: Series,
+    loss_slope: Series,
 }
 
 /// Where `g` and `y'` come from.
 #[derive(Debug, Clone)]
-enum Course {
+enum Profile {
     Crank { pins: Pins, sense: f64, over: Box<[Series; 2]> },
-    FourBar { way: Vec<(Harmonic, Turn)>, loss: Vec<(Harmonic, Turn)> },
+    FourBar { slope: Vec<(Harmonic, Turn)>, loss: Vec<(Harmonic, Turn)> },
 }
 
 impl Loss {
     pub fn new(pinned: &Pinned, pinning: &Pinning, crank: Option<Crank>) -> Self {
-        let (force, senses) = pinned.piece(pinning.passed);
+        let (load, senses) = pinned.piece(pinning.passed);
         let turns = |orders: &Orders| orders.0.iter().map(|h| (*h, Turn::new(h.order))).collect();
-        let (course, mass) = match &pinned.parts {
-            Parts::Crank(pins) => {
-                let course = Course::Crank { pins: *pins, sense: senses[0], over: Box::new([ZERO; 2]) };
-                (course, crank.map_or(0.0, |crank| crank.slider_mass))
-            }
+        let profile = match &pinned.parts {
+            Parts::Crank(pins) => Profile::Crank { pins: *pins, sense: senses[0], over: Box::new([ZERO; 2]) },
             Parts::FourBar(rocker) => {
-                let loss = turns(&rocker.loss[quarter(senses)]);
-                (Course::FourBar { way: turns(&rocker.way), loss }, rocker.inertia)
+                Profile::FourBar { slope: turns(&rocker.slope), loss: turns(&rocker.loss[quarter(senses)]) }
             }
         };
-        Self { course, mass, force, pull: pinning.pull, way: ZERO, value: ZERO, slope: ZERO }
+        let mass = pinned.moved(crank);
+        Self { profile, mass, load, pull: pinning.pull, slope: ZERO, loss: ZERO, loss_slope: ZERO }
     }
 
     /// Fills in coefficient `k` from those of the angle, and of a crank, up to it; what is added to that of the
     /// inertia, and to that of what the square of the speed pushes by.
     pub fn extend(&mut self, crank: Option<(&Crank, &Work)>, angle: &Series, k: usize) -> [f64; 2] {
-        match &mut self.course {
-            Course::Crank { pins, sense, over } => {
+        match &mut self.profile {
+            Profile::Crank { pins, sense, over } => {
                 let Some((crank, work)) = crank else { return [0.0; 2] };
-                let [value_over, slope_over] = &mut **over;
+                let [loss_over, loss_slope_over] = &mut **over;
                 let (r, one) = (crank.radius, if k == 0 { 1.0 } else { 0.0 });
                 let Pins { coefficient, main, crank: pin, wrist } = *pins;
                 let size = coefficient * crank.rod;
                 let swing = size * (pin + *sense * wrist) * r;
                 // g S = mu l (r_main + r_crank + (r_crank +- r_wrist) r L), and S' = -r^2 u
-                value_over[k] = size * (main + pin) * one + swing * work.lean[k];
-                self.value[k] = quotient(value_over, &work.reach, &self.value, k);
-                slope_over[k] = swing * work.lean_slope[k] + r * r * product(&self.value, &work.share, k);
-                self.slope[k] = quotient(slope_over, &work.reach, &self.slope, k);
-                self.way[k] = work.slider[0][k];
+                loss_over[k] = size * (main + pin) * one + swing * work.lean[k];
+                self.loss[k] = quotient(loss_over, &work.reach, &self.loss, k);
+                loss_slope_over[k] = swing * work.lean_slope[k] + r * r * product(&self.loss, &work.share, k);
+                self.loss_slope[k] = quotient(loss_slope_over, &work.reach, &self.loss_slope, k);
+                self.slope[k] = work.slider[0][k];
             }
-            Course::FourBar { way, loss } => {
-                for (h, turn) in way {
+            Profile::FourBar { slope, loss } => {
+                for (h, turn) in slope {
                     turn.extend(angle, k);
-                    self.way[k] += h.cosine * turn.cosine[k] + h.sine * turn.sine[k];
+                    self.slope[k] += h.cosine * turn.cosine[k] + h.sine * turn.sine[k];
                 }
                 for (h, turn) in loss {
                     turn.extend(angle, k);
-                    self.value[k] += h.cosine * turn.cosine[k] + h.sine * turn.sine[k];
-                    self.slope[k] += h.order * (h.sine * turn.cosine[k] - h.cosine * turn.sine[k]);
+                    self.loss[k] += h.cosine * turn.cosine[k] + h.sine * turn.sine[k];
+                    self.loss_slope[k] += h.order * (h.sine * turn.cosine[k] - h.cosine * turn.sine[k]);
                 }
             }
         }
         let mass = -self.pull * self.mass;
-        [mass * product(&self.value, &self.way, k), mass * product(&self.slope, &self.way, k)]
+        [mass * product(&self.loss, &self.slope, k), mass * product(&self.loss_slope, &self.slope, k)]
     }
 
     /// Coefficient `k` of the torque of the pins under the force on the slider or the torque on the rocker.
     pub fn torque(&self, k: usize) -> f64 {
-        -self.pull * self.force * self.value[k]
+        -self.pull * self.load * self.loss[k]
     }
 
     /// Coefficient `k` of the force that the rod takes from the slider, or the torque that the coupler takes from the
     /// rocker, and what sizes its rounding, from coefficient `k + 1` of the speed, of which `step` is the time.
     pub fn carried(&self, speed: &Series, k: usize, step: f64) -> (f64, f64) {
-        let force = if k == 0 { self.force } else { 0.0 };
+        let load = if k == 0 { self.load } else { 0.0 };
         let mass = self.mass / step;
-        let size: f64 = (0..=k + 1).map(|i| (self.way[i] * speed[k + 1 - i]).abs()).sum();
-        (force - mass * product(&self.way, speed, k + 1), force.abs() + mass * size)
+        let size: f64 = (0..=k + 1).map(|i| (self.slope[i] * speed[k + 1 - i]).abs()).sum();
+        (load - mass * product(&self.slope, speed, k + 1), load.abs() + mass * size)
     }
 }

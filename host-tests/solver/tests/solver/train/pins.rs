@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use driveline_solver::plant::train::converge::{Recording, prove};
 use driveline_solver::plant::train::{
-    Coordinate, Crank, FourBar, FourBarPins, Link, Orders, Pins, SliderForce, Source, Train,
+    Coordinate, Crank, FourBar, FourBarPins, Link, Orders, Pins, Source, StrokeLoad, Train,
 };
 
 /// A crank of 0.1 m with a rod of 0.25 m, and its pins.
@@ -55,7 +55,7 @@ fn pins_take_their_energy_from_every_turn() {
     let elliptic = PI / (2.0 * a);
     let turn = 4.0 * 0.1 * 900.0 * ((0.06 + 0.05) * elliptic + 0.03 * lambda.atanh());
     // two arcs that make a turn, whatever the sense of the force; what pushes against it elsewhere is taken off
-    let force = |force, from, to| SliderForce { force, from, to };
+    let force = |load, from, to| StrokeLoad { load, from, to };
     let forces = [force(-900.0, 0.0, TAU), force(1800.0, 1.0, 4.0), force(500.0, 5.0, 6.0), force(-500.0, 5.0, 6.0)];
     let coordinate = Coordinate::new(4.0).speed(20.0).crank(PRESS).pins(PINS, &forces);
     let mut run = Recording::new(Train::new().coordinate(coordinate).build().unwrap());
@@ -112,7 +112,7 @@ fn taken(crank: &Crank, pins: &Pins, force: f64, speed: f64) -> f64 {
 
 /// Energy that a turn takes from a flywheel so large that it turns evenly, at its start's speed.
 fn lost(crank: Crank, pins: Pins, force: f64, speed: f64) -> f64 {
-    let whole = SliderForce { force, from: 0.0, to: TAU };
+    let whole = StrokeLoad { load: force, from: 0.0, to: TAU };
     let way = move |angle: f64| {
         crank.radius * angle.cos() + (crank.rod.powi(2) - (crank.radius * angle.sin()).powi(2)).sqrt()
     };
@@ -199,7 +199,7 @@ fn a_light_crank_is_slowed_by_its_pins_as_its_speed_swings() {
     let way = |angle: f64| 0.1 * angle.cos() + (0.0625 - (0.1 * angle.sin()).powi(2)).sqrt();
     let machine = |coordinate: Coordinate| {
         let push = Source::Orders(Orders::sampled(way).slope().times(force).0);
-        let whole = SliderForce { force, from: 0.0, to: TAU };
+        let whole = StrokeLoad { load: force, from: 0.0, to: TAU };
         coordinate.crank(crank).pins(PINS, &[whole]).source(push)
     };
     let mut motion = Train::new().coordinate(machine(Coordinate::new(inertia).speed(30.0))).build().unwrap();
@@ -239,7 +239,7 @@ fn pins_that_jam_are_refused() {
     assert!(!without(Pins { coefficient: 0.0, main: -1.0, ..PINS }));
     assert!(!without(Pins { coefficient: f64::NAN, main: 0.0, crank: 0.0, wrist: 0.0 }));
     let pushed = |force: f64| {
-        let forces = [SliderForce { force, from: 0.0, to: TAU }];
+        let forces = [StrokeLoad { load: force, from: 0.0, to: TAU }];
         let coordinate = Coordinate::new(1.0).crank(crank).pins(Pins { coefficient: 0.0, ..PINS }, &forces);
         Train::new().coordinate(coordinate).build().is_ok()
     };
@@ -372,7 +372,7 @@ fn a_light_four_bar_is_slowed_by_its_pins_as_its_speed_swings() {
     let way = Orders::sampled(rocker);
     let machine = |coordinate: Coordinate| {
         let push = Source::Orders(way.slope().times(torque).0);
-        let whole = SliderForce { force: torque, from: 0.0, to: TAU };
+        let whole = StrokeLoad { load: torque, from: 0.0, to: TAU };
         let law = Orders::inertia(&[(ROCKER, &way)]);
         coordinate.inertia_law(law).four_bar_pins(BARS, ROCKER, JOINTS, &[whole]).source(push)
     };
@@ -400,7 +400,7 @@ fn a_light_four_bar_is_slowed_by_its_pins_as_its_speed_swings() {
 /// Without a law of inertia the torque alone loads the pins; bars that do not turn round and pins that jam are refused.
 #[test]
 fn pins_of_a_four_bar_that_jam_are_refused() {
-    let whole = [SliderForce { force: 1.0, from: 0.0, to: TAU }];
+    let whole = [StrokeLoad { load: 1.0, from: 0.0, to: TAU }];
     let law = Orders::inertia(&[(ROCKER, &Orders::sampled(rocker))]);
     let build = |inertia: f64, bars: FourBar, pins: FourBarPins| {
         let coordinate = Coordinate::new(inertia).inertia_law(law.clone()).four_bar_pins(bars, ROCKER, pins, &whole);
