@@ -332,15 +332,13 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     // what the solver refuses is told at the table that it is about
     let refused = |error: PlantError, otherwise: std::ops::Range<usize>| {
         let place = match &error {
-            PlantError::Parameter { name, place: Place::Node(j), .. } if name.ends_with("the pins") => {
-                file.pins.iter().find(|(at, ..)| at == j).map(|(.., place)| place.clone())
-            }
             PlantError::Parameter { place, .. } | PlantError::TimesNotIncreasing { place, .. } => match place {
                 Place::Node(j) => places.get(*j).cloned().or_else(|| element_of(file.names.get(*j)?)),
                 Place::Shaft(l) => {
                     let own = l.checked_sub(chained).and_then(|own| link_places.get(own));
                     own.cloned().or_else(|| element_of(file.links.get(*l)?))
                 }
+                Place::Pins(j) => file.pins.iter().find(|(at, ..)| at == j).map(|(.., place)| place.clone()),
             },
             PlantError::Count { .. } => None,
         };
@@ -396,11 +394,11 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     root.finish()?;
     let too_stiff = too_stiff(&motion, time).map(|(place, found, expected)| {
         let name = match place {
-            Place::Node(j) => &file.names[j],
+            Place::Node(j) | Place::Pins(j) => &file.names[j],
             Place::Shaft(l) => &file.links[l],
         };
         let own = match place {
-            Place::Node(j) => places.get(j),
+            Place::Node(j) | Place::Pins(j) => places.get(j),
             Place::Shaft(l) => l.checked_sub(chained).and_then(|own| link_places.get(own)),
         };
         let span = element_of(name).or(own.cloned()).unwrap_or_else(|| whole.clone());

@@ -9,12 +9,14 @@ pub enum Place {
     Node(usize),
     /// The shaft between the nodes of this index and the next.
     Shaft(usize),
+    /// The pins of the mechanism on the coordinate of this index.
+    Pins(usize),
 }
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Place::Node(node) => write!(f, "node {node}"),
+            Place::Node(node) | Place::Pins(node) => write!(f, "node {node}"),
             Place::Shaft(shaft) => write!(f, "shaft {shaft}"),
         }
     }

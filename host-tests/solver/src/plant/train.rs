@@ -256,7 +256,7 @@ impl Train {
             finite("angle at the start", place, coordinate.angle)?;
             coordinate.crank.map_or(Ok(()), |crank| crank.validate(place))?;
             if let Some(pins) = &coordinate.pins {
-                pins.validate(coordinate.crank, |angle| coordinate.inertia_at(angle), place)?;
+                pins.validate(coordinate.crank, |angle| coordinate.inertia_at(angle), Place::Pins(j))?;
             }
             if let Some(law) = &coordinate.law {
                 let least = law.least();

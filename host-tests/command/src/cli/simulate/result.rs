@@ -388,7 +388,7 @@ fn closed(motion: Motion, at: usize, turns: u32) -> Result<(f64, f64), String> {
 
 fn happened(file: &TrainFile, event: &driveline_solver::plant::Event) -> Happened {
     let place = match event.place {
-        Place::Node(j) => &file.coordinates[j],
+        Place::Node(j) | Place::Pins(j) => &file.coordinates[j],
         Place::Shaft(l) => &file.links[l],
     };
     let what = match (event.kind, event.new) {
