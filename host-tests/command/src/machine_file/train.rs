@@ -275,21 +275,14 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
     for (at, pins, _) in &file.pins {
         let loads: Vec<StrokeLoad> = file.loads.iter().filter(|(on, _)| on == at).map(|(_, load)| *load).collect();
         let coordinate = coordinates[*at].clone();
-        let (coordinate, mass, size) = match pins {
-            Joints::Crank(crank, pins) => {
-                let size = pins.coefficient * (pins.main + pins.crank + pins.wrist);
-                (coordinate.pins(*pins, &loads), crank.slider_mass, size)
-            }
-            Joints::FourBar(bars, inertia, pins) => {
-                let size = pins.coefficient * (pins.main + pins.crank + pins.rocker + pins.pivot);
-                (coordinate.four_bar_pins(*bars, *inertia, *pins, &loads), *inertia, size)
-            }
+        coordinates[*at] = match pins {
+            Joints::Crank(pins) => coordinate.pins(*pins, &loads),
+            Joints::FourBar(bars, inertia, pins) => coordinate.four_bar_pins(*bars, *inertia, *pins, &loads),
         };
-        // pins that nothing loads, or without a radius, let it turn either way
-        if size > 0.0 && (mass > 0.0 || loads.iter().any(|load| load.load != 0.0)) {
+        // the friction on its guide may have named it already
+        if coordinates[*at].has_loaded_pins() && !file.forwards.contains(at) {
             file.forwards.push(*at);
         }
-        coordinates[*at] = coordinate;
     }
     let mut train = Train::new();
     for coordinate in coordinates {
@@ -485,9 +478,9 @@ struct Reading {
     loads: Vec<(usize, StrokeLoad)>,
 }
 
-/// Pins with friction, and what loads them beside the forces.
+/// Pins with friction.
 enum Joints {
-    Crank(Crank, Pins),
+    Crank(Pins),
     /// With the inertia of the rocker about its pivot, kg m2.
     FourBar(FourBar, f64, FourBarPins),
 }
@@ -530,7 +523,7 @@ impl Reading {
                 };
                 let place = pins.place();
                 pins.finish()?;
-                self.pins.push((self.names.len(), Joints::Crank(drive, found), place));
+                self.pins.push((self.names.len(), Joints::Crank(found), place));
             }
             friction = crank.number_or("friction", Quantity::SIZE, 0.0)?;
             if friction > 0.0 {

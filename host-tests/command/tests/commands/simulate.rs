@@ -2,7 +2,10 @@
 
 use std::process::{Command, Output};
 
+use std::f64::consts::TAU;
+
 use cargo_driveline::machine_file::parse_train;
+use driveline_solver::plant::train::{Coordinate, FourBar, FourBarPins, Orders, Source, StrokeLoad, Train, rubbing};
 
 fn simulate(arguments: &[&str]) -> Output {
     let folder = env!("CARGO_TARGET_TMPDIR");
@@ -592,7 +595,6 @@ fn gears_in_files_have_the_frequencies_of_their_equations() {
 /// guide: the energy is that of the start and the work, `F dy - R |dy|`.
 #[test]
 fn mechanisms_by_their_keys_do_their_work() {
-    use std::f64::consts::TAU;
     let lift: Vec<f64> = (0..21).map(|i| 0.02 * (1.0 - (TAU * f64::from(i) / 21.0).cos())).collect();
     let cam = move |angle: f64| 0.02 * (1.0 - angle.cos());
     let crank = |angle: f64| 0.08 * angle.cos() + (0.3_f64 * 0.3 - (0.08 * angle.sin()).powi(2)).sqrt();
@@ -719,35 +721,52 @@ fn pins_that_jam_are_refused_at_their_table() {
     assert!(parse_train("press", &text.replace("inertia = 0.01", "inertia = 2.0")).is_ok());
 }
 
-/// The pins of a four-bar are refused where they jam; the energy that they take is lost.
+/// The pins of a four-bar are those of a train built by hand, with the friction of the rocker as a load, and are
+/// refused where they jam.
 #[test]
-fn the_pins_of_a_four_bar_are_read_and_felt() {
-    let text = |pins: &str| {
-        let bars = "inertia = 0.2\nspeed = 20.0\n[coordinate.four_bar]\ncrank = 0.1\ncoupler = 0.35\nrocker = 0.3\n\
-                    ground = 0.4\nrocker_inertia = 2.5\nfriction = 1.0\n";
-        press(&(bars.to_owned() + pins), "force = 3.0\n").replace("cycle = \"crank\"\n", "")
-    };
+fn the_pins_of_a_four_bar_are_those_of_a_train_by_hand() {
+    let bars = "inertia = 0.2\nspeed = 20.0\n[coordinate.four_bar]\ncrank = 0.1\ncoupler = 0.35\nrocker = 0.3\n\
+                ground = 0.4\nrocker_inertia = 2.5\nfriction = 1.0\n";
+    let text = |pins: &str| press(&(bars.to_owned() + pins), "force = 3.0\n").replace("cycle = \"crank\"\n", "");
     let table = "[coordinate.four_bar.pins]\ncoefficient = 0.1\nmain = 0.04\ncrank = 0.03\nrocker = 0.02\n\
                  pivot = 0.025\n";
-    let forwards = |pins: &str| parse_train("press", &text(pins)).unwrap().forwards.len();
-    // by its friction and by its pins
-    assert_eq!([forwards(table), forwards("")], [2, 1]);
+    let file = parse_train("press", &text(table)).unwrap();
+    let bars = FourBar { crank: 0.1, coupler: 0.35, rocker: 0.3, ground: 0.4 };
+    let pins = FourBarPins { coefficient: 0.1, main: 0.04, crank: 0.03, rocker: 0.02, pivot: 0.025 };
+    // with the coupler stretched out its pin is furthest from the crank, so that the rocker's angle is least, and rises
+    // until the coupler is folded back
+    let [stretched, folded] = bars.dead_centres();
+    let load = |load, from, to| StrokeLoad { load, from, to };
+    let loads = [load(-1.0, stretched, folded), load(1.0, folded, stretched + TAU), load(3.0, 0.0, TAU)];
+    let rocker = Orders::sampled(|angle| bars.angles(angle)[1]);
+    let crank = Coordinate::new(0.2)
+        .speed(20.0)
+        .inertia_law(Orders::inertia(&[(2.5, &rocker)]))
+        .four_bar_pins(bars, 2.5, pins, &loads);
+    let crank = rubbing(&rocker, 1.0).into_iter().fold(crank, Coordinate::source);
+    let by_hand = Train::new().coordinate(crank.source(Source::Orders(rocker.slope().times(3.0).0)));
+    assert!(file.train == by_hand, "{:?}\n{by_hand:?}", file.train);
+    // once, though its pins and its friction both keep it from turning backwards
+    let forwards = |text: &str| parse_train("press", text).unwrap().forwards;
+    let smooth = |pins: &str| text(pins).replace("friction = 1.0\n", "");
+    assert_eq!([forwards(&text(table)), forwards(&text("")), forwards(&smooth(table))], [[0], [0], [0]]);
+    assert!(forwards(&smooth("")).is_empty());
     let jammed = text(&table.replace("0.04", "0.9").replace("= 0.1\n", "= 1.0\n"));
     let fault = parse_train("press", &jammed).err().unwrap();
     assert_eq!(jammed.lines().nth(fault.line - 1), Some("[coordinate.four_bar.pins]"), "{fault}");
     assert!(fault.to_string().contains("less inertia of the rocker or more of the crank"), "{fault}");
     let folder = tempfile::tempdir().unwrap();
-    let last = |pins: &str| {
-        let file = folder.path().join("press.toml");
-        std::fs::write(&file, text(pins)).unwrap();
-        let output = simulate(&[file.to_str().unwrap(), "--json"]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let result: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        assert!(!result["proof"].is_null(), "{result}");
-        result["coordinates"][0]["last"].as_f64().unwrap()
-    };
-    // no motor drives it: the friction of the rocker slows both down, the pins slow one down more
-    assert!(last(table) < last("") - 0.01, "{} {}", last(table), last(""));
+    let path = folder.path().join("press.toml");
+    std::fs::write(&path, text(table)).unwrap();
+    let output = simulate(&[path.to_str().unwrap(), "--json"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let result: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(!result["proof"].is_null(), "{result}");
+    let mut motion = by_hand.build().unwrap();
+    motion.advance(1.0);
+    let last = result["coordinates"][0]["last"].as_f64().unwrap();
+    // roundings of a hundred steps
+    assert!((last / motion.speed(0) - 1.0).abs() < 1e-11, "{last} {}", motion.speed(0));
 }
 
 /// Friction against a surface that moves, on a mechanism's coordinate: refused at the friction, not at the coordinate.

@@ -166,6 +166,12 @@ impl Coordinate {
         self
     }
 
+    /// Whether dry friction in its pins takes a torque, so that it may only turn forwards.
+    #[must_use]
+    pub fn has_loaded_pins(&self) -> bool {
+        self.pins.as_ref().is_some_and(|pins| pins.is_loaded(self.crank))
+    }
+
     /// With an inertia by its angle beside its own, kg m2: of a mechanism behind it.
     #[must_use]
     pub fn inertia_law(mut self, law: Orders) -> Self {

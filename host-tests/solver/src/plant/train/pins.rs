@@ -199,6 +199,11 @@ impl Pinned {
         }
     }
 
+    /// Whether the slider, the rocker or a load on it presses on the pins.
+    pub fn is_loaded(&self, crank: Option<Crank>) -> bool {
+        self.moved(crank) > 0.0 || self.pieces.iter().any(|piece| piece.0 != 0.0)
+    }
+
     /// Pins of a slider-crank.
     pub fn of_crank(&self) -> Option<&Pins> {
         if let Parts::Crank(pins) = &self.parts { Some(pins) } else { None }
