@@ -18,6 +18,7 @@ use crate::drivetrains::plant::Body;
 use crate::drivetrains::scenario::{Action, Machine, Scenario};
 use crate::machine_file::MachineFile;
 use crate::machine_file::designs::Designs;
+use crate::machine_file::train::too_stiff;
 
 /// The observer of a file's drive, in `f32`, with the exact step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,9 +66,6 @@ const LEAST_EFFICIENCY: f64 = 1e-3;
 /// Longest run (s).
 const LONGEST: f64 = 600.0;
 
-/// Most stretches of a run: its length times the rate of its fastest part. With a stiff damper it would not end.
-const STRETCHES: f64 = 1e6;
-
 impl FileCase {
     /// A machine that a campaign can be run of.
     ///
@@ -98,17 +96,30 @@ impl FileCase {
         if ticks > 1.0 {
             return Err(format!("the torque is {ticks:.1} ticks late; a campaign has room for one tick"));
         }
-        if let Some(rate) = rate_with_dampers(&machine).filter(|rate| rate * end > STRETCHES) {
-            return Err(format!(
-                "with its dampers the machine moves at up to {rate:.1e} 1/s, and a campaign of {end:.1} s can follow \
-                 {:.1e} 1/s: leave the stiffest damper out of a copy of the file",
-                STRETCHES / end
-            ));
-        }
         let shafts = machine.chain.shafts();
         let softest = shafts.iter().enumerate().min_by(|a, b| a.1.stiffness.total_cmp(&b.1.stiffness));
         let shaft = softest.map_or(0, |(shaft, _)| shaft);
-        Ok(Self { name: machine.slug(), machine, designs, times: [settled, off, slower, end], shaft })
+        let case = Self { name: machine.slug(), machine, designs, times: [settled, off, slower, end], shaft };
+        if !case.machine.dampers.is_empty() {
+            let nominal = case.plant(&Departure::NONE).map_err(|error| error.to_string())?;
+            if let Some((place, found, expected)) = nominal.motion().and_then(|motion| too_stiff(motion, end)) {
+                let name = case.machine.name_at(place);
+                return Err(format!(
+                    "with its dampers the machine is too stiff for a campaign of {end:.1} s: at `{name}`, referred to \
+                     the motor, {found}; expected {expected}, or a copy of the file without its dampers"
+                ));
+            }
+        }
+        Ok(case)
+    }
+
+    /// The plant, which departs from the file, with the change of load of its run.
+    fn plant(&self, by: &Departure) -> Result<Body, PlantError> {
+        let Self { machine, designs, times: [on, off, ..], .. } = self;
+        let cycle = machine.cycle(designs.two.gravity_torque);
+        let rise = cycle.rise.max(1e-6);
+        let program = [(*on, 0.0), (on + rise, cycle.change), (*off, cycle.change), (off + rise, 0.0)];
+        plant(machine, program, by)
     }
 
     /// From when to when nothing excites the swing at the end of the run (s).
@@ -122,14 +133,11 @@ impl FileCase {
     /// # Errors
     /// A figure of the plant that is out of range.
     pub fn departing(&'static self, by: &Departure) -> Result<Machine, PlantError> {
-        let Self { machine, designs, times: [on, off, slower, end], .. } = self;
-        let cycle = machine.cycle(designs.two.gravity_torque);
-        let rise = cycle.rise.max(1e-6);
-        let program = [(*on, 0.0), (on + rise, cycle.change), (*off, cycle.change), (off + rise, 0.0)];
+        let Self { machine, designs, times: [.., slower, end], .. } = self;
         let speed = machine.limits.speed;
         let run = Scenario {
             name: "run-up, a load that comes and goes, slower",
-            plant: plant(machine, program, by)?,
+            plant: self.plant(by)?,
             held: designs.two.gravity_torque * by.load,
             actions: vec![
                 (RELEASE, Action::Release),
@@ -197,20 +205,6 @@ impl FileCase {
             }
         }
     }
-}
-
-/// The rate of the fastest part of a machine with dampers (1/s); none without.
-fn rate_with_dampers(machine: &MachineFile) -> Option<f64> {
-    if machine.dampers.is_empty() {
-        return None;
-    }
-    let (masses, shafts) = (machine.chain.masses(), machine.chain.shafts());
-    let train = masses.iter().fold(Train::new(), |train, &inertia| train.coordinate(Coordinate::new(inertia)));
-    let train = shafts
-        .iter()
-        .enumerate()
-        .fold(train, |train, (s, shaft)| train.link(Link::shaft(s, s + 1, shaft.stiffness).damping(shaft.damping)));
-    machine.put_dampers(train, masses.len()).build().ok().map(|motion| motion.rate())
 }
 
 /// A machine as a plant that departs from the file: it hangs on its shafts, its gears have their losses, its ropes

@@ -4,7 +4,7 @@ use super::station::{Station, stations};
 use super::{DamperRing, Element, MachineFile, Part};
 use driveline::machine::{Damper, Resonance};
 use driveline_solver::plant::train::{Coordinate, Friction, Link, Source, Train};
-use driveline_solver::plant::{Chain, Plant, PlantError, Shaft, Start};
+use driveline_solver::plant::{Chain, Place, Plant, PlantError, Shaft, Start};
 
 /// Masses and shafts with their names.
 pub(super) struct Referred {
@@ -152,6 +152,20 @@ impl MachineFile {
             let train = part.link.into_iter().fold(train, Train::link);
             part.friction.into_iter().fold(train, Train::friction)
         })
+    }
+
+    /// The name of a place in such a train of the machine's masses and shafts; empty beyond its end.
+    pub(crate) fn name_at(&self, place: Place) -> String {
+        let (mut masses, mut shafts) = self.names();
+        for part in self.damper_parts(masses.len()) {
+            shafts.extend(part.link.map(|_| part.name.clone()));
+            masses.push(part.name);
+        }
+        let name = match place {
+            Place::Node(node) | Place::Pins(node) => masses.get(node),
+            Place::Shaft(shaft) => shafts.get(shaft),
+        };
+        name.cloned().unwrap_or_default()
     }
 }
 

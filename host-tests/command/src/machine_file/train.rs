@@ -420,7 +420,7 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
 }
 
 /// Where a train is too stiff for a run of so many seconds: the place, what was found and what was expected.
-fn too_stiff(motion: &Motion, time: f64) -> Option<(Place, String, String)> {
+pub(crate) fn too_stiff(motion: &Motion, time: f64) -> Option<(Place, String, String)> {
     let over = motion.rate() * time / STIFFEST;
     if over <= 1.0 {
         return None;

@@ -1,5 +1,7 @@
 //! Dampers in a machine file: their sizes, and the machine's response with and without them.
 
+use std::f64::consts::TAU;
+
 use cargo_driveline::campaign::scenes::CampaignScene;
 use cargo_driveline::cli::Plan;
 use cargo_driveline::drivetrains::departure::Departure;
@@ -258,16 +260,42 @@ fn a_campaign_has_the_dampers() {
     }
 }
 
-/// Steps as short as its absorber asks for would take hours; the same machine with a slow one is a campaign.
+/// With dampers the rate of the fastest mode times the length of a campaign is a million at most. An absorber a
+/// thousandth below runs, one a thousandth above is refused. Its ring swings on the load at w sqrt(1 + J_ring/J_load).
 #[test]
 fn a_campaign_refuses_an_absorber_too_fast_to_follow() {
     let scene = |hertz: f64| {
-        let file = parse("damped", &machine(&format!("kind = \"absorber\"\nfrequency = {hertz}\n"))).unwrap();
-        CampaignScene::of_file(file).map(|_| ())
+        let file = parse("damped", &machine(&format!("kind = \"absorber\"\nfrequency = {hertz:?}\n"))).unwrap();
+        CampaignScene::of_file(file)
     };
-    let refusal = scene(1e9).unwrap_err().to_string();
-    assert!(refusal.contains("with its dampers") && refusal.contains("leave the stiffest damper out"), "{refusal}");
-    scene(20.0).unwrap();
+    let length = |hertz| scene(hertz).unwrap().departing(&Departure::NONE).unwrap().scenarios[0].duration;
+    let limit = |end: f64| 1e6 / end / (1.0 + RING / LOAD).sqrt() / TAU;
+    // far above the modes of the machine the ring is rigid, and the length of the run does not change with it
+    let limit = limit(length(0.5 * limit(length(20.0))));
+    // left out is the shaft's share of the square of the rate, k/J_load over it
+    assert!(STIFFNESS * 4.0 / LOAD < 1e-3 * (limit * TAU).powi(2), "{limit}");
+    scene(0.999 * limit).unwrap();
+    let refusal = scene(1.001 * limit).map(|_| ()).unwrap_err().to_string();
+    assert!(refusal.contains("with its dampers the machine is too stiff") && refusal.contains("damper of load"));
+}
+
+/// A light hub behind a stiff coupling, and a soft damper: the hub is named. Without the damper it is a campaign.
+#[test]
+fn a_campaign_names_the_hub_that_is_too_fast_with_a_damper() {
+    let coupling = "[[element]]\nkind = \"shaft\"\nlabel = \"coupling\"\nstiffness = 1e6\n[[element]]\n\
+                    kind = \"rotor\"\nlabel = \"hub\"\ninertia = 1e-5\n[[element]]\nkind = \"shaft\"";
+    let text = machine("kind = \"tuned\"\nstiffness = 14000\ndamping = 40\n").replacen(
+        "[[element]]\nkind = \"shaft\"",
+        coupling,
+        1,
+    );
+    let scene = |text: &str| CampaignScene::of_file(parse("damped", text).unwrap()).map(|_| ());
+    let refusal = scene(&text).unwrap_err().to_string();
+    assert!(
+        refusal.contains("at `hub`") && refusal.contains("a stiffness of 1.0e6 on an inertia of 1.0e-5"),
+        "{refusal}"
+    );
+    scene(text.split("[[damper]]").next().unwrap()).unwrap();
 }
 
 #[test]
