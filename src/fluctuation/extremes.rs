@@ -525,3 +525,6 @@ pub struct Reading {
     /// The load.
     pub load: Fluctuations,
 }
+
+#[cfg(test)]
+mod tests;

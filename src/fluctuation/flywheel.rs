@@ -6,7 +6,7 @@
 //! balance holds always: `J(phi) omega^2/2` is the work W(phi) up to a constant. With a flywheel the speed follows from
 //! `(J(phi) + J_F) omega'^2/2 = W'(phi)`, with W' reduced by the motor's fall of torque with speed.
 
-use super::series::{Circle, GRID, Grid, Series, circle};
+use super::series::{Circle, GRID, Grid, MAX_ORDER, Series, circle};
 use super::{CycleConfig, Ripple};
 use crate::design::flywheel_inertia;
 use crate::math::sqrt;
@@ -170,7 +170,7 @@ impl Machine {
             let change = off / ((beside - off) / (1e-6 * energy));
             energy -= change;
             if change.abs() < 1e-12 * energy {
-                let series = Series::of(&speed, circle, GRID / 4);
+                let series = Series::of(&speed, circle, MAX_ORDER);
                 let mean = series.mean;
                 return Some(series.fluctuations(mean, cycle.angle, circle).delta_arithmetic);
             }

@@ -56,13 +56,32 @@ impl<N: Summed + Ranked, const BINS: usize> Interleaved<N, BINS> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Fluctuation, Interleaved, WaveformConfig};
+    use super::*;
     use crate::fluctuation::CycleConfig;
     use crate::sample::Estimate;
     use crate::settings::{Bases, Cycle};
 
     const CYCLE: CycleConfig = CycleConfig::new(Cycle::TURN, 1e-4, Bases::SI);
     const CONFIG: WaveformConfig = WaveformConfig::new::<32>(CYCLE, 16);
+
+    /// Of four ticks the first is a slice of the extremes' work, the third one of the waveform's.
+    #[test]
+    fn ticks_take_turns() {
+        let estimate = Estimate { motor_speed: 3.0, load_speed: 2.0, ..Estimate::default() };
+        let (mut both, mut extremes) = (Interleaved::<f32, 32>::default(), Extremes::default());
+        for tick in 1..=8 {
+            both.measure(&CONFIG, 7, 0.0, &estimate);
+            match tick % 4 {
+                1 => extremes.slice(&CYCLE, 7, tick, &estimate),
+                2 => extremes.look(true, 7, &estimate),
+                3 => {}
+                _ => extremes.look(false, 7, &estimate),
+            }
+            assert_eq!(both.extremes, extremes, "{tick}");
+            // from its first slice on
+            assert_eq!(both.waveform.is_watching(), tick >= 3, "{tick}");
+        }
+    }
 
     /// From rest anywhere, in both directions: no window and no reading before a whole turn, and each of them right.
     #[test]

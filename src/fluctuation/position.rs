@@ -252,22 +252,24 @@ impl Position {
 
 #[cfg(test)]
 mod tests {
-    use super::{CycleConfig, Position};
+    use super::*;
+
+    const CYCLE: CycleConfig = CycleConfig {
+        length: 1 << 28,
+        last_segment: 3,
+        whole: 5,
+        part: 2,
+        divisor: 3,
+        angle: 1.0,
+        period: 1.0,
+        speed: 1.0,
+        torque: 1.0,
+    };
 
     /// Two thirds of 2^-32 turn over at each end of a cycle: in three cycles 2 units, and nothing is left.
     #[test]
     fn the_remainders_of_cycles_add_up_to_whole_units_both_ways() {
-        let cycle = CycleConfig {
-            length: 1 << 28,
-            last_segment: 3,
-            whole: 5,
-            part: 2,
-            divisor: 3,
-            angle: 1.0,
-            period: 1.0,
-            speed: 1.0,
-            torque: 1.0,
-        };
+        let cycle = CYCLE;
         let mut position = Position::default();
         let mut excess = [0; 6];
         for extra in &mut excess {
@@ -285,5 +287,39 @@ mod tests {
             assert_eq!(position.extra, *expected);
         }
         assert_eq!(position.carry, 0);
+    }
+
+    /// Units of a sixteenth of a turn: up to the next segment's end, and back to the beginning of the one before. The
+    /// cycle ends five units behind its last segment, the one before it six.
+    #[test]
+    fn a_passage_is_by_a_segment_either_way() {
+        const UNIT: u32 = 1 << 28;
+        for (segment, within, expected, start) in [
+            (1, UNIT, Some(2), UNIT),
+            (1, 2 * UNIT - 1, Some(2), UNIT),
+            (1, 2 * UNIT, None, 2 * UNIT),
+            (1, UNIT.wrapping_neg(), Some(0), UNIT.wrapping_neg()),
+            (1, (UNIT + 1).wrapping_neg(), None, (2 * UNIT).wrapping_neg()),
+            (3, UNIT + 4, Some(3), 0),
+            (3, UNIT + 5, Some(0), UNIT + 5),
+            (0, 1_u32.wrapping_neg(), Some(3), (UNIT + 6).wrapping_neg()),
+        ] {
+            let mut position = Position { segment, is_sure: true, ..Position::default() };
+            let crossing = position.pass(&CYCLE, within);
+            assert_eq!(crossing, if expected.is_some() { Crossing::Passed } else { Crossing::Lost }, "{within}");
+            assert_eq!(position.start, start, "{segment} {within}");
+            assert!(expected.is_none_or(|expected| position.segment == expected), "{segment} {within}");
+            // at an unknown time
+            let mut position = Position { segment, ..Position::default() };
+            assert_eq!((position.pass(&CYCLE, within), position.is_sure), (Crossing::Lost, true));
+        }
+    }
+
+    /// Sixteen units at a quarter of one in a tick are 64 ticks, which an end is not found late by.
+    #[test]
+    fn an_end_is_half_a_tick_ago_where_it_cannot_be_known() {
+        let of = |beyond, turned| Edge { beyond, ..Edge::<f64>::default() }.fraction(turned);
+        assert_eq!([of(16, 0.25 * RADIANS), of(8, 0.25 * RADIANS), of(3, 4.0 * RADIANS)], [0.5, 32.0, 0.75]);
+        assert_eq!([of(3, 0.0), of(0, 0.0), of(3, f64::NAN)], [0.5; 3]);
     }
 }

@@ -361,3 +361,6 @@ impl<N: Summed, const BINS: usize> Waveform<N, BINS> {
         window
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -341,6 +341,7 @@ impl Ramp {
 
 #[cfg(test)]
 mod tests {
+    use super::super::CycleConfig;
     use super::*;
 
     /// A slowness of one with this first order.
@@ -401,6 +402,132 @@ mod tests {
         let (s, c) = (TAU / 8.0 * 3.0).sin_cos();
         let off = (found.cos / ticks - c).hypot(found.sin / ticks - s);
         assert!(off < f64::powi(TAU / 8.0, 3) / 120.0, "{off}");
+    }
+
+    fn config(turns: u32, torque: f64) -> WaveformConfig {
+        let cycle = CycleConfig {
+            length: 1 << 30,
+            last_segment: 4 * turns - 1,
+            whole: 0,
+            part: 0,
+            divisor: 1,
+            angle: TAU * f64::from(turns),
+            period: 0.01,
+            speed: 1.0,
+            torque,
+        };
+        WaveformConfig { cycle, cycles: 1, scale: 1 << 21, per_segment: 2 }
+    }
+
+    /// Ticks spread evenly over a bin.
+    fn even(ticks: u32) -> Bin<f64> {
+        let second = (4096.0 / 12.0 + 1.0 / 3.0) * f64::from(ticks);
+        Bin { ticks, first: -(ticks as i32) / 2, second: second as u32, torque: 0.0 }
+    }
+
+    /// A steady motion of so many ticks, ends of cycles in whole ticks.
+    fn steady(cycles: u32, ticks: u32, speed: f64) -> Window<f64, 8> {
+        let edges =
+            [0, ticks / cycles, ticks - ticks / cycles, ticks].map(|tick| Edge { tick, speed, ..Edge::default() });
+        Window { bins: [even(ticks / 8); 8], edges, cycles, forward: speed >= 0.0 }
+    }
+
+    /// The lateness is the integral of the slowness, by hand; what is beyond it alternates from bin to bin. The angle
+    /// that it is counted from does not matter.
+    #[test]
+    fn the_residue_is_what_the_orders_leave() {
+        let mut slowness = Series::constant(1.0);
+        slowness.orders[0] = Order { cos: 0.1, sin: 0.05 };
+        slowness.orders[1] = Order { cos: -0.04, sin: 0.06 };
+        let late = |theta: f64| {
+            0.1 * theta.sin() - 0.05 * theta.cos() - 0.02 * (2.0 * theta).sin() - 0.03 * (2.0 * theta).cos()
+        };
+        let (total, apart) = (1e9, 0.01);
+        let mut window = steady(1, 8, 1.0);
+        let mut before = 0;
+        for (index, bin) in (1_u32..).zip(&mut window.bins) {
+            let theta = TAU * f64::from(index) / 8.0;
+            // none of it at the cycle's end
+            let left = if index % 2 == 0 { 0.0 } else { 2.0 * apart };
+            let counted = ((theta + late(theta) - late(TAU) + left) / TAU * total) as u32;
+            bin.ticks = counted - before;
+            before = counted;
+        }
+        // a tick of 10^9
+        assert!((window.residue(&slowness) - apart).abs() < TAU / total, "{}", window.residue(&slowness));
+        // a hundredth of a cycle of two turns, in every other bin: the mean and half of it either way
+        let mut window = steady(2, 8_000, 1.0);
+        for pair in window.bins.chunks_mut(2) {
+            (pair[0], pair[1]) = (even(920), even(1_080));
+        }
+        let ripple = window.ripple(&config(2, 1.0), 1).unwrap();
+        // a bin's squares are cut to whole units, of 4,096 to a square bin
+        assert!((ripple.quality.residue / (0.005 * 2.0 * TAU) - 1.0).abs() < 1e-3, "{ripple:?}");
+    }
+
+    /// A speed against the mean at any end; twelve ticks to a segment, and 72 to a turn in few cycles.
+    #[test]
+    fn windows_that_cannot_be_used() {
+        for sign in [1.0, -1.0] {
+            let ripple = steady(2, 8_000, sign).ripple(&config(1, 1.0), 1).unwrap();
+            assert!((ripple.mean / (sign * TAU / 40.0) - 1.0).abs() < 1e-12, "{ripple:?}");
+            for edge in 0..4 {
+                for (speed, error) in [(0.0, None), (-1e-9 * sign, Some(Unusable::Trend))] {
+                    let mut window = steady(2, 8_000, sign);
+                    window.edges[edge].speed = speed;
+                    assert_eq!(window.ripple(&config(1, 1.0), 1).err(), error, "{edge} {speed}");
+                }
+            }
+        }
+        for (turns, cycles, ticks, is_right) in [
+            (1, 2, 144, true),
+            (1, 2, 143, false),
+            (1, 7, 504, true),
+            (1, 7, 503, false),
+            (1, 8, 384, true),
+            (1, 8, 383, false),
+            (2, 8, 1_152, true),
+            (2, 8, 1_151, false),
+        ] {
+            let found = steady(cycles, ticks, 1.0).ripple(&config(turns, 1.0), 1);
+            assert_eq!(found.err(), (!is_right).then_some(Unusable::Ticks), "{turns} {cycles} {ticks}");
+        }
+    }
+
+    /// With `slowness` 2 and an order of `sin(theta)/2` the mean is longer by 1, and order 1 has -2 j by itself and
+    /// -1/4 by half of the order at 2 theta. An order is twice its integral over the mean's.
+    #[test]
+    fn a_trend_shows_in_every_order() {
+        let ramp = Ramp { slowness: 5.0, slope: 3.0, ..Ramp::default() };
+        assert_eq!(
+            [0.0, 1.0, 2.0, -2.0].map(|k| ramp.integral(k)),
+            [(0.0, 0.0), (3.0, -5.0), (0.75, -2.5), (0.75, 2.5)]
+        );
+        let ramp = Ramp { slowness: 2.0, ..Ramp::default() };
+        let found = ramp.taken_off(&of(0.0, 0.5), &of(4.75, 3.0), 9.0, 1);
+        assert_eq!((found.mean, found.order(1)), (1.0, Order { cos: 1.0, sin: 1.0 }));
+    }
+
+    /// The mean of a sine over a bin is that of its ends' integral. A bin without a tick has the torque of the one
+    /// before it, the first that of the last.
+    #[test]
+    fn the_torque_is_that_of_the_bins() {
+        let mut window = steady(1, 8_000, 1.0);
+        let width = TAU / 8.0;
+        for (index, bin) in (0_u32..).zip(&mut window.bins) {
+            let [from, to] = [index, index + 1].map(|index| width * f64::from(index));
+            bin.torque = 1_000.0 * (5.0 + (to.sin() - from.sin() + 0.5 * (from.cos() - to.cos())) / width);
+        }
+        let found = window.motor_torque(&config(1, 2.0), 1);
+        // some roundings
+        let off = [found.mean - 10.0, found.order(1).cos - 2.0, found.order(1).sin - 1.0];
+        assert!(off.iter().all(|off| off.abs() < 1e-13), "{found:?}");
+        for (index, bin) in (0_u32..).zip(&mut window.bins) {
+            let ticks = if index == 0 || index == 4 { 0 } else { 1_000 };
+            (bin.ticks, bin.torque) = (ticks, f64::from(ticks * index));
+        }
+        // 7, 1, 2, 3, 3, 5, 6 and 7
+        assert_eq!(window.motor_torque(&config(1, 2.0), 0).mean, 2.0 * 34.0 / 8.0);
     }
 
     #[test]

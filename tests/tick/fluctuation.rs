@@ -266,6 +266,28 @@ fn a_flywheel_that_is_not_needed_or_cannot_be() {
     let mut infinite = ripple;
     infinite.speed.mean = f64::INFINITY;
     assert_eq!(infinite.flywheel(&cycle, &steady(3.0, 0.0), 0.01), None);
+    // nor is any permitted
+    let mut stops = ripple;
+    stops.speed = Series::constant(20.0);
+    stops.speed.orders[0].cos = -20.0;
+    for (ripple, inertia) in [
+        (ripple, 0.0),
+        (ripple, -3.0),
+        (ripple, f64::INFINITY),
+        (ripple, f64::NAN),
+        (stops, 3.0),
+        (Ripple { mean: 0.0, ..ripple }, 3.0),
+        (infinite, 3.0),
+    ] {
+        assert_eq!(ripple.flywheel(&cycle, &steady(inertia, 0.0), 3.0), None, "{inertia}");
+    }
+    let even = self::ripple(|_| 20.0, 0.0, 8, Quality::default());
+    assert_eq!(even.flywheel(&cycle, &steady(3.0, 0.0), 0.0), None);
+    // the motor's figure is above what is permitted, that of the orders below: as good as none, to the search's 1e-6
+    let mut above = ripple;
+    above.motor.delta_arithmetic *= 1.001;
+    let flywheel = above.flywheel(&cycle, &steady(3.0, 0.0), (1.0 + 5e-7) * delta).unwrap();
+    assert!(flywheel.missing > 0.0 && flywheel.missing < 3e-6, "{flywheel:?}");
 }
 
 /// Motor and load by the machine's law in closed form: the motor in the orders 1 and 2 of a cycle of two turns, so that
