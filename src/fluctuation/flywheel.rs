@@ -212,3 +212,23 @@ impl Machine {
 fn extremes(values: &Grid) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), &value| (least.min(value), most.max(value)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Inertias of 3 and 1 kg m2 with 8 J run at 2 rad/s, as measured, and with 18 J at 3 rad/s, faster by 1 at each
+    /// point. The work of a stop takes all of the 8 J.
+    #[test]
+    fn the_speed_is_that_of_the_energy() {
+        let machine = |stop: f64| {
+            let mut work = [8.0; GRID];
+            work[5] = stop;
+            Machine { speed: [2.0; GRID], inertia: [3.0; GRID], work, slope: 0.0, step: 0.1 }
+        };
+        assert_eq!(machine(8.0).run(1.0, 8.0), Some(([2.0; GRID], 0.0)));
+        assert_eq!(machine(8.0).run(1.0, 18.0), Some(([3.0; GRID], GRID as f64)));
+        assert_eq!(machine(0.0).run(1.0, 8.0), None);
+        assert!(machine(0.125).run(1.0, 8.0).is_some());
+    }
+}
