@@ -88,7 +88,7 @@ impl CycleConfig {
             length: (whole / parts) as u32,
             last_segment: segments - 1,
             whole: ((whole % parts) / cycles as u64) as u32,
-            part: ((whole % parts) % cycles as u64) as u32,
+            part: (whole % cycles as u64) as u32,
             divisor: cycles,
             angle: core::f64::consts::TAU * turns as f64 / cycles as f64,
             period,
@@ -219,5 +219,19 @@ mod tests {
         assert!(made(1, 1, 4).is_ok() && made(1, 1, 1024).is_ok());
         // 2^26/2^15 is 2048: 256 segments of eight
         assert_eq!([made(1, 1 << 15, 256), made(1, 1 << 15, 512)], [Ok(2048), refused]);
+    }
+
+    /// In fixed point the factor from a turn in a tick to a speed is `2^28/(2^32/tau 2^16 period)` with a base of one:
+    /// `tau/2^20` over the period.
+    #[test]
+    fn a_motor_turns_enough_in_a_tick() {
+        let made = |factor: f64| {
+            let period = core::f64::consts::TAU / 1_048_576.0 / factor;
+            CycleMeanConfig::<Fixed>::try_new::<4>(Cycle::TURN, period, Bases::SI).map(|made| made.speed.to_f64())
+        };
+        assert!(made(0.4988).is_ok_and(|speed| (speed - 0.4988).abs() < 1e-9));
+        for factor in [0.49895, 0.5, 2.0] {
+            assert_eq!(made(factor), Err(Error::Coefficient(SLOW)), "{factor}");
+        }
     }
 }

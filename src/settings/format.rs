@@ -50,3 +50,21 @@ impl Format {
 
 /// 2^-32 turns to the radian.
 pub(crate) const ANGLE_PER_RADIAN: f64 = 4_294_967_296.0 / core::f64::consts::TAU;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A radian a second is 2^32/tau 1e-12 of a turn's units in a tick of 1e-12 s: a float has its inverse, fixed point
+    /// ends below a half.
+    #[test]
+    fn the_speed_of_a_turn_ends_in_fixed_point() {
+        let inverse = core::f64::consts::TAU * 1e12 / 4_294_967_296.0;
+        // some operations
+        assert!((Format::FLOAT.speed_of_turn(1e-12) / inverse - 1.0).abs() < 1e-15);
+        let fixed = Format::fixed(Bases::SI);
+        assert_eq!(fixed.speed_of_turn(1e-12), 0.499);
+        // 2^28 units to the base over a shift by sixteen
+        assert!((fixed.speed_of_turn(1e-3) / (inverse * 1e-9 * 4096.0) - 1.0).abs() < 1e-15);
+    }
+}

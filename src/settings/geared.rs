@@ -153,4 +153,13 @@ mod tests {
         }
         assert!(Gear { efficiency: 1.0, ..GEAR }.losses(0.01).is_ok());
     }
+
+    /// In fixed point the gear must be brought to rest: 16 times 2 over 4 is 8, the inertia over 1/16 s.
+    #[test]
+    fn a_light_gear_is_refused_in_fixed_point() {
+        let bases = Bases { torque: 2.0, speed: 4.0, ..Bases::SI };
+        let made = |period: f64| GearedConfig::<Fixed, ()>::try_new((), &GEAR, period, bases).map(|made| made.deadband);
+        assert_eq!(made(0.063), Err(Error::Value(LIGHT)));
+        assert!(made(0.0625).is_ok_and(|deadband| deadband == Fixed::from_bits((0.01 * ANGLE_PER_RADIAN) as i32)));
+    }
 }

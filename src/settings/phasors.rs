@@ -121,3 +121,15 @@ macro_rules! phasors {
 phasors!(f32, 1e30, |limit| limit as f32);
 phasors!(f64, 1e300, |limit| limit);
 phasors!(Fixed, 2.0, |limit| Fixed::from_f64(limit));
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Periods are counted, of the vibration's order.
+    #[test]
+    fn a_block_is_counted_in_periods() {
+        let measured = PhasorSettings { order: 3, turns: 5, ..PhasorSettings::DIRECT };
+        assert_eq!(PhasorsConfig::<f64, 1>::new(&measured, [1.0]).block, 15);
+    }
+}

@@ -104,6 +104,34 @@ mod tests {
         assert!((invariants(found).1 + 5e-7).abs() < 1e-20, "{found:?}");
     }
 
+    /// Half and half again is a double pole, which counts as a complex pair: nothing is taken off its damping.
+    #[test]
+    fn a_double_pole_is_a_pair() {
+        let exact = [-0.5, 0.0, 0.0, -0.5];
+        let found = settled(exact, [-0.499, 0.0, 0.0, -0.499], [1e-3; 4]);
+        assert!(invariants(found).1 <= invariants(exact).1, "{found:?}");
+    }
+
+    /// The next smaller pole and one on the circle, of 1 - 5.5e-7 and 1 in units of 1e-7 and 3e-8: with 3e-8 beyond the
+    /// circle the other's rounding would be made up for.
+    #[test]
+    fn no_pole_is_beyond_the_circle() {
+        let found = settled([0.0, 0.0, 0.0, -5.5e-7], [0.0, 0.0, 0.0, -5e-7], [3e-8, 1e-9, 1e-9, 1e-7]);
+        // the others' units are multiplied
+        assert!((invariants(found).1 + 6e-7).abs() < 1e-17, "{found:?}");
+    }
+
+    /// Next to half the sample rate, in coarse units.
+    #[test]
+    fn no_coefficient_is_below_minus_two() {
+        for step in 1..30 {
+            let exact = turned(core::f64::consts::PI - 0.002 * f64::from(step));
+            let rounded = exact.map(|exact| (exact / 3e-3).round() * 3e-3);
+            let found = settled(exact, rounded, [3e-3; 4]);
+            assert!(found[0] >= -2.0 && found[3] >= -2.0, "{step}: {found:?}");
+        }
+    }
+
     #[test]
     fn a_unit_is_the_distance_to_the_next_larger_number() {
         for (value, unit) in [(1.0, 1.0 / 8_388_608.0), (-1.0, 1.0 / 8_388_608.0), (0.75, 1.0 / 16_777_216.0)] {

@@ -165,3 +165,42 @@ impl To<Fixed> {
         Ok((out, get!(fixed(coefficients, sentence))))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The largest angle, 2^26 - 1, is in range.
+    #[test]
+    fn an_angle_in_fixed_point() {
+        let angle = |value: f64| To::<Fixed>::angle(value, "beyond").map(Fixed::to_bits);
+        assert_eq!(angle(INNOVATION_RANGE), Ok(67_108_863));
+        assert_eq!(angle(67_108_864.0), Err(Error::Value("beyond")));
+    }
+
+    /// A turn of the pair, its poles on the unit circle, over four: of the neighbours of the nearest coefficients, in
+    /// units of 2^-32, none has a determinant between that of the pair taken and one.
+    #[test]
+    fn a_pair_in_fixed_point_does_not_grow() {
+        const UNIT: f64 = 1.0 / 4_294_967_296.0;
+        // determinant of 1 + N, less one
+        let growth = |quarters: [f64; 4]| {
+            let [a, b, c, d] = quarters.map(|quarter| 4.0 * quarter);
+            a + d + (a * d - b * c)
+        };
+        for step in 1..20 {
+            let (sine, cosine) = (0.15 * f64::from(step)).sin_cos();
+            let exact = [cosine - 1.0, -sine, sine, cosine - 1.0].map(|value| value / 4.0);
+            let found = To::<Fixed>::pair(exact, "beyond").unwrap().map(Coefficient::to_f64);
+            let limit = growth(exact);
+            assert!(growth(found) <= limit, "{step}: {found:?}");
+            let nearest = exact.map(|value| (value / UNIT).round() * UNIT);
+            for k in 0..81 {
+                let offsets = [k % 3, k / 3 % 3, k / 9 % 3, k / 27];
+                let other = core::array::from_fn(|i| nearest[i] + (f64::from(offsets[i]) - 1.0) * UNIT);
+                assert!(growth(other) <= growth(found) || growth(other) > limit, "{step}: {other:?} {found:?}");
+            }
+            assert!((0..4).all(|i| (found[i] - nearest[i]).abs() <= UNIT), "{step}: {found:?}");
+        }
+    }
+}

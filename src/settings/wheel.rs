@@ -68,12 +68,8 @@ impl<const TEETH: usize> Teeth<TEETH> {
 
     /// The first places that are not missing.
     const fn places(places: u32, missing: &[u32]) -> Self {
-        let mut next = 0;
-        while next < missing.len() {
-            if missing[next] >= places || (next > 0 && missing[next] <= missing[next - 1]) {
-                panic!("{}", PLACES);
-            }
-            next += 1;
+        if !rise(places, missing) {
+            panic!("{}", PLACES);
         }
         let mut angles = [0.0; TEETH];
         let (mut tooth, mut place, mut gone) = (0, 0, 0);
@@ -111,9 +107,6 @@ impl<const TEETH: usize> Teeth<TEETH> {
                 place += 1;
             }
             tooth += 1;
-        }
-        if due {
-            angles[TEETH - 1] = at / 360.0;
         }
         Teeth { angles }
     }
@@ -255,6 +248,18 @@ impl<const TEETH: usize> ToothedWheelConfig<TEETH> {
     }
 }
 
+/// Whether the missing places rise and are among the places.
+const fn rise(places: u32, missing: &[u32]) -> bool {
+    let mut next = 0;
+    while next < missing.len() {
+        if missing[next] >= places || (next > 0 && missing[next] <= missing[next - 1]) {
+            return false;
+        }
+        next += 1;
+    }
+    true
+}
+
 /// From each tooth's predecessor to it (turn).
 const fn spans<const TEETH: usize>(angles: &[f64; TEETH]) -> Result<[f64; TEETH], Error> {
     let mut spans = [0.0; TEETH];
@@ -377,6 +382,28 @@ mod tests {
         let wide = Teeth::<6>::degrees([0.0, 5.0, 10.0, 15.0, 20.0, 25.0]);
         for (octaves, expected) in [(3.0, 1), (2.875, 0), (1.0, 60), (0.0, 60), (-2.875, 0), (-3.0, 2)] {
             assert_eq!(fitting(&wide, octaves), expected, "{octaves}");
+        }
+        // a gap of eight spans, three octaves, to the last ratio on either side
+        let octave = Teeth::<8>::gap(15, 7);
+        for (octaves, expected) in [(3.0, 1), (1.875, 1), (1.75, 0), (-1.75, 0), (-1.875, 2), (-3.0, 2)] {
+            assert_eq!(fitting(&octave, octaves), expected, "{octaves}");
+        }
+    }
+
+    #[test]
+    fn missing_places_rise() {
+        for (missing, are_right) in [
+            (&[] as &[u32], true),
+            (&[0], true),
+            (&[4], true),
+            (&[5], false),
+            (&[1, 3], true),
+            (&[3, 3], false),
+            (&[3, 1], false),
+            (&[0, 2, 1], false),
+            (&[0, 2, 5], false),
+        ] {
+            assert_eq!(rise(5, missing), are_right, "{missing:?}");
         }
     }
 

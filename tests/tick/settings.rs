@@ -568,6 +568,10 @@ fn the_constants_of_shapes() {
         let soft = SoftStart { rise: 0.6 * PERIOD / step, ..soft };
         assert_eq!(SoftStarterConfig::<f64>::try_new(&soft, PERIOD, BASES).is_ok(), is_right, "{step}");
     }
+    // twice the base is where fixed point holds an observed torque, so no torque is above it
+    let twice = SoftStart { peak: 2.0 * BASES.torque, ..soft };
+    assert!(SoftStarterConfig::<Fixed>::try_new(&twice, PERIOD, BASES).is_err());
+    assert!(SoftStarterConfig::<f64>::try_new(&twice, PERIOD, BASES).is_ok());
 
     let si = SlewConfig::<f64, ()>::try_new(5_000.0, (), PERIOD, BASES).unwrap();
     double(si.step, 0.5);

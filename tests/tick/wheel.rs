@@ -95,6 +95,7 @@ fn the_limits_of_a_wheel() {
         ([0.0, 0.6, 0.3], false),
         ([-0.1, 0.3, 0.6], false),
         ([0.0, 0.3, 1.0], false),
+        ([0.1, 0.3, 1.0], false),
         ([0.0, 0.3, 0.999], true),
         ([0.0, 0.3, 0.300_051], true),
         ([0.0, 0.3, 0.300_049], false),
@@ -116,6 +117,19 @@ fn the_limits_of_a_wheel() {
     {
         assert_eq!(of(even, ToothClock { lowest_speed: of_counts(counts), ..CLOCK }), is_right, "{counts}");
     }
+    // a clock is refused as one, whatever the counts
+    let refused =
+        |clock: f64| ToothedWheelConfig::try_new(&Teeth { angles: even }, ToothClock { clock, ..CLOCK }).err();
+    assert!([0.0, f64::INFINITY].iter().all(|&clock| refused(clock) == refused(-1.0)));
+    assert!(
+        refused(-1.0)
+            != ToothedWheelConfig::try_new(&Teeth { angles: even }, ToothClock { lowest_speed: 0.0, ..CLOCK }).err()
+    );
+    assert!(ToothedWheelConfig::try_new(&Teeth::<10_000>::gap(10_000, 0), CLOCK).is_ok());
+    assert!(ToothedWheelConfig::try_new(&Teeth::<10_001>::gap(10_001, 0), CLOCK).is_err());
+    // one tooth more at a whole turn is beyond the last place
+    assert!(ToothedWheelConfig::try_new(&Teeth::<5>::extra(4, 359.0), CLOCK).is_ok());
+    assert!(ToothedWheelConfig::try_new(&Teeth::<5>::extra(4, 360.0), CLOCK).is_err());
     assert!(ToothedWheelConfig::try_new(&Teeth { angles: [0.0] }, CLOCK).is_err());
     assert!(ToothedWheelConfig::try_new(&Teeth { angles: [0.0, 0.3] }, CLOCK).is_ok());
     // 128 teeth of which no part repeats, 130 of which the half does
@@ -147,7 +161,10 @@ fn a_wheel_is_learnt() {
     assert!(Teeth::<4>::learnt(&times(3, 0, 0.0)[..12]).is_err());
     assert!(Teeth::<4>::learnt(&times(2, 0, 0.0)).is_err());
     assert!(Teeth::<1>::learnt(&[1, 2, 3, 4, 5]).is_err());
-    assert!(Teeth::<4>::learnt(&[7; 13]).is_err());
+    // no time between two edges of each turn is no wheel, and not an unsteady one
+    let together = Teeth::<2>::learnt(&[0, 0, 10, 10, 20, 20, 30]).unwrap_err();
+    assert_eq!([Teeth::<4>::learnt(&[7; 13]).unwrap_err(), Teeth::<1>::learnt(&[1; 5]).unwrap_err()], [together; 2]);
+    assert_eq!(Teeth::<2>::learnt(&[0, 2, 8, 10, 16, 18, 24]).unwrap().angles, [0.0, 0.25]);
     // two thirds of the displacement beside the mean of three turns: a tenth of the least span is 0.01
     assert!(Teeth::<4>::learnt(&times(3, 0, 0.014)).is_ok());
     assert!(Teeth::<4>::learnt(&times(3, 0, 0.016)).is_err());
@@ -178,6 +195,14 @@ fn a_block_over_whole_beats() {
     assert_eq!(of(150, 1, 1.0 + 1.0 / 400.0, 1.0), 300);
     assert_eq!(of(150, 2, 2.0 + 1.0 / 400.0, 1.0), 150);
     assert_eq!(of(150, 1, 1.0 + 1.0 / 700.0, 1.0), 150);
+    // less than half a beat is none, however near to none it is
+    assert_eq!(of(20, 1, 1.0 + 1.0 / 400.0, 1.0), 300);
+    // half a beat of four turns, the longest of order 64, is none
+    assert_eq!(of(1, 64, 64.125, 1.0), 1);
+    // three and five turns of 3/8 of a beat are as near, an eighth, and six are not nearer: the shorter one
+    assert_eq!(of(1, 50, 50.375, 1.0), 3);
+    // no turns are none whatever the frequencies
+    assert_eq!(of(0, 1, 0.0, 12.0), 0);
 }
 
 #[test]
