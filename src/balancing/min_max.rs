@@ -296,21 +296,23 @@ impl<'p, T: Scalar, const ROWS: usize, const PLANES: usize> Search<'p, T, ROWS, 
             }
             tau *= real(8.0);
             if reached < self.unit * real(0.1) {
-                let before = self.unit;
-                let weights = self.weights(&at);
-                self.centre(&weights);
-                let grown = before / self.unit;
-                let bound = at.bound * grown;
-                at = Wide::new();
-                at.bound = bound;
-                // the same path: `tau` times the objective stays
-                tau /= if self.aim.objective == Objective::MinMax { grown } else { grown * grown };
+                (at, tau) = self.recentred(&at, tau);
                 if !self.within(&at) {
                     break;
                 }
             }
         }
         found
+    }
+
+    /// The same point of the same path, counted from its weights from now on: `tau` times the objective stays.
+    fn recentred(&mut self, at: &Wide<T, PLANES>, tau: T) -> (Wide<T, PLANES>, T) {
+        let before = self.unit;
+        let weights = self.weights(at);
+        self.centre(&weights);
+        let grown = before / self.unit;
+        let tau = tau / if self.aim.objective == Objective::MinMax { grown } else { grown * grown };
+        (Wide { bound: at.bound * grown, ..Wide::new() }, tau)
     }
 
     /// Newton's steps to the middle of the path; false where rounding allows no step.
@@ -623,6 +625,10 @@ mod tests {
             let (weights, residuals) = problem.at(&search, &point);
             let largest = residuals.iter().fold(0.0_f64, |most, residual| most.max(residual.modulus()));
             let squares: f64 = residuals.iter().map(|residual| residual.norm_sqr()).sum();
+            // the unit is the largest residual of the centre
+            let (_, at_centre) = problem.at(&search, &Wide::new());
+            let unit = at_centre.iter().fold(0.0_f64, |most, residual| most.max(residual.modulus()));
+            assert!((search.unit / unit - 1.0).abs() < 1e-14);
             let min_max = problem.aim.objective == Objective::MinMax;
             let reached = if min_max { largest } else { squares.sqrt() };
             assert!((search.reached(&point) / reached - 1.0).abs() < 1e-12);
@@ -757,5 +763,162 @@ mod tests {
             }
             assert!((product.sqrt() / decrement - 1.0).abs() < 1e-12);
         }
+    }
+
+    /// Of one plane, with these coefficients and readings.
+    fn plane<const ROWS: usize>(
+        coefficients: [f64; ROWS],
+        vibration: [f64; ROWS],
+        aim: &Aim<f64, ROWS, 1>,
+        with: impl FnOnce(Search<'_, f64, ROWS, 1>),
+    ) {
+        let mut influence = Influence::<f64, ROWS, 1>::new(ROWS, 1).unwrap();
+        let complex = |re: f64| Complex { re, im: 0.0 };
+        influence.set(0, &coefficients.map(complex)).unwrap();
+        let vibration = vibration.map(complex);
+        let pivoted = influence.qr(&vibration, &aim.weighting).pivoted(0.01);
+        let mut search = Search::new(&influence, &vibration, aim, &pivoted);
+        search.centre(&[complex(0.0)]);
+        with(search);
+    }
+
+    /// Of `tau |1 + w|^2` the decrement is `lambda = |1 + w| root(2 tau)`: above a quarter a step takes it to
+    /// `lambda^2/(1 + lambda)`, below to zero. After sixty steps the way ends where it is.
+    #[test]
+    fn the_way_to_the_middle_of_squares() {
+        plane([1.0], [1.0], &Aim::default(), |search| {
+            let mut sixty = 1000.0;
+            for _ in 0..60 {
+                sixty = sixty * sixty / (1.0 + sixty);
+            }
+            for (decrement, expected) in [(0.24, 0.0), (0.26, 0.0), (3.0, 0.0), (1000.0, sixty)] {
+                let mut at = Wide::new();
+                assert!(search.follow(&mut at, 0.5 * decrement * decrement));
+                let left = search.value(&at).sqrt() * decrement;
+                // rounding of sixty steps
+                assert!((left - expected).abs() < 1e-12 * decrement, "{decrement}: {left} {expected}");
+            }
+            // no number leads nowhere
+            assert!(!search.follow(&mut Wide::new(), f64::NAN));
+        });
+    }
+
+    /// Of `tau |1 + w|^2 - ln(1 - w^2)` the slope at -1/2 is `tau - 4/3`. The way begins at no weight, which has no
+    /// direction.
+    #[test]
+    fn the_way_to_the_middle_below_a_limit() {
+        plane([1.0], [1.0], &Aim { limits: [Some(1.0)], ..Aim::default() }, |search| {
+            let mut at = Wide::new();
+            assert!(search.follow(&mut at, 4.0 / 3.0));
+            // the last decrement is below a thousandth, and what it leaves is of its square
+            assert!((at.at(0) + 0.5).abs() < 1e-6 && at.at(1) == 0.0, "{:?}", at.weights);
+        });
+    }
+
+    /// Another centre is the same point of the same path: Newton's decrement knows no unit.
+    #[test]
+    fn a_point_may_be_counted_from_itself() {
+        for (problem, centre, point) in problems() {
+            let mut search = problem.search(&centre);
+            let ((weights, residuals), decrement) = (problem.at(&search, &point), search.newton(&point, 3.0).1);
+            let bound = point.bound * search.unit;
+            let (at, tau) = search.recentred(&point, 3.0);
+            // rounding of some operations on numbers of the order of one
+            assert!((at.bound * search.unit / bound - 1.0).abs() < 1e-13);
+            let (same, left) = problem.at(&search, &at);
+            assert!(same.iter().zip(&weights).all(|(same, weight)| (*same - *weight).modulus() < 1e-13));
+            assert!(left.iter().zip(&residuals).all(|(left, residual)| (*left - *residual).modulus() < 1e-13));
+            assert_eq!(at.weights, [[0.0; 2]; PLANES]);
+            assert!((search.newton(&at, tau).1 / decrement - 1.0).abs() < 1e-11);
+        }
+    }
+
+    /// Readings of 1 and -1 on either side are the best, at no weight, and a third one of 1/2 that no weight changes
+    /// has its share of the bound: at the middle `tau = 4t/(t^2 - 1) + 2t/(t^2 - 1/4)`, and the bound is
+    /// `root(t^2 - 6t/tau)`, so the gap is `1/tau` but for its square. It begins at twice the cones over the largest
+    /// reading, 6, and falls by eight a round until it is below 1e-10 of that: 8^11 rounds later.
+    #[test]
+    fn the_gap_of_a_search_falls_by_eight() {
+        let aim = Aim { objective: Objective::MinMax, ..Aim::default() };
+        plane([1.0, -1.0, 0.0], [1.0, 1.0, 0.5], &aim, |search| {
+            let found = search.run(&[Complex { re: 0.0, im: 0.0 }]);
+            assert_eq!((found.reached, found.weights[0].modulus()), (1.0, 0.0));
+            let gap = 1.0 / (6.0 * 8.0_f64.powi(11));
+            // rounding of one is 1e-5 of it
+            assert!(((1.0 - found.below) / gap - 1.0).abs() < 1e-3, "{:e} {gap:e}", 1.0 - found.below);
+        });
+    }
+
+    /// Two readings of 5 and 4 and a weight of 2 at most: the squares `(5 + w)^2 + (4 + w)^2` are least at -2, 13. The
+    /// search begins at nine tenths of the limit, where they are 15.08. In the middle the bound's square is the squares
+    /// less one over `tau`, in the readings' unit, so the gap is half of that over the root of 13. `tau` begins at one
+    /// over the squares, and 8^11 of it are enough for 1e-10.
+    #[test]
+    fn the_gap_at_a_limit() {
+        plane([1.0, 1.0], [5.0, 4.0], &Aim { limits: [Some(2.0)], ..Aim::default() }, |search| {
+            let found = search.run(&[Complex { re: -4.5, im: 0.0 }]);
+            let least = 13.0_f64.sqrt();
+            assert!((found.reached / least - 1.0).abs() < 1e-10 && found.reached > least, "{}", found.reached);
+            let gap = 15.08 / (2.0 * least * 8.0_f64.powi(11));
+            // rounding of the root of 13 is 2e-6 of it
+            assert!(((found.reached - found.below) / gap - 1.0).abs() < 1e-3, "{:e}", found.reached - found.below);
+        });
+    }
+
+    /// The square of a limit of 1e-200 is zero: the search ends where it begins, at a start within the limit or at nine
+    /// tenths of it.
+    #[test]
+    fn a_search_begins_inside() {
+        plane([1.0], [5.0], &Aim { limits: [Some(1e-200)], ..Aim::default() }, |search| {
+            let found = search.run(&[Complex { re: 3.0, im: -4.0 }]);
+            assert!((found.weights[0].scale(1e200) - Complex { re: 0.54, im: -0.72 }).modulus() < 1e-15);
+            assert_eq!((found.below, found.reached), (0.0, 5.0));
+        });
+        plane([1.0], [5.0], &Aim { limits: [Some(1e-200)], ..Aim::default() }, |search| {
+            let start = Complex { re: 0.5e-200, im: 0.7e-200 };
+            assert_eq!(search.run(&[start]).weights[0], start);
+        });
+    }
+
+    /// Readings of 1 and 2^-30 on either side of a weight within 1.05: the search begins at 0.945, and the best is
+    /// 2^-30, 2e-8 of the unit there. In that unit no bound within 1e-10 of it is a number of double precision.
+    #[test]
+    fn a_small_optimum_has_a_small_unit() {
+        let left = 1.0 / 1_073_741_824.0;
+        let aim = Aim { objective: Objective::MinMax, limits: [Some(1.05)], ..Aim::default() };
+        plane([1.0, 1.0], [1.0 + left, 1.0 - left], &aim, |search| {
+            let found = search.run(&[Complex { re: -1.0, im: 0.0 }]);
+            // rounding of one, twice
+            assert!((found.reached - left).abs() <= 2.0 * f64::EPSILON, "{:e}", found.reached);
+            assert!(found.below <= found.reached && found.below > left * (1.0 - 1e-6), "{:e}", found.below);
+        });
+    }
+
+    /// Of `tau t - 2 ln t`, with residuals of zero, a step squares `e = 1 - tau t/2` and the decrement is `e root(2)`:
+    /// from a tenth the third step is the first one below a thousandth, and the last.
+    #[test]
+    fn the_way_ends_near_the_middle() {
+        let aim = Aim { objective: Objective::MinMax, ..Aim::default() };
+        plane([1.0], [0.0], &aim, |search| {
+            let mut at = Wide { bound: 0.9, ..Wide::new() };
+            assert!(search.follow(&mut at, 2.0));
+            // rounding of one
+            assert!((1.0 - at.bound - 1e-8).abs() < 1e-15, "{:e}", 1.0 - at.bound);
+        });
+    }
+
+    /// Readings of one on either side allow no bound below one. The middle is at `1 + 2/tau`, which is one in double
+    /// precision: the way ends at the next larger number, where a step of two thirds of the difference is halved. For a
+    /// larger `tau` the step is too short to be halved.
+    #[test]
+    fn the_way_ends_inside() {
+        let aim = Aim { objective: Objective::MinMax, ..Aim::default() };
+        plane([1.0, -1.0], [1.0; 2], &aim, |search| {
+            for (tau, is_near) in [(1e17, true), (1e40, false)] {
+                let mut at = Wide { bound: 1.5, ..Wide::new() };
+                assert_eq!(search.follow(&mut at, tau), is_near);
+                assert_eq!(at.bound, 1.0 + f64::EPSILON);
+            }
+        });
     }
 }
