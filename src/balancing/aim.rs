@@ -52,3 +52,16 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Aim<T, ROWS, PLANES> {
         weighted.filter(|(_, weighting)| **weighting > T::zero()).map(|(reading, _)| *reading)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Neither the second reading, weighted with zero, nor the fourth, which is not in use.
+    #[test]
+    fn readings_weighted_with_zero_do_not_count() {
+        let aim = Aim::<f64, 4, 1> { weighting: [0.5, 0.0, 2.0, 1.0], ..Aim::default() };
+        let readings = [1.0, 2.0, 3.0, 4.0].map(|re| Complex { re, im: 0.0 });
+        assert!(aim.counted(&readings, 3).eq([readings[0], readings[2]]));
+    }
+}

@@ -125,6 +125,62 @@ mod tests {
         assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 0.999), (PI, 0.999)]), refused);
     }
 
+    #[test]
+    fn what_cannot_be_is_refused() {
+        let runs = [(0.0, 1.5), (1.0, 1.2)];
+        for trial in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+            assert_eq!(from_amplitudes(1.0, trial, &runs), Err(Error::TrialWeightZero { plane: 0 }), "{trial}");
+        }
+        for baseline in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+            assert_eq!(from_amplitudes(baseline, 1.0, &runs), Err(Error::Reading { row: 0 }), "{baseline}");
+        }
+        for wrong in [(0.0, -1.0), (0.0, f64::INFINITY), (0.0, f64::NAN), (f64::INFINITY, 1.0), (f64::NAN, 1.0)] {
+            assert_eq!(
+                from_amplitudes(1.0, 1.0, &[runs[0], wrong, runs[1]]),
+                Err(Error::Reading { row: 2 }),
+                "{wrong:?}"
+            );
+        }
+        assert_eq!(from_amplitudes(1.0, 1.0, &runs[..1]), Err(Error::ReadingMissing { row: 2 }));
+        // a run may stand still
+        assert!(from_amplitudes(1.0, 1.0, &[(0.0, 0.0), (1.0, 1.0)]).is_ok());
+    }
+
+    /// An effect of 0.3 + 0.4i on a baseline of two, so that `r^2 = 4 + 0.25 + 4 (0.3 cos alpha - 0.4 sin alpha)`, and
+    /// the weight is -2/effect of the trial weight. Of two runs either answer gives their amplitudes.
+    #[test]
+    fn a_weight_from_amplitudes() {
+        let effect = Complex { re: 0.3, im: 0.4 };
+        let square = |angle: f64, common: f64| 4.0 + common + 4.0 * (0.3 * angle.cos() - 0.4 * angle.sin());
+        let run = |angle: f64| (angle, square(angle, 0.25).sqrt());
+        // some operations, over the differences of the runs
+        let near = |found: Complex<f64>, expected: Complex<f64>| (found - expected).norm_sqr() < 1e-24;
+        let effect_of = |weight: Complex<f64>| -Complex { re: 2.0 * 5.0, im: 0.0 } / weight;
+        let two = from_amplitudes(2.0, 5.0, &[run(0.2), run(1.7)]).unwrap();
+        let answers = [two.weight, two.or.unwrap()].map(effect_of);
+        for answer in answers {
+            for (angle, amplitude) in [run(0.2), run(1.7)] {
+                let with = Complex { re: 2.0, im: 0.0 } + answer * Complex { re: angle.cos(), im: angle.sin() };
+                assert!((with.norm_sqr().sqrt() - amplitude).abs() < 1e-12, "{answer}");
+            }
+        }
+        assert!(near(answers[0], effect) != near(answers[1], effect), "{answers:?}");
+        let angles = [0.1, 1.0, 2.5, 4.0];
+        for runs in [&angles.map(run)[..], &angles.map(run)[..3]] {
+            let found = from_amplitudes(2.0, 5.0, runs).unwrap();
+            assert!(near(effect_of(found.weight), effect) && found.or.is_none(), "{found:?}");
+            assert!(found.disagreement < 1e-12, "{found:?}");
+        }
+        // with 0.3 for the effect's square, 0.25, the runs contradict each other by a fifth
+        let found = from_amplitudes(2.0, 5.0, &angles.map(|angle| (angle, square(angle, 0.3).sqrt()))).unwrap();
+        assert!(near(effect_of(found.weight), effect) && (found.disagreement - 0.2).abs() < 1e-12, "{found:?}");
+        // angles of which two are the same leave a rank of two
+        assert_eq!(from_amplitudes(2.0, 5.0, &[run(0.2), run(1.7), run(0.2)]), Err(Error::NotFound));
+        // centres 0.12 and 0.09 apart on a baseline of 100, of which a thousandth is 0.1
+        let hundred = |apart: f64| from_amplitudes(100.0, 1.0, &[(0.0, 110.0), (apart, 110.0)]);
+        assert!(hundred(1.2e-3).is_ok() && hundred(0.9e-3) == Err(Error::NotFound));
+    }
+
     /// An effect of i/2 on a baseline of one: at the angle alpha the amplitude's square is 5/4 - sin alpha, and the
     /// weight is -1/(i/2) = 2i of the trial weight.
     #[test]

@@ -144,6 +144,33 @@ mod tests {
         assert_eq!(fit(&[0.0], &[1.0, 0.0], 1.0), Err(Error::Setting { index: 1 }));
     }
 
+    #[test]
+    fn no_hole_and_no_weight_fit_nothing() {
+        assert_eq!([fit(&[], &[1.0], 1.0), fit(&[0.0], &[], 1.0)], [const { Err(Error::NothingToFit) }; 2]);
+    }
+
+    /// Weights at right angles, added or removed from the other side.
+    #[test]
+    fn two_holes_share_a_weight() {
+        let (angles, weights) = ([0.0, core::f64::consts::FRAC_PI_2], [1.0, 2.0]);
+        let wanted = Complex { re: 1.0, im: 2.0 };
+        for (method, wanted) in [(CorrectionMethod::Adding, wanted), (CorrectionMethod::Removing, -wanted)] {
+            let fitted = Holes { angles: &angles, weights: &weights, method }.fit(wanted).unwrap();
+            assert_eq!(fitted.holes, [(0, 1.0), (1, 2.0)]);
+            // the cosine of a quarter of a turn is a rounding from zero
+            assert!((fitted.sum - wanted).norm_sqr() < 1e-30, "{fitted:?}");
+        }
+        let aside = Holes { angles: &angles[1..], weights: &weights, method: CorrectionMethod::Adding };
+        assert_eq!(aside.fit(Complex { re: 0.0, im: 2.0 }).unwrap().holes[0], (0, 2.0));
+    }
+
+    /// Two weights at 60 degrees on either side do as one between them, which is the lighter.
+    #[test]
+    fn the_lightest_of_equal_effect_is_taken() {
+        use core::f64::consts::FRAC_PI_3;
+        assert_eq!(fit(&[FRAC_PI_3, -FRAC_PI_3, 0.0], &[1.0], 1.0).unwrap().holes, [(2, 1.0), (2, 0.0)]);
+    }
+
     /// One weight of one leaves half of two, which is not more than half, and more than half of three. Where all holes
     /// are on other sides a weight of one is not too heavy for a weight of one: the best is none.
     #[test]
