@@ -20,7 +20,8 @@ sentences! {
     CrankedNotStabilising => "the gains for the crank drive's mean inertia do not stabilise the estimate at its least \
         or its largest one: the inertia swings too far, or the disturbances are too small",
     NoGap => "the machine has no backlash: take the observer of two masses",
-    Wander => "the wander of the backlash's tuning must be above zero and finite (share of the gap)",
+    Wander => "the wanders of the backlash's tuning must be finite, those of twist and load torque above zero, that of \
+        the load speed not negative (share of the gap, of the disturbance, of the gap times the resonance)",
     Hold => "the hold of the backlash's tuning must not be negative, and within 2^32 ticks (periods of the resonance)",
     Slack => "impact, torque, rise and largest torque of the backlash take-up must be positive and finite, the largest \
         torque no less than that in the gap, its damping zero or above (N m, N m, N m, N m, 1)",

@@ -782,7 +782,7 @@ fn the_constants_of_a_backlash_observer() {
         Rate::hz(10_000),
         Encoder::lines(2048),
         disturbance,
-        BacklashTuning { wander: 0.5, hold: 1.0 },
+        BacklashTuning { wander: 0.5, hold: 1.0, ..BacklashTuning::USUAL },
     );
     design.searching = [0.31, 5.0, 3e-4, 2.0, 60.0];
     let bases = Bases::new(&machine, 310.0, 57.0);

@@ -48,7 +48,7 @@ impl Machine for Converter {
         Disturbance { torque_accuracy: 0.02 * Self::RATING.torque, ..Self::RATING.disturbance() };
     /// The gap differs between the four trains and wears: an observer that trusts it less is better over tolerances,
     /// and as good on the machine as described.
-    const BACKLASH_TUNING: BacklashTuning = BacklashTuning { wander: 0.8, hold: 0.3 };
+    const BACKLASH_TUNING: BacklashTuning = BacklashTuning { wander: 0.8, hold: 0.3, ..BacklashTuning::USUAL };
     const TUNING: SpeedLoopTuning = SpeedLoopTuning { bandwidth: 0.3, damping: 1.0, shaft_damping: 0.2 };
     /// The design's proportional and integral gains, without its damping.
     const SPEED_LOOP: SpeedLoopDesign =

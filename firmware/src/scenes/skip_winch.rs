@@ -108,7 +108,7 @@ impl Machine for SkipOnRope {
         Disturbance { torque_accuracy: 0.05 * Self::RATING.torque, within: 100.0, ..Self::RATING.disturbance() };
     /// Searching gains for the instant at which the rope tightens: the slack follows from the skip's flight, to 0.15
     /// rad within a period of the oscillation.
-    const BACKLASH_TUNING: BacklashTuning = BacklashTuning { wander: 0.01, hold: 0.6 };
+    const BACKLASH_TUNING: BacklashTuning = BacklashTuning { wander: 0.01, ..BacklashTuning::USUAL };
     /// The design's proportional and integral gains, without its damping.
     const SPEED_LOOP: SpeedLoopDesign = SpeedLoopDesign { damping: 0.0, ..SkipWinch::SPEED_LOOP };
     /// The setpoint of the emergency stop: from rated speed in an eighth of a second, which is more than motor and

@@ -24,10 +24,16 @@ pub struct Backlash {
     /// Instead of these, COUNT runs of a mill that reverses and bites within 50 ms
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     bites: Option<u32>,
-    /// Of the mill: how far the twist wanders in a period of the resonance, as a share of the gap [default: 0.14]
+    /// Of the mill: how far the twist wanders in a period of the resonance, as a share of the gap [default: 0.08]
     #[arg(long, value_name = "SHARE", requires = "bites")]
     wander: Option<f64>,
-    /// Of the mill: how long its searching gains stand after the gap has closed, in periods [default: 0.9]
+    /// Of the mill: how far the load speed wanders, as a share of the gap times the resonance [default: 0.12]
+    #[arg(long, value_name = "SHARE", requires = "bites")]
+    speed_wander: Option<f64>,
+    /// Of the mill: how far the load torque wanders meanwhile, as a share of the disturbance's [default: 0.45]
+    #[arg(long, value_name = "SHARE", requires = "bites")]
+    torque_wander: Option<f64>,
+    /// Of the mill: how long its searching gains stand after the gap has closed, in periods [default: 0.42]
     #[arg(long, value_name = "PERIODS", requires = "bites")]
     hold: Option<f64>,
     /// Seed of the random runs
@@ -50,8 +56,11 @@ impl Backlash {
         let file = Destination::page_unless(self.json, self.html.as_deref(), "backlash");
         check(&[], &file)?;
         let mut mill = Case::mill();
-        mill.tuning.wander = self.wander.unwrap_or(mill.tuning.wander);
-        mill.tuning.hold = self.hold.unwrap_or(mill.tuning.hold);
+        let tuning = &mut mill.tuning;
+        tuning.wander = self.wander.unwrap_or(tuning.wander);
+        tuning.speed_wander = self.speed_wander.unwrap_or(tuning.speed_wander);
+        tuning.torque_wander = self.torque_wander.unwrap_or(tuning.torque_wander);
+        tuning.hold = self.hold.unwrap_or(tuning.hold);
         mill.try_design().map_err(|error| Failure::usage(error.to_string()))?;
         let bar = Progress::of(self.bites.map_or(Comparison::COURSES as u64, u64::from));
         let progress = |course: &str| {

@@ -1,4 +1,5 @@
-//! The observer of backlash: its step against the full solver, and what it refuses.
+//! The observer of backlash: its step against the full solver, its gains, a mill that bites, and what it refuses.
 
+mod bites;
 mod sentences;
 mod step;

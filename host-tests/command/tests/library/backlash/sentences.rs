@@ -16,14 +16,19 @@ fn design(machine: &TwoMass, tuning: BacklashTuning) -> Result<driveline::design
 fn a_machine_without_a_gap_and_a_tuning_out_of_range_are_refused() {
     assert_eq!(design(&MACHINE, BacklashTuning::USUAL), Err(Error::NoGap));
     let machine = MACHINE.with_gap(Gap(0.01));
+    let usual = BacklashTuning::USUAL;
     for wander in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(design(&machine, BacklashTuning { wander, hold: 0.6 }), Err(Error::Wander));
+        assert_eq!(design(&machine, BacklashTuning { wander, ..usual }), Err(Error::Wander));
+        assert_eq!(design(&machine, BacklashTuning { torque_wander: wander, ..usual }), Err(Error::Wander));
+    }
+    for speed_wander in [-0.1, f64::NAN, f64::INFINITY] {
+        assert_eq!(design(&machine, BacklashTuning { speed_wander, ..usual }), Err(Error::Wander));
     }
     for hold in [-0.1, f64::NAN, 1e12] {
-        assert_eq!(design(&machine, BacklashTuning { wander: 0.25, hold }), Err(Error::Hold));
+        assert_eq!(design(&machine, BacklashTuning { hold, ..usual }), Err(Error::Hold));
     }
     // A hold of nothing is the tick of the impact itself.
-    assert_eq!(design(&machine, BacklashTuning { wander: 0.25, hold: 0.0 }).unwrap().hold, 1);
+    assert_eq!(design(&machine, BacklashTuning { hold: 0.0, ..usual }).unwrap().hold, 1);
     // 0.6 periods of sqrt(2 * 2665/0.6)/(2 pi) = 15.0 Hz at 10 kHz.
     assert_eq!(design(&machine, BacklashTuning::USUAL).unwrap().hold, 400);
     assert!(Error::NoGap.message().contains("backlash"));
@@ -43,7 +48,7 @@ fn fixed_point_refuses_a_gap_wider_than_its_base() {
     let machine = MACHINE.with_gap(Gap(0.5));
     // A wander of a quarter of such a gap would need gains beyond fixed point, which is another sentence.
     let lively = design(&machine, BacklashTuning::USUAL).unwrap();
-    let design = design(&machine, BacklashTuning { wander: 0.01, hold: 0.6 }).unwrap();
+    let design = design(&machine, BacklashTuning { wander: 0.01, ..BacklashTuning::USUAL }).unwrap();
     let error = BacklashConfig::<driveline::number::Fixed>::try_new(&design, Bases::new(&machine, 200.0, 100.0));
     assert!(error.unwrap_err().message().contains("gap"));
     let wide = Bases::new(&machine, 400.0, 100.0);
