@@ -116,13 +116,22 @@ impl End {
         Ok(slowest(&answer, every, floor))
     }
 
-    /// The shaft torques of a copy that goes on with a scenario (N m), a tick each.
+    /// The shaft torques of a copy that goes on with a scenario (N m), one for each tick: that before it for a tick
+    /// that does not run, NaN before the first that does.
     fn go_on(&self, drive: &Drive, machine: &Machine, scenario: &Scenario) -> Result<Vec<f64>, String> {
         let mut ticking = OnHost(self.ticking.0.copy().ok_or("a drive whose state cannot be copied")?);
-        let (mut plant, mut between, mut torques) = (self.plant.clone(), self.between.clone(), Vec::new());
-        let each = |moment: &Moment, _| torques.push(moment.truth[0]);
+        let (mut plant, mut between) = (self.plant.clone(), self.between.clone());
+        let rate = f64::from(drive.rate_hz());
+        let mut seen = vec![None; (scenario.duration * rate).round() as usize];
+        let each = |moment: &Moment, _| seen[(moment.time * rate).round() as usize] = Some(moment.truth[0]);
         let followed = between.follow(machine, scenario, &drive.units(machine), &mut ticking, &mut plant, each);
-        followed.map(|()| torques).map_err(|error| error.to_string())
+        followed.map_err(|error| error.to_string())?;
+        let mut last = f64::NAN;
+        let held = |torque: Option<f64>| {
+            last = torque.unwrap_or(last);
+            last
+        };
+        Ok(seen.into_iter().map(held).collect())
     }
 }
 

@@ -90,7 +90,18 @@ impl FileCase {
         let slower = off + cycle.rise + cycle.every;
         let end = slower + 0.5 * ramp + cycle.every.max(5.0 / designs.speed_loop.bandwidth);
         if end > LONGEST {
-            return Err(format!("a run of {end:.0} s would be needed, {LONGEST} s are possible: shorten `duty.every`"));
+            let settling = 5.0 / designs.speed_loop.bandwidth;
+            let remedies = [
+                (ramp, "raise `limits.torque` or lower `limits.speed`"),
+                (settling, "stiffen the softest shaft or raise `speed_loop.bandwidth`"),
+                (cycle.every, "shorten `duty.every`"),
+            ];
+            let (_, remedy) = remedies.into_iter().fold((0.0, ""), |a, b| if b.0 > a.0 { b } else { a });
+            return Err(format!(
+                "a run of {end:.0} s would be needed, {LONGEST} s are possible (ramp {ramp:.0} s, settling \
+                 {settling:.0} s, load cycle {:.0} s): {remedy}",
+                cycle.every
+            ));
         }
         let ticks = machine.actuator.delay * f64::from(machine.control.rate_hz);
         if ticks > 1.0 {

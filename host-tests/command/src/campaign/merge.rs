@@ -63,7 +63,7 @@ pub fn merge(paths: &[impl AsRef<Path>]) -> Result<(Settings, BTreeMap<u64, Outc
         let names: Vec<String> = paths.iter().map(|path| path.as_ref().display().to_string()).collect();
         let names = names.join(", ");
         let sentence = format!("{names}: {missing} of {} draws are missing, draw {first} first", settings.draws);
-        return Err(format!("{sentence}; run their shards to the end"));
+        return Err(format!("{sentence}; run their shards to the end, and merge all of them"));
     }
     Ok((settings, outcomes))
 }

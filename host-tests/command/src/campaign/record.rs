@@ -104,7 +104,11 @@ fn outcome(text: &str) -> Option<Outcome> {
 /// The settings and the draws of a file's text, and how many bytes of it are whole lines.
 fn parse(path: &Path, text: &str) -> Result<(Settings, BTreeMap<u64, Outcome>, usize), String> {
     let name = path.display();
-    let no_campaign = || format!("{name} is not a campaign file of this version; name another with --results");
+    let no_campaign = || {
+        format!(
+            "{name} is not a campaign file of this version: expected one that `campaign` has written, or a new name"
+        )
+    };
     let settings = Settings::parse(text).ok_or_else(no_campaign)?;
     let begin = settings.text();
     // the settings are as this version writes them

@@ -224,8 +224,13 @@ impl Campaign {
     /// The scene's tolerances with those of the command line in their place.
     fn tolerances(&self, scene: &CampaignScene) -> Result<Vec<Tolerance>, String> {
         let mut tolerances = scene.tolerances();
+        let mut named = Vec::new();
         for text in &self.tolerance {
             let tolerance = Tolerance::parse(text)?;
+            if named.contains(&tolerance.factor) {
+                return Err(format!("--tolerance {}: expected it once", tolerance.factor.name()));
+            }
+            named.push(tolerance.factor);
             match tolerances.iter_mut().find(|known| known.factor == tolerance.factor) {
                 Some(known) => *known = tolerance,
                 None => tolerances.push(tolerance),

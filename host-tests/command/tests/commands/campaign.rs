@@ -247,6 +247,21 @@ fn results_of_scene_drive_and_file_do_not_collide() {
     }
     let both = campaign(folder.path(), &["spindle", "--draw", "1", "--draws", "5"]);
     assert_eq!(both.status.code(), Some(2));
+    let twice = ["spindle", "--draw", "1", "--tolerance", "jitter=0", "--tolerance", "jitter=1e-6"];
+    let twice = campaign(folder.path(), &twice);
+    assert_eq!(twice.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&twice.stderr).contains("--tolerance jitter: expected it once"));
+}
+
+/// The blow comes at its time, however many ticks before it did not run.
+#[test]
+fn ticks_that_do_not_run_leave_the_decay_its_time() {
+    let folder = tempfile::tempdir().unwrap();
+    for share in ["0.99", "1"] {
+        let missed = format!("missed-ticks={share}");
+        let output = campaign(folder.path(), &["spindle", "--draw", "0", "--json", "--tolerance", &missed]);
+        assert!(output.status.success(), "{share}: {}", String::from_utf8_lossy(&output.stderr));
+    }
 }
 
 /// A motor that holds four fifths of the weight: behind a worm that keeps 0.7 of the power backwards the load stays,
