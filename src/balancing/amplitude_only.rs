@@ -17,7 +17,8 @@ pub struct FromAmplitudes<T: Scalar> {
     pub weight: Complex<T>,
     /// A second answer, equally good, of two trial runs.
     pub or: Option<Complex<T>>,
-    /// How well the runs agree, of three or more: the part of the effect's square that they contradict each other by.
+    /// How well the runs agree, of three or more: the part of the effect's square that they contradict each other by,
+    /// up to 1.
     pub disagreement: T,
 }
 
@@ -25,8 +26,8 @@ pub struct FromAmplitudes<T: Scalar> {
 ///
 /// # Errors
 /// [`Error::TrialWeightZero`], [`Error::Reading`], [`Error::ReadingMissing`] for fewer than two runs,
-/// [`Error::NoEffect`] where the runs are no different, [`Error::NotFound`] where no influence gives such amplitudes or
-/// the angles are the same.
+/// [`Error::NoEffect`] where the runs are no different, [`Error::NotFound`] where no influence gives such amplitudes, the
+/// angles are the same, or the weights of three or more runs lie on one line through the shaft.
 pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Result<FromAmplitudes<T>, Error> {
     if !(trial > T::zero() && trial.is_finite()) {
         return Err(Error::TrialWeightZero { plane: 0 });
@@ -61,11 +62,10 @@ pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Res
         let right = (*amplitude - baseline) * (*amplitude + baseline);
         qr.absorb(&row, Complex { re: right, im: T::zero() });
     }
-    let pivoted = qr.pivoted(real(1e-3));
-    if pivoted.rank < 3 {
+    if !is_spread(runs) {
         return Err(Error::NotFound);
     }
-    let [square, q, s] = pivoted.solve().map(|value| value.re);
+    let [square, q, s] = qr.pivoted(T::zero()).solve().map(|value| value.re);
     let effect = Complex { re: q, im: -s }.unscale(baseline + baseline);
     let found = effect.re * effect.re + effect.im * effect.im;
     // The differences between the runs must exceed the rounding of their common part.
@@ -73,7 +73,32 @@ pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Res
     if !(found > rounding * rounding) {
         return Err(Error::NoEffect { plane: 0 });
     }
-    Ok(FromAmplitudes { weight: weight(effect), or: None, disagreement: (square - found).abs() / found })
+    let disagreement = (square - found).abs() / found;
+    if !(disagreement <= T::one()) {
+        return Err(Error::NotFound);
+    }
+    Ok(FromAmplitudes { weight: weight(effect), or: None, disagreement })
+}
+
+/// Whether the directions of the runs span the plane: on one line they leave two answers, whatever rounding says.
+fn is_spread<T: Scalar>(runs: &[(T, T)]) -> bool {
+    let zero = Complex { re: T::zero(), im: T::zero() };
+    let count = real::<T>(runs.len() as f64);
+    let direction = |angle: T| -> Complex<T> {
+        let (sine, cosine) = angle.sin_cos();
+        Complex { re: cosine, im: sine }
+    };
+    let mean = runs.iter().fold(zero, |sum, run| sum + direction(run.0)).unscale(count);
+    // scatter about the mean, and its difference between the directions of most and of least
+    let (mut scatter, mut difference) = (T::zero(), zero);
+    for (angle, _) in runs {
+        let apart = direction(*angle) - mean;
+        scatter += apart.re * apart.re + apart.im * apart.im;
+        difference += apart * apart;
+    }
+    // four times the determinant, over a thousandth of the count
+    let share = count * real(2e-3);
+    scatter * scatter - (difference.re * difference.re + difference.im * difference.im) > share * share
 }
 
 /// The effect `x e^{i phi}` of two runs: where two circles meet, twice.
@@ -174,8 +199,20 @@ mod tests {
         // with 0.3 for the effect's square, 0.25, the runs contradict each other by a fifth
         let found = from_amplitudes(2.0, 5.0, &angles.map(|angle| (angle, square(angle, 0.3).sqrt()))).unwrap();
         assert!(near(effect_of(found.weight), effect) && (found.disagreement - 0.2).abs() < 1e-12, "{found:?}");
-        // angles of which two are the same leave a rank of two
-        assert_eq!(from_amplitudes(2.0, 5.0, &[run(0.2), run(1.7), run(0.2)]), Err(Error::NotFound));
+        // angles of which two are the same, and those on a line through the shaft, leave two answers
+        for apart in [[0.2, 1.7, 0.2], [0.0, PI, -PI], [FRAC_PI_2, -FRAC_PI_2, 3.0 * FRAC_PI_2], [0.0, PI, 2.0 * PI]] {
+            assert_eq!(from_amplitudes(2.0, 5.0, &apart.map(run)), Err(Error::NotFound), "{apart:?}");
+        }
+        // the determinant of a triangle is four thirds of its area's square; here the area is sin(apart), and 0.0026 the
+        // limit of three thousandths
+        for (apart, is_found) in [(2.7e-3, true), (2.5e-3, false)] {
+            assert_eq!(from_amplitudes(2.0, 5.0, &[0.0, apart, PI].map(run)).is_ok(), is_found, "{apart}");
+        }
+        // contradictions beyond the effect's square, 0.25
+        for (common, is_found) in [(0.49, true), (0.51, false), (1e12, false)] {
+            let found = from_amplitudes(2.0, 5.0, &angles.map(|angle| (angle, square(angle, common).sqrt())));
+            assert_eq!(found.is_ok(), is_found, "{common} {found:?}");
+        }
         // centres 0.12 and 0.09 apart on a baseline of 100, of which a thousandth is 0.1
         let hundred = |apart: f64| from_amplitudes(100.0, 1.0, &[(0.0, 110.0), (apart, 110.0)]);
         assert!(hundred(1.2e-3).is_ok() && hundred(0.9e-3) == Err(Error::NotFound));

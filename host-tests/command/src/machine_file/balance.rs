@@ -391,7 +391,8 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
             Error::PhasesInRadians => table.wrong("runs", format!("angles in degrees: {refusal}")),
             Error::ReadingMissing { .. } => table.wrong("runs", "three runs at different angles, or two"),
             Error::NoEffect { .. } => table.wrong("runs", format!("other amplitudes than the baseline's ({refusal})")),
-            _ => table.wrong("runs", "runs at different angles, with amplitudes consistent with one influence"),
+            _ => table.wrong("runs", "runs at different angles, not on one line through the shaft, with amplitudes consistent with one influence; \
+                 repeat them, or take a larger trial weight"),
         })?;
         file.measured = Measured::Amplitudes { baseline, found };
         table.finish()?;
