@@ -18,7 +18,7 @@ const SLEW: &str =
 const CURVE: &str = "the torque curve and its slopes must be finite; in fixed point it must lie within twice the \
     bases, and its slopes within 2 bases of the torque per base of the speed";
 const STARTER: &str = "the speeds of a start by resistors must be finite, and within twice the base of the speed";
-const SOFT: &str = "the torque limit of a start by reduced voltage must be within twice the base of the torque, and \
+const SOFT: &str = "the torque limit of a start by reduced voltage must be below twice the base of the torque, and \
     the voltage must rise by 1e-6 to 0.1 of the full one in a tick";
 const SHAPER: &str = "the input shaper's slots must be whole ticks within 2 % of the delay, below 2^31 ticks, \
     and its share above 0 and at most 1/2: take fewer slots or raise the rate";
@@ -37,8 +37,9 @@ const fn slew(rate: f64, period: f64, format: &Format) -> Values<1, 0> {
 const fn soft(start: &SoftStart, period: f64, format: &Format) -> Values<3, 0> {
     let step = (1.0 - start.initial) * period / start.rise;
     let limit = start.peak / format.bases.torque;
-    // in fixed point an observed torque ends at twice its base
-    if step >= 1e-6 && step <= 0.1 && (format.widened == 1.0 || limit < 2.0) {
+    // in fixed point an observed torque ends a unit in the last place below twice its base
+    let room = 2.0 * format.unit - 1.5;
+    if step >= 1e-6 && step <= 0.1 && (format.widened == 1.0 || limit * format.unit < room) {
         Ok(([start.initial, step, limit], []))
     } else {
         Err(Error::Value(SOFT))
