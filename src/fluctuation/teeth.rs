@@ -460,7 +460,7 @@ mod tests {
         // two turns in 0.1 s, without orders
         assert!((ripple.mean / (20.0 * TAU) - 1.0).abs() < 1e-15 && ripple.motor.delta < 1e-7, "{ripple:?}");
         // of a single cycle there is no spread, be its squares any
-        window.cycles = 1;
+        (window.cycles, window.squares) = (1, 1.0);
         assert_eq!(window.ripple(&config, &ToothErrors::NONE, 2).unwrap().quality.spread, 0.0);
         // a quarter of the teeth: two orders, of which that of the teeth is none
         let ripple = window.ripple(&config, &ToothErrors::NONE, 16).unwrap();
@@ -487,6 +487,8 @@ mod tests {
             let left = 2.0 * expected * expected + 1e-7 + 1e-3 * expected;
             assert!((found.cos / ripple.mean + expected).abs() < left, "{size} {found:?} {ripple:?}");
             assert!((found.sin / ripple.mean).abs() < left, "{size} {found:?}");
+            // a hundredth of the order, and the rounding
+            assert!(ripple.quality.residue < 0.01 * size * 2.0 * TAU + 1e-6, "{size} {ripple:?}");
         }
         // they are the lateness of a window without a ripple
         let found = of_mean([0.01, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -0.02]).errors(&config);
