@@ -2,6 +2,9 @@
 
 use crate::number::Number;
 
+/// Part of the residual that a tick of a sticking gear takes away, of 2^32: 1/32.
+const DECAY: u32 = 1 << 27;
+
 /// The last accepted motor angle, and the distance of the estimated angle from it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -72,6 +75,12 @@ impl<N: Number, S> Prediction<N, S> {
     #[inline(always)]
     pub fn innovation(&self) -> N {
         self.innovation
+    }
+
+    /// The prediction with a part of the innovation left out: a residual that coasts so decays.
+    #[inline(always)]
+    pub(super) fn decayed(self) -> Self {
+        Prediction { innovation: self.innovation - self.innovation.scaled(N::fraction(DECAY)), ..self }
     }
 
     /// Predicted turn of the motor, in the unit of [`Number::less_turn`].

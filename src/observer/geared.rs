@@ -14,7 +14,8 @@
 //! shaft torque, and its reversal for a jerk of the load.
 //!
 //! While the gear sticks, the motor's angle contains no information on the load: it only moves within its own shaft's
-//! twist. The innovation is then left out, up to the play that such a shaft has.
+//! twist. The innovation is then left out, up to the play that such a shaft has, and the residual decays: a twist that
+//! was added to the residual would be taken for motion in the tick that breaks the gear loose.
 
 use super::{Observer, Prediction};
 use crate::number::{Fixed, Number};
@@ -116,7 +117,7 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for GearedObserver<O> {
         if held && !predicted.innovation().exceeds(config.deadband) {
             // Moving is the rule: one instruction less on the M3.
             core::hint::cold_path();
-            self.observer.coast(predicted, angle);
+            self.observer.coast(predicted.decayed(), angle);
         } else {
             self.observer.correct(&config.observer, predicted, angle);
         }

@@ -136,13 +136,46 @@ fn a_held_gear_does_not_move_and_does_not_learn_from_the_deadband() {
     // half the loss: it holds, and an angle within the deadband corrects nothing
     held.step(&config, 9, 8.5);
     assert_eq!(held.estimate(&config).motor_speed, 0.0);
-    // beyond the deadband it does: half the innovation of 11
-    held.step(&config, 11, 8.5);
-    assert_eq!(held.estimate(&config).motor_speed, 5.5);
+    // beyond the deadband it does: half of the further 3 and of the 9, a thirty-second part of which has decayed
+    held.step(&config, 12, 8.5);
+    assert_eq!(held.estimate(&config).motor_speed, (3.0 + 9.0 * 31.0 / 32.0) / 2.0);
     // more than the loss breaks it loose: 2 less 1 accelerate, and an innovation of 9 - 1/2 corrects by half of it
     let mut loose = GearedObserver::<RigidObserver<f64>>::at_rest(&config, 0, 8.0);
     loose.step(&config, 9, 10.0);
     assert_eq!(loose.estimate(&config).motor_speed, 1.0 + 8.5 / 2.0);
+}
+
+/// A turn within the deadband is twist of the motor's own shaft: after 100 held ticks (31/32)^100 of it is left, a
+/// twenty-fourth part, which the tick that breaks the gear loose corrects by.
+#[test]
+fn the_residual_of_a_held_gear_decays() {
+    let left = (31.0_f64 / 32.0).powi(100);
+    let config = geared(16.0);
+    let mut held = GearedObserver::<RigidObserver<f64>>::at_rest(&config, 0, 8.0);
+    (0..100).for_each(|_| held.step(&config, 9, 8.5));
+    assert_eq!(held.estimate(&config).motor_speed, 0.0);
+    held.step(&config, 9, 10.0);
+    // 2 less 1 accelerate, by which the motor turns by 1/2; a hundred roundings are below 1e-13
+    assert!((held.estimate(&config).motor_speed - (1.0 + (9.0 * left - 0.5) / 2.0)).abs() < 1e-12);
+
+    let [friction, zero] = [Coefficient::from_f64(0.125).unwrap(), Coefficient::ZERO];
+    let observer = RigidConfig {
+        acceleration: zero,
+        turn: zero,
+        correction: [friction, zero],
+        angle_correction: zero,
+        speed: zero,
+        load_share: zero,
+    };
+    for turned in [1_i32 << 20, -(1 << 20)] {
+        let config = GearedConfig { observer, friction, stiction_gain: (), deadband: Fixed::from_bits((1 << 20) + 1) };
+        let mut held = GearedObserver::<RigidObserver<Fixed>>::at_rest(&config, 0, Fixed::ONE);
+        (0..100).for_each(|_| held.step(&config, turned as u32, Fixed::ONE));
+        assert_eq!(held.estimate(&config).motor_speed, Fixed::ZERO);
+        let rest = held.predict(&config, turned as u32, Fixed::ONE).innovation().to_bits();
+        // each tick rounds by less than a unit, of which 32 remain in the sum
+        assert!((f64::from(rest) - f64::from(turned) * left).abs() < 32.0, "{rest} of {turned}");
+    }
 }
 
 fn cranked(points: [TablePoint<f64>; TABLE_POINTS]) -> CrankConfig<f64> {
