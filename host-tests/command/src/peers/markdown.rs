@@ -9,9 +9,8 @@ use super::solving::solvers_table;
 use driveline_report::Table;
 use driveline_report::format::percent;
 
-/// The text above the tables, and the conclusions from them: prose, revised when the tables change.
+/// The text above the tables. It has no measured figure and no winner: those are in the tables.
 const OPENING: &str = include_str!("opening.md");
-const WINS: &str = include_str!("wins.md");
 /// The texts above the tables of speed loops and of least squares.
 const GOVERNORS: &str = include_str!("governors.md");
 const SOLVERS: &str = include_str!("solvers.md");
@@ -19,7 +18,7 @@ const SOLVERS: &str = include_str!("solvers.md");
 /// The page, its tables in Markdown.
 pub fn peers_markdown(comparison: &Comparison) -> String {
     let mut page = OPENING.to_owned();
-    let _ = writeln!(page, "\n{WINS}\n## The fronts\n\n{}", rows(&fronts(comparison)));
+    let _ = writeln!(page, "\n## The fronts\n\n{}", rows(&fronts(comparison)));
     for scene in &comparison.scenes {
         let heading = format!("## {}, {} ticks at {} Hz", scene.scene, scene.ticks, scene.rate_hz);
         let _ = writeln!(page, "{heading}\n\n{}", rows(&scene.table()));
