@@ -78,7 +78,15 @@ proptest! {
         // A limit is a magnitude; the most negative number has none, and is beyond every limit.
         let limit = (limit & i32::MAX, i128::from(limit & i32::MAX));
         prop_assert_eq!(number.exceeds(Fixed::from_bits(limit.0)), wide.abs() > limit.1);
-        prop_assert_eq!(i128::from(number.limited(Fixed::from_bits(limit.0)).to_bits()), held(wide, -limit.1, limit.1));
+        let limited = held(wide, -limit.1, limit.1);
+        prop_assert_eq!(i128::from(number.limited(Fixed::from_bits(limit.0)).to_bits()), limited);
+        // Beyond its limit a gear slips; then every innovation but half a turn is too large to be left out.
+        let deadband = Fixed::from_bits(y & i32::MAX);
+        let (friction, left_out) = number.friction(Fixed::from_bits(limit.0), &deadband);
+        let all_exceed = [i32::MIN + 1, c | 1, 0, i32::MAX].map(|x| Fixed::from_bits(x).exceeds(left_out));
+        prop_assert_eq!(i128::from(friction.to_bits()), limited);
+        let as_documented = if limited == wide { left_out == deadband } else { all_exceed == [true; 4] };
+        prop_assert!(as_documented);
     }
 
     #[test]
