@@ -65,9 +65,7 @@ impl<N: Number> AngleTracker<N> {
     /// The predicted states without a correction. The last accepted angle stays, and the residual grows by the turn.
     #[inline(always)]
     pub fn coast<const K: usize>(&mut self, predicted: Prediction<N, [N; K]>, angle: u32) -> [N; K] {
-        // With its sign turned twice: a path of two float instructions stays a branch in a gear's correction, one would
-        // be predicated, with five IT instructions for the path beside it.
-        self.residual = -(N::from_angle(angle.wrapping_sub(self.angle) as i32) - predicted.innovation);
+        self.residual = predicted.innovation - N::from_angle(angle.wrapping_sub(self.angle) as i32);
         predicted.states.map(N::saturated)
     }
 }
