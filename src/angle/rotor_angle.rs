@@ -56,9 +56,9 @@ impl RotorAngleConfig {
 pub(crate) enum Passed {
     /// It has not.
     Not,
-    /// Forwards, once.
+    /// Forwards.
     Zero,
-    /// Backwards, or by more than a turn at once.
+    /// Backwards.
     Astray,
 }
 
@@ -106,10 +106,10 @@ impl RotorAngle {
             self.position = position;
             return Passed::Not;
         }
-        // one comparison for the way it goes as a rule: what is backwards is far beyond a turn without its sign
-        let ahead = position.wrapping_sub(i64::from(config.turn) << 32);
-        if ((ahead >> 32) as u32) < config.turn {
-            self.position = ahead;
+        // The same comparison with the sign: what is backwards is below. A rotor that has come a turn further wraps
+        // once a tick until it has not.
+        if (position >> 32) as i32 >= config.turn as i32 {
+            self.position = position.wrapping_sub(i64::from(config.turn) << 32);
             return Passed::Zero;
         }
         let back = position.wrapping_add(i64::from(config.turn) << 32);

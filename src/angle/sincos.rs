@@ -17,8 +17,6 @@ const ANGLE: u32 = 26;
 const BELOW: u32 = ANGLE - PLACES.trailing_zeros();
 /// One in fixed point.
 const ONE: i32 = 1 << 24;
-/// Binary places that the table in fixed point has more.
-const FINER: u32 = 6;
 
 /// The sine at each place, for a tangent half a place either way whose ends are as far out as its middle is in.
 const fn table() -> [f64; PLACES + QUARTER] {
@@ -47,10 +45,10 @@ static SINGLE: [f32; PLACES + QUARTER] = {
 
 static FIXED: [i32; PLACES + QUARTER] = {
     let (exact, mut rounded) = (table(), [0; PLACES + QUARTER]);
-    let one = (ONE as i64 * (1 << FINER)) as f64;
     let mut place = 0;
     while place < PLACES + QUARTER {
-        rounded[place] = (exact[place] * one) as i32;
+        let half = if exact[place] < 0.0 { -0.5 } else { 0.5 };
+        rounded[place] = (exact[place] * ONE as f64 + half) as i32;
         place += 1;
     }
     rounded
@@ -151,10 +149,10 @@ impl Synchronous for Fixed {
     fn direction(angle: u32) -> [i32; 2] {
         let place = place(angle);
         let [cosine, sine] = [FIXED[place + QUARTER], FIXED[place]];
-        let upper = |a: i32, b: i32| ((i64::from(a) * i64::from(b)) >> 32) as i32;
-        // 2^26 to the radian, so that the upper word of the product with 2^30 has 2^24
-        let slope = upper(beside(angle), const { (core::f64::consts::PI / PLACES as f64 * 67_108_864.0 * 2.0) as i32 });
-        [(cosine >> FINER) - upper(sine, slope), (sine >> FINER) + upper(cosine, slope)]
+        // 2^36 to the radian, of which a unit of the angle has 2 pi 2^10 = 6433.98
+        let slope = (beside(angle) >> (32 - BELOW)).wrapping_mul(6434);
+        let along = |part: i32| ((i64::from(part) * i64::from(slope)) >> 32) as i32 >> 4;
+        [cosine - along(sine), sine + along(cosine)]
     }
 
     #[inline(always)]
@@ -178,7 +176,8 @@ mod tests {
     use crate::number::Fixed;
 
     /// Half a place is x = pi/128; the tangent is out by x^2/2 at its ends over the radius of the mean, x^2/6: x^2/3 =
-    /// 2.0e-4, and in by x^2/6 = 1.0e-4 in the middle. Fixed point adds the resolution of its slope, 2^-26 rad.
+    /// 2.0e-4, and in by x^2/6 = 1.0e-4 in the middle. Fixed point adds three units in the last place at most:
+    /// half in the table, one where the product is cut off, and 3e-6 of the slope's 2^24 pi/128, which is 1.3.
     #[test]
     fn directions_are_those_of_the_angle() {
         let every = if cfg!(miri) { 100 } else { 1 };

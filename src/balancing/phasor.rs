@@ -28,8 +28,8 @@ pub struct Phasors<N: Synchronous, const CHANNELS: usize, const EDGES: usize> {
     left: u32,
     /// Edges noted down.
     noted: u32,
-    /// Tick of the last sample of each channel that was clipped or no number; zero for none.
-    clipped: [u32; CHANNELS],
+    /// The last sample of each channel that was clipped or no number; zero for none.
+    clipped: [N; CHANNELS],
     /// Ticks without a sound sample.
     missing: u32,
     /// Times that the rotor passed its zero backwards.
@@ -46,7 +46,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Default for Phas
             ticks: 0,
             left: 1,
             noted: 0,
-            clipped: [0; CHANNELS],
+            clipped: [N::ZERO; CHANNELS],
             missing: 0,
             back: 0,
             edges: [Edge::default(); EDGES],
@@ -60,18 +60,19 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for 
 
     #[inline(always)]
     fn measure(&mut self, config: &Self::Config, angle: u32, vibration: &[N; CHANNELS]) {
-        self.ticks = self.ticks.wrapping_add(1);
         for ((sample, limit), clipped) in vibration.iter().zip(&config.limits).zip(&mut self.clipped) {
             if sample.exceeds(*limit) {
-                *clipped = self.ticks;
+                *clipped = *sample;
             }
         }
         let passed = self.turning.advance(&config.turning, angle);
+        let (ticks, left) = (self.ticks.wrapping_add(1), self.left);
+        // In every tick, so that both are one store.
+        (self.ticks, self.left) = (ticks, left.wrapping_sub(u32::from(passed == Passed::Zero)));
         if passed != Passed::Not {
             if passed == Passed::Astray {
                 return self.restart();
             }
-            self.left = self.left.wrapping_sub(1);
             if self.left == 0 {
                 let noted = self.noted;
                 // complete: later samples are in no block
@@ -80,7 +81,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for 
                 (self.left, self.noted) = (config.block, noted + 1);
                 let sums = added(&self.sums, vibration, N::AHEAD, self.direction);
                 self.sums = sums;
-                *edge = Edge { sums, ticks: self.ticks, past: self.turning.units() };
+                *edge = Edge { sums, ticks, past: self.turning.units() };
                 self.direction = N::AHEAD;
                 return;
             }
@@ -96,7 +97,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Balancer<N> for 
             return;
         }
         if faults.contains(Faults::VIBRATION_CLIPPED) {
-            self.clipped = [self.ticks.max(1); CHANNELS];
+            self.clipped = [N::ONE; CHANNELS];
         } else {
             self.missing = self.missing.saturating_add(1);
         }
@@ -124,7 +125,7 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
     pub fn begin(&mut self) {
         self.sums = [[N::Sum::default(); 2]; CHANNELS];
         self.ticks = 0;
-        self.clipped = [0; CHANNELS];
+        self.clipped = [N::ZERO; CHANNELS];
         self.missing = 0;
         self.back = 0;
         (self.noted, self.left) = (0, 1);
@@ -168,12 +169,12 @@ impl<N: Synchronous, const CHANNELS: usize, const EDGES: usize> Phasors<N, CHANN
             let turns = self.blocks() * config.block;
             return Err(ReadingFault::Incomplete { turns, of: (EDGES as u32).saturating_sub(1) * config.block });
         }
-        let clipped = *self.clipped.get(channel).ok_or(ReadingFault::NoChannel)?;
+        let clipped = *self.clipped.get(channel).ok_or(ReadingFault::NoChannel)? != N::ZERO;
         let reading = Reading::between(&self.edges, channel, config)?;
-        if self.missing > 0 && clipped == 0 {
+        if self.missing > 0 && !clipped {
             return Err(ReadingFault::Missing { samples: self.missing });
         }
-        reading.accept(clipped != 0, &config.steadiness)
+        reading.accept(clipped, &config.steadiness)
     }
 
     /// The same, whatever its quality: for a display, or to judge otherwise.
@@ -234,6 +235,18 @@ mod tests {
         assert!(is_at(&phasors, 8 << 28) && phasors.blocks() == 0);
         phasors.measure(&config, 4 << 28, &[0.0]);
         assert!(is_at(&phasors, 9 << 28));
+    }
+
+    /// Five turns of the rotor to one of the motor: 7/16 of a turn at once are two and 3/16, of which a tick wraps one.
+    #[test]
+    fn a_jump_over_turns_keeps_the_angle() {
+        let config = PhasorsConfig::<f64, 1>::new(&PhasorSettings { rotor_turns: 5, ..PhasorSettings::DIRECT }, [1.0]);
+        let mut phasors = Phasors::<f64, 1, 4>::default();
+        for _ in 0..3 {
+            phasors.measure(&config, 7 << 28, &[0.0]);
+            assert!((3 << 28) - phasors.angle(&config) <= 64);
+        }
+        assert!(phasors.turning.units() < config.turning.turn && phasors.back == 0);
     }
 
     /// One block is a reading, and stays when the rotor turns back.
