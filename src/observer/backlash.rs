@@ -202,7 +202,7 @@ impl<N: Gap> BacklashObserver<N> {
 
 impl<N: Gap> Observer<N> for BacklashObserver<N> {
     type Config = BacklashConfig<N>;
-    type States = ([N; 4], u32);
+    type States = ([N; 4], (u32, bool));
 
     /// Without torque the twist is taken to be in the middle of the gap, and is found at the first contact.
     fn steady(config: &BacklashConfig<N>, angle: u32, torque: N, speed: N) -> Self {
@@ -242,7 +242,8 @@ impl<N: Gap> Observer<N> for BacklashObserver<N> {
         let mut carry = N::CARRY;
         let forcing = N::truncated(config.forcing, [torque, self.load_torque]);
         let (rate, drive) = (self.twist_rate.widened(), forcing.widened());
-        let (twist, twist_rate, searching);
+        // Beside the count, which gains to take: in the gap that needs no look at the count.
+        let (twist, twist_rate, searching, lively);
         if self.twist.exceeds(config.half_gap) {
             let law = &config.contact;
             let flank = self.twist.flank(config.half_gap);
@@ -253,10 +254,11 @@ impl<N: Gap> Observer<N> for BacklashObserver<N> {
             let beyond = moved - flank;
             if beyond.opposes(stretch) {
                 (twist, twist_rate) = put_right(&mut carry, law.leaving, [moved, turning], beyond, self.twist);
-                searching = config.hold;
+                (searching, lively) = (config.hold, true);
             } else {
                 (twist, twist_rate) = (moved, turning);
                 searching = self.searching.saturating_sub(1);
+                lively = searching != 0;
             }
         } else {
             let law = &config.free;
@@ -268,27 +270,28 @@ impl<N: Gap> Observer<N> for BacklashObserver<N> {
             } else {
                 (twist, twist_rate) = (moved, turning);
             }
-            searching = config.hold;
+            (searching, lively) = (config.hold, true);
         }
         let accelerating = torque - self.load_torque;
         let speed = self.speed.accumulate(&mut carry, [config.acceleration], [accelerating]);
         let path = [self.speed + speed, (twist - self.twist).widened()];
         let turn = N::sum(&mut carry, config.turn, path);
-        self.angle.predict([speed, twist_rate, twist, self.load_torque], turn, angle, carry).with(searching)
+        self.angle.predict([speed, twist_rate, twist, self.load_torque], turn, angle, carry).with((searching, lively))
     }
 
     #[inline(always)]
     fn correct(&mut self, config: &BacklashConfig<N>, predicted: Prediction<N, Self::States>, angle: u32) {
-        let (predicted, searching) = predicted.split();
-        let gains = if searching != 0 { &config.searching } else { &config.settled };
+        let (predicted, (searching, lively)) = predicted.split();
+        // first: it leaves a register to the rest
+        self.searching = searching;
+        let gains = if lively { &config.searching } else { &config.settled };
         let states = [&mut self.speed, &mut self.twist_rate, &mut self.twist, &mut self.load_torque];
         self.angle.correct(predicted, gains.states, &gains.angle, angle, states);
-        self.searching = searching;
     }
 
     #[inline(always)]
     fn coast(&mut self, predicted: Prediction<N, Self::States>, angle: u32) {
-        let (predicted, searching) = predicted.split();
+        let (predicted, (searching, _)) = predicted.split();
         [self.speed, self.twist_rate, self.twist, _] = self.angle.coast(predicted, angle);
         self.searching = searching;
     }
