@@ -289,8 +289,6 @@ where
         let limits = &config.limits;
         let (mut torque, mut faults) = (sample.torque, Faults::NONE);
         if torque.exceeds(limits.torque) {
-            // The last command is then loaded here only: two instructions less on the M4F.
-            core::hint::cold_path();
             torque = self.commanded;
             faults |= Faults::TORQUE;
         } else if !G::COMMANDS {
