@@ -62,7 +62,9 @@ pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Res
         let right = (*amplitude - baseline) * (*amplitude + baseline);
         qr.absorb(&row, Complex { re: right, im: T::zero() });
     }
-    if !is_spread(runs) {
+    // On one line through the shaft they leave two answers, whatever rounding says: the scatter of the directions has
+    // then no determinant. It is the square of this product, and the first column's that of the count.
+    if !(qr.own(1) * qr.own(2) > qr.own(0) * qr.own(0) * real(1e-3)) {
         return Err(Error::NotFound);
     }
     let [square, q, s] = qr.pivoted(T::zero()).solve().map(|value| value.re);
@@ -78,27 +80,6 @@ pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Res
         return Err(Error::NotFound);
     }
     Ok(FromAmplitudes { weight: weight(effect), or: None, disagreement })
-}
-
-/// Whether the directions of the runs span the plane: on one line they leave two answers, whatever rounding says.
-fn is_spread<T: Scalar>(runs: &[(T, T)]) -> bool {
-    let zero = Complex { re: T::zero(), im: T::zero() };
-    let count = real::<T>(runs.len() as f64);
-    let direction = |angle: T| -> Complex<T> {
-        let (sine, cosine) = angle.sin_cos();
-        Complex { re: cosine, im: sine }
-    };
-    let mean = runs.iter().fold(zero, |sum, run| sum + direction(run.0)).unscale(count);
-    // scatter about the mean, and its difference between the directions of most and of least
-    let (mut scatter, mut difference) = (T::zero(), zero);
-    for (angle, _) in runs {
-        let apart = direction(*angle) - mean;
-        scatter += apart.re * apart.re + apart.im * apart.im;
-        difference += apart * apart;
-    }
-    // four times the determinant, over a thousandth of the count
-    let share = count * real(2e-3);
-    scatter * scatter - (difference.re * difference.re + difference.im * difference.im) > share * share
 }
 
 /// The effect `x e^{i phi}` of two runs: where two circles meet, twice.

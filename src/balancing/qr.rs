@@ -60,6 +60,11 @@ impl<T: Scalar, const PLANES: usize> Qr<T, PLANES> {
         self.rest += square(b);
     }
 
+    /// Norm of what column `k` has beside the columns before it.
+    pub(crate) fn own(&self, k: usize) -> T {
+        size(self.r.at(k, k))
+    }
+
     /// Puts the columns, each divided by its norm, in order: first the one that has most beside those before it. A
     /// column with no more of its own than the share `independence` counts as dependent.
     pub(crate) fn pivoted(mut self, independence: T) -> PivotedQr<T, PLANES> {
