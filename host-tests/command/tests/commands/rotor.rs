@@ -187,6 +187,32 @@ fn a_mode_of_soft_bearings_is_not_blamed_on_a_plane() {
     assert!(done, "{said}");
 }
 
+/// On soft bearings, alike at both ends, a uniform shaft moves without bending in its first mode: a weight in its middle
+/// is the opposite of the static unbalance. Forward and backward whirls have the same speed there.
+#[test]
+fn the_first_mode_of_soft_bearings_takes_the_static_unbalance() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("soft.toml");
+    let (one, other) = (nalgebra::Complex::new(1e-4, 0.0), nalgebra::Complex::from_polar(6e-5, 130f64.to_radians()));
+    let expected = -(one + other);
+    for stiffness in ["1.0", "100.0", "300.0", "700.0"] {
+        let text = LONG.replace("stiffness_x = 2.0e7", &format!("stiffness_x = {stiffness}"));
+        std::fs::write(&path, text.replace("[2, 5, 8]", "[5]")).unwrap();
+        let output = driveline(&["rotor", path.to_str().unwrap(), "--json"]);
+        assert!(output.status.success(), "{stiffness}: {}", String::from_utf8_lossy(&output.stderr));
+        let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let weight = &found["balancing"]["weights"][0];
+        let [amount, angle] = ["amount", "angle"].map(|key| weight[key].as_f64().unwrap());
+        let away = nalgebra::Complex::from_polar(amount, angle.to_radians()) - expected;
+        // the shaft bends by some of the bearings' stiffness over its own, 48 E I/l^3 = 8e5 N/m
+        assert!(away.norm() < 5e-3 * expected.norm(), "{stiffness}: {weight} {expected}");
+        let mode = &found["balancing"]["unbalances"][2]["speed"];
+        let first = &found["critical_speeds"][0]["speed"];
+        // roundings of one eigenvalue
+        assert!((mode.as_f64().unwrap() / first.as_f64().unwrap() - 1.0).abs() < 1e-6, "{stiffness}: {mode} {first}");
+    }
+}
+
 /// Some seconds of work have a line on standard error for every five of them.
 #[test]
 fn a_rotor_of_many_pieces_says_what_takes_long() {

@@ -50,6 +50,8 @@ pub struct Critical {
 
 /// Share of the larger of two circles that the smaller one may have before a motion counts as mixed.
 const MIXED: f64 = 0.9;
+/// Share of a critical speed within which others count as the same: an eigenvalue's rounding, times 1e10.
+const ALIKE: f64 = 1e-6;
 
 impl Modal {
     /// Critical speeds, lowest first: speeds at which the undamped rotor whirls once a turn. The stiffness counts by
@@ -89,15 +91,40 @@ impl Modal {
             Complex::new(unity, -skew) / (w[i] * w[j])
         });
         let eigen = hermitian.symmetric_eigen();
-        let mut all: Vec<(Critical, DVector<Complex<f64>>)> = (0..r)
+        let mut all: Vec<(f64, DVector<Complex<f64>>)> = (0..r)
             .filter(|&k| eigen.eigenvalues[k] > 0.0)
             .map(|k| {
                 let shape = DVector::from_iterator(r, (0..r).map(|i| eigen.eigenvectors[(i, k)] / w[i]));
-                (Critical { speed: eigen.eigenvalues[k].sqrt().recip(), sense: self.sense(&shape) }, shape)
+                (eigen.eigenvalues[k].sqrt().recip(), shape)
             })
             .collect();
-        all.sort_by(|a, b| a.0.speed.total_cmp(&b.0.speed));
-        all
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let groups = all.chunk_by(|a, b| b.0 - a.0 <= ALIKE * a.0);
+        let shapes = groups.flat_map(|group| self.apart(group));
+        let critical = |shape: DVector<Complex<f64>>, speed| (Critical { speed, sense: self.sense(&shape) }, shape);
+        shapes.zip(all.iter().map(|(speed, _)| *speed)).map(|(shape, speed)| critical(shape, speed)).collect()
+    }
+
+    /// Whirls at the same speed, of which any combination is one: those that go round most forward, or least.
+    fn apart(&self, group: &[(f64, DVector<Complex<f64>>)]) -> Vec<DVector<Complex<f64>>> {
+        let shapes: Vec<&DVector<Complex<f64>>> = group.iter().map(|(_, shape)| shape).collect();
+        let m = shapes.len();
+        if m == 1 {
+            return vec![shapes[0].clone()];
+        }
+        let mut forward = DMatrix::from_element(m, m, Complex::new(0.0, 0.0));
+        for rows in &self.stations {
+            let all: Vec<[Complex<f64>; 2]> = shapes.iter().map(|shape| circles(rows, shape)).collect();
+            for (j, k) in (0..m).flat_map(|j| (0..m).map(move |k| (j, k))) {
+                forward[(j, k)] += all[j][0].conj() * all[k][0] - all[j][1].conj() * all[k][1];
+            }
+        }
+        let turned = forward.symmetric_eigen().eigenvectors;
+        let combined = |k: usize| {
+            let parts = shapes.iter().enumerate().map(|(j, shape)| *shape * turned[(j, k)]);
+            parts.reduce(|sum, part| sum + part).unwrap_or_else(|| shapes[0].clone())
+        };
+        (0..m).map(combined).collect()
     }
 
     /// The `count` lowest natural whirls at each of some speeds (rad/s).

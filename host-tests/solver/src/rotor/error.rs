@@ -36,7 +36,10 @@ pub enum RotorError {
         expected: usize,
     },
     /// Some motion of the rotor meets no stiffness.
-    #[error("the bearings do not hold the rotor: some motion of it meets no stiffness")]
+    #[error(
+        "the bearings do not hold the rotor: some motion of it meets no stiffness, or so little beside that of \
+        the shaft that rounding hides it"
+    )]
     NotHeld,
     /// An undamped rotor exactly on a critical speed.
     #[error("at {speed} rad/s the vibration has no bound: an undamped critical speed")]

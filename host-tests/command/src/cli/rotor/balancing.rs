@@ -104,7 +104,9 @@ impl Balanced {
                 ));
             }
             let node = plan.planes[out.plane];
-            return Err(format!("plane {node} is not independent of the other planes: expected another node"));
+            return Err(format!(
+                "plane {node} is not independent of the other planes: expected another node, or fewer `modes`"
+            ));
         }
         let mut after = before.clone();
         for (&node, weight) in plan.planes.iter().zip(&correction.weights) {
