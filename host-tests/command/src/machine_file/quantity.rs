@@ -118,6 +118,8 @@ impl Quantity {
 
     /// Any number: a torque, a speed, an angle of either sign.
     pub const ANY: Self = Quantity { least: -FAR, ..positive("") };
+    /// Speed in either direction.
+    pub const EITHER_SPEED: Self = Quantity { unit: "rad/s", ..Self::ANY };
     /// Direction of a line.
     pub const DIRECTION: Self =
         Quantity { least: -std::f64::consts::TAU, most: std::f64::consts::TAU, unit: "rad", ..Self::ANY };

@@ -371,12 +371,13 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
         let turns = run.number_or("cycle_turns", Quantity::TURNS, 1.0)? as u32;
         let cycle = if run.has("cycle") { Some((file.named(&mut run, "cycle")?, turns)) } else { None };
         let starting = if run.has("starting") {
-            let (at, speed) = (file.named(&mut run, "starting")?, run.number("starting_speed", Quantity::ANY)?);
+            let (at, speed) =
+                (file.named(&mut run, "starting")?, run.number("starting_speed", Quantity::EITHER_SPEED)?);
             if speed == motion.speed(at) {
                 return Err(run.wrong("starting_speed", "a speed other than that of the coordinate at the start"));
             }
             Some((at, speed))
-        } else if run.number_if("starting_speed", Quantity::ANY)?.is_some() {
+        } else if run.number_if("starting_speed", Quantity::EITHER_SPEED)?.is_some() {
             return Err(run.wrong("starting_speed", "`starting`, the coordinate that must reach this speed"));
         } else {
             None

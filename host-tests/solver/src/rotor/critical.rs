@@ -50,7 +50,7 @@ pub struct Critical {
 
 /// Share of the larger of two circles that the smaller one may have before a motion counts as mixed.
 const MIXED: f64 = 0.9;
-/// Share of a critical speed within which others count as the same: an eigenvalue's rounding, times 1e10.
+/// Share of a critical speed within which others count as the same, far above rounding.
 const ALIKE: f64 = 1e-6;
 
 impl Modal {
@@ -99,7 +99,9 @@ impl Modal {
             })
             .collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let groups = all.chunk_by(|a, b| b.0 - a.0 <= ALIKE * a.0);
+        // the modes have roundings of the largest eigenvalue, which soft bearings leave far above the lowest
+        let rounding = 0.5 * f64::EPSILON * w.max().powi(2);
+        let groups = all.chunk_by(|a, b| b.0 - a.0 <= ALIKE * a.0 + rounding / a.0);
         let shapes = groups.flat_map(|group| self.apart(group));
         let critical = |shape: DVector<Complex<f64>>, speed| (Critical { speed, sense: self.sense(&shape) }, shape);
         shapes.zip(all.iter().map(|(speed, _)| *speed)).map(|(shape, speed)| critical(shape, speed)).collect()

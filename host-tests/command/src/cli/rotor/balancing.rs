@@ -69,6 +69,16 @@ impl Balanced {
     /// Planes that cannot balance these modes.
     pub fn of(rotor: &RotorFile, plan: &Balancing) -> Result<(Self, Vec<Complex<f64>>), String> {
         let said = |error: Error| error.to_string();
+        if plan.planes.len() > plan.modes.len()
+            && let Some((speed, _)) = plan.modes.iter().find(|(_, shape)| is_straight(shape, rotor))
+        {
+            return Err(format!(
+                "the mode at {:.0} r/min is that of a rigid rotor on soft bearings, which static and couple balance \
+                 already: no node can balance it apart from them; expected fewer `modes`, 0 for a rotor that stays \
+                 rigid, or stiffer bearings",
+                rpm(*speed)
+            ));
+        }
         let places: Vec<f64> = plan.planes.iter().map(|&node| rotor.places[node] - rotor.centre).collect();
         let at_planes: Vec<Vec<f64>> =
             plan.modes.iter().map(|(_, shape)| plan.planes.iter().map(|&node| shape[node]).collect()).collect();
@@ -93,16 +103,6 @@ impl Balanced {
         }
         let correction = influence.correct(&conditions, &aim).map_err(said)?;
         if let Some(out) = correction.left_out.first() {
-            if plan.planes.len() > plan.modes.len()
-                && let Some((speed, _)) = plan.modes.iter().find(|(_, shape)| is_straight(shape, rotor))
-            {
-                return Err(format!(
-                    "the mode at {:.0} r/min is that of a rigid rotor on soft bearings, which static and couple \
-                     balance already: no node can balance it apart from them; expected fewer `modes`, 0 for a rotor \
-                     that stays rigid, or stiffer bearings",
-                    rpm(*speed)
-                ));
-            }
             let node = plan.planes[out.plane];
             return Err(format!(
                 "plane {node} is not independent of the other planes: expected another node, or fewer `modes`"
