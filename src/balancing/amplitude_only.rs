@@ -26,7 +26,8 @@ pub struct FromAmplitudes<T: Scalar> {
 ///
 /// # Errors
 /// [`Error::TrialWeightZero`], [`Error::Reading`], [`Error::ReadingMissing`] for fewer than two runs,
-/// [`Error::NoEffect`] where the runs are no different, [`Error::NotFound`] where no influence gives such amplitudes, the
+/// [`Error::NoEffect`] where the runs are no different, [`Error::NotFound`] where no influence gives such
+/// amplitudes, the
 /// angles are the same, or the weights of three or more runs lie on one line through the shaft.
 pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Result<FromAmplitudes<T>, Error> {
     if !(trial > T::zero() && trial.is_finite()) {
@@ -184,7 +185,8 @@ mod tests {
         for apart in [[0.2, 1.7, 0.2], [0.0, PI, -PI], [FRAC_PI_2, -FRAC_PI_2, 3.0 * FRAC_PI_2], [0.0, PI, 2.0 * PI]] {
             assert_eq!(from_amplitudes(2.0, 5.0, &apart.map(run)), Err(Error::NotFound), "{apart:?}");
         }
-        // the determinant of a triangle is four thirds of its area's square; here the area is sin(apart), and 0.0026 the
+        // the determinant of a triangle is four thirds of its area's square; here the area is sin(apart),
+        // and 0.0026 the
         // limit of three thousandths
         for (apart, is_found) in [(2.7e-3, true), (2.5e-3, false)] {
             assert_eq!(from_amplitudes(2.0, 5.0, &[0.0, apart, PI].map(run)).is_ok(), is_found, "{apart}");

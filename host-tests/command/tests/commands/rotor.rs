@@ -187,7 +187,8 @@ fn a_mode_of_soft_bearings_is_not_blamed_on_a_plane() {
     assert!(done, "{said}");
 }
 
-/// On soft bearings, alike at both ends, a uniform shaft moves without bending in its first mode: a weight in its middle
+/// On soft bearings, alike at both ends, a uniform shaft moves without bending in its first mode: a weight in its
+/// middle
 /// is the opposite of the static unbalance. Forward and backward whirls have the same speed there.
 #[test]
 fn the_first_mode_of_soft_bearings_takes_the_static_unbalance() {
