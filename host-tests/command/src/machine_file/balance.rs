@@ -22,8 +22,7 @@
 //! | `weight_unit` | `"g"` (as without it), `"kg"`, `"g mm"`, `"kg m"`, `"oz"`, `"oz in"` or `"lb"` |
 //! | `angle_unit` | `"degrees"` (as without it, but phases that look like radians are then refused) or `"radians"` |
 //! | `phase_sense` | `"lead"` (as without it) or `"lag"`: the sense in which phases of readings are counted |
-//! | `weight_sense` | `"with rotation"` (as without it) or `"against rotation"`: the sense in which angles of \
-weights are counted |
+//! | `weight_sense` | `"with rotation"` (as without it) or `"against rotation"`: the sense in which angles of weights are counted |
 //! | `[run_out]` | `readings` of a slow roll, which are taken off every other reading |
 //! | `[[split]]` | `plane`, two `angles` that its weight is split between |
 //! | `trials` | `"removed"` before the next run (as without it), or `"stay"` |
@@ -33,19 +32,14 @@ weights are counted |
 //! | `weighting` | a number for each reading, zero for one that is left out |
 //! | `limits` | the largest weight of each plane, above zero, or `"none"` |
 //! | `rpm` of a run | may be left out: all runs are then of one speed |
-//! | `[[correction]]` | `weights` that were put on, an amount and an angle for each plane, then `rpm` and \
-`readings` with them |
+//! | `[[correction]]` | `weights` that were put on, an amount and an angle for each plane, then `rpm` and `readings` with them |
 //! | `[[influence]]` | `plane` and `coefficients`, an amplitude and phase for each reading, instead of a trial run |
-//! | `[[holes]]` | `plane`, `angles` or `count` (and `first`), `weights` to choose from, `removing = true` for \
-drilling |
+//! | `[[holes]]` | `plane`, `angles` or `count` (and `first`), `weights` to choose from, `removing = true` for drilling |
 //! | `[rotor]` | `mass` (kg), `rpm` in service, `grade` (mm/s), `radius` (m) of the weights |
-//! | `span`, `centre`, `planes_at` of `[rotor]` | along the rotor from bearing A (m): bearing B, the centre of \
-mass, each plane; the grade is then split between the bearings |
+//! | `span`, `centre`, `planes_at` of `[rotor]` | along the rotor from bearing A (m): bearing B, the centre of mass, each plane; the grade is then split between the bearings |
 //! | `width`, `diameter` of `[rotor]` | its width and diameter (m), which say whether one plane is enough |
-//! | `machine` | `"hard-bearing"`: forces (N) in bearings A and B of a balancing machine, whose planes are \
-separated by their places in `[rotor]` |
-//! | `[amplitudes]` | of one plane, instead of `[baseline]`, without phases: `baseline`, `weight`, `runs` of \
-an angle and an amplitude |
+//! | `machine` | `"hard-bearing"`: forces (N) in bearings A and B of a balancing machine, whose planes are separated by their places in `[rotor]` |
+//! | `[amplitudes]` | of one plane, instead of `[baseline]`, without phases: `baseline`, `weight`, `runs` of an angle and an amplitude |
 //!
 //! A plane may have several `[[trial]]`: all of them count, by least squares. Where trial weights stay, `weight` is
 //! what each run has more than the one before it.
@@ -397,9 +391,12 @@ pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
             Error::PhasesInRadians => table.wrong("runs", format!("angles in degrees: {refusal}")),
             Error::ReadingMissing { .. } => table.wrong("runs", "three runs at different angles, or two"),
             Error::NoEffect { .. } => table.wrong("runs", format!("other amplitudes than the baseline's ({refusal})")),
-            _ => table.wrong("runs", "runs at different angles, not on one line through the shaft, with \
-            amplitudes consistent with one influence; \
-                 repeat them, or take a larger trial weight"),
+            _ => table.wrong(
+                "runs",
+                "runs at different angles, not on one line through the shaft, with amplitudes consistent \
+                 with one influence; \
+                 repeat them, or take a larger trial weight",
+            ),
         })?;
         file.measured = Measured::Amplitudes { baseline, found };
         table.finish()?;
