@@ -284,6 +284,12 @@ fn parse(name: &str, text: &str, asked: Asked) -> Result<TrainFile, Diagnostic> 
             file.forwards.push(*at);
         }
     }
+    if let Some(&at) = file.forwards.iter().find(|&&at| file.speeds.get(at).is_some_and(|speed| *speed < 0.0)) {
+        let place = places.get(at).cloned().unwrap_or(0..0);
+        let found = format!("{} of \"{}\", whose friction is that of forward motion", file.speeds[at], file.names[at]);
+        let expected = "zero or above, or neither `friction` nor `pins`";
+        return Err(Diagnostic::at(source, place, "speed", found, expected));
+    }
     let mut train = Train::new();
     for coordinate in coordinates {
         train = train.coordinate(coordinate);

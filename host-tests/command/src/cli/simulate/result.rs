@@ -247,7 +247,10 @@ impl Simulation {
             (None, Some("the proof was left out".to_owned()))
         };
         let motion = run.motion();
-        let cycle = file.cycle.map(|(at, turns)| steady(file, motion.clone(), at, turns, proven)).transpose()?;
+        let says = |cycle| {
+            progress.says_when_due(|| format!("{}: cycle {cycle} of at most {CYCLES}, until they repeat", file.name));
+        };
+        let cycle = file.cycle.map(|(at, turns)| steady(file, motion.clone(), at, turns, proven, says)).transpose()?;
         let before = kept.zip(reached).map(|((motion, at), line)| (motion, line - at));
         let starting = file.starting.map(|wanted| StartingTime::of(file, wanted, looks, before));
         let moved = |j: usize| {
@@ -258,17 +261,10 @@ impl Simulation {
         let backwards = |j: &&usize| motion.extremes(Signal::Speed(**j)).is_some_and(|e| e.least < 0.0);
         if let Some(&j) = file.forwards.iter().find(backwards) {
             let name = &file.coordinates[j];
-            let start = file.motion.speed(j);
-            return Err(Failure::failed(if start > 0.0 {
+            return Err(Failure::failed(if file.motion.speed(j) > 0.0 {
                 format!(
                     "\"{name}\" turns backwards, where the friction of its mechanism would drive it; expected torques \
                      that keep it turning forwards, or neither `friction` nor `pins`"
-                )
-            } else if start < 0.0 {
-                format!(
-                    "\"{name}\" starts backwards, at a `speed` of {start}, where the friction of its mechanism, that \
-                     of forward motion, would drive it; expected a `speed` of zero or above, or neither \
-                     `friction` nor `pins`"
                 )
             } else {
                 format!(
@@ -360,9 +356,16 @@ impl Simulation {
 const STEPS: u32 = 100;
 
 /// The steady cycle after the run.
-fn steady(file: &TrainFile, mut motion: Motion, at: usize, turns: u32, proven: bool) -> Result<Steady, Failure> {
+fn steady(
+    file: &TrainFile,
+    mut motion: Motion,
+    at: usize,
+    turns: u32,
+    proven: bool,
+    says: impl Fn(usize) + Copy,
+) -> Result<Steady, Failure> {
     let name = file.coordinates[at].clone();
-    let Some(cycle) = motion.steady_cycle(at, turns, CYCLES) else {
+    let Some(cycle) = motion.steady_cycle(at, turns, CYCLES, says) else {
         return Err(Failure::failed(format!(
             "\"{name}\" does not settle to a cycle of {} within {CYCLES} of them after the run; expected torques that \
              keep it turning forwards at a speed that settles, and a run up to near that speed",
@@ -370,14 +373,14 @@ fn steady(file: &TrainFile, mut motion: Motion, at: usize, turns: u32, proven: b
         )));
     };
     let Cycle { greatest, least, time, mean, cycles } = cycle;
-    let proof = if proven { closed(motion, at, turns) } else { Err("the proof was left out".to_owned()) };
+    let proof = if proven { closed(motion, at, turns, says) } else { Err("the proof was left out".to_owned()) };
     let (proof, not_proven) = proof.map_or_else(|reason| (None, Some(reason)), |proof| (Some(proof), None));
     Ok(Steady { name, delta: cycle.delta(), greatest, least, mean, time, cycles, proof, not_proven })
 }
 
 /// Proves a cycle: it comes back to 1e-8 of the peaks, and a second integrator runs it alike.
-fn closed(motion: Motion, at: usize, turns: u32) -> Result<(f64, f64), String> {
-    let closed = motion.closed_cycle(at, turns, CYCLES, STEPS);
+fn closed(motion: Motion, at: usize, turns: u32, says: impl Fn(usize)) -> Result<(f64, f64), String> {
+    let closed = motion.closed_cycle(at, turns, CYCLES, STEPS, says);
     let (run, residual) = closed.ok_or("it does not turn on evenly")?;
     if residual > BOUND {
         return Err(format!("a speed or an elongation is {residual:.1e} of its peak off after a cycle"));

@@ -44,11 +44,12 @@ impl Motion {
     /// Runs on by cycles of so many turns of a coordinate until they repeat, `most` at most. What is left of a start
     /// dies out by the same share from cycle to cycle, and is taken off by Aitken's extrapolation. None where the
     /// coordinate stops, runs backwards or goes on changing, and where a cycle takes a hundred times as long as it
-    /// would at the speed of its start.
-    pub fn steady_cycle(&mut self, coordinate: usize, turns: u32, most: usize) -> Option<Cycle> {
+    /// would at the speed of its start. `told` gets the number of each cycle that is to be run.
+    pub fn steady_cycle(&mut self, coordinate: usize, turns: u32, most: usize, told: impl Fn(usize)) -> Option<Cycle> {
         let mut last: Vec<[f64; 3]> = Vec::new();
         let mut before: Option<[f64; 3]> = None;
         for cycles in 1..=most {
+            told(cycles);
             let begun = self.time();
             self.watch(Signal::Speed(coordinate));
             self.turn(coordinate, TAU * f64::from(turns))?;
@@ -73,10 +74,18 @@ impl Motion {
     /// The steady cycle run for its proof: on from where [`steady_cycle`](Self::steady_cycle) has left off, by `most`
     /// cycles at most, until speeds and elongations come back to 1e-9 of their peaks; then one more cycle, written down
     /// in `steps` steps of equal time, with its speed watched. The largest share that does not come back belongs to it.
-    /// None as there.
-    pub fn closed_cycle(mut self, coordinate: usize, turns: u32, most: usize, steps: u32) -> Option<(Recording, f64)> {
+    /// None and `told` as there.
+    pub fn closed_cycle(
+        mut self,
+        coordinate: usize,
+        turns: u32,
+        most: usize,
+        steps: u32,
+        told: impl Fn(usize),
+    ) -> Option<(Recording, f64)> {
         let angle = TAU * f64::from(turns);
         for cycle in 0..=most {
+            told(cycle);
             self.watches.clear();
             let begun = self.clone();
             for signal in (0..self.coordinates()).map(Signal::Speed).chain((0..self.links()).map(Signal::Elongation)) {

@@ -112,13 +112,13 @@ fn settles_as_by_shooting(
     torque: &dyn Fn(f64, f64, bool) -> f64,
     arc: [f64; 2],
 ) {
-    let cycle = motion.steady_cycle(0, 1, 1000).unwrap();
+    let cycle = motion.steady_cycle(0, 1, 1000, |_| ()).unwrap();
     let expected = shooting(guess, inertia, torque, arc);
     println!("delta {:.12} {expected:.12} after {} cycles", cycle.delta(), cycle.cycles);
     assert!(expected > 0.02, "{expected}");
     // 1e-10 of a speed over a delta of some percent
     assert!((cycle.delta() / expected - 1.0).abs() < 1e-7, "{cycle:?} {expected}");
-    let (run, residual) = motion.closed_cycle(0, 1, 1000, 100).unwrap();
+    let (run, residual) = motion.closed_cycle(0, 1, 1000, 100, |_| ()).unwrap();
     assert!(residual <= 1e-9, "{residual}");
     prove(&run).unwrap();
     let [e, time] = [run.motion().extremes(Signal::Speed(0)).unwrap()].map(|e| [e.peak - e.least, cycle.time])[0];
@@ -291,7 +291,7 @@ fn a_crank_drives_a_lossy_gear() {
     prove(&run).unwrap();
     // what the motor gives over whole cycles, less the loss of the gear, is what the load takes
     let mut motion = run.motion().clone();
-    let cycle = motion.steady_cycle(0, 1, 2000).unwrap();
+    let cycle = motion.steady_cycle(0, 1, 2000, |_| ()).unwrap();
     // the cycle is extrapolated; the motion itself comes to it
     motion.advance(100.0 * cycle.time);
     let [mut given, mut taken] = [0.0; 2];
@@ -371,7 +371,7 @@ fn a_steady_cycle_is_found_from_rest_and_nowhere_else() {
     let cycle = |coordinate: Coordinate, time: f64| {
         let mut motion = Train::new().coordinate(coordinate).build().unwrap();
         motion.advance(time);
-        motion.steady_cycle(0, 1, 2000)
+        motion.steady_cycle(0, 1, 2000, |_| ())
     };
     let motor = |stall| Coordinate::new(6.0).source(Source::Line { stall, slope: 20.0 });
     // 1e-10 of what is left of the start
