@@ -117,6 +117,24 @@ struct Compare {
     json: bool,
 }
 
+/// Whether a machine at the ends of a tolerance differs from the nominal one. A factor of the sensors, the inverter or
+/// the clock always has an effect; a gap or a rope only where there is one.
+fn has_effect(scene: &CampaignScene, tolerance: Tolerance) -> bool {
+    let departures = [tolerance.low, tolerance.high].map(|value| {
+        let tolerance = Tolerance::new(tolerance.factor, value, value);
+        Draw::new(&[tolerance], 0, 0).departure()
+    });
+    let runs = |by: &Departure| {
+        let machine = scene.departing(by).ok()?;
+        let runs = machine.scenarios.iter().map(|run| format!("{:?} {:?} {}", run.plant, run.actions, run.held));
+        Some(runs.collect::<Vec<_>>())
+    };
+    let nominal = runs(&Departure::NONE);
+    let departs = departures.iter().filter(|by| **by != Departure::NONE);
+    let same = departs.map(|by| runs(by) == nominal);
+    same.reduce(|low, high| low && high) != Some(true)
+}
+
 impl Campaign {
     /// Whether JSON is printed.
     pub fn json(&self) -> bool {
@@ -229,6 +247,12 @@ impl Campaign {
             let tolerance = Tolerance::parse(text)?;
             if named.contains(&tolerance.factor) {
                 return Err(format!("--tolerance {}: expected it once", tolerance.factor.name()));
+            }
+            if !has_effect(scene, tolerance) {
+                let name = tolerance.factor.name();
+                return Err(format!(
+                    "--tolerance {text}: the machine has nothing that `{name}` changes; expected a factor that it has"
+                ));
             }
             named.push(tolerance.factor);
             match tolerances.iter_mut().find(|known| known.factor == tolerance.factor) {

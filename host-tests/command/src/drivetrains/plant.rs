@@ -10,7 +10,7 @@ use driveline_solver::plant::train::{Motion, Signal};
 
 /// The plant, recorded from its start on. Nodes and shafts are those of the chain, or coordinates and links of the
 /// train; the motor is node 0.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub enum Body {
     /// Referred to the motor as it is.
     Chain(Box<Recording>),
@@ -21,7 +21,7 @@ pub enum Body {
 }
 
 /// A train with what refers its coordinates to the motor.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Referred {
     recording: train::converge::Recording,
     ratios: Vec<f64>,

@@ -303,6 +303,7 @@ fn a_file_of_other_settings_is_refused_and_kept() {
         ),
         (&["--tolerance", "jiter=0"], "there is no factor `jiter`"),
         (&["--tolerance", "delay=9"], "lies from 0 to 3, ticks"),
+        (&["--tolerance", "rope=0.5..2"], "the machine has nothing that `rope` changes"),
         (&["--shard", "4/3"], "expected K/N with K from 1 to N"),
     ] {
         let arguments = [&["spindle", "--draws", "2", "--results", "file"][..], further].concat();
