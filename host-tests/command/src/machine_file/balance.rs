@@ -50,9 +50,9 @@ use driveline::balancing::{
     Aim, CORRECTIONS, Complex, CorrectionMethod, Entry, Error, FromAmplitudes, Influence, Objective, Plan, Procedure,
     Run, from_amplitudes, one_plane_suffices, two_planes,
 };
-use toml::de::DeTable;
 
-use crate::machine_file::{Diagnostic, Item, Quantity, Source, Table, not_toml, text};
+use crate::machine_file::read::document;
+use crate::machine_file::{Diagnostic, Item, Quantity, Source, Table, text};
 
 /// Keys of the file that go with readings with phases.
 const OF_PHASES: [&str; 13] = [
@@ -283,7 +283,7 @@ pub fn read(path: &Path) -> Result<BalanceFile, Diagnostic> {
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn parse(name: &str, text: &str) -> Result<BalanceFile, Diagnostic> {
     let source = Source { name, text };
-    let document = DeTable::parse(text).map_err(|error| not_toml(source, &error))?;
+    let document = document(source, "a balancing: `name`, `planes`, [baseline] and [[trial]] tables")?;
     let mut root = Table::root(source, document.get_ref());
     let rotor_name = root.text("name", "the rotor's name")?.to_owned();
     let unit = root.text_if("unit", "the unit of the readings")?.unwrap_or("").to_owned();

@@ -228,6 +228,14 @@ fn tolerances(
             if !(tolerance.low <= tolerance.high && tolerance.low >= least && tolerance.high <= most) {
                 return Err(table.wrong(factor.key(), expected));
             }
+            let lacking = match factor {
+                Factor::Efficiency if !lossy => Some("an element with `efficiency`, or no such tolerance"),
+                Factor::Gap if !gap => Some("an element with `gap`, or no such tolerance"),
+                _ => None,
+            };
+            if let Some(expected) = lacking {
+                return Err(table.wrong(factor.key(), expected));
+            }
             replace(tolerance);
         }
         table.finish()?;
@@ -255,7 +263,11 @@ pub(super) fn named(source: Source, root: &mut Table) -> Result<String, Diagnost
         }
     };
     let good = name.len() <= 40 && name.chars().all(allowed) && name.contains(char::is_alphanumeric);
-    if good { Ok(name) } else { Err(root.wrong("name", NAME)) }
+    match (good, root.has("name")) {
+        (true, _) => Ok(name),
+        (false, true) => Err(root.wrong("name", NAME)),
+        (false, false) => Err(root.wrong("name", format!("{NAME}, as the file's own name has none of these"))),
+    }
 }
 
 /// Reads a table of settings, all of its keys.

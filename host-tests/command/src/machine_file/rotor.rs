@@ -4,12 +4,11 @@ use std::ops::Range;
 use std::path::Path;
 
 use nalgebra::Complex;
-use toml::de::DeTable;
 
 use super::balance::PLANES;
 use super::diagnostic::Diagnostic;
 use super::quantity::Quantity;
-use super::read::{load, named, not_toml, section};
+use super::read::{document, load, named, section};
 use super::source::Source;
 use super::table::Table;
 use driveline_solver::rotor::{Bearing, Direction, Disc, FlexibleRotor, Material, Modal, Model, Polar, Section};
@@ -140,11 +139,7 @@ pub fn read_rotor(path: &Path) -> Result<RotorFile, Diagnostic> {
 /// A [`Diagnostic`] with the place, the key, what was found and what was expected.
 pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
     let source = Source { name, text };
-    if text.trim().is_empty() {
-        let expected = "a rotor: `name`, [[element]], [[bearing]] and [speeds]";
-        return Err(Diagnostic::of_file(name, "an empty file", expected));
-    }
-    let document = DeTable::parse(text).map_err(|error| not_toml(source, &error))?;
+    let document = document(source, "a rotor: `name`, [[element]], [[bearing]] and [speeds]")?;
     let mut root = Table::root(source, document.get_ref());
     let rotor_name = named(source, &mut root)?;
     let material = material(&mut root)?;

@@ -70,6 +70,7 @@ fn tolerances_are_those_of_the_class_with_the_files_in_their_place() {
         ("load = [2, 1]", "tolerance.load"),
         ("jitter = \"none\"", "tolerance.jitter"),
         ("rope = 0.1", "tolerance.rope"),
+        ("gap = 0.5", "tolerance.gap"),
     ] {
         assert_eq!(with(text).expect_err("it should be refused").key, key);
     }
@@ -197,6 +198,10 @@ fn what_is_no_toml_is_told_with_its_place() {
     let twice = fault("mass = 12000.0", "mass = 1.0\nmass = 2.0");
     assert!(twice.to_string().contains("duplicate key"), "{twice}");
     assert_eq!(parse("empty.toml", " \n").unwrap_err().found, "an empty file");
+    let balancing = cargo_driveline::machine_file::balance::parse("empty.toml", "").unwrap_err();
+    assert_eq!(balancing.found, "an empty file");
+    let unnamed = HOIST.lines().filter(|line| !line.starts_with("name = \"hoist\"")).collect::<Vec<_>>().join("\n");
+    assert!(parse("日本.toml", &unnamed).unwrap_err().expected.ends_with("as the file's own name has none of these"));
     assert_eq!(parse("no.toml", "element = []\nname = \"x\"").unwrap_err().found, "an empty list");
     assert_eq!(parse("no.toml", "element = 3\nname = \"x\"").unwrap_err().key, "element");
     assert_eq!(parse("no.toml", "element = [3]\nname = \"x\"").unwrap_err().key, "element[0]");
