@@ -345,14 +345,14 @@ fn page(outcome: &Outcome) -> Sheet {
         facts: facts(outcome),
         figures: vec![
             Figure {
-                title: "Weights".to_owned(),
+                title: "Polar plots of the weights".to_owned(),
                 text: "Weight to add in each plane, and its split between holes.".to_owned(),
                 legend: vec![Key::arrow("weight", "s0"), Key::arrow("in a hole", "s3")],
                 plots: outcome.planes.iter().map(weight).collect(),
                 arrangement: Arrangement::Beside,
             },
             Figure {
-                title: "Vibration".to_owned(),
+                title: "Polar plots of the vibration".to_owned(),
                 text: "Amplitude and phase of each reading: at the beginning, now, and as predicted.".to_owned(),
                 legend: vec![Key::arrow("baseline", "s5"), Key::arrow("now", "s1"), Key::arrow("predicted", "s2")],
                 plots: outcome.rows.iter().map(vibration).collect(),

@@ -127,7 +127,7 @@ impl Outcome {
             summary: self.summary(),
             facts: self.facts(),
             figures: vec![Figure {
-                title: "Weights".to_owned(),
+                title: "Polar plots of the weights".to_owned(),
                 text: "Weight to add, and its split between holes.".to_owned(),
                 legend: vec![Key::arrow("weight", "s0"), Key::arrow("in a hole", "s3")],
                 plots: self.answers.iter().enumerate().map(plot).collect(),
