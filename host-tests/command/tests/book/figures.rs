@@ -184,3 +184,24 @@ fn the_prose_of_the_peers_is_that_of_the_command_and_quotes_no_result() {
         assert!(quoted.is_none(), "{quoted:?} in `{line}`");
     }
 }
+
+/// In the last run of the peers no other observer wins in any scene: where one does, the scene takes it or the library's
+/// gets better.
+#[test]
+fn no_peer_wins_in_the_last_run() {
+    let page = std::fs::read_to_string(root().join("doc/peers.md")).unwrap();
+    let (_, fronts) = page.split_once("## The fronts").unwrap();
+    let rows: Vec<Vec<&str>> = fronts
+        .lines()
+        .skip_while(|line| !line.starts_with('|'))
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| line.split('|').map(str::trim).collect())
+        .collect();
+    let [heading, _, scenes @ ..] = &rows[..] else { panic!("a table of scenes") };
+    let columns: Vec<usize> = (0..heading.len()).filter(|&at| heading[at].ends_with("others that win")).collect();
+    // on the scenes' own runs and on drawn ones, on two cores
+    assert!(columns.len() == 2 && scenes.len() == 2 * 14, "{heading:?}");
+    for row in scenes {
+        assert!(columns.iter().all(|&at| row[at] == "none"), "{row:?}");
+    }
+}
