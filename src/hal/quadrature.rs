@@ -112,16 +112,9 @@ impl<C: Counter> Quadrature<C> {
         let count = self.counter.count().map_err(|_| Faults::ANGLE_MISSING)?;
         let turned = self.difference(count, self.last.unwrap_or(count));
         self.last = Some(count);
-        // nothing moves by a turn in a tick: a sum in place of a division
-        let mut position = self.position.saturating_add(turned);
-        if position >= self.turn {
-            position -= self.turn;
-        } else if position < 0 {
-            position = position.saturating_add(self.turn);
-        }
-        if position < 0 || position >= self.turn {
-            position = self.wrapped(position);
-        }
+        let position = self.position.saturating_add(turned);
+        // a division only past zero
+        let position = if (0..self.turn).contains(&position) { position } else { self.wrapped(position) };
         self.position = position;
         if core::mem::take(&mut self.lost) {
             return Err(Faults::ANGLE_MISSING);
