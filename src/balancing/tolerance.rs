@@ -136,6 +136,9 @@ mod tests {
         assert_eq!((fulfils(0.0025 * (1.0 + 1e-6)), fulfils(0.0025 * (1.0 - 1e-6))), (Some(6.3), Some(2.5)));
         // two products and a division
         assert!((rotor.judge(0.0025).unwrap().grade - 2.5).abs() < 1e-15);
+        // 0.5 mm of eccentricity at 50 rad/s: 25 mm/s
+        let heavy = Tolerance { mass: 2.0, speed: 50.0, ..rotor };
+        assert!((heavy.judge(0.001).unwrap().grade / 25.0 - 1.0).abs() < 1e-15);
         assert_eq!((fulfils(0.0), fulfils(3.999), fulfils(4.001)), (Some(0.4), Some(4000.0), None));
     }
 }

@@ -572,6 +572,8 @@ fn the_constants_of_shapes() {
     let twice = SoftStart { peak: 2.0 * BASES.torque, ..soft };
     assert!(SoftStarterConfig::<Fixed>::try_new(&twice, PERIOD, BASES).is_err());
     assert!(SoftStarterConfig::<f64>::try_new(&twice, PERIOD, BASES).is_ok());
+    let below = SoftStart { peak: 1.99 * BASES.torque, ..soft };
+    assert!(SoftStarterConfig::<Fixed>::try_new(&below, PERIOD, BASES).is_ok());
 
     let si = SlewConfig::<f64, ()>::try_new(5_000.0, (), PERIOD, BASES).unwrap();
     double(si.step, 0.5);

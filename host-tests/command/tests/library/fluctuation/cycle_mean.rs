@@ -182,6 +182,23 @@ fn there_is_none_where_nothing_is_known() {
     assert!(mean.steady_speed().is_none());
 }
 
+/// The first mean is there at the end of the 66th segment at most, however many ticks a segment has, but where a stroke takes
+/// more than 2^22 of them, which the division cannot hold. Without a ripple all segments take as long.
+#[test]
+fn a_mean_takes_a_stroke_of_at_most_four_million_ticks() {
+    for (ticks, is_there) in [(137.4, true), (1.02 * 65_536.0, false), (0.98 * 65_536.0, true)] {
+        let speed = TURNS * TAU / 64.0 / ticks / PERIOD;
+        let config = <f64 as Built>::config();
+        let (mut mean, mut motion) = (Mean::<f64>::default(), Motion::new(speed, 0.0, TURNS, &[]));
+        // the first segment is the part of one that the motion begins in
+        let first = (0..(66.0 * ticks) as u32).find(|_| {
+            tick(&mut mean, &config, &mut motion);
+            mean.steady_speed().is_some()
+        });
+        assert_eq!(first.is_some_and(|first| f64::from(first) < 66.0 * ticks), is_there, "{ticks}: {first:?}");
+    }
+}
+
 #[test]
 fn cycles_that_cannot_be_are_refused() {
     let turn = Cycle::TURN;
