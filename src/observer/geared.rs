@@ -14,8 +14,9 @@
 //! shaft torque, and its reversal for a jerk of the load.
 //!
 //! While the gear sticks, the motor's angle contains no information on the load: it only moves within its own shaft's
-//! twist. The innovation is then left out, up to the play that such a shaft has, and the residual decays: a twist that
-//! was added to the residual would be taken for motion in the tick that breaks the gear loose.
+//! twist. The innovation is then left out, up to the play that such a shaft has. Within that play the residual decays:
+//! a twist that was added to it would be taken for motion in the tick that breaks the gear loose. Beyond the play it is
+//! kept, so that a gear that loses less than lambda, and creeps, is followed.
 
 use super::{Observer, Prediction};
 use crate::number::{Fixed, Number};
@@ -137,7 +138,10 @@ impl<N: Stiction, O: Observer<N>> Observer<N> for GearedObserver<O> {
         let (predicted, deadband) = predicted.split();
         if !predicted.innovation().exceeds(deadband) {
             core::hint::cold_path();
-            self.observer.coast(predicted.decayed(), angle);
+            // a motor that has left the deadband since the last correction moves: nothing of that may be forgotten
+            let moved = N::from_angle(angle.wrapping_sub(self.observer.angle()) as i32);
+            let kept = if moved.exceeds(deadband) { predicted } else { predicted.decayed() };
+            self.observer.coast(kept, angle);
         } else {
             self.observer.correct(&config.observer, predicted, angle);
         }

@@ -178,6 +178,19 @@ fn the_residual_of_a_held_gear_decays() {
     }
 }
 
+/// A motor that turns by a unit in every fourth tick, under a torque that the gear would hold: less than a thirty-second
+/// part of the deadband in a tick, yet within two deadbands, 80 ticks, it is followed.
+#[test]
+fn a_slow_motion_of_a_gear_that_does_not_hold_is_followed() {
+    let config = geared(16.0);
+    let mut moving = GearedObserver::<RigidObserver<f64>>::at_rest(&config, 0, 8.0);
+    let mut speeds = (0..80).map(|tick| {
+        moving.step(&config, tick / 4, 8.5);
+        moving.estimate(&config).motor_speed
+    });
+    assert!(speeds.any(|speed| speed > 0.0));
+}
+
 fn cranked(points: [TablePoint<f64>; TABLE_POINTS]) -> CrankConfig<f64> {
     CrankConfig { rigid: UNIT, turning: RotorAngleConfig::new(1, 1).unwrap(), points }
 }
