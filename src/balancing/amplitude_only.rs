@@ -17,8 +17,8 @@ pub struct FromAmplitudes<T: Scalar> {
     pub weight: Complex<T>,
     /// A second answer, equally good, of two trial runs.
     pub or: Option<Complex<T>>,
-    /// How well the runs agree, of three or more: the part of the effect's square that they contradict each other by,
-    /// up to 1.
+    /// How well the runs agree, of three or more: the effect's square from their mean less that from their differences,
+    /// over the latter; 0 to 1.
     pub disagreement: T,
 }
 
@@ -26,9 +26,9 @@ pub struct FromAmplitudes<T: Scalar> {
 ///
 /// # Errors
 /// [`Error::TrialWeightZero`], [`Error::Reading`], [`Error::ReadingMissing`] for fewer than two runs,
-/// [`Error::NoEffect`] where the runs are no different, [`Error::NotFound`] where no influence gives such
-/// amplitudes, the
-/// angles are the same, or the weights of three or more runs lie on one line through the shaft.
+/// [`Error::NoEffect`] where the runs are no different, [`Error::NotFound`] where no influence gives such amplitudes,
+/// the angles are the same, the weights of three or more runs lie on one line through the shaft, or the runs contradict
+/// each other by more than the effect's square: a heavier trial weight has a larger effect.
 pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Result<FromAmplitudes<T>, Error> {
     if !(trial > T::zero() && trial.is_finite()) {
         return Err(Error::TrialWeightZero { plane: 0 });
@@ -63,8 +63,8 @@ pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Res
         let right = (*amplitude - baseline) * (*amplitude + baseline);
         qr.absorb(&row, Complex { re: right, im: T::zero() });
     }
-    // On one line through the shaft they leave two answers, whatever rounding says: the scatter of the directions has
-    // then no determinant. It is the square of this product, and the first column's that of the count.
+    // Directions on one line through the shaft leave two answers: their scatter matrix is then singular. The root of its
+    // determinant is this product; `own(0)` squared is the number of runs.
     if !(qr.own(1) * qr.own(2) > qr.own(0) * qr.own(0) * real(1e-3)) {
         return Err(Error::NotFound);
     }
@@ -106,7 +106,7 @@ fn two<T: Scalar>(baseline: T, a: (T, T), b: (T, T)) -> Result<(Complex<T>, Comp
     let middle = from + apart.scale(along);
     let aside = Complex { re: -apart.im, im: apart.re }.scale(height);
     let (one, other) = (middle + aside, middle - aside);
-    // an answer of no effect, but for rounding
+    // an effect within rounding
     let little = |effect: Complex<T>| size(effect) < baseline * real(1e-6);
     if little(one) || little(other) { Err(Error::NoEffect { plane: 0 }) } else { Ok((one, other)) }
 }
@@ -185,9 +185,8 @@ mod tests {
         for apart in [[0.2, 1.7, 0.2], [0.0, PI, -PI], [FRAC_PI_2, -FRAC_PI_2, 3.0 * FRAC_PI_2], [0.0, PI, 2.0 * PI]] {
             assert_eq!(from_amplitudes(2.0, 5.0, &apart.map(run)), Err(Error::NotFound), "{apart:?}");
         }
-        // the determinant of a triangle is four thirds of its area's square; here the area is sin(apart),
-        // and 0.0026 the
-        // limit of three thousandths
+        // the determinant of a triangle is four thirds of its area's square; here the area is sin(apart), and 0.0026
+        // the limit of three thousandths
         for (apart, is_found) in [(2.7e-3, true), (2.5e-3, false)] {
             assert_eq!(from_amplitudes(2.0, 5.0, &[0.0, apart, PI].map(run)).is_ok(), is_found, "{apart}");
         }

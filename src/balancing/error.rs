@@ -68,7 +68,7 @@ pub enum Error {
         /// The row or the plane.
         index: usize,
     },
-    /// The search for the optimum did not end close enough.
+    /// No answer: a search did not end close enough to the optimum, or no influence gives such amplitudes.
     NotFound,
     /// Runs at different speeds.
     SpeedDiffers {
@@ -131,7 +131,9 @@ impl fmt::Display for Error {
                 write!(f, "balancing {modes} mode(s) takes {modes} plane(s), or two more: there are {planes}")
             }
             Error::Setting { index } => write!(f, "setting {} is not a positive number", index + 1),
-            Error::NotFound => f.write_str("the search ended too far from the optimum"),
+            Error::NotFound => {
+                f.write_str("no answer: a search ended too far from the optimum, or the amplitudes fit no influence")
+            }
             Error::SpeedDiffers { row } => {
                 write!(f, "reading {} was taken at another speed than its baseline: run at the same speed", row + 1)
             }

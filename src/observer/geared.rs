@@ -45,7 +45,7 @@ pub struct GearedObserver<O> {
 
 /// Stiction of a gear at rest, beside the operations of [`Number`].
 pub trait Stiction: Number {
-    /// How firmly a standing gear is held: a factor for floats; in fixed point always
+    /// Stiction gain: a factor for floats; in fixed point always
     /// [`STICTION_GAIN`](crate::number::STICTION_GAIN).
     type StictionGain: Copy + Default + PartialEq + core::fmt::Debug;
     /// The friction, of the torque that holds the gear and its limit, and the largest innovation to be left out: the
@@ -67,7 +67,7 @@ impl Stiction for Fixed {
 
     // 16 times: a saturation and a shift that the addition takes along.
     #[inline(always)]
-    fn braked(self, _firmness: ()) -> Self {
+    fn braked(self, _stiction_gain: ()) -> Self {
         Fixed::from_bits(self.to_bits().clamp(-(1 << 25), (1 << 25) - 1) << 4)
     }
 }

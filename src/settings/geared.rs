@@ -31,7 +31,7 @@ impl Gear {
     /// Whether fixed point, whose stiction gain follows from its bases, brings the gear to rest in ticks of this period
     /// (s).
     ///
-    /// Twice the firmness that is held within two ticks would swing, four times would grow.
+    /// Twice the stiction gain that stops the motor within two ticks would swing, four times would grow.
     pub(crate) const fn holds(&self, period: f64, bases: Bases) -> bool {
         STICTION_GAIN * (bases.torque / bases.speed) <= self.inertia / period
     }
