@@ -66,6 +66,8 @@ fn the_page_and_the_tables() {
     for word in ["Weights", "drive end", "2.95", "50.2", "in hole 3 (60.0°)", "G 18.7", "page: page.html"] {
         assert!(text.contains(word), "{word} in {text}");
     }
+    // G 18.7 is above the file's G 2.5: what is judged is what the weights leave
+    assert!(text.contains("permissible: 194 g mm: predicted within it"), "{text}");
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("fan.toml");
     std::fs::write(&file, FAN).unwrap();
@@ -559,6 +561,9 @@ fn a_hard_bearing_machine_needs_no_trial_runs() {
     for word in ["static unbalance now", "couple unbalance now", "two: width over diameter"] {
         assert!(text.contains(word), "{word} in {text}");
     }
+    // without holes nothing is left, which has no angle
+    let bearing = text.lines().find(|line| line.contains("at bearing A")).unwrap();
+    assert!(bearing.contains(" now, 0 g mm predicted, ") && bearing.ends_with(": predicted within it"), "{bearing}");
 }
 
 /// The same forces with the sensors the other way round, each named by its bearing.

@@ -129,7 +129,7 @@ impl Grade {
     pub fn facts(&self) -> Vec<Fact> {
         let fact = |name: &str, value: String| Fact { name: name.to_owned(), value };
         let unbalance = |g_mm: f64, grade: f64| format!("{} g mm, G {}", significant(g_mm), significant(grade));
-        let verdict = |passed: bool| if passed { "within it" } else { "beyond it" };
+        let verdict = |passed: bool| if passed { "predicted within it" } else { "predicted above it" };
         let whole = if self.bearings.is_some() { "split between the bearings" } else { verdict(self.passed) };
         let mut facts = vec![
             fact("unbalance now", unbalance(self.now_g_mm, self.now_grade)),
@@ -138,20 +138,17 @@ impl Grade {
         ];
         for (name, bearing) in ["A", "B"].into_iter().zip(self.bearings.iter().flatten()) {
             let value = format!(
-                "{} g mm at {:.0}° now, {} at {:.0}° predicted, {} permissible: {}",
-                significant(bearing.now_g_mm),
-                bearing.now_degrees,
-                significant(bearing.predicted_g_mm),
-                bearing.predicted_degrees,
+                "{} now, {} predicted, {} permissible: {}",
+                angled(bearing.now_g_mm, "g mm", bearing.now_degrees),
+                angled(bearing.predicted_g_mm, "g mm", bearing.predicted_degrees),
                 significant(bearing.permissible_g_mm),
                 verdict(bearing.passed)
             );
             facts.push(fact(&format!("at bearing {name}"), value));
         }
         if let Some(Parts { static_g_mm, static_degrees, couple_g_mm2, couple_degrees }) = self.parts {
-            let part = |size: f64, unit: &str, angle: f64| format!("{} {unit} at {angle:.0}°", significant(size));
-            facts.push(fact("static unbalance now", part(static_g_mm, "g mm", static_degrees)));
-            facts.push(fact("couple unbalance now", part(couple_g_mm2, "g mm²", couple_degrees)));
+            facts.push(fact("static unbalance now", angled(static_g_mm, "g mm", static_degrees)));
+            facts.push(fact("couple unbalance now", angled(couple_g_mm2, "g mm²", couple_degrees)));
         }
         if let Some(suffices) = self.one_plane_suffices {
             let value = if suffices {
@@ -163,4 +160,10 @@ impl Grade {
         }
         facts
     }
+}
+
+/// A size with its angle; no angle of nothing.
+fn angled(size: f64, unit: &str, degrees: f64) -> String {
+    let angle = if size > 0.0 { format!(" at {degrees:.0}°") } else { String::new() };
+    format!("{} {unit}{angle}", significant(size))
 }
