@@ -113,6 +113,10 @@ impl Quantity {
     pub const TIME: Self = positive("s");
     /// Frequency of something that repeats.
     pub const FREQUENCY: Self = positive("Hz");
+    /// Delay of an actuator; no drive's torque takes a second to begin.
+    pub const DELAY: Self = Quantity { most: 1.0, ..not_negative("s") };
+    /// Bandwidth of an actuator: its lag is at most 1.6 s.
+    pub const ACTUATOR_BANDWIDTH: Self = Quantity { least: 0.1, ..positive("Hz") };
     /// Time in which something comes about, none for a step.
     pub const RISE: Self = not_negative("s");
 

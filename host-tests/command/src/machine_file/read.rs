@@ -21,6 +21,10 @@ use super::source::{Source, printable};
 use super::station::{NOTHING, Station, begun, stations};
 use super::table::Table;
 use super::{Accuracy, Actuator, Branch, Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
+use driveline_report::format::significant;
+
+/// Ticks of delay that the design of a speed loop has room for.
+const LATEST: f64 = 12.0;
 
 /// Largest machine file in bytes: a thousand times what the longest chain needs.
 pub const LARGEST: u64 = 1 << 20;
@@ -118,8 +122,14 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
     })?;
     let actuator = match root.table_if("actuator")? {
         Some(mut table) => {
-            let delay = table.number_or("delay", Quantity::RISE, 0.0)?;
-            let bandwidth = table.number_if("bandwidth", Quantity::FREQUENCY)?;
+            let delay = table.number_or("delay", Quantity::DELAY, 0.0)?;
+            let rate = f64::from(control.rate_hz);
+            // a millionth of a tick for rounding, as the design of the speed loop has it
+            if delay * rate > LATEST + 1e-6 {
+                let expected = format!("at most {LATEST} ticks of `control.rate_hz`, {} s", significant(LATEST / rate));
+                return Err(table.wrong("delay", expected));
+            }
+            let bandwidth = table.number_if("bandwidth", Quantity::ACTUATOR_BANDWIDTH)?;
             table.finish()?;
             Actuator { delay, bandwidth }
         }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use cargo_driveline::machine_file::{Diagnostic, Element, MachineFile, parse, read};
 use driveline::configure::Machine as _;
-use driveline::design::Disturbance;
+use driveline::design::{ClosedLoop, Disturbance, Error, Rate, SpeedLoopTuning};
 use driveline_firmware::scenes::hoist::Hoist;
 use proptest::prelude::*;
 
@@ -126,6 +126,29 @@ fn a_rated_torque_is_not_above_the_largest() {
     let fault = fault("torque = 1350.0 ", "rated_torque = 1400.0\ntorque = 1350.0 ");
     assert_eq!((fault.key.as_str(), fault.found.as_str()), ("limits.rated_torque", "1400.0"));
     assert_eq!(fault.expected, "at most `limits.torque`, 1350 N m");
+}
+
+/// The hoist has 10 kHz, so that the speed loop's twelve ticks are 1.2 ms.
+#[test]
+fn an_actuator_that_no_drive_has_is_refused_at_its_key() {
+    let limits = "[limits]";
+    let with = |key: &str| format!("[actuator]\n{key}\n\n{limits}");
+    for (key, name, expected) in [
+        ("delay = 1e12", "actuator.delay", "a number, zero or 1e-12 to 1 s"),
+        ("delay = 0.00121", "actuator.delay", "at most 12 ticks of `control.rate_hz`, 0.00120 s"),
+        ("bandwidth = 0.05", "actuator.bandwidth", "a number, 0.1 to 1e12 Hz"),
+    ] {
+        let fault = fault(limits, &with(key));
+        assert_eq!((fault.key.as_str(), fault.expected.as_str()), (name, expected));
+    }
+    // the last that is read is one that the design takes: whether its loop is stable is another question
+    let machine = hoist_with(limits, &with("delay = 0.0012")).unwrap();
+    let two = machine.two_masses().unwrap();
+    let (_, encoder, disturbance) = machine.tuning();
+    let rate = Rate::every(1e-4);
+    let observer = two.try_observer(rate, encoder, disturbance).unwrap();
+    let speed_loop = two.try_speed_loop(rate, SpeedLoopTuning::USUAL).unwrap();
+    assert!(!matches!(ClosedLoop::of(&observer, &speed_loop, machine.actuator()), Err(Error::Actuator)));
 }
 
 #[test]
