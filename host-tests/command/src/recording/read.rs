@@ -238,13 +238,13 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
     let broken = |error: csv::Error| Diagnostic::of_file(name, error.to_string(), "a table in CSV");
     let headings = reader.headers().map_err(broken)?.clone();
     let place = row(source, headings.position(), usize::MAX, delimiter);
-    if headings.iter().all(|heading| heading.parse::<f64>().is_ok()) {
+    if headings.iter().all(|heading| number(heading, delimiter, &mut None).is_some()) {
         let expected = "a first line that names each column by quantity and unit, such as `time_s,torque_Nm,speed_rpm`";
         return Err(Diagnostic::at(source, place, "", "no headings", expected));
     }
     let (columns, unused) = columns(source, &headings, asked, delimiter)?;
     let mut signals = vec![Vec::new(); columns.len()];
-    let mut lines = Vec::new();
+    let (mut lines, mut sign) = (Vec::new(), None);
     for record in reader.records() {
         let record = record.map_err(broken)?;
         let at = |column: usize| row(source, record.position(), column, delimiter);
@@ -262,11 +262,17 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
             if field.is_empty() && (is_tooth(column) || !has_row) {
                 continue;
             }
-            let number = field.parse().ok().map(|raw| column.value(raw)).filter(|value: &f64| value.is_finite());
+            let number = number(field, delimiter, &mut sign).map(|raw| column.value(raw));
             let key = printable(&column.heading, 40);
-            let Some(number) = number else {
+            let Some(number) = number.filter(|value| value.is_finite()) else {
                 let found = if field.is_empty() { "nothing".to_owned() } else { format!("`{}`", printable(field, 40)) };
-                return Err(Diagnostic::at(source, at(column.index), key, found, "a finite number"));
+                let expected = match sign {
+                    Some(',') if field.contains('.') => "a finite number with a decimal comma, as those before it",
+                    Some(',') => "a finite number",
+                    _ if field.contains(',') => "a finite number with a decimal point, not a comma",
+                    _ => "a finite number",
+                };
+                return Err(Diagnostic::at(source, at(column.index), key, found, expected));
             };
             if number.abs() > HIGHEST {
                 let found = format!("`{}`", printable(field, 40));
@@ -297,6 +303,17 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
         recording.period = if asked.uneven { rising(&recording, asked)? } else { period(&recording, asked)? };
     }
     Ok(recording)
+}
+
+/// A number with a decimal point, or with a decimal comma where no comma separates the columns. A file has one of the
+/// two signs, so that a comma between thousands is not taken for a decimal one beside a point.
+fn number(field: &str, delimiter: char, sign: &mut Option<char>) -> Option<f64> {
+    if let Some(found) = field.chars().find(|c| matches!(c, '.' | ','))
+        && (found == delimiter || *sign.get_or_insert(found) != found)
+    {
+        return None;
+    }
+    field.replacen(',', ".", 1).parse().ok()
 }
 
 /// The columns by the user's word, and the others by their headings.

@@ -436,3 +436,36 @@ fn a_delay_is_shorter_than_its_recording() {
         assert!(sentence.contains("expected seconds below the recording's length of 10.0 s"), "{sentence}");
     }
 }
+
+#[test]
+fn a_decimal_comma_is_read_where_no_comma_separates() {
+    let (_, good) = simulated(2);
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(folder.path(), "log.csv");
+    let told = |text: &str| {
+        std::fs::write(&file, text).unwrap();
+        driveline(&["identify", file.to_str().unwrap(), "--json"])
+    };
+    let with_points = json(&told(&good));
+    for separator in [";", "\t"] {
+        // the same digits, so that the numbers are the same bits
+        assert_eq!(json(&told(&good.replace(',', separator).replace('.', ","))), with_points, "{separator}");
+    }
+    let whole = "time_s;torque_Nm;speed_rpm\n";
+    for (text, words) in [
+        (
+            format!("{whole}0,000;1,5;2\n0,001;1.5;2\n"),
+            "log.csv:3:7: `torque_Nm`: found `1.5`, expected a finite \
+                                                        number with a decimal comma, as those before it",
+        ),
+        (format!("{whole}0.000;1.5;1,024\n"), "found `1,024`, expected a finite number with a decimal point"),
+        (format!("{whole}0;1.024,5;2\n"), "found `1.024,5`, expected a finite number with a decimal point"),
+        (format!("{whole}0;1,024,500;2\n"), "found `1,024,500`, expected a finite number"),
+        // a comma separates
+        ("time_s,torque_Nm\n\"0,5\",1\n".to_owned(), "found `0,5`, expected a finite number with a decimal point"),
+        ("0,000;1,5\n0,001;1,5\n".to_owned(), "found no headings"),
+    ] {
+        let (code, sentence) = answered(text.as_bytes(), &[]);
+        assert!(code == Some(2) && sentence.contains(words), "{code:?}: {sentence}");
+    }
+}
