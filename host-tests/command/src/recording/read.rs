@@ -373,6 +373,12 @@ fn columns(
             }
         }
     }
+    let timed = columns.iter().find(|column| matches!(column.quantity, Quantity::Time | Quantity::Frequency));
+    if let Some(column) = timed.filter(|_| asked.rate.is_some()) {
+        let found = format!("--rate beside a column of {}", column.quantity.name());
+        let expected = "no --rate, which is for recordings without such a column";
+        return Err(Diagnostic::at(source, place(column.index), printable(&column.heading, 40), found, expected));
+    }
     if asked.counts.is_some() && !columns.iter().any(|column| column.counted) {
         let expected = "a column in counts, such as `angle_counts`; an angle in another unit needs no counts";
         return Err(Diagnostic::of_file(source.name, "--counts without a column in counts".to_owned(), expected));

@@ -469,3 +469,20 @@ fn a_decimal_comma_is_read_where_no_comma_separates() {
         assert!(code == Some(2) && sentence.contains(words), "{code:?}: {sentence}");
     }
 }
+
+#[test]
+fn a_rate_beside_a_column_of_time_is_refused() {
+    const AXIS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/machines/axis.toml");
+    let words = "log.csv:1:11: `time_s`: found --rate beside a column of time, expected no --rate";
+    let text = "torque_Nm,time_s,speed_rpm\n1,0,0\n2,0.001,1\n";
+    let (code, sentence) = answered(text.as_bytes(), &["--rate", "1000"]);
+    assert!(code == Some(2) && sentence.contains(words), "{code:?}: {sentence}");
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(folder.path(), "log.csv");
+    std::fs::write(&file, text).unwrap();
+    for part in [&["--machine", AXIS][..], &["--teeth", "60-2"], &["--fluctuation"], &["--phasors"]] {
+        let output = driveline(&[&["replay", file.to_str().unwrap(), "--rate", "1000"], part].concat());
+        let sentence = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && sentence.contains(words), "{part:?}: {sentence}");
+    }
+}
