@@ -13,6 +13,8 @@ const LARGEST: u64 = 1 << 30;
 /// Columns that a message lists, and characters of a heading in it.
 const MOST_NAMES: usize = 20;
 const LONGEST_NAME: usize = 60;
+/// Remedy of a heading that two columns have.
+const ONCE: &str = "each heading once; rename one of them";
 /// Largest value in SI units, whose powers have room in a number.
 const HIGHEST: f64 = 1e100;
 
@@ -326,6 +328,8 @@ fn columns(
     let scales = Scales { counts: asked.counts };
     let place = |index: usize| row(source, headings.position(), index, delimiter);
     let (mut columns, mut unused): (Vec<Column>, Vec<String>) = (Vec::new(), Vec::new());
+    let is_twice = |heading: &str| headings.iter().filter(|other| *other == heading).count() > 1;
+    let twice = |heading: &str| format!("the heading `{}` twice", printable(heading, LONGEST_NAME));
     let mut named = Vec::new();
     for word in &asked.columns {
         let fault = |expected: String| Diagnostic::of_file(source.name, format!("--column {word}"), expected);
@@ -342,6 +346,9 @@ fn columns(
             let names: Vec<String> = headings.iter().map(|name| format!("`{name}`")).collect();
             return Err(fault(format!("one of the headings {}", names.join(", "))));
         };
+        if is_twice(&headings[index]) {
+            return Err(Diagnostic::at(source, place(index), "", twice(&headings[index]), ONCE));
+        }
         named.push((index, quantity, unit));
     }
     for (index, heading) in headings.iter().enumerate() {
@@ -359,6 +366,9 @@ fn columns(
                     Some((at, false, true)) => {
                         let other = std::mem::replace(&mut columns[at], column);
                         unused.push(other.heading);
+                    }
+                    Some((at, ..)) if columns[at].heading == heading => {
+                        return Err(Diagnostic::at(source, place(index), "", twice(heading), ONCE));
                     }
                     Some((at, ..)) => {
                         let found = format!("a second column of {}, beside {}", column.quantity.name(), columns[at]);

@@ -486,3 +486,15 @@ fn a_rate_beside_a_column_of_time_is_refused() {
         assert!(output.status.code() == Some(2) && sentence.contains(words), "{part:?}: {sentence}");
     }
 }
+
+#[test]
+fn a_heading_of_two_columns_is_to_be_renamed() {
+    let text = "time_s,torque_Nm,torque_Nm,speed_rpm\n0,1,2,0\n0.001,2,3,1\n";
+    // by its heading neither of the two is named
+    for (options, place) in [(&[][..], "log.csv:1:18:"), (&["--column", "torque=torque_Nm"], "log.csv:1:8:")] {
+        let (code, sentence) = answered(text.as_bytes(), options);
+        assert!(code == Some(2) && sentence.contains(place), "{code:?}: {sentence}");
+        let words = "found the heading `torque_Nm` twice, expected each heading once; rename one of them";
+        assert!(sentence.contains(words), "{sentence}");
+    }
+}
