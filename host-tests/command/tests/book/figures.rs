@@ -185,8 +185,8 @@ fn the_prose_of_the_peers_is_that_of_the_command_and_quotes_no_result() {
     }
 }
 
-/// In the last run of the peers no other observer wins in any scene: where one does, the scene takes it or the library's
-/// gets better.
+/// In the last run of the peers no other observer wins in any scene: where one does, the scene takes it or the
+/// library's gets better.
 #[test]
 fn no_peer_wins_in_the_last_run() {
     let page = std::fs::read_to_string(root().join("doc/peers.md")).unwrap();
