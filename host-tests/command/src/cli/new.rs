@@ -162,7 +162,7 @@ impl New {
             }));
         }
         say(format_args!(
-            "{} has the drive of `{}` on {}: {observer} with a speed loop\ncd {}, then cargo run, cargo test",
+            "{} has the drive of `{}` on {}: {observer} with a speed loop\ncd {}, then cargo run, cargo test (minutes, the first time)",
             self.name.display(),
             machine.name,
             values.board_name,

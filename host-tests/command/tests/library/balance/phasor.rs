@@ -134,6 +134,21 @@ fn a_clean_vibration_is_read_to_the_table() {
     }
 }
 
+/// The first and the last tick of a block are cut where its zero is, and what the first one has left counts by the slope
+/// there. What remains is of second order, (2 pi/n)^2/6 of a tick at either end, which is two n-th of half a turn.
+#[test]
+fn the_ends_of_a_block_are_cut_by_the_slope_there() {
+    let config = PhasorsConfig::<f64, 1>::new(&PhasorSettings { turns: 1, ..CALM }, [20.0]);
+    for ticks in [12.37, 17.3, 33.3_f64] {
+        let tolerance = (TAU / ticks).powi(2) / 6.0 * 4.0 / ticks;
+        for phase in [0.0, 0.8, 1.5, 2.5, 4.4] {
+            let signal = |theta: f64, _: &mut Noise| 3.0 * (theta + phase).cos();
+            let reading = run::<f64, 9>(&config, &mut Rig::new(ticks), |v| v, signal).unwrap();
+            near(&reading, 3.0, phase, tolerance, tolerance.to_degrees());
+        }
+    }
+}
+
 /// The second order is read beside a first one of five times its size, and the other way round.
 #[test]
 fn orders_are_told_apart() {
