@@ -178,8 +178,8 @@ fn the_residual_of_a_held_gear_decays() {
     }
 }
 
-/// A motor that turns by a unit in every fourth tick, under a torque that the gear would hold: less than a thirty-second
-/// part of the deadband in a tick, yet within two deadbands, 80 ticks, it is followed.
+/// A motor that turns by a unit in every fourth tick, under a torque that the gear would hold: less than a
+/// thirty-second part of the deadband in a tick, yet within two deadbands, 80 ticks, it is followed.
 #[test]
 fn a_slow_motion_of_a_gear_that_does_not_hold_is_followed() {
     let config = geared(16.0);

@@ -162,7 +162,8 @@ impl New {
             }));
         }
         say(format_args!(
-            "{} has the drive of `{}` on {}: {observer} with a speed loop\ncd {}, then cargo run, cargo test (minutes, the first time)",
+            "{} has the drive of `{}` on {}: {observer} with a speed loop\n\
+             cd {}, then cargo run, cargo test (minutes, the first time)",
             self.name.display(),
             machine.name,
             values.board_name,

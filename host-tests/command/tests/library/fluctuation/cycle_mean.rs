@@ -182,8 +182,8 @@ fn there_is_none_where_nothing_is_known() {
     assert!(mean.steady_speed().is_none());
 }
 
-/// The first mean is there at the end of the 66th segment at most, however many ticks a segment has, but where a stroke takes
-/// more than 2^22 of them, which the division cannot hold. Without a ripple all segments take as long.
+/// The first mean is there at the end of the 66th segment at most, however many ticks a segment has, but where a stroke
+/// takes more than 2^22 of them, which the division cannot hold. Without a ripple all segments take as long.
 #[test]
 fn a_mean_takes_a_stroke_of_at_most_four_million_ticks() {
     for (ticks, is_there) in [(137.4, true), (1.02 * 65_536.0, false), (0.98 * 65_536.0, true)] {
