@@ -63,8 +63,8 @@ pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Res
         let right = (*amplitude - baseline) * (*amplitude + baseline);
         qr.absorb(&row, Complex { re: right, im: T::zero() });
     }
-    // Directions on one line through the shaft leave two answers: their scatter matrix is then singular. The root of its
-    // determinant is this product; `own(0)` squared is the number of runs.
+    // Directions on one line through the shaft leave two answers: their scatter matrix is then singular. The root of
+    // its determinant is this product; `own(0)` squared is the number of runs.
     if !(qr.own(1) * qr.own(2) > qr.own(0) * qr.own(0) * real(1e-3)) {
         return Err(Error::NotFound);
     }

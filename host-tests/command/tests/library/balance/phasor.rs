@@ -135,7 +135,8 @@ fn a_clean_vibration_is_read_to_the_table() {
 }
 
 /// The first and the last tick of a block are cut where its zero is, and what the first one has left counts by the
-/// slope there. What remains is of second order, (2 pi/n)^2/6 of a tick at either end, which is two n-th of half a turn.
+/// slope there. What remains is of second order, (2 pi/n)^2/6 of a tick at either end, which is two n-th of half a
+/// turn.
 #[test]
 fn the_ends_of_a_block_are_cut_by_the_slope_there() {
     let config = PhasorsConfig::<f64, 1>::new(&PhasorSettings { turns: 1, ..CALM }, [20.0]);
