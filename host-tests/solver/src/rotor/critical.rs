@@ -99,9 +99,7 @@ impl Modal {
             })
             .collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // the modes have roundings of the largest eigenvalue, which soft bearings leave far above the lowest
-        let rounding = 0.5 * f64::EPSILON * w.max().powi(2);
-        let groups = all.chunk_by(|a, b| b.0 - a.0 <= ALIKE * a.0 + rounding / a.0);
+        let groups = all.chunk_by(|a, b| b.0 - a.0 <= ALIKE * a.0);
         let shapes = groups.flat_map(|group| self.apart(group));
         let critical = |shape: DVector<Complex<f64>>, speed| (Critical { speed, sense: self.sense(&shape) }, shape);
         shapes.zip(all.iter().map(|(speed, _)| *speed)).map(|(shape, speed)| critical(shape, speed)).collect()

@@ -52,8 +52,13 @@ impl Modal {
         let chosen = eigen.eigenvectors.select_columns(&order);
         let phi = lower.transpose().solve_upper_triangular(&chosen).ok_or(RotorError::NotHeld)?;
         let project = |matrix: &DMatrix<f64>| phi.transpose() * matrix * &phi;
+        // Rayleigh's quotient: an eigenvalue has roundings of the largest one, its vibration the square of those.
+        let strain = project(&symmetric).diagonal();
+        if !(strain.min() > 0.0) {
+            return Err(RotorError::NotHeld);
+        }
         Ok(Modal {
-            frequency: DVector::from_iterator(order.len(), order.iter().map(|&k| eigen.eigenvalues[k].sqrt())),
+            frequency: strain.map(f64::sqrt),
             damping: project(&model.damping),
             gyroscopic: project(&model.gyroscopic),
             circulatory: project(&((&model.stiffness - model.stiffness.transpose()) * 0.5)),

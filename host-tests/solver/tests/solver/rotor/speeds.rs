@@ -1,8 +1,8 @@
 //! Natural frequencies, critical speeds and the Campbell diagram.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use driveline_solver::rotor::{Bearing, Direction, Modal, RigidRotor, WhirlSense};
+use driveline_solver::rotor::{Bearing, Direction, Disc, FlexibleRotor, Material, Modal, RigidRotor, WhirlSense};
 
 use super::rig::{BEARING, file, number, three_discs};
 
@@ -92,5 +92,79 @@ fn the_lowest_vibrations_give_the_lowest_whirls() {
     for (a, b) in whole.whirls.iter().flatten().zip(kept.whirls.iter().flatten()) {
         assert!((a.frequency / b.frequency - 1.0).abs() < 2e-3, "{a:?} {b:?}");
         assert!((a.damping_ratio - b.damping_ratio).abs() < 2e-3, "{a:?} {b:?}");
+    }
+}
+
+/// Both senses of a critical speed, in either order.
+fn is_pair(senses: [WhirlSense; 2]) -> bool {
+    senses.contains(&WhirlSense::Forward) && senses.contains(&WhirlSense::Backward)
+}
+
+/// On springs far softer than the shaft: `sqrt(2 k/m)`, and `sqrt(2 k a^2/(Id -+ Ip))` with `Id = m (l^2/12 + d^2/16)`
+/// and `Ip = m d^2/8` of a cylinder.
+#[test]
+fn a_shaft_on_soft_springs_whirls_as_a_rigid_rotor() {
+    let (length, diameter) = (2.0_f64, 0.06_f64);
+    let mass = Material::STEEL.density * PI / 4.0 * diameter * diameter * length;
+    for stiffness in [1.0, 100.0, 700.0] {
+        let bearing = Bearing::isotropic(stiffness, 0.0);
+        let shaft = FlexibleRotor::uniform(10, length, diameter, Material::STEEL).bearing(0, bearing);
+        let rotor = (0..=10).fold(shaft.bearing(10, bearing), FlexibleRotor::station);
+        let modal = Modal::of(&rotor.build().unwrap()).unwrap();
+        // the shaft gives 5 l^3/(384 E I) under its own load, 1.6e-6 m for 2 N/m of the springs; and rounding of the
+        // elements' 12 E I/l^3 = 2e8 N/m beside those springs
+        let close = 2e-6 * stiffness + 2e8 * f64::EPSILON / stiffness;
+        let criticals = modal.criticals();
+        let bounce = (2.0 * stiffness / mass).sqrt();
+        for critical in &criticals[..2] {
+            assert!((critical.speed / bounce - 1.0).abs() < close, "{stiffness}: {critical:?}");
+        }
+        assert!(is_pair([0, 1].map(|k| criticals[k].sense)), "{stiffness}: {criticals:?}");
+        for (critical, (sign, sense)) in
+            criticals[2..4].iter().zip([(1.0, WhirlSense::Backward), (-1.0, WhirlSense::Forward)])
+        {
+            let inertia = mass * (length.powi(2) / 12.0 + (1.0 + 2.0 * sign) * diameter.powi(2) / 16.0);
+            let tilt = (0.5 * stiffness * length.powi(2) / inertia).sqrt();
+            assert!((critical.speed / tilt - 1.0).abs() < close, "{stiffness}: {critical:?} {tilt}");
+            assert_eq!(critical.sense, sense);
+        }
+        // bounce and tilt mix by roundings of the largest eigenvalue beside their distance, 4 k/m
+        let largest = modal.frequencies().into_iter().fold(0.0, f64::max);
+        let close = close + f64::EPSILON * largest * largest / (4.0 * stiffness / mass);
+        for (mode, (_, shape)) in modal.forward_shapes()[..2].iter().enumerate() {
+            for (node, at) in shape.iter().enumerate() {
+                let straight = if mode == 0 { 1.0 } else { 1.0 - 0.2 * node as f64 };
+                let expected = straight * if shape[0] < 0.0 { -1.0 } else { 1.0 };
+                assert!((at - expected).abs() < close, "{stiffness} {mode} {node}: {at}");
+            }
+        }
+    }
+}
+
+/// A disc on a shaft of next to no mass, whose vibrations at 3e7 rad/s are far above that of soft springs, 10 rad/s.
+#[test]
+fn a_shaft_of_little_mass_leaves_the_lowest_whirls_their_digits() {
+    let light = Material { density: 1.0, ..Material::STEEL };
+    let (length, diameter, stiffness) = (0.6_f64, 0.05_f64, 1000.0);
+    for inertia in [1e-9, 0.01] {
+        let bearing = Bearing::isotropic(stiffness, 0.0);
+        let rotor = FlexibleRotor::uniform(10, length, diameter, light)
+            .disc(5, Disc { mass: 20.0, polar: inertia, diametral: inertia })
+            .bearing(0, bearing)
+            .bearing(10, bearing)
+            .station(5);
+        let modal = Modal::of(&rotor.build().unwrap()).unwrap();
+        // springs and shaft in series
+        let bending = 48.0 * light.young * PI / 64.0 * diameter.powi(4) / length.powi(3);
+        let together = (0.5 / stiffness + 1.0 / bending).recip();
+        let mass = 20.0 + light.density * PI / 4.0 * diameter * diameter * length;
+        let expected = (together / mass).sqrt();
+        let criticals = modal.criticals();
+        assert!(is_pair([0, 1].map(|k| criticals[k].sense)), "{criticals:?}");
+        let found = criticals[..2].iter().map(|critical| critical.speed);
+        for speed in found.chain(modal.frequencies()[..2].iter().copied()) {
+            // shear has 2 % of the bending's 1.4e-4; rounding is 1e-9, of 12 E I/l^3 = 4e9 N/m beside 2000 N/m
+            assert!((speed / expected - 1.0).abs() < 3e-6, "{speed} {expected}");
+        }
     }
 }
