@@ -187,21 +187,22 @@ fn tables(found: &Found) -> Vec<Section> {
     let text =
         "Without damping. Where the supports are alike in all directions, unbalance excites the forward ones only.";
     let mut all = vec![Section::new("Critical speeds", text, criticals)];
-    let mut whirls = Table::new(["whirl", "at rest Hz", "damping", "at the highest speed Hz", "damping", "sense"]);
-    if let (Some(first), Some(last)) = (found.whirls.first(), found.whirls.last()) {
-        for (index, (slow, fast)) in first.iter().zip(last).enumerate() {
-            whirls.row([
+    // the order changes with the speed, so a row of both would pair different whirls
+    for (title, whirls) in
+        [("Natural whirls at rest", found.whirls.first()), ("Natural whirls at the highest speed", found.whirls.last())]
+    {
+        let mut table = Table::new(["whirl", "Hz", "damping", "sense"]);
+        for (index, whirl) in whirls.into_iter().flatten().enumerate() {
+            table.row([
                 (index + 1).to_string(),
-                format!("{:.3}", slow.frequency / TAU),
-                percent(slow.damping_ratio),
-                format!("{:.3}", fast.frequency / TAU),
-                percent(fast.damping_ratio),
-                word(fast.sense).to_owned(),
+                format!("{:.3}", whirl.frequency / TAU),
+                percent(whirl.damping_ratio),
+                word(whirl.sense).to_owned(),
             ]);
         }
+        let text = "Damped frequencies, lowest first; a negative damping grows.";
+        all.push(Section::new(title, text, table));
     }
-    let text = "Damped frequencies, lowest first; a negative damping grows.";
-    all.push(Section::new("Natural whirls", text, whirls));
     if !found.peaks.is_empty() {
         let text = "Amplitude of the displacement by the unbalance of the file, up to the highest speed.";
         all.push(Section::new("Vibration by unbalance", text, peaks(&found.peaks)));
