@@ -118,7 +118,11 @@ fn find(rotor: &RotorFile, peaks: Vec<Peak>) -> Result<Found, RotorError> {
     let count = beyond.map_or(criticals.len(), |first| first + 1);
     let kept = Modal::lowest(&rotor.model, KEPT)?;
     let speeds: Vec<f64> = (0..SPEEDS).map(|k| rotor.highest * k as f64 / (SPEEDS - 1) as f64).collect();
-    let campbell = kept.campbell(&speeds, WHIRLS)?;
+    let mut campbell = kept.campbell(&speeds, WHIRLS)?;
+    if rotor.conservative {
+        // roundings, half of which would read as instability
+        campbell.whirls.iter_mut().flatten().for_each(|whirl| whirl.damping_ratio = 0.0);
+    }
     Ok(Found {
         name: rotor.name.clone(),
         critical_speeds: criticals[..count].to_vec(),
@@ -149,6 +153,15 @@ fn response(rotor: &RotorFile, unbalance: &[Complex<f64>]) -> Result<(Response, 
                 Some(highest) if highest.amplitude < amplitude => *highest = peak,
                 Some(_) => {}
                 None => peaks.push(peak),
+            }
+        }
+    }
+    if rotor.conservative {
+        // a resonance grows with the nearness of the speed, here a thousandfold but for rounding of either speed
+        for (sensor, peak) in peaks.iter_mut().enumerate() {
+            let beside = rotor.model.response(peak.speed * (1.0 + 1e-6), unbalance)?;
+            if peak.amplitude > 10.0 * beside[sensor].norm() {
+                peak.amplitude = f64::INFINITY;
             }
         }
     }

@@ -84,6 +84,8 @@ pub struct RotorFile {
     pub discs: Vec<(usize, f64)>,
     /// Nodes of the bearings.
     pub bearings: Vec<usize>,
+    /// Whether no bearing takes or gives energy: no damping, and no circulatory stiffness.
+    pub conservative: bool,
     /// Centre of mass along the shaft (m).
     pub centre: f64,
     /// How the unbalance is to be balanced.
@@ -153,12 +155,13 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
         discs.push((node, disc.mass));
         rotor = rotor.disc(node, disc);
     }
-    let (mut bearings, mut alike) = (Vec::new(), true);
+    let (mut bearings, mut alike, mut conservative) = (Vec::new(), true, true);
     let mut span: Range<usize> = 0..0;
     for (at, mut table) in root.tables_of("bearing", "bearing")? {
         let node = node(&mut table, last)?;
         let bearing = bearing(&mut table)?;
         alike &= bearing.stiffness == [[bearing.stiffness[0][0], 0.0], [0.0, bearing.stiffness[0][0]]];
+        conservative &= bearing.damping == [[0.0; 2]; 2] && bearing.stiffness[0][1] == bearing.stiffness[1][0];
         rotor = rotor.bearing(node, bearing);
         table.finish()?;
         bearings.push(node);
@@ -218,7 +221,20 @@ pub fn parse_rotor(name: &str, text: &str) -> Result<RotorFile, Diagnostic> {
     root.finish()?;
     let (places, centre) = (rotor.places(), rotor.centre());
     let name = rotor_name;
-    Ok(RotorFile { name, places, model, modal, unbalance, sensors, discs, bearings, centre, balancing, highest })
+    Ok(RotorFile {
+        name,
+        places,
+        model,
+        modal,
+        unbalance,
+        sensors,
+        discs,
+        bearings,
+        conservative,
+        centre,
+        balancing,
+        highest,
+    })
 }
 
 /// Nodes of the planes, and how many modes they are to balance.

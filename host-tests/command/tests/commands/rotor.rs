@@ -219,6 +219,38 @@ fn the_first_mode_of_soft_bearings_takes_the_static_unbalance() {
     }
 }
 
+/// Without a damper nothing decays or grows, and a resonance has no bound; circulatory stiffness makes a whirl grow.
+#[test]
+fn an_undamped_rotor_has_no_damping_and_no_height_of_its_resonance() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("undamped.toml");
+    let run = |text: &str, arguments: &[&str]| {
+        std::fs::write(&path, text).unwrap();
+        let html = folder.path().join("undamped.html");
+        let page = ["--html", html.to_str().unwrap()];
+        let output = driveline(&[&["rotor", path.to_str().unwrap()], &page[..], arguments].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let undamped = LONG.replace("damping_x = 2.0e3", "damping_x = 0.0");
+    let ratios = |said: &str| -> Vec<f64> {
+        let found: Value = serde_json::from_str(said).unwrap();
+        let speeds = found["whirls"].as_array().unwrap().iter();
+        speeds.flat_map(|w| w.as_array().unwrap()).map(|w| w["damping_ratio"].as_f64().unwrap()).collect()
+    };
+    let said = run(&undamped, &["--json"]);
+    assert!(ratios(&said).iter().all(|&ratio| ratio == 0.0), "{said}");
+    let found: Value = serde_json::from_str(&said).unwrap();
+    // the second sensor stands where the first mode bends most
+    assert!(found["peaks"][1]["amplitude"].is_null(), "{}", found["peaks"]);
+    let said = run(&undamped, &[]);
+    assert!(said.contains("Natural whirls at rest") && said.contains("undamped"), "{said}");
+    let driven = LONG.replace("damping_x = 2.0e3", "damping_x = 0.0, cross_xy = 1e5, cross_yx = -1e5");
+    let driven = driven.lines().filter(|line| !line.starts_with("balancing")).collect::<Vec<_>>().join("\n");
+    let said = run(&driven, &["--json"]);
+    assert!(ratios(&said).iter().any(|&ratio| ratio < -1e-6), "{said}");
+}
+
 /// Some seconds of work have a line on standard error for every five of them.
 #[test]
 fn a_rotor_of_many_pieces_says_what_takes_long() {

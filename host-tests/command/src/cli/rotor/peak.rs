@@ -14,7 +14,7 @@ pub struct Peak {
     pub angle: f64,
     /// Speed, rad/s.
     pub speed: f64,
-    /// Amplitude, m.
+    /// Amplitude, m; infinite (`null` in JSON) at a resonance of an undamped rotor.
     pub amplitude: f64,
     /// Angle by which it leads the rotor's zero, degrees.
     pub phase: f64,
@@ -31,9 +31,10 @@ pub fn peaks(all: &[Peak]) -> Table {
     for peak in all {
         peaks.row([
             format!("node {}, {}°", peak.node, significant(peak.angle)),
-            significant(peak.amplitude * 1e6),
+            if peak.amplitude.is_finite() { significant(peak.amplitude * 1e6) } else { "undamped".to_owned() },
             format!("{:.0}", rpm(peak.speed)),
-            format!("{:.1}", peak.phase),
+            // it turns over at a resonance
+            if peak.amplitude.is_finite() { format!("{:.1}", peak.phase) } else { String::new() },
         ]);
     }
     peaks
