@@ -253,6 +253,7 @@ fn too_few_ticks() {
 
 /// A cycle that takes a tenth longer than the one before, or shorter, is too much.
 #[test]
+#[cfg_attr(miri, ignore = "too long for an interpreter")]
 fn too_much_of_a_trend() {
     // two cycles from the end of the first on: in their middle the square of the speed is 1 + 4 shares
     for (share, is_right) in [(0.15, true), (0.2, false), (-0.06, true), (-0.08, false)] {
