@@ -16,8 +16,7 @@
 //! `A (C P + g F)/(1 - g F A)`. The closed loop is that of `A C P` alone, as long as the actuator matches its model;
 //! the margins cover the mismatch. At g = 1 the feed-forward integrates by itself. With a virtual inertia of the share
 //! s the estimated acceleration is that of the reported torque plus, delayed, that of the machine's motion. The loop is
-//! then
-//! `A (C P + s F)/(1 + s (1 - F) A)`.
+//! then `A (C P + s F)/(1 + s (1 - F) A)`.
 
 use super::late_loop::{Late, LateLoop};
 use super::margins::{Margins, OpenLoop};

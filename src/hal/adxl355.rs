@@ -1,8 +1,8 @@
 //! Vibration from an ADXL355: three axes of 20 bits at up to 4 kHz, SPI mode 0.
 //!
 //! A read starts with the address shifted up by one and a set lowest bit. The burst from `STATUS` to the last of the
-//! data returns the data together with their new-data flag
-//! [Analog Devices ADXL354/ADXL355, Rev. B, tables 16, 22 and 24 to 26].
+//! data returns the data together with their new-data flag [Analog Devices ADXL354/ADXL355, Rev. B, tables 16, 22 and
+//! 24 to 26].
 
 use super::{PerCount, Scaled, VibrationSensor};
 use crate::fault::Faults;

@@ -1,10 +1,8 @@
 //! A fan on its own bearings: 180 kg between two pedestals, driven through a coupling at 1480 r/min, balanced in two
-//! planes with trial
-//! weights.
+//! planes with trial weights.
 //!
 //! Two velocity sensors stand on the pedestals. The masses are of the size that makers' lists give for a centrifugal
-//! fan of 30 kW; they are not
-//! those of one machine.
+//! fan of 30 kW; they are not those of one machine.
 
 use driveline::balancing::Steadiness;
 use driveline::configure::{HasVibration, Machine, Rating};

@@ -2,8 +2,8 @@
 //! first critical.
 //!
 //! The shaft is 1.2 m long and 50 mm thick, its discs weigh 90 kg. Two displacement sensors look at the shaft beside
-//! the bearings; they see its
-//! run-out too, which a slow roll shows. The first forward critical lies at 1293 r/min, between the two speeds.
+//! the bearings; they see its run-out too, which a slow roll shows. The first forward critical lies at 1293 r/min,
+//! between the two speeds.
 
 use driveline::balancing::Steadiness;
 use driveline::configure::{HasVibration, Machine, Rating};

@@ -1,8 +1,8 @@
 //! A grinding spindle with a balancing head: 25 kg at 3000 r/min, balanced while it turns.
 //!
 //! The head moves two masses round the axis, so that their sum is any correction up to its capacity. Two acceleration
-//! sensors stand on the bearing
-//! housings. Nothing is known of the spindle at first, neither its unbalance nor what a correction does to it.
+//! sensors stand on the bearing housings. Nothing is known of the spindle at first, neither its unbalance nor what a
+//! correction does to it.
 
 use driveline::balancing::{InRunConfig, Steadiness};
 use driveline::configure::{HasVibration, Machine, Rating};
@@ -54,8 +54,7 @@ pub struct TheHead;
 
 impl Head for TheHead {
     /// The first step is a fiftieth of the capacity: an unbalance worth balancing is five times that, and so never
-    /// grows by
-    /// a fifth.
+    /// grows by a fifth.
     const CONFIG: InRunConfig<f32, 1> = InRunConfig {
         probe: CAPACITY as f32 / 50.0,
         limits: [CAPACITY as f32],

@@ -1,10 +1,8 @@
 //! Scenes whose rotor is balanced: the machine with its unbalance, who operates it, and what came of it.
 //!
 //! The drive in the firmware governs the speed of a drivetrain; the drivetrain's turning, with its ripple, turns a
-//! whirling rotor; the rotor's
-//! vibration goes back into the firmware, whose panel says which weights to set. The operator here does what a person
-//! does at the machine:
-//! starts, waits, presses a key, stops, sets a weight.
+//! whirling rotor; the rotor's vibration goes back into the firmware, whose panel says which weights to set. The
+//! operator here does what a person does at the machine: starts, waits, presses a key, stops, sets a weight.
 //!
 //! | term | meaning |
 //! |---|---|

@@ -87,11 +87,10 @@
 //!
 //! A rotor that is to be balanced has a file of its own kind: see [`RotorFile`].
 //!
-//! For a diagram of critical speeds, `[running]` gives the speeds `least` and `greatest` of the motor (rad/s), and
-//! each
-//! `[[excitation]]` its `name`, its `orders`, and the `ratio` of the motor's speed over that of the shaft that
-//! excites (1 where it is left out). `[engine]` describes a piston engine on masses of the machine, `[[damper]]` a
-//! damper that `modes` sizes. For `simulate` see [`train`].
+//! For a diagram of critical speeds, `[running]` gives the speeds `least` and `greatest` of the motor (rad/s), and each
+//! `[[excitation]]` its `name`, its `orders`, and the `ratio` of the motor's speed over that of the shaft that excites
+//! (1 where it is left out). `[engine]` describes a piston engine on masses of the machine, `[[damper]]` a damper that
+//! `modes` sizes. For `simulate` see [`train`].
 //!
 //! Every element may have a `label`, which tables and plots then use. Quantities stand on their own shaft, as a data
 //! sheet gives them; the library refers them to the motor.

@@ -13,9 +13,8 @@
 //! Coordinates of a node: deflections `x`, `y` and slopes `dx/dz`, `dy/dz`. With `q` all of them,
 //! `M q'' + (C + Omega G) q' + K q = f`, `G` the gyroscopic matrix. A disc of polar inertia `Ip` turns its slopes by
 //! `Id s_x'' + Ip Omega s_y' = ...`, `Id s_y'' - Ip Omega s_x' = ...`. The torque that speeds a disc up follows its
-//! axis, so a
-//! changing speed brings no term of its own. An unbalance `u` brings the force `u (Omega^2 - i Omega') exp(i phi)`,
-//! its real part along `x`, its imaginary part along `y`; at a constant speed a vibration is `Re(X exp(i phi))`.
+//! axis, so a changing speed brings no term of its own. An unbalance `u` brings the force `u (Omega^2 - i Omega') exp(i
+//! phi)`, its real part along `x`, its imaginary part along `y`; at a constant speed a vibration is `Re(X exp(i phi))`.
 //!
 //! Sources: Timoshenko elements with consistent mass [Nelson 1980, J. Mech. Design 102(4), 793-803], gyroscopic terms
 //! [Nelson and McVaugh 1976, J. Eng. Ind. 98(2), 593-600], shear coefficient [Cowper 1966, J. Appl. Mech. 33, 335-340].

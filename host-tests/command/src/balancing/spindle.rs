@@ -44,8 +44,7 @@ pub struct SpindleStart {
 
 impl SpindleStart {
     /// The start of a number: unbalance of 10 to 95 % of the head's capacity at any angle, stiffness from half to
-    /// twice, damping likewise,
-    /// sensors off by up to 5 % and 10 degrees.
+    /// twice, damping likewise, sensors off by up to 5 % and 10 degrees.
     #[must_use]
     pub fn random(number: u64) -> Self {
         let mut source = Noise::new(number.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(12_345));

@@ -31,8 +31,7 @@ pub struct Wanted<'a> {
 ///
 /// # Errors
 /// No such variant; what kept one from being balanced; a claim that was missed, a word that differs from the host's; a
-/// page that cannot be
-/// written.
+/// page that cannot be written.
 pub fn run(scene: &Scene, wanted: Wanted<'_>) -> Result<(), Failure> {
     let filter = if let Variants::Containing(filter) = wanted.variants { Some(filter) } else { None };
     let mut variants = scene.variants(filter);

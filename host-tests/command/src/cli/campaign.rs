@@ -130,9 +130,7 @@ fn has_effect(scene: &CampaignScene, tolerance: Tolerance) -> bool {
         Some(runs.collect::<Vec<_>>())
     };
     let nominal = runs(&Departure::NONE);
-    let departs = departures.iter().filter(|by| **by != Departure::NONE);
-    let same = departs.map(|by| runs(by) == nominal);
-    same.reduce(|low, high| low && high) != Some(true)
+    departures == [Departure::NONE; 2] || departures.iter().any(|by| runs(by) != nominal)
 }
 
 impl Campaign {

@@ -174,8 +174,7 @@ impl Figures {
 }
 
 /// Whether a difference of frequencies, of rated, is within a limit: one unit in the last place of the rated frequency
-/// is
-/// the rounding of the difference.
+/// is the rounding of the difference.
 fn within(difference: f64, limit: f64) -> bool {
     difference <= limit + f64::EPSILON
 }

@@ -92,9 +92,8 @@ pub fn readings(
     Ok(taken)
 }
 
-/// Where the angle (rad) stands as the mark passes, on average, whether or not it comes round between two samples;
-/// none where it is at no one place, or passes more than
-/// once a turn: two marks, or a shaft's angle behind a gear.
+/// Where the angle (rad) stands as the mark passes, on average, whether or not it comes round between two samples; none
+/// where it is at no one place, or passes more than once a turn: two marks, or a shaft's angle behind a gear.
 pub fn zero(angle: &[f64], marks: &[(usize, f64)]) -> Option<f64> {
     let step = |row: usize| (angle[row] - angle[row - 1] + PI).rem_euclid(TAU) - PI;
     let at = |(row, since): &(usize, f64)| angle[*row] - since * step(*row);

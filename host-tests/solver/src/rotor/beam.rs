@@ -1,8 +1,7 @@
 //! A shaft element of uniform round section by Timoshenko's theory, in one plane.
 //!
 //! Coordinates: deflection and slope at the near end, then at the far end. Both planes have the same matrices, for
-//! slopes
-//! and not turning vectors are the coordinates [Nelson 1980].
+//! slopes and not turning vectors are the coordinates [Nelson 1980].
 
 use std::f64::consts::PI;
 
@@ -90,8 +89,7 @@ impl Section {
 }
 
 /// A symmetric matrix of an element that looks alike from both ends: deflection and slope at the near end (`dd`, `ds`,
-/// `ss`),
-/// near against far deflection (`df`), near deflection against far slope (`dt`), slope against slope (`st`).
+/// `ss`), near against far deflection (`df`), near deflection against far slope (`dt`), slope against slope (`st`).
 fn pattern(dd: f64, ds: f64, ss: f64, df: f64, dt: f64, st: f64) -> Matrix4<f64> {
     #[rustfmt::skip]
     let rows = [

@@ -1,8 +1,7 @@
 //! Proof that a run has converged: it is done again by another integrator and must come out the same.
 //!
 //! The second integrator is DOP853 of the crate `differential-equations`, with its own right-hand side: forces and
-//! gyroscopic terms of
-//! the instant, no exponential, no grid of speeds, no interpolation.
+//! gyroscopic terms of the instant, no exponential, no grid of speeds, no interpolation.
 
 use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 use differential_equations::prelude::ExplicitRungeKutta;

@@ -58,8 +58,7 @@ impl Modal {
     /// its symmetric part.
     ///
     /// From `(w^2 - Omega^2 (1 - i G)) eta = 0` of the whirl `exp(i Omega t)`: with `eta = zeta/w`, the positive
-    /// eigenvalues of the
-    /// Hermitian `(1 - i G)/(w w)` are `1/Omega^2`.
+    /// eigenvalues of the Hermitian `(1 - i G)/(w w)` are `1/Omega^2`.
     #[must_use]
     pub fn criticals(&self) -> Vec<Critical> {
         self.synchronous().into_iter().map(|(critical, _)| critical).collect()

@@ -1,8 +1,7 @@
 //! The rotor in its natural vibrations at rest, undamped: coordinates in which every number is of one size.
 //!
 //! With `Phi^T M Phi = 1` and `Phi^T K Phi = diag(w^2)` (of the symmetric part of `K`), the state is `(w eta, eta')`.
-//! All
-//! vibrations together are the model itself; fewer of them, from the lowest, are a reduction.
+//! All vibrations together are the model itself; fewer of them, from the lowest, are a reduction.
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 

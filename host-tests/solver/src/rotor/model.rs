@@ -86,8 +86,7 @@ impl Model {
     }
 
     /// Displacement at each sensor (m), as complex amplitudes of `Re(X exp(i phi))`, at a constant speed (rad/s) with
-    /// an unbalance (kg m) at
-    /// each station.
+    /// an unbalance (kg m) at each station.
     ///
     /// # Errors
     /// Another number of unbalances than of stations; an undamped rotor on a critical speed.

@@ -3,14 +3,11 @@
 //! `x' = A(Omega) x + B f(t)` is propagated by `exp(A h)` and by the integrals of a cubic through `f` at four instants
 //! of the tick.
 //! The exponentials are computed at speeds on a grid when they are first needed; at a speed between them the step is
-//! that of the
-//! square through the nearest three, which is off by `(2 h D)^3/16` at most, `D` the grid's spacing: `G` is at most 2
-//! per
-//! rad/s in modal coordinates.
+//! that of the square through the nearest three, which is off by `(2 h D)^3/16` at most, `D` the grid's spacing: `G` is
+//! at most 2 per rad/s in modal coordinates.
 //!
 //! Where the speed changes within a tick the step is Magnus's to the fourth order, `exp(h A(mean) + h^3/12 Omega' [G,
-//! A])`, the
-//! second term by its first power on either side [Blanes et al. 2009, Phys. Rep. 470, 151-238].
+//! A])`, the second term by its first power on either side [Blanes et al. 2009, Phys. Rep. 470, 151-238].
 
 use std::collections::BTreeMap;
 

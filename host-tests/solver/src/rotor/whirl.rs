@@ -20,9 +20,8 @@ pub struct Motion {
 
 /// A rotor at rest at first, propagated tick by tick as its shaft turns.
 ///
-/// All ticks have one duration. Exact at a constant speed but for the force, a cubic through four instants of the
-/// tick; at a changing
-/// one of the fourth order in the tick. [`super::converge::prove`] says how good that is for a run.
+/// All ticks have one duration. Exact at a constant speed but for the force, a cubic through four instants of the tick;
+/// at a changing one of the fourth order in the tick. [`super::converge::prove`] says how good that is for a run.
 #[derive(Clone, Debug)]
 pub struct Whirl {
     steps: Steps,

@@ -46,8 +46,7 @@ fn least_squares(samples: &[(f64, bool)]) -> Complex<f64> {
 
 /// Without a weight: five blocks of eight turns are taken, and within 10 % and 8 degrees of the whole record, although
 /// knocks of 30 times the vibration pass every sixth turn. With the weight next to nothing is left at once a turn:
-/// those
-/// readings are refused with the uncertainty that they have.
+/// those readings are refused with the uncertainty that they have.
 #[test]
 fn a_polygon_mirror_is_read() {
     let Some(folder) = recording("polygon_rotor") else { return };

@@ -107,8 +107,7 @@ fn a_ripple_keeps_angle_and_speed_together() {
         let (before, after) = (spin.at(time - step).0, spin.at(time + step).0);
         let slope = (after - before) / (2.0 * step);
         // the second derivative of the speed, some (3 Omega)^2 1 % of it, times step^2/6; rounding of the angle over
-        // the step; at the corner
-        // of the course the mean of both sides
+        // the step; at the corner of the course the mean of both sides
         let bound = 1e-6 * 90.0 + if (time - 2.0).abs() < step || time < step { 20.0 * step } else { 0.0 };
         assert!((slope - spin.at(time).1).abs() < bound, "{time} {slope} {}", spin.at(time).1);
     }

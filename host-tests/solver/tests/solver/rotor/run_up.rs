@@ -80,8 +80,7 @@ fn a_run_that_is_wrong_is_found() {
 #[test]
 fn the_whole_rotor_runs_as_its_lowest_vibrations_and_what_they_leave_out() {
     // Of the steady vibration the eight lowest leave out what the others give: at 1062 r/min a part of (17.7 Hz/600
-    // Hz)^2 = 1e-3 of
-    // what moves the discs statically.
+    // Hz)^2 = 1e-3 of what moves the discs statically.
     let model = three_discs(BEARING).build().unwrap();
     let truth = model.response(111.2, &unbalance()).unwrap();
     let mut errors = Vec::new();
