@@ -152,8 +152,9 @@ fn a_signal_leaves_neither_a_process_nor_a_folder() {
     for moment in 0..5 {
         let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
         command.args(["run", "hoist", "--variants", "f32/m4f/reduced/10000", "--json", "--html", "/dev/null"]);
-        let mut child =
-            command.env("TMPDIR", folder.path()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let said = tempfile::NamedTempFile::new().unwrap();
+        let errors = said.reopen().unwrap();
+        let mut child = command.env("TMPDIR", folder.path()).stdout(Stdio::null()).stderr(errors).spawn().unwrap();
         // QEMU stands in its folder: the signal comes then, or a little later
         let runs = || working_in(folder.path());
         while runs() == 0 && matches!(child.try_wait(), Ok(None)) {
@@ -162,7 +163,8 @@ fn a_signal_leaves_neither_a_process_nor_a_folder() {
         thread::sleep(Duration::from_millis(40 * moment));
         in_qemu += usize::from(runs() > 0);
         assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
-        assert_eq!(child.wait().unwrap().signal(), Some(15));
+        let status = child.wait().unwrap();
+        assert_eq!(status.signal(), Some(15), "{status}: {}", std::fs::read_to_string(said.path()).unwrap());
         // the kernel may still be at it
         for _ in 0..100 {
             if runs() == 0 {

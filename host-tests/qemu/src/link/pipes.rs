@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{CWD, FileType, Mode, OFlags, mknodat};
+use rustix::io::retry_on_intr;
 
 /// How often a wait looks whether QEMU still runs.
 const LOOK: Timespec = Timespec { tv_sec: 0, tv_nsec: 100_000_000 };
@@ -45,7 +46,8 @@ impl Pipes {
         let mut length = 0;
         let mut started = None;
         while length < answer.len() {
-            let ready = poll(&mut [PollFd::new(&self.output, PollFlags::IN)], Some(&LOOK))?;
+            // a signal that ends the program is another thread's: no failure of the link
+            let ready = retry_on_intr(|| poll(&mut [PollFd::new(&self.output, PollFlags::IN)], Some(&LOOK)))?;
             if ready > 0 {
                 match self.output.read(&mut answer[length..]) {
                     Ok(0) => {
@@ -69,6 +71,9 @@ impl Pipes {
 #[cfg(test)]
 mod tests {
     use std::io::ErrorKind;
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+    use std::thread;
     use std::time::{Duration, Instant};
 
     use super::Pipes;
@@ -84,5 +89,25 @@ mod tests {
         assert_eq!(died.kind(), ErrorKind::BrokenPipe);
         // three or four looks of 0.1 s each and one more; a loaded machine takes longer, an hour is the other limit
         assert!(started.elapsed() < Duration::from_secs(60));
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_signal_while_it_waits_is_no_failure_of_the_link() {
+        use rustix::process::{Signal, kill_process};
+        let caught = Arc::new(AtomicBool::new(false));
+        signal_hook::flag::register(signal_hook::consts::SIGUSR1, Arc::clone(&caught)).unwrap();
+        let directory = tempfile::tempdir().unwrap();
+        let mut pipes = Pipes::make(directory.path()).unwrap();
+        // Linux gives a signal to the thread whose number is asked for, if it does not block it
+        let waiting = rustix::thread::gettid();
+        let sender = thread::spawn(move || {
+            thread::sleep(Duration::from_millis(50));
+            kill_process(waiting, Signal::USR1).unwrap();
+        });
+        let hangs = pipes.exchange(&[0; 32], &mut [0; 32], Duration::from_millis(250), || true).unwrap_err();
+        sender.join().unwrap();
+        assert!(caught.load(Relaxed));
+        assert_eq!(hangs.kind(), ErrorKind::TimedOut);
     }
 }

@@ -6,6 +6,7 @@ use std::os::unix::fs::OpenOptionsExt;
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{CWD, FileType, Mode, OFlags, mknodat};
+use rustix::io::retry_on_intr;
 
 use super::qemu::Qemu;
 use crate::children::Folder;
@@ -39,7 +40,7 @@ impl Read for Telling {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         loop {
             let running = self.qemu.is_running();
-            poll(&mut [PollFd::new(&self.pipe, PollFlags::IN)], Some(&LOOK))?;
+            retry_on_intr(|| poll(&mut [PollFd::new(&self.pipe, PollFlags::IN)], Some(&LOOK)))?;
             match self.pipe.read(bytes) {
                 Ok(0) if running => std::thread::sleep(std::time::Duration::from_millis(5)),
                 Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => {}
