@@ -1,6 +1,6 @@
 //! Natural whirls over the speed, and where the unbalance meets them.
 
-use nalgebra::{Complex, DMatrix, DVector, RowDVector};
+use nalgebra::{Complex, DMatrix, DVector, DVectorView, RowDVector};
 
 use super::error::RotorError;
 use super::modal::Modal;
@@ -99,17 +99,19 @@ impl Modal {
             .collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let groups = all.chunk_by(|a, b| b.0 - a.0 <= ALIKE * a.0);
-        let shapes = groups.flat_map(|group| self.apart(group));
+        let shapes = groups.flat_map(|group| {
+            let shapes: Vec<_> = group.iter().map(|(_, shape)| shape.clone()).collect();
+            self.apart(&shapes)
+        });
         let critical = |shape: DVector<Complex<f64>>, speed| (Critical { speed, sense: self.sense(&shape) }, shape);
         shapes.zip(all.iter().map(|(speed, _)| *speed)).map(|(shape, speed)| critical(shape, speed)).collect()
     }
 
-    /// Whirls at the same speed, of which any combination is one: those that go round most forward, or least.
-    fn apart(&self, group: &[(f64, DVector<Complex<f64>>)]) -> Vec<DVector<Complex<f64>>> {
-        let shapes: Vec<&DVector<Complex<f64>>> = group.iter().map(|(_, shape)| shape).collect();
+    /// Whirls of one frequency, of which any combination is one: those that go round least forward, up to the most.
+    fn apart(&self, shapes: &[DVector<Complex<f64>>]) -> Vec<DVector<Complex<f64>>> {
         let m = shapes.len();
         if m == 1 {
-            return vec![shapes[0].clone()];
+            return shapes.to_vec();
         }
         let mut forward = DMatrix::from_element(m, m, Complex::new(0.0, 0.0));
         for rows in &self.stations {
@@ -118,12 +120,14 @@ impl Modal {
                 forward[(j, k)] += all[j][0].conj() * all[k][0] - all[j][1].conj() * all[k][1];
             }
         }
-        let turned = forward.symmetric_eigen().eigenvectors;
+        let turned = forward.symmetric_eigen();
+        let mut order: Vec<usize> = (0..m).collect();
+        order.sort_by(|&j, &k| turned.eigenvalues[j].total_cmp(&turned.eigenvalues[k]));
         let combined = |k: usize| {
-            let parts = shapes.iter().enumerate().map(|(j, shape)| *shape * turned[(j, k)]);
+            let parts = shapes.iter().enumerate().map(|(j, shape)| shape * turned.eigenvectors[(j, k)]);
             parts.reduce(|sum, part| sum + part).unwrap_or_else(|| shapes[0].clone())
         };
-        (0..m).map(combined).collect()
+        order.into_iter().map(combined).collect()
     }
 
     /// The `count` lowest natural whirls at each of some speeds (rad/s).
@@ -144,32 +148,38 @@ impl Modal {
         // an overdamped motion does not whirl
         values.retain(|value| value.im > 1e-9 * value.norm());
         values.sort_by(|a, b| a.im.total_cmp(&b.im));
-        values.truncate(count);
-        let natural = |value: Complex<f64>| Natural {
+        let groups = values.chunk_by(|a, b| (b - a).norm() <= ALIKE * a.norm());
+        let senses = groups.flat_map(|group| {
+            let shapes = self.shapes(&a, group[0], group.len()).map(|shapes| self.apart(&shapes));
+            let senses = shapes.map(|shapes| shapes.iter().map(|shape| self.sense(shape)).collect());
+            senses.unwrap_or_else(|| vec![WhirlSense::Mixed; group.len()])
+        });
+        let natural = |(&value, sense): (&Complex<f64>, WhirlSense)| Natural {
             frequency: value.im,
             undamped: value.norm(),
             damping_ratio: -value.re / value.norm(),
-            sense: self.shape(&a, value).map_or(WhirlSense::Mixed, |shape| self.sense(&shape)),
+            sense,
         };
-        values.into_iter().map(natural).collect()
+        values.iter().zip(senses).take(count).map(natural).collect()
     }
 
-    /// The deflections of an eigenvalue's whirl, by inverse iteration beside it.
-    fn shape(&self, a: &DMatrix<f64>, value: Complex<f64>) -> Option<DVector<Complex<f64>>> {
+    /// The deflections of so many whirls of one eigenvalue, by inverse iteration beside it.
+    fn shapes(&self, a: &DMatrix<f64>, value: Complex<f64>, count: usize) -> Option<Vec<DVector<Complex<f64>>>> {
         let n = a.nrows();
         let beside = value * Complex::new(1.0, 1e-9);
         let system = DMatrix::from_fn(n, n, |i, j| {
             Complex::new(a[(i, j)], 0.0) - if i == j { beside } else { Complex::new(0.0, 0.0) }
         })
         .lu();
-        let mut vector = DVector::from_fn(n, |i, _| Complex::new(1.0, 0.3 + 0.01 * i as f64));
+        // as many independent ones, none along an axis
+        let mut vectors = DMatrix::from_fn(n, count, |i, k| Complex::new(1.0, 0.3 + 0.01 * (i * (k + 1)) as f64));
         for _ in 0..3 {
-            vector = system.solve(&vector)?;
-            let size = vector.norm();
-            vector = vector.map(|entry| entry / size);
+            vectors = system.solve(&vectors)?.qr().q();
         }
         let r = self.count();
-        Some(DVector::from_iterator(r, (0..r).map(|i| vector[i] / self.frequency[i])))
+        let shape =
+            |vector: DVectorView<Complex<f64>>| vector.rows(0, r).zip_map(&self.frequency, |entry, w| entry / w);
+        Some(vectors.column_iter().map(shape).collect())
     }
 
     /// Which way a whirl `Re(eta exp(i w t))` goes round at most stations.
