@@ -384,6 +384,9 @@ fn columns(
         }
     }
     let timed = columns.iter().find(|column| matches!(column.quantity, Quantity::Time | Quantity::Frequency));
+    // times of teeth alone are on no clock of rows
+    let teeth = columns.first().filter(|_| columns.iter().all(|column| column.quantity == Quantity::ToothTime));
+    let timed = timed.or(teeth);
     if let Some(column) = timed.filter(|_| asked.rate.is_some()) {
         let found = format!("--rate beside a column of {}", column.quantity.name());
         let expected = "no --rate, which is for recordings without such a column";

@@ -479,6 +479,10 @@ fn a_rate_beside_a_column_of_time_is_refused() {
     assert!(code == Some(2) && sentence.contains(words), "{code:?}: {sentence}");
     let folder = tempfile::tempdir().unwrap();
     let file = path(folder.path(), "log.csv");
+    std::fs::write(&file, "tooth_time_s\n0\n0.1\n").unwrap();
+    let teeth = driveline(&["replay", file.to_str().unwrap(), "--rate", "1000", "--teeth", "60-2"]);
+    let sentence = String::from_utf8(teeth.stderr).unwrap();
+    assert!(sentence.contains("`tooth_time_s`: found --rate beside a column of tooth-time"), "{sentence}");
     std::fs::write(&file, text).unwrap();
     for part in [&["--machine", AXIS][..], &["--teeth", "60-2"], &["--fluctuation"], &["--phasors"]] {
         let output = driveline(&[&["replay", file.to_str().unwrap(), "--rate", "1000"], part].concat());
