@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{CWD, FileType, Mode, OFlags, mknodat};
-use rustix::io::retry_on_intr;
+use rustix::io::Errno;
 
 /// How often a wait looks whether QEMU still runs.
 const LOOK: Timespec = Timespec { tv_sec: 0, tv_nsec: 100_000_000 };
@@ -46,8 +46,11 @@ impl Pipes {
         let mut length = 0;
         let mut started = None;
         while length < answer.len() {
-            // a signal that ends the program is another thread's: no failure of the link
-            let ready = retry_on_intr(|| poll(&mut [PollFd::new(&self.output, PollFlags::IN)], Some(&LOOK)))?;
+            let ready = match poll(&mut [PollFd::new(&self.output, PollFlags::IN)], Some(&LOOK)) {
+                // a signal that ends the program is another thread's: no failure of the link
+                Err(Errno::INTR) => 0,
+                other => other?,
+            };
             if ready > 0 {
                 match self.output.read(&mut answer[length..]) {
                     Ok(0) => {

@@ -6,7 +6,7 @@ use std::os::unix::fs::OpenOptionsExt;
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{CWD, FileType, Mode, OFlags, mknodat};
-use rustix::io::retry_on_intr;
+use rustix::io::Errno;
 
 use super::qemu::Qemu;
 use crate::children::Folder;
@@ -40,7 +40,11 @@ impl Read for Telling {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         loop {
             let running = self.qemu.is_running();
-            retry_on_intr(|| poll(&mut [PollFd::new(&self.pipe, PollFlags::IN)], Some(&LOOK)))?;
+            match poll(&mut [PollFd::new(&self.pipe, PollFlags::IN)], Some(&LOOK)) {
+                // a signal that ends the program is another thread's
+                Ok(_) | Err(Errno::INTR) => {}
+                Err(error) => return Err(error.into()),
+            }
             match self.pipe.read(bytes) {
                 Ok(0) if running => std::thread::sleep(std::time::Duration::from_millis(5)),
                 Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => {}
