@@ -2,6 +2,7 @@
 
 mod angle;
 mod column;
+mod decimal;
 mod read;
 
 pub use angle::unwrapped;

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::angle::counted;
 use super::column::{Column, Quantity, Scales, Unusable};
+use super::decimal::{self, Commas, number};
 use crate::machine_file::{Diagnostic, Source, printable};
 
 /// Largest recording in bytes.
@@ -247,6 +248,7 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
     let (columns, unused) = columns(source, &headings, asked, delimiter)?;
     let mut signals = vec![Vec::new(); columns.len()];
     let (mut lines, mut sign) = (Vec::new(), None);
+    let mut commas: Vec<Commas> = columns.iter().map(|_| Commas::default()).collect();
     for record in reader.records() {
         let record = record.map_err(broken)?;
         let at = |column: usize| row(source, record.position(), column, delimiter);
@@ -259,7 +261,7 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
         let is_tooth = |column: &Column| column.quantity == Quantity::ToothTime;
         let has = |tooth| columns.iter().any(|of| is_tooth(of) == tooth && !record[of.index].is_empty());
         let has_row = !has(true) || has(false);
-        for (column, signal) in columns.iter().zip(&mut signals) {
+        for ((column, signal), commas) in columns.iter().zip(&mut signals).zip(&mut commas) {
             let field = &record[column.index];
             if field.is_empty() && (is_tooth(column) || !has_row) {
                 continue;
@@ -268,12 +270,7 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
             let key = printable(&column.heading, 40);
             let Some(number) = number.filter(|value| value.is_finite()) else {
                 let found = if field.is_empty() { "nothing".to_owned() } else { format!("`{}`", printable(field, 40)) };
-                let expected = match sign {
-                    Some(',') if field.contains('.') => "a finite number with a decimal comma, as those before it",
-                    Some(',') => "a finite number",
-                    _ if field.contains(',') => "a finite number with a decimal point, not a comma",
-                    _ => "a finite number",
-                };
+                let expected = decimal::expected(field, sign);
                 return Err(Diagnostic::at(source, at(column.index), key, found, expected));
             };
             if number.abs() > HIGHEST {
@@ -281,10 +278,18 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
                 let expected = format!("at most {HIGHEST:e} in SI units; check the unit of the column");
                 return Err(Diagnostic::at(source, at(column.index), key, found, expected));
             }
+            commas.take(field, || at(column.index));
             signal.push(number);
         }
         if has_row {
             lines.push(record.position().map_or(0, csv::Position::line));
+        }
+    }
+    for (column, commas) in columns.iter().zip(commas) {
+        if let Some(place) = commas.doubtful() {
+            let found = format!("`{}` among whole numbers of hundreds", &text[place.clone()]);
+            let expected = "no comma between thousands; a decimal comma with more digits, or fewer";
+            return Err(Diagnostic::at(source, place, printable(&column.heading, 40), found, expected));
         }
     }
     let mut recording = Recording { name: name.to_owned(), period: f64::NAN, columns, unused, lines, signals };
@@ -305,17 +310,6 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
         recording.period = if asked.uneven { rising(&recording, asked)? } else { period(&recording, asked)? };
     }
     Ok(recording)
-}
-
-/// A number with a decimal point, or with a decimal comma where no comma separates the columns. A file has one of the
-/// two signs, so that a comma between thousands is not taken for a decimal one beside a point.
-fn number(field: &str, delimiter: char, sign: &mut Option<char>) -> Option<f64> {
-    if let Some(found) = field.chars().find(|c| matches!(c, '.' | ','))
-        && (found == delimiter || *sign.get_or_insert(found) != found)
-    {
-        return None;
-    }
-    field.replacen(',', ".", 1).parse().ok()
 }
 
 /// The columns by the user's word, and the others by their headings.
