@@ -48,6 +48,13 @@ pub fn percent(fraction: f64) -> String {
     }
 }
 
+/// An angle from 0 to below 360 degrees.
+pub fn turned(angle: f64, decimals: i32) -> String {
+    let parts = 10f64.powi(decimals);
+    let rounded = (angle * parts).round().rem_euclid(360.0 * parts) / parts;
+    format!("{rounded:.*}", decimals as usize)
+}
+
 /// A whole number with a thin space between thousands.
 pub fn grouped(value: i64) -> String {
     let digits = value.unsigned_abs().to_string();
@@ -127,6 +134,7 @@ mod tests {
         assert_eq!(power(-12), "10⁻¹²");
         assert_eq!(power(2), "100");
         assert_eq!(tick(-0.25, 0.05), "−0.25");
+        assert_eq!([turned(359.96, 1), turned(359.94, 1), turned(-90.4, 0)], ["0.0", "359.9", "270"]);
         // in tables beside numbers that are not grouped
         assert_eq!(grouped(-1_234_567), "-1\u{202f}234\u{202f}567");
         assert_eq!([counted(1, "draw"), counted(60, "draw")], ["1 draw", "60 draws"]);

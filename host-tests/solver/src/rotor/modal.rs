@@ -50,12 +50,15 @@ impl Modal {
         }
         let chosen = eigen.eigenvectors.select_columns(&order);
         let phi = lower.transpose().solve_upper_triangular(&chosen).ok_or(RotorError::NotHeld)?;
-        let project = |matrix: &DMatrix<f64>| phi.transpose() * matrix * &phi;
         // Rayleigh's quotient: an eigenvalue has roundings of the largest one, its vibration the square of those.
-        let strain = project(&symmetric).diagonal();
+        let strain = (phi.transpose() * &symmetric * &phi).diagonal();
         if !(strain.min() > 0.0) {
             return Err(RotorError::NotHeld);
         }
+        let mut order: Vec<usize> = (0..strain.len()).collect();
+        order.sort_by(|&a, &b| strain[a].total_cmp(&strain[b]));
+        let (phi, strain) = (phi.select_columns(&order), strain.select_rows(&order));
+        let project = |matrix: &DMatrix<f64>| phi.transpose() * matrix * &phi;
         Ok(Modal {
             frequency: strain.map(f64::sqrt),
             damping: project(&model.damping),

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::machine_file::balance::{Along, BalanceFile};
 use driveline_report::Fact;
-use driveline_report::format::significant;
+use driveline_report::format::{significant, turned};
 
 /// The grade before and after.
 #[derive(Clone, Debug, Serialize)]
@@ -163,7 +163,7 @@ impl Grade {
 }
 
 /// A size with its angle; no angle of nothing.
-fn angled(size: f64, unit: &str, degrees: f64) -> String {
-    let angle = if size > 0.0 { format!(" at {degrees:.0}°") } else { String::new() };
+fn angled(size: f64, unit: &str, angle: f64) -> String {
+    let angle = if size > 0.0 { format!(" at {}°", turned(angle, 0)) } else { String::new() };
     format!("{} {unit}{angle}", significant(size))
 }

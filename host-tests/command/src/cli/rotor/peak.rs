@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use driveline_report::Table;
-use driveline_report::format::significant;
+use driveline_report::format::{significant, turned};
 
 /// The largest vibration of a sensor up to the highest speed.
 #[derive(Debug, Serialize)]
@@ -34,7 +34,7 @@ pub fn peaks(all: &[Peak]) -> Table {
             if peak.amplitude.is_finite() { significant(peak.amplitude * 1e6) } else { "undamped".to_owned() },
             format!("{:.0}", rpm(peak.speed)),
             // it turns over at a resonance
-            if peak.amplitude.is_finite() { format!("{:.1}", peak.phase) } else { String::new() },
+            if peak.amplitude.is_finite() { turned(peak.phase, 1) } else { String::new() },
         ]);
     }
     peaks
