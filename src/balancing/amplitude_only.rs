@@ -17,8 +17,8 @@ pub struct FromAmplitudes<T: Scalar> {
     pub weight: Complex<T>,
     /// A second answer, equally good, of two trial runs.
     pub or: Option<Complex<T>>,
-    /// How well the runs agree, of three or more: the effect's square from their mean less that from their differences,
-    /// over the latter; 0 to 1.
+    /// How far three or more runs disagree: by how much the effect's square from their mean differs from that of their
+    /// differences, over the latter; 0 (they agree) to 1.
     pub disagreement: T,
 }
 
@@ -28,7 +28,7 @@ pub struct FromAmplitudes<T: Scalar> {
 /// [`Error::TrialWeightZero`], [`Error::Reading`], [`Error::ReadingMissing`] for fewer than two runs,
 /// [`Error::NoEffect`] where the runs are no different, [`Error::NotFound`] where no influence gives such amplitudes,
 /// the angles are the same, the weights of three or more runs lie on one line through the shaft, or the runs contradict
-/// each other by more than the effect's square: a heavier trial weight has a larger effect.
+/// each other by more than the effect's square; a heavier trial weight helps.
 pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Result<FromAmplitudes<T>, Error> {
     if !(trial > T::zero() && trial.is_finite()) {
         return Err(Error::TrialWeightZero { plane: 0 });

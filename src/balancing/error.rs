@@ -131,9 +131,10 @@ impl fmt::Display for Error {
                 write!(f, "balancing {modes} mode(s) takes {modes} plane(s), or two more: there are {planes}")
             }
             Error::Setting { index } => write!(f, "setting {} is not a positive number", index + 1),
-            Error::NotFound => {
-                f.write_str("no answer: a search ended too far from the optimum, or the amplitudes fit no influence")
-            }
+            Error::NotFound => f.write_str(
+                "no answer: a search ended too far from the optimum, the amplitudes fit no influence, or the trial \
+                     weights stand at one place or on one line through the shaft",
+            ),
             Error::SpeedDiffers { row } => {
                 write!(f, "reading {} was taken at another speed than its baseline: run at the same speed", row + 1)
             }
