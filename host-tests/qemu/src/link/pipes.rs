@@ -13,6 +13,26 @@ use rustix::io::Errno;
 /// How often a wait looks whether QEMU still runs.
 const LOOK: Timespec = Timespec { tv_sec: 0, tv_nsec: 100_000_000 };
 
+fn make(path: &Path) -> io::Result<()> {
+    Ok(mknodat(CWD, path, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0)?)
+}
+
+/// Makes a pipe that QEMU writes, and opens it; neither waits for QEMU.
+pub(super) fn incoming(path: &Path) -> io::Result<File> {
+    make(path)?;
+    OpenOptions::new().read(true).custom_flags(OFlags::NONBLOCK.bits() as i32).open(path)
+}
+
+/// Whether the pipe has bytes, or has them before the next look at QEMU is due.
+pub(super) fn has_bytes(pipe: &File) -> io::Result<bool> {
+    match poll(&mut [PollFd::new(pipe, PollFlags::IN)], Some(&LOOK)) {
+        Ok(ready) => Ok(ready > 0),
+        // a signal that ends the program is another thread's: no failure of the link
+        Err(Errno::INTR) => Ok(false),
+        Err(error) => Err(error.into()),
+    }
+}
+
 /// The host's ends.
 pub struct Pipes {
     input: File,
@@ -22,15 +42,11 @@ pub struct Pipes {
 impl Pipes {
     /// Makes the pipes and opens them; neither waits for QEMU.
     pub fn make(directory: &Path) -> io::Result<Self> {
-        let (input, output) = (directory.join("input"), directory.join("output"));
-        for path in [&input, &output] {
-            mknodat(CWD, path, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0)?;
-        }
+        let input = directory.join("input");
+        make(&input)?;
         // opened for both, a pipe does not wait for its other end
         let input = OpenOptions::new().read(true).write(true).open(input)?;
-        let nonblocking = OFlags::NONBLOCK.bits() as i32;
-        let output = OpenOptions::new().read(true).custom_flags(nonblocking).open(output)?;
-        Ok(Pipes { input, output })
+        Ok(Pipes { input, output: incoming(&directory.join("output"))? })
     }
 
     /// Writes a message and waits until the answer is full, as long as `is_running` and at most `limit`.
@@ -46,12 +62,7 @@ impl Pipes {
         let mut length = 0;
         let mut started = None;
         while length < answer.len() {
-            let ready = match poll(&mut [PollFd::new(&self.output, PollFlags::IN)], Some(&LOOK)) {
-                // a signal that ends the program is another thread's: no failure of the link
-                Err(Errno::INTR) => 0,
-                other => other?,
-            };
-            if ready > 0 {
+            if has_bytes(&self.output)? {
                 match self.output.read(&mut answer[length..]) {
                     Ok(0) => {
                         return Err(io::Error::new(ErrorKind::UnexpectedEof, "the image closed the link"));
