@@ -97,13 +97,14 @@ impl Rotor {
     /// What is shown, with the vibration as it is and with the weights.
     fn found(&self, rotor: &RotorFile) -> Result<(Found, Vec<Response>), Failure> {
         let failed = |error: RotorError| Failure::failed(error.to_string());
-        let (response, peaks) = response(rotor, &rotor.unbalances()).map_err(failed)?;
+        let own = rotor.unbalances();
+        let (response, peaks) = response(rotor, &own, &own).map_err(failed)?;
         let mut found = find(rotor, peaks).map_err(failed)?;
         let mut responses = vec![response];
         if let Some(plan) = &rotor.balancing {
             let fault = |fault| Failure::failed(format!("{}: {fault}", self.file.display()));
             let (mut balanced, unbalance) = Balanced::of(rotor, plan).map_err(fault)?;
-            let (with_weights, peaks) = self::response(rotor, &unbalance).map_err(failed)?;
+            let (with_weights, peaks) = self::response(rotor, &unbalance, &own).map_err(failed)?;
             balanced.peaks = peaks;
             found.balancing = Some(balanced);
             responses.push(with_weights);
@@ -133,17 +134,24 @@ fn find(rotor: &RotorFile, peaks: Vec<Peak>) -> Result<Found, RotorError> {
     })
 }
 
-/// Vibration with this unbalance at every node (kg m).
-fn response(rotor: &RotorFile, unbalance: &[Complex<f64>]) -> Result<(Response, Vec<Peak>), RotorError> {
+/// Vibration with this unbalance at every node (kg m) of a rotor that has its own.
+fn response(
+    rotor: &RotorFile,
+    unbalance: &[Complex<f64>],
+    own: &[Complex<f64>],
+) -> Result<(Response, Vec<Peak>), RotorError> {
     let mut speeds = steps(rotor.highest);
     // the top of a narrow peak, too; an undamped one has none
     let criticals = rotor.modal.criticals();
     for speed in criticals.iter().map(|critical| critical.speed * (1.0 + 1e-9)).filter(|&at| at <= rotor.highest) {
-        // of an undamped whirl that was balanced the rounding of its shape, below 1e-6, would be left
-        let [now, own] = [unbalance, &rotor.unbalances()].map(|unbalance| rotor.model.response(speed, unbalance));
-        if !rotor.conservative || now?.iter().zip(&own?).any(|(now, own)| now.norm() > 1e-5 * own.norm()) {
-            speeds.push(speed);
+        if rotor.conservative {
+            // of an undamped whirl that was balanced the rounding of its shape, below 1e-6, would be left
+            let [now, own] = [unbalance, own].map(|unbalance| rotor.model.response(speed, unbalance));
+            if now?.iter().zip(&own?).all(|(now, own)| now.norm() <= 1e-5 * own.norm()) {
+                continue;
+            }
         }
+        speeds.push(speed);
     }
     speeds.sort_by(f64::total_cmp);
     let mut amplitudes = vec![Vec::with_capacity(speeds.len()); rotor.sensors.len()];
