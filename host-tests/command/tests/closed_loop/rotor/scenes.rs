@@ -49,8 +49,7 @@ fn a_power_cut_after_every_entry_changes_nothing() {
 fn what_the_firmware_reads_is_what_the_rotor_does() {
     // The sensors read 1.05 of the truth 10 degrees late, and 0.95 of it 10 degrees early; what their noise of 5 %
     // leaves after 32 turns of 149 ticks and more is 0.05 sqrt(2/4768) = 0.1 %, the vibrations that the running rotor
-    // leaves out are 0.3 %, and the reading may be off by
-    // 0.5 % and 0.5 degrees.
+    // leaves out are 0.3 %, and the reading may be off by 0.5 % and 0.5 degrees.
     let outcome = balanced("flexible", "flexible/f32/two-mass/4000", 1);
     for (row, (read, truth)) in outcome.stages[0].read.iter().zip(&outcome.stages[0].vibration).enumerate() {
         let (gain, lag) = if row % 2 == 0 { (1.05, 10.0) } else { (0.95, -10.0) };
