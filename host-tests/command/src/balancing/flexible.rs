@@ -60,7 +60,7 @@ fn machine(words: Words, model: &Model, found: &[Complex<f64>], seed: u64) -> Re
         rated: Flexible::RATING.speed,
         torque_noise: 0.01 * Flexible::RATING.torque,
     };
-    let mut whirl = Whirl::new(Modal::lowest(model, KEPT)?, 1.0 / f64::from(Flexible::RATE_HZ));
+    let mut whirl = Whirl::new(Modal::of(model)?.lowest(KEPT), 1.0 / f64::from(Flexible::RATE_HZ));
     whirl.set_unbalance(found)?;
     let mut amplitude = 0.0_f64;
     for speed in scene::SPEEDS {

@@ -15,7 +15,7 @@ use crate::machine_file::{RotorFile, read_rotor};
 use driveline_report::chart::{Curve, Lines};
 use driveline_report::format::{percent, significant};
 use driveline_report::{Fact, Figure, Key, Section, Sheet, Table};
-use driveline_solver::rotor::{Critical, Modal, Natural, Polar, RotorError, WhirlSense};
+use driveline_solver::rotor::{Critical, Natural, Polar, RotorError, WhirlSense};
 use nalgebra::Complex;
 
 use balancing::Balanced;
@@ -117,7 +117,7 @@ fn find(rotor: &RotorFile, peaks: Vec<Peak>) -> Result<Found, RotorError> {
     let criticals = rotor.modal.criticals();
     let beyond = criticals.iter().position(|critical| critical.speed > rotor.highest);
     let count = beyond.map_or(criticals.len(), |first| first + 1);
-    let kept = Modal::lowest(&rotor.model, KEPT)?;
+    let kept = rotor.modal.lowest(KEPT);
     let speeds: Vec<f64> = (0..SPEEDS).map(|k| rotor.highest * k as f64 / (SPEEDS - 1) as f64).collect();
     let mut campbell = kept.campbell(&speeds, WHIRLS)?;
     if rotor.conservative {

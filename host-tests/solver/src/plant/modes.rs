@@ -12,8 +12,8 @@
 
 mod eigen;
 mod equivalent;
+mod frequencies;
 pub mod holzer;
-pub(in crate::plant) mod jacobi;
 mod system;
 pub mod transfer;
 

@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, Schur};
 
 use super::rank::Elimination;
 use super::{Source, Train};
+use crate::jacobi::{norm, orthogonal};
 use crate::plant::error::PlantError;
-use crate::plant::modes::jacobi::{norm, orthogonal};
 
 /// Share of the fastest rate below which an eigenvalue of the damped equations is left out. Its rounding is some 1e-15
 /// of that rate; what is a thousand times as large has three digits.

@@ -15,7 +15,7 @@ fn unbalance() -> Vec<Complex<f64>> {
 
 /// The rotor's eight lowest vibrations, those below 600 Hz: DOP853 takes the others at its leisure only.
 fn eight(bearing: Bearing) -> Modal {
-    Modal::lowest(&three_discs(bearing).build().unwrap(), 8).unwrap()
+    Modal::of(&three_discs(bearing).build().unwrap()).unwrap().lowest(8)
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn the_whole_rotor_runs_as_its_lowest_vibrations_and_what_they_leave_out() {
     let truth = model.response(111.2, &unbalance()).unwrap();
     let mut errors = Vec::new();
     for count in [8, 16, 32, 52] {
-        let mut whirl = Whirl::new(Modal::lowest(&model, count).unwrap(), 1e-4);
+        let mut whirl = Whirl::new(Modal::of(&model).unwrap().lowest(count), 1e-4);
         whirl.set_unbalance(&unbalance()).unwrap();
         whirl.settle(0.0, 111.2).unwrap();
         let found = whirl.motion(0).unwrap().displacement;
