@@ -26,9 +26,9 @@ pub struct FromAmplitudes<T: Scalar> {
 ///
 /// # Errors
 /// [`Error::TrialWeightZero`], [`Error::Reading`], [`Error::ReadingMissing`] for fewer than two runs,
-/// [`Error::NoEffect`] where the runs are no different, [`Error::NotFound`] where no influence gives such amplitudes,
-/// the angles are the same, the weights of three or more runs lie on one line through the shaft, or the runs contradict
-/// each other by more than the effect's square; a heavier trial weight helps.
+/// [`Error::NoEffect`] where the runs are no different, [`Error::TrialAngles`] where the angles are the same or the
+/// weights of three or more runs lie on one line through the shaft, [`Error::AmplitudesDisagree`] where no influence
+/// gives such amplitudes, or the runs contradict each other by more than the effect's square.
 pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Result<FromAmplitudes<T>, Error> {
     if !(trial > T::zero() && trial.is_finite()) {
         return Err(Error::TrialWeightZero { plane: 0 });
@@ -66,7 +66,7 @@ pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Res
     // Directions on one line through the shaft leave two answers: their scatter matrix is then singular. The root of
     // its determinant is this product; `own(0)` squared is the number of runs.
     if !(qr.own(1) * qr.own(2) > qr.own(0) * qr.own(0) * real(1e-3)) {
-        return Err(Error::NotFound);
+        return Err(Error::TrialAngles);
     }
     let [square, q, s] = qr.pivoted(T::zero()).solve().map(|value| value.re);
     let effect = Complex { re: q, im: -s }.unscale(baseline + baseline);
@@ -78,7 +78,7 @@ pub fn from_amplitudes<T: Scalar>(baseline: T, trial: T, runs: &[(T, T)]) -> Res
     }
     let disagreement = (square - found).abs() / found;
     if !(disagreement <= T::one()) {
-        return Err(Error::NotFound);
+        return Err(Error::AmplitudesDisagree);
     }
     Ok(FromAmplitudes { weight: weight(effect), or: None, disagreement })
 }
@@ -94,13 +94,13 @@ fn two<T: Scalar>(baseline: T, a: (T, T), b: (T, T)) -> Result<(Complex<T>, Comp
     let apart = to - from;
     let square = apart.re * apart.re + apart.im * apart.im;
     if !(square > baseline * baseline * real(1e-6)) {
-        return Err(Error::NotFound);
+        return Err(Error::TrialAngles);
     }
     let along = ((a.1 - b.1) * (a.1 + b.1) / square + T::one()) * real(0.5);
     let height = a.1 * a.1 / square - along * along;
     // rounding, and some reading error where the circles only touch
     if !(height > real(-0.01)) {
-        return Err(Error::NotFound);
+        return Err(Error::AmplitudesDisagree);
     }
     let height = height.max(T::zero()).sqrt();
     let middle = from + apart.scale(along);
@@ -183,7 +183,7 @@ mod tests {
         assert!(near(effect_of(found.weight), effect) && (found.disagreement - 0.2).abs() < 1e-12, "{found:?}");
         // angles of which two are the same, and those on a line through the shaft, leave two answers
         for apart in [[0.2, 1.7, 0.2], [0.0, PI, -PI], [FRAC_PI_2, -FRAC_PI_2, 3.0 * FRAC_PI_2], [0.0, PI, 2.0 * PI]] {
-            assert_eq!(from_amplitudes(2.0, 5.0, &apart.map(run)), Err(Error::NotFound), "{apart:?}");
+            assert_eq!(from_amplitudes(2.0, 5.0, &apart.map(run)), Err(Error::TrialAngles), "{apart:?}");
         }
         // the determinant of a triangle is four thirds of its area's square; here the area is sin(apart), and 0.0026
         // the limit of three thousandths
@@ -197,7 +197,7 @@ mod tests {
         }
         // centres 0.12 and 0.09 apart on a baseline of 100, of which a thousandth is 0.1
         let hundred = |apart: f64| from_amplitudes(100.0, 1.0, &[(0.0, 110.0), (apart, 110.0)]);
-        assert!(hundred(1.2e-3).is_ok() && hundred(0.9e-3) == Err(Error::NotFound));
+        assert!(hundred(1.2e-3).is_ok() && hundred(0.9e-3) == Err(Error::TrialAngles));
     }
 
     /// An effect of i/2 on a baseline of one: at the angle alpha the amplitude's square is 5/4 - sin alpha, and the

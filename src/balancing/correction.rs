@@ -49,7 +49,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANE
     /// The weights that minimise the residual vibration `A w + v`.
     ///
     /// # Errors
-    /// A missing or invalid entry; [`Error::NotFound`] where the optimum could not be proven.
+    /// A missing or invalid entry; [`Error::NotProven`] where the optimum could not be proven.
     pub fn correct(
         &self,
         vibration: &[Complex<T>],
@@ -94,7 +94,7 @@ impl<T: Scalar, const ROWS: usize, const PLANES: usize> Influence<T, ROWS, PLANE
             // caller; none is promised within the rounding of the sum of weights and vibration
             let promised = reached * real::<T>(T::CLOSE).max(real(1e-8)) * real(100.0);
             if !(reached - below <= promised.max(rounding * real(4.0))) {
-                return Err(Error::NotFound);
+                return Err(Error::NotProven);
             }
             bounds = Some((below, reached));
         }
@@ -273,6 +273,6 @@ mod tests {
     #[test]
     fn what_is_not_proven_is_not_given() {
         let aim = Aim { limits: [Some(1e-200)], ..Aim::default() };
-        assert_eq!(one(1.0).correct(&[re(1.0)], &aim), Err(Error::NotFound));
+        assert_eq!(one(1.0).correct(&[re(1.0)], &aim), Err(Error::NotProven));
     }
 }

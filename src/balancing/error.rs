@@ -68,8 +68,12 @@ pub enum Error {
         /// The row or the plane.
         index: usize,
     },
-    /// No answer: a search did not end close enough to the optimum, or no influence gives such amplitudes.
-    NotFound,
+    /// The search ended too far from the optimum.
+    NotProven,
+    /// Trial weights at one place, or three or more on one line through the shaft.
+    TrialAngles,
+    /// No influence gives such amplitudes.
+    AmplitudesDisagree,
     /// Runs at different speeds.
     SpeedDiffers {
         /// The row whose speed is not that of its baseline.
@@ -131,9 +135,15 @@ impl fmt::Display for Error {
                 write!(f, "balancing {modes} mode(s) takes {modes} plane(s), or two more: there are {planes}")
             }
             Error::Setting { index } => write!(f, "setting {} is not a positive number", index + 1),
-            Error::NotFound => f.write_str(
-                "no answer: a search ended too far from the optimum, the amplitudes fit no influence, or the trial \
-                     weights stand at one place or on one line through the shaft",
+            Error::NotProven => f.write_str(
+                "the search ended too far from the optimum: take other limits or weightings, or least squares without \
+                     limits",
+            ),
+            Error::TrialAngles => f.write_str(
+                "the trial weights stand at one place or on one line through the shaft: put them at angles all around",
+            ),
+            Error::AmplitudesDisagree => f.write_str(
+                "no influence gives these amplitudes: repeat the runs at the same speed, with a heavier trial weight",
             ),
             Error::SpeedDiffers { row } => {
                 write!(f, "reading {} was taken at another speed than its baseline: run at the same speed", row + 1)

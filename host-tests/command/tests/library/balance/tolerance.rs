@@ -108,7 +108,7 @@ fn amplitudes_alone() {
     assert_eq!(from_amplitudes(1.0, 1.0, &runs[..1]), Err(Error::ReadingMissing { row: 2 }));
     assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0), (2.0, -1.5)]), Err(Error::Reading { row: 2 }));
     assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.0), (2.0, 1.0), (4.0, 1.0)]), Err(Error::NoEffect { plane: 0 }));
-    assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.1), (0.0, 1.2), (0.0, 1.3)]), Err(Error::NotFound));
+    assert_eq!(from_amplitudes(1.0, 1.0, &[(0.0, 1.1), (0.0, 1.2), (0.0, 1.3)]), Err(Error::TrialAngles));
 }
 
 /// A residual of exactly what a grade permits is within it, in both numbers; the next number above is not.
@@ -182,7 +182,7 @@ fn two_circles_that_hardly_meet() {
     };
     let touching = runs(-0.009).unwrap();
     assert_eq!(touching.or, Some(touching.weight));
-    assert_eq!(runs(-0.011), Err(Error::NotFound));
+    assert_eq!(runs(-0.011), Err(Error::AmplitudesDisagree));
     assert_ne!(runs(1e-3).unwrap().or, Some(runs(1e-3).unwrap().weight));
     // 1.5e-3 rad apart, and half of that
     for (angle, is_found) in [(1.5e-3, true), (0.75e-3, false)] {
