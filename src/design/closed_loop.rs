@@ -18,9 +18,6 @@ use super::{Actuator, Error, ExactStep, PlacedObserver, RigidDesign, SpeedLoopDe
 use crate::machine::TwoMass;
 use crate::math::{exp_m1, sin_cos, sqrt};
 
-/// Whole ticks of dead time that a speed loop may have.
-const LATEST: f64 = 12.0;
-
 /// A speed loop and its observer, apart from the machine: from the motor's angle and back to its torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -90,11 +87,14 @@ impl Observer {
 }
 
 impl ClosedLoop {
+    /// Most whole ticks of dead time that the torque may have.
+    pub const MAX_DELAY_TICKS: f64 = 12.0;
+
     /// A speed loop on the estimates of two masses, its torque within the tick.
     ///
     /// # Errors
     /// [`Error::Period`] where the two are not designed for the same rate; [`Error::Actuator`] for one that is out of
-    /// range or later than twelve ticks.
+    /// range or later than [`ClosedLoop::MAX_DELAY_TICKS`].
     pub const fn of(observer: &TwoMassDesign, speed_loop: &SpeedLoopDesign, actuator: Actuator) -> Result<Self, Error> {
         let TwoMassDesign { machine, step, gains, period, .. } = observer;
         Self::close(&Observer::of_two_masses(machine, step, *gains, *period), speed_loop, actuator)
@@ -134,7 +134,7 @@ impl ClosedLoop {
         let Actuator { delay, lag } = actuator;
         // A millionth of a tick for rounding.
         let ticks = delay / t - 1e-6;
-        if !(delay >= 0.0 && ticks <= LATEST && lag >= 0.0 && lag.is_finite()) {
+        if !(delay >= 0.0 && ticks <= Self::MAX_DELAY_TICKS && lag >= 0.0 && lag.is_finite()) {
             return Err(Error::Actuator);
         }
         let [per_total, per_motor, per_load] = o.inverse;

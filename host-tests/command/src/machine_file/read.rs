@@ -5,7 +5,7 @@ use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
-use driveline::design::SpeedLoopTuning;
+use driveline::design::{ClosedLoop, SpeedLoopTuning};
 use driveline::machine::{Chain, Ratio, Train};
 use toml::Spanned;
 use toml::de::DeTable;
@@ -22,9 +22,6 @@ use super::station::{NOTHING, Station, begun, stations};
 use super::table::Table;
 use super::{Accuracy, Actuator, Branch, Control, Disturbance, Duty, Element, Encoder, Limits, MachineFile, Part};
 use driveline_report::format::significant;
-
-/// Ticks of delay that the design of a speed loop has room for.
-const LATEST: f64 = 12.0;
 
 /// Largest machine file in bytes: a thousand times what the longest chain needs.
 pub const LARGEST: u64 = 1 << 20;
@@ -125,8 +122,9 @@ pub fn parse(name: &str, text: &str) -> Result<MachineFile, Diagnostic> {
             let delay = table.number_or("delay", Quantity::DELAY, 0.0)?;
             let rate = f64::from(control.rate_hz);
             // a millionth of a tick for rounding, as the design of the speed loop has it
-            if delay * rate > LATEST + 1e-6 {
-                let expected = format!("at most {LATEST} ticks of `control.rate_hz`, {} s", significant(LATEST / rate));
+            let most = ClosedLoop::MAX_DELAY_TICKS;
+            if delay * rate > most + 1e-6 {
+                let expected = format!("at most {most} ticks of `control.rate_hz`, {} s", significant(most / rate));
                 return Err(table.wrong("delay", expected));
             }
             let bandwidth = table.number_if("bandwidth", Quantity::ACTUATOR_BANDWIDTH)?;
