@@ -69,9 +69,9 @@ pub(super) fn is_erased(bytes: &[u8]) -> bool {
     bytes.iter().all(|&byte| byte == 0xff)
 }
 
-/// How much a record in the flash is worth keeping to whom reads it as `P`, in rising order.
+/// How worth keeping a record in the flash is to whom reads it as `P`, in rising order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Sensitivity {
+pub(super) enum RecordState {
     /// Nothing is there, or nothing that is whole.
     Nothing,
     /// It begins as a record does and is longer than the buffer: undecided.
@@ -88,7 +88,7 @@ pub(super) enum Sensitivity {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refused {
     pub reason: RecordError,
-    pub worth: Sensitivity,
+    pub state: RecordState,
     /// The count of its save that it claims, where it has one.
     pub count: Option<u32>,
 }
@@ -96,19 +96,19 @@ pub(super) struct Refused {
 impl Refused {
     /// A place that the flash does not give.
     pub(super) const UNREADABLE: Refused =
-        Refused { reason: RecordError::Unreadable, worth: Sensitivity::Nothing, count: None };
+        Refused { reason: RecordError::Unreadable, state: RecordState::Nothing, count: None };
 }
 
 /// Reads a record, whatever is behind it, and the count of its save.
 pub(super) fn read<P: Parameters>(bytes: &[u8]) -> Result<(P, u32), Refused> {
-    let damaged = Refused { reason: RecordError::Damaged, worth: Sensitivity::Nothing, count: None };
+    let damaged = Refused { reason: RecordError::Damaged, state: RecordState::Nothing, count: None };
     let (head, after) = bytes.split_first_chunk::<HEAD>().ok_or(damaged)?;
     let &[m0, m1, m2, m3, i0, i1, i2, i3, v0, v1, c0, c1, c2, c3, l0, l1, l2, l3] = head;
     let length = u32::from_le_bytes([l0, l1, l2, l3]) as usize;
     if [m0, m1, m2, m3] != MAGIC {
         return Err(damaged);
     }
-    let longer = Refused { worth: Sensitivity::Unknown, ..damaged };
+    let longer = Refused { state: RecordState::Unknown, ..damaged };
     let (content, check) = after.split_at_checked(length).ok_or(longer)?;
     let check = check.first_chunk::<CHECK>().ok_or(longer)?;
     if bytes.get(..HEAD + length).map(crc) != Some(u32::from_le_bytes(*check)) {
@@ -117,16 +117,16 @@ pub(super) fn read<P: Parameters>(bytes: &[u8]) -> Result<(P, u32), Refused> {
     let identity = u32::from_le_bytes([i0, i1, i2, i3]);
     let version = u16::from_le_bytes([v0, v1]);
     let count = u32::from_le_bytes([c0, c1, c2, c3]);
-    let refused = |reason, worth| Err(Refused { reason, worth, count: Some(count) });
+    let refused = |reason, state| Err(Refused { reason, state, count: Some(count) });
     if identity != P::IDENTITY {
-        return refused(RecordError::Foreign(identity), Sensitivity::Foreign);
+        return refused(RecordError::Foreign(identity), RecordState::Foreign);
     }
     if version != P::VERSION {
-        return refused(RecordError::Version(version), Sensitivity::Other);
+        return refused(RecordError::Version(version), RecordState::Other);
     }
     match postcard::take_from_bytes(content) {
         Ok((parameters, [])) => Ok((parameters, count)),
-        _ => refused(RecordError::Content, Sensitivity::Other),
+        _ => refused(RecordError::Content, RecordState::Other),
     }
 }
 

@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use embedded_storage::nor_flash::NorFlash;
 
-use super::record::{self, Parameters, RecordError, Refused, Sensitivity};
+use super::record::{self, Parameters, RecordError, RecordState, Refused};
 
 /// Why parameters were not kept or found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,7 +138,7 @@ impl<F: NorFlash> Store<F> {
             let found = match fetched {
                 None => continue,
                 Some(Ok((read, count))) => {
-                    let found = Kept { worth: Sensitivity::Good, place, count };
+                    let found = Kept { state: RecordState::Good, place, count };
                     if kept.is_none_or(|kept| found.before(&kept)) {
                         parameters = Some(read);
                     }
@@ -151,10 +151,10 @@ impl<F: NorFlash> Store<F> {
                     if refused.as_ref().is_none_or(newer) {
                         refused = Some(reason);
                     }
-                    Kept { worth: reason.worth, place, count: reason.count.unwrap_or(0) }
+                    Kept { state: reason.state, place, count: reason.count.unwrap_or(0) }
                 }
             };
-            if found.worth > Sensitivity::Nothing && kept.is_none_or(|kept| found.before(&kept)) {
+            if found.state > RecordState::Nothing && kept.is_none_or(|kept| found.before(&kept)) {
                 kept = Some(found);
             }
         }
@@ -191,7 +191,7 @@ type Fetched<P> = Option<Result<(P, u32), Refused>>;
 /// A record that stands in the flash.
 #[derive(Clone, Copy)]
 struct Kept {
-    worth: Sensitivity,
+    state: RecordState,
     place: u32,
     count: u32,
 }
@@ -199,7 +199,7 @@ struct Kept {
 impl Kept {
     /// Whether this one is to be kept rather than the other.
     fn before(&self, other: &Kept) -> bool {
-        self.worth > other.worth || self.worth == other.worth && is_newer(self.count, other.count)
+        self.state > other.state || self.state == other.state && is_newer(self.count, other.count)
     }
 }
 
