@@ -56,7 +56,7 @@
 //! | `section` | `length` (m), `diameter` (m), (`end` diameter (m)), (`bore` (m)), (`modulus` (Pa), steel's), (`damping` (N m s/rad)); pieces in a row are a stepped shaft |
 //! | `crank` | `inertia`, `radius` (m), `rod` (m), `slider` (kg), (`rod_mass`, `rod_centre` (m) from the pin, `rod_inertia`); the mean over a turn |
 //! | `worm` | `ratio`, `efficiency`, `back_efficiency` with the load driving |
-//! | `planetary` | `sun_teeth`, `ring_teeth`, `module` (m), `planets`, `sun`, `planet`, `carrier` (kg m2), `planet_mass` (kg), (`efficiency`, `driven` the member on the motor's side, `held`: `sun`, `ring` or `carrier`; the sun and the ring where they are left out; `ring` (kg m2)) |
+//! | `planetary` | `sun_teeth`, `ring_teeth`, `module` (m), `planets`, `sun`, `planet`, `carrier` (kg m2), `planet_mass` (kg), (`efficiency`, `input` the member on the motor's side, `held`: `sun`, `ring` or `carrier`; the sun and the ring where they are left out; `ring` (kg m2)) |
 //! | `belt` | `driving`, `driven` (m), `stiffness` (N/m) of a strand, (`damping` (N s/m)), (`efficiency`) |
 //! | `screw` | `lead` (m) a turn |
 //! | `swinging` | `mass` (kg), `length` (m) of the pendulum |

@@ -178,7 +178,7 @@ const fn words_of(element: &Element) -> &'static [&'static str] {
         Element::Section { .. } => &["Section", "Length", "Diameter", "ShearModulus", "Damping"],
         Element::Crank { .. } => &["CrankSlider", "Length", "Inertia", "Mass"],
         Element::Worm { .. } => &["Ratio", "Efficiency"],
-        Element::Planetary { driven: Member::Sun, held: Member::Ring, .. } => {
+        Element::Planetary { input: Member::Sun, held: Member::Ring, .. } => {
             &["Planetary", "Inertia", "Mass", "Efficiency"]
         }
         Element::Planetary { .. } => &["Planetary", "PlanetaryGear", "Member", "Inertia", "Mass", "Efficiency"],

@@ -119,7 +119,7 @@ pub enum Element {
         ring: f64,
         /// The member on the present shaft; the sun where the file is silent.
         #[serde(serialize_with = "named")]
-        driven: Member,
+        input: Member,
         /// The member that stands still; the ring where the file is silent.
         #[serde(serialize_with = "named")]
         held: Member,
@@ -241,7 +241,7 @@ impl Element {
             },
             "planetary" => Self::Planetary {
                 ring: table.number_or("ring", Quantity::PART_INERTIA, 0.0)?,
-                driven: member(&mut table, "driven", Member::Sun)?,
+                input: member(&mut table, "input", Member::Sun)?,
                 held: other_member(&mut table)?,
                 // `TEETH` allows whole numbers up to 10000 only.
                 sun_teeth: table.number("sun_teeth", Quantity::TEETH)? as u32,
@@ -385,7 +385,7 @@ impl Element {
                 planet_mass,
                 carrier,
                 ring,
-                driven,
+                input,
                 held,
                 efficiency,
             } => {
@@ -400,9 +400,9 @@ impl Element {
                     carrier: Inertia(carrier),
                     efficiency: Efficiency(efficiency),
                 };
-                match (driven, held) {
+                match (input, held) {
                     (Member::Sun, Member::Ring) => chain.planetary(set),
-                    _ => chain.planetary_gear(PlanetaryGear { set, ring: Inertia(ring), input: driven, held }),
+                    _ => chain.planetary_gear(PlanetaryGear { set, ring: Inertia(ring), input, held }),
                 }
             }
             Self::Belt { driving, driven, stiffness, damping, efficiency } => chain.belt(Belt {
@@ -461,7 +461,7 @@ impl Element {
                 planet_mass,
                 carrier,
                 ring,
-                driven,
+                input,
                 held,
                 efficiency,
             } => {
@@ -472,11 +472,11 @@ impl Element {
                      Inertia({carrier:?}), \
                      efficiency: Efficiency({efficiency:?}) }}"
                 );
-                match (driven, held) {
+                match (input, held) {
                     (Member::Sun, Member::Ring) => format!(".planetary({set})"),
                     _ => format!(
                         ".planetary_gear(PlanetaryGear {{ set: {set}, ring: Inertia({ring:?}), input: \
-                            Member::{driven:?}, held: Member::{held:?} }})"
+                            Member::{input:?}, held: Member::{held:?} }})"
                     ),
                 }
             }
@@ -516,12 +516,12 @@ fn member(table: &mut Table<'_>, key: &'static str, default: Member) -> Result<M
     found.map(|(_, member)| *member).ok_or_else(|| table.wrong(key, MEMBER))
 }
 
-/// The member that is held, which is not the driven one.
+/// The member that is held, which is not the input.
 fn other_member(table: &mut Table<'_>) -> Result<Member, Diagnostic> {
-    let driven = member(table, "driven", Member::Sun)?;
+    let input = member(table, "input", Member::Sun)?;
     let held = member(table, "held", Member::Ring)?;
-    if held == driven {
-        return Err(table.wrong("held", "another member than the driven one"));
+    if held == input {
+        return Err(table.wrong("held", "another member than the input"));
     }
     Ok(held)
 }

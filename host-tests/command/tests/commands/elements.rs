@@ -164,14 +164,14 @@ fn a_planetary_set_with_another_member_held() {
         efficiency: Efficiency(1.0),
     };
     let gear = PlanetaryGear { set, ring: Inertia(0.4), input: Member::Ring, held: Member::Sun };
-    let read = chain(&[MOTOR, &keys("ring = 0.4\ndriven = \"ring\"\nheld = \"sun\"")]);
+    let read = chain(&[MOTOR, &keys("ring = 0.4\ninput = \"ring\"\nheld = \"sun\"")]);
     assert_eq!(read, Ok(Chain::motor(Inertia(0.5)).planetary_gear(gear)));
     // the sun drives and the ring is held where the file is silent
     let silent = chain(&[MOTOR, &keys("")]);
     assert_eq!(silent, Ok(Chain::motor(Inertia(0.5)).planetary(set)));
     for (more, fault) in [
         ("held = \"sun\"", "element[1].held: the text \"sun\""),
-        ("driven = \"ring\"", "element[1].held: nothing"),
+        ("input = \"ring\"", "element[1].held: nothing"),
         ("held = \"planet\"", "element[1].held: the text \"planet\""),
         ("ring = -1.0", "element[1].ring: -1.0"),
     ] {
