@@ -51,7 +51,8 @@ pub fn percent(fraction: f64) -> String {
 /// An angle from 0 to below 360 degrees.
 pub fn turned(angle: f64, decimals: i32) -> String {
     let parts = 10f64.powi(decimals);
-    let rounded = (angle * parts).round().rem_euclid(360.0 * parts) / parts;
+    // without the sign of a zero
+    let rounded = (angle * parts).round().rem_euclid(360.0 * parts) / parts + 0.0;
     format!("{rounded:.*}", decimals as usize)
 }
 
@@ -135,6 +136,7 @@ mod tests {
         assert_eq!(power(2), "100");
         assert_eq!(tick(-0.25, 0.05), "−0.25");
         assert_eq!([turned(359.96, 1), turned(359.94, 1), turned(-90.4, 0)], ["0.0", "359.9", "270"]);
+        assert_eq!([turned(-0.04, 1), turned(-0.3, 0), turned(-360.0, 1)], ["0.0", "0", "0.0"]);
         // in tables beside numbers that are not grouped
         assert_eq!(grouped(-1_234_567), "-1\u{202f}234\u{202f}567");
         assert_eq!([counted(1, "draw"), counted(60, "draw")], ["1 draw", "60 draws"]);

@@ -16,7 +16,7 @@ use super::results::{Destination, check};
 use super::{Failure, say, say_json};
 use crate::machine_file::balance::{BalanceFile, Measured, PLANES, ROWS, read};
 use driveline_report::chart::polar;
-use driveline_report::format::{percent, significant};
+use driveline_report::format::{percent, significant, turned};
 use driveline_report::{Arrangement, Fact, Figure, Key, Section, Sheet, Table};
 
 use fault::Fault;
@@ -164,8 +164,9 @@ fn said(outcome: &Outcome) -> String {
 
 /// The influence coefficients as a file takes them.
 fn coefficients(outcome: &Outcome) -> String {
-    let angle = |degrees: f64| if outcome.radians { degrees.to_radians() } else { degrees };
-    let pair = |polar: &Polar| format!("[{:.6e}, {:.4}]", polar.amplitude, angle(polar.degrees));
+    let angle =
+        |degrees: f64| if outcome.radians { format!("{:.4}", degrees.to_radians()) } else { turned(degrees, 4) };
+    let pair = |polar: &Polar| format!("[{:.6e}, {}]", polar.amplitude, angle(polar.degrees));
     let table = |plane: &Plane| {
         let pairs: Vec<String> = plane.coefficients.iter().map(pair).collect();
         format!("[[influence]]\nplane = {:?}\ncoefficients = [{}]\n", plane.plane, pairs.join(", "))

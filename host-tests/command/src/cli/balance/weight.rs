@@ -6,14 +6,14 @@ use serde::Serialize;
 use super::fault::Fault;
 use crate::machine_file::balance::PlaneHoles;
 use driveline_report::chart::Arrow;
-use driveline_report::format::significant;
+use driveline_report::format::{significant, turned};
 
 /// Amplitude and phase.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Polar {
     /// Amplitude, or amount.
     pub amplitude: f64,
-    /// Phase, or angle, 0 to 360.
+    /// Phase, or angle, from 0 to below 360.
     pub degrees: f64,
 }
 
@@ -26,7 +26,7 @@ impl Polar {
 
     /// Amplitude and angle as they are written; no angle of nothing.
     pub fn told(self) -> [String; 2] {
-        [significant(self.amplitude), if self.amplitude > 0.0 { format!("{:.1}", self.degrees) } else { String::new() }]
+        [significant(self.amplitude), if self.amplitude > 0.0 { turned(self.degrees, 1) } else { String::new() }]
     }
 }
 
