@@ -29,7 +29,7 @@ pub(super) fn expected(field: &str, sign: Option<char>) -> &'static str {
 pub(super) struct Commas {
     grouped: Option<Range<usize>>,
     hundreds: bool,
-    decimal: bool,
+    plain: bool,
 }
 
 impl Commas {
@@ -38,21 +38,27 @@ impl Commas {
         let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
         let field = field.trim_start_matches(['+', '-']);
         match field.split_once(',') {
-            None => self.hundreds |= field.len() > 2 && digits(field),
+            None if digits(field) => match field.len() {
+                ..3 => {}
+                3 => self.hundreds = true,
+                // a thousand that is not grouped
+                _ => self.plain = true,
+            },
+            None => {}
             Some((whole, rest)) => {
                 let is_group = rest.len() == 3 && digits(rest) && (1..4).contains(&whole.len());
                 if is_group && !whole.starts_with('0') {
                     self.grouped.get_or_insert_with(place);
                 } else {
-                    self.decimal = true;
+                    self.plain = true;
                 }
             }
         }
     }
 
-    /// The first comma that is as likely one between thousands: each has three digits behind it, and none is in whole
-    /// numbers of three digits or more.
+    /// The first comma that is as likely one between thousands: each has three digits behind it, whole numbers of
+    /// hundreds stand beside them, and none of thousands without a comma.
     pub(super) fn doubtful(self) -> Option<Range<usize>> {
-        self.grouped.filter(|_| self.hundreds && !self.decimal)
+        self.grouped.filter(|_| self.hundreds && !self.plain)
     }
 }

@@ -287,7 +287,7 @@ fn parse(name: &str, text: &str, asked: &Asked) -> Result<Recording, Diagnostic>
     }
     for (column, commas) in columns.iter().zip(commas) {
         if let Some(place) = commas.doubtful() {
-            let found = format!("`{}` among whole numbers of hundreds", &text[place.clone()]);
+            let found = format!("`{}` beside whole numbers without a comma", &text[place.clone()]);
             let expected = "no comma between thousands; a decimal comma with more digits, or fewer";
             return Err(Diagnostic::at(source, place, printable(&column.heading, 40), found, expected));
         }

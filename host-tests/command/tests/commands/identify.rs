@@ -453,7 +453,10 @@ fn a_decimal_comma_is_read_where_no_comma_separates() {
     }
     let whole = "time_s;torque_Nm;speed_rpm\n";
     // three digits behind a comma are no thousands where another number has one or two, or a zero before it
-    for speeds in [["999", "1,025", "1,5"], ["999", "1,025", "-0,125"], ["99", "1,025", "1,000"]] {
+    // none are grouped beside a thousand without a comma
+    for speeds in
+        [["999", "1,025", "1,5"], ["999", "1,025", "-0,125"], ["99", "1,025", "1,000"], ["999", "1000", "1,025"]]
+    {
         let rows: Vec<String> = speeds.iter().enumerate().map(|(k, speed)| format!("{k};1;{speed}\n")).collect();
         let sentence = String::from_utf8(told(&format!("{whole}{}", rows.concat())).stderr).unwrap();
         assert!(!sentence.contains("thousands"), "{sentence}");
@@ -469,7 +472,7 @@ fn a_decimal_comma_is_read_where_no_comma_separates() {
         (format!("{whole}0;1;1,024.5\n"), "found `1,024.5`, expected a finite number, without a separator"),
         (format!("{whole}0;1,024,500;2\n"), "found `1,024,500`, expected a finite number, without a separator"),
         // whole numbers count up to a thousand and on
-        (format!("{whole}0;1;999\n1;1;1,000\n2;1;-1,001\n"), "log.csv:3:5: `speed_rpm`: found `1,000` among"),
+        (format!("{whole}0;1;999\n1;1;1,000\n2;1;-1,001\n"), "log.csv:3:5: `speed_rpm`: found `1,000` beside"),
         // a comma separates
         ("time_s,torque_Nm\n\"0,5\",1\n".to_owned(), "found `0,5`, expected a finite number with a decimal point"),
         ("0,000;1,5\n0,001;1,5\n".to_owned(), "found no headings"),
