@@ -75,8 +75,8 @@ impl SceneFigures {
     /// Peaks of the shaft torque over those of the plain speed loop with the same number, core and rate, of a variant
     /// that takes up slack; of each run in which the plain loop lets a gap open or a rope go slack.
     ///
-    /// Variants that take up slack are called so. The plain loop is the variant `plain`; where there is none, every
-    /// other is governed by it.
+    /// Variants that take up slack are called so, and `learnt` where they learn beside it. The plain loop is the
+    /// variant `plain`; where there is none, every other is governed by it.
     pub fn gentle(&self, run: &Run) -> Vec<Gentle> {
         let of = &run.variant;
         if of.observer != SLACK {
@@ -85,7 +85,7 @@ impl SceneFigures {
         let others = || {
             self.runs.iter().filter(|other| {
                 let other = &other.variant;
-                other.observer != SLACK
+                ![SLACK, LEARNT].contains(&other.observer.as_str())
                     && (&other.number, &other.core, other.rate_hz) == (&of.number, &of.core, of.rate_hz)
             })
         };
@@ -103,6 +103,8 @@ impl SceneFigures {
 
 /// Name of the variants with backlash take-up and active damping.
 const SLACK: &str = "slack";
+/// Name of the variants that learn: where a scene has both, with backlash take-up too.
+const LEARNT: &str = "learnt";
 /// The name of variants with the same observer and a plain speed loop.
 const PLAIN: &str = "plain";
 

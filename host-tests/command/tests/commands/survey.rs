@@ -108,6 +108,11 @@ fn the_gentle_governor_stands_beside_the_plain_one_where_a_gap_opens() {
     assert_eq!(gentle.len(), 1);
     assert_eq!((gentle[0].scenario.as_str(), gentle[0].plain.as_str(), gentle[0].share), ("reversal", "plain", 0.6));
     assert!(scene.gentle(&scene.runs[0]).is_empty());
+    // without a plain one the others, but not one that learns beside the take-up
+    let mut scene = scene.clone();
+    "learnt".clone_into(&mut scene.runs[1].variant.observer);
+    let beside: Vec<String> = scene.gentle(&scene.runs[2]).into_iter().map(|one| one.plain).collect();
+    assert_eq!(beside, ["rigid"]);
     // 60 over 50, of either run.
     assert!((scene.runs[2].factor().k().unwrap() - 1.2).abs() < 1e-12);
 }
