@@ -58,6 +58,22 @@ fn the_instructions_of_a_step_are_those_of_the_bench() {
     }
 }
 
+/// What a gear adds to the longest path of a drive of two masses without a governor.
+#[test]
+fn the_instructions_of_a_gear_are_the_difference_of_two_drives() {
+    let geared = |number: &str, core: &str| {
+        let [with, without] = ["geared-observer", "observer"]
+            .map(|name| longest(&format!("composition/{number}/two-mass-{name}/10000"), core));
+        with - without
+    };
+    let expected = [geared("f32", "m4f"), geared("fixed", "m3")];
+    for (page, title, column) in [("README.md", "Which observer", 2), ("doc/parts.md", "Observers", 2)] {
+        let rows = rows(page, title);
+        let row = rows.iter().find(|row| row[0] == "`GearedObserver<_>`").unwrap();
+        assert_eq!(numbers(&row[column]), expected, "{page}");
+    }
+}
+
 #[test]
 fn the_cost_of_the_hoist_is_that_of_its_image_and_its_tick() {
     let rows = rows("README.md", "Results");
@@ -173,7 +189,8 @@ fn the_prose_of_the_peers_is_that_of_the_command_and_quotes_no_result() {
     let written: Vec<&str> = page.lines().filter(is_prose).collect();
     let texts =
         ["opening", "governors", "solvers"].map(|name| read(&format!("host-tests/command/src/peers/{name}.md")));
-    let is_of_the_run = |line: &&str| *line == "## The fronts" || (line.starts_with("## ") && line.ends_with(" Hz"));
+    let is_heading = |line: &&str| *line == "## The fronts" || (line.starts_with("## ") && line.ends_with(" Hz"));
+    let is_of_the_run = |line: &&str| is_heading(line) || line.starts_with("Measured on ");
     let rest: Vec<&str> = written.iter().copied().filter(|line| !is_of_the_run(line)).collect();
     let expected: Vec<&str> = texts.iter().flat_map(|text| text.lines().filter(is_prose)).collect();
     assert_eq!(rest, expected);
