@@ -19,6 +19,7 @@ pub mod peers;
 pub mod recording;
 pub mod replay;
 pub mod scope;
+mod stamp;
 pub mod survey;
 pub mod sweep;
 pub mod telemetry;

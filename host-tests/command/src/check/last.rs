@@ -3,19 +3,16 @@
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::Path;
-use std::process::Command;
-
-use driveline_qemu::clone::workspace;
 
 use super::{Done, LONG, Step};
+use crate::stamp::Stamp;
 
 /// The page.
 #[derive(Debug)]
 pub struct Page {
     /// By the name of the step, in backticks, as the first cell has it.
     rows: Vec<(String, String)>,
-    commit: String,
-    date: String,
+    stamp: Stamp,
 }
 
 const HEAD: &str = "# Long runs
@@ -39,18 +36,13 @@ impl Page {
         };
         let row = |line: &str| Some((line.strip_prefix("| ")?.split_once(" |")?.0.to_owned(), line.to_owned()));
         let rows = text.lines().filter(|line| line.starts_with("| `")).filter_map(row).collect();
-        let date = said("date", &["-u", "+%F"]).unwrap_or_default();
-        let commit = said("git", &["rev-parse", "--short=10", "HEAD"]).unwrap_or_else(|| "unknown".into());
-        // the page itself is no change
-        let changed = said("git", &["status", "--porcelain", "--untracked-files=no", "--", ".", ":!doc"]);
-        let mark = if changed.is_some_and(|changed| !changed.is_empty()) { " +" } else { "" };
-        Ok(Page { rows, commit: commit + mark, date })
+        Ok(Page { rows, stamp: Stamp::now() })
     }
 
     /// Puts a step's result into its row; the text of the page.
     pub fn with(&mut self, step: &Step, done: &Done) -> String {
         let name = format!("`{}`", step.name);
-        let (content, date, commit) = (step.content, &self.date, &self.commit);
+        let (content, Stamp { date, commit }) = (step.content, &self.stamp);
         let (passed, failed, minutes) = (done.count.passed, done.count.failed, done.took.seconds / 60.0);
         let figures = done.figures.join("; ").replace('|', "/");
         let row =
@@ -62,10 +54,4 @@ impl Page {
         let rows: String = LONG.iter().filter_map(row).map(|(_, row)| format!("{row}\n")).collect();
         format!("{HEAD}{rows}")
     }
-}
-
-/// What a program prints, in the project's folder.
-fn said(program: &str, arguments: &[&str]) -> Option<String> {
-    let output = Command::new(program).args(arguments).current_dir(workspace().ok()?).output().ok()?;
-    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }

@@ -12,6 +12,7 @@ use crate::peers::{
     Comparison, Images, Replay, SceneComparison, beside_observers, governors, peers_markdown, peers_page, scenes,
     solvers,
 };
+use crate::stamp::Stamp;
 use driveline_qemu::setup::Need;
 
 /// Compare the library's observers with others on the scenes' own runs: errors, instructions, code, stack and state.
@@ -66,7 +67,7 @@ impl Peers {
         bar.step();
         let images = Images::build(&|line| bar.says(line)).map_err(failed)?;
         bar.step();
-        let mut comparison = Comparison::default();
+        let mut comparison = Comparison { measured: Stamp::now().to_string(), ..Comparison::default() };
         for scene in wanted {
             let says = |text: &str| bar.says(text);
             let compared = SceneComparison::run(scene, self.seconds.into(), &replay, &images, &says).map_err(failed)?;

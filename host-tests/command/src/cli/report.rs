@@ -10,6 +10,7 @@ use driveline_firmware::board::BOARDS;
 use super::results::{Destination, all, check};
 use super::setup::ready;
 use super::{Failure, Progress, say, say_json};
+use crate::stamp::Stamp;
 use crate::survey::{Wanted, jobs, work};
 use crate::survey::{survey_markdown, survey_page, survey_table};
 use driveline_qemu::setup::Need;
@@ -67,6 +68,7 @@ impl Report {
                 Err(failure) => survey.failures.push(failure),
             }
         }
+        survey.measured = Stamp::now().to_string();
         survey.seconds = began.elapsed().as_secs_f64();
         if self.json {
             say_json(&survey)?;

@@ -65,6 +65,8 @@ pub struct Comparison {
     pub governors: Vec<Governor>,
     /// Least squares of balancing.
     pub solvers: Vec<Solver>,
+    /// Day and commit.
+    pub measured: String,
 }
 
 /// An error that is smaller by this share is better.

@@ -18,7 +18,8 @@ const SOLVERS: &str = include_str!("solvers.md");
 /// The page, its tables in Markdown.
 pub fn peers_markdown(comparison: &Comparison) -> String {
     let mut page = OPENING.to_owned();
-    let _ = writeln!(page, "\n## The fronts\n\n{}", rows(&fronts(comparison)));
+    let _ = writeln!(page, "\nMeasured on {}.\n", comparison.measured);
+    let _ = writeln!(page, "## The fronts\n\n{}", rows(&fronts(comparison)));
     for scene in &comparison.scenes {
         let heading = format!("## {}, {} ticks at {} Hz", scene.scene, scene.ticks, scene.rate_hz);
         let _ = writeln!(page, "{heading}\n\n{}", rows(&scene.table()));

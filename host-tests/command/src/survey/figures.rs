@@ -142,6 +142,8 @@ pub struct Survey {
     pub failures: Vec<Failure>,
     /// How long it all took (s).
     pub seconds: f64,
+    /// Day and commit.
+    pub measured: String,
     /// Whether it was only tried out: two seconds of each drivetrain, unproven, and a coarse sweep.
     pub quick: bool,
     /// Whether only some scenes were requested.

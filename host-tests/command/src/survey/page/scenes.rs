@@ -28,6 +28,7 @@ pub fn facts(survey: &Survey) -> Vec<Fact> {
             ),
         ),
         fact("jobs that failed", survey.failures.len().to_string()),
+        fact("measured", survey.measured.clone()),
         fact("time that it took", {
             let seconds = survey.seconds.round() as u64;
             format!("{} min {:02} s", seconds / 60, seconds % 60)
