@@ -208,6 +208,23 @@ fn the_stack_of_the_board_with_a_motor_ends_where_the_memory_ends() {
     assert_eq!(u64::from(u32::from_le_bytes(first.try_into().unwrap())), address("_stack_start"));
 }
 
+/// The book has the bounds of the whole interrupt of that board, as its command prints them.
+#[test]
+fn the_interrupt_of_the_board_with_a_motor_is_as_long_as_the_book_says() {
+    let image = build(ON_NUCLEO, NUCLEO, Program::Nucleo, |_| {}).unwrap();
+    let page = include_str!("../../../../doc/boards.md");
+    let line = page.lines().find(|line| line.starts_with("cargo driveline longest-path") && line.contains("TIM6_DAC"));
+    let arguments = line.unwrap().split_whitespace().skip(4);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-driveline"));
+    let output = command.args(["longest-path", "--json"]).arg(&image.path).args(arguments).output().unwrap();
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let (cycles, bound) = (&found["cycles"], [&found["instructions"], &found["stack"]]);
+    let [instructions, stack] = bound;
+    let (least, most) = (&cycles["least"], &cycles["most"]);
+    let sentence = format!("{instructions} instructions, {stack} bytes of stack, and {least} to {most} cycles");
+    assert!(page.split_whitespace().collect::<Vec<_>>().join(" ").contains(&sentence), "{sentence}");
+}
+
 #[test]
 fn a_longer_bench_is_the_same_machine_code_with_more_calls() {
     for &board in BOARDS {
