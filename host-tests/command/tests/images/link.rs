@@ -4,7 +4,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use cargo_driveline::closed_loop::actuator::ActuatorErrors;
 use cargo_driveline::closed_loop::units::Units;
@@ -121,22 +121,6 @@ fn a_qemu_that_dies_is_an_error_that_names_image_and_tick() {
     for expected in ["self_test of empty/f32/none/10000 on mps2-an386 at tick 0", "QEMU has ended", "fingerprint"] {
         assert!(error.contains(expected), "{error}");
     }
-}
-
-/// Prints the rate; it depends on the machine and its load, so nothing is asserted.
-#[test]
-fn rate_of_round_trips() {
-    const TICKS: usize = 50_000;
-    let inputs = on_host("hoist/f32/rigid/10000", 5, TICKS);
-    let image = build("hoist/f32/rigid/10000", BOARDS[0], Program::ControlLoop, |_| {}).unwrap();
-    let mut link = Link::start(&image).unwrap();
-    link.exchange(&inputs[0].0).unwrap();
-    let started = Instant::now();
-    for (input, _) in &inputs {
-        link.exchange(input).unwrap();
-    }
-    println!("{:.0} round trips a second", TICKS as f64 / started.elapsed().as_secs_f64());
-    link.finish().unwrap();
 }
 
 /// SIGTERM at five moments of a run: its QEMU ends with it, and of its temporary folders none is left.
