@@ -1,7 +1,56 @@
 #![no_std]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
-#![doc = include_str!("../README.md")]
+//! Controllers for machine drives. In every tick of the control loop a drive estimates shaft torque, load speed and
+//! load torque from the motor's angle and torque alone. With these estimates it governs the speed, measures its cyclic
+//! fluctuation and balances the rotor.
+//!
+//! A machine is a type with four constants. The compiler reduces it to two masses and designs observer and governor;
+//! the firmware holds their coefficients:
+//!
+//! ```
+//! use driveline::prelude::*;
+//!
+//! /// Motor, coupling, gear and a roll of 12 kg m2.
+//! struct Roll;
+//! impl Machine for Roll {
+//!     const CHAIN: Chain = Chain::motor(Inertia(0.4))
+//!         .gear(Ratio(5.0), Efficiency(0.97))
+//!         .shaft(Stiffness(5.0e5), Damping(10.0))
+//!         .rotor(Inertia(12.0));
+//!     const RATING: Rating = Rating { torque: 300.0, speed: 150.0, torque_limit: 550.0 };
+//!     const ENCODER: Encoder = Encoder::lines(2048);
+//!     const RATE_HZ: u32 = 10_000;
+//! }
+//! /// Number, observer, measurement of the fluctuation (none), governor.
+//! type RollDrive = Drive<Fixed, TwoMassObserver<Fixed>, (), SpeedLoop<Fixed>>;
+//! static CONFIG: ConfigOf<RollDrive> = RollDrive::configure::<Roll>();
+//!
+//! let mut drive = RollDrive::new(&CONFIG, 0);
+//! // a tick: the motor's angle (2^-32 turn), the torque of the last tick (N m), the setpoint (rad/s)
+//! let command = drive.tick(&CONFIG, &Sample::si::<Roll>(0, 0.0, 100.0));
+//! assert!(command.faults.is_none() && command.torque_si::<Roll>() > 0.0);
+//! let estimate = drive.estimate(&CONFIG).si::<Roll>();
+//! assert_eq!(estimate.load_speed, 0.0);
+//! ```
+//!
+//! A tick allocates nothing, cannot panic, and gives the same bits on every target. Values are in SI units, or per unit
+//! of [`settings::Bases`] in fixed point.
+//!
+//! # Modules
+//! | module | holds |
+//! |---|---|
+//! | [`prelude`] | what a first drive needs |
+//! | [`configure`] | [`configure::Machine`]: the constants of a machine, from which all others follow |
+//! | [`machine`], [`design`] | the machine and the design of its control: `const fn` in `f64` |
+//! | [`settings`] | the design as the constants of a [`number`] type |
+//! | [`drive`] | a tick through all parts; [`sample`] its inputs and outputs, [`fault`] its flags |
+//! | [`observer`], [`fluctuation`], [`governor`], [`balancing`] | the parts; `()` is one that is not needed |
+//! | [`scheduling`], [`learning`] | loads and ropes that change; losses and errors found while the machine works |
+//! | [`fatigue`] | cycles of the shaft torque and their damage |
+//! | [`commissioning`] | a test that identifies the machine |
+//! | [`angle`], [`wheel`], [`math`] | angles behind gears and of toothed wheels; functions of a constant |
+//! | `hal`, `telemetry`, `parameters` | features: adapters to `embedded-hal`, records of ticks, a record in flash |
 //!
 //! # Errors
 //! A machine that cannot be, or whose observer or speed loop is unstable, is a compile error with a sentence. Where the
@@ -18,13 +67,9 @@
 //! assert!(Chain::motor(Inertia(-0.62)).error().unwrap().message().contains("inertia"));
 //! ```
 //!
-//! # Modules
-//! [`machine`] describes the machine and [`design`] its control (both `const fn` in `f64`); [`settings`] converts a
-//! design to a [`number`] type. [`observer`], [`fluctuation`], [`governor`] and [`balancing`] are the parts of a
-//! [`drive`], composed by type: a part that a machine does not need is `()` and costs nothing. [`scheduling`] follows a
-//! load and a rope that change, and [`learning`] finds losses and errors while the machine works. [`fatigue`] counts
-//! the cycles of the shaft torque; [`commissioning`] identifies the machine by a test. [`sample`] holds inputs and
-//! outputs of a tick, [`fault`] its flags.
+//! Each step has its own error: [`machine::Error`] a chain, [`design::Error`] a design, [`settings::Error`] constants
+//! that a number cannot hold, [`commissioning::Error`] a test, `balancing::Error` readings and weights,
+//! `parameters::Error` the flash. A tick has none: [`fault::Faults`] flags its samples.
 //!
 //! # Glossary
 //! | term | meaning | unit |
@@ -77,3 +122,8 @@ pub mod wheel;
 #[cfg(all(doctest, feature = "hal"))]
 #[doc = include_str!("../doc/first-drive.md")]
 mod first_drive_on_a_board {}
+
+/// The listings of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
