@@ -5,8 +5,9 @@
 use driveline_firmware::board::BOARDS;
 use driveline_qemu::image::{Program, build};
 
+use super::each::{each, passed};
 use super::gap::{Gap, Inputs, table};
-use super::steps::{each, passed, together};
+use super::steps::together;
 use super::{Count, Failed, Step, Voice, cargo, pages};
 
 /// All long steps, the shortest first.

@@ -4,6 +4,7 @@
 mod cargo;
 mod clock;
 pub mod comparison;
+mod each;
 mod gap;
 pub mod last;
 mod long;

@@ -4,12 +4,12 @@ use std::fs;
 
 use driveline_firmware::board::nucleo_g474re::FACTS as NUCLEO;
 use driveline_firmware::board::{BOARDS, Facts};
-use driveline_firmware::scenes::VARIANTS;
 
 use super::comparison::Comparison;
+use super::each::{each, passed};
 use super::{Count, Failed, Step, Voice, cargo, pages};
 use driveline_qemu::clone::{target_directory, workspace};
-use driveline_qemu::image::{ON_NUCLEO, Program, belongs, build};
+use driveline_qemu::image::{ON_NUCLEO, Program, build};
 use driveline_qemu::measure::budgets::Budgets;
 use driveline_qemu::measure::{Cost, self_test};
 use driveline_qemu::setup;
@@ -229,38 +229,4 @@ fn budgets(voice: &Voice) -> Result<Count, Failed> {
     let comparison = Comparison::of(&budgets, &costs);
     voice.say(comparison.to_string().trim_end());
     comparison.count().map_err(|(count, message)| Failed { count, message })
-}
-
-pub(super) fn passed<T>(done: &[T]) -> Count {
-    Count { passed: done.len() as u64, failed: 0 }
-}
-
-/// Does something for every variant on every board that it belongs on, a board beside the other, each up to its first
-/// failure.
-pub(super) fn each<T: Send>(check: impl Fn(&str, Facts) -> Result<T, String> + Sync) -> Result<Vec<T>, Failed> {
-    let on = |board: Facts| {
-        let mut done = Vec::new();
-        for &variant in VARIANTS.iter().filter(|variant| belongs(variant, &board)) {
-            match check(variant, board) {
-                Ok(value) => done.push(value),
-                Err(error) => return (done, Some(format!("{variant} on {}: {error}", board.name))),
-            }
-        }
-        (done, None)
-    };
-    let boards = std::thread::scope(|scope| {
-        let boards: Vec<_> = BOARDS.iter().map(|board| scope.spawn(|| on(*board))).collect();
-        boards.into_iter().map(|board| board.join()).collect::<Result<Vec<_>, _>>()
-    })
-    .map_err(|_| Failed::whole("a board's thread panicked"))?;
-    let (mut all, mut messages) = (Vec::new(), Vec::new());
-    for (done, message) in boards {
-        all.extend(done);
-        messages.extend(message);
-    }
-    if messages.is_empty() {
-        return Ok(all);
-    }
-    let count = Count { failed: messages.len() as u64, ..passed(&all) };
-    Err(Failed { count, message: messages.join("\n") })
 }
