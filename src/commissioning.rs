@@ -73,14 +73,15 @@
 //! # Limits
 //! - The arithmetic in the tick is in `f32`: for cores with an FPU. A record's solving, in `f64`, takes 163 million
 //!   instructions on a Cortex-M4F, while the tick goes on.
-//! - The first guess of the inertia must be right within a factor of two.
+//! - The first guess of the total inertia must be right within a factor of two; the motor's, where no more is known.
 //! - Only the lowest resonance is identified, and it must lie within the band; higher modes count as a compliance.
 //! - Friction is taken as weight, Coulomb and viscous friction over the two speeds of its test.
 //! - The servo takes damping from the swing: with its frequency w, a sixth of the band's lower end, and the resonance
 //!   w_r a damping ratio of about `45 (w/w_r)^3 J_l/J_m`: with equal masses 1.3 % for a band that begins at 0.4 w_r,
 //!   and 0.2 % for one that begins at 0.2 w_r. A shaft that has less is driven into a swing that grows. The test ends
-//!   when the motor shows it ([`Error::Unsteady`]). A resonance at two fifths of the band's upper end is then at about
-//!   twice `shaft_torque`, where the first guess is not below the motor's inertia: begin the band low.
+//!   when the motor shows it ([`Error::Unsteady`]). The shaft then carries about twice `shaft_torque` if the resonance
+//!   lies at two fifths of the band's upper end. It carries more if the first guess of the inertia is below the
+//!   motor's. Begin the band low: at 0.2 of the resonance.
 //! - All gaps are identified as one, no wider than a tenth of a turn of the motor.
 //! - The gap is identified only where friction holds the load and no weight closes the gap; otherwise
 //!   [`Error::LoadNotHeld`] or [`Error::Preloaded`].
