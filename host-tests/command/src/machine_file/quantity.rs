@@ -178,13 +178,16 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// A number as people write it: plain where that is short, with an exponent elsewhere.
+/// A number as people write it: plain where that is short, a large power of two as one, with an exponent elsewhere.
 struct Short(f64);
 
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let size = self.0.abs();
-        if size != 0.0 && !(1e-3..1e6).contains(&size) {
+        let exponent = self.0.log2();
+        if exponent >= 20.0 && exponent.fract() == 0.0 {
+            write!(f, "2^{exponent}")
+        } else if size != 0.0 && !(1e-3..1e6).contains(&size) {
             write!(f, "{:e}", self.0)
         } else {
             write!(f, "{}", (self.0 * 1e3).round() / 1e3)

@@ -206,7 +206,7 @@ fn phrase(unit: &str, range: &str) -> Option<String> {
         None => ("a number", range.strip_prefix("list, ").unwrap_or(range)),
     };
     let (least, most) = numbers.trim_start_matches("zero or ").split_once(" to ")?;
-    if least.parse::<f64>().is_err() || most.parse::<f64>().is_err() {
+    if least.parse::<f64>().is_err() || most.trim_start_matches("2^").parse::<f64>().is_err() {
         return None; // said in words
     }
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
