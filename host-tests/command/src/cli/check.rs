@@ -13,7 +13,7 @@ use driveline_qemu::clone::workspace;
 
 /// Check everything: formatting, clippy, packages, the book, firmware, examples, tests, self-tests, the budgets.
 ///
-/// Stops at the first step that fails, with the command to repeat it. With `--long` the long runs instead, all of them.
+/// Stops at the first step that fails, with the command to repeat it. With `--long` it runs all the long steps instead.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline check

@@ -18,7 +18,7 @@ use driveline_report::format::significant;
 /// eccentricity against its full plant, and compare the result with the true values.
 ///
 /// The machine is `hoist`, `mill` or `spindle` as in the scene `commission`, or a file of elements as for `design`. The
-/// motor's torque is off by the file's torque accuracy in every tick, as white noise; the scenes' by 1 % of rated.
+/// motor's torque has white noise in every tick: for a file its torque accuracy, for a scene 1 % of rated torque.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline commissioning mill

@@ -26,8 +26,8 @@ const POINTS: usize = 4000;
 ///
 /// The drive is that of a machine file, compiled as `export fmu` does, or an FMU that it wrote: the bits are those of
 /// the controller's firmware. The machine is an FMU for co-simulation of FMI 2.0 or 3.0 with a library for this
-/// computer. Its torque takes the drive's, its angle or speed is measured; each is converted by the unit that it
-/// declares.
+/// computer. Its torque input takes the drive's torque, its angle or speed is measured; each is converted by the unit
+/// that it declares.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline cosim hoist.toml hoist_plant.fmu --set 0.5:load_torque=1000

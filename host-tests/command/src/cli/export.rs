@@ -33,7 +33,7 @@ use crate::machine_file::{parse, text};
   cargo driveline export fmu hoist.toml --out hoist_controller.fmu
   cargo driveline export fmu hoist.toml --of plant --out hoist_plant.fmu")]
 pub struct Export {
-    /// The form
+    /// What to write
     form: Form,
     /// The machine: a TOML file of elements from the motor to the load
     file: PathBuf,

@@ -19,7 +19,7 @@ use driveline_report::format::percent;
 /// Columns are found by quantity and unit: `time_s`, `torque_Nm` or `current_A`, and `angle_rad`, `speed_rpm` or
 /// `acceleration [rad/s2]` of the motor; or `frequency_Hz` with `magnitude` and `phase_deg`, or `real` and `imaginary`.
 /// Prints inertias, stiffness, damping, friction, resonances and dead time with standard deviations, or the reason why
-/// the record cannot tell.
+/// the record does not suffice.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   cargo driveline example bench-log > bench.csv
@@ -48,7 +48,7 @@ impl Identify {
     /// Reads the recording, fits the machine and shows it.
     ///
     /// # Errors
-    /// A fault of the file; with exit code 1 a record that cannot tell.
+    /// A fault of the file; with exit code 1 a record that does not suffice.
     pub fn execute(&self) -> Result<(), Failure> {
         let asked = self.recorded.asked()?;
         if self.toml.is_some() && self.response.is_some() {

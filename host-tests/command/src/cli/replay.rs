@@ -38,8 +38,8 @@ use driveline_report::format::significant;
 /// `load_speed`, `shaft_torque` and `load_torque`, at the motor's shaft, are what the estimates are compared with. With
 /// `--teeth` as well the angle is that of a toothed wheel on the motor.
 ///
-/// With `--teeth` alone it is the toothed wheel: speed and ripple from the times of its edges: in columns of `time` and
-/// of the pickup's level (`crank`, `teeth`), in one of `tooth_time`, or with a row for each edge.
+/// With `--teeth` alone it is the toothed wheel: speed and ripple from the times of its edges, given in columns of
+/// `time` and of the pickup's level (`crank`, `teeth`), in one of `tooth_time`, or with a row for each edge.
 ///
 /// With `--fluctuation` it is the speed's fluctuation over a cycle of a recorded `angle`, as a drive measures it.
 ///

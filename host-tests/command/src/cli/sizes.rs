@@ -11,7 +11,7 @@ use driveline_qemu::setup::Need;
 /// Build an image for each board and show what it takes of flash and RAM, by section.
 ///
 /// The hoist for QEMU's boards, start-up, link and measuring included, and the test rig for the board with a motor,
-/// balancing, telemetry and registers included. The stack is not in it.
+/// balancing, telemetry and registers included. Without the stack.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  cargo driveline sizes\n  cargo driveline sizes --json")]
 pub struct Sizes {

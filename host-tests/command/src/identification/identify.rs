@@ -23,13 +23,13 @@ const LINES: usize = 24;
 /// Lines, and bands of them, below which there is no first guess.
 const BANDS: usize = 8;
 
-/// Why there is no machine: a fault of the recording, or a reason why it cannot tell.
+/// Why there is no machine: a fault of the recording, or a reason why it does not suffice.
 #[derive(Debug, thiserror::Error)]
 pub enum NotIdentified {
     /// A column is missing.
     #[error(transparent)]
     File(#[from] Diagnostic),
-    /// The record cannot tell.
+    /// The record does not suffice.
     #[error(transparent)]
     Refused(#[from] Refusal),
 }
