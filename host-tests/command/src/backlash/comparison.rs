@@ -17,7 +17,7 @@ pub struct Row {
     pub approach: &'static str,
     /// Mean over the courses of the shaft torque's rms error over its peak.
     pub shaft_torque: f64,
-    /// The worst course's.
+    /// The worst run's.
     pub worst: f64,
     /// Mean of the load speed's rms error over its highest.
     pub load_speed: f64,
@@ -129,7 +129,7 @@ impl Comparison {
 
     /// The table of approaches.
     pub fn table(&self) -> Table {
-        let mut table = Table::new(["approach", "shaft torque rms", "worst course", "load speed rms"]);
+        let mut table = Table::new(["approach", "shaft torque rms", "worst run", "load speed rms"]);
         for row in &self.rows {
             table.row([
                 row.approach.to_owned(),

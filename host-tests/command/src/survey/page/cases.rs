@@ -31,7 +31,7 @@ pub fn reversals(survey: &Survey) -> Section {
     let Some(comparison) = &survey.backlash else { return section };
     let limit = crate::survey::Aim::BACKLASH.shaft_torque;
     let mut verdict =
-        Table::new(["approach", "shaft torque rms, mean", "limit", "verdict", "worst course", "load speed rms"]);
+        Table::new(["approach", "shaft torque rms, mean", "limit", "verdict", "worst run", "load speed rms"]);
     for row in &comparison.rows {
         verdict.row([
             row.approach.to_owned(),

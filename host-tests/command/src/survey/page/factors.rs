@@ -10,7 +10,7 @@ const OVER_PLAIN: f64 = 0.7;
 
 /// Peaks and dynamic factors.
 pub fn section(survey: &Survey) -> Section {
-    let mut factors = Table::new(["scene", "variant", "run", "peak N m", "were it rigid N m", "K"]);
+    let mut factors = Table::new(["scene", "variant", "run", "peak N m", "rigid machine, N m", "K"]);
     let mut gentle = Table::new(["scene", "variant", "run", "beside", "peak, of its", "at most", ""]);
     let mut any = false;
     for scene in &survey.scenes {
