@@ -35,11 +35,13 @@ const END: u64 = AT + 600;
 const HEADER: &str = "\
 # Every fault of every adapter, and what the drive does
 
-Written by a test (`host-tests/command/tests/library/hal/table.rs`) from runs on mocked buses, and compared with it ever since. The drive is the hoist's, in `f32`
-at 10,000 ticks a second, on an axis that trips as a rule does (`hal::TRIPPING`); the motor turns at 30 rad/s when the fault comes.
+Written by a test (`host-tests/command/tests/library/hal/table.rs`) from runs on mocked buses, and checked by it. The
+drive is the hoist's, in `f32` at 10,000 ticks a second, on an axis that trips as a rule does (`hal::TRIPPING`); the
+motor turns at 30 rad/s when the fault comes.
 
-The adapters on SPI do the same where they are awaited (feature `hal-async`): whichever transaction fails, both forms give the same and send the same
-(`host-tests/command/tests/library/hal/awaited.rs`). A future may be dropped at any point. What was dropped is the fault of the rows that say so.
+The adapters on SPI do the same where they are awaited (feature `hal-async`): whichever transaction fails, both forms
+give the same and send the same (`host-tests/command/tests/library/hal/awaited.rs`). A future may be dropped at any
+point. What was dropped is the fault of the rows that say so.
 
 | adapter | fault | flags in that tick | torque in that tick | if it was one tick | if it stays |
 |---|---|---|---|---|---|
