@@ -6,7 +6,7 @@
 //! segments and spindle have 1.9 kg m2. The motor's encoder has 2048 sine periods on a turn, each interpolated to 64
 //! counts. The figures are of the size of such machines; they are not those of one.
 //!
-//! One segment stands proud of the others: the torque of the cut swings once and twice a turn, on either side of the
+//! One segment protrudes beyond the others: the torque of the cut swings once and twice a turn, on either side of the
 //! coupling's resonance of 17 Hz. The cut acts as a torque alone. A force of it on the spindle once a turn would be
 //! balanced with the wheel, and be missing after the cut: a real machine is balanced while it idles.
 //!
